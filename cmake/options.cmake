@@ -1,0 +1,46 @@
+# Language, warnings and the flags that keep results the same bits on every machine (docs/architecture.md).
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+
+if(NOT CMAKE_BUILD_TYPE)
+    set(CMAKE_BUILD_TYPE Release CACHE STRING "Release or Debug" FORCE)
+endif()
+
+option(TREEFARM_TESTS "build the tests" ON)
+option(TREEFARM_BENCH "build the benchmarks" ON)
+option(TREEFARM_WERROR "treat warnings as errors" ON)
+set(TREEFARM_ARCH "x86-64-v3" CACHE STRING "value of -march: x86-64-v3 is portable, native is not")
+set(TREEFARM_SANITIZE "" CACHE STRING "address, undefined or thread: build with that sanitizer")
+
+foreach(flag IN ITEMS -ffast-math -Ofast -funsafe-math-optimizations -fassociative-math)
+    if("${CMAKE_CXX_FLAGS} ${CMAKE_CXX_FLAGS_RELEASE} ${CMAKE_CXX_FLAGS_DEBUG}" MATCHES "${flag}")
+        message(FATAL_ERROR "${flag} is refused: it reorders sums, so results would no longer be the same bits "
+                            "on every worker. Remove it from CMAKE_CXX_FLAGS.")
+    endif()
+endforeach()
+
+find_program(CCACHE_PROGRAM ccache)
+if(CCACHE_PROGRAM AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+    set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE_PROGRAM})
+endif()
+
+set(CMAKE_CXX_FLAGS_RELEASE "-O3")
+set(CMAKE_CXX_FLAGS_DEBUG "-O1 -g -D_GLIBCXX_ASSERTIONS")
+
+add_library(treefarm_flags INTERFACE)
+# -ffp-contract=off: a fused multiply-add rounds once where two operations round twice; whether it is used must not
+# depend on the compiler's mood. Asserts are on in Debug and in sanitizer builds.
+target_compile_options(treefarm_flags INTERFACE -march=${TREEFARM_ARCH} -ffp-contract=off -Wall -Wextra -Wconversion)
+if(TREEFARM_WERROR)
+    target_compile_options(treefarm_flags INTERFACE -Werror)
+endif()
+if(CMAKE_BUILD_TYPE STREQUAL "Release" AND NOT TREEFARM_SANITIZE)
+    target_compile_definitions(treefarm_flags INTERFACE NDEBUG)
+endif()
+if(TREEFARM_SANITIZE)
+    target_compile_options(treefarm_flags INTERFACE -fsanitize=${TREEFARM_SANITIZE} -fno-omit-frame-pointer -g
+                           -fno-sanitize-recover=all)
+    target_link_options(treefarm_flags INTERFACE -fsanitize=${TREEFARM_SANITIZE})
+endif()

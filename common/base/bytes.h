@@ -1,0 +1,136 @@
+#pragma once
+
+#include <bit>
+#include <cstdint>
+#include <cstring>
+#include <span>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "common/base/error.h"
+
+namespace treefarm {
+
+static_assert(std::endian::native == std::endian::little, "the wire and file formats are little-endian");
+
+using Bytes = std::vector<std::uint8_t>;
+
+/// Types whose bytes may travel: fixed width, no padding questions, no pointers.
+template <class T>
+concept Wire = std::is_arithmetic_v<T> && !std::is_same_v<T, bool> && !std::is_same_v<T, long double>;
+
+/// Appends little-endian values, varints and length-prefixed blobs.
+class ByteWriter {
+  public:
+    template <Wire T>
+    void put(T value) {
+        const std::size_t at = bytes_.size();
+        bytes_.resize(at + sizeof(T));
+        std::memcpy(bytes_.data() + at, &value, sizeof(T));
+    }
+
+    /// LEB128: 7 bits a byte, low bits first; 1 to 10 bytes.
+    void put_varint(std::uint64_t value) {
+        while (value >= 0x80) {
+            bytes_.push_back(static_cast<std::uint8_t>(value | 0x80));
+            value >>= 7;
+        }
+        bytes_.push_back(static_cast<std::uint8_t>(value));
+    }
+
+    /// A count (varint) followed by the raw elements.
+    template <Wire T>
+    void put_array(std::span<const T> values) {
+        put_varint(values.size());
+        const std::size_t at = bytes_.size();
+        bytes_.resize(at + values.size_bytes());
+        if (!values.empty()) std::memcpy(bytes_.data() + at, values.data(), values.size_bytes());
+    }
+
+    void put_string(const std::string& text) {
+        put_array(std::span<const char>(text.data(), text.size()));
+    }
+
+    std::size_t size() const { return bytes_.size(); }
+    Bytes take() { return std::move(bytes_); }
+
+  private:
+    Bytes bytes_;
+};
+
+/// Reads what ByteWriter wrote. Every length is checked against what remains before anything is allocated; a short or
+/// malformed input throws FormatError.
+class ByteReader {
+  public:
+    explicit ByteReader(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
+
+    template <Wire T>
+    T get() {
+        require(sizeof(T));
+        T value;
+        std::memcpy(&value, bytes_.data() + at_, sizeof(T));
+        at_ += sizeof(T);
+        return value;
+    }
+
+    std::uint64_t get_varint() {
+        std::uint64_t value = 0;
+        for (int shift = 0; shift < 64; shift += 7) {
+            require(1);
+            const std::uint8_t byte = bytes_[at_++];
+            if (shift == 63 && byte > 1) break;
+            value |= static_cast<std::uint64_t>(byte & 0x7f) << shift;
+            if (byte < 0x80) return value;
+        }
+        throw FormatError("a variable-length integer has more than 64 bits");
+    }
+
+    /// A count of elements that take at least `min_bytes_each` of what remains.
+    std::size_t get_count(std::size_t min_bytes_each) {
+        const std::uint64_t count = get_varint();
+        if (min_bytes_each > 0 && count > remaining() / min_bytes_each)
+            throw FormatError("a count of " + std::to_string(count) + " does not fit into the " +
+                              std::to_string(remaining()) + " bytes that remain");
+        return static_cast<std::size_t>(count);
+    }
+
+    template <Wire T>
+    std::vector<T> get_array() {
+        const std::size_t count = get_count(sizeof(T));
+        std::vector<T> values(count);
+        if (count > 0) std::memcpy(values.data(), bytes_.data() + at_, count * sizeof(T));
+        at_ += count * sizeof(T);
+        return values;
+    }
+
+    std::string get_string() {
+        const std::vector<char> text = get_array<char>();
+        return std::string(text.begin(), text.end());
+    }
+
+    std::span<const std::uint8_t> get_rest() {
+        const auto rest = bytes_.subspan(at_);
+        at_ = bytes_.size();
+        return rest;
+    }
+
+    std::size_t remaining() const { return bytes_.size() - at_; }
+
+    /// Call last: left-over bytes mean that writer and reader disagree.
+    void expect_end() const {
+        if (remaining() > 0) throw FormatError(std::to_string(remaining()) + " unexpected bytes at the end");
+    }
+
+  private:
+    void require(std::size_t count) const {
+        if (count > remaining())
+            throw FormatError("cut short: " + std::to_string(count) + " bytes expected, " +
+                              std::to_string(remaining()) + " remain");
+    }
+
+    std::span<const std::uint8_t> bytes_;
+    std::size_t at_ = 0;
+};
+
+}  // namespace treefarm

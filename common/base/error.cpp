@@ -1,0 +1,22 @@
+#include "common/base/error.h"
+
+namespace treefarm {
+
+std::string Location::text() const {
+    std::string text = file;
+    if (line > 0) {
+        text += (text.empty() ? "" : ":") + std::to_string(line);
+        if (column > 0) text += ":" + std::to_string(column);
+    }
+    return text;
+}
+
+static std::string join(const Location& where, const std::string& what, const std::string& cure) {
+    const std::string place = where.text();
+    return (place.empty() ? "" : place + ": ") + what + (cure.empty() ? "" : "; " + cure);
+}
+
+InputError::InputError(const Location& where, const std::string& what, const std::string& cure)
+    : std::runtime_error(join(where, what, cure)) {}
+
+}  // namespace treefarm

@@ -1,0 +1,19 @@
+#include "common/base/hash.h"
+
+#include <xxhash.h>
+
+#include <cstdio>
+
+namespace treefarm {
+
+std::uint64_t hash_bytes(std::span<const std::uint8_t> bytes) {
+    return XXH3_64bits(bytes.data(), bytes.size());
+}
+
+std::string hash_text(std::uint64_t hash) {
+    char text[17];
+    std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hash));
+    return text;
+}
+
+}  // namespace treefarm

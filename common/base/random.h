@@ -1,0 +1,47 @@
+#pragma once
+
+#include <Random123/philox.h>
+
+#include <array>
+#include <cstdint>
+
+namespace treefarm {
+
+/// What a random number is for. Each use has a stream of its own, so switching an effect on never shifts another
+/// effect's numbers (docs/guiding.md, "random streams").
+enum class Stream : std::uint32_t {
+    camera,    ///< position on the pixel filter
+    lens,      ///< position on the lens
+    scatter,   ///< which density a direction is drawn from, and the direction
+    light,     ///< next event: which emitter, where on it
+    roulette,  ///< survival
+    rounding,  ///< stochastic rounding of what scattered directions taught the tree
+    light_rounding,  ///< the same for next event's records
+};
+
+/// Names one camera path: the same key gives the same path on any machine, thread or rank.
+struct PathKey {
+    std::uint64_t seed = 0;
+    std::uint32_t pixel = 0;   ///< y * width + x
+    std::uint32_t sample = 0;  ///< counts over all passes
+};
+
+using Draw = std::array<std::uint32_t, 4>;
+
+/// Four independent uniform 32-bit numbers for (path, vertex, stream). Philox 4x32 with 7 rounds, the fewest that pass
+/// BigCrush (Salmon et al. 2011, "Parallel random numbers: as easy as 1, 2, 3", table 2).
+inline Draw draw(const PathKey& path, std::uint32_t vertex, Stream stream) {
+    using Philox = r123::Philox4x32_R<7>;
+    const Philox::ctr_type counter = {{path.pixel, path.sample, vertex, static_cast<std::uint32_t>(stream)}};
+    const Philox::key_type key = {
+        {static_cast<std::uint32_t>(path.seed), static_cast<std::uint32_t>(path.seed >> 32)}};
+    const Philox::ctr_type r = Philox()(counter, key);
+    return {r[0], r[1], r[2], r[3]};
+}
+
+/// Uniform in [0, 1), never 1: the top 24 bits as a float.
+inline float to_unit(std::uint32_t bits) {
+    return static_cast<float>(bits >> 8) * 0x1p-24f;
+}
+
+}  // namespace treefarm

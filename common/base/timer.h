@@ -1,0 +1,24 @@
+#pragma once
+
+#include <chrono>
+
+namespace treefarm {
+
+/// Wall-clock seconds since construction or the last restart. Clocks live outside the pure rooms.
+class Timer {
+  public:
+    double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+    void restart() { start_ = Clock::now(); }
+
+  private:
+    using Clock = std::chrono::steady_clock;
+    Clock::time_point start_ = Clock::now();
+};
+
+/// CPU seconds that this process (all threads) has used.
+double process_cpu_seconds();
+
+/// CPU seconds that the calling thread has used.
+double thread_cpu_seconds();
+
+}  // namespace treefarm
