@@ -1,0 +1,83 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+
+namespace treefarm {
+
+/// When light sources are sampled directly (next-event estimation).
+enum class NextEvent : std::uint8_t {
+    never,
+    always,
+    kickstart,  ///< only in passes that start with fewer than 128 spp done: it teaches the tree, then guiding takes over
+};
+
+/// Weights of multiple importance sampling between next event and scattering (Veach 1997).
+enum class MisHeuristic : std::uint8_t { balance, power };
+
+enum class GuidingType : std::uint8_t { none, ppg };
+
+/// How the images of the passes become one (docs/guiding.md, "combining passes").
+enum class Combination : std::uint8_t {
+    inverse_variance,  ///< one scalar per pass, cross-fitted over two halves
+    fixed,             ///< weights set beforehand: exactly unbiased, what z-tests use
+    last,              ///< the last pass alone (PPG 2017)
+};
+
+/// Everything that a render depends on besides the scene. Keys, documentation, defaults and ranges stand in one table in
+/// job_keys.cpp; docs and job.toml are written from it.
+struct Job {
+    struct SceneSource {
+        std::string file;
+        std::map<std::string, std::string> defines;  ///< values for $name in the scene, from -D
+        bool lenient = false;
+    } scene;
+
+    struct Image {
+        int width = 0;   ///< pixels; 0: as the scene says
+        int height = 0;  ///< pixels; 0: as the scene says
+    } image;
+
+    struct Integrator {
+        std::string type = "path";
+        int max_depth = -1;  ///< path edges from the camera; 1 sees emitters only; -1: no limit
+        int rr_depth = 5;    ///< roulette from this depth on
+        NextEvent next_event = NextEvent::always;
+        MisHeuristic mis = MisHeuristic::power;
+        bool strict_normals = false;  ///< drop light that geometric and shading normal disagree about
+        bool hide_emitters = false;   ///< the camera does not see emitters directly
+    } integrator;
+
+    struct Guiding {
+        GuidingType type = GuidingType::ppg;
+        std::string preset;           ///< "" or "paper": recorded so that the result says what was asked
+        float bsdf_fraction = 0.5f;   ///< probability of sampling the BSDF rather than the tree, (0, 1]
+        int spatial_threshold = 12000;    ///< c of the spatial split rule
+        float directional_threshold = 0.01f;  ///< share of a region's energy above which a cell splits
+        int spp_unit = 4;             ///< samples per pixel of the first pass; passes double
+        Combination combination = Combination::inverse_variance;
+    } guiding;
+
+    struct Budget {
+        std::uint32_t spp = 64;  ///< samples per pixel in all passes
+    } budget;
+
+    struct Sampler {
+        std::uint64_t seed = 0;
+    } sampler;
+
+    struct Farm {
+        int tile_size = 32;               ///< pixels
+        double heartbeat_seconds = 1.0;   ///< how often each side says that it lives
+        double update_seconds = 1.5;      ///< how often a worker sends what it has finished
+        std::string isa = "avx2";         ///< Embree's instruction set, the same on every worker: sse2, sse4.2, avx, avx2, avx512
+    } farm;
+
+    struct Output {
+        std::string directory;  ///< the run directory; empty: runs/<scene>-<time>
+        std::string file;       ///< -o: also write the image here
+    } output;
+};
+
+}  // namespace treefarm

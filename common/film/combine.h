@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "common/config/job.h"
+#include "common/film/pixel_estimate.h"
+
+namespace treefarm {
+
+/// One finished pass.
+struct PassResult {
+    std::uint32_t spp = 0;              ///< n_k
+    std::uint32_t spp_before = 0;       ///< N_k: what had been rendered when the pass began
+    std::vector<PixelEstimate> pixels;  ///< row by row
+};
+
+/// The image so far, with its own error.
+struct CombinedImage {
+    std::vector<Rgb64> mean;      ///< per pixel
+    std::vector<Rgb64> variance;  ///< estimated variance of `mean`, per pixel and channel
+    std::vector<Rgb64> half[2];   ///< two independent halves; their average is `mean` where both exist
+    std::vector<double> weight;   ///< of each pass, sums to 1 (halves averaged)
+};
+
+/// Combines the passes with one scalar weight each (docs/guiding.md, "combining passes"). `guided` says whether the passes
+/// differ in quality: without guiding every sample weighs the same.
+CombinedImage combine_passes(std::span<const PassResult> passes, Combination method, bool guided);
+
+/// Figures of one pass (docs/guiding.md, "stuv").
+struct PassVariance {
+    double stuv = 0;      ///< mean over pixels of the luminance of the unbiased variance of one sample
+    double stuv_trimmed = 0;  ///< the same without the worst 0.1 % of the pixels
+    double stuv_ppg = 0;  ///< what the authors' program calls STUV: a clamped second moment
+};
+PassVariance pass_variance(std::span<const PixelEstimate> pixels);
+
+/// Estimated root of the mean squared error (luminance) of an image: what its own variance says.
+double estimated_rmse(const CombinedImage& image);
+
+}  // namespace treefarm

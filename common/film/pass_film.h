@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <span>
+#include <vector>
+
+#include "common/film/pixel_estimate.h"
+#include "common/film/work_unit.h"
+
+namespace treefarm {
+
+/// Reduces the estimates of consecutive aligned blocks along the fixed binary tree over the block index: the left child
+/// takes the largest power of two below the count. A run of 2^j aligned blocks is always one subtree.
+PixelEstimate reduce_blocks(std::span<const PixelEstimate> blocks);
+
+/// The film of one pass: takes work units in any order and gives the same bits.
+class PassFilm {
+  public:
+    PassFilm(int width, int height, std::uint32_t chunks);
+
+    /// Adds the pixels of a unit, row by row. Each pixel and chunk must come exactly once (the ledger sees to that).
+    void add(const WorkUnit& unit, std::span<const PixelEstimate> pixels);
+
+    bool complete() const { return missing_ == 0; }
+    int width() const { return width_; }
+    int height() const { return height_; }
+    /// Row by row from the top. Valid once complete; before, pixels with missing chunks are what has arrived or empty.
+    const std::vector<PixelEstimate>& pixels() const { return pixels_; }
+
+  private:
+    int width_, height_;
+    std::uint32_t chunks_;
+    std::uint64_t missing_;  ///< pixel-chunks still to come
+    std::vector<PixelEstimate> pixels_;
+    std::map<std::uint32_t, std::vector<PixelEstimate>> pending_;  ///< by pixel: chunks of pixels not yet whole
+};
+
+}  // namespace treefarm

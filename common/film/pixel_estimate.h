@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstdint>
+
+#include "common/math/vec.h"
+
+namespace treefarm {
+
+using Rgb64 = Imath::Color3<double>;
+
+/// Running mean and sum of squared deviations per channel (Welford 1962; merge: Chan et al. 1979), in double.
+struct Moments {
+    std::uint32_t n = 0;
+    Rgb64 mean{0.0};
+    Rgb64 m2{0.0};
+
+    void add(const Rgb& value);
+    /// The moments of both sets of samples. Not associative in the last bit: merge along a fixed tree.
+    static Moments merge(const Moments& a, const Moments& b);
+    /// Unbiased variance of one sample; 0 for fewer than two.
+    Rgb64 sample_variance() const;
+};
+
+/// What a pixel has received: even and odd samples apart, two independent halves (docs/guiding.md, "combining passes").
+struct PixelEstimate {
+    Moments half[2];
+
+    void add(std::uint32_t sample, const Rgb& value) { half[sample & 1].add(value); }
+    static PixelEstimate merge(const PixelEstimate& a, const PixelEstimate& b);
+    /// All samples together.
+    Moments whole() const { return Moments::merge(half[0], half[1]); }
+};
+
+}  // namespace treefarm

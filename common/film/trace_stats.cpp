@@ -1,0 +1,19 @@
+#include "common/film/trace_stats.h"
+
+namespace treefarm {
+
+void TraceStats::add(const TraceStats& other) {
+    paths += other.paths;
+    nonzero_paths += other.nonzero_paths;
+    rays += other.rays;
+    shadow_rays += other.shadow_rays;
+    vertices += other.vertices;
+    records += other.records;
+    invalid_samples += other.invalid_samples;
+    for (const InvalidSample& sample : other.first_invalid)
+        if (first_invalid.size() < kMaxReported) first_invalid.push_back(sample);
+    trace_seconds += other.trace_seconds;
+    splat_seconds += other.splat_seconds;
+}
+
+}  // namespace treefarm

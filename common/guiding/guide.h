@@ -1,0 +1,74 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "common/guiding/sd_tree.h"
+#include "common/math/direction_map.h"
+
+namespace treefarm {
+
+/// The tree in the form that workers sample from: 8-way spatial treelets and, per region, a flat cumulative table with
+/// guide entries (bench/guide_bench.cpp shows why). Immutable; one per process, shared by its threads.
+class Guide {
+  public:
+    explicit Guide(const SdTree& tree);
+
+    /// A sampled direction, with the density of exactly the cell it was drawn from.
+    struct Sample {
+        Vec3 direction;      ///< unit
+        std::uint32_t code;  ///< its Z-order code on the direction square, inside the sampled cell
+        float pdf;           ///< per steradian, > 0
+    };
+
+    /// False in the first pass: nothing was learned yet, sample the BSDF alone.
+    bool trained() const { return trained_; }
+    std::uint32_t region_count() const { return static_cast<std::uint32_t>(regions_.size()); }
+    std::uint32_t cell_count() const { return static_cast<std::uint32_t>(cells_.size()); }
+    std::int16_t quantum_exponent(std::uint32_t region) const { return quantum_exponent_[region]; }
+
+    /// The region of a point. Points outside the cube belong to the nearest region (the caller may count them with contains()).
+    std::uint32_t region(const Vec3& position) const;
+    bool contains(const Vec3& position) const;
+
+    /// Draws a direction; `pick`, `u0` and `u1` are uniform 32-bit numbers.
+    Sample sample(std::uint32_t region, std::uint32_t pick, std::uint32_t u0, std::uint32_t u1) const;
+
+    /// Density per steradian of the direction with this code; 0 where the tree has seen nothing.
+    float pdf(std::uint32_t region, std::uint32_t code) const;
+
+    /// Index (over the whole tree) of the cell of a direction: where a record goes.
+    std::uint32_t cell(std::uint32_t region, std::uint32_t code) const;
+
+    std::size_t bytes() const;
+
+  private:
+    struct Cell {
+        std::uint32_t code_begin;  ///< first Z-order code of the cell
+        std::uint32_t mass_begin;  ///< cumulative probability before the cell, of 2^kMassBits
+    };
+    struct Region {
+        std::uint32_t first_cell;
+        std::uint32_t cell_count;
+    };
+    static constexpr int kGuideBits = 6;
+    static constexpr std::uint32_t kGuideSize = 1u << kGuideBits;
+    static constexpr std::uint32_t kLeafFlag = 0x80000000u;
+
+    std::uint32_t build_treelet(const SdTree& tree, std::uint32_t node);
+    std::uint32_t find_code(std::uint32_t region, std::uint32_t code) const;
+    float density(const Region& region, std::uint32_t cell) const;
+
+    bool trained_ = false;
+    Vec3 origin_{0.0f};
+    float to_grid_ = 1.0f;
+    float extent_ = 1.0f;
+    std::vector<std::array<std::uint32_t, 8>> treelets_;
+    std::vector<Region> regions_;
+    std::vector<Cell> cells_;
+    std::vector<std::array<std::uint32_t, kGuideSize>> mass_guide_;  ///< per region: cell at mass k/64
+    std::vector<std::array<std::uint32_t, kGuideSize>> code_guide_;  ///< per region: cell at code k/64
+    std::vector<std::int16_t> quantum_exponent_;
+};
+
+}  // namespace treefarm

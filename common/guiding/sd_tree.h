@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "common/base/bytes.h"
+#include "common/math/vec.h"
+
+namespace treefarm {
+
+/// The SD-tree as plain values (Mueller et al. 2017): a binary tree over a cube of space, axes cycling x, y, z, midpoint
+/// splits, whose leaves ("regions") each hold a quadtree over directions. Frozen for a pass; node, region and cell indices
+/// mean the same on every rank. Regions are numbered in depth-first order, a region's cells (the quadtree's leaves) in
+/// Z-order, so the list of cell depths is the quadtree.
+struct SdTree {
+    /// child[0] is the lower half. A leaf has child[0] == 0 and its region in child[1].
+    struct Node {
+        std::uint32_t child[2] = {0, 0};
+        bool is_leaf() const { return child[0] == 0; }
+    };
+
+    std::uint32_t pass = 0;   ///< the pass that this tree guides and that builds the next one
+    bool trained = false;     ///< false before the first pass: do not guide by it
+    Vec3 origin{0.0f};        ///< lower corner of the cube
+    float extent = 1.0f;      ///< edge of the cube, > 0
+    std::vector<Node> nodes;  ///< [0] is the root
+    std::vector<std::uint32_t> cell_begin;  ///< regions + 1 entries: cells of region r are [cell_begin[r], cell_begin[r+1])
+    std::vector<std::uint8_t> cell_depth;   ///< per cell, 1 to kMaxDirectionDepth
+    std::vector<std::uint32_t> cell_mass;   ///< per cell: probability times 2^kMassBits; a region's cells sum to 2^kMassBits
+    std::vector<std::int16_t> quantum_exponent;  ///< per region: records are counted in units of 2^e
+
+    std::uint32_t region_count() const { return static_cast<std::uint32_t>(quantum_exponent.size()); }
+    std::uint32_t cell_count() const { return static_cast<std::uint32_t>(cell_depth.size()); }
+};
+
+inline constexpr int kMassBits = 30;
+inline constexpr int kMaxDirectionDepth = 16;  ///< cells of 4^-16 of the sphere
+inline constexpr int kMaxSpatialDepth = 60;    ///< 20 halvings of each axis: floats have 24 bits
+
+/// The tree before any pass: one region, directions in 4^4 equal cells, records in units that suit `radiance_scale`
+/// (a typical emitted radiance).
+SdTree initial_tree(const Box3& bounds, float radiance_scale);
+
+/// Codec of the broadcast form. decode_tree checks every structural rule and throws FormatError.
+Bytes encode_tree(const SdTree& tree);
+SdTree decode_tree(std::span<const std::uint8_t> bytes);
+
+}  // namespace treefarm

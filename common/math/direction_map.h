@@ -1,0 +1,74 @@
+#pragma once
+
+#include <cstdint>
+
+#include "common/math/elementary.h"
+#include "common/math/vec.h"
+
+namespace treefarm {
+
+/// The equal-area octahedral map between unit directions and the unit square (Clarberg 2008, "Fast equal-area mapping of
+/// the (hemi)sphere using SIMD"). A density p on the square is p / (4 pi) per steradian. Half the cost of the cylindrical
+/// map of the authors' program, without its stretched poles.
+inline Vec2 direction_to_square(const Vec3& d) {
+    const float ax = std::abs(d.x), ay = std::abs(d.y), az = std::abs(d.z);
+    const float r = std::sqrt((ax * ax + ay * ay) / (1.0f + az));  // = sqrt(1 - |z|), without its cancellation at the poles
+    const float high = std::max(ax, ay), low = std::min(ax, ay);
+    float phi = high > 0.0f ? atan_quadrant(low / high) : 0.0f;  // angle from the x axis, 0..1 for 0..90 degrees
+    if (ay > ax) phi = 1.0f - phi;
+    float v = phi * r;
+    float u = r - v;
+    if (d.z < 0.0f) {
+        const float swap = u;
+        u = 1.0f - v;
+        v = 1.0f - swap;
+    }
+    u = std::copysign(u, d.x);
+    v = std::copysign(v, d.y);
+    constexpr float kBelowOne = 0x1.fffffep-1f;
+    return {std::clamp(0.5f * (u + 1.0f), 0.0f, kBelowOne), std::clamp(0.5f * (v + 1.0f), 0.0f, kBelowOne)};
+}
+
+/// Inverse of direction_to_square; x and y in [0, 1].
+inline Vec3 square_to_direction(const Vec2& p) {
+    const float u = 2.0f * p.x - 1.0f, v = 2.0f * p.y - 1.0f;
+    const float au = std::abs(u), av = std::abs(v);
+    const float signed_distance = 1.0f - (au + av);
+    const float distance = std::abs(signed_distance);
+    const float r = 1.0f - distance;
+    const float phi = r > 0.0f ? ((av - au) / r + 1.0f) * (0.5f * kPi * 0.5f) : 0.0f;
+    const float z = std::copysign(1.0f - r * r, signed_distance);
+    const SinCos a = sincos_quadrant(std::clamp(phi, 0.0f, 0.5f * kPi));
+    const float sin_theta = r * std::sqrt(std::max(0.0f, 2.0f - r * r));
+    return {std::copysign(a.cos * sin_theta, u), std::copysign(a.sin * sin_theta, v), z};
+}
+
+/// The unit square in 2^16 x 2^16 steps along the Z-order curve: quadtree cells of depth d are aligned ranges of 4^(16-d).
+inline constexpr int kDirectionBits = 16;
+
+inline std::uint32_t spread_bits(std::uint32_t v) {
+    v = (v | (v << 8)) & 0x00ff00ffu;
+    v = (v | (v << 4)) & 0x0f0f0f0fu;
+    v = (v | (v << 2)) & 0x33333333u;
+    return (v | (v << 1)) & 0x55555555u;
+}
+
+inline std::uint32_t compact_bits(std::uint32_t v) {
+    v &= 0x55555555u;
+    v = (v | (v >> 1)) & 0x33333333u;
+    v = (v | (v >> 2)) & 0x0f0f0f0fu;
+    v = (v | (v >> 4)) & 0x00ff00ffu;
+    return (v | (v >> 8)) & 0x0000ffffu;
+}
+
+/// Z-order code of a point of the unit square (coordinates in [0, 1)).
+inline std::uint32_t square_to_code(const Vec2& p) {
+    const auto x = static_cast<std::uint32_t>(p.x * 65536.0f), y = static_cast<std::uint32_t>(p.y * 65536.0f);
+    return spread_bits(x) | (spread_bits(y) << 1);
+}
+
+inline std::uint32_t direction_to_code(const Vec3& d) {
+    return square_to_code(direction_to_square(d));
+}
+
+}  // namespace treefarm
