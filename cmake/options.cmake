@@ -33,6 +33,10 @@ add_library(treefarm_flags INTERFACE)
 # -ffp-contract=off: a fused multiply-add rounds once where two operations round twice; whether it is used must not
 # depend on the compiler's mood. Asserts are on in Debug and in sanitizer builds.
 target_compile_options(treefarm_flags INTERFACE -march=${TREEFARM_ARCH} -ffp-contract=off -Wall -Wextra -Wconversion)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    # GCC 12 warns of overlapping copies inside std::string's operator+ (GCC bug 105651).
+    target_compile_options(treefarm_flags INTERFACE -Wno-restrict)
+endif()
 if(TREEFARM_WERROR)
     target_compile_options(treefarm_flags INTERFACE -Werror)
 endif()

@@ -48,9 +48,7 @@ class ByteWriter {
         if (!values.empty()) std::memcpy(bytes_.data() + at, values.data(), values.size_bytes());
     }
 
-    void put_string(const std::string& text) {
-        put_array(std::span<const char>(text.data(), text.size()));
-    }
+    void put_string(const std::string& text) { put_array(std::span<const char>(text.data(), text.size())); }
 
     std::size_t size() const { return bytes_.size(); }
     Bytes take() { return std::move(bytes_); }

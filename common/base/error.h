@@ -15,8 +15,8 @@ struct Location {
     std::string text() const;
 };
 
-/// Bad usage or bad input: the program ends with exit code 2. The message is one line, "file:line:col: what, why, what to
-/// do", so that an editor can jump to the place and a person knows the next step.
+/// Bad usage or bad input: the program ends with exit code 2. The message is one line, "file:line:col: what, why, what
+/// to do", so that an editor can jump to the place and a person knows the next step.
 class InputError : public std::runtime_error {
   public:
     InputError(const Location& where, const std::string& what, const std::string& cure);

@@ -10,12 +10,12 @@ namespace treefarm {
 /// What a random number is for. Each use has a stream of its own, so switching an effect on never shifts another
 /// effect's numbers (docs/guiding.md, "random streams").
 enum class Stream : std::uint32_t {
-    camera,    ///< position on the pixel filter
-    lens,      ///< position on the lens
-    scatter,   ///< which density a direction is drawn from, and the direction
-    light,     ///< next event: which emitter, where on it
-    roulette,  ///< survival
-    rounding,  ///< stochastic rounding of what scattered directions taught the tree
+    camera,          ///< position on the pixel filter
+    lens,            ///< position on the lens
+    scatter,         ///< which density a direction is drawn from, and the direction
+    light,           ///< next event: which emitter, where on it
+    roulette,        ///< survival
+    rounding,        ///< stochastic rounding of what scattered directions taught the tree
     light_rounding,  ///< the same for next event's records
 };
 
@@ -33,8 +33,7 @@ using Draw = std::array<std::uint32_t, 4>;
 inline Draw draw(const PathKey& path, std::uint32_t vertex, Stream stream) {
     using Philox = r123::Philox4x32_R<7>;
     const Philox::ctr_type counter = {{path.pixel, path.sample, vertex, static_cast<std::uint32_t>(stream)}};
-    const Philox::key_type key = {
-        {static_cast<std::uint32_t>(path.seed), static_cast<std::uint32_t>(path.seed >> 32)}};
+    const Philox::key_type key = {{static_cast<std::uint32_t>(path.seed), static_cast<std::uint32_t>(path.seed >> 32)}};
     const Philox::ctr_type r = Philox()(counter, key);
     return {r[0], r[1], r[2], r[3]};
 }

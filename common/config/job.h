@@ -10,7 +10,8 @@ namespace treefarm {
 enum class NextEvent : std::uint8_t {
     never,
     always,
-    kickstart,  ///< only in passes that start with fewer than 128 spp done: it teaches the tree, then guiding takes over
+    kickstart,  ///< only in passes that start with fewer than 128 spp done: it teaches the tree, then guiding takes
+                ///< over
 };
 
 /// Weights of multiple importance sampling between next event and scattering (Veach 1997).
@@ -25,8 +26,8 @@ enum class Combination : std::uint8_t {
     last,              ///< the last pass alone (PPG 2017)
 };
 
-/// Everything that a render depends on besides the scene. Keys, documentation, defaults and ranges stand in one table in
-/// job_keys.cpp; docs and job.toml are written from it.
+/// Everything that a render depends on besides the scene. Keys, documentation, defaults and ranges stand in one table
+/// in job_keys.cpp; docs and job.toml are written from it.
 struct Job {
     struct SceneSource {
         std::string file;
@@ -51,11 +52,11 @@ struct Job {
 
     struct Guiding {
         GuidingType type = GuidingType::ppg;
-        std::string preset;           ///< "" or "paper": recorded so that the result says what was asked
-        float bsdf_fraction = 0.5f;   ///< probability of sampling the BSDF rather than the tree, (0, 1]
-        int spatial_threshold = 12000;    ///< c of the spatial split rule
+        std::string preset;                   ///< "" or "paper": recorded so that the result says what was asked
+        float bsdf_fraction = 0.5f;           ///< probability of sampling the BSDF rather than the tree, (0, 1]
+        int spatial_threshold = 12000;        ///< c of the spatial split rule
         float directional_threshold = 0.01f;  ///< share of a region's energy above which a cell splits
-        int spp_unit = 4;             ///< samples per pixel of the first pass; passes double
+        int spp_unit = 4;                     ///< samples per pixel of the first pass; passes double
         Combination combination = Combination::inverse_variance;
     } guiding;
 
@@ -68,10 +69,11 @@ struct Job {
     } sampler;
 
     struct Farm {
-        int tile_size = 32;               ///< pixels
-        double heartbeat_seconds = 1.0;   ///< how often each side says that it lives
-        double update_seconds = 1.5;      ///< how often a worker sends what it has finished
-        std::string isa = "avx2";         ///< Embree's instruction set, the same on every worker: sse2, sse4.2, avx, avx2, avx512
+        int tile_size = 32;              ///< pixels
+        double heartbeat_seconds = 1.0;  ///< how often each side says that it lives
+        double update_seconds = 1.5;     ///< how often a worker sends what it has finished
+        std::string isa =
+            "avx2";  ///< Embree's instruction set, the same on every worker: sse2, sse4.2, avx, avx2, avx512
     } farm;
 
     struct Output {

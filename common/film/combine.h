@@ -24,15 +24,15 @@ struct CombinedImage {
     std::vector<double> weight;   ///< of each pass, sums to 1 (halves averaged)
 };
 
-/// Combines the passes with one scalar weight each (docs/guiding.md, "combining passes"). `guided` says whether the passes
-/// differ in quality: without guiding every sample weighs the same.
+/// Combines the passes with one scalar weight each (docs/guiding.md, "combining passes"). `guided` says whether the
+/// passes differ in quality: without guiding every sample weighs the same.
 CombinedImage combine_passes(std::span<const PassResult> passes, Combination method, bool guided);
 
 /// Figures of one pass (docs/guiding.md, "stuv").
 struct PassVariance {
-    double stuv = 0;      ///< mean over pixels of the luminance of the unbiased variance of one sample
+    double stuv = 0;          ///< mean over pixels of the luminance of the unbiased variance of one sample
     double stuv_trimmed = 0;  ///< the same without the worst 0.1 % of the pixels
-    double stuv_ppg = 0;  ///< what the authors' program calls STUV: a clamped second moment
+    double stuv_ppg = 0;      ///< what the authors' program calls STUV: a clamped second moment
 };
 PassVariance pass_variance(std::span<const PixelEstimate> pixels);
 

@@ -1,8 +1,8 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
 #include <span>
+#include <unordered_map>
 #include <vector>
 
 #include "common/film/pixel_estimate.h"
@@ -25,7 +25,7 @@ class PassFilm {
     bool complete() const { return missing_ == 0; }
     int width() const { return width_; }
     int height() const { return height_; }
-    /// Row by row from the top. Valid once complete; before, pixels with missing chunks are what has arrived or empty.
+    /// Row by row from the top. Valid once complete; before, pixels with missing chunks are empty.
     const std::vector<PixelEstimate>& pixels() const { return pixels_; }
 
   private:
@@ -33,7 +33,12 @@ class PassFilm {
     std::uint32_t chunks_;
     std::uint64_t missing_;  ///< pixel-chunks still to come
     std::vector<PixelEstimate> pixels_;
-    std::map<std::uint32_t, std::vector<PixelEstimate>> pending_;  ///< by pixel: chunks of pixels not yet whole
+
+    struct Pending {
+        std::vector<PixelEstimate> chunks;
+        std::uint32_t arrived = 0;
+    };
+    std::unordered_map<std::uint32_t, Pending> pending_;  ///< by pixel: those not yet whole
 };
 
 }  // namespace treefarm

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -23,11 +24,12 @@ class Guide {
 
     /// False in the first pass: nothing was learned yet, sample the BSDF alone.
     bool trained() const { return trained_; }
-    std::uint32_t region_count() const { return static_cast<std::uint32_t>(regions_.size()); }
+    std::uint32_t region_count() const { return static_cast<std::uint32_t>(quantum_exponent_.size()); }
     std::uint32_t cell_count() const { return static_cast<std::uint32_t>(cells_.size()); }
     std::int16_t quantum_exponent(std::uint32_t region) const { return quantum_exponent_[region]; }
 
-    /// The region of a point. Points outside the cube belong to the nearest region (the caller may count them with contains()).
+    /// The region of a point. Points outside the cube belong to the nearest region (the caller may count them with
+    /// contains()).
     std::uint32_t region(const Vec3& position) const;
     bool contains(const Vec3& position) const;
 
@@ -47,27 +49,23 @@ class Guide {
         std::uint32_t code_begin;  ///< first Z-order code of the cell
         std::uint32_t mass_begin;  ///< cumulative probability before the cell, of 2^kMassBits
     };
-    struct Region {
-        std::uint32_t first_cell;
-        std::uint32_t cell_count;
-    };
     static constexpr int kGuideBits = 6;
     static constexpr std::uint32_t kGuideSize = 1u << kGuideBits;
     static constexpr std::uint32_t kLeafFlag = 0x80000000u;
 
     std::uint32_t build_treelet(const SdTree& tree, std::uint32_t node);
-    std::uint32_t find_code(std::uint32_t region, std::uint32_t code) const;
-    float density(const Region& region, std::uint32_t cell) const;
+    float density(std::uint32_t region, std::uint32_t cell) const;
 
     bool trained_ = false;
     Vec3 origin_{0.0f};
-    float to_grid_ = 1.0f;
+    float inverse_extent_ = 1.0f;
     float extent_ = 1.0f;
     std::vector<std::array<std::uint32_t, 8>> treelets_;
-    std::vector<Region> regions_;
+    std::vector<std::uint32_t> cell_begin_;  ///< regions + 1 entries
     std::vector<Cell> cells_;
-    std::vector<std::array<std::uint32_t, kGuideSize>> mass_guide_;  ///< per region: cell at mass k/64
-    std::vector<std::array<std::uint32_t, kGuideSize>> code_guide_;  ///< per region: cell at code k/64
+    using GuideTable = std::array<std::uint32_t, kGuideSize + 1>;
+    std::vector<GuideTable> mass_guide_;  ///< per region: first cell that may hold probability k/64
+    std::vector<GuideTable> code_guide_;  ///< per region: the cell that holds code k/64
     std::vector<std::int16_t> quantum_exponent_;
 };
 

@@ -8,10 +8,10 @@
 
 namespace treefarm {
 
-/// The SD-tree as plain values (Mueller et al. 2017): a binary tree over a cube of space, axes cycling x, y, z, midpoint
-/// splits, whose leaves ("regions") each hold a quadtree over directions. Frozen for a pass; node, region and cell indices
-/// mean the same on every rank. Regions are numbered in depth-first order, a region's cells (the quadtree's leaves) in
-/// Z-order, so the list of cell depths is the quadtree.
+/// The SD-tree as plain values (Mueller et al. 2017): a binary tree over a cube of space, axes cycling x, y, z,
+/// midpoint splits, whose leaves ("regions") each hold a quadtree over directions. Frozen for a pass; node, region and
+/// cell indices mean the same on every rank. Regions are numbered in depth-first order, a region's cells (the
+/// quadtree's leaves) in Z-order, so the list of cell depths is the quadtree.
 struct SdTree {
     /// child[0] is the lower half. A leaf has child[0] == 0 and its region in child[1].
     struct Node {
@@ -24,9 +24,11 @@ struct SdTree {
     Vec3 origin{0.0f};        ///< lower corner of the cube
     float extent = 1.0f;      ///< edge of the cube, > 0
     std::vector<Node> nodes;  ///< [0] is the root
-    std::vector<std::uint32_t> cell_begin;  ///< regions + 1 entries: cells of region r are [cell_begin[r], cell_begin[r+1])
-    std::vector<std::uint8_t> cell_depth;   ///< per cell, 1 to kMaxDirectionDepth
-    std::vector<std::uint32_t> cell_mass;   ///< per cell: probability times 2^kMassBits; a region's cells sum to 2^kMassBits
+    std::vector<std::uint32_t>
+        cell_begin;  ///< regions + 1 entries: cells of region r are [cell_begin[r], cell_begin[r+1])
+    std::vector<std::uint8_t> cell_depth;  ///< per cell, 1 to kMaxDirectionDepth
+    std::vector<std::uint32_t>
+        cell_mass;  ///< per cell: probability times 2^kMassBits; a region's cells sum to 2^kMassBits
     std::vector<std::int16_t> quantum_exponent;  ///< per region: records are counted in units of 2^e
 
     std::uint32_t region_count() const { return static_cast<std::uint32_t>(quantum_exponent.size()); }
@@ -40,6 +42,11 @@ inline constexpr int kMaxSpatialDepth = 60;    ///< 20 halvings of each axis: fl
 /// The tree before any pass: one region, directions in 4^4 equal cells, records in units that suit `radiance_scale`
 /// (a typical emitted radiance).
 SdTree initial_tree(const Box3& bounds, float radiance_scale);
+
+/// A region counts its records in units of 2^e such that a record of average value is 2^kMeanRecordBits units: fine
+/// enough that rounding adds nothing measurable, with a cap (2^40 units) 2^24 times above the average.
+inline constexpr int kMeanRecordBits = 16;
+std::int16_t quantum_exponent_for(float mean_record);
 
 /// Codec of the broadcast form. decode_tree checks every structural rule and throws FormatError.
 Bytes encode_tree(const SdTree& tree);

@@ -39,15 +39,16 @@ class TreeSums {
     const UpdateCaps& caps() const { return caps_; }
 
     void add_count(std::uint32_t region, std::uint64_t count) { counts_[region] += count; }
-    void add_quanta(std::uint32_t cell, std::uint64_t quanta);  ///< saturates, and counts that
+    /// Adds to one cell; false where the sum would pass 2^64 - 1 and stays there (the caller counts it).
+    bool add_quanta(std::uint32_t cell, std::uint64_t quanta);
     void add_caps(const UpdateCaps& caps) { caps_.add(caps); }
     void add(const TreeSums& other);
     void clear();
 
     /// Sparse form: only cells and counts that are not zero (docs/protocol.md, "tree update").
     Bytes encode() const;
-    /// Adds an encoded update, checking pass, order and range of every entry before anything is added; FormatError otherwise.
-    /// Returns the number of touched cells.
+    /// Adds an encoded update, checking pass, order and range of every entry before anything is added; FormatError
+    /// otherwise. Returns the number of touched cells.
     std::uint64_t merge_encoded(std::span<const std::uint8_t> update);
 
     bool operator==(const TreeSums&) const = default;

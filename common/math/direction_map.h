@@ -7,12 +7,13 @@
 
 namespace treefarm {
 
-/// The equal-area octahedral map between unit directions and the unit square (Clarberg 2008, "Fast equal-area mapping of
-/// the (hemi)sphere using SIMD"). A density p on the square is p / (4 pi) per steradian. Half the cost of the cylindrical
-/// map of the authors' program, without its stretched poles.
+/// The equal-area octahedral map between unit directions and the unit square (Clarberg 2008, "Fast equal-area mapping
+/// of the (hemi)sphere using SIMD"). A density p on the square is p / (4 pi) per steradian. Half the cost of the
+/// cylindrical map of the authors' program, without its stretched poles.
 inline Vec2 direction_to_square(const Vec3& d) {
     const float ax = std::abs(d.x), ay = std::abs(d.y), az = std::abs(d.z);
-    const float r = std::sqrt((ax * ax + ay * ay) / (1.0f + az));  // = sqrt(1 - |z|), without its cancellation at the poles
+    const float r =
+        std::sqrt((ax * ax + ay * ay) / (1.0f + az));  // = sqrt(1 - |z|), without its cancellation at the poles
     const float high = std::max(ax, ay), low = std::min(ax, ay);
     float phi = high > 0.0f ? atan_quadrant(low / high) : 0.0f;  // angle from the x axis, 0..1 for 0..90 degrees
     if (ay > ax) phi = 1.0f - phi;
@@ -43,7 +44,8 @@ inline Vec3 square_to_direction(const Vec2& p) {
     return {std::copysign(a.cos * sin_theta, u), std::copysign(a.sin * sin_theta, v), z};
 }
 
-/// The unit square in 2^16 x 2^16 steps along the Z-order curve: quadtree cells of depth d are aligned ranges of 4^(16-d).
+/// The unit square in 2^16 x 2^16 steps along the Z-order curve: quadtree cells of depth d are aligned ranges of
+/// 4^(16-d).
 inline constexpr int kDirectionBits = 16;
 
 inline std::uint32_t spread_bits(std::uint32_t v) {

@@ -17,7 +17,8 @@ inline SinCos sincos_quadrant(float x) {
     const bool fold = x > 0.5f * kHalfPi;  // evaluate on [0, pi/4] only
     const float t = fold ? kHalfPi - x : x;
     const float t2 = t * t;
-    const float s = t * (1.0f + t2 * (-1.6666667e-1f + t2 * (8.3333310e-3f + t2 * (-1.9840874e-4f + t2 * 2.7525562e-6f))));
+    const float s =
+        t * (1.0f + t2 * (-1.6666667e-1f + t2 * (8.3333310e-3f + t2 * (-1.9840874e-4f + t2 * 2.7525562e-6f))));
     const float c = 1.0f + t2 * (-0.5f + t2 * (4.1666668e-2f + t2 * (-1.3888887e-3f + t2 * 2.4801587e-5f)));
     return fold ? SinCos{c, s} : SinCos{s, c};
 }
@@ -28,18 +29,26 @@ inline SinCos sincos_turn(float u) {
     const int quadrant = static_cast<int>(quarter);
     const SinCos r = sincos_quadrant((quarter - static_cast<float>(quadrant)) * 1.57079632679489661923f);
     switch (quadrant & 3) {
-        case 0: return {r.sin, r.cos};
-        case 1: return {r.cos, -r.sin};
-        case 2: return {-r.sin, -r.cos};
-        default: return {-r.cos, r.sin};
+        case 0:
+            return {r.sin, r.cos};
+        case 1:
+            return {r.cos, -r.sin};
+        case 2:
+            return {-r.sin, -r.cos};
+        default:
+            return {-r.cos, r.sin};
     }
 }
 
 /// atan(x) * 2/pi for x in [0, 1], error below 3e-8 (own minimax fit).
 inline float atan_quadrant(float x) {
     const float x2 = x * x;
-    return x * (0.63661935f + x2 * (-0.21218451f + x2 * (0.126984059f + x2 * (-0.0885464073f +
-               x2 * (0.0613873596f + x2 * (-0.0355991094f + x2 * (0.0139211997f + x2 * -0.002581966f)))))));
+    return x * (0.63661935f +
+                x2 * (-0.21218451f +
+                      x2 * (0.126984059f +
+                            x2 * (-0.0885464073f +
+                                  x2 * (0.0613873596f +
+                                        x2 * (-0.0355991094f + x2 * (0.0139211997f + x2 * -0.002581966f)))))));
 }
 
 }  // namespace treefarm

@@ -19,11 +19,12 @@ struct PassPlan {
     std::uint32_t chunks = 1;           ///< work units along the samples of a pixel
 };
 
-/// Passes double from guiding.spp_unit; when what remains after a pass would be less than twice that pass, the pass takes
-/// the rest. The budget is rounded up to whole units. Pure.
+/// Passes double from guiding.spp_unit; when what remains after a pass would be less than twice that pass, the pass
+/// takes the rest. The budget is rounded up to whole units. Pure.
 std::vector<PassPlan> plan_passes(const Job& job);
 
-/// c sqrt(n_k / 4): records above which a region splits before a pass of n_k spp.
-double spatial_split_threshold(const Job& job, std::uint32_t spp_of_coming_pass);
+/// c sqrt(n_k / 4): records above which a region splits before pass k. n_k is what doubling gives, spp_unit 2^k, also
+/// where the last pass is longer: as in the authors' program.
+double spatial_split_threshold(const Job& job, const PassPlan& coming_pass);
 
 }  // namespace treefarm

@@ -11,9 +11,9 @@
 
 namespace treefarm {
 
-/// The scene as plain values: what a reader produces, what is broadcast to workers, what the plan looks at. Indices, never
-/// pointers. Positions are in world space. Everything that needs the C library's transcendental functions (rotations,
-/// spectra, gamma) is computed here, once, on the coordinator, so that workers cannot differ in it.
+/// The scene as plain values: what a reader produces, what is broadcast to workers, what the plan looks at. Indices,
+/// never pointers. Positions are in world space. Everything that needs the C library's transcendental functions
+/// (rotations, spectra, gamma) is computed here, once, on the coordinator, so that workers cannot differ in it.
 
 inline constexpr std::int32_t kNone = -1;
 
@@ -32,8 +32,8 @@ struct Material {
 /// An indexed triangle mesh in world space.
 struct Mesh {
     std::vector<Vec3> positions;
-    std::vector<Vec3> normals;  ///< unit shading normals, one per position; empty: use the triangle's own
-    std::vector<Vec2> uvs;      ///< one per position; empty: none
+    std::vector<Vec3> normals;           ///< unit shading normals, one per position; empty: use the triangle's own
+    std::vector<Vec2> uvs;               ///< one per position; empty: none
     std::vector<std::uint32_t> indices;  ///< three per triangle, counter-clockwise seen from the front
 
     std::size_t triangle_count() const { return indices.size() / 3; }

@@ -1,0 +1,84 @@
+#include "common/comm/broadcast_chain.h"
+
+#include <algorithm>
+
+namespace treefarm {
+
+namespace {
+
+Payload share(Bytes bytes) {
+    return std::make_shared<const Bytes>(std::move(bytes));
+}
+
+}  // namespace
+
+void send_along_chain(Channel& channel, const BlobName& name, std::span<const std::uint8_t> bytes, std::uint64_t offset,
+                      std::span<const std::uint32_t> chain, std::size_t chunk_bytes) {
+    if (chain.empty() || offset > bytes.size()) return;
+    Chunk chunk{name.blob, name.epoch, bytes.size(), offset, {chain.begin() + 1, chain.end()}, {}};
+    do {  // an empty blob is one empty chunk
+        const std::size_t count = std::min<std::size_t>(chunk_bytes, bytes.size() - chunk.offset);
+        const auto piece = bytes.subspan(chunk.offset, count);
+        chunk.bytes.assign(piece.begin(), piece.end());
+        channel.send(static_cast<int>(chain.front()), share(encode(chunk)));
+        chunk.offset += count;
+    } while (chunk.offset < bytes.size());
+}
+
+std::optional<BlobName> ChainReceiver::take(const Chunk& chunk, double now) {
+    if (!chunk.chain.empty()) {
+        Chunk onward = chunk;
+        onward.chain.erase(onward.chain.begin());
+        const auto next = static_cast<int>(chunk.chain.front());
+        if (next <= 0 || next >= channel_.peer_count() || next == channel_.self())
+            throw FormatError("a broadcast chain with a peer that is not there");
+        channel_.send(next, share(encode(onward)));
+    }
+    const BlobName name{chunk.blob, chunk.epoch};
+    const auto latest = latest_collected_.find(name.blob);
+    if (latest != latest_collected_.end() && name.epoch <= latest->second) return std::nullopt;
+
+    Assembly& assembly = assemblies_[name];
+    if (assembly.total && *assembly.total != chunk.total) throw FormatError("a blob that changes its length on the way");
+    assembly.total = chunk.total;
+    assembly.last_heard = now;
+    if (chunk.offset > assembly.bytes.size()) {
+        if (!assembly.asked) ask(name, assembly, now);
+        return std::nullopt;
+    }
+    if (chunk.offset < assembly.bytes.size()) return std::nullopt;  // a second copy
+    assembly.asked = false;
+    assembly.bytes.insert(assembly.bytes.end(), chunk.bytes.begin(), chunk.bytes.end());
+    return assembly.complete() ? std::optional(name) : std::nullopt;
+}
+
+void ChainReceiver::expect(const BlobName& name, std::uint64_t total, double now) {
+    Assembly& assembly = assemblies_[name];
+    if (assembly.total && *assembly.total != total) throw FormatError("a blob that changes its length on the way");
+    if (!assembly.total) assembly.last_heard = now;
+    assembly.total = total;
+}
+
+std::optional<Bytes> ChainReceiver::collect(const BlobName& name) {
+    const auto found = assemblies_.find(name);
+    if (found == assemblies_.end() || !found->second.complete()) return std::nullopt;
+    Bytes bytes = std::move(found->second.bytes);
+    latest_collected_[name.blob] = name.epoch;
+    std::erase_if(assemblies_, [&](const auto& entry) {
+        return entry.first.blob == name.blob && entry.first.epoch <= name.epoch;
+    });
+    return bytes;
+}
+
+void ChainReceiver::complain(double now, double patience) {
+    for (auto& [name, assembly] : assemblies_)
+        if (!assembly.complete() && now - assembly.last_heard > patience) ask(name, assembly, now);
+}
+
+void ChainReceiver::ask(const BlobName& name, Assembly& assembly, double now) {
+    assembly.asked = true;
+    assembly.last_heard = now;
+    channel_.send(0, share(encode(Resend{name.blob, name.epoch, assembly.bytes.size()})));
+}
+
+}  // namespace treefarm

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "common/comm/channel.h"
+#include "common/protocol/messages.h"
+
+namespace treefarm {
+
+/// Large things go along a chain of workers in pieces: the coordinator sends each piece once, every worker passes it on
+/// while the next one is under way. On a network where bandwidth is the limit this costs about one transfer, however many
+/// workers there are; a star costs one per worker.
+inline constexpr std::size_t kChunkBytes = std::size_t{1} << 20;
+
+/// What a blob is called: which one, and of which pass.
+struct BlobName {
+    Blob blob = Blob::scene;
+    std::uint32_t epoch = 0;
+    auto operator<=>(const BlobName&) const = default;
+};
+
+/// The coordinator's end. Sends `bytes` from `offset` on along `chain` (peer numbers; none: sends nothing).
+void send_along_chain(Channel& channel, const BlobName& name, std::span<const std::uint8_t> bytes, std::uint64_t offset,
+                      std::span<const std::uint32_t> chain, std::size_t chunk_bytes = kChunkBytes);
+
+/// A worker's end: forwards what it receives and assembles its own copy. A blob with a hole asks the coordinator for the
+/// rest, at once when a later piece shows the hole, or after a silence (see complain()).
+class ChainReceiver {
+  public:
+    explicit ChainReceiver(Channel& channel) : channel_(channel) {}
+
+    /// Takes a piece at time `now` (seconds of any clock); returns the blob's name when that completed it.
+    std::optional<BlobName> take(const Chunk& chunk, double now);
+
+    /// Says that this blob is on its way, so that silence is noticed even if no piece ever comes.
+    void expect(const BlobName& name, std::uint64_t total, double now);
+
+    /// Hands out a complete blob, once, and forgets older ones of its kind; nothing if it is not complete.
+    std::optional<Bytes> collect(const BlobName& name);
+
+    /// Asks again for blobs of which nothing was heard for `patience` seconds.
+    void complain(double now, double patience);
+
+  private:
+    struct Assembly {
+        std::optional<std::uint64_t> total;
+        Bytes bytes;  ///< grows with what arrives: a length is never trusted with memory
+        double last_heard = 0;
+        bool asked = false;  ///< a resend is under way
+        bool complete() const { return total && bytes.size() == *total; }
+    };
+    void ask(const BlobName& name, Assembly& assembly, double now);
+
+    Channel& channel_;
+    std::map<BlobName, Assembly> assemblies_;
+    std::map<Blob, std::uint32_t> latest_collected_;  ///< late pieces of these are passed on, not kept
+};
+
+}  // namespace treefarm

@@ -1,0 +1,178 @@
+#include "common/film/combine.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace treefarm {
+namespace {
+
+/// Clamps a pixel's variance so that one outlier does not decide about a whole pass (as the authors' program does).
+constexpr double kVarianceClamp = 1e4;
+/// A pass with fewer samples knows too little of its own variance to be weighed by it.
+constexpr std::uint32_t kMinSamplesForVariance = 4;
+
+/// Variance of the pass's image: mean over pixels, clamped, from one half of the samples.
+double image_variance(const PassResult& pass, int half) {
+    double sum = 0;
+    for (const PixelEstimate& pixel : pass.pixels) {
+        const Moments& m = pixel.half[half];
+        if (m.n >= 2) sum += std::min(luminance(m.sample_variance()) / m.n, kVarianceClamp);
+    }
+    return sum / static_cast<double>(std::max<std::size_t>(pass.pixels.size(), 1));
+}
+
+void normalise(std::vector<double>& weights) {
+    double sum = 0;
+    for (const double w : weights)
+        sum += w;
+    if (sum > 0)
+        for (double& w : weights)
+            w /= sum;
+    else
+        weights.back() = 1.0;
+}
+
+std::vector<double> fixed_weights(std::span<const PassResult> passes, bool guided) {
+    std::vector<double> weights;
+    for (const PassResult& pass : passes) {
+        // What a pass is worth grows with what its tree was learned from; the first pass, untrained, counts a little.
+        const double trained = guided ? std::sqrt(static_cast<double>(std::max(pass.spp_before, 1u))) : 1.0;
+        weights.push_back(pass.spp * trained);
+    }
+    normalise(weights);
+    return weights;
+}
+
+/// Weights by the inverse variance that `half` reports.
+std::vector<double> inverse_variance_weights(std::span<const PassResult> passes, int half, bool guided) {
+    std::vector<double> weights(passes.size(), 0.0);
+    for (std::size_t k = 0; k < passes.size(); ++k) {
+        if (passes[k].spp < kMinSamplesForVariance) continue;
+        const double variance = image_variance(passes[k], half);
+        if (!(variance > 0)) return fixed_weights(passes, guided);  // a pass without noise: nothing to weigh by
+        weights[k] = 1.0 / variance;
+    }
+    if (std::all_of(weights.begin(), weights.end(), [](double w) { return w == 0; }))
+        return fixed_weights(passes, guided);
+    normalise(weights);
+    return weights;
+}
+
+struct HalfImage {
+    std::vector<Rgb64> mean, variance;
+};
+
+/// The weighted mean of one half of the passes' samples. Passes of which the half holds nothing give up their weight.
+HalfImage combine_half(std::span<const PassResult> passes, const std::vector<double>& weights, int half) {
+    const std::size_t count = passes.front().pixels.size();
+    HalfImage image{std::vector<Rgb64>(count, Rgb64(0.0)), std::vector<Rgb64>(count, Rgb64(0.0))};
+    for (std::size_t p = 0; p < count; ++p) {
+        double sum = 0;
+        for (std::size_t k = 0; k < passes.size(); ++k) {
+            const Moments& m = passes[k].pixels[p].half[half];
+            if (m.n == 0) continue;
+            sum += weights[k];
+            image.mean[p] += m.mean * weights[k];
+            image.variance[p] += m.sample_variance() * (weights[k] * weights[k] / m.n);
+        }
+        if (!(sum > 0)) continue;
+        image.mean[p] /= sum;
+        image.variance[p] /= sum * sum;
+    }
+    return image;
+}
+
+/// A pass of one sample joins no half; a run that has only such passes is its plain weighted mean.
+CombinedImage combine_whole(std::span<const PassResult> passes, const std::vector<double>& weights) {
+    CombinedImage image;
+    const std::size_t count = passes.front().pixels.size();
+    image.mean.assign(count, Rgb64(0.0));
+    image.variance.assign(count, Rgb64(0.0));
+    for (std::size_t p = 0; p < count; ++p)
+        for (std::size_t k = 0; k < passes.size(); ++k) {
+            const Moments m = passes[k].pixels[p].whole();
+            if (m.n == 0) continue;
+            image.mean[p] += m.mean * weights[k];
+            image.variance[p] += m.sample_variance() * (weights[k] * weights[k] / m.n);
+        }
+    image.half[0] = image.half[1] = image.mean;
+    image.weight = weights;
+    return image;
+}
+
+}  // namespace
+
+CombinedImage combine_passes(std::span<const PassResult> passes, Combination method, bool guided) {
+    if (passes.empty()) return {};
+    if (method == Combination::last) passes = passes.last(1);
+    const bool halves = std::any_of(passes.begin(), passes.end(), [](const PassResult& p) { return p.spp >= 2; });
+    if (!halves) return combine_whole(passes, fixed_weights(passes, guided));
+
+    // Set weights apply to all samples of a pass alike. Variances cross over: what half A reports weighs half B, so
+    // that a weight never depends on the samples that it multiplies.
+    const bool cross = method == Combination::inverse_variance && guided;
+    const std::vector<double> fixed = fixed_weights(passes, guided);
+    if (!cross) {
+        CombinedImage image = combine_whole(passes, fixed);
+        image.half[0] = combine_half(passes, fixed, 0).mean;
+        image.half[1] = combine_half(passes, fixed, 1).mean;
+        return image;
+    }
+    const std::vector<double> weights_a = inverse_variance_weights(passes, 1, guided);
+    const std::vector<double> weights_b = inverse_variance_weights(passes, 0, guided);
+    HalfImage a = combine_half(passes, weights_a, 0);
+    HalfImage b = combine_half(passes, weights_b, 1);
+    CombinedImage image;
+    const std::size_t count = a.mean.size();
+    image.mean.resize(count);
+    image.variance.resize(count);
+    for (std::size_t p = 0; p < count; ++p) {
+        image.mean[p] = (a.mean[p] + b.mean[p]) * 0.5;
+        image.variance[p] = (a.variance[p] + b.variance[p]) * 0.25;
+    }
+    image.half[0] = std::move(a.mean);
+    image.half[1] = std::move(b.mean);
+    for (std::size_t k = 0; k < passes.size(); ++k)
+        image.weight.push_back(0.5 * (weights_a[k] + weights_b[k]));
+    return image;
+}
+
+PassVariance pass_variance(std::span<const PixelEstimate> pixels) {
+    PassVariance result;
+    if (pixels.empty()) return result;
+    std::vector<double> variances;
+    variances.reserve(pixels.size());
+    for (const PixelEstimate& pixel : pixels) {
+        const Moments m = pixel.whole();
+        const double variance = luminance(m.sample_variance());
+        variances.push_back(variance);
+        result.stuv += variance;
+        if (m.n >= 2) {
+            const double n = m.n;
+            const Rgb64 second_moment = m.m2 / n + m.mean * m.mean;
+            const Rgb64 theirs = second_moment - m.mean * m.mean / n;
+            result.stuv_ppg += n * std::min(luminance(theirs), kVarianceClamp) / (n - 1);
+        }
+    }
+    const auto count = static_cast<double>(pixels.size());
+    result.stuv /= count;
+    result.stuv_ppg /= count;
+    std::sort(variances.begin(), variances.end());
+    variances.resize(variances.size() - variances.size() / 1000);
+    for (const double v : variances)
+        result.stuv_trimmed += v;
+    result.stuv_trimmed /= static_cast<double>(variances.size());
+    return result;
+}
+
+double estimated_rmse(const CombinedImage& image) {
+    double sum = 0;
+    for (const Rgb64& v : image.variance) {
+        // The error of the luminance, as if the channels erred together: they come from the same paths.
+        const double deviation = luminance(Rgb64(std::sqrt(v.x), std::sqrt(v.y), std::sqrt(v.z)));
+        sum += deviation * deviation;
+    }
+    return image.variance.empty() ? 0.0 : std::sqrt(sum / static_cast<double>(image.variance.size()));
+}
+
+}  // namespace treefarm

@@ -1,0 +1,37 @@
+#include "common/film/pixel_estimate.h"
+
+namespace treefarm {
+
+void Moments::add(const Rgb& value) {
+    ++n;
+    const double share = 1.0 / n;
+    for (int c = 0; c < 3; ++c) {
+        const double deviation = static_cast<double>(value[c]) - mean[c];
+        mean[c] += deviation * share;
+        m2[c] += deviation * (static_cast<double>(value[c]) - mean[c]);
+    }
+}
+
+Moments Moments::merge(const Moments& a, const Moments& b) {
+    if (a.n == 0) return b;
+    if (b.n == 0) return a;
+    Moments whole;
+    whole.n = a.n + b.n;
+    const double share = static_cast<double>(b.n) / whole.n;
+    for (int c = 0; c < 3; ++c) {
+        const double difference = b.mean[c] - a.mean[c];
+        whole.mean[c] = a.mean[c] + difference * share;
+        whole.m2[c] = a.m2[c] + b.m2[c] + difference * difference * (a.n * share);
+    }
+    return whole;
+}
+
+Rgb64 Moments::sample_variance() const {
+    return n < 2 ? Rgb64(0.0) : m2 / static_cast<double>(n - 1);
+}
+
+PixelEstimate PixelEstimate::merge(const PixelEstimate& a, const PixelEstimate& b) {
+    return {{Moments::merge(a.half[0], b.half[0]), Moments::merge(a.half[1], b.half[1])}};
+}
+
+}  // namespace treefarm

@@ -1,0 +1,148 @@
+#include "common/guiding/guide.h"
+
+#include <bit>
+
+namespace treefarm {
+namespace {
+
+/// Grid steps of each axis of the cube: kMaxSpatialDepth / 3 halvings.
+constexpr int kAxisBits = kMaxSpatialDepth / 3;
+constexpr float kAxisSteps = static_cast<float>(1 << kAxisBits);
+
+std::uint32_t axis_step(float position, float origin, float inverse_extent) {
+    const float steps = (position - origin) * inverse_extent * kAxisSteps;
+    if (!(steps > 0.0f)) return 0;  // also NaN
+    return steps < kAxisSteps ? static_cast<std::uint32_t>(steps) : (1u << kAxisBits) - 1;
+}
+
+}  // namespace
+
+Guide::Guide(const SdTree& tree)
+    : trained_(tree.trained),
+      origin_(tree.origin),
+      inverse_extent_(1.0f / tree.extent),
+      extent_(tree.extent),
+      cell_begin_(tree.cell_begin),
+      quantum_exponent_(tree.quantum_exponent) {
+    build_treelet(tree, 0);
+
+    cells_.resize(tree.cell_count());
+    mass_guide_.resize(region_count());
+    code_guide_.resize(region_count());
+    for (std::uint32_t r = 0; r < region_count(); ++r) {
+        std::uint64_t code = 0;
+        std::uint32_t mass = 0, next_mass_entry = 0, next_code_entry = 0;
+        for (std::uint32_t c = cell_begin_[r]; c < cell_begin_[r + 1]; ++c) {
+            cells_[c] = {static_cast<std::uint32_t>(code), mass};
+            code += std::uint64_t{1} << (2 * (kDirectionBits - tree.cell_depth[c]));
+            mass += tree.cell_mass[c];
+            // Entry k is the cell that contains k/64; the binary search of a look-up runs between entries k and k+1.
+            for (; next_mass_entry < kGuideSize && (next_mass_entry << (kMassBits - kGuideBits)) < mass;
+                 ++next_mass_entry)
+                mass_guide_[r][next_mass_entry] = c;
+            for (; next_code_entry < kGuideSize &&
+                   (static_cast<std::uint64_t>(next_code_entry) << (2 * kDirectionBits - kGuideBits)) < code;
+                 ++next_code_entry)
+                code_guide_[r][next_code_entry] = c;
+        }
+        mass_guide_[r][kGuideSize] = code_guide_[r][kGuideSize] = cell_begin_[r + 1] - 1;
+    }
+}
+
+/// Three levels of the binary tree (x, y, z) become one line of eight entries; a leaf above the third level fills all
+/// the entries below it.
+std::uint32_t Guide::build_treelet(const SdTree& tree, std::uint32_t node) {
+    const auto index = static_cast<std::uint32_t>(treelets_.size());
+    treelets_.emplace_back();
+    for (std::uint32_t octant = 0; octant < 8; ++octant) {
+        std::uint32_t at = node;
+        for (int axis = 0; axis < 3 && !tree.nodes[at].is_leaf(); ++axis)
+            at = tree.nodes[at].child[(octant >> axis) & 1];
+        const std::uint32_t entry =
+            tree.nodes[at].is_leaf() ? (tree.nodes[at].child[1] | kLeafFlag) : build_treelet(tree, at);
+        treelets_[index][octant] = entry;
+    }
+    return index;
+}
+
+std::uint32_t Guide::region(const Vec3& p) const {
+    const std::uint32_t x = axis_step(p.x, origin_.x, inverse_extent_);
+    const std::uint32_t y = axis_step(p.y, origin_.y, inverse_extent_);
+    const std::uint32_t z = axis_step(p.z, origin_.z, inverse_extent_);
+    std::uint32_t entry = 0;
+    for (int bit = kAxisBits - 1;; --bit) {
+        const std::uint32_t octant = ((x >> bit) & 1) | (((y >> bit) & 1) << 1) | (((z >> bit) & 1) << 2);
+        entry = treelets_[entry][octant];
+        if (entry & kLeafFlag) return entry & ~kLeafFlag;
+    }
+}
+
+bool Guide::contains(const Vec3& p) const {
+    // Points of the outermost surfaces may lie a rounding error outside.
+    const float low = -1e-4f * extent_, high = extent_ - low;
+    const Vec3 q = p - origin_;
+    return q.x >= low && q.y >= low && q.z >= low && q.x <= high && q.y <= high && q.z <= high;
+}
+
+float Guide::density(std::uint32_t region, std::uint32_t cell) const {
+    const bool last = cell + 1 == cell_begin_[region + 1];
+    const std::uint32_t mass = (last ? 1u << kMassBits : cells_[cell + 1].mass_begin) - cells_[cell].mass_begin;
+    const std::uint32_t area = (last ? 0u : cells_[cell + 1].code_begin) - cells_[cell].code_begin;  // modulo 2^32
+    constexpr float kScale = kInvFourPi * static_cast<float>(1u << (2 * kDirectionBits - kMassBits));
+    return kScale * static_cast<float>(mass) / static_cast<float>(area);
+}
+
+std::uint32_t Guide::cell(std::uint32_t region, std::uint32_t code) const {
+    const GuideTable& guide = code_guide_[region];
+    const std::uint32_t entry = code >> (2 * kDirectionBits - kGuideBits);
+    std::uint32_t low = guide[entry], high = guide[entry + 1];
+    while (low < high) {  // the last cell that begins at or before the code
+        const std::uint32_t middle = (low + high + 1) / 2;
+        if (cells_[middle].code_begin <= code)
+            low = middle;
+        else
+            high = middle - 1;
+    }
+    return low;
+}
+
+float Guide::pdf(std::uint32_t region, std::uint32_t code) const {
+    return density(region, cell(region, code));
+}
+
+Guide::Sample Guide::sample(std::uint32_t region, std::uint32_t pick, std::uint32_t u0, std::uint32_t u1) const {
+    const std::uint32_t mass = pick >> (32 - kMassBits);
+    const GuideTable& guide = mass_guide_[region];
+    const std::uint32_t entry = mass >> (kMassBits - kGuideBits);
+    std::uint32_t low = guide[entry], high = guide[entry + 1];
+    while (low < high) {  // the last cell whose probability begins at or before the pick: never an empty one
+        const std::uint32_t middle = (low + high + 1) / 2;
+        if (cells_[middle].mass_begin <= mass)
+            low = middle;
+        else
+            high = middle - 1;
+    }
+    const bool last = low + 1 == cell_begin_[region + 1];
+    const std::uint32_t begin = cells_[low].code_begin;
+    const std::uint32_t area = (last ? 0u : cells_[low + 1].code_begin) - begin;
+    // Positions are drawn on a grid of 2^23 steps per axis that nests in the quadtree's cells (steps' centres are exact
+    // floats), so the code of the sampled point lies in the sampled cell by construction.
+    constexpr int kFineBits = 23 - kDirectionBits;
+    const int shift = kFineBits + std::countr_zero(area) / 2;  // a cell is 2^shift steps wide
+    const std::uint32_t x = (compact_bits(begin) << kFineBits) + (u0 >> (32 - shift));
+    const std::uint32_t y = (compact_bits(begin >> 1) << kFineBits) + (u1 >> (32 - shift));
+    Sample sample;
+    sample.direction =
+        square_to_direction({static_cast<float>(2 * x + 1) * 0x1p-24f, static_cast<float>(2 * y + 1) * 0x1p-24f});
+    sample.code = spread_bits(x >> kFineBits) | (spread_bits(y >> kFineBits) << 1);
+    sample.pdf = density(region, low);
+    return sample;
+}
+
+std::size_t Guide::bytes() const {
+    return treelets_.size() * sizeof(treelets_[0]) + cells_.size() * sizeof(Cell) +
+           (mass_guide_.size() + code_guide_.size()) * sizeof(GuideTable) + cell_begin_.size() * 4 +
+           quantum_exponent_.size() * 2;
+}
+
+}  // namespace treefarm

@@ -1,0 +1,44 @@
+#include "common/guiding/sd_tree.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace treefarm {
+namespace {
+
+/// Directions before anything is known: 4^4 equal cells. It is where the split rule "more than 1 % of the energy" ends
+/// when energy is spread evenly.
+constexpr int kInitialDepth = 4;
+
+int exponent_of(float value) {
+    int exponent = 0;
+    std::frexp(value, &exponent);
+    return exponent;
+}
+
+}  // namespace
+
+SdTree initial_tree(const Box3& bounds, float radiance_scale) {
+    SdTree tree;
+    if (!bounds.isEmpty()) {
+        tree.origin = bounds.min;
+        const Vec3 size = bounds.max - bounds.min;
+        tree.extent = std::max(size.x, std::max(size.y, size.z));
+    }
+    // A scene without extent (no shape, or a point) still needs a cube to look things up in.
+    if (!(tree.extent > 0.0f)) tree.extent = 1.0f;
+    tree.nodes.push_back({{0, 0}});
+    const std::uint32_t cells = 1u << (2 * kInitialDepth);
+    tree.cell_begin = {0, cells};
+    tree.cell_depth.assign(cells, kInitialDepth);
+    tree.cell_mass.assign(cells, 1u << (kMassBits - 2 * kInitialDepth));
+    tree.quantum_exponent = {quantum_exponent_for(radiance_scale)};
+    return tree;
+}
+
+std::int16_t quantum_exponent_for(float mean_record) {
+    if (!(mean_record > 0.0f) || !std::isfinite(mean_record)) mean_record = 1.0f;
+    return static_cast<std::int16_t>(exponent_of(mean_record) - kMeanRecordBits);
+}
+
+}  // namespace treefarm

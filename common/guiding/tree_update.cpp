@@ -1,0 +1,137 @@
+#include "common/guiding/tree_update.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace treefarm {
+namespace {
+
+constexpr std::uint64_t kMaxSum = std::numeric_limits<std::uint64_t>::max();
+constexpr int kMaxQuantaBits = 40;  // of one contribution; leaves 2^24 capped ones before a cell saturates
+
+/// Entries of a sparse list: (distance to the last index, value), both varints; calls `visit(index, value)`.
+template <class Visit>
+void read_sparse(ByteReader& in, std::size_t limit, const char* what, Visit visit) {
+    const std::size_t count = in.get_count(2);
+    std::uint64_t next = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::uint64_t skip = in.get_varint();
+        if (skip >= limit - next)
+            throw FormatError(std::string("a tree update names a ") + what + " beyond the tree's " +
+                              std::to_string(limit));
+        next += skip;
+        const std::uint64_t value = in.get_varint();
+        if (value == 0) throw FormatError(std::string("a tree update holds an empty ") + what);
+        visit(next, value);
+        ++next;
+        if (next == limit && i + 1 < count)
+            throw FormatError(std::string("a tree update names a ") + what + " beyond the tree's " +
+                              std::to_string(limit));
+    }
+}
+
+void write_sparse(ByteWriter& out, const std::vector<std::uint64_t>& values) {
+    std::uint64_t count = 0;
+    for (const std::uint64_t v : values)
+        count += v != 0;
+    out.put_varint(count);
+    std::size_t next = 0;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        if (values[i] == 0) continue;
+        out.put_varint(i - next);
+        out.put_varint(values[i]);
+        next = i + 1;
+    }
+}
+
+}  // namespace
+
+void UpdateCaps::add(const UpdateCaps& other) {
+    capped_records += other.capped_records;
+    saturated_cells += other.saturated_cells;
+    outside_positions += other.outside_positions;
+}
+
+TreeSums::TreeSums(std::uint32_t pass, std::uint32_t regions, std::uint32_t cells)
+    : pass_(pass), cells_(cells), counts_(regions) {}
+
+bool TreeSums::add_quanta(std::uint32_t cell, std::uint64_t quanta) {
+    std::uint64_t& sum = cells_[cell];
+    const bool fits = quanta <= kMaxSum - sum;
+    sum = fits ? sum + quanta : kMaxSum;
+    return fits;
+}
+
+void TreeSums::add(const TreeSums& other) {
+    if (other.pass_ != pass_ || other.cells_.size() != cells_.size() || other.counts_.size() != counts_.size())
+        throw RunError("sums of different trees cannot be added");
+    for (std::size_t c = 0; c < cells_.size(); ++c)
+        if (!add_quanta(static_cast<std::uint32_t>(c), other.cells_[c])) ++caps_.saturated_cells;
+    for (std::size_t r = 0; r < counts_.size(); ++r)
+        counts_[r] += other.counts_[r];
+    caps_.add(other.caps_);
+}
+
+void TreeSums::clear() {
+    std::fill(cells_.begin(), cells_.end(), 0);
+    std::fill(counts_.begin(), counts_.end(), 0);
+    caps_ = {};
+}
+
+Bytes TreeSums::encode() const {
+    ByteWriter out;
+    out.put_varint(pass_);
+    out.put_varint(cells_.size());
+    out.put_varint(counts_.size());
+    out.put_varint(caps_.capped_records);
+    out.put_varint(caps_.saturated_cells);
+    out.put_varint(caps_.outside_positions);
+    write_sparse(out, counts_);
+    write_sparse(out, cells_);
+    return out.take();
+}
+
+std::uint64_t TreeSums::merge_encoded(std::span<const std::uint8_t> update) {
+    // Two readings: the first only checks, so that a bad message changes nothing.
+    const auto read = [&](auto&& on_count, auto&& on_cell) {
+        ByteReader in(update);
+        const std::uint64_t pass = in.get_varint(), cells = in.get_varint(), regions = in.get_varint();
+        if (pass != pass_ || cells != cells_.size() || regions != counts_.size())
+            throw FormatError("a tree update of pass " + std::to_string(pass) + " with " + std::to_string(cells) +
+                              " cells does not fit the tree of pass " + std::to_string(pass_) + " with " +
+                              std::to_string(cells_.size()));
+        UpdateCaps caps;
+        caps.capped_records = in.get_varint();
+        caps.saturated_cells = in.get_varint();
+        caps.outside_positions = in.get_varint();
+        read_sparse(in, counts_.size(), "region", on_count);
+        read_sparse(in, cells_.size(), "cell", on_cell);
+        in.expect_end();
+        return caps;
+    };
+    const auto ignore = [](std::uint64_t, std::uint64_t) {};
+    read(ignore, ignore);
+    std::uint64_t touched = 0;
+    const UpdateCaps caps = read([&](std::uint64_t region, std::uint64_t count) { counts_[region] += count; },
+                                 [&](std::uint64_t cell, std::uint64_t sum) {
+                                     if (!add_quanta(static_cast<std::uint32_t>(cell), sum)) ++caps_.saturated_cells;
+                                     ++touched;
+                                 });
+    caps_.add(caps);
+    return touched;
+}
+
+std::uint64_t quantise(float value, int exponent, std::uint32_t random, bool& capped) {
+    // Exact: scaling a float by a power of two in double loses nothing, nor does splitting off the integer part.
+    const double quanta = std::ldexp(static_cast<double>(value), -exponent);
+    if (!(quanta < static_cast<double>(std::uint64_t{1} << kMaxQuantaBits))) {
+        capped = true;
+        return std::uint64_t{1} << kMaxQuantaBits;
+    }
+    const double whole = std::floor(quanta);
+    const double fraction = quanta - whole;
+    return static_cast<std::uint64_t>(whole) + (static_cast<double>(random) * 0x1p-32 < fraction ? 1 : 0);
+}
+
+}  // namespace treefarm

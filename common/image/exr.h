@@ -1,0 +1,50 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "common/image/image.h"
+
+namespace treefarm {
+
+/// How an EXR file stores a channel. Everything is read as float; integers above 2^24 round.
+enum class PixelType { half, float32, uint32 };
+
+/// Text attributes of the header: "treefarm.spp" -> "64".
+using Attributes = std::map<std::string, std::string>;
+
+struct ExrImage {
+    Image image;
+    std::vector<PixelType> types;  ///< one per channel of `image`: halves carry a rounding error
+    Attributes attributes;         ///< those of type string
+};
+
+/// Longest side of an image that is read, and most values (pixels x channels): a damaged or hostile header must not
+/// exhaust the memory.
+inline constexpr int kMaxImageSide = 65536;
+inline constexpr std::size_t kMaxImageValues = std::size_t{1} << 30;
+
+/// Reads the channels for which `wanted` holds (none given: all) over the file's data window, whose place in the
+/// display window is dropped. Scan lines or tiles, any compression; of a multi-part file the first part. Throws
+/// InputError that names the file: missing, not EXR, damaged, cut short, too large, subsampled, no such channel.
+ExrImage read_exr(const std::filesystem::path& path, const std::function<bool(const std::string&)>& wanted = {});
+
+struct ExrRgb {
+    RgbImage image;
+    bool half = false;  ///< a channel was stored as half
+    Attributes attributes;
+};
+
+/// Reads R, G, B of a layer, or its single channel Y as grey. Throws InputError like read_exr, and where neither
+/// exists.
+ExrRgb read_exr_rgb(const std::filesystem::path& path, const std::string& layer = "");
+
+/// Writes all channels with one type (half: values beyond +-65504 are clamped, not turned into infinities), scan lines,
+/// ZIP (lossless), atomically. The same image gives the same bytes. Throws RunError.
+void write_exr(const std::filesystem::path& path, const Image& image, const Attributes& attributes = {},
+               PixelType type = PixelType::float32);
+
+}  // namespace treefarm

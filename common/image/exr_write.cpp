@@ -1,0 +1,116 @@
+#include <ImfChannelList.h>
+#include <ImfFrameBuffer.h>
+#include <ImfHeader.h>
+#include <ImfIO.h>
+#include <ImfOutputFile.h>
+#include <ImfStringAttribute.h>
+#include <half.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "common/base/error.h"
+#include "common/image/atomic_file.h"
+#include "common/image/exr.h"
+
+namespace treefarm {
+
+namespace {
+
+/// The file in memory: OpenEXR's destructors swallow errors of a full disk, our own writing does not.
+class MemoryStream : public Imf::OStream {
+  public:
+    explicit MemoryStream(const char* name) : Imf::OStream(name) {}
+
+    void write(const char bytes[], int count) override {
+        const std::size_t size = static_cast<std::size_t>(count);
+        bytes_.resize(std::max(bytes_.size(), at_ + size));
+        std::memcpy(bytes_.data() + at_, bytes, size);
+        at_ += size;
+    }
+    std::uint64_t tellp() override { return at_; }
+    void seekp(std::uint64_t position) override { at_ = static_cast<std::size_t>(position); }
+
+    const std::vector<std::uint8_t>& bytes() const { return bytes_; }
+
+  private:
+    std::vector<std::uint8_t> bytes_;
+    std::size_t at_ = 0;
+};
+
+std::vector<half> to_half(std::span<const float> values) {
+    std::vector<half> halves(values.size());
+    std::transform(values.begin(), values.end(), halves.begin(),
+                   [](float v) { return half(std::isfinite(v) ? std::clamp(v, -HALF_MAX, HALF_MAX) : v); });
+    return halves;
+}
+
+std::vector<std::uint32_t> to_uint(std::span<const float> values) {
+    std::vector<std::uint32_t> integers(values.size());
+    std::transform(values.begin(), values.end(), integers.begin(), [](float v) {
+        return v > 0.0f ? static_cast<std::uint32_t>(std::min(std::round(v), 0x1.fffffep31f)) : 0u;  // NaN: 0
+    });
+    return integers;
+}
+
+template <class T>
+void insert(Imf::FrameBuffer& buffer, const Image& image, Imf::PixelType type, const T* values) {
+    // FrameBuffer serves reading and writing and takes no pointer to const; writing leaves the pixels alone.
+    const auto row = sizeof(T) * static_cast<std::size_t>(image.width);
+    for (std::size_t c = 0; c < image.channel_names.size(); ++c)
+        buffer.insert(image.channel_names[c],
+                      Imf::Slice(type, reinterpret_cast<char*>(const_cast<T*>(values + c * image.pixel_count())),
+                                 sizeof(T), row));
+}
+
+void check(const std::filesystem::path& path, const Image& image) {
+    if (image.width < 1 || image.height < 1 || image.channel_names.empty() ||
+        image.data.size() != image.channel_names.size() * image.pixel_count())
+        throw RunError(path.string() + ": an image of " + std::to_string(image.width) + " x " +
+                       std::to_string(image.height) + " pixels, " + std::to_string(image.channel_names.size()) +
+                       " channels and " + std::to_string(image.data.size()) + " values cannot be written");
+}
+
+void write_pixels(Imf::OStream& stream, const Image& image, const Attributes& attributes, PixelType type) {
+    const Imf::PixelType stored = type == PixelType::half     ? Imf::HALF
+                                  : type == PixelType::uint32 ? Imf::UINT
+                                                              : Imf::FLOAT;
+    Imf::Header header(image.width, image.height);
+    header.compression() = Imf::ZIP_COMPRESSION;
+    for (const auto& [name, text] : attributes)
+        header.insert(name, Imf::StringAttribute(text));
+    for (const std::string& name : image.channel_names)
+        header.channels().insert(name, Imf::Channel(stored));
+
+    std::vector<half> halves;
+    std::vector<std::uint32_t> integers;
+    Imf::FrameBuffer buffer;
+    if (type == PixelType::half) {
+        halves = to_half(image.data);
+        insert(buffer, image, stored, halves.data());
+    } else if (type == PixelType::uint32) {
+        integers = to_uint(image.data);
+        insert(buffer, image, stored, integers.data());
+    } else {
+        insert(buffer, image, stored, image.data.data());
+    }
+    Imf::OutputFile file(stream, header);
+    file.setFrameBuffer(buffer);
+    file.writePixels(image.height);
+}
+
+}  // namespace
+
+void write_exr(const std::filesystem::path& path, const Image& image, const Attributes& attributes, PixelType type) {
+    check(path, image);
+    MemoryStream stream(path.c_str());
+    try {
+        write_pixels(stream, image, attributes, type);
+    } catch (const std::exception& error) {
+        throw RunError(path.string() + ": cannot encode the image (" + error.what() + ")");
+    }
+    write_file_atomically(path, stream.bytes());
+}
+
+}  // namespace treefarm

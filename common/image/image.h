@@ -1,0 +1,59 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "common/math/vec.h"
+
+namespace treefarm {
+
+/// Any number of named channels over one raster, as an EXR file holds them: "R", "G", "B", "variance.R", "albedo.G",
+/// ...
+struct Image {
+    int width = 0;   ///< pixels
+    int height = 0;  ///< pixels
+    std::vector<std::string> channel_names;
+    /// Planar: channel by channel in the order of `channel_names`, each row by row from the top.
+    std::vector<float> data;
+
+    std::size_t pixel_count() const { return static_cast<std::size_t>(width) * static_cast<std::size_t>(height); }
+
+    /// Index of a channel, if there is one of that name.
+    std::optional<std::size_t> find(const std::string& name) const;
+
+    std::span<const float> channel(std::size_t index) const {
+        return std::span(data).subspan(index * pixel_count(), pixel_count());
+    }
+    std::span<float> channel(std::size_t index) {
+        return std::span(data).subspan(index * pixel_count(), pixel_count());
+    }
+
+    /// Appends a channel of zeros (width and height must be set) and returns its pixels. Spans that were handed out
+    /// before are no longer valid.
+    std::span<float> add_channel(const std::string& name);
+};
+
+/// Linear colours (Rec. 709 primaries), row by row from the top.
+struct RgbImage {
+    int width = 0;   ///< pixels
+    int height = 0;  ///< pixels
+    std::vector<Rgb> pixels;
+
+    RgbImage() = default;
+    RgbImage(int w, int h, const Rgb& fill = Rgb(0.0f))
+        : width(w), height(h), pixels(static_cast<std::size_t>(w) * static_cast<std::size_t>(h), fill) {}
+};
+
+/// "R" for the layer "", "variance.R" for the layer "variance".
+std::string channel_name(const std::string& layer, const std::string& component);
+
+/// The channels R, G and B of a layer, or its single channel Y as grey; nothing if the image has neither.
+std::optional<RgbImage> rgb_layer(const Image& image, const std::string& layer = "");
+
+/// Appends the channels R, G and B of a layer. An image without size takes that of `rgb`; otherwise they must agree.
+void add_rgb_layer(Image& image, const std::string& layer, const RgbImage& rgb);
+
+}  // namespace treefarm

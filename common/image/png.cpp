@@ -1,0 +1,95 @@
+#include "common/image/png.h"
+
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <memory>
+
+#include "common/base/error.h"
+#include "common/image/atomic_file.h"
+#include "common/image/exr.h"
+#include "common/image/stb.h"
+
+namespace treefarm {
+
+namespace {
+
+[[noreturn]] void refuse(const std::filesystem::path& path, const std::string& what, const std::string& cure) {
+    throw InputError(Location{path.string()}, what, cure);
+}
+
+std::vector<std::uint8_t> read_bytes(const std::filesystem::path& path) {
+    std::error_code none;
+    const auto status = std::filesystem::status(path, none);
+    if (!std::filesystem::exists(status)) refuse(path, "no such file", "check the path");
+    if (!std::filesystem::is_regular_file(status)) refuse(path, "not a regular file", "give a PNG or JPEG file");
+    constexpr std::uintmax_t kMaxBytes = 0x7fffffff;  // stb counts in int
+    if (std::filesystem::file_size(path, none) > kMaxBytes) refuse(path, "is larger than 2 GiB", "reduce its size");
+    std::ifstream file(path, std::ios::binary);
+    std::vector<std::uint8_t> bytes((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+    if (file.bad() || !file.is_open()) refuse(path, "cannot be read", "check its permissions");
+    return bytes;
+}
+
+std::uint8_t to_byte(float linear) {
+    const float clamped = linear > 0.0f ? std::min(linear, 1.0f) : 0.0f;  // NaN fails the comparison
+    return static_cast<std::uint8_t>(srgb_encode(clamped) * 255.0f + 0.5f);
+}
+
+}  // namespace
+
+float srgb_encode(float linear) {
+    return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1.0f / 2.4f) - 0.055f;
+}
+
+float srgb_decode(float encoded) {
+    return encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f);
+}
+
+void write_png(const std::filesystem::path& path, const RgbImage& image, float exposure) {
+    std::vector<std::uint8_t> rgb;
+    rgb.reserve(image.pixels.size() * 3);
+    for (const Rgb& pixel : image.pixels)
+        for (int c = 0; c < 3; ++c)
+            rgb.push_back(to_byte(pixel[c] * exposure));
+    const std::vector<std::uint8_t> png = stb::encode_png(image.width, image.height, rgb);
+    if (png.empty())
+        throw RunError(path.string() + ": an image of " + std::to_string(image.width) + " x " +
+                       std::to_string(image.height) + " pixels cannot be encoded as PNG");
+    write_file_atomically(path, png);
+}
+
+Image read_ldr(const std::filesystem::path& path, Encoding encoding) {
+    const std::vector<std::uint8_t> bytes = read_bytes(path);
+    const auto size = stb::image_size(bytes);
+    if (!size) refuse(path, "is neither PNG nor JPEG, or damaged", "convert it to PNG");
+    if (size->width > kMaxImageSide || size->height > kMaxImageSide ||
+        static_cast<std::size_t>(size->width) * static_cast<std::size_t>(size->height) > kMaxImageValues / 4)
+        refuse(path, "claims " + std::to_string(size->width) + " x " + std::to_string(size->height) + " pixels",
+               "reduce its size, or check whether it is damaged");
+    std::string why;
+    const auto decoded = stb::decode(bytes, why);
+    if (!decoded) refuse(path, "cannot be decoded (" + why + ")", "it is damaged or cut short; save it again");
+
+    const int channels = decoded->channels;
+    const bool grey = channels < 3, alpha = channels % 2 == 0;
+    Image image{decoded->width,
+                decoded->height,
+                grey ? std::vector<std::string>{"Y"} : std::vector<std::string>{"R", "G", "B"},
+                {}};
+    if (alpha) image.channel_names.emplace_back("A");
+    image.data.resize(image.channel_names.size() * image.pixel_count());
+    for (int c = 0; c < channels; ++c) {
+        const bool decode = encoding == Encoding::srgb && !(alpha && c == channels - 1);
+        const auto values = image.channel(static_cast<std::size_t>(c));
+        for (std::size_t i = 0; i < values.size(); ++i) {
+            const std::size_t at = i * static_cast<std::size_t>(channels) + static_cast<std::size_t>(c);
+            const float value = static_cast<float>(decoded->values[at]) / 65535.0f;
+            values[i] = decode ? srgb_decode(value) : value;
+        }
+    }
+    return image;
+}
+
+}  // namespace treefarm

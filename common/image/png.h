@@ -1,0 +1,25 @@
+#pragma once
+
+#include <filesystem>
+
+#include "common/image/image.h"
+
+namespace treefarm {
+
+/// Writes an 8-bit sRGB PNG (IEC 61966-2-1) of linear colours times `exposure`, clamped to [0, 1]; NaN becomes black.
+/// Atomic. Throws RunError.
+void write_png(const std::filesystem::path& path, const RgbImage& image, float exposure = 1.0f);
+
+/// Whether 8- and 16-bit files hold sRGB-encoded colours or plain numbers (roughness, bump, mask).
+enum class Encoding { srgb, linear };
+
+/// Reads a PNG (8 or 16 bits) or JPEG as floats, 1 is the file's white: the channels Y, or R, G, B, each with A where
+/// the file has one (A is never decoded as sRGB). Throws InputError that names the file: missing, another format,
+/// damaged, too large.
+Image read_ldr(const std::filesystem::path& path, Encoding encoding);
+
+/// sRGB's transfer function and its inverse, on [0, 1].
+float srgb_encode(float linear);
+float srgb_decode(float encoded);
+
+}  // namespace treefarm

@@ -1,0 +1,68 @@
+#include "common/image/stb.h"
+
+#include <memory>
+
+// The implementations live in this file alone and are held to their own standard of warnings, not ours.
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wconversion"
+#pragma GCC diagnostic ignored "-Wsign-conversion"
+#pragma GCC diagnostic ignored "-Wunused-function"
+#pragma GCC diagnostic ignored "-Wmissing-field-initializers"
+#define STB_IMAGE_STATIC
+#define STB_IMAGE_IMPLEMENTATION
+#define STBI_NO_STDIO
+#define STBI_ONLY_PNG
+#define STBI_ONLY_JPEG
+#include <stb/stb_image.h>
+#define STB_IMAGE_WRITE_STATIC
+#define STB_IMAGE_WRITE_IMPLEMENTATION
+#define STBI_WRITE_NO_STDIO
+#include <stb/stb_image_write.h>
+#pragma GCC diagnostic pop
+
+namespace treefarm::stb {
+
+namespace {
+
+void append(void* context, void* data, int size) {
+    const auto* bytes = static_cast<const std::uint8_t*>(data);
+    static_cast<std::vector<std::uint8_t>*>(context)->assign(bytes, bytes + size);
+}
+
+}  // namespace
+
+std::optional<Size> image_size(std::span<const std::uint8_t> bytes) {
+    Size size;
+    int channels = 0;
+    if (!stbi_info_from_memory(bytes.data(), static_cast<int>(bytes.size()), &size.width, &size.height, &channels))
+        return std::nullopt;
+    return size;
+}
+
+std::optional<Decoded> decode(std::span<const std::uint8_t> bytes, std::string& why) {
+    Decoded result;
+    const std::unique_ptr<stbi_us, void (*)(void*)> values(
+        stbi_load_16_from_memory(bytes.data(), static_cast<int>(bytes.size()), &result.width, &result.height,
+                                 &result.channels, 0),
+        &stbi_image_free);
+    if (!values) {
+        const char* reason = stbi_failure_reason();
+        why = reason != nullptr ? reason : "unknown reason";
+        return std::nullopt;
+    }
+    const std::size_t count = static_cast<std::size_t>(result.width) * static_cast<std::size_t>(result.height) *
+                              static_cast<std::size_t>(result.channels);
+    result.values.assign(values.get(), values.get() + count);
+    return result;
+}
+
+std::vector<std::uint8_t> encode_png(int width, int height, std::span<const std::uint8_t> rgb) {
+    std::vector<std::uint8_t> png;
+    if (width < 1 || height < 1 || rgb.size() % 3 != 0 ||
+        rgb.size() / 3 != static_cast<std::size_t>(width) * static_cast<std::size_t>(height) || rgb.size() > 0x7fffffff)
+        return png;
+    if (!stbi_write_png_to_func(&append, &png, width, height, 3, rgb.data(), width * 3)) png.clear();
+    return png;
+}
+
+}  // namespace treefarm::stb

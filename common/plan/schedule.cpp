@@ -1,0 +1,60 @@
+#include "common/plan/schedule.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "common/film/work_unit.h"
+
+namespace treefarm {
+namespace {
+
+/// Kick-start samples emitters directly in passes that begin with fewer samples per pixel than this (PPG's program).
+constexpr std::uint32_t kKickstartSpp = 128;
+/// A work unit is at most about this many samples of a full tile: around half a second on one core.
+constexpr std::uint32_t kSamplesPerUnit = 1u << 18;
+
+void cut_into_units(PassPlan& pass, int tile_size) {
+    const std::uint32_t blocks = (pass.spp + kBlockSamples - 1) / kBlockSamples;
+    const auto tile_samples =
+        static_cast<std::uint32_t>(tile_size) * static_cast<std::uint32_t>(tile_size) * kBlockSamples;
+    // Any cut gives the same bits; only aligned runs of 2^j blocks are whole subtrees of the reduction.
+    pass.blocks_per_unit =
+        std::clamp(std::bit_floor(std::max(kSamplesPerUnit / tile_samples, 1u)), 1u, std::bit_ceil(blocks));
+    pass.chunks = (blocks + pass.blocks_per_unit - 1) / pass.blocks_per_unit;
+}
+
+}  // namespace
+
+std::vector<PassPlan> plan_passes(const Job& job) {
+    const auto unit = static_cast<std::uint32_t>(job.guiding.spp_unit);
+    std::uint32_t remaining = (job.budget.spp + unit - 1) / unit;  // in units
+    const bool guided = job.guiding.type != GuidingType::none;
+    std::vector<PassPlan> passes;
+    std::uint32_t done = 0;
+    for (std::uint32_t index = 0; remaining > 0; ++index) {
+        std::uint32_t units = std::min(remaining, std::uint32_t{1} << std::min(index, 31u));
+        if (remaining - units < 2 * units) units = remaining;  // the last pass takes at least half of everything
+        remaining -= units;
+        PassPlan pass;
+        pass.index = index;
+        pass.spp = units * unit;
+        pass.first_sample = done;
+        const bool kickstart = job.integrator.next_event == NextEvent::kickstart && done < kKickstartSpp;
+        pass.next_event = kickstart || job.integrator.next_event == NextEvent::always;
+        pass.record = guided && remaining > 0;
+        pass.record_weight = kickstart ? 0.5 : 1.0;
+        cut_into_units(pass, job.farm.tile_size);
+        done += pass.spp;
+        passes.push_back(pass);
+    }
+    return passes;
+}
+
+double spatial_split_threshold(const Job& job, const PassPlan& coming_pass) {
+    const double nominal_spp =
+        std::ldexp(static_cast<double>(job.guiding.spp_unit), static_cast<int>(coming_pass.index));
+    return job.guiding.spatial_threshold * std::sqrt(nominal_spp / 4.0);
+}
+
+}  // namespace treefarm

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <cereal/cereal.hpp>
+#include <cereal/types/string.hpp>
+#include <cereal/types/vector.hpp>
+#include <type_traits>
+
+#include "common/base/bytes.h"
+
+namespace treefarm {
+
+/// cereal archives over ByteWriter and ByteReader: a message lists its fields once, for both directions, and every count is
+/// checked against the bytes that remain before cereal allocates for it.
+class WriteArchive : public cereal::OutputArchive<WriteArchive, cereal::AllowEmptyClassElision> {
+  public:
+    explicit WriteArchive(ByteWriter& writer) : OutputArchive(this), writer_(writer) {}
+    ByteWriter& writer() { return writer_; }
+
+  private:
+    ByteWriter& writer_;
+};
+
+class ReadArchive : public cereal::InputArchive<ReadArchive, cereal::AllowEmptyClassElision> {
+  public:
+    explicit ReadArchive(ByteReader& reader) : InputArchive(this), reader_(reader) {}
+    ByteReader& reader() { return reader_; }
+
+  private:
+    ByteReader& reader_;
+};
+
+template <Wire T>
+void CEREAL_SAVE_FUNCTION_NAME(WriteArchive& archive, const T& value) {
+    archive.writer().put(value);
+}
+
+template <Wire T>
+void CEREAL_LOAD_FUNCTION_NAME(ReadArchive& archive, T& value) {
+    value = archive.reader().get<T>();
+}
+
+inline void CEREAL_SAVE_FUNCTION_NAME(WriteArchive& archive, const bool& value) {
+    archive.writer().put<std::uint8_t>(value ? 1 : 0);
+}
+
+inline void CEREAL_LOAD_FUNCTION_NAME(ReadArchive& archive, bool& value) {
+    const auto byte = archive.reader().get<std::uint8_t>();
+    if (byte > 1) throw FormatError("a truth value of " + std::to_string(byte));
+    value = byte == 1;
+}
+
+template <class T>
+void CEREAL_SAVE_FUNCTION_NAME(WriteArchive& archive, const cereal::SizeTag<T>& tag) {
+    archive.writer().put_varint(static_cast<std::uint64_t>(tag.size));
+}
+
+/// An element takes at least one byte, so a count above what remains is a lie.
+template <class T>
+void CEREAL_LOAD_FUNCTION_NAME(ReadArchive& archive, cereal::SizeTag<T>& tag) {
+    tag.size = static_cast<std::remove_reference_t<T>>(archive.reader().get_count(1));
+}
+
+template <class T>
+void CEREAL_SAVE_FUNCTION_NAME(WriteArchive& archive, const cereal::BinaryData<T>& data) {
+    const auto* bytes = static_cast<const std::uint8_t*>(data.data);
+    for (std::uint64_t i = 0; i < data.size; ++i) archive.writer().put(bytes[i]);
+}
+
+template <class T>
+void CEREAL_LOAD_FUNCTION_NAME(ReadArchive& archive, cereal::BinaryData<T>& data) {
+    auto* bytes = static_cast<std::uint8_t*>(data.data);
+    for (std::uint64_t i = 0; i < data.size; ++i) bytes[i] = archive.reader().get<std::uint8_t>();
+}
+
+}  // namespace treefarm
+
+CEREAL_REGISTER_ARCHIVE(treefarm::WriteArchive)
+CEREAL_REGISTER_ARCHIVE(treefarm::ReadArchive)
+CEREAL_SETUP_ARCHIVE_TRAITS(treefarm::ReadArchive, treefarm::WriteArchive)

@@ -1,0 +1,127 @@
+#include "common/protocol/result_codec.h"
+
+#include <array>
+
+namespace treefarm {
+
+namespace {
+
+void write_moments(double* out, const Moments& moments) {
+    for (int c = 0; c < 3; ++c) {
+        out[c] = moments.mean[c];
+        out[3 + c] = moments.m2[c];
+    }
+}
+
+Moments read_moments(std::uint32_t n, const double* in) {
+    return {n, Rgb64(in[0], in[1], in[2]), Rgb64(in[3], in[4], in[5])};
+}
+
+void write_unit_result(ByteWriter& writer, const UnitResult& result) {
+    const std::vector<PixelEstimate>& pixels = result.pixels;
+    if (pixels.size() != result.unit.pixel_count() || pixels.empty())
+        throw RunError("a work unit was finished with the wrong number of pixels");
+    const std::uint32_t n[2] = {pixels[0].half[0].n, pixels[0].half[1].n};
+    write_unit(writer, result.unit);
+    writer.put(n[0]);
+    writer.put(n[1]);
+    std::vector<double> values(pixels.size() * 12);
+    double* out = values.data();
+    for (const PixelEstimate& pixel : pixels)
+        for (int half = 0; half < 2; ++half, out += 6) {
+            if (pixel.half[half].n != n[half]) throw RunError("pixels of a work unit differ in their number of samples");
+            write_moments(out, pixel.half[half]);
+        }
+    writer.put_array(std::span<const double>(values));
+}
+
+UnitResult read_unit_result(ByteReader& reader, std::uint32_t pass) {
+    UnitResult result;
+    result.unit = read_unit(reader, pass);
+    const auto n0 = reader.get<std::uint32_t>();
+    const auto n1 = reader.get<std::uint32_t>();
+    const std::vector<double> values = reader.get_array<double>();
+    if (values.size() != std::size_t{12} * result.unit.pixel_count())
+        throw FormatError("a work unit with the wrong number of pixels");
+    result.pixels.reserve(result.unit.pixel_count());
+    for (std::size_t at = 0; at < values.size(); at += 12)
+        result.pixels.push_back({{read_moments(n0, &values[at]), read_moments(n1, &values[at + 6])}});
+    return result;
+}
+
+void write_stats(ByteWriter& writer, const TraceStats& s) {
+    for (const std::uint64_t count :
+         {s.paths, s.nonzero_paths, s.rays, s.shadow_rays, s.vertices, s.records, s.invalid_samples})
+        writer.put_varint(count);
+    writer.put(s.trace_seconds);
+    writer.put(s.splat_seconds);
+    writer.put_varint(s.first_invalid.size());
+    for (const InvalidSample& sample : s.first_invalid) {
+        writer.put(sample.pass);
+        writer.put(sample.x);
+        writer.put(sample.y);
+        writer.put(sample.sample);
+        for (const float value : sample.rgb) writer.put(value);
+    }
+}
+
+constexpr std::size_t kInvalidSampleBytes = 24;
+
+TraceStats read_stats(ByteReader& reader) {
+    TraceStats s;
+    for (std::uint64_t* count :
+         {&s.paths, &s.nonzero_paths, &s.rays, &s.shadow_rays, &s.vertices, &s.records, &s.invalid_samples})
+        *count = reader.get_varint();
+    s.trace_seconds = reader.get<double>();
+    s.splat_seconds = reader.get<double>();
+    const std::size_t invalid = reader.get_count(kInvalidSampleBytes);
+    for (std::size_t i = 0; i < invalid; ++i) {
+        InvalidSample sample;
+        sample.pass = reader.get<std::uint32_t>();
+        sample.x = reader.get<std::uint16_t>();
+        sample.y = reader.get<std::uint16_t>();
+        sample.sample = reader.get<std::uint32_t>();
+        for (float& value : sample.rgb) value = reader.get<float>();
+        s.first_invalid.push_back(sample);
+    }
+    return s;
+}
+
+}  // namespace
+
+void write_unit(ByteWriter& writer, const WorkUnit& unit) {
+    for (const std::uint16_t edge : {unit.x0, unit.y0, unit.x1, unit.y1}) writer.put(edge);
+    writer.put(unit.chunk);
+}
+
+WorkUnit read_unit(ByteReader& reader, std::uint32_t pass) {
+    WorkUnit unit;
+    unit.pass = pass;
+    for (std::uint16_t* edge : {&unit.x0, &unit.y0, &unit.x1, &unit.y1}) *edge = reader.get<std::uint16_t>();
+    unit.chunk = reader.get<std::uint32_t>();
+    if (unit.x0 >= unit.x1 || unit.y0 >= unit.y1) throw FormatError("an empty work unit");
+    return unit;
+}
+
+void write_result(ByteWriter& writer, const Result& result) {
+    writer.put(result.incarnation);
+    writer.put(result.pass);
+    write_stats(writer, result.stats);
+    writer.put_varint(result.units.size());
+    for (const UnitResult& unit : result.units) write_unit_result(writer, unit);
+    writer.put_array(std::span(result.update));
+}
+
+Result read_result(ByteReader& reader) {
+    Result result;
+    result.incarnation = reader.get<std::uint64_t>();
+    result.pass = reader.get<std::uint32_t>();
+    result.stats = read_stats(reader);
+    const std::size_t count = reader.get_count(kUnitBytes + kPixelBytes);
+    result.units.reserve(count);
+    for (std::size_t i = 0; i < count; ++i) result.units.push_back(read_unit_result(reader, result.pass));
+    result.update = reader.get_array<std::uint8_t>();
+    return result;
+}
+
+}  // namespace treefarm

@@ -1,0 +1,19 @@
+#pragma once
+
+#include "common/protocol/messages.h"
+
+namespace treefarm {
+
+/// x0 y0 x1 y1:u16 chunk:u32; the pass stands once per message.
+inline constexpr std::size_t kUnitBytes = 12;
+
+/// A pixel travels as mean and squared deviations of both halves; the number of samples is the same for the whole unit.
+inline constexpr std::size_t kPixelBytes = 12 * sizeof(double);
+
+void write_unit(ByteWriter& writer, const WorkUnit& unit);
+WorkUnit read_unit(ByteReader& reader, std::uint32_t pass);
+
+void write_result(ByteWriter& writer, const Result& result);
+Result read_result(ByteReader& reader);
+
+}  // namespace treefarm
