@@ -43,8 +43,8 @@ inline constexpr int kMaxSpatialDepth = 60;    ///< 20 halvings of each axis: fl
 /// (a typical emitted radiance).
 SdTree initial_tree(const Box3& bounds, float radiance_scale);
 
-/// A region counts its records in units of 2^e such that a record of average value is 2^kMeanRecordBits units: fine
-/// enough that rounding adds nothing measurable, with a cap (2^40 units) 2^24 times above the average.
+/// A region counts its records in units of 2^e such that a record of average value is 2^15 to 2^16 units: fine
+/// enough that rounding adds nothing measurable, with a cap (2^40 units) 2^24 times the average.
 inline constexpr int kMeanRecordBits = 16;
 std::int16_t quantum_exponent_for(float mean_record);
 

@@ -1,0 +1,113 @@
+// Combining passes and the figures that are printed of each.
+#include "common/film/combine.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace treefarm {
+namespace {
+
+PassResult make_pass(std::uint32_t spp, std::uint32_t before, float mean, float deviation, std::size_t pixels,
+                     unsigned seed) {
+    std::mt19937 engine(seed);
+    std::normal_distribution<float> noise(mean, deviation);
+    PassResult pass{spp, before, std::vector<PixelEstimate>(pixels)};
+    for (PixelEstimate& pixel : pass.pixels)
+        for (std::uint32_t s = 0; s < spp; ++s)
+            pixel.add(before + s, Rgb(noise(engine)));
+    return pass;
+}
+
+TEST(Combine, LastIsTheLastPass) {
+    const std::vector<PassResult> passes{make_pass(4, 0, 1.0f, 0.0f, 3, 1), make_pass(8, 4, 2.0f, 0.0f, 3, 2)};
+    const CombinedImage image = combine_passes(passes, Combination::last, true);
+    for (const Rgb64& m : image.mean)
+        EXPECT_DOUBLE_EQ(m.x, 2.0);
+}
+
+TEST(Combine, FixedWeightsGrowWithSamplesAndTraining) {
+    const std::vector<PassResult> passes{make_pass(4, 0, 1.0f, 0.0f, 2, 1), make_pass(8, 4, 2.0f, 0.0f, 2, 2)};
+    const CombinedImage image = combine_passes(passes, Combination::fixed, true);
+    const double w0 = 4.0 * 1.0, w1 = 8.0 * 2.0;  // n_k sqrt(N_k), N_0 taken as 1
+    EXPECT_NEAR(image.mean[0].y, (w0 * 1.0 + w1 * 2.0) / (w0 + w1), 1e-12);
+}
+
+TEST(Combine, WithoutGuidingEverySampleWeighsTheSame) {
+    const std::vector<PassResult> passes{make_pass(4, 0, 1.0f, 0.0f, 2, 1), make_pass(12, 4, 2.0f, 0.0f, 2, 2)};
+    for (const Combination method : {Combination::fixed, Combination::inverse_variance})
+        EXPECT_NEAR(combine_passes(passes, method, false).mean[1].z, (4 * 1.0 + 12 * 2.0) / 16, 1e-12);
+}
+
+TEST(Combine, InverseVarianceFavoursTheQuietPass) {
+    const std::vector<PassResult> passes{make_pass(16, 0, 1.0f, 1.0f, 2000, 1), make_pass(16, 16, 1.0f, 0.1f, 2000, 2)};
+    const CombinedImage image = combine_passes(passes, Combination::inverse_variance, true);
+    EXPECT_NEAR(image.weight[1], 100.0 / 101.0, 2e-3);
+    // The image reports its own error: true variance of the mean is 1 / (16/1 + 16/0.01).
+    const double rmse = estimated_rmse(image);
+    EXPECT_NEAR(rmse, std::sqrt(1.0 / (16.0 + 1600.0)), 0.05 * rmse);
+    double squared = 0;
+    for (const Rgb64& m : image.mean)
+        squared += (m.x - 1.0) * (m.x - 1.0);
+    EXPECT_NEAR(std::sqrt(squared / 2000), rmse, 0.1 * rmse);
+}
+
+TEST(Combine, IsUnbiasedWhenVarianceFollowsTheSignal) {
+    // Skewed samples: a per-pixel or same-half weight would pull the mean down.
+    double sum = 0, squared = 0;
+    constexpr int kRuns = 400;
+    for (unsigned run = 0; run < kRuns; ++run) {
+        std::mt19937 engine(run);
+        std::vector<PassResult> passes;
+        for (const std::uint32_t spp : {8u, 16u}) {
+            PassResult pass{spp, spp - 8, std::vector<PixelEstimate>(64)};
+            std::exponential_distribution<float> value(1.0f);
+            for (PixelEstimate& pixel : pass.pixels)
+                for (std::uint32_t s = 0; s < spp; ++s)
+                    pixel.add(s, Rgb(value(engine)));
+            passes.push_back(std::move(pass));
+        }
+        double mean = 0;
+        for (const Rgb64& m : combine_passes(passes, Combination::inverse_variance, true).mean)
+            mean += m.x / 64;
+        sum += mean;
+        squared += mean * mean;
+    }
+    const double mean = sum / kRuns;
+    const double error = std::sqrt((squared / kRuns - mean * mean) / kRuns);
+    EXPECT_NEAR(mean, 1.0, 4 * error);
+    EXPECT_LT(error, 0.005);
+}
+
+TEST(Combine, PassesOfOneSampleJoinNoHalf) {
+    const std::vector<PassResult> passes{make_pass(1, 0, 5.0f, 0.0f, 2, 1), make_pass(8, 1, 2.0f, 1e-3f, 2, 2)};
+    const CombinedImage image = combine_passes(passes, Combination::inverse_variance, true);
+    EXPECT_EQ(image.weight[0], 0.0);
+    EXPECT_NEAR(image.mean[0].x, 2.0, 0.01);
+    const CombinedImage alone = combine_passes(std::span(passes).first(1), Combination::inverse_variance, true);
+    EXPECT_DOUBLE_EQ(alone.mean[0].x, 5.0);
+}
+
+TEST(PassVariance, MatchesHandComputedValues) {
+    PixelEstimate pixel;
+    for (std::uint32_t s = 0; s < 4; ++s)
+        pixel.add(s, Rgb(s < 2 ? 0.0f : 2.0f));
+    const PassVariance v = pass_variance(std::vector<PixelEstimate>{pixel});
+    EXPECT_NEAR(v.stuv, 4.0 / 3.0, 1e-6);  // deviations 1, 1, 1, 1 over n - 1 = 3
+    // n lum(m2 - m1^2 / n) / (n - 1) with m1 = 1, m2 = 2: 4 (2 - 1/4) / 3
+    EXPECT_NEAR(v.stuv_ppg, 4 * 1.75 / 3.0, 1e-6);
+}
+
+TEST(PassVariance, TrimsTheWorstThousandth) {
+    std::vector<PixelEstimate> pixels(2000);
+    for (std::size_t p = 0; p < pixels.size(); ++p)
+        for (std::uint32_t s = 0; s < 2; ++s)
+            pixels[p].add(s, Rgb(p < 2 && s == 0 ? 1000.0f : static_cast<float>(s)));
+    const PassVariance v = pass_variance(pixels);
+    EXPECT_NEAR(v.stuv_trimmed, 0.5, 1e-6);
+    EXPECT_GT(v.stuv, 100.0);
+}
+
+}  // namespace
+}  // namespace treefarm
