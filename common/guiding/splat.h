@@ -17,8 +17,8 @@ class Accumulator {
   public:
     Accumulator(std::uint32_t pass, const Guide& guide);
 
-    /// Adds a unit's records and the vertex counts per region. Thread-safe; `records` is reordered.
-    void commit(std::span<Record> records, std::span<const std::uint32_t> counts, const UpdateCaps& caps);
+    /// Adds a unit's records and the vertex counts per region. Thread-safe.
+    void commit(std::span<const Record> records, std::span<const std::uint32_t> counts, const UpdateCaps& caps);
 
     /// Hands out the sums and starts again from zero. No commit may be in flight.
     TreeSums take();
