@@ -22,11 +22,6 @@ struct ExrImage {
     Attributes attributes;         ///< those of type string
 };
 
-/// Longest side of an image that is read, and most values (pixels x channels): a damaged or hostile header must not
-/// exhaust the memory.
-inline constexpr int kMaxImageSide = 65536;
-inline constexpr std::size_t kMaxImageValues = std::size_t{1} << 30;
-
 /// Reads the channels for which `wanted` holds (none given: all) over the file's data window, whose place in the
 /// display window is dropped. Scan lines or tiles, any compression; of a multi-part file the first part. Throws
 /// InputError that names the file: missing, not EXR, damaged, cut short, too large, subsampled, no such channel.

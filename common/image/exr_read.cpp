@@ -5,6 +5,7 @@
 #include <ImfStringAttribute.h>
 #include <ImfTestFile.h>
 
+#include <cstdint>
 #include <new>
 
 #include "common/base/error.h"
@@ -43,8 +44,8 @@ void check_is_exr(const std::filesystem::path& path) {
 }
 
 void check_size(const std::filesystem::path& path, const Imath::Box2i& window, std::size_t channels) {
-    const auto width = static_cast<std::size_t>(window.max.x - window.min.x + 1);
-    const auto height = static_cast<std::size_t>(window.max.y - window.min.y + 1);
+    const auto width = static_cast<std::size_t>(std::int64_t{window.max.x} - window.min.x + 1);
+    const auto height = static_cast<std::size_t>(std::int64_t{window.max.y} - window.min.y + 1);
     if (width * height > kMaxImageValues / channels)
         refuse(path,
                "claims " + std::to_string(width) + " x " + std::to_string(height) + " pixels in " +

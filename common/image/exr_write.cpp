@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <set>
 
 #include "common/base/error.h"
 #include "common/image/atomic_file.h"
@@ -24,7 +25,7 @@ class MemoryStream : public Imf::OStream {
     explicit MemoryStream(const char* name) : Imf::OStream(name) {}
 
     void write(const char bytes[], int count) override {
-        const std::size_t size = static_cast<std::size_t>(count);
+        const auto size = static_cast<std::size_t>(count);
         bytes_.resize(std::max(bytes_.size(), at_ + size));
         std::memcpy(bytes_.data() + at_, bytes, size);
         at_ += size;
@@ -39,10 +40,12 @@ class MemoryStream : public Imf::OStream {
     std::size_t at_ = 0;
 };
 
+constexpr float kHalfMax = 65504.0f;
+
 std::vector<half> to_half(std::span<const float> values) {
     std::vector<half> halves(values.size());
     std::transform(values.begin(), values.end(), halves.begin(),
-                   [](float v) { return half(std::isfinite(v) ? std::clamp(v, -HALF_MAX, HALF_MAX) : v); });
+                   [](float v) { return half(std::isfinite(v) ? std::clamp(v, -kHalfMax, kHalfMax) : v); });
     return halves;
 }
 
@@ -70,6 +73,13 @@ void check(const std::filesystem::path& path, const Image& image) {
         throw RunError(path.string() + ": an image of " + std::to_string(image.width) + " x " +
                        std::to_string(image.height) + " pixels, " + std::to_string(image.channel_names.size()) +
                        " channels and " + std::to_string(image.data.size()) + " values cannot be written");
+}
+
+void check_names(const std::filesystem::path& path, const Image& image) {
+    std::set<std::string> seen;
+    for (const std::string& name : image.channel_names)
+        if (name.empty() || !seen.insert(name).second)
+            throw RunError(path.string() + ": channel '" + name + "' has no name or occurs twice");
 }
 
 void write_pixels(Imf::OStream& stream, const Image& image, const Attributes& attributes, PixelType type) {
@@ -104,6 +114,7 @@ void write_pixels(Imf::OStream& stream, const Image& image, const Attributes& at
 
 void write_exr(const std::filesystem::path& path, const Image& image, const Attributes& attributes, PixelType type) {
     check(path, image);
+    check_names(path, image);
     MemoryStream stream(path.c_str());
     try {
         write_pixels(stream, image, attributes, type);

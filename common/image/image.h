@@ -10,6 +10,11 @@
 
 namespace treefarm {
 
+/// Longest side of an image that is read, and most values (pixels x channels): a damaged or hostile header must not
+/// exhaust the memory.
+inline constexpr int kMaxImageSide = 65536;
+inline constexpr std::size_t kMaxImageValues = std::size_t{1} << 30;
+
 /// Any number of named channels over one raster, as an EXR file holds them: "R", "G", "B", "variance.R", "albedo.G",
 /// ...
 struct Image {

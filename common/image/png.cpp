@@ -1,14 +1,12 @@
 #include "common/image/png.h"
 
+#include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <fstream>
 #include <iterator>
-#include <memory>
 
 #include "common/base/error.h"
 #include "common/image/atomic_file.h"
-#include "common/image/exr.h"
 #include "common/image/stb.h"
 
 namespace treefarm {
@@ -34,7 +32,7 @@ std::vector<std::uint8_t> read_bytes(const std::filesystem::path& path) {
 
 std::uint8_t to_byte(float linear) {
     const float clamped = linear > 0.0f ? std::min(linear, 1.0f) : 0.0f;  // NaN fails the comparison
-    return static_cast<std::uint8_t>(srgb_encode(clamped) * 255.0f + 0.5f);
+    return static_cast<std::uint8_t>(std::lround(srgb_encode(clamped) * 255.0f));
 }
 
 }  // namespace

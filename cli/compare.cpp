@@ -1,0 +1,142 @@
+#include "cli/compare.h"
+
+#include <CLI/CLI.hpp>
+#include <charconv>
+#include <iostream>
+#include <memory>
+#include <optional>
+
+#include "cli/compare_output.h"
+#include "common/base/error.h"
+#include "common/image/exr.h"
+#include "common/image/png.h"
+#include "common/metrics/difference.h"
+
+namespace treefarm {
+
+namespace {
+
+constexpr const char* kSppAttribute = "treefarm.spp";
+constexpr double kFloorPerSample = 1e-4;  ///< least variance of one sample, as in Mitsuba 3's render tests
+constexpr std::uint64_t kAssumedSpp = 10000;
+
+/// Colour, variance (where the file has it) and what the header says.
+struct Side {
+    RgbImage colour;
+    std::optional<RgbImage> variance;
+    bool half = false;
+    std::optional<std::uint64_t> spp;
+};
+
+std::optional<std::uint64_t> samples_per_pixel(const Attributes& attributes) {
+    const auto at = attributes.find(kSppAttribute);
+    if (at == attributes.end()) return std::nullopt;
+    const std::string& text = at->second;
+    std::uint64_t spp = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), spp);
+    if (error != std::errc() || end != text.data() + text.size() || spp == 0) return std::nullopt;
+    return spp;
+}
+
+Side read_side(const std::string& path) {
+    ExrImage file = read_exr(path, [](const std::string& name) {
+        return name.find('.') == std::string::npos || name.starts_with("variance.");
+    });
+    const auto colour = rgb_layer(file.image);
+    if (!colour)
+        throw InputError(Location{path}, "has neither the channels R, G, B nor Y",
+                         "check which channels it has (exrheader)");
+    Side side{*colour, rgb_layer(file.image, "variance"), false, samples_per_pixel(file.attributes)};
+    for (std::size_t c = 0; c < file.types.size(); ++c) {
+        const std::string& name = file.image.channel_names[c];
+        const bool is_colour = name == "R" || name == "G" || name == "B" || name == "Y";
+        side.half = side.half || (is_colour && file.types[c] == PixelType::half);
+    }
+    return side;
+}
+
+/// The reference's variance from the image's, if --reference-spp says how; the text says where it comes from.
+std::string reference_variance(const CompareOptions& options, const Side& image, Side& reference) {
+    if (options.reference_spp == 0) {
+        if (reference.variance) return "variance channels of the reference";
+        return "none: it counts as exact";
+    }
+    if (!image.spp || !image.variance)
+        throw InputError(Location{options.image},
+                         "--reference-spp needs an image with variance channels and the attribute treefarm.spp",
+                         "leave out --reference-spp, or compare an image that treefarm rendered");
+    const double factor = static_cast<double>(*image.spp) / static_cast<double>(options.reference_spp);
+    reference.variance = image.variance;
+    for (Rgb& v : reference.variance->pixels)
+        v *= static_cast<float>(factor);
+    return "that of the image times " + std::to_string(*image.spp) + " / " + std::to_string(options.reference_spp) +
+           " (an estimator like the image's)";
+}
+
+void run_z_tests(const CompareOptions& options, const Side& image, Side& reference, Comparison& result) {
+    result.reference_noise = reference_variance(options, image, reference);
+    if (reference.half) result.reference_noise += ", and rounding to half";
+    if (!image.variance) {
+        result.z_unavailable =
+            options.image +
+            " has no variance channels (variance.R, variance.G, variance.B), so what its noise alone "
+            "would explain is not known";
+        return;
+    }
+    const ZTestInput input{
+        image.colour, reference.colour, &*image.variance,       reference.variance ? &*reference.variance : nullptr,
+        image.half,   reference.half,   options.reference_error};
+    ZTestOptions z;
+    z.block = options.block;
+    z.variance_floor = kFloorPerSample / static_cast<double>(image.spp.value_or(kAssumedSpp));
+    result.z_options = z;
+    result.pixel_test = pixel_z_test(input, z);
+    result.block_test = block_z_test(input, z);
+}
+
+}  // namespace
+
+int run_compare(const CompareOptions& options, std::ostream& out) {
+    const Side image = read_side(options.image);
+    Side reference = read_side(options.reference);
+    if (image.colour.width != reference.colour.width || image.colour.height != reference.colour.height)
+        throw InputError(Location{options.image},
+                         "has " + std::to_string(image.colour.width) + " x " + std::to_string(image.colour.height) +
+                             " pixels, " + options.reference + " has " + std::to_string(reference.colour.width) +
+                             " x " + std::to_string(reference.colour.height),
+                         "only images of one size can be compared");
+    Comparison result;
+    result.image = options.image;
+    result.reference = options.reference;
+    result.width = image.colour.width;
+    result.height = image.colour.height;
+    result.image_spp = image.spp;
+    result.errors = measure_error(image.colour, reference.colour, options.block);
+    run_z_tests(options, image, reference, result);
+    if (!options.difference.empty()) write_png(options.difference, difference_image(image.colour, reference.colour));
+    options.json ? print_json(result, out) : print_table(result, out);
+    return 0;
+}
+
+void add_compare_command(CLI::App& app, int& exit_code) {
+    const auto options = std::make_shared<CompareOptions>();
+    CLI::App* command = app.add_subcommand("compare", "measure an image against a reference, and test it for bias");
+    command->add_option("IMAGE", options->image, "EXR image")->required();
+    command->add_option("REFERENCE", options->reference, "EXR image of the same size")->required();
+    command->add_flag("--json", options->json, "print JSON instead of a table");
+    command->add_option("--difference", options->difference,
+                        "write a PNG of the signed relative difference (blue: too dark, red: too bright)");
+    command->add_option("--block", options->block, "side of the blocks of the block test, in pixels (16)")
+        ->check(CLI::Range(1, 65536));
+    command
+        ->add_option("--reference-spp", options->reference_spp,
+                     "samples per pixel of a reference without variance channels: its noise is taken from the image's")
+        ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 40));
+    command
+        ->add_option("--reference-error", options->reference_error,
+                     "standard deviation of a relative error that all of the reference shares, e.g. 0.001")
+        ->check(CLI::Range(0.0, 1.0));
+    command->callback([options, &exit_code] { exit_code = run_compare(*options, std::cout); });
+}
+
+}  // namespace treefarm

@@ -1,0 +1,231 @@
+#include "common/comm/mpi_channel.h"
+
+#define OMPI_SKIP_MPICXX  // the C++ bindings of MPI 2 are gone from the standard
+#include <mpi.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <condition_variable>
+#include <deque>
+#include <list>
+#include <map>
+#include <mutex>
+#include <thread>
+
+#include "common/base/error.h"
+#include "common/base/timer.h"
+#include "common/comm/idle_pause.h"
+
+namespace treefarm {
+
+namespace {
+
+/// A message travels as parts of at most this many bytes: MPI counts in int, and a short transfer is a short wait.
+constexpr std::size_t kPartBytes = std::size_t{64} << 20;
+
+/// The tags on the farm's communicator.
+enum Tag : int {
+    tag_last = 1,  ///< the last or only part of a message
+    tag_more = 2,  ///< a part that others follow
+};
+
+void check(int code, const char* call, int peer) {
+    if (code == MPI_SUCCESS) return;
+    char text[MPI_MAX_ERROR_STRING] = "";
+    int length = 0;
+    MPI_Error_string(code, text, &length);
+    throw RunError(std::string(call) + (peer >= 0 ? " with rank " + std::to_string(peer) : "") +
+                   " failed: " + std::string(text, static_cast<std::size_t>(length)));
+}
+
+bool test(MPI_Request& request, int peer) {
+    int done = 0;
+    check(MPI_Test(&request, &done, MPI_STATUS_IGNORE), "MPI_Test", peer);
+    return done != 0;
+}
+
+class MpiChannel final : public Channel {
+  public:
+    explicit MpiChannel(MPI_Comm communicator) : communicator_(communicator) {
+        check(MPI_Comm_rank(communicator_, &rank_), "MPI_Comm_rank", -1);
+        check(MPI_Comm_size(communicator_, &size_), "MPI_Comm_size", -1);
+    }
+
+    int self() const override { return rank_; }
+    int peer_count() const override { return size_; }
+
+    void send(int peer, Payload payload) override {
+        sent_ += payload->size();
+        std::size_t at = 0;
+        do {
+            const std::size_t count = std::min(kPartBytes, payload->size() - at);
+            const int tag = at + count == payload->size() ? tag_last : tag_more;
+            Outgoing& out = outgoing_.emplace_back(Outgoing{payload, MPI_REQUEST_NULL, peer});
+            check(MPI_Isend(payload->data() + at, static_cast<int>(count), MPI_BYTE, peer, tag, communicator_,
+                            &out.request),
+                  "MPI_Isend", peer);
+            at += count;
+        } while (at < payload->size());
+        pause_.reset();
+    }
+
+    std::optional<Received> poll() override {
+        sweep_outgoing();
+        start_receives();
+        for (auto& [peer, inbox] : inboxes_)
+            if (auto message = progress(peer, inbox)) {
+                pause_.reset();
+                received_ += message->bytes.size();
+                return message;
+            }
+        return std::nullopt;
+    }
+
+    bool drained() override {
+        sweep_outgoing();
+        return outgoing_.empty();
+    }
+
+    void rest(double seconds) override { pause_.rest(seconds, !outgoing_.empty() || receiving_ > 0); }
+
+    std::uint64_t bytes_sent() const override { return sent_; }
+    std::uint64_t bytes_received() const override { return received_; }
+
+  private:
+    /// A buffer belongs to its request until MPI says that it is done, if ever: those of a dead peer stay to the end.
+    struct Outgoing {
+        Payload payload;
+        MPI_Request request;
+        int peer;
+    };
+    struct Part {
+        Bytes bytes;
+        MPI_Request request = MPI_REQUEST_NULL;
+        bool last = true;
+    };
+    struct Inbox {
+        std::list<Part> parts;  ///< in the order in which they were sent; requests must not move
+        Bytes assembled;
+    };
+
+    void sweep_outgoing() {
+        std::erase_if(outgoing_, [&](Outgoing& out) {
+            if (!test(out.request, out.peer)) return false;
+            pause_.reset();
+            return true;
+        });
+    }
+
+    void start_receives() {
+        for (;;) {
+            int there = 0;
+            MPI_Status status;
+            check(MPI_Iprobe(MPI_ANY_SOURCE, MPI_ANY_TAG, communicator_, &there, &status), "MPI_Iprobe", -1);
+            if (!there) return;
+            int count = 0;
+            check(MPI_Get_count(&status, MPI_BYTE, &count), "MPI_Get_count", status.MPI_SOURCE);
+            Part& part = inboxes_[status.MPI_SOURCE].parts.emplace_back();
+            part.bytes.resize(static_cast<std::size_t>(count));
+            part.last = status.MPI_TAG == tag_last;
+            ++receiving_;
+            check(MPI_Irecv(part.bytes.data(), count, MPI_BYTE, status.MPI_SOURCE, status.MPI_TAG, communicator_,
+                            &part.request),
+                  "MPI_Irecv", status.MPI_SOURCE);
+            pause_.reset();
+        }
+    }
+
+    /// Parts of a peer may finish out of order; they are handed on in order.
+    std::optional<Received> progress(int peer, Inbox& inbox) {
+        while (!inbox.parts.empty() && test(inbox.parts.front().request, peer)) {
+            Part part = std::move(inbox.parts.front());
+            inbox.parts.pop_front();
+            --receiving_;
+            if (inbox.assembled.empty())
+                inbox.assembled = std::move(part.bytes);
+            else
+                inbox.assembled.insert(inbox.assembled.end(), part.bytes.begin(), part.bytes.end());
+            if (part.last) return Received{peer, std::exchange(inbox.assembled, {})};
+        }
+        return std::nullopt;
+    }
+
+    MPI_Comm communicator_;
+    int rank_ = 0, size_ = 1;
+    std::list<Outgoing> outgoing_;
+    std::map<int, Inbox> inboxes_;
+    int receiving_ = 0;  ///< parts under way
+    IdlePause pause_;
+    std::uint64_t sent_ = 0, received_ = 0;
+};
+
+/// Leaves the process unless it is told in time that all went well.
+class Deadline {
+  public:
+    Deadline(double seconds, int exit_code) : thread_([this, seconds, exit_code] { wait(seconds, exit_code); }) {}
+    ~Deadline() {
+        {
+            const std::scoped_lock lock(mutex_);
+            met_ = true;
+        }
+        changed_.notify_one();
+        thread_.join();
+    }
+
+  private:
+    void wait(double seconds, int exit_code) {
+        std::unique_lock lock(mutex_);
+        if (!changed_.wait_for(lock, std::chrono::duration<double>(seconds), [&] { return met_; })) _exit(exit_code);
+    }
+
+    std::mutex mutex_;
+    std::condition_variable changed_;
+    bool met_ = false;
+    std::thread thread_;
+};
+
+}  // namespace
+
+class MpiSession::Impl {
+  public:
+    MPI_Comm communicator = MPI_COMM_NULL;
+    std::unique_ptr<MpiChannel> channel;
+};
+
+MpiSession::MpiSession() : impl_(std::make_unique<Impl>()) {
+    int provided = 0;
+    check(MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided), "MPI_Init_thread", -1);
+    check(MPI_Comm_set_errhandler(MPI_COMM_WORLD, MPI_ERRORS_RETURN), "MPI_Comm_set_errhandler", -1);
+    check(MPI_Comm_dup(MPI_COMM_WORLD, &impl_->communicator), "MPI_Comm_dup", -1);
+    check(MPI_Comm_set_errhandler(impl_->communicator, MPI_ERRORS_RETURN), "MPI_Comm_set_errhandler", -1);
+    impl_->channel = std::make_unique<MpiChannel>(impl_->communicator);
+}
+
+MpiSession::~MpiSession() = default;
+
+int MpiSession::rank() const {
+    return impl_->channel->self();
+}
+
+int MpiSession::size() const {
+    return impl_->channel->peer_count();
+}
+
+Channel& MpiSession::channel() {
+    return *impl_->channel;
+}
+
+void MpiSession::finish(bool orderly, int exit_code, double patience) {
+    const Timer timer;
+    Channel& channel = *impl_->channel;
+    while (!channel.drained() && timer.seconds() < patience) {
+        channel.poll();  // what still arrives is of no use any more
+        channel.rest(1e-3);
+    }
+    if (!orderly || !channel.drained()) _exit(exit_code);
+    const Deadline deadline(patience, exit_code);
+    MPI_Comm_free(&impl_->communicator);
+    MPI_Finalize();
+}
+
+}  // namespace treefarm

@@ -1,0 +1,296 @@
+#include "common/config/job_keys.h"
+
+#include <cmath>
+#include <limits>
+
+#include "common/config/parse_text.h"
+
+namespace treefarm {
+namespace {
+
+constexpr std::int64_t kMaxInt = std::numeric_limits<int>::max();
+constexpr std::int64_t kMaxSpp = std::int64_t{1} << 30;
+
+/// An integer in [low, high] or, if given, the `also` value.
+template <class Member>
+JobKey integer_key(const char* name, const char* range, const char* doc, Member member, std::int64_t low,
+                   std::int64_t high, std::int64_t also) {
+    return {name,
+            ValueKind::integer,
+            range,
+            doc,
+            [=](Job& job, const std::string& text) {
+                const auto value = parse_integer(text);
+                if (!value || ((*value < low || *value > high) && *value != also)) return false;
+                member(job) = static_cast<std::decay_t<decltype(member(job))>>(*value);
+                return true;
+            },
+            [=](const Job& job) { return std::to_string(member(job)); },
+            {}};
+}
+
+template <class Member>
+JobKey integer_key(const char* name, const char* range, const char* doc, Member member, std::int64_t low,
+                   std::int64_t high) {
+    return integer_key(name, range, doc, member, low, high, low);
+}
+
+/// A number accepted by `in_range`.
+template <class Member, class Check>
+JobKey number_key(const char* name, const char* range, const char* doc, Member member, Check in_range) {
+    return {name,
+            ValueKind::number,
+            range,
+            doc,
+            [=](Job& job, const std::string& text) {
+                const auto number = parse_number(text);
+                if (!number) return false;
+                const auto value = static_cast<std::decay_t<decltype(member(job))>>(*number);
+                if (!std::isfinite(value) || !in_range(value)) return false;
+                member(job) = value;
+                return true;
+            },
+            [=](const Job& job) { return number_text(member(job)); },
+            {}};
+}
+
+template <class Member>
+JobKey boolean_key(const char* name, const char* doc, Member member) {
+    return {name,
+            ValueKind::boolean,
+            "true or false",
+            doc,
+            [=](Job& job, const std::string& text) {
+                const auto value = parse_boolean(text);
+                if (value) member(job) = *value;
+                return value.has_value();
+            },
+            [=](const Job& job) { return std::string(member(job) ? "true" : "false"); },
+            {}};
+}
+
+template <class Member>
+JobKey text_key(const char* name, const char* doc, Member member) {
+    return {name,
+            ValueKind::text,
+            "text",
+            doc,
+            [=](Job& job, const std::string& text) {
+                member(job) = text;
+                return text.find('\0') == std::string::npos;
+            },
+            [=](const Job& job) { return member(job); },
+            {}};
+}
+
+/// One of some words; `Value` is an enum or a std::string.
+template <class Member, class Value>
+JobKey word_key(const char* name, const char* doc, Member member, std::vector<std::pair<std::string, Value>> words,
+                std::vector<UnavailableValue> unavailable = {}) {
+    std::string range;
+    for (const auto& [word, value] : words)
+        range += (range.empty() ? "\"" : " or \"") + word + "\"";
+    return {name,
+            ValueKind::text,
+            range,
+            doc,
+            [=](Job& job, const std::string& text) {
+                for (const auto& [word, value] : words)
+                    if (word == text) {
+                        member(job) = value;
+                        return true;
+                    }
+                return false;
+            },
+            [=](const Job& job) {
+                for (const auto& [word, value] : words)
+                    if (value == member(job)) return word;
+                return std::string();
+            },
+            std::move(unavailable)};
+}
+
+/// A key with a single value so far; nothing is stored.
+JobKey single_value_key(const char* name, const char* doc, const char* only, std::vector<std::string> planned) {
+    JobKey key{name,
+               ValueKind::text,
+               std::string("\"") + only + "\"",
+               doc,
+               [only](Job&, const std::string& text) { return text == only; },
+               nullptr,
+               {}};
+    for (std::string& value : planned)
+        key.unavailable.push_back({std::move(value), std::string("use \"") + only + "\""});
+    return key;
+}
+
+std::vector<JobKey> make_job_keys() {
+    std::vector<JobKey> keys;
+    const auto add = [&](JobKey key) { keys.push_back(std::move(key)); };
+
+    add(text_key(
+        "scene.file", "the scene to render; relative to the folder of the job file",
+        [](auto& j) -> auto& { return j.scene.file; }));
+    add(boolean_key(
+        "scene.lenient", "replace or skip what cannot be rendered, with a warning, where strict reading is an error",
+        [](auto& j) -> auto& { return j.scene.lenient; }));
+
+    add(integer_key(
+        "image.width", "0 to 65535", "pixels; 0: as the scene says", [](auto& j) -> auto& { return j.image.width; }, 0,
+        65535));
+    add(integer_key(
+        "image.height", "0 to 65535", "pixels; 0: as the scene says", [](auto& j) -> auto& { return j.image.height; },
+        0, 65535));
+
+    add(word_key(
+        "integrator.type", "how light is transported: unidirectional path tracing",
+        [](auto& j) -> auto& { return j.integrator.type; },
+        std::vector<std::pair<std::string, std::string>>{{"path", "path"}}));
+    add(integer_key(
+        "integrator.max_depth", "-1, or 1 and more", "path edges from the camera: 1 sees emitters only; -1: no limit",
+        [](auto& j) -> auto& { return j.integrator.max_depth; }, 1, kMaxInt, -1));
+    add(integer_key(
+        "integrator.rr_depth", "1 and more", "Russian roulette ends paths from this depth on",
+        [](auto& j) -> auto& { return j.integrator.rr_depth; }, 1, kMaxInt));
+    add(word_key(
+        "integrator.next_event",
+        "when emitters are sampled directly; kickstart: in passes that start with fewer than 128 spp done",
+        [](auto& j) -> auto& { return j.integrator.next_event; },
+        std::vector<std::pair<std::string, NextEvent>>{
+            {"always", NextEvent::always}, {"never", NextEvent::never}, {"kickstart", NextEvent::kickstart}}));
+    add(word_key(
+        "integrator.mis", "heuristic that weighs next event against scattering (Veach 1997)",
+        [](auto& j) -> auto& { return j.integrator.mis; },
+        std::vector<std::pair<std::string, MisHeuristic>>{{"power", MisHeuristic::power},
+                                                          {"balance", MisHeuristic::balance}}));
+    add(boolean_key(
+        "integrator.strict_normals", "drop light that geometric and shading normal disagree about",
+        [](auto& j) -> auto& { return j.integrator.strict_normals; }));
+    add(boolean_key(
+        "integrator.hide_emitters", "the camera does not see emitters directly",
+        [](auto& j) -> auto& { return j.integrator.hide_emitters; }));
+
+    add(word_key(
+        "guiding.type", "what guides paths; ppg: a tree learned from the passes before (Mueller et al. 2017)",
+        [](auto& j) -> auto& { return j.guiding.type; },
+        std::vector<std::pair<std::string, GuidingType>>{{"none", GuidingType::none}, {"ppg", GuidingType::ppg}},
+        {{"view", "use \"ppg\""}, {"auto", "use \"ppg\""}}));
+    add(word_key("guiding.preset",
+                 "a publication's settings, applied before all other keys; paper: Mueller et al. 2017",
+                 [](auto& j) -> auto& { return j.guiding.preset; },
+                 std::vector<std::pair<std::string, std::string>>{{"", ""}, {"paper", "paper"}},
+                 {{"thesis", "use \"paper\", or set the keys one by one"}}));
+    JobKey fraction = number_key(
+        "guiding.bsdf_fraction", "more than 0, at most 1", "probability of sampling the BSDF rather than the tree",
+        [](auto& j) -> auto& { return j.guiding.bsdf_fraction; }, [](float v) { return v > 0.0f && v <= 1.0f; });
+    fraction.unavailable = {{"learned", "use a number, for instance 0.5"}};
+    add(std::move(fraction));
+    add(integer_key(
+        "guiding.spatial_threshold", "1 and more",
+        "c of the spatial split rule: a region splits above c sqrt(spp / 4) records",
+        [](auto& j) -> auto& { return j.guiding.spatial_threshold; }, 1, kMaxInt));
+    add(number_key(
+        "guiding.directional_threshold", "0.0005 to 1",
+        "share of a region's energy above which a directional cell splits",
+        [](auto& j) -> auto& { return j.guiding.directional_threshold; },
+        [](float v) { return v >= 0.0005f && v <= 1.0f; }));
+    add(integer_key(
+        "guiding.spp_unit", "1 to 65536", "samples per pixel of the first pass; passes double",
+        [](auto& j) -> auto& { return j.guiding.spp_unit; }, 1, 65536));
+    add(word_key(
+        "guiding.combination",
+        "how the passes become one image; fixed is exactly unbiased, last keeps the last pass only",
+        [](auto& j) -> auto& { return j.guiding.combination; },
+        std::vector<std::pair<std::string, Combination>>{{"inverse_variance", Combination::inverse_variance},
+                                                         {"fixed", Combination::fixed},
+                                                         {"last", Combination::last}}));
+    add(single_value_key("guiding.spatial_filter", "how a record spreads over regions", "nearest",
+                         {"stochastic", "box"}));
+    add(single_value_key("guiding.directional_filter", "how a record spreads over directional cells", "nearest",
+                         {"box"}));
+    add(single_value_key("guiding.target", "what the tree learns", "radiance", {"variance"}));
+
+    add(integer_key(
+        "budget.spp", "1 to 2^30", "samples per pixel in all passes", [](auto& j) -> auto& { return j.budget.spp; }, 1,
+        kMaxSpp));
+
+    add(integer_key(
+        "sampler.seed", "0 to 2^63 - 1", "two seeds give independent images",
+        [](auto& j) -> auto& { return j.sampler.seed; }, 0, std::numeric_limits<std::int64_t>::max()));
+
+    add(integer_key(
+        "farm.tile_size", "1 to 1024", "pixels along the edge of a tile; no influence on the image",
+        [](auto& j) -> auto& { return j.farm.tile_size; }, 1, 1024));
+    const auto seconds = [](double v) { return v >= 0.001 && v <= 3600.0; };
+    add(number_key(
+        "farm.heartbeat_seconds", "0.001 to 3600", "how often each side says that it lives",
+        [](auto& j) -> auto& { return j.farm.heartbeat_seconds; }, seconds));
+    add(number_key(
+        "farm.update_seconds", "0.001 to 3600", "how often a worker sends what it has finished",
+        [](auto& j) -> auto& { return j.farm.update_seconds; }, seconds));
+    const std::vector<std::pair<std::string, std::string>> isas{
+        {"sse2", "sse2"}, {"sse4.2", "sse4.2"}, {"avx", "avx"}, {"avx2", "avx2"}, {"avx512", "avx512"}};
+    add(word_key(
+        "farm.isa", "instruction set that Embree uses, the same on every worker",
+        [](auto& j) -> auto& { return j.farm.isa; }, isas));
+
+    add(text_key(
+        "output.directory", "the run directory; empty: runs/<scene>-<time>",
+        [](auto& j) -> auto& { return j.output.directory; }));
+    add(text_key(
+        "output.file", "also write the image here (an .exr file); empty: nowhere else",
+        [](auto& j) -> auto& { return j.output.file; }));
+    return keys;
+}
+
+}  // namespace
+
+std::span<const JobKey> job_keys() {
+    static const std::vector<JobKey> keys = make_job_keys();
+    return keys;
+}
+
+const JobKey* find_job_key(const std::string& name) {
+    for (const JobKey& key : job_keys())
+        if (key.name == name) return &key;
+    return nullptr;
+}
+
+std::span<const std::pair<std::string, std::string>> unavailable_job_keys() {
+    static const std::vector<std::pair<std::string, std::string>> keys = {
+        {"budget.seconds", "use budget.spp"},
+        {"budget.error", "use budget.spp"},
+        {"budget.strict", "use guiding.combination = \"fixed\" with budget.spp, which is exactly unbiased"},
+        {"guiding.view_threshold", "remove it"},
+        {"farm.checkpoint_seconds", "remove it"},
+    };
+    return keys;
+}
+
+std::span<const Setting> preset_settings(const std::string& preset) {
+    static const std::vector<Setting> paper = {
+        {"guiding.type", "ppg", {}},
+        {"integrator.next_event", "never", {}},
+        {"guiding.spatial_threshold", "12000", {}},
+        {"guiding.directional_threshold", "0.01", {}},
+        {"guiding.bsdf_fraction", "0.5", {}},
+        {"guiding.spp_unit", "4", {}},
+        {"guiding.combination", "last", {}},
+    };
+    if (preset == "paper") return paper;
+    return {};
+}
+
+std::string job_key_documentation() {
+    const Job defaults;
+    std::string text = "| key | values | default | meaning |\n|---|---|---|---|\n";
+    for (const JobKey& key : job_keys()) {
+        const std::string value = key.stored() ? key.print(defaults) : "";
+        text += "| `" + key.name + "` | " + key.range + " | " + (value.empty() ? "" : "`" + value + "`") + " | " +
+                key.doc + " |\n";
+    }
+    text += "| `scene.defines.NAME` | text | | value for `$NAME` in the scene, as -D NAME=value |\n";
+    return text;
+}
+
+}  // namespace treefarm

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/config/job.h"
+#include "common/config/setting.h"
+
+namespace treefarm {
+
+/// What a value of a key looks like in TOML.
+enum class ValueKind { integer, number, boolean, text };
+
+/// A value that is planned but not there yet, and what to use in its place.
+struct UnavailableValue {
+    std::string value;
+    std::string cure;
+};
+
+/// One key of a job. Reading TOML, --set, writing job.toml and the documentation all go by this table.
+struct JobKey {
+    std::string name;  ///< "integrator.max_depth"
+    ValueKind kind;
+    std::string range;  ///< the values allowed, for messages and docs: "-1, or 1 and more"
+    std::string doc;    ///< one line, with the unit
+    std::function<bool(Job&, const std::string& text)> parse;  ///< false: not in `range`; the job is unchanged
+    std::function<std::string(const Job&)> print;  ///< the value as parse() takes it; empty: a key that stores nothing
+    std::vector<UnavailableValue> unavailable;
+
+    bool stored() const { return static_cast<bool>(print); }
+};
+
+/// All keys, sections together, in the order in which job.toml is written.
+std::span<const JobKey> job_keys();
+
+/// The key of this name, or nullptr.
+const JobKey* find_job_key(const std::string& name);
+
+/// Keys that are planned but not there yet: name and what to do.
+std::span<const std::pair<std::string, std::string>> unavailable_job_keys();
+
+/// Values for $name in the scene stand below this: "scene.defines.name".
+inline constexpr char kDefinesPrefix[] = "scene.defines.";
+
+/// The settings that a value of guiding.preset stands for; "" stands for none.
+std::span<const Setting> preset_settings(const std::string& preset);
+
+/// A Markdown table of all keys with defaults, for docs/.
+std::string job_key_documentation();
+
+}  // namespace treefarm

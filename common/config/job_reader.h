@@ -1,0 +1,37 @@
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "common/config/job.h"
+#include "common/config/setting.h"
+
+namespace treefarm {
+
+/// Sets one key. An unknown key, a value out of range or of the wrong type, and what is not available in this version
+/// throw InputError at the setting's place. guiding.preset sets all that the preset stands for.
+void apply_setting(Job& job, const std::string& key, const std::string& value, const Location& where);
+
+/// Sets the keys of one layer: its guiding.preset first, whichever place it stands at, then the others in their order.
+/// The layers of a job, each over the one before: defaults, the scene's integrator and sampler, the job file, --set.
+void apply_layer(Job& job, std::span<const Setting> layer);
+
+/// The settings of a job file, types checked, values not yet applied. scene.file comes back as an absolute path: it is
+/// relative to the job file's folder. Throws InputError with file:line:column.
+std::vector<Setting> read_job_settings(const std::filesystem::path& path);
+
+/// The same for TOML text; `name` stands for the file in messages. Paths are left as they are.
+std::vector<Setting> parse_job_settings(const std::string& toml, const std::string& name);
+
+/// A setting from the text of --set: "key=value". Quotes around the value are optional.
+Setting parse_set_argument(const std::string& argument);
+
+/// Defaults and the job file alone.
+Job read_job_file(const std::filesystem::path& path);
+
+/// TOML text with every key, that reads back to the same job.
+std::string write_job(const Job& job);
+
+}  // namespace treefarm

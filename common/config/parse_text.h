@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace treefarm {
+
+/// The text without white space at both ends.
+std::string_view trim(std::string_view text);
+
+/// A decimal number that fills the whole text (white space around it is allowed). Nothing for NaN, infinity,
+/// hexadecimal or trailing characters. What is too small for a double is 0 or denormal, what is too large is nothing.
+std::optional<double> parse_number(std::string_view text);
+
+/// A decimal integer that fills the whole text and fits into 64 bits.
+std::optional<std::int64_t> parse_integer(std::string_view text);
+std::optional<std::uint64_t> parse_unsigned(std::string_view text);
+
+/// "true" or "false".
+std::optional<bool> parse_boolean(std::string_view text);
+
+/// Shortest text that reads back to the same value.
+std::string number_text(double value);
+std::string number_text(float value);
+
+/// What a message can say about an unknown word: the candidate with the smallest edit distance, or "" if none is near.
+std::string nearest_word(std::string_view word, std::span<const std::string> candidates);
+
+/// Input text for a message: quoted, printable, and no longer than a line can hold.
+std::string quoted(std::string_view text);
+
+}  // namespace treefarm

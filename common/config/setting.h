@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+
+#include "common/base/error.h"
+
+namespace treefarm {
+
+/// One key with its value as text, and where it was said: in a job file, in the scene's integrator, or by --set.
+struct Setting {
+    std::string key;    ///< "integrator.max_depth"
+    std::string value;  ///< as text, without quotes
+    Location where;
+};
+
+}  // namespace treefarm

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+
+#include "common/image/image.h"
+
+namespace treefarm {
+
+/// How far an image is from a reference. All sums run in double, in pixel order. A figure that is undefined (nothing to
+/// compare, a black reference under a ratio) is NaN.
+struct ErrorMetrics {
+    static constexpr double kUndefined = std::numeric_limits<double>::quiet_NaN();
+
+    std::uint64_t pixels = 0;
+    std::uint64_t invalid_image = 0;      ///< pixels with a NaN or infinite channel in the image
+    std::uint64_t invalid_reference = 0;  ///< the same in the reference
+    std::uint64_t compared = 0;           ///< pixels that are finite in both: all figures are over these
+
+    double mse = kUndefined;  ///< mean of (a - b)^2 over channels and pixels
+    double rmse = kUndefined;
+    double rel_mse = kUndefined;          ///< mean of (a - b)^2 / (b^2 + 0.01) over channels and pixels
+    double rel_mse_trimmed = kUndefined;  ///< the same without the worst `trimmed` pixels
+    double mape = kUndefined;             ///< mean of |a - b| / (|b| + 0.01)
+    double smape = kUndefined;            ///< mean of 2 |a - b| / (|a| + |b| + 0.01)
+    std::uint64_t trimmed = 0;            ///< 0.1 % of the compared pixels, rounded down
+
+    double mean_image = kUndefined;          ///< mean luminance
+    double mean_reference = kUndefined;      ///< mean luminance
+    double mean_ratio = kUndefined;          ///< mean_image / mean_reference
+    double mean_ratio_trimmed = kUndefined;  ///< the same without the pixels that rel_mse_trimmed drops
+    double channel_ratio[3] = {kUndefined, kUndefined, kUndefined};  ///< the same per channel
+    double block_ratio_median = kUndefined;  ///< median over blocks of their luminance ratio: immune to outliers
+};
+
+/// Figures of `image` against `reference`; `block` is the side in pixels of the blocks of block_ratio_median, at
+/// least 1. Throws InputError if the sizes differ.
+ErrorMetrics measure_error(const RgbImage& image, const RgbImage& reference, int block = 16);
+
+/// Throws InputError unless both have the same size and at least one pixel.
+void require_same_size(const RgbImage& image, const RgbImage& reference);
+
+/// Whether all three channels are finite.
+inline bool is_valid(const Rgb& c) {
+    return is_finite(c);
+}
+
+}  // namespace treefarm

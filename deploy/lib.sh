@@ -1,0 +1,35 @@
+# shellcheck shell=bash
+# Shared by the scripts of this folder; source it.
+
+root="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
+
+fail() {
+    echo "deploy/$(basename "$0"): $*" >&2
+    exit 1
+}
+
+# configure PRESET: only when it has not been configured; ninja reconfigures by itself when a CMake file changes.
+configure() {
+    if [[ ! -f "$root/build/$1/build.ninja" ]]; then
+        (cd "$root" && cmake --preset "$1") || fail "cmake could not configure the preset '$1' (see above)"
+    fi
+}
+
+# build PRESET [TARGET...]
+build() {
+    local preset=$1
+    shift
+    configure "$preset"
+    local targets=()
+    (($# == 0)) || targets=(--target "$@")
+    (cd "$root" && cmake --build --preset "$preset" "${targets[@]}") ||
+        fail "the build of the preset '$preset' failed (see above); if it was configured long ago, remove build/$preset"
+}
+
+# Open MPI on this machine alone: it neither listens nor speaks beyond the loopback device.
+use_loopback() {
+    export OMPI_MCA_btl_tcp_if_include=lo OMPI_MCA_oob_tcp_if_include=lo PMIX_MCA_ptl_tcp_if_include=lo
+    if ((EUID == 0)); then
+        export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
+    fi
+}

@@ -1,0 +1,61 @@
+#include "tests/support/local_render.h"
+
+#include <algorithm>
+
+#include "common/film/pass_film.h"
+#include "common/guiding/splat.h"
+#include "worker/integrator/tile_renderer.h"
+
+namespace treefarm::test {
+namespace {
+
+Box3 guiding_bounds(const Scene& scene) {
+    Box3 bounds = scene.bounds();
+    bounds.extendBy(scene.camera.origin);
+    return bounds;
+}
+
+std::vector<WorkUnit> cut(const Film& film, const PassPlan& pass, int tile) {
+    std::vector<WorkUnit> units;
+    for (int y = 0; y < film.height; y += tile)
+        for (int x = 0; x < film.width; x += tile)
+            for (std::uint32_t chunk = 0; chunk < pass.chunks; ++chunk)
+                units.push_back({pass.index, static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y),
+                                 static_cast<std::uint16_t>(std::min(x + tile, film.width)),
+                                 static_cast<std::uint16_t>(std::min(y + tile, film.height)), chunk});
+    return units;
+}
+
+}  // namespace
+
+LocalRender render_locally(const Scene& scene, const Job& job) {
+    LocalRender run;
+    run.plans = plan_passes(job);
+    const TraceScene trace(scene, job);
+    run.tree = initial_tree(guiding_bounds(scene), 1.0f);
+    for (const PassPlan& pass : run.plans) {
+        const Guide guide(run.tree);
+        Accumulator accumulator(pass.index, guide);
+        PassFilm film(scene.film.width, scene.film.height, pass.chunks);
+        TraceStats stats;
+        RecordLog log;
+        std::vector<PixelEstimate> pixels;
+        for (const WorkUnit& unit : cut(scene.film, pass, job.farm.tile_size)) {
+            render_unit(trace, job, pass, guide, unit, pixels, log, stats);
+            film.add(unit, pixels);
+            if (pass.record) accumulator.commit(log.records, log.counts, log.caps);
+        }
+        run.stats.push_back(stats);
+        run.passes.push_back({pass.spp, pass.first_sample, film.pixels()});
+        if (!pass.record) continue;
+        RefineReport report;
+        const PassPlan& next = run.plans[pass.index + 1];
+        run.tree = refine(run.tree, accumulator.take(),
+                          {.spatial_threshold = spatial_split_threshold(job, next), .record_weight = pass.record_weight},
+                          report);
+    }
+    run.image = combine_passes(run.passes, job.guiding.combination, job.guiding.type != GuidingType::none);
+    return run;
+}
+
+}  // namespace treefarm::test

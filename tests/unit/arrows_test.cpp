@@ -1,0 +1,212 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <optional>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path kRoot = TREEFARM_SOURCE_DIR;
+
+/// Rooms by level (docs/architecture.md): a room includes itself and rooms of lower levels, never its siblings.
+const std::map<std::string, int> kLevels = {{"common/base", 0},        {"common/math", 1},    {"common/image", 2},
+                                            {"common/metrics", 3},     {"common/config", 3},  {"common/scene", 4},
+                                            {"common/film", 5},        {"common/guiding", 5}, {"common/plan", 6},
+                                            {"common/protocol", 7},    {"common/comm", 8},    {"coordinator", 9},
+                                            {"worker/geometry", 9},    {"worker/shading", 9}, {"worker/lights", 10},
+                                            {"worker/integrator", 11}, {"worker", 12},        {"cli", 13}};
+
+const std::set<std::string> kPure = {"common/metrics", "common/guiding", "common/film", "common/plan"};
+
+/// Clocks, threads, files, terminals and unkeyed randomness; our own headers that bring them along.
+const std::vector<std::string> kImpure = {"chrono",
+                                          "ctime",
+                                          "thread",
+
+                                          "fstream",
+                                          "iostream",
+                                          "filesystem",
+                                          "random",
+                                          "spdlog/",
+                                          "mpi.h",
+                                          "embree3/",
+                                          "common/base/log.h",
+                                          "common/base/timer.h",
+                                          "common/image/exr.h",
+                                          "common/image/png.h",
+                                          "common/image/atomic_file.h"};
+
+/// A library and the only room that may see it.
+struct Owner {
+    std::string header;  ///< how its includes begin
+    std::string room;
+};
+const std::vector<Owner> kOwners = {{"mpi.h", "common/comm"},        {"mpi-ext.h", "common/comm"},
+                                    {"embree3/", "worker/geometry"}, {"embree", "worker/geometry"},
+                                    {"Imf", "common/image"},         {"OpenEXR/", "common/image"},
+                                    {"Iex", "common/image"},         {"stb/", "common/image"},
+                                    {"stb_", "common/image"},        {"CLI/", "cli"}};
+
+struct Include {
+    std::string target;
+    bool quoted = false;
+    int line = 0;
+};
+
+bool starts_with(const std::string& text, const std::string& start) {
+    return text.compare(0, start.size(), start) == 0;
+}
+
+/// The room that a path from the root lies in; nothing for other files.
+std::optional<std::string> room_of(const std::string& path) {
+    std::optional<std::string> best;
+    for (const auto& [room, level] : kLevels)
+        if (starts_with(path, room + "/") && (!best || room.size() > best->size())) best = room;
+    return best;
+}
+
+/// The include that a line holds, if any. By hand: GCC 12 warns about std::regex under the address sanitizer.
+std::optional<Include> include_in(const std::string& text, int line) {
+    const auto skip_blanks = [&](std::size_t at) { return std::min(text.find_first_not_of(" \t", at), text.size()); };
+    std::size_t at = skip_blanks(0);
+    if (text.compare(at, 1, "#") != 0) return std::nullopt;
+    at = skip_blanks(at + 1);
+    const std::string word = "include";
+    if (text.compare(at, word.size(), word) != 0) return std::nullopt;
+    at = skip_blanks(at + word.size());
+    const bool quoted = text.compare(at, 1, "\"") == 0;
+    if (!quoted && text.compare(at, 1, "<") != 0) return std::nullopt;
+    const std::size_t end = text.find(quoted ? '"' : '>', at + 1);
+    if (end == std::string::npos) return std::nullopt;
+    return Include{text.substr(at + 1, end - at - 1), quoted, line};
+}
+
+std::vector<Include> includes_of(std::istream& source) {
+    std::vector<Include> includes;
+    std::string text;
+    for (int line = 1; std::getline(source, text); ++line)
+        if (const auto include = include_in(text, line)) includes.push_back(*include);
+    return includes;
+}
+
+/// What is wrong with one include of one file; empty if nothing.
+std::string violation(const std::string& path, const Include& include) {
+    const auto room = room_of(path);
+    if (!room) return "the file lies in no room of docs/architecture.md";
+    const auto target = room_of(include.target);
+    if (target && *target != *room) {
+        const bool worker = starts_with(*room, "worker"), to_worker = starts_with(*target, "worker");
+        if ((worker && *target == "coordinator") || (*room == "coordinator" && to_worker))
+            return "coordinator and worker never include each other";
+        if (kLevels.at(*target) >= kLevels.at(*room)) return *room + " must not look at " + *target;
+    }
+    if (include.quoted && !target) return "a quoted include must be a full path from the root into a room";
+    if (!include.quoted && target) return "our own headers are included in quotes";
+    for (const Owner& owner : kOwners)
+        if (starts_with(include.target, owner.header) && *room != owner.room)
+            return "only " + owner.room + " sees " + owner.header;
+    if (kPure.count(*room) > 0)
+        for (const std::string& impure : kImpure)
+            if (include.target == impure || (impure.back() == '/' && starts_with(include.target, impure)))
+                return *room + " is pure: no " + impure;
+    return "";
+}
+
+std::string check(const std::string& path, const std::string& line) {
+    std::istringstream source(line);
+    const auto includes = includes_of(source);
+    return includes.empty() ? "not an include" : violation(path, includes[0]);
+}
+
+std::vector<fs::path> sources() {
+    std::vector<fs::path> files;
+    for (const char* folder : {"common", "coordinator", "worker", "cli"})
+        for (const auto& entry : fs::recursive_directory_iterator(kRoot / folder))
+            if (entry.path().extension() == ".h" || entry.path().extension() == ".cpp") files.push_back(entry.path());
+    std::sort(files.begin(), files.end());
+    return files;
+}
+
+TEST(Arrows, EveryIncludePointsDownwards) {
+    const auto files = sources();
+    ASSERT_GT(files.size(), 20u) << "no sources below " << kRoot;
+    for (const fs::path& file : files) {
+        std::ifstream source(file);
+        const std::string path = fs::relative(file, kRoot).generic_string();
+        for (const Include& include : includes_of(source)) {
+            const std::string wrong = violation(path, include);
+            EXPECT_EQ(wrong, "") << path << ":" << include.line << ": #include of " << include.target;
+            if (include.quoted) {
+                EXPECT_TRUE(fs::exists(kRoot / include.target))
+                    << path << ":" << include.line << ": no such file from the root: " << include.target;
+            }
+        }
+    }
+}
+
+TEST(Arrows, TheRulesCatchWhatTheyForbid) {
+    const struct {
+        const char *file, *include;
+    } forbidden[] = {
+        {"common/base/hash.cpp", "#include \"common/math/vec.h\""},
+        {"common/film/pass_film.h", "#include \"common/guiding/guide.h\""},
+        {"common/metrics/z_test.h", "#include \"common/config/job.h\""},
+        {"common/plan/schedule.cpp", "#include \"common/comm/channel.h\""},
+        {"coordinator/pass_loop.cpp", "#include \"worker/worker.h\""},
+        {"coordinator/pass_loop.cpp", "#include \"worker/geometry/scene.h\""},
+        {"worker/tile.cpp", "#include \"coordinator/ledger.h\""},
+        {"worker/shading/diffuse.h", "#include \"coordinator/ledger.h\""},
+        {"worker/shading/diffuse.h", "#include \"worker/geometry/device.h\""},
+        {"worker/lights/area.h", "#include \"worker/integrator/walk.h\""},
+        {"common/comm/channel.h", "#include \"cli/compare.h\""},
+        {"cli/main.cpp", "#include <mpi.h>"},
+        {"coordinator/pass_loop.cpp", "#include <mpi.h>"},
+        {"worker/integrator/walk.cpp", "#include <embree3/rtcore.h>"},
+        {"cli/compare.cpp", "#include <ImfInputFile.h>"},
+        {"common/scene/texture.cpp", "#include <OpenEXR/ImfRgbaFile.h>"},
+        {"common/scene/texture.cpp", "#  include <stb/stb_image.h>"},
+        {"coordinator/study.cpp", "#include <CLI/CLI.hpp>"},
+        {"common/metrics/a.cpp", "#include <chrono>"},
+        {"common/guiding/a.cpp", "#include <thread>"},
+        {"common/film/a.cpp", "#include <fstream>"},
+        {"common/plan/a.cpp", "#include <iostream>"},
+        {"common/guiding/a.cpp", "#include <random>"},
+        {"common/plan/a.cpp", "#include <spdlog/spdlog.h>"},
+        {"common/film/a.cpp", "#include \"common/base/log.h\""},
+        {"common/metrics/a.cpp", "#include \"common/image/exr.h\""},
+        {"common/film/a.cpp", "#include \"pixel_estimate.h\""},
+        {"common/film/a.cpp", "#include <common/film/pixel_estimate.h>"},
+        {"common/other/a.cpp", "#include <vector>"},
+    };
+    for (const auto& [file, include] : forbidden)
+        EXPECT_NE(check(file, include), "") << file << ": " << include;
+}
+
+TEST(Arrows, TheRulesLetThroughWhatIsAllowed) {
+    const struct {
+        const char *file, *include;
+    } allowed[] = {
+        {"common/comm/mpi_channel.cpp", "#include <mpi.h>"},
+        {"worker/geometry/device.cpp", "#include <embree3/rtcore.h>"},
+        {"common/image/exr_read.cpp", "#include <ImfHeader.h>"},
+        {"common/math/vec.h", "#include <Imath/ImathVec.h>"},
+        {"common/film/combine.cpp", "#include \"common/film/combine.h\""},
+        {"worker/integrator/walk.cpp", "#include \"worker/geometry/device.h\""},
+        {"worker/worker.cpp", "#include \"common/comm/channel.h\""},
+        {"cli/render.cpp", "#include \"worker/worker.h\""},
+        {"coordinator/pass_loop.cpp", "#include <chrono>"},
+        {"common/metrics/z_test.cpp", "#include \"common/image/image.h\""},
+    };
+    for (const auto& [file, include] : allowed)
+        EXPECT_EQ(check(file, include), "") << file << ": " << include;
+}
+
+}  // namespace

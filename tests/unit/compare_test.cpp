@@ -1,0 +1,169 @@
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "common/base/random.h"
+#include "common/image/exr.h"
+#include "common/image/png.h"
+
+namespace treefarm {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Outcome {
+    int code = -1;
+    std::string output;  ///< standard output and error
+};
+
+Outcome compare(const std::string& arguments) {
+    const std::string command = std::string(TREEFARM_PROGRAM) + " compare " + arguments + " 2>&1";
+    Outcome outcome;
+    FILE* pipe = popen(command.c_str(), "r");
+    if (pipe == nullptr) return outcome;
+    char buffer[4096];
+    while (const std::size_t size = fread(buffer, 1, sizeof(buffer), pipe))
+        outcome.output.append(buffer, size);
+    const int status = pclose(pipe);
+    outcome.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    return outcome;
+}
+
+nlohmann::json compare_json(const std::string& arguments) {
+    const Outcome outcome = compare(arguments + " --json");
+    EXPECT_EQ(outcome.code, 0) << outcome.output;
+    return nlohmann::json::parse(outcome.output);
+}
+
+/// Images of 64 x 64 pixels: 1 in every channel, noise of standard deviation 0.1, its variance, 100 spp.
+class Compare : public testing::Test {
+  protected:
+    void SetUp() override {
+        const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+        folder_ = fs::path(testing::TempDir()) / (std::string("compare_") + test->name());
+        fs::remove_all(folder_);
+        fs::create_directories(folder_);
+    }
+
+    std::string path(const std::string& name) const { return (folder_ / name).string(); }
+
+    static float uniform_noise(std::uint64_t seed, std::size_t pixel, int channel) {
+        const Draw d =
+            draw({seed, static_cast<std::uint32_t>(pixel), 0}, static_cast<std::uint32_t>(channel), Stream::camera);
+        return (to_unit(d[0]) - 0.5f) * std::sqrt(12.0f) * 0.1f;
+    }
+
+    std::string write(const std::string& name, float mean, std::uint64_t seed, bool with_variance, bool half = false) {
+        RgbImage colour(64, 64, Rgb(mean));
+        if (seed > 0)
+            for (std::size_t i = 0; i < colour.pixels.size(); ++i)
+                for (int c = 0; c < 3; ++c)
+                    colour.pixels[i][c] += uniform_noise(seed, i, c);
+        Image image;
+        add_rgb_layer(image, "", colour);
+        if (with_variance) add_rgb_layer(image, "variance", RgbImage(64, 64, Rgb(0.01f)));
+        write_exr(path(name), image, {{"treefarm.spp", "100"}}, half ? PixelType::half : PixelType::float32);
+        return path(name);
+    }
+
+    fs::path folder_;
+};
+
+TEST_F(Compare, AnUnbiasedImagePassesAndABiasedOneFails) {
+    const std::string reference = write("reference.exr", 1.0f, 0, false, true);
+    const auto good = compare_json(write("good.exr", 1.0f, 1, true) + " " + reference);
+    EXPECT_NEAR(good["rmse"].get<double>(), 0.1, 0.002);
+    EXPECT_NEAR(good["mean_ratio"].get<double>(), 1.0, 0.005);
+    EXPECT_EQ(good["image_spp"], 100);
+    EXPECT_TRUE(good["z_tests"]["available"].get<bool>());
+    EXPECT_TRUE(good["z_tests"]["pixels"]["pass"].get<bool>());
+    EXPECT_TRUE(good["z_tests"]["blocks"]["pass"].get<bool>());
+    EXPECT_NEAR(good["z_tests"]["pixels"]["mean_z2"].get<double>(), 1.0, 0.05);
+    EXPECT_NE(good["z_tests"]["reference_noise"].get<std::string>().find("half"), std::string::npos);
+    const auto biased = compare_json(write("biased.exr", 1.05f, 1, true) + " " + reference);
+    EXPECT_FALSE(biased["z_tests"]["blocks"]["pass"].get<bool>());
+    EXPECT_NEAR(biased["mean_ratio"].get<double>(), 1.05, 0.005);
+}
+
+TEST_F(Compare, TheReferencesOwnNoiseIsTakenFromItsSamples) {
+    const std::string image = write("image.exr", 1.0f, 1, true), reference = write("reference.exr", 1.0f, 2, false);
+    const auto exact = compare_json(image + " " + reference);
+    EXPECT_NEAR(exact["z_tests"]["pixels"]["mean_z2"].get<double>(), 2.0, 0.1);
+    const auto told = compare_json(image + " " + reference + " --reference-spp 100");
+    EXPECT_NEAR(told["z_tests"]["pixels"]["mean_z2"].get<double>(), 1.0, 0.05);
+    const std::string known = write("known.exr", 1.0f, 2, true);
+    const auto read = compare_json(image + " " + known);
+    EXPECT_NEAR(read["z_tests"]["pixels"]["mean_z2"].get<double>(), 1.0, 0.05);
+}
+
+TEST_F(Compare, WithoutVarianceItSaysWhyThereIsNoTest) {
+    const std::string image = write("image.exr", 1.0f, 1, false), reference = write("reference.exr", 1.0f, 0, false);
+    const auto json = compare_json(image + " " + reference);
+    EXPECT_FALSE(json["z_tests"]["available"].get<bool>());
+    EXPECT_NE(json["z_tests"]["reason"].get<std::string>().find("no variance channels"), std::string::npos);
+    const Outcome table = compare(image + " " + reference);
+    EXPECT_EQ(table.code, 0);
+    EXPECT_NE(table.output.find("not available"), std::string::npos) << table.output;
+    const Outcome refused = compare(image + " " + reference + " --reference-spp 100");
+    EXPECT_EQ(refused.code, 2);
+    EXPECT_NE(refused.output.find("image.exr: --reference-spp needs"), std::string::npos) << refused.output;
+}
+
+TEST_F(Compare, TheTableNamesEveryFigure) {
+    const std::string image = write("image.exr", 1.0f, 1, true), reference = write("reference.exr", 1.0f, 0, false);
+    const Outcome table = compare(image + " " + reference);
+    EXPECT_EQ(table.code, 0);
+    for (const char* word : {"RMSE", "relMSE", "relMSE trimmed", "MAPE", "mean ratio", "NaN/Inf in image",
+                             "z-test of pixels", "z-test of blocks", "counts as exact"})
+        EXPECT_NE(table.output.find(word), std::string::npos) << word << " in\n" << table.output;
+}
+
+TEST_F(Compare, CountsInvalidPixelsAndWritesNullForWhatIsUndefined) {
+    Image image;
+    RgbImage colour(8, 8);
+    colour.pixels[3] = Rgb(std::numeric_limits<float>::quiet_NaN());
+    add_rgb_layer(image, "", colour);
+    write_exr(path("nan.exr"), image);
+    Image black;
+    add_rgb_layer(black, "", RgbImage(8, 8));
+    write_exr(path("black.exr"), black);
+    const auto json = compare_json(path("nan.exr") + " " + path("black.exr"));
+    EXPECT_EQ(json["pixels"]["invalid_image"], 1);
+    EXPECT_EQ(json["pixels"]["compared"], 63);
+    EXPECT_TRUE(json["mean_ratio"].is_null());
+    EXPECT_EQ(json["rmse"], 0.0);
+}
+
+TEST_F(Compare, WritesTheDifference) {
+    const std::string image = write("image.exr", 3.0f, 0, false), reference = write("reference.exr", 1.0f, 0, false);
+    EXPECT_EQ(compare(image + " " + reference + " --difference " + path("d.png")).code, 0);
+    const Image png = read_ldr(path("d.png"), Encoding::srgb);
+    EXPECT_EQ(png.width, 64);
+    EXPECT_EQ(png.channel(0)[0], 1.0f);
+    EXPECT_EQ(png.channel(2)[0], 0.0f);
+}
+
+TEST_F(Compare, BadInputIsOneLineAndExitCodeTwo) {
+    const std::string image = write("image.exr", 1.0f, 0, false);
+    const Outcome missing = compare(image + " " + path("missing.exr"));
+    EXPECT_EQ(missing.code, 2);
+    EXPECT_NE(missing.output.find("missing.exr: no such file"), std::string::npos) << missing.output;
+    Image small;
+    add_rgb_layer(small, "", RgbImage(2, 2));
+    write_exr(path("small.exr"), small);
+    const Outcome sizes = compare(path("small.exr") + " " + image);
+    EXPECT_EQ(sizes.code, 2);
+    EXPECT_NE(sizes.output.find("2 x 2"), std::string::npos) << sizes.output;
+    EXPECT_EQ(std::count(sizes.output.begin(), sizes.output.end(), '\n'), 1) << sizes.output;
+    EXPECT_EQ(compare(image).code, 2);
+    EXPECT_EQ(compare(image + " " + image + " --block 0").code, 2);
+    EXPECT_EQ(compare(image + " " + image + " --unknown").code, 2);
+}
+
+}  // namespace
+}  // namespace treefarm

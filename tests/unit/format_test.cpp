@@ -1,0 +1,91 @@
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path kRoot = TREEFARM_SOURCE_DIR;
+constexpr int kMostLines = 400;
+
+std::vector<fs::path> sources() {
+    std::vector<fs::path> files;
+    for (const char* folder : {"common", "coordinator", "worker", "cli", "tests", "bench"}) {
+        if (!fs::exists(kRoot / folder)) continue;
+        for (const auto& entry : fs::recursive_directory_iterator(kRoot / folder))
+            if (entry.path().extension() == ".h" || entry.path().extension() == ".cpp") files.push_back(entry.path());
+    }
+    std::sort(files.begin(), files.end());
+    return files;
+}
+
+struct Outcome {
+    int code = -1;
+    std::string output;  ///< standard output and error
+};
+
+Outcome shell(const std::string& command) {
+    Outcome outcome;
+    FILE* pipe = popen((command + " 2>&1").c_str(), "r");
+    if (pipe == nullptr) return outcome;
+    char buffer[4096];
+    while (const std::size_t size = fread(buffer, 1, sizeof(buffer), pipe))
+        outcome.output.append(buffer, size);
+    const int status = pclose(pipe);
+    outcome.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    return outcome;
+}
+
+Outcome clang_format(const std::vector<fs::path>& files) {
+    std::string command = "cd '" + kRoot.string() + "' && clang-format --style=file --dry-run -Werror";
+    for (const fs::path& file : files)
+        command += " '" + file.string() + "'";
+    return shell(command);
+}
+
+bool have_clang_format() {
+    return shell("clang-format --version").code == 0;
+}
+
+int count_lines(const fs::path& file) {
+    std::ifstream source(file);
+    int lines = 0;
+    for (std::string text; std::getline(source, text);)
+        ++lines;
+    return lines;
+}
+
+TEST(Format, EverySourceIsFormatted) {
+    if (!have_clang_format()) GTEST_SKIP() << "clang-format is not installed: run deploy/install";
+    const auto files = sources();
+    ASSERT_GT(files.size(), 20u) << "no sources below " << kRoot;
+    const Outcome outcome = clang_format(files);
+    EXPECT_EQ(outcome.code, 0) << "run clang-format -i on:\n" << outcome.output.substr(0, 4000);
+}
+
+TEST(Format, TheCheckSeesABadFile) {
+    if (!have_clang_format()) GTEST_SKIP() << "clang-format is not installed: run deploy/install";
+    // clang-format looks for .clang-format upwards from the file, so it gets a copy of ours.
+    const fs::path folder = fs::path(testing::TempDir()) / "format_test";
+    fs::create_directories(folder);
+    fs::copy_file(kRoot / ".clang-format", folder / ".clang-format", fs::copy_options::overwrite_existing);
+    std::ofstream(folder / "bad.cpp") << "int  f( ){return 1 ;}\n";
+    std::ofstream(folder / "good.cpp") << "int f() {\n    return 1;\n}\n";
+    EXPECT_NE(clang_format({folder / "bad.cpp"}).code, 0);
+    EXPECT_EQ(clang_format({folder / "good.cpp"}).code, 0);
+}
+
+TEST(Format, FilesStaySmall) {
+    for (const fs::path& file : sources())
+        EXPECT_LE(count_lines(file), kMostLines) << fs::relative(file, kRoot) << ": split it by concept";
+}
+
+}  // namespace

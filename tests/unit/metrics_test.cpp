@@ -1,0 +1,259 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "common/base/error.h"
+#include "common/base/random.h"
+#include "common/metrics/difference.h"
+#include "common/metrics/error_metrics.h"
+#include "common/metrics/normal_distribution.h"
+#include "common/metrics/z_test.h"
+
+namespace treefarm {
+namespace {
+
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+constexpr float kInf = std::numeric_limits<float>::infinity();
+
+RgbImage image_of(int width, int height, const std::vector<Rgb>& pixels) {
+    RgbImage image(width, height);
+    image.pixels = pixels;
+    return image;
+}
+
+/// A standard normal number (Box and Muller 1958) for (pixel, channel).
+double normal(std::uint64_t seed, std::size_t pixel, int channel) {
+    const Draw d =
+        draw({seed, static_cast<std::uint32_t>(pixel), 0}, static_cast<std::uint32_t>(channel), Stream::camera);
+    const double u = (d[0] + 1.0) / 4294967296.0, v = d[1] / 4294967296.0;
+    return std::sqrt(-2.0 * std::log(u)) * std::cos(2.0 * 3.14159265358979323846 * v);
+}
+
+/// A smooth image.
+RgbImage truth(int width, int height) {
+    RgbImage image(width, height);
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            const float v = 0.2f + 0.01f * static_cast<float>(x) + 0.005f * static_cast<float>(y);
+            image.pixels[static_cast<std::size_t>(y * width + x)] = Rgb(v, 0.5f * v, 2.0f * v);
+        }
+    return image;
+}
+
+/// Standard deviation of a pixel's mean: a tenth of its value.
+RgbImage variance_of(const RgbImage& image) {
+    RgbImage variance = image;
+    for (Rgb& v : variance.pixels)
+        v = v * v * 0.01f;
+    return variance;
+}
+
+RgbImage noisy(const RgbImage& mean, const RgbImage& variance, std::uint64_t seed, double scale = 1.0) {
+    RgbImage image = mean;
+    for (std::size_t i = 0; i < image.pixels.size(); ++i)
+        for (int c = 0; c < 3; ++c)
+            image.pixels[i][c] = static_cast<float>(
+                scale * mean.pixels[i][c] + normal(seed, i, c) * std::sqrt(static_cast<double>(variance.pixels[i][c])));
+    return image;
+}
+
+TEST(ErrorMetrics, AgreesWithHandComputedValues) {
+    const RgbImage a = image_of(2, 1, {Rgb(1.0f, 0.5f, 0.0f), Rgb(2.0f, 2.0f, 2.0f)});
+    const RgbImage b = image_of(2, 1, {Rgb(0.5f, 0.5f, 0.0f), Rgb(1.0f, 2.0f, 4.0f)});
+    const ErrorMetrics m = measure_error(a, b);
+    EXPECT_EQ(m.compared, 2u);
+    EXPECT_NEAR(m.mse, (0.25 + 1.0 + 4.0) / 6.0, 1e-12);
+    EXPECT_NEAR(m.rmse, std::sqrt(5.25 / 6.0), 1e-12);
+    EXPECT_NEAR(m.rel_mse, (0.25 / 0.26 + 1.0 / 1.01 + 4.0 / 16.01) / 6.0, 1e-12);
+    EXPECT_NEAR(m.mape, (0.5 / 0.51 + 1.0 / 1.01 + 2.0 / 4.01) / 6.0, 1e-12);
+    EXPECT_NEAR(m.smape, 2.0 * (0.5 / 1.51 + 1.0 / 3.01 + 2.0 / 6.01) / 6.0, 1e-12);
+    const double mean_a = (0.212671 * 3.0 + 0.715160 * 2.5 + 0.072169 * 2.0) / 2.0;
+    const double mean_b = (0.212671 * 1.5 + 0.715160 * 2.5 + 0.072169 * 4.0) / 2.0;
+    EXPECT_NEAR(m.mean_image, mean_a, 1e-12);
+    EXPECT_NEAR(m.mean_ratio, mean_a / mean_b, 1e-12);
+    EXPECT_NEAR(m.channel_ratio[0], 2.0, 1e-12);
+    EXPECT_NEAR(m.channel_ratio[2], 0.5, 1e-12);
+    EXPECT_EQ(m.trimmed, 0u);
+    EXPECT_EQ(m.rel_mse_trimmed, m.rel_mse);
+}
+
+TEST(ErrorMetrics, TrimmingDropsExactlyTheWorstPixels) {
+    const RgbImage b(50, 40, Rgb(1.0f));
+    RgbImage a(50, 40, Rgb(1.1f));
+    a.pixels[7] = Rgb(1000.0f);
+    a.pixels[1999] = Rgb(500.0f);
+    const ErrorMetrics m = measure_error(a, b);
+    EXPECT_EQ(m.trimmed, 2u);
+    EXPECT_NEAR(m.rel_mse_trimmed, 0.01 / 1.01, 1e-7);
+    EXPECT_NEAR(m.mean_ratio_trimmed, 1.1, 1e-6);
+    EXPECT_GT(m.rel_mse, 100.0);
+    EXPECT_NEAR(m.block_ratio_median, 1.1, 1e-6);
+}
+
+TEST(ErrorMetrics, CountsInvalidPixelsAndLeavesThemOut) {
+    RgbImage a(10, 10, Rgb(1.0f)), b(10, 10, Rgb(1.0f));
+    a.pixels[0] = Rgb(kNan, 1.0f, 1.0f);
+    a.pixels[1] = Rgb(1.0f, kInf, 1.0f);
+    a.pixels[2] = Rgb(1.0f, 1.0f, -kInf);
+    b.pixels[2] = Rgb(kNan);
+    b.pixels[3] = Rgb(1.0f, 1.0f, kNan);
+    const ErrorMetrics m = measure_error(a, b);
+    EXPECT_EQ(m.pixels, 100u);
+    EXPECT_EQ(m.invalid_image, 3u);
+    EXPECT_EQ(m.invalid_reference, 2u);
+    EXPECT_EQ(m.compared, 96u);
+    EXPECT_EQ(m.mse, 0.0);
+    EXPECT_EQ(m.mean_ratio, 1.0);
+}
+
+TEST(ErrorMetrics, BlackAndInvalidReferencesDivideByNothing) {
+    const RgbImage black(4, 4), grey(4, 4, Rgb(0.5f));
+    const ErrorMetrics both = measure_error(black, black);
+    EXPECT_EQ(both.rel_mse, 0.0);
+    EXPECT_EQ(both.mape, 0.0);
+    EXPECT_TRUE(std::isnan(both.mean_ratio));
+    const ErrorMetrics m = measure_error(grey, black);
+    EXPECT_NEAR(m.rel_mse, 25.0, 1e-9);
+    EXPECT_TRUE(std::isnan(m.mean_ratio));
+    EXPECT_TRUE(std::isnan(m.block_ratio_median));
+    const ErrorMetrics none = measure_error(grey, RgbImage(4, 4, Rgb(kNan)));
+    EXPECT_EQ(none.compared, 0u);
+    EXPECT_TRUE(std::isnan(none.mse));
+}
+
+TEST(ErrorMetrics, RefusesDifferentSizes) {
+    EXPECT_THROW(measure_error(RgbImage(2, 3), RgbImage(3, 2)), InputError);
+    EXPECT_THROW(measure_error(RgbImage(), RgbImage()), InputError);
+    EXPECT_THROW(difference_image(RgbImage(2, 3), RgbImage(3, 2)), InputError);
+    const RgbImage a(2, 2), b(2, 3);
+    EXPECT_THROW(pixel_z_test({a, b}), InputError);
+    EXPECT_THROW(block_z_test({a, a, &b}), InputError);
+}
+
+TEST(NormalTest, AgreesWithTables) {
+    EXPECT_NEAR(two_sided_p(1.959964), 0.05, 1e-7);
+    EXPECT_NEAR(two_sided_p(-3.0), 0.002699796, 1e-9);
+    EXPECT_NEAR(critical_z(0.01), 2.575829, 1e-6);
+    EXPECT_NEAR(sidak_level(0.01, 1), 0.01, 1e-15);
+    EXPECT_NEAR(1.0 - std::pow(1.0 - sidak_level(0.01, 1000), 1000.0), 0.01, 1e-12);
+}
+
+TEST(ZTest, HandComputedBlock) {
+    // Two pixels: differences 0.3 and 0.1 in red, variances 0.01 and 0.03: z = 0.4 / sqrt(0.04) = 2.
+    const RgbImage b(2, 1, Rgb(1.0f));
+    const RgbImage a = image_of(2, 1, {Rgb(1.3f, 1.0f, 1.0f), Rgb(1.1f, 1.0f, 1.0f)});
+    const RgbImage v = image_of(2, 1, {Rgb(0.01f), Rgb(0.03f)});
+    const BlockZTest blocks = block_z_test({a, b, &v});
+    EXPECT_EQ(blocks.tests, 3u);
+    EXPECT_NEAR(blocks.max_abs_z, 2.0, 1e-5);
+    EXPECT_NEAR(blocks.image_z[0], 2.0, 1e-5);
+    EXPECT_NEAR(blocks.mean_z2, 4.0 / 3.0, 1e-5);
+    EXPECT_TRUE(blocks.pass);
+    const PixelZTest pixels = pixel_z_test({a, b, &v});
+    EXPECT_NEAR(pixels.max_abs_z, 3.0, 1e-5);
+    EXPECT_NEAR(pixels.limit, critical_z(1.0 - std::sqrt(0.99)), 1e-9);
+    EXPECT_EQ(pixels.accepted, 5u);
+    EXPECT_FALSE(pixels.pass);
+}
+
+TEST(ZTest, GaussianNoisePassesAndItsSquareIsOne) {
+    const RgbImage mean = truth(128, 128), variance = variance_of(mean);
+    int failures = 0;
+    for (std::uint64_t seed = 0; seed < 20; ++seed) {
+        const RgbImage a = noisy(mean, variance, seed);
+        const PixelZTest pixels = pixel_z_test({a, mean, &variance});
+        const BlockZTest blocks = block_z_test({a, mean, &variance});
+        EXPECT_TRUE(pixels.pass);
+        EXPECT_NEAR(pixels.mean_z2, 1.0, 0.05);  // standard error 0.0064
+        EXPECT_NEAR(blocks.mean_z2, 1.0, 0.5);   // 192 tests: standard error 0.1
+        EXPECT_EQ(blocks.tests, 192u);
+        failures += blocks.pass ? 0 : 1;
+    }
+    EXPECT_LE(failures, 2) << "each fails with a chance of 1 %";
+}
+
+TEST(ZTest, TwoPerCentOfBiasFailsInBlocksThoughPixelsHideIt) {
+    const RgbImage mean = truth(128, 128), variance = variance_of(mean);
+    const RgbImage a = noisy(mean, variance, 1, 1.02);
+    const BlockZTest blocks = block_z_test({a, mean, &variance});
+    EXPECT_FALSE(blocks.pass);
+    EXPECT_GT(blocks.mean_z2, 5.0);  // each block's z is about 0.02 / (0.1 / 16) = 3.2
+    EXPECT_GT(blocks.beyond_3, 50u);
+    EXPECT_GT(blocks.image_z[0], 20.0);
+    EXPECT_TRUE(pixel_z_test({a, mean, &variance}).pass);
+}
+
+TEST(ZTest, NoiseOfTheReferenceCounts) {
+    const RgbImage mean = truth(128, 128), variance = variance_of(mean);
+    const RgbImage a = noisy(mean, variance, 1), b = noisy(mean, variance, 2);
+    EXPECT_NEAR(block_z_test({a, b, &variance}).mean_z2, 2.0, 0.7) << "as if the reference were exact";
+    EXPECT_NEAR(block_z_test({a, b, &variance, &variance}).mean_z2, 1.0, 0.5);
+}
+
+TEST(ZTest, RoundingToHalfCounts) {
+    const RgbImage mean = truth(64, 64);
+    RgbImage rounded = mean;
+    for (Rgb& pixel : rounded.pixels)
+        for (int c = 0; c < 3; ++c)
+            pixel[c] = static_cast<float>(Imath::half(pixel[c]));
+    const RgbImage tiny(64, 64, Rgb(1e-12f));
+    ZTestInput input{mean, rounded, &tiny};
+    const ZTestOptions no_floor{.variance_floor = 0.0};
+    EXPECT_GT(pixel_z_test(input, no_floor).mean_z2, 100.0);
+    input.reference_half = true;
+    EXPECT_LT(pixel_z_test(input, no_floor).mean_z2, 1.0);
+    EXPECT_TRUE(block_z_test(input).pass);
+}
+
+TEST(ZTest, ACommonRelativeErrorIsNotAveragedAway) {
+    const RgbImage mean = truth(64, 64), variance = variance_of(mean);
+    RgbImage brighter = mean;
+    for (Rgb& pixel : brighter.pixels)
+        pixel *= 1.05f;
+    const ZTestInput biased{brighter, mean, &variance, nullptr, false, false, 0.05};
+    EXPECT_FALSE(block_z_test({brighter, mean, &variance}).pass);
+    EXPECT_TRUE(block_z_test(biased).pass);
+    EXPECT_LT(std::abs(block_z_test(biased).image_z[0]), 1.01);
+}
+
+TEST(ZTest, EqualAndBlackImagesPassWithoutDividingByZero) {
+    const RgbImage black(20, 20), variance(20, 20);
+    const PixelZTest pixels = pixel_z_test({black, black, &variance}, {.variance_floor = 0.0});
+    const BlockZTest blocks = block_z_test({black, black, &variance});
+    EXPECT_TRUE(pixels.pass);
+    EXPECT_TRUE(blocks.pass);
+    EXPECT_EQ(blocks.max_abs_z, 0.0);
+    EXPECT_EQ(blocks.tests, 4u * 3u);
+    const RgbImage light(20, 20, Rgb(0.1f));
+    EXPECT_FALSE(block_z_test({light, black, &variance}).pass) << "a difference without noise is a bias";
+}
+
+TEST(ZTest, LeavesOutInvalidPixelsAndVariances) {
+    RgbImage a(32, 32, Rgb(1.0f)), variance(32, 32, Rgb(0.01f));
+    const RgbImage b = a;
+    a.pixels[0] = Rgb(kNan);
+    variance.pixels[1] = Rgb(kInf);
+    variance.pixels[2] = Rgb(-1.0f, 0.0f, 0.0f);
+    const PixelZTest pixels = pixel_z_test({a, b, &variance});
+    EXPECT_EQ(pixels.invalid, 3u);
+    EXPECT_EQ(pixels.tests, (1024u - 3u) * 3u);
+    EXPECT_TRUE(block_z_test({a, b, &variance}).pass);
+    const RgbImage nothing(32, 32, Rgb(kNan));
+    EXPECT_FALSE(pixel_z_test({nothing, b, &variance}).pass) << "nothing tested is no pass";
+    EXPECT_FALSE(block_z_test({nothing, b, &variance}).pass);
+}
+
+TEST(Difference, IsBlueWhiteRed) {
+    const RgbImage b(5, 1, Rgb(0.99f));
+    const RgbImage a = image_of(5, 1, {Rgb(0.99f), Rgb(9.0f), Rgb(0.0f), Rgb(0.99f + 0.25f), Rgb(kNan)});
+    const RgbImage d = difference_image(a, b, 0.5);
+    EXPECT_EQ(d.pixels[0], Rgb(1.0f));
+    EXPECT_EQ(d.pixels[1], Rgb(1.0f, 0.0f, 0.0f));
+    EXPECT_EQ(d.pixels[2], Rgb(0.0f, 0.0f, 1.0f));
+    EXPECT_NEAR(d.pixels[3].y, 0.5f, 1e-5f);
+    EXPECT_EQ(d.pixels[4], Rgb(1.0f, 0.0f, 1.0f));
+}
+
+}  // namespace
+}  // namespace treefarm
