@@ -41,7 +41,8 @@ std::vector<Segment> collect(const TraceScene& scene, bool shadow) {
 }
 
 RTCRay to_embree(const Segment& s) {
-    return {s.origin.x, s.origin.y, s.origin.z, 0.0f, s.direction.x, s.direction.y, s.direction.z, 0.0f, s.length, ~0u, 0, 0};
+    return {s.origin.x, s.origin.y, s.origin.z, 0.0f, s.direction.x, s.direction.y, s.direction.z, 0.0f,
+            s.length,   ~0u,        0,          0};
 }
 
 TraceScene make_scene() {
@@ -49,8 +50,8 @@ TraceScene make_scene() {
 }
 
 void count_rays(benchmark::State& state, std::size_t rays) {
-    state.counters["ns/ray"] = benchmark::Counter(
-        static_cast<double>(rays) * 1e-9, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+    state.counters["time/ray"] = benchmark::Counter(
+        static_cast<double>(rays), benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
     state.counters["rays/path"] = static_cast<double>(rays) / (64 * 64 * 4);
 }
 
@@ -117,10 +118,10 @@ void bare_paths(benchmark::State& state) {
                 }
                 benchmark::DoNotOptimize(ray);
             }
-    state.counters["ns/ray"] = benchmark::Counter(static_cast<double>(rays) * 1e-9,
-                                                  benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
-    state.counters["ns/path"] = benchmark::Counter(
-        64.0 * 64 * 4 * 1e-9, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+    state.counters["time/ray"] =
+        benchmark::Counter(static_cast<double>(rays), benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+    state.counters["time/path"] =
+        benchmark::Counter(64.0 * 64 * 4, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 
 BENCHMARK(closest_hit)->Unit(benchmark::kMillisecond);

@@ -30,8 +30,8 @@ SdTree train(const TraceScene& scene, const Job& job, const Box3& bounds) {
     for (std::uint32_t pass = 0; pass < 5; ++pass) {
         const Guide guide(tree);
         Accumulator sums(pass, guide);
-        render_unit(scene, job, make_pass(pass, 4u << pass, false, true), guide, {pass, 0, 0, kSize, kSize, 0}, pixels, log,
-                    stats);
+        render_unit(scene, job, make_pass(pass, 4u << pass, false, true), guide, {pass, 0, 0, kSize, kSize, 0}, pixels,
+                    log, stats);
         sums.commit(log.records, log.counts, log.caps);
         RefineReport report;
         tree = refine(tree, sums.take(), {.spatial_threshold = 1000.0 * (1 << pass)}, report);
@@ -53,16 +53,16 @@ void trace(benchmark::State& state, bool guided, bool next_event, bool record) {
     RecordLog log;
     TraceStats stats;
     for (auto _ : state)
-        render_unit(scene, job, make_pass(9, 16, next_event, record), guide, {9, 0, 0, kSize, kSize, 0}, pixels, log, stats);
+        render_unit(scene, job, make_pass(9, 16, next_event, record), guide, {9, 0, 0, kSize, kSize, 0}, pixels, log,
+                    stats);
     const auto paths = static_cast<double>(stats.paths);
-    state.counters["ns/path"] =
-        benchmark::Counter(paths * 1e-9, benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
-    state.counters["ns/vertex"] = benchmark::Counter(static_cast<double>(stats.vertices) * 1e-9,
-                                                     benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+    const auto seconds_each = benchmark::Counter::kIsRate | benchmark::Counter::kInvert;
+    state.counters["time/path"] = benchmark::Counter(paths, seconds_each);
+    state.counters["time/vertex"] = benchmark::Counter(static_cast<double>(stats.vertices), seconds_each);
     state.counters["rays/path"] = static_cast<double>(stats.rays + stats.shadow_rays) / paths;
     state.counters["vertices/path"] = static_cast<double>(stats.vertices) / paths;
     state.counters["regions"] = guide.region_count();
-    state.counters["records/path"] = static_cast<double>(log.records.size()) * 1.0 / (kSize * kSize * 16);
+    state.counters["records/path"] = static_cast<double>(log.records.size()) / (kSize * kSize * 16);
 }
 
 BENCHMARK_CAPTURE(trace, path, false, false, false)->Unit(benchmark::kMillisecond);

@@ -39,7 +39,8 @@ std::optional<BlobName> ChainReceiver::take(const Chunk& chunk, double now) {
     if (latest != latest_collected_.end() && name.epoch <= latest->second) return std::nullopt;
 
     Assembly& assembly = assemblies_[name];
-    if (assembly.total && *assembly.total != chunk.total) throw FormatError("a blob that changes its length on the way");
+    if (assembly.total && *assembly.total != chunk.total)
+        throw FormatError("a blob that changes its length on the way");
     assembly.total = chunk.total;
     assembly.last_heard = now;
     if (chunk.offset > assembly.bytes.size()) {
@@ -64,10 +65,14 @@ std::optional<Bytes> ChainReceiver::collect(const BlobName& name) {
     if (found == assemblies_.end() || !found->second.complete()) return std::nullopt;
     Bytes bytes = std::move(found->second.bytes);
     latest_collected_[name.blob] = name.epoch;
-    std::erase_if(assemblies_, [&](const auto& entry) {
-        return entry.first.blob == name.blob && entry.first.epoch <= name.epoch;
-    });
+    std::erase_if(assemblies_,
+                  [&](const auto& entry) { return entry.first.blob == name.blob && entry.first.epoch <= name.epoch; });
     return bytes;
+}
+
+void ChainReceiver::restart(Blob blob) {
+    latest_collected_.erase(blob);
+    std::erase_if(assemblies_, [&](const auto& entry) { return entry.first.blob == blob; });
 }
 
 void ChainReceiver::complain(double now, double patience) {

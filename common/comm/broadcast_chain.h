@@ -10,8 +10,8 @@
 namespace treefarm {
 
 /// Large things go along a chain of workers in pieces: the coordinator sends each piece once, every worker passes it on
-/// while the next one is under way. On a network where bandwidth is the limit this costs about one transfer, however many
-/// workers there are; a star costs one per worker.
+/// while the next one is under way. On a network where bandwidth is the limit this costs about one transfer, however
+/// many workers there are; a star costs one per worker.
 inline constexpr std::size_t kChunkBytes = std::size_t{1} << 20;
 
 /// What a blob is called: which one, and of which pass.
@@ -25,8 +25,8 @@ struct BlobName {
 void send_along_chain(Channel& channel, const BlobName& name, std::span<const std::uint8_t> bytes, std::uint64_t offset,
                       std::span<const std::uint32_t> chain, std::size_t chunk_bytes = kChunkBytes);
 
-/// A worker's end: forwards what it receives and assembles its own copy. A blob with a hole asks the coordinator for the
-/// rest, at once when a later piece shows the hole, or after a silence (see complain()).
+/// A worker's end: forwards what it receives and assembles its own copy. A blob with a hole asks the coordinator for
+/// the rest, at once when a later piece shows the hole, or after a silence (see complain()).
 class ChainReceiver {
   public:
     explicit ChainReceiver(Channel& channel) : channel_(channel) {}
@@ -39,6 +39,9 @@ class ChainReceiver {
 
     /// Hands out a complete blob, once, and forgets older ones of its kind; nothing if it is not complete.
     std::optional<Bytes> collect(const BlobName& name);
+
+    /// Takes blobs of this kind anew, even those that were handed out.
+    void restart(Blob blob);
 
     /// Asks again for blobs of which nothing was heard for `patience` seconds.
     void complain(double now, double patience);

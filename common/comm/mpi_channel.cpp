@@ -11,6 +11,7 @@
 #include <map>
 #include <mutex>
 #include <thread>
+#include <utility>
 
 #include "common/base/error.h"
 #include "common/base/timer.h"
@@ -159,6 +160,19 @@ class MpiChannel final : public Channel {
     std::uint64_t sent_ = 0, received_ = 0;
 };
 
+/// Collective: only at the start, while everybody is alive.
+int count_workers_on_host(MPI_Comm communicator) {
+    int rank = 0, workers = 0;
+    check(MPI_Comm_rank(communicator, &rank), "MPI_Comm_rank", -1);
+    MPI_Comm host = MPI_COMM_NULL;
+    check(MPI_Comm_split_type(communicator, MPI_COMM_TYPE_SHARED, rank, MPI_INFO_NULL, &host), "MPI_Comm_split_type",
+          -1);
+    const int own = rank != 0;
+    check(MPI_Allreduce(&own, &workers, 1, MPI_INT, MPI_SUM, host), "MPI_Allreduce", -1);
+    check(MPI_Comm_free(&host), "MPI_Comm_free", -1);
+    return workers;
+}
+
 /// Leaves the process unless it is told in time that all went well.
 class Deadline {
   public:
@@ -189,6 +203,7 @@ class Deadline {
 class MpiSession::Impl {
   public:
     MPI_Comm communicator = MPI_COMM_NULL;
+    int workers_on_host = 0;
     std::unique_ptr<MpiChannel> channel;
 };
 
@@ -198,6 +213,7 @@ MpiSession::MpiSession() : impl_(std::make_unique<Impl>()) {
     check(MPI_Comm_set_errhandler(MPI_COMM_WORLD, MPI_ERRORS_RETURN), "MPI_Comm_set_errhandler", -1);
     check(MPI_Comm_dup(MPI_COMM_WORLD, &impl_->communicator), "MPI_Comm_dup", -1);
     check(MPI_Comm_set_errhandler(impl_->communicator, MPI_ERRORS_RETURN), "MPI_Comm_set_errhandler", -1);
+    impl_->workers_on_host = count_workers_on_host(impl_->communicator);
     impl_->channel = std::make_unique<MpiChannel>(impl_->communicator);
 }
 
@@ -209,6 +225,10 @@ int MpiSession::rank() const {
 
 int MpiSession::size() const {
     return impl_->channel->peer_count();
+}
+
+int MpiSession::workers_on_host() const {
+    return impl_->workers_on_host;
 }
 
 Channel& MpiSession::channel() {

@@ -20,11 +20,13 @@ class MpiSession {
 
     int rank() const;
     int size() const;
+    /// Ranks other than 0 on this host.
+    int workers_on_host() const;
     Channel& channel();
 
-    /// Ends the process's part in the job. `orderly`: no peer was lost, so MPI_Finalize can be waited for; this is still
-    /// given up, and the process left at once with `exit_code`, if messages are not drained or MPI_Finalize has not
-    /// returned after `patience` seconds. Returns only after MPI_Finalize.
+    /// Ends the process's part in the job. `orderly`: no peer was lost, so MPI_Finalize can be waited for; this is
+    /// still given up, and the process left at once with `exit_code`, if messages are not drained or MPI_Finalize has
+    /// not returned after `patience` seconds. Returns only after MPI_Finalize.
     void finish(bool orderly, int exit_code, double patience);
 
   private:

@@ -37,7 +37,7 @@ bool is_section(const std::string& name) {
     for (const JobKey& key : job_keys())
         names.push_back(key.name);
     const std::string nearest = nearest_word(name, names);
-    throw InputError(where, "unknown key " + quoted(name),
+    throw InputError(where, "unknown key " + in_quotes(name),
                      nearest.empty() ? "see docs/jobs.md for the keys" : "did you mean " + nearest + "?");
 }
 
@@ -155,7 +155,7 @@ void apply_setting(Job& job, const std::string& key_name, const std::string& val
     const JobKey& key = require_key(key_name, where);
     refuse_unavailable(key, value, where);
     if (!key.parse(job, value))
-        throw InputError(where, key.name + " = " + quoted(value) + " is not allowed", "allowed: " + key.range);
+        throw InputError(where, key.name + " = " + in_quotes(value) + " is not allowed", "allowed: " + key.range);
     if (key.name == "guiding.preset")
         for (const Setting& setting : preset_settings(value))
             apply_setting(job, setting.key, setting.value, where);

@@ -104,7 +104,7 @@ std::string nearest_word(std::string_view word, std::span<const std::string> can
     return best;
 }
 
-std::string quoted(std::string_view text) {
+std::string in_quotes(std::string_view text) {
     constexpr std::size_t kLongest = 60;
     std::string result = "\"";
     for (const char c : text.substr(0, kLongest))

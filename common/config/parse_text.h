@@ -30,6 +30,6 @@ std::string number_text(float value);
 std::string nearest_word(std::string_view word, std::span<const std::string> candidates);
 
 /// Input text for a message: quoted, printable, and no longer than a line can hold.
-std::string quoted(std::string_view text);
+std::string in_quotes(std::string_view text);
 
 }  // namespace treefarm

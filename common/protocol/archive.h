@@ -9,8 +9,8 @@
 
 namespace treefarm {
 
-/// cereal archives over ByteWriter and ByteReader: a message lists its fields once, for both directions, and every count is
-/// checked against the bytes that remain before cereal allocates for it.
+/// cereal archives over ByteWriter and ByteReader: a message lists its fields once, for both directions, and every
+/// count is checked against the bytes that remain before cereal allocates for it.
 class WriteArchive : public cereal::OutputArchive<WriteArchive, cereal::AllowEmptyClassElision> {
   public:
     explicit WriteArchive(ByteWriter& writer) : OutputArchive(this), writer_(writer) {}
@@ -63,13 +63,15 @@ void CEREAL_LOAD_FUNCTION_NAME(ReadArchive& archive, cereal::SizeTag<T>& tag) {
 template <class T>
 void CEREAL_SAVE_FUNCTION_NAME(WriteArchive& archive, const cereal::BinaryData<T>& data) {
     const auto* bytes = static_cast<const std::uint8_t*>(data.data);
-    for (std::uint64_t i = 0; i < data.size; ++i) archive.writer().put(bytes[i]);
+    for (std::uint64_t i = 0; i < data.size; ++i)
+        archive.writer().put(bytes[i]);
 }
 
 template <class T>
 void CEREAL_LOAD_FUNCTION_NAME(ReadArchive& archive, cereal::BinaryData<T>& data) {
     auto* bytes = static_cast<std::uint8_t*>(data.data);
-    for (std::uint64_t i = 0; i < data.size; ++i) bytes[i] = archive.reader().get<std::uint8_t>();
+    for (std::uint64_t i = 0; i < data.size; ++i)
+        bytes[i] = archive.reader().get<std::uint8_t>();
 }
 
 }  // namespace treefarm

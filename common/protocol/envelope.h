@@ -23,13 +23,15 @@ enum class Kind : std::uint8_t {
     result,      ///< worker: pixels and tree update of finished units
     heartbeat,   ///< both: alive
     failure,     ///< worker: cannot go on, and why
+    rejoin,      ///< coordinator: you were thought lost, start anew
     quit,        ///< coordinator: stop tracing
     bye,         ///< worker: stopped
     leave,       ///< coordinator: end the process
 };
 inline constexpr Kind kLastKind = Kind::leave;
 
-/// magic[4] version:u32 checksum:u64 length:u64 kind:u8 payload[length]; the checksum (XXH3-64) covers all that follows it.
+/// magic[4] version:u32 checksum:u64 length:u64 kind:u8 payload[length]; the checksum (XXH3-64) covers all that follows
+/// it.
 inline constexpr std::size_t kEnvelopeBytes = 25;
 
 /// Builds a message in place: write the payload into body(), then seal().

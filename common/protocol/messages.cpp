@@ -9,7 +9,7 @@ namespace treefarm {
 
 template <class Archive>
 void serialize(Archive& a, Hello& m) {
-    a(m.incarnation, m.fingerprint, m.threads, m.host, m.version);
+    a(m.incarnation, m.fingerprint, m.threads, m.has_scene, m.host, m.version);
 }
 
 template <class Archive>
@@ -53,6 +53,9 @@ void serialize(Archive& a, Failure& m) {
 }
 
 template <class Archive>
+void serialize(Archive&, Rejoin&) {}
+
+template <class Archive>
 void serialize(Archive&, Quit&) {}
 
 template <class Archive>
@@ -77,7 +80,8 @@ void check(const Welcome& m) {
 
 void check(const PassBegin& m) {
     const PassPlan& plan = m.plan;
-    if (plan.spp == 0 || plan.chunks == 0 || !std::has_single_bit(plan.blocks_per_unit)) throw FormatError("an absurd pass");
+    if (plan.spp == 0 || plan.chunks == 0 || !std::has_single_bit(plan.blocks_per_unit))
+        throw FormatError("an absurd pass");
 }
 
 template <class M>
@@ -101,7 +105,8 @@ void write_body(ByteWriter& writer, const Chunk& m) {
 void write_body(ByteWriter& writer, const Work& m) {
     writer.put(m.pass);
     writer.put_varint(m.units.size());
-    for (const WorkUnit& unit : m.units) write_unit(writer, unit);
+    for (const WorkUnit& unit : m.units)
+        write_unit(writer, unit);
 }
 
 void write_body(ByteWriter& writer, const Result& m) {
@@ -126,7 +131,8 @@ M read_body(ByteReader& reader) {
         message.pass = reader.get<std::uint32_t>();
         const std::size_t count = reader.get_count(kUnitBytes);
         message.units.reserve(count);
-        for (std::size_t i = 0; i < count; ++i) message.units.push_back(read_unit(reader, message.pass));
+        for (std::size_t i = 0; i < count; ++i)
+            message.units.push_back(read_unit(reader, message.pass));
     } else if constexpr (std::is_same_v<M, Result>) {
         message = read_result(reader);
     } else {
@@ -162,6 +168,7 @@ template Bytes encode(const Work&);
 template Bytes encode(const Result&);
 template Bytes encode(const Heartbeat&);
 template Bytes encode(const Failure&);
+template Bytes encode(const Rejoin&);
 template Bytes encode(const Quit&);
 template Bytes encode(const Bye&);
 template Bytes encode(const Leave&);
@@ -170,20 +177,36 @@ Message decode(std::span<const std::uint8_t> bytes) {
     const Envelope envelope = open_envelope(bytes);
     ByteReader reader(envelope.payload);
     switch (envelope.kind) {
-        case Kind::hello: return read_body<Hello>(reader);
-        case Kind::welcome: return read_body<Welcome>(reader);
-        case Kind::refuse: return read_body<Refuse>(reader);
-        case Kind::chunk: return read_body<Chunk>(reader);
-        case Kind::resend: return read_body<Resend>(reader);
-        case Kind::pass_begin: return read_body<PassBegin>(reader);
-        case Kind::want: return read_body<Want>(reader);
-        case Kind::work: return read_body<Work>(reader);
-        case Kind::result: return read_body<Result>(reader);
-        case Kind::heartbeat: return read_body<Heartbeat>(reader);
-        case Kind::failure: return read_body<Failure>(reader);
-        case Kind::quit: return read_body<Quit>(reader);
-        case Kind::bye: return read_body<Bye>(reader);
-        case Kind::leave: return read_body<Leave>(reader);
+        case Kind::hello:
+            return read_body<Hello>(reader);
+        case Kind::welcome:
+            return read_body<Welcome>(reader);
+        case Kind::refuse:
+            return read_body<Refuse>(reader);
+        case Kind::chunk:
+            return read_body<Chunk>(reader);
+        case Kind::resend:
+            return read_body<Resend>(reader);
+        case Kind::pass_begin:
+            return read_body<PassBegin>(reader);
+        case Kind::want:
+            return read_body<Want>(reader);
+        case Kind::work:
+            return read_body<Work>(reader);
+        case Kind::result:
+            return read_body<Result>(reader);
+        case Kind::heartbeat:
+            return read_body<Heartbeat>(reader);
+        case Kind::failure:
+            return read_body<Failure>(reader);
+        case Kind::rejoin:
+            return read_body<Rejoin>(reader);
+        case Kind::quit:
+            return read_body<Quit>(reader);
+        case Kind::bye:
+            return read_body<Bye>(reader);
+        case Kind::leave:
+            return read_body<Leave>(reader);
     }
     throw FormatError("message of unknown kind");
 }

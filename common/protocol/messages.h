@@ -15,15 +15,16 @@
 
 namespace treefarm {
 
-/// The messages between coordinator and workers (docs/protocol.md is the grammar). An incarnation is a random number that
-/// a worker draws when it starts: together with its peer number it names one life of one process, so that what an earlier
-/// life still had under way is recognised and dropped.
+/// The messages between coordinator and workers (docs/protocol.md is the grammar). An incarnation is a random number
+/// that a worker draws when it starts: together with its peer number it names one life of one process, so that what an
+/// earlier life still had under way is recognised and dropped.
 
 struct Hello {
     static constexpr Kind kKind = Kind::hello;
     std::uint64_t incarnation = 0;
     std::uint64_t fingerprint = 0;  ///< equal fingerprints promise equal bits (fingerprint.h)
     std::uint32_t threads = 0;      ///< that trace
+    bool has_scene = false;         ///< from an earlier life that was given up too soon
     std::string host;
     std::string version;  ///< of the program
 
@@ -133,6 +134,12 @@ struct Failure {
     bool operator==(const Failure&) const = default;
 };
 
+/// You were given up for lost, what you had was issued again: draw a new incarnation and say hello.
+struct Rejoin {
+    static constexpr Kind kKind = Kind::rejoin;
+    bool operator==(const Rejoin&) const = default;
+};
+
 struct Quit {
     static constexpr Kind kKind = Kind::quit;
     bool operator==(const Quit&) const = default;
@@ -153,7 +160,7 @@ struct Leave {
 };
 
 using Message = std::variant<Hello, Welcome, Refuse, Chunk, Resend, PassBegin, Want, Work, Result, Heartbeat, Failure,
-                             Quit, Bye, Leave>;
+                             Rejoin, Quit, Bye, Leave>;
 
 /// Calls the member of `Overloads` that takes the message's type: std::visit(Overloads{...}, message).
 template <class... Handlers>

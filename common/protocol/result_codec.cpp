@@ -29,7 +29,8 @@ void write_unit_result(ByteWriter& writer, const UnitResult& result) {
     double* out = values.data();
     for (const PixelEstimate& pixel : pixels)
         for (int half = 0; half < 2; ++half, out += 6) {
-            if (pixel.half[half].n != n[half]) throw RunError("pixels of a work unit differ in their number of samples");
+            if (pixel.half[half].n != n[half])
+                throw RunError("pixels of a work unit differ in their number of samples");
             write_moments(out, pixel.half[half]);
         }
     writer.put_array(std::span<const double>(values));
@@ -61,7 +62,8 @@ void write_stats(ByteWriter& writer, const TraceStats& s) {
         writer.put(sample.x);
         writer.put(sample.y);
         writer.put(sample.sample);
-        for (const float value : sample.rgb) writer.put(value);
+        for (const float value : sample.rgb)
+            writer.put(value);
     }
 }
 
@@ -81,7 +83,8 @@ TraceStats read_stats(ByteReader& reader) {
         sample.x = reader.get<std::uint16_t>();
         sample.y = reader.get<std::uint16_t>();
         sample.sample = reader.get<std::uint32_t>();
-        for (float& value : sample.rgb) value = reader.get<float>();
+        for (float& value : sample.rgb)
+            value = reader.get<float>();
         s.first_invalid.push_back(sample);
     }
     return s;
@@ -90,14 +93,16 @@ TraceStats read_stats(ByteReader& reader) {
 }  // namespace
 
 void write_unit(ByteWriter& writer, const WorkUnit& unit) {
-    for (const std::uint16_t edge : {unit.x0, unit.y0, unit.x1, unit.y1}) writer.put(edge);
+    for (const std::uint16_t edge : {unit.x0, unit.y0, unit.x1, unit.y1})
+        writer.put(edge);
     writer.put(unit.chunk);
 }
 
 WorkUnit read_unit(ByteReader& reader, std::uint32_t pass) {
     WorkUnit unit;
     unit.pass = pass;
-    for (std::uint16_t* edge : {&unit.x0, &unit.y0, &unit.x1, &unit.y1}) *edge = reader.get<std::uint16_t>();
+    for (std::uint16_t* edge : {&unit.x0, &unit.y0, &unit.x1, &unit.y1})
+        *edge = reader.get<std::uint16_t>();
     unit.chunk = reader.get<std::uint32_t>();
     if (unit.x0 >= unit.x1 || unit.y0 >= unit.y1) throw FormatError("an empty work unit");
     return unit;
@@ -108,7 +113,8 @@ void write_result(ByteWriter& writer, const Result& result) {
     writer.put(result.pass);
     write_stats(writer, result.stats);
     writer.put_varint(result.units.size());
-    for (const UnitResult& unit : result.units) write_unit_result(writer, unit);
+    for (const UnitResult& unit : result.units)
+        write_unit_result(writer, unit);
     writer.put_array(std::span(result.update));
 }
 
@@ -119,7 +125,8 @@ Result read_result(ByteReader& reader) {
     result.stats = read_stats(reader);
     const std::size_t count = reader.get_count(kUnitBytes + kPixelBytes);
     result.units.reserve(count);
-    for (std::size_t i = 0; i < count; ++i) result.units.push_back(read_unit_result(reader, result.pass));
+    for (std::size_t i = 0; i < count; ++i)
+        result.units.push_back(read_unit_result(reader, result.pass));
     result.update = reader.get_array<std::uint8_t>();
     return result;
 }

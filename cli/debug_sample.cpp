@@ -1,0 +1,86 @@
+#include "cli/debug_sample.h"
+
+#include <charconv>
+#include <cstdio>
+#include <thread>
+
+#include "cli/launch.h"
+#include "common/comm/in_process_channel.h"
+#include "common/scene/scene_codec.h"
+#include "coordinator/pass_loop.h"
+#include "worker/integrator/tile_renderer.h"
+#include "worker/worker_loop.h"
+
+namespace treefarm {
+
+namespace {
+
+const Location kHere{"--debug-sample", 0, 0};
+
+/// The tree that guides a pass, learned by rendering the passes before it.
+SdTree learn_tree(const RenderRequest& request, std::span<const PassPlan> plans, std::uint32_t pass) {
+    SdTree tree = first_tree(request.scene);
+    if (pass == 0 || request.job.guiding.type == GuidingType::none) return tree;
+    const Log log = make_log("treefarm", {}, true);
+    auto channels = make_in_process_channels(2);
+    std::thread worker([&] {
+        WorkerSettings settings;
+        settings.threads = affinity_threads();
+        settings.host = host_name();
+        settings.fingerprint = request.fingerprint;
+        run_worker(*channels[1], settings, make_path_renderer, log);
+    });
+    const auto send_away = [&] {
+        dismiss_workers(*channels[0], {}, 5.0);
+        worker.join();
+    };
+    try {
+        Farm farm(*channels[0], request.job, encode_scene(request.scene), request.fingerprint, log);
+        bool enough = false;
+        PassHooks hooks;
+        hooks.interrupted = [&] { return enough; };
+        hooks.on_pass = [&](const PassReport& report) { enough = report.plan.index + 1 == pass; };
+        farm.gather({[] { return false; }});
+        const Film& film = request.scene.film;
+        tree = run_passes(farm, request.job, plans, std::move(tree), film.width, film.height, hooks).tree;
+    } catch (...) {
+        send_away();
+        throw;
+    }
+    send_away();
+    return tree;
+}
+
+}  // namespace
+
+SampleName parse_sample_name(const std::string& text) {
+    std::uint32_t values[4] = {};
+    const char* at = text.data();
+    const char* const end = at + text.size();
+    for (int k = 0; k < 4; ++k) {
+        const auto [next, error] = std::from_chars(at, end, values[k]);
+        const bool whole = error == std::errc() && (k < 3 ? next != end && *next == ',' : next == end);
+        if (!whole || values[k] > 1u << 30)
+            throw InputError(kHere, "\"" + text + "\" does not name a sample",
+                             "write pass,x,y,sample, like 3,120,64,0");
+        at = next + 1;
+    }
+    return {values[0], static_cast<int>(values[1]), static_cast<int>(values[2]), values[3]};
+}
+
+int debug_sample(const RenderRequest& request, const SampleName& name) {
+    const std::vector<PassPlan> plans = plan_passes(request.job);
+    const Film& film = request.scene.film;
+    if (name.pass >= plans.size() || name.x >= film.width || name.y >= film.height ||
+        name.sample >= plans[name.pass].spp)
+        throw InputError(kHere, "there is no such sample",
+                         "the image has " + std::to_string(film.width) + " x " + std::to_string(film.height) +
+                             " pixels and " + std::to_string(plans.size()) + " passes");
+    const Guide guide(learn_tree(request, plans, name.pass));
+    const TraceScene scene(request.scene, request.job);
+    const std::string text = describe_sample(scene, request.job, plans[name.pass], guide, name.x, name.y, name.sample);
+    std::fputs(text.c_str(), stdout);
+    return 0;
+}
+
+}  // namespace treefarm

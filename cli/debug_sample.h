@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+
+#include "coordinator/render_run.h"
+
+namespace treefarm {
+
+/// Names one camera path of a render.
+struct SampleName {
+    std::uint32_t pass = 0;
+    int x = 0, y = 0;          ///< pixel
+    std::uint32_t sample = 0;  ///< within the pass
+};
+
+/// From "pass,x,y,sample"; throws InputError.
+SampleName parse_sample_name(const std::string& text);
+
+/// Renders the passes before the sample's, since they teach the tree that guides it, traces the sample and prints its
+/// path vertex by vertex on standard output. Returns the exit code; throws InputError if there is no such sample.
+int debug_sample(const RenderRequest& request, const SampleName& name);
+
+}  // namespace treefarm

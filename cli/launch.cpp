@@ -1,0 +1,35 @@
+#include "cli/launch.h"
+
+#include <sched.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <thread>
+
+namespace treefarm {
+
+LaunchEnvironment read_launch_environment() {
+    LaunchEnvironment launch;
+    for (const char* name : {"OMPI_COMM_WORLD_RANK", "PMIX_RANK"})
+        if (const char* rank = std::getenv(name)) {
+            launch.under_mpi = true;
+            launch.rank = std::atoi(rank);
+            break;
+        }
+    return launch;
+}
+
+unsigned affinity_threads() {
+    cpu_set_t set;
+    CPU_ZERO(&set);
+    if (sched_getaffinity(0, sizeof set, &set) == 0) return static_cast<unsigned>(CPU_COUNT(&set));
+    return std::max(1u, std::thread::hardware_concurrency());  // more processors than the set holds
+}
+
+std::string host_name() {
+    char name[256] = "";
+    gethostname(name, sizeof name - 1);
+    return name;
+}
+
+}  // namespace treefarm

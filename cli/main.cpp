@@ -1,0 +1,58 @@
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <iostream>
+#include <string>
+
+#include "cli/compare.h"
+#include "cli/launch.h"
+#include "cli/render.h"
+#include "common/base/error.h"
+#include "common/protocol/fingerprint.h"
+
+namespace treefarm {
+
+namespace {
+
+std::string joined(int argc, char** argv) {
+    std::string line;
+    for (int k = 0; k < argc; ++k)
+        line += (k > 0 ? " " : "") + std::string(argv[k]);
+    return line;
+}
+
+/// Under mpirun one process speaks for all; the others leave without a sign, lest it be killed before it has spoken.
+int fail(const LaunchEnvironment& launch, const std::string& message, int exit_code) {
+    if (launch.rank != 0) return 0;
+    std::fprintf(stderr, "treefarm: %s\n", message.c_str());
+    return exit_code;
+}
+
+int run(int argc, char** argv) {
+    const LaunchEnvironment launch = read_launch_environment();
+    int exit_code = 0;
+    CLI::App app("Path-guided rendering on one machine or many", "treefarm");
+    app.set_version_flag("--version", std::string("treefarm ") + kProgramVersion);
+    app.require_subcommand(1);
+    add_render_command(app, launch, joined(argc, argv), exit_code);
+    add_compare_command(app, exit_code);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::Success& done) {  // --help, --version
+        return launch.rank == 0 ? app.exit(done) : 0;
+    } catch (const CLI::ParseError& error) {
+        return fail(launch, error.what() + std::string("; see treefarm --help"), 2);
+    } catch (const InputError& error) {
+        return fail(launch, error.what(), 2);
+    } catch (const std::exception& error) {
+        return fail(launch, error.what(), 1);
+    }
+    return exit_code;
+}
+
+}  // namespace
+
+}  // namespace treefarm
+
+int main(int argc, char** argv) {
+    return treefarm::run(argc, argv);
+}

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/launch.h"
+#include "coordinator/render_run.h"
+
+namespace CLI {
+class App;
+}
+
+namespace treefarm {
+
+/// treefarm render SCENE.xml|JOB.toml
+struct RenderOptions {
+    std::string input;
+    std::string output;                ///< -o
+    std::optional<std::uint32_t> spp;  ///< --spp
+    std::vector<std::string> set;      ///< --set key=value
+    std::vector<std::string> defines;  ///< -D name=value
+    bool lenient = false;
+    std::string run_directory;  ///< --run-dir
+    unsigned threads = 0;       ///< 0: one per processor
+    bool quiet = false;
+    std::string debug_sample;  ///< "pass,x,y,sample"
+    std::string command;       ///< as it was typed
+};
+
+/// Registers the subcommand. Its callback runs the render and stores the exit code; InputError and RunError leave
+/// CLI::App::parse, after the other processes of the job were sent away.
+void add_render_command(CLI::App& app, const LaunchEnvironment& launch, const std::string& command_line,
+                        int& exit_code);
+
+/// Reads job and scene. The job's layers, each over the one before: defaults, the scene file's integrator and sampler,
+/// the job file, the command line. Throws InputError.
+RenderRequest read_request(const RenderOptions& options);
+
+/// The command that traces one sample again, but for the sample.
+std::string debug_command(const RenderOptions& options);
+
+}  // namespace treefarm

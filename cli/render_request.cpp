@@ -1,0 +1,93 @@
+#include <utility>
+
+#include "cli/render.h"
+#include "common/config/job_keys.h"
+#include "common/config/job_reader.h"
+#include "common/protocol/fingerprint.h"
+#include "common/scene/load.h"
+
+namespace treefarm {
+
+namespace {
+
+Setting option_setting(const char* option, std::string key, std::string value) {
+    return {std::move(key), std::move(value), Location{option, 0, 0}};
+}
+
+Setting define_setting(const std::string& define) {
+    const std::size_t equals = define.find('=');
+    if (equals == std::string::npos || equals == 0)
+        throw InputError(Location{"-D " + define, 0, 0}, "a definition needs a name and a value",
+                         "write -D name=value");
+    return option_setting("-D", kDefinesPrefix + define.substr(0, equals), define.substr(equals + 1));
+}
+
+std::vector<Setting> command_line_layer(const RenderOptions& options) {
+    std::vector<Setting> layer;
+    for (const std::string& argument : options.set)
+        layer.push_back(parse_set_argument(argument));
+    for (const std::string& define : options.defines)
+        layer.push_back(define_setting(define));
+    if (options.spp) layer.push_back(option_setting("--spp", "budget.spp", std::to_string(*options.spp)));
+    if (options.lenient) layer.push_back(option_setting("--lenient", "scene.lenient", "true"));
+    if (!options.run_directory.empty())
+        layer.push_back(option_setting("--run-dir", "output.directory", options.run_directory));
+    if (!options.output.empty()) layer.push_back(option_setting("-o", "output.file", options.output));
+    return layer;
+}
+
+std::string shell_quoted(const std::string& word) {
+    if (!word.empty() && word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
+                                                "_-+=./,:@%") == std::string::npos)
+        return word;
+    std::string quoted = "'";
+    for (const char c : word)
+        quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return quoted + "'";
+}
+
+}  // namespace
+
+RenderRequest read_request(const RenderOptions& options) {
+    const std::filesystem::path input(options.input);
+    std::vector<Setting> file_layer;
+    if (input.extension() == ".toml")
+        file_layer = read_job_settings(input);
+    else
+        file_layer.push_back({"scene.file", options.input, Location{options.input, 0, 0}});
+    const std::vector<Setting> line_layer = command_line_layer(options);
+
+    Job where;  // which scene, and how to read it, stands in the upper layers
+    apply_layer(where, file_layer);
+    apply_layer(where, line_layer);
+    if (where.scene.file.empty())
+        throw InputError(Location{options.input, 0, 0}, "the job names no scene", "set scene.file");
+    LoadedScene loaded =
+        load_scene(where.scene.file, where.scene.defines, where.scene.lenient, where.image.width, where.image.height);
+
+    RenderRequest request;
+    apply_layer(request.job, loaded.settings);
+    apply_layer(request.job, file_layer);
+    apply_layer(request.job, line_layer);
+    request.scene = std::move(loaded.scene);
+    for (const Warning& warning : loaded.warnings)
+        request.warnings.push_back(warning.text());
+    request.command = options.command;
+    request.debug_command = debug_command(options);
+    request.fingerprint = own_fingerprint().hash();
+    request.quiet = options.quiet;
+    return request;
+}
+
+std::string debug_command(const RenderOptions& options) {
+    std::string text = "treefarm render " + shell_quoted(options.input);
+    for (const std::string& argument : options.set)
+        text += " --set " + shell_quoted(argument);
+    for (const std::string& define : options.defines)
+        text += " -D " + shell_quoted(define);
+    if (options.spp) text += " --spp " + std::to_string(*options.spp);
+    if (options.lenient) text += " --lenient";
+    return text + " --debug-sample";
+}
+
+}  // namespace treefarm

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/scene/warning.h"
+
+namespace treefarm::mitsuba {
+
+/// What to do about things in a scene that cannot be rendered: strict reading stops, lenient reading collects warnings.
+class Diagnostics {
+  public:
+    explicit Diagnostics(bool lenient) : lenient_(lenient) {}
+
+    /// Throws InputError, or, when lenient, warns that `instead` is done ("it is skipped") and returns.
+    void unsupported(const Location& where, const std::string& what, const std::string& cure,
+                     const std::string& instead = "it is skipped") {
+        if (!lenient_) throw InputError(where, what, cure);
+        warn(where, what + ": " + instead);
+    }
+
+    void warn(const Location& where, const std::string& what) { warnings_.push_back({where, what}); }
+
+    std::vector<Warning>& warnings() { return warnings_; }
+
+  private:
+    bool lenient_;
+    std::vector<Warning> warnings_;
+};
+
+}  // namespace treefarm::mitsuba

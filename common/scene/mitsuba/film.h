@@ -1,0 +1,14 @@
+#pragma once
+
+#include "common/scene/mitsuba/properties.h"
+#include "common/scene/mitsuba/sensor.h"
+#include "common/scene/scene.h"
+
+namespace treefarm::mitsuba {
+
+/// Reads <film type="hdrfilm">; without an element: 768 x 576 pixels. Without a filter: a Gaussian of 0.5 pixels, as in
+/// Mitsuba. `wanted` replaces the size where it is not 0; `version` is the sensor's.
+Film read_film(const XmlElement* film, const FilmSize& wanted, int version, const SceneDocument& document,
+               Diagnostics& diagnostics);
+
+}  // namespace treefarm::mitsuba

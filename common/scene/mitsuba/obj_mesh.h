@@ -1,0 +1,13 @@
+#pragma once
+
+#include "common/scene/mitsuba/properties.h"
+#include "common/scene/scene.h"
+
+namespace treefarm::mitsuba {
+
+/// The mesh of <shape type="obj">. Where the file has no normals, smooth ones are computed unless face_normals is set;
+/// where it has them, they decide which side is the front. A mirroring transformation keeps the front of a file without
+/// normals in versions 2 and 3 and reverses it in version 0, as Mitsuba does.
+Mesh read_obj_mesh(Properties& properties, Diagnostics& diagnostics);
+
+}  // namespace treefarm::mitsuba

@@ -1,0 +1,86 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "common/scene/mitsuba/diagnostics.h"
+#include "common/scene/mitsuba/scene_document.h"
+#include "common/scene/mitsuba/spectra.h"
+#include "common/scene/mitsuba/transforms.h"
+
+namespace treefarm::mitsuba {
+
+/// "maxDepth" -> "max_depth": the names of Mitsuba 0.5 and 0.6 in the spelling of 2 and 3.
+std::string snake_case(const std::string& camel_case);
+
+/// An object inside another one, references resolved.
+struct Child {
+    const XmlElement* object;
+    std::string name;  ///< of the property that it stands for: "reflectance"; mostly empty
+    Location where;    ///< where it is used
+};
+
+/// Typed access to what stands inside an object's element. Names are in snake case and match both spellings. What is
+/// never asked for is an error in finish(), so that a typing error does not pass unnoticed.
+class Properties {
+  public:
+    /// Wrong attributes, repeated properties and unknown elements throw InputError (or warn, when lenient).
+    Properties(const XmlElement& object, const SceneDocument& document, Diagnostics& diagnostics);
+
+    const XmlElement& element() const { return object_; }
+    const Location& where() const { return object_.where; }
+    /// "<shape type="obj">", for messages.
+    std::string title() const;
+    /// The plugin's name, in lower case; InputError if there is none.
+    std::string type() const;
+    /// The id, or "".
+    std::string id() const;
+
+    bool has(const std::string& name) const { return values_.count(name) > 0; }
+    /// Where the property stands, or the object itself.
+    const Location& where(const std::string& name) const;
+
+    double number(const std::string& name, double otherwise);
+    /// A number above 0.
+    double positive(const std::string& name, double otherwise);
+    std::int64_t integer(const std::string& name, std::int64_t otherwise);
+    bool boolean(const std::string& name, bool otherwise);
+    std::string text(const std::string& name, const std::string& otherwise);
+    Vec3 point(const std::string& name, const Vec3& otherwise);
+    Rgb color(const std::string& name, const Rgb& otherwise, ColorUse use);
+    Matrix transform(const std::string& name);
+
+    /// The objects of a tag, in their order.
+    std::vector<Child> children(const std::string& tag);
+    /// The only object of a tag, or nullptr; a second one throws InputError.
+    const XmlElement* only_child(const std::string& tag);
+
+    /// Properties that have no influence here: whatever they say is accepted.
+    void ignore(std::initializer_list<const char*> names);
+
+    /// Refuses what nobody asked for.
+    void finish();
+
+  private:
+    struct Value {
+        const XmlElement* element;
+        bool used = false;
+    };
+    struct Entry {
+        Child child;
+        bool used = false;
+    };
+    /// The element of a property that must have one of these tags, or nullptr.
+    const XmlElement* find(const std::string& name, std::initializer_list<std::string_view> tags, const char* kind);
+    void add_value(const XmlElement& element);
+
+    const XmlElement& object_;
+    const SceneDocument& document_;
+    Diagnostics& diagnostics_;
+    std::map<std::string, Value> values_;
+    std::vector<Entry> children_;
+    std::vector<std::string> asked_;
+};
+
+}  // namespace treefarm::mitsuba

@@ -1,0 +1,71 @@
+#include "common/scene/mitsuba/read_mitsuba.h"
+
+#include "common/scene/mitsuba/emitters.h"
+#include "common/scene/mitsuba/integrator.h"
+#include "common/scene/mitsuba/materials.h"
+#include "common/scene/mitsuba/shapes.h"
+#include "common/scene/validate.h"
+
+namespace treefarm {
+namespace mitsuba {
+namespace {
+
+void read_shape(const XmlElement& element, Scene& scene, MaterialReader& materials, const SceneDocument& document,
+                Diagnostics& diagnostics) {
+    Properties properties(element, document, diagnostics);
+    auto geometry = read_geometry(properties, diagnostics);
+    if (!geometry) return;
+    const XmlElement* bsdf = properties.only_child("bsdf");
+    const XmlElement* emitter = properties.only_child("emitter");
+    properties.finish();
+
+    Shape shape;
+    shape.geometry = std::move(*geometry);
+    shape.name = properties.id();
+    shape.where = element.where;
+    shape.material = bsdf ? materials.read(*bsdf) : materials.read_default(emitter != nullptr, element.where);
+    scene.shapes.push_back(std::move(shape));
+    if (emitter)
+        read_area_emitter(*emitter, static_cast<std::int32_t>(scene.shapes.size() - 1), scene, document, diagnostics);
+}
+
+}  // namespace
+}  // namespace mitsuba
+
+SceneReading read_mitsuba(const std::filesystem::path& path, const std::map<std::string, std::string>& defines,
+                          bool lenient, const mitsuba::FilmSize& film_size) {
+    using namespace mitsuba;
+    const SceneDocument document(path, defines);
+    Diagnostics diagnostics(lenient);
+    SceneReading reading;
+    Scene& scene = reading.scene;
+
+    Properties root(document.root(), document, diagnostics);
+    const XmlElement* sensor = root.only_child("sensor");
+    if (sensor == nullptr)
+        throw InputError(document.root().where, "the scene has no sensor", "add <sensor type=\"perspective\">");
+    read_sensor(*sensor, film_size, scene, reading.settings, document, diagnostics);
+    // The budget of a guided integrator wins over the sampler's, which it ignores: it comes later.
+    if (const XmlElement* integrator = root.only_child("integrator"))
+        read_integrator(*integrator, reading.settings, document, diagnostics);
+
+    MaterialReader materials(scene, document, diagnostics);
+    for (const Child& bsdf : root.children("bsdf"))
+        materials.read(*bsdf.object);
+    for (const Child& shape : root.children("shape"))
+        read_shape(*shape.object, scene, materials, document, diagnostics);
+    for (const Child& emitter : root.children("emitter"))
+        read_environment(*emitter.object, scene, document, diagnostics);
+    root.finish();
+
+    reading.warnings = std::move(diagnostics.warnings());
+    std::vector<Warning> found;
+    validate_scene(scene, found);
+    for (Warning& warning : found) {
+        if (warning.where.file.empty()) warning.where.file = path.string();
+        reading.warnings.push_back(std::move(warning));
+    }
+    return reading;
+}
+
+}  // namespace treefarm

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "common/config/setting.h"
+#include "common/scene/mitsuba/sensor.h"
+#include "common/scene/scene.h"
+#include "common/scene/warning.h"
+
+namespace treefarm {
+
+/// What a reader makes of a scene file.
+struct SceneReading {
+    Scene scene;
+    std::vector<Setting> settings;  ///< what its integrator and sampler ask of the job
+    std::vector<Warning> warnings;
+};
+
+/// Reads a Mitsuba scene (versions 0.5, 0.6, 2 and 3 of the format). `defines` are values for $name. What cannot be
+/// rendered throws InputError, or is skipped or approximated with a warning when `lenient`; malformed input always
+/// throws.
+SceneReading read_mitsuba(const std::filesystem::path& path, const std::map<std::string, std::string>& defines,
+                          bool lenient, const mitsuba::FilmSize& film_size = {});
+
+}  // namespace treefarm

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+
+#include "common/scene/mitsuba/xml_document.h"
+
+namespace treefarm::mitsuba {
+
+/// Elements that make an object (as opposed to a property): they can have an id and be referred to.
+bool is_object_tag(const std::string& tag);
+
+/// A scene's elements with includes put in place and every $name replaced.
+class SceneDocument {
+  public:
+    /// `defines` are values for $name from outside; they win over <default>. Cycles of includes or references, unknown
+    /// and repeated ids, undefined $names and defines that the scene does not use throw InputError.
+    SceneDocument(const std::filesystem::path& path, const std::map<std::string, std::string>& defines);
+
+    const XmlElement& root() const { return *root_; }
+
+    /// The object that a <ref> means; any other element is returned as it is.
+    const XmlElement& resolve(const XmlElement& element) const;
+
+  private:
+    void collect_ids(const XmlElement& element);
+    void apply_alias(const XmlElement& alias);
+    void apply_aliases(const XmlElement& element);
+    void check_references(const XmlElement& element, std::map<const XmlElement*, bool>& done, int depth) const;
+
+    std::unique_ptr<XmlElement> root_;
+    std::map<std::string, const XmlElement*> objects_;
+};
+
+}  // namespace treefarm::mitsuba

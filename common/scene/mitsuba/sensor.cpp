@@ -1,0 +1,119 @@
+#include "common/scene/mitsuba/sensor.h"
+
+#include <cmath>
+
+#include "common/config/parse_text.h"
+#include "common/scene/mitsuba/film.h"
+
+namespace treefarm::mitsuba {
+namespace {
+
+double radians(double degrees) {
+    return degrees * M_PI / 180.0;
+}
+
+/// Half the film's width at distance 1, from the field of view along `axis`.
+double half_width(double fov, const std::string& axis, double aspect, const Location& where) {
+    if (!(fov > 0.0 && fov < 180.0))
+        throw InputError(where, "a field of view of " + number_text(fov) + " degrees",
+                         "give more than 0 and less than 180");
+    const double half = std::tan(radians(fov) / 2.0);
+    if (axis == "x") return half;
+    if (axis == "y") return half * aspect;
+    if (axis == "diagonal") return half / std::sqrt(1.0 + 1.0 / (aspect * aspect));
+    if (axis == "smaller") return aspect > 1.0 ? half * aspect : half;
+    if (axis == "larger") return aspect > 1.0 ? half : half * aspect;
+    throw InputError(where, "unknown axis " + in_quotes(axis) + " of the field of view",
+                     "use x, y, diagonal, smaller or larger");
+}
+
+/// Of a film of 36 x 24 mm.
+double diagonal_fov(const std::string& focal_length, const Location& where) {
+    std::string_view text = trim(focal_length);
+    if (text.ends_with("mm")) text.remove_suffix(2);
+    const auto length = parse_number(text);
+    if (!length || *length <= 0.0)
+        throw InputError(where, in_quotes(focal_length) + " is not a focal length", "write for instance 50mm");
+    return 2.0 * std::atan(std::sqrt(36.0 * 36.0 + 24.0 * 24.0) / (2.0 * *length)) * 180.0 / M_PI;
+}
+
+std::string lower(std::string text) {
+    for (char& c : text)
+        if ('A' <= c && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    return text;
+}
+
+/// The stream of random numbers is Treefarm's own, whatever sampler the scene asks for.
+void read_sampler(const XmlElement& sampler, std::vector<Setting>& settings, const SceneDocument& document,
+                  Diagnostics& diagnostics) {
+    Properties properties(sampler, document, diagnostics);
+    properties.type();
+    if (properties.has("sample_count"))
+        settings.push_back(
+            {"budget.spp", std::to_string(properties.integer("sample_count", 0)), properties.where("sample_count")});
+    if (properties.has("seed"))
+        settings.push_back({"sampler.seed", std::to_string(properties.integer("seed", 0)), properties.where("seed")});
+    properties.ignore({"scramble", "dimension", "jitter"});
+    properties.finish();
+}
+
+}  // namespace
+
+Camera make_camera(const Matrix& to_world, double horizontal_fov, double aspect, double principal_x,
+                   double principal_y) {
+    const double width = std::tan(radians(horizontal_fov) / 2.0), height = width / aspect;
+    const auto direction = [&](double x, double y, double z) {
+        Imath::V3d result;
+        to_world.multDirMatrix(Imath::V3d(x, y, z), result);
+        return result;
+    };
+    const Imath::V3d across = direction(-2.0 * width, 0.0, 0.0), down = direction(0.0, -2.0 * height, 0.0);
+    const Imath::V3d corner = direction(width, height, 1.0) + across * principal_x + down * principal_y;
+    Camera camera;
+    camera.origin = transform_point(to_world, Vec3(0.0f));
+    camera.corner = Vec3(corner);
+    camera.across = Vec3(across);
+    camera.down = Vec3(down);
+    return camera;
+}
+
+void read_sensor(const XmlElement& sensor, const FilmSize& wanted, Scene& scene, std::vector<Setting>& settings,
+                 const SceneDocument& document, Diagnostics& diagnostics) {
+    Properties properties(sensor, document, diagnostics);
+    if (properties.type() != "perspective") {
+        diagnostics.unsupported(sensor.where,
+                                "the sensor " + in_quotes(properties.type()) + " is not available in this version",
+                                "use perspective", "it is read as perspective");
+        // Lens properties of thinlens and the like.
+        properties.ignore({"aperture_radius", "kc"});
+    }
+    scene.film = read_film(properties.only_child("film"), wanted, sensor.version, document, diagnostics);
+    if (const XmlElement* sampler = properties.only_child("sampler"))
+        read_sampler(*sampler, settings, document, diagnostics);
+
+    const Matrix to_world = properties.transform("to_world");
+    if (std::abs(uniform_scale(to_world, 1e-3) - 1.0) > 1e-3)
+        throw InputError(properties.where("to_world"), "the camera's transformation contains a scale or shear",
+                         "remove it: only rotations, mirrors and translations can move a camera");
+    if (properties.has("fov") && properties.has("focal_length"))
+        throw InputError(properties.where("focal_length"), "both a field of view and a focal length are given",
+                         "keep one");
+    const double aspect = static_cast<double>(scene.film.width) / scene.film.height;
+    double width = 0.0;
+    if (properties.has("fov")) {
+        const std::string axis = lower(properties.text("fov_axis", "x"));
+        width = half_width(properties.number("fov", 0.0), axis, aspect, properties.where("fov"));
+    } else {
+        const Location& where = properties.where("focal_length");
+        width = half_width(diagonal_fov(properties.text("focal_length", "50mm"), where), "diagonal", aspect, where);
+        properties.ignore({"fov_axis"});
+    }
+    const double offset_x = properties.number("principal_point_offset_x", 0.0);
+    const double offset_y = properties.number("principal_point_offset_y", 0.0);
+    scene.camera = make_camera(to_world, 2.0 * std::atan(width) * 180.0 / M_PI, aspect, offset_x, offset_y);
+    // A pinhole has no focus; nothing moves; and no clipping planes are needed by ray tracing.
+    properties.ignore({"near_clip", "far_clip", "focus_distance", "shutter_open", "shutter_close"});
+    properties.finish();
+}
+
+}  // namespace treefarm::mitsuba

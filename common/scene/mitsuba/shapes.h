@@ -1,0 +1,16 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <variant>
+
+#include "common/scene/mitsuba/properties.h"
+#include "common/scene/scene.h"
+
+namespace treefarm::mitsuba {
+
+/// The geometry of a shape element in world space: obj, rectangle, cube or sphere. Fronts are where the version of
+/// Mitsuba has them that the file is written for. Other shapes throw InputError, or give nothing when lenient.
+std::optional<std::variant<Mesh, Sphere>> read_geometry(Properties& properties, Diagnostics& diagnostics);
+
+}  // namespace treefarm::mitsuba

@@ -1,0 +1,182 @@
+#include "common/scene/mitsuba/spectra.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "common/config/parse_text.h"
+#include "common/scene/mitsuba/cie_1931.h"
+#include "common/scene/mitsuba/values.h"
+
+namespace treefarm::mitsuba {
+namespace {
+
+using Rgb64 = Imath::Color3<double>;
+
+/// ITU-R BT.709 primaries, white D65.
+Rgb64 xyz_to_rgb(double x, double y, double z) {
+    return {3.240479 * x - 1.537150 * y - 0.498535 * z, -0.969256 * x + 1.875991 * y + 0.041556 * z,
+            0.055648 * x - 0.204043 * y + 1.057311 * z};
+}
+
+/// Value at `wavelength` between samples `i` and `i + 1`.
+double interpolate(const SpectrumSamples& samples, std::size_t i, double wavelength) {
+    const auto& [w0, v0] = samples[i];
+    const auto& [w1, v1] = samples[i + 1];
+    return v0 + (v1 - v0) * (wavelength - w0) / (w1 - w0);
+}
+
+/// Mitsuba 0.6 lets a list fall to zero over its mean spacing at either end where it does not end at zero.
+SpectrumSamples extend_to_zero(SpectrumSamples samples) {
+    const double spacing = (samples.back().first - samples.front().first) / static_cast<double>(samples.size() - 1);
+    if (samples.front().second != 0.0) samples.insert(samples.begin(), {samples.front().first - spacing, 0.0});
+    if (samples.back().second != 0.0) samples.emplace_back(samples.back().first + spacing, 0.0);
+    return samples;
+}
+
+SpectrumSamples parse_list(const std::vector<std::string_view>& tokens, const Location& where) {
+    SpectrumSamples samples;
+    for (const std::string_view token : tokens) {
+        const std::size_t colon = token.find(':');
+        if (colon == std::string_view::npos)
+            throw InputError(where, in_quotes(token) + " in a spectrum is no pair \"wavelength:value\"",
+                             "write for instance \"400:0.3, 700:0.6\"");
+        const double wavelength = number_of(token.substr(0, colon), where);
+        const double value = number_of(token.substr(colon + 1), where);
+        if (!samples.empty() && wavelength <= samples.back().first)
+            throw InputError(where, "the wavelengths of a spectrum do not rise at " + in_quotes(token), "sort them");
+        samples.emplace_back(wavelength, value);
+    }
+    if (samples.size() < 2)
+        throw InputError(where, "a list of wavelengths needs at least two of them",
+                         "give a single value, or more pairs");
+    return samples;
+}
+
+/// "#rrggbb" as three values from 0 to 1.
+std::optional<Rgb64> parse_hex(std::string_view text) {
+    if (text.size() != 7 || text[0] != '#') return std::nullopt;
+    Rgb64 color;
+    for (int i = 0; i < 3; ++i) {
+        int channel = 0;
+        for (const char c : text.substr(1 + 2 * static_cast<std::size_t>(i), 2)) {
+            const std::size_t digit =
+                std::string_view("0123456789abcdef").find(static_cast<char>(c | ('A' <= c && c <= 'Z' ? 0x20 : 0)));
+            if (digit == std::string_view::npos) return std::nullopt;
+            channel = channel * 16 + static_cast<int>(digit);
+        }
+        color[i] = channel / 255.0;
+    }
+    return color;
+}
+
+Rgb64 parse_triple(const XmlElement& element) {
+    const std::string& text = element.require("value");
+    if (const auto color = parse_hex(trim(text))) return *color;
+    const std::vector<double> values = numbers_of(text, element.where);
+    if (values.size() == 1) return Rgb64(values[0]);
+    if (values.size() != 3)
+        throw InputError(element.where,
+                         "<" + element.tag + "> has " + std::to_string(values.size()) + " values, not 1 or 3",
+                         "write for instance \"0.8, 0.2, 0.2\"");
+    return {values[0], values[1], values[2]};
+}
+
+Rgb64 read_spectrum(const XmlElement& element, ColorUse use) {
+    const std::string& text = element.require("value");
+    const std::vector<std::string_view> tokens = split_list(text);
+    if (tokens.empty()) throw InputError(element.where, "<spectrum> is empty", "give a value");
+    if (text.find(':') != std::string::npos) {
+        const SpectrumSamples samples = parse_list(tokens, element.where);
+        if (element.version == 0) return spectrum_to_rgb(extend_to_zero(samples), false);
+        return spectrum_to_rgb(samples, element.version >= 3 && use == ColorUse::reflectance);
+    }
+    const std::vector<double> values = numbers_of(text, element.where);
+    if (values.size() == 3 && element.version == 0) return {values[0], values[1], values[2]};
+    if (values.size() != 1)
+        throw InputError(element.where,
+                         "<spectrum> has " + std::to_string(values.size()) + " values without wavelengths",
+                         "give one value, pairs \"wavelength:value\", or use <rgb>");
+    // From version 2 on a light of equal energy at all wavelengths has the colour it has to the eye, which is not
+    // white.
+    if (use == ColorUse::radiance && element.version >= 2) return xyz_to_rgb(1.0, 1.0, 1.0) * values[0];
+    return Rgb64(values[0]);
+}
+
+}  // namespace
+
+double srgb_to_linear(double encoded) {
+    return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
+}
+
+Imath::Color3<double> spectrum_to_rgb(const SpectrumSamples& samples, bool under_d65) {
+    const CieTables& cie = cie_tables();
+    // All knots: between two of them both spectrum and observer are linear, so Simpson's rule is exact (without D65).
+    std::vector<double> knots;
+    for (int w = CieTables::kFirst; w <= CieTables::kLast; ++w)
+        knots.push_back(w);
+    for (const auto& [w, value] : samples)
+        if (w > CieTables::kFirst && w < CieTables::kLast) knots.push_back(w);
+    std::sort(knots.begin(), knots.end());
+
+    Rgb64 xyz(0.0);
+    double normalization = 0.0;
+    std::size_t segment = 0;
+    for (std::size_t k = 0; k + 1 < knots.size(); ++k) {
+        const double begin = knots[k], end = knots[k + 1], middle = 0.5 * (begin + end);
+        if (!(end > begin)) continue;
+        const auto entry = std::min(static_cast<std::size_t>(middle - CieTables::kFirst), CieTables::kCount - 2);
+        while (segment + 2 < samples.size() && middle > samples[segment + 1].first)
+            ++segment;
+        const bool inside = middle > samples.front().first && middle < samples.back().first;
+        const double nodes[3] = {begin, middle, end}, weights[3] = {1.0 / 6.0, 4.0 / 6.0, 1.0 / 6.0};
+        for (int i = 0; i < 3; ++i) {
+            const double t = nodes[i] - (CieTables::kFirst + static_cast<double>(entry));
+            const auto at = [&](const auto& table) { return table[entry] + t * (table[entry + 1] - table[entry]); };
+            const double light = under_d65 ? at(cie.d65) : 1.0;
+            const double weight = weights[i] * (end - begin) * light;
+            normalization += weight * at(cie.y);
+            if (inside)
+                xyz += Rgb64(at(cie.x), at(cie.y), at(cie.z)) * (weight * interpolate(samples, segment, nodes[i]));
+        }
+    }
+    xyz /= normalization;
+    return xyz_to_rgb(xyz.x, xyz.y, xyz.z);
+}
+
+Rgb read_color(const XmlElement& element, ColorUse use, Diagnostics& diagnostics) {
+    Rgb64 color;
+    if (element.tag == "spectrum") {
+        element.allow_attributes({"name", "value", "intent"});
+        color = read_spectrum(element, use);
+        const bool of_list = element.require("value").find(':') != std::string::npos;
+        if (of_list) {
+            for (int i = 0; i < 3; ++i)
+                color[i] = std::max(color[i], 0.0);
+            const double largest = std::max({color.x, color.y, color.z});
+            if (use == ColorUse::reflectance && largest > 1.0) {
+                diagnostics.warn(element.where,
+                                 "the spectrum's colour exceeds 1 in a channel and was scaled down to it");
+                color /= largest;
+            }
+        }
+    } else {
+        element.allow_attributes({"name", "value", "intent"});
+        color = parse_triple(element);
+        if (element.tag == "srgb")
+            for (int i = 0; i < 3; ++i)
+                color[i] = srgb_to_linear(color[i]);
+    }
+    const double limit = use == ColorUse::reflectance ? 1.0 : std::numeric_limits<float>::max();
+    for (int i = 0; i < 3; ++i) {
+        if (!(color[i] >= 0.0) || color[i] > limit)
+            throw InputError(
+                element.where,
+                std::string(use == ColorUse::reflectance ? "a reflectance" : "a radiance") + " of " +
+                    number_text(color[i]),
+                use == ColorUse::reflectance ? "give values from 0 to 1" : "give finite values of 0 or more");
+    }
+    return Rgb(static_cast<float>(color.x), static_cast<float>(color.y), static_cast<float>(color.z));
+}
+
+}  // namespace treefarm::mitsuba

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/math/vec.h"
+#include "common/scene/mitsuba/diagnostics.h"
+#include "common/scene/mitsuba/xml_document.h"
+
+namespace treefarm::mitsuba {
+
+/// What a colour is for: it decides how spectra become Rgb.
+enum class ColorUse { reflectance, radiance };
+
+/// (wavelength in nm, value), wavelengths rising: a piecewise linear spectrum, 0 outside.
+using SpectrumSamples = std::vector<std::pair<double, double>>;
+
+/// Linear Rec. 709 of a spectrum, seen by the CIE 1931 observer and divided by the integral of ybar, so that a spectrum
+/// that is 1 everywhere has Y = 1. Channels can be negative. With `under_d65` the spectrum is a reflectance, lit by
+/// D65: the white one is (1, 1, 1) then.
+Imath::Color3<double> spectrum_to_rgb(const SpectrumSamples& samples, bool under_d65);
+
+/// Linear value of an sRGB channel (IEC 61966-2-1).
+double srgb_to_linear(double encoded);
+
+/// The colour of an <rgb>, <srgb> or <spectrum> element, not negative. Wavelength lists become Rgb as the version of
+/// Mitsuba that the file is written for does it when it renders in RGB.
+Rgb read_color(const XmlElement& element, ColorUse use, Diagnostics& diagnostics);
+
+}  // namespace treefarm::mitsuba

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "common/base/error.h"
+
+namespace treefarm::mitsuba {
+
+struct XmlAttribute {
+    std::string name, value;
+};
+
+/// An element with its place in its file.
+struct XmlElement {
+    std::string tag;
+    std::vector<XmlAttribute> attributes;
+    std::vector<XmlElement> children;
+    Location where;
+    int version = 0;  ///< major version of the file format that it is written in: 0 (Mitsuba 0.5, 0.6), 2, 3
+
+    /// The attribute's value, or nullptr.
+    const std::string* find(std::string_view name) const;
+    /// The attribute's value; InputError if it is missing.
+    const std::string& require(std::string_view name) const;
+    /// InputError if there is an attribute of another name.
+    void allow_attributes(std::initializer_list<std::string_view> names) const;
+};
+
+/// Reads an XML file into elements. `asked_from` is where the file's name stands, for messages about a missing file.
+/// Malformed XML, text between elements, nesting deeper than 100 and files above 256 MiB throw InputError.
+XmlElement read_xml(const std::filesystem::path& path, const Location& asked_from);
+
+}  // namespace treefarm::mitsuba

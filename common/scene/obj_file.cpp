@@ -1,0 +1,277 @@
+#include "common/scene/obj_file.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <string>
+#include <string_view>
+
+#include "common/config/parse_text.h"
+#include "common/scene/triangulate.h"
+
+namespace treefarm {
+namespace {
+
+constexpr std::uintmax_t kMaxFileBytes = std::uintmax_t{8} << 30;
+
+bool is_blank(char c) {
+    return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
+}
+
+/// Walks over the words of a file, statement by statement. A backslash at the end of a line continues the statement.
+class Scanner {
+  public:
+    Scanner(std::string_view text, const std::string& file) : text_(text), file_(file) {}
+
+    /// The keyword of the next statement; false at the end of the file.
+    bool next_statement(std::string_view& keyword) {
+        while (true) {
+            std::string_view rest;
+            while (in_statement_ && next_word(rest)) {
+            }
+            while (at_ < text_.size() && text_[at_] == '\n')
+                new_line();
+            if (at_ >= text_.size()) return false;
+            in_statement_ = true;
+            if (next_word(keyword)) return true;
+        }
+    }
+
+    /// The next word of this statement; false at its end.
+    bool next_word(std::string_view& word) {
+        skip_blanks();
+        if (at_ >= text_.size() || text_[at_] == '\n') return false;
+        if (text_[at_] == '#') {
+            at_ = std::min(text_.find('\n', at_), text_.size());
+            return false;
+        }
+        word_at_ = at_;
+        while (at_ < text_.size() && !is_blank(text_[at_]) && text_[at_] != '\n' && text_[at_] != '#' &&
+               !at_continuation())
+            ++at_;
+        word = text_.substr(word_at_, at_ - word_at_);
+        return true;
+    }
+
+    /// Where the last word stands.
+    Location where() const { return {file_, line_, static_cast<int>(word_at_ - line_start_) + 1}; }
+
+  private:
+    bool at_continuation() const {
+        if (text_[at_] != '\\') return false;
+        std::size_t end = at_ + 1;
+        while (end < text_.size() && is_blank(text_[end]))
+            ++end;
+        return end >= text_.size() || text_[end] == '\n';
+    }
+
+    void skip_blanks() {
+        while (at_ < text_.size()) {
+            if (is_blank(text_[at_])) {
+                ++at_;
+            } else if (at_continuation()) {
+                at_ = std::min(text_.find('\n', at_), text_.size());
+                if (at_ < text_.size()) new_line();
+            } else {
+                return;
+            }
+        }
+    }
+
+    void new_line() {
+        ++at_;
+        ++line_;
+        line_start_ = at_;
+    }
+
+    std::string_view text_;
+    const std::string& file_;
+    std::size_t at_ = 0, word_at_ = 0, line_start_ = 0;
+    int line_ = 1;
+    bool in_statement_ = false;
+};
+
+/// A positive index may point ahead in the file: the largest of each list is checked at the end.
+struct LargestIndex {
+    std::uint64_t index = 0;
+    Location where;
+};
+
+class Reader {
+  public:
+    Reader(std::string_view text, const std::string& file) : scanner_(text, file) {}
+
+    ObjFile read() {
+        std::string_view keyword;
+        while (scanner_.next_statement(keyword)) {
+            if (keyword == "v")
+                read_position();
+            else if (keyword == "vn")
+                obj_.normals.push_back(read_vector());
+            else if (keyword == "vt")
+                read_uv();
+            else if (keyword == "f")
+                read_face();
+            else if (keyword == "g" || keyword == "usemtl")
+                ++group_;
+            else if (keyword == "mtllib")
+                obj_.names_materials = true;
+            else if (!is_ignored(keyword))
+                throw InputError(scanner_.where(), in_quotes(keyword) + " is no statement of an OBJ file",
+                                 "repair the file, or check that it is an OBJ file");
+        }
+        check(largest_position_, obj_.positions.size(), "vertex");
+        check(largest_uv_, obj_.uvs.size(), "texture coordinate");
+        check(largest_normal_, obj_.normals.size(), "normal");
+        return std::move(obj_);
+    }
+
+  private:
+    static bool is_ignored(std::string_view keyword) {
+        constexpr std::array<std::string_view, 31> known = {
+            "o",        "s",    "l",      "p",      "vp",         "mg",        "bevel", "c_interp",
+            "d_interp", "lod",  "usemap", "maplib", "shadow_obj", "trace_obj", "ctech", "stech",
+            "deg",      "bmat", "step",   "cstype", "curv",       "curv2",     "surf",  "parm",
+            "trim",     "hole", "scrv",   "sp",     "end",        "con",       "call"};
+        return std::find(known.begin(), known.end(), keyword) != known.end();
+    }
+
+    static void check(const LargestIndex& largest, std::size_t count, const char* what) {
+        if (largest.index > count)
+            throw InputError(largest.where,
+                             std::string(what) + " " + std::to_string(largest.index) + " of " + std::to_string(count),
+                             "the file is cut short or has a wrong index: repair it");
+    }
+
+    float number(std::string_view word) const {
+        const auto value = parse_number(word);
+        if (!value || std::abs(*value) > std::numeric_limits<float>::max())
+            throw InputError(scanner_.where(), in_quotes(word) + " is not a number", "write a finite decimal number");
+        return static_cast<float>(*value);
+    }
+
+    float next_number() {
+        std::string_view word;
+        if (!scanner_.next_word(word))
+            throw InputError(scanner_.where(), "a coordinate is missing here", "the file is cut short: repair it");
+        return number(word);
+    }
+
+    Vec3 read_vector() {
+        Vec3 v;
+        for (int i = 0; i < 3; ++i)
+            v[i] = next_number();
+        return v;
+    }
+
+    void read_position() {
+        obj_.positions.push_back(read_vector());
+        if (obj_.positions.size() >= std::numeric_limits<std::int32_t>::max())
+            throw InputError(scanner_.where(), "more than 2^31 vertices", "split the mesh");
+    }
+
+    void read_uv() {
+        Vec2 uv(next_number(), 0.0f);
+        std::string_view word;
+        if (scanner_.next_word(word)) uv.y = number(word);
+        obj_.uvs.push_back(uv);
+    }
+
+    /// An index from 0 of "7" (the seventh) or "-1" (the last one so far).
+    std::uint32_t index(std::string_view text, std::size_t count, LargestIndex& largest) {
+        const auto value = parse_integer(text);
+        if (!value || *value == 0 || *value > std::numeric_limits<std::int32_t>::max())
+            throw InputError(scanner_.where(), in_quotes(text) + " is not an index",
+                             "indices count from 1, or from -1 backwards");
+        if (*value < 0) {
+            const std::int64_t from_start = static_cast<std::int64_t>(count) + *value;
+            if (*value < -static_cast<std::int64_t>(count))
+                throw InputError(scanner_.where(), "index " + std::to_string(*value) + " of " + std::to_string(count),
+                                 "it points before the first one: repair the file");
+            return static_cast<std::uint32_t>(from_start);
+        }
+        const auto one_based = static_cast<std::uint64_t>(*value);
+        if (one_based > count && one_based > largest.index) largest = {one_based, scanner_.where()};
+        return static_cast<std::uint32_t>(one_based - 1);
+    }
+
+    /// "v", "v/t", "v//n" or "v/t/n".
+    ObjFile::Corner corner(std::string_view word) {
+        ObjFile::Corner result;
+        result.group = group_;
+        const std::size_t first = word.find('/');
+        result.position = index(word.substr(0, first), obj_.positions.size(), largest_position_);
+        if (first == std::string_view::npos) return result;
+        const std::string_view rest = word.substr(first + 1);
+        const std::size_t second = rest.find('/');
+        const std::string_view uv = rest.substr(0, second);
+        const std::string_view normal = second == std::string_view::npos ? "" : rest.substr(second + 1);
+        if (!uv.empty()) result.uv = index(uv, obj_.uvs.size(), largest_uv_);
+        if (!normal.empty()) result.normal = index(normal, obj_.normals.size(), largest_normal_);
+        return result;
+    }
+
+    void read_face() {
+        face_.clear();
+        const Location where = scanner_.where();
+        std::string_view word;
+        while (scanner_.next_word(word))
+            face_.push_back(corner(word));
+        if (face_.size() < 3)
+            throw InputError(where, "a face of " + std::to_string(face_.size()) + " corners",
+                             "a face needs at least three");
+        const auto add = [&](std::size_t a, std::size_t b, std::size_t c) {
+            for (const std::size_t i : {a, b, c})
+                obj_.corners.push_back(face_[i]);
+        };
+        if (face_.size() == 3) {
+            add(0, 1, 2);
+            return;
+        }
+        polygon_.clear();
+        for (const ObjFile::Corner& corner : face_) {
+            if (corner.position >= obj_.positions.size())
+                throw InputError(where, "a face of more than three corners uses a vertex that only follows later",
+                                 "put the vertices before the faces");
+            polygon_.push_back(obj_.positions[corner.position]);
+        }
+        triangles_.clear();
+        if (!triangulate(polygon_, triangles_))
+            throw InputError(where, "a concave face of " + std::to_string(face_.size()) + " corners",
+                             "cut it into smaller ones");
+        for (const auto& [a, b, c] : triangles_)
+            add(a, b, c);
+    }
+
+    Scanner scanner_;
+    ObjFile obj_;
+    std::uint32_t group_ = 0;
+    LargestIndex largest_position_, largest_uv_, largest_normal_;
+    std::vector<ObjFile::Corner> face_;
+    std::vector<Vec3> polygon_;
+    std::vector<std::array<std::size_t, 3>> triangles_;
+};
+
+}  // namespace
+
+ObjFile read_obj(const std::filesystem::path& path, const Location& asked_from) {
+    std::error_code error;
+    const std::string file = path.string();
+    if (!std::filesystem::exists(path, error))
+        throw InputError(asked_from, "there is no file " + in_quotes(file), "check the path");
+    if (!std::filesystem::is_regular_file(path, error))
+        throw InputError(asked_from, in_quotes(file) + " is not a file", "check the path");
+    const std::uintmax_t size = std::filesystem::file_size(path, error);
+    if (error || size > kMaxFileBytes)
+        throw InputError(asked_from, in_quotes(file) + " has more than 8 GiB", "split it");
+    std::string text(static_cast<std::size_t>(size), '\0');
+    std::ifstream in(path, std::ios::binary);
+    in.read(text.data(), static_cast<std::streamsize>(size));
+    if (!in || in.gcount() != static_cast<std::streamsize>(size))
+        throw InputError(asked_from, in_quotes(file) + " cannot be read", "check its permissions");
+    return Reader(text, file).read();
+}
+
+}  // namespace treefarm

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+#include "common/base/error.h"
+#include "common/math/vec.h"
+
+namespace treefarm {
+
+/// What a Wavefront OBJ file says, faces cut into triangles, nothing merged or computed.
+struct ObjFile {
+    /// Indices from 0, or kMissing.
+    struct Corner {
+        static constexpr std::uint32_t kMissing = 0xffffffff;
+        std::uint32_t position = kMissing, uv = kMissing, normal = kMissing;
+        std::uint32_t group = 0;  ///< counts changes of group or material
+    };
+
+    std::vector<Vec3> positions;
+    std::vector<Vec3> normals;  ///< as written: not normalised
+    std::vector<Vec2> uvs;
+    std::vector<Corner> corners;   ///< three per triangle
+    bool names_materials = false;  ///< there is a material library; it is not read
+};
+
+/// Reads an OBJ file. Malformed numbers, NaN and indices of nothing throw InputError at their line and column. Faces of
+/// more than three corners may be concave but must be nearly flat; lines, points and curves are left out. `asked_from`
+/// is where the file's name stands.
+ObjFile read_obj(const std::filesystem::path& path, const Location& asked_from);
+
+}  // namespace treefarm

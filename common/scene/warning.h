@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string>
+
+#include "common/base/error.h"
+
+namespace treefarm {
+
+/// Something about the input that a person should know, though the scene can be rendered.
+struct Warning {
+    Location where;
+    std::string what;
+
+    /// One line: "file:line:col: what".
+    std::string text() const {
+        const std::string place = where.text();
+        return place.empty() ? what : place + ": " + what;
+    }
+};
+
+}  // namespace treefarm

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+
+#include "common/film/pass_film.h"
+#include "common/guiding/sd_tree.h"
+#include "common/guiding/tree_update.h"
+#include "common/protocol/messages.h"
+#include "coordinator/ledger.h"
+
+namespace treefarm {
+
+/// What one worker contributed to a pass.
+struct WorkerShare {
+    TraceStats stats;
+    std::uint64_t pixels = 0;  ///< pixel-chunks accepted
+};
+
+/// Gathers the results of one pass: film, tree sums and figures, each unit exactly once.
+class Collector {
+  public:
+    Collector(const PassPlan& plan, const SdTree& tree, int width, int height);
+
+    /// Merges a worker's result if the ledger says that the worker has all of its units; otherwise nothing changes and
+    /// false is returned. Throws FormatError if the content does not fit the pass (nothing was accepted then).
+    bool take(int worker, Result result, Ledger& ledger);
+
+    const PassFilm& film() const { return film_; }
+    const TreeSums& sums() const { return sums_; }
+    TraceStats totals() const;
+    const std::map<int, WorkerShare>& shares() const { return shares_; }
+    std::uint64_t update_bytes() const { return update_bytes_; }
+    std::uint64_t touched_cells() const { return touched_cells_; }
+    double merge_seconds() const { return merge_seconds_; }
+
+  private:
+    void check_samples(const UnitResult& result) const;
+
+    PassPlan plan_;
+    PassFilm film_;
+    TreeSums sums_;
+    std::map<int, WorkerShare> shares_;
+    std::uint64_t update_bytes_ = 0;   ///< of all encoded tree updates
+    std::uint64_t touched_cells_ = 0;  ///< of all of them, a cell once per update that touches it
+    double merge_seconds_ = 0;
+};
+
+}  // namespace treefarm

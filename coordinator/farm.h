@@ -1,0 +1,113 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "common/base/log.h"
+#include "common/base/timer.h"
+#include "common/comm/broadcast_chain.h"
+#include "common/comm/channel.h"
+#include "common/config/job.h"
+#include "coordinator/collector.h"
+#include "coordinator/ledger.h"
+#include "coordinator/roster.h"
+
+namespace treefarm {
+
+/// Limits of the conversation with workers, seconds.
+struct FarmLimits {
+    double gather = 20.0;  ///< how long the start waits for workers that have not said hello
+    double lost = 10.0;    ///< a worker silent for so long is given up (at least ten heartbeats)
+    double dismiss = 5.0;  ///< how long the end waits for good-byes
+};
+
+/// The workers, as the coordinator talks to them: who is there, who has what, what came back. One step() at a time,
+/// never blocking on anybody.
+class Farm {
+  public:
+    /// `scene`: encoded. `fingerprint`: this program's own; a worker that differs is refused.
+    Farm(Channel& channel, const Job& job, Bytes scene, std::uint64_t fingerprint, const Log& log,
+         const FarmLimits& limits = {});
+
+    /// Waits for the workers' hellos and sends them the scene. Throws RunError if none can be used. `interrupted` is
+    /// asked now and then; true ends the wait.
+    void gather(const std::function<bool()>& interrupted);
+
+    /// Announces a pass and sends its tree along the chain of those present.
+    void begin_pass(const PassPlan& plan, const SdTree& tree, Bytes encoded_tree, int width, int height);
+
+    /// Takes what has arrived, hands out work, watches for silence; rests if nothing happened. Throws RunError when no
+    /// worker is left.
+    void step();
+
+    bool pass_complete() const { return collector_ && collector_->film().complete(); }
+    const Collector& collector() const { return *collector_; }
+    const Ledger& ledger() const { return *ledger_; }
+    /// Seconds from begin_pass() until the last of those present asked for work.
+    double broadcast_seconds() const { return broadcast_seconds_; }
+    const Roster& roster() const { return roster_; }
+    /// Peers that were given up and are not back.
+    std::set<int> lost_peers() const;
+    /// Sends heartbeats that are due: call it between long computations.
+    void beat();
+    /// Units that were issued again.
+    std::uint64_t reissued_units() const { return reissued_units_; }
+    /// Results that came from lost lives and were dropped.
+    std::uint64_t dropped_results() const { return dropped_results_; }
+    /// Of all workers since the start, as their heartbeats say.
+    std::uint64_t rays_traced() const;
+
+  private:
+    struct OpenPass {
+        PassPlan plan;
+        Bytes tree;
+        std::uint64_t tree_hash = 0;
+    };
+
+    void take(const Received& received);
+    void on(int peer, const Hello& m);
+    void on(int peer, const Resend& m);
+    void on(int peer, const Want& m);
+    void on(int peer, Result&& m);
+    void on(int peer, const Failure& m);
+    Member* hear(int peer, std::uint64_t incarnation);
+    void refuse(int peer, const Hello& m, const std::string& reason);
+    void give_up(Member& member, const std::string& why);
+    void announce(int peer);
+    void serve(Member& member);
+    void send_blob(Blob blob, std::uint64_t offset, std::span<const std::uint32_t> chain);
+    std::vector<std::uint32_t> chain_of_present();
+
+    template <class M>
+    void tell(int peer, const M& message) {
+        channel_.send(peer, std::make_shared<const Bytes>(encode(message)));
+    }
+
+    Channel& channel_;
+    const Job job_;
+    const std::string job_text_;
+    const Bytes scene_;
+    const std::uint64_t fingerprint_;
+    const Log log_;
+    const FarmLimits limits_;
+    const Timer clock_;
+    Roster roster_;
+    bool gathered_ = false;
+    std::optional<OpenPass> pass_;
+    std::unique_ptr<Ledger> ledger_;
+    std::unique_ptr<Collector> collector_;
+    std::vector<int> not_ready_;  ///< peers that have not yet asked for work of this pass
+    double pass_began_ = 0, broadcast_seconds_ = 0, last_beat_ = 0;
+    std::string last_failure_;
+    std::uint64_t reissued_units_ = 0, dropped_results_ = 0;
+};
+
+/// Sends every worker away, those included that never said hello, and waits up to `patience` seconds for the good-byes
+/// of those not known as lost. Returns whether all went in order, so that the message layer can be shut down.
+bool dismiss_workers(Channel& channel, const std::set<int>& lost, double patience);
+
+}  // namespace treefarm

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "common/film/combine.h"
+#include "common/guiding/sd_tree.h"
+#include "common/scene/scene.h"
+#include "coordinator/farm.h"
+#include "coordinator/pass_report.h"
+
+namespace treefarm {
+
+/// How far a render is.
+struct RenderProgress {
+    std::uint32_t pass = 0;
+    std::size_t pass_count = 0;
+    std::uint32_t spp_done = 0;  ///< in finished passes
+    std::uint32_t spp_total = 0;
+    double fraction = 0;        ///< of all samples
+    double estimated_rmse = 0;  ///< after the last finished pass; 0 before
+    std::size_t workers = 0;
+    std::uint64_t rays = 0;  ///< so far
+};
+
+/// What the pass loop calls out to. Any of them may be empty.
+struct PassHooks {
+    std::function<bool()> interrupted;  ///< asked often; true ends the render after the last whole pass
+    std::function<void(const RenderProgress&)> on_progress;  ///< called often
+    std::function<void(const PassReport&)> on_pass;          ///< after each pass
+};
+
+/// What came out. After an interruption: of the passes that were whole by then, possibly none.
+struct RenderResult {
+    CombinedImage image;  ///< empty if no pass was finished
+    int width = 0, height = 0;
+    std::uint32_t spp = 0;
+    bool interrupted = false;
+    std::vector<PassReport> passes;
+    SdTree tree;                   ///< that guides the pass after the last finished one, or guided the last of all
+    std::uint64_t image_hash = 0;  ///< of the combined means
+    std::uint64_t tree_hash = 0;   ///< of the encoded tree that guided the last pass
+};
+
+/// The tree before the first pass: over the scene and the camera, as in the authors' program; record units by the
+/// brightest emitter.
+SdTree first_tree(const Scene& scene);
+
+/// Renders `passes` one after the other: broadcast the tree, hand out the work, collect film and sums, refine.
+RenderResult run_passes(Farm& farm, const Job& job, std::span<const PassPlan> passes, SdTree tree, int width,
+                        int height, const PassHooks& hooks);
+
+}  // namespace treefarm

@@ -1,0 +1,157 @@
+#include "coordinator/pass_report.h"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <functional>
+#include <utility>
+
+namespace treefarm {
+
+namespace {
+
+int spatial_depth(const SdTree& tree) {
+    int deepest = 0;
+    std::vector<std::pair<std::uint32_t, int>> open = {{0, 0}};
+    while (!open.empty()) {
+        const auto [node, depth] = open.back();
+        open.pop_back();
+        deepest = std::max(deepest, depth);
+        if (tree.nodes[node].is_leaf()) continue;
+        for (const std::uint32_t child : tree.nodes[node].child)
+            open.emplace_back(child, depth + 1);
+    }
+    return deepest;
+}
+
+/// One column of passes.csv.
+struct Column {
+    const char* name;
+    std::function<std::string(const PassReport&)> value;
+};
+
+template <class Get>
+Column column(const char* name, Get get) {
+    return {name, [get](const PassReport& r) { return fmt::format("{}", get(r)); }};
+}
+
+std::vector<Column> columns() {
+    using R = const PassReport&;
+    return {
+        column("pass", [](R r) { return r.plan.index; }),
+        column("spp", [](R r) { return r.plan.spp; }),
+        column("spp_done", [](R r) { return r.spp_done; }),
+        column("next_event", [](R r) { return r.plan.next_event ? 1 : 0; }),
+        column("record", [](R r) { return r.plan.record ? 1 : 0; }),
+        column("workers", [](R r) { return r.workers; }),
+        column("threads", [](R r) { return r.threads; }),
+        column("seconds", [](R r) { return r.seconds.all; }),
+        column("broadcast_seconds", [](R r) { return r.seconds.broadcast; }),
+        column("trace_seconds_min", [](R r) { return r.seconds.trace.min; }),
+        column("trace_seconds_mean", [](R r) { return r.seconds.trace.mean; }),
+        column("trace_seconds_max", [](R r) { return r.seconds.trace.max; }),
+        column("trace_max_worker", [](R r) { return r.seconds.trace.max_worker; }),
+        column("splat_seconds", [](R r) { return r.seconds.splat; }),
+        column("idle_seconds", [](R r) { return r.seconds.idle; }),
+        column("merge_seconds", [](R r) { return r.seconds.merge; }),
+        column("refine_seconds", [](R r) { return r.seconds.refine; }),
+        column("film_seconds", [](R r) { return r.seconds.film; }),
+        column("stuv", [](R r) { return r.variance.stuv; }),
+        column("stuv_trimmed", [](R r) { return r.variance.stuv_trimmed; }),
+        column("stuv_ppg", [](R r) { return r.variance.stuv_ppg; }),
+        column("estimated_rmse", [](R r) { return r.estimated_rmse; }),
+        column("paths", [](R r) { return r.stats.paths; }),
+        column("nonzero_share", [](R r) { return r.nonzero_share(); }),
+        column("rays", [](R r) { return r.stats.rays; }),
+        column("shadow_rays", [](R r) { return r.stats.shadow_rays; }),
+        column("rays_per_second", [](R r) { return r.rays_per_second(); }),
+        column("vertices", [](R r) { return r.stats.vertices; }),
+        column("records", [](R r) { return r.stats.records; }),
+        column("invalid_samples", [](R r) { return r.stats.invalid_samples; }),
+        column("tree_nodes", [](R r) { return r.tree.nodes; }),
+        column("tree_regions", [](R r) { return r.tree.regions; }),
+        column("tree_cells", [](R r) { return r.tree.cells; }),
+        column("spatial_depth", [](R r) { return r.tree.spatial_depth; }),
+        column("directional_depth", [](R r) { return r.tree.directional_depth; }),
+        column("tree_bytes", [](R r) { return r.tree.bytes; }),
+        column("update_bytes", [](R r) { return r.update_bytes; }),
+        column("touched_cells", [](R r) { return r.touched_cells; }),
+        column("capped_records", [](R r) { return r.caps.capped_records; }),
+        column("saturated_cells", [](R r) { return r.caps.saturated_cells; }),
+        column("outside_positions", [](R r) { return r.caps.outside_positions; }),
+        column("spatial_depth_capped", [](R r) { return r.refine.spatial_depth_capped; }),
+        column("directional_depth_capped", [](R r) { return r.refine.directional_depth_capped; }),
+        column("memory_capped", [](R r) { return r.refine.memory_capped; }),
+    };
+}
+
+template <class Text>
+std::string join_columns(Text text) {
+    std::string line;
+    for (const Column& c : columns())
+        line += (line.empty() ? "" : ",") + text(c);
+    return line;
+}
+
+}  // namespace
+
+TreeFigures tree_figures(const SdTree& tree, std::uint64_t encoded_bytes) {
+    TreeFigures figures;
+    figures.nodes = tree.nodes.size();
+    figures.regions = tree.region_count();
+    figures.cells = tree.cell_count();
+    figures.spatial_depth = spatial_depth(tree);
+    figures.directional_depth =
+        tree.cell_depth.empty() ? 0 : *std::max_element(tree.cell_depth.begin(), tree.cell_depth.end());
+    figures.bytes = encoded_bytes;
+    return figures;
+}
+
+double PassReport::nonzero_share() const {
+    return stats.paths > 0 ? static_cast<double>(stats.nonzero_paths) / static_cast<double>(stats.paths) : 0.0;
+}
+
+double PassReport::rays_per_second() const {
+    return seconds.all > 0 ? static_cast<double>(stats.rays + stats.shadow_rays) / seconds.all : 0.0;
+}
+
+void fill_from_collector(PassReport& report, const Collector& collector) {
+    report.stats = collector.totals();
+    report.update_bytes = collector.update_bytes();
+    report.touched_cells = collector.touched_cells();
+    report.caps = collector.sums().caps();
+    report.variance = pass_variance(collector.film().pixels());
+    PassSeconds& s = report.seconds;
+    s.merge = collector.merge_seconds();
+    s.splat = report.stats.splat_seconds;
+    bool first = true;
+    for (const auto& [worker, share] : collector.shares()) {
+        const double trace = share.stats.trace_seconds;
+        s.trace.mean += trace / static_cast<double>(collector.shares().size());
+        if (first || trace < s.trace.min) s.trace.min = trace;
+        if (first || trace > s.trace.max) {
+            s.trace.max = trace;
+            s.trace.max_worker = worker;
+        }
+        first = false;
+    }
+    s.idle = std::max(0.0, s.all * report.threads - report.stats.trace_seconds - s.splat);
+}
+
+std::string pass_csv_header() {
+    return join_columns([](const Column& c) { return std::string(c.name); });
+}
+
+std::string pass_csv_line(const PassReport& report) {
+    return join_columns([&](const Column& c) { return c.value(report); });
+}
+
+std::string pass_summary(const PassReport& r, std::size_t pass_count) {
+    std::string text = fmt::format(
+        "pass {} of {}: {} spp in {:.2f} s, {:.2f} Mrays/s, stuv {:.4g}, estimated rmse {:.4g}", r.plan.index + 1,
+        pass_count, r.plan.spp, r.seconds.all, 1e-6 * r.rays_per_second(), r.variance.stuv, r.estimated_rmse);
+    if (r.tree.regions > 1) text += fmt::format("; tree {} regions, {} cells", r.tree.regions, r.tree.cells);
+    return text;
+}
+
+}  // namespace treefarm

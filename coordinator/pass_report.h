@@ -1,0 +1,74 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "common/film/combine.h"
+#include "common/film/trace_stats.h"
+#include "common/guiding/refine.h"
+#include "common/guiding/sd_tree.h"
+#include "common/plan/schedule.h"
+#include "coordinator/collector.h"
+
+namespace treefarm {
+
+/// A figure over the workers.
+struct Spread {
+    double min = 0, mean = 0, max = 0;
+    int max_worker = 0;  ///< that attains the maximum
+};
+
+/// Size of a tree.
+struct TreeFigures {
+    std::uint64_t nodes = 0;  ///< of the spatial tree, leaves included
+    std::uint64_t regions = 0;
+    std::uint64_t cells = 0;
+    int spatial_depth = 0;
+    int directional_depth = 0;
+    std::uint64_t bytes = 0;  ///< encoded
+};
+TreeFigures tree_figures(const SdTree& tree, std::uint64_t encoded_bytes);
+
+/// Where the time of a pass went: seconds of the wall clock on the coordinator, unless said otherwise.
+struct PassSeconds {
+    double all = 0;
+    double broadcast = 0;  ///< until the last worker had the tree, its guide built, and asked for work
+    double merge = 0;      ///< decoding and adding results
+    double refine = 0;     ///< building the next tree
+    double film = 0;       ///< combining the images of the passes
+    Spread trace;          ///< thread-seconds tracing, per worker
+    double splat = 0;      ///< thread-seconds adding records, all workers
+    double idle = 0;       ///< thread-seconds in which threads neither traced nor added
+};
+
+/// Everything worth knowing of one finished pass.
+struct PassReport {
+    PassPlan plan;
+    std::uint32_t spp_done = 0;  ///< with this pass
+    std::size_t workers = 0;
+    std::uint32_t threads = 0;
+    PassSeconds seconds;
+    TraceStats stats;
+    PassVariance variance;
+    double estimated_rmse = 0;  ///< of the image with this pass
+    TreeFigures tree;           ///< that guided the pass
+    std::uint64_t update_bytes = 0, touched_cells = 0;
+    UpdateCaps caps;
+    RefineReport refine;  ///< of the tree that this pass taught
+
+    double nonzero_share() const;
+    double rays_per_second() const;
+};
+
+/// Figures of a pass from what was collected; seconds.trace, splat and idle included once `seconds.all` is set.
+void fill_from_collector(PassReport& report, const Collector& collector);
+
+/// passes.csv: the header line and the line of a pass, without line ends.
+std::string pass_csv_header();
+std::string pass_csv_line(const PassReport& report);
+
+/// One line for a person.
+std::string pass_summary(const PassReport& report, std::size_t pass_count);
+
+}  // namespace treefarm

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <functional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "common/comm/channel.h"
+#include "common/config/job.h"
+#include "common/scene/scene.h"
+#include "coordinator/run_directory.h"
+
+namespace treefarm {
+
+/// A render as it was asked for: everything read and checked.
+struct RenderRequest {
+    Job job;
+    Scene scene;
+    std::vector<std::string> warnings;  ///< of the readers, for the log
+    std::string command;                ///< as it was typed
+    std::string debug_command;          ///< reproduces a sample when " pass,x,y,sample" is appended
+    std::uint64_t fingerprint = 0;      ///< of this process
+    bool quiet = false;                 ///< only errors on the terminal
+    bool progress_bar = false;
+};
+
+struct RenderOutcome {
+    RunState state = RunState::failed;
+    std::set<int> lost_peers;  ///< workers that were given up
+};
+
+/// Runs a render to its end on the coordinator's side of `channel`: run directory, workers, passes, files. What goes
+/// wrong after the run directory exists is logged and summarised there. Workers are not dismissed: the caller does
+/// that.
+RenderOutcome run_render(Channel& channel, const RenderRequest& request, const std::function<bool()>& interrupted);
+
+}  // namespace treefarm

@@ -1,0 +1,187 @@
+#include "coordinator/run_directory.h"
+
+#include <chrono>
+#include <ctime>
+#include <nlohmann/json.hpp>
+
+#include "common/base/error.h"
+#include "common/base/hash.h"
+#include "common/config/job_reader.h"
+#include "common/image/atomic_file.h"
+#include "common/image/png.h"
+#include "common/protocol/fingerprint.h"
+#include "coordinator/result_image.h"
+
+namespace treefarm {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string time_stamp() {
+    const std::time_t now = std::time(nullptr);
+    std::tm local{};
+    localtime_r(&now, &local);
+    char text[32];
+    std::strftime(text, sizeof text, "%Y%m%d-%H%M%S", &local);
+    return text;
+}
+
+std::filesystem::path choose_path(const Job& job) {
+    if (!job.output.directory.empty()) return job.output.directory;
+    const std::string name = std::filesystem::path(job.scene.file).stem().string() + "-" + time_stamp();
+    std::filesystem::path path = std::filesystem::path("runs") / name;
+    for (int k = 2; std::filesystem::exists(path); ++k)  // two runs in one second
+        path = std::filesystem::path("runs") / (name + "-" + std::to_string(k));
+    return path;
+}
+
+Json pass_json(const PassReport& r) {
+    return {{"pass", r.plan.index},
+            {"spp", r.plan.spp},
+            {"spp_done", r.spp_done},
+            {"seconds", r.seconds.all},
+            {"stuv", r.variance.stuv},
+            {"stuv_trimmed", r.variance.stuv_trimmed},
+            {"stuv_ppg", r.variance.stuv_ppg},
+            {"estimated_rmse", r.estimated_rmse},
+            {"rays_per_second", r.rays_per_second()},
+            {"nonzero_share", r.nonzero_share()},
+            {"invalid_samples", r.stats.invalid_samples},
+            {"tree_nodes", r.tree.nodes},
+            {"tree_regions", r.tree.regions},
+            {"tree_cells", r.tree.cells},
+            {"tree_bytes", r.tree.bytes},
+            {"update_bytes", r.update_bytes},
+            {"trace_seconds",
+             {{"min", r.seconds.trace.min},
+              {"mean", r.seconds.trace.mean},
+              {"max", r.seconds.trace.max},
+              {"max_worker", r.seconds.trace.max_worker}}}};
+}
+
+const char* member_state_name(MemberState state) {
+    switch (state) {
+        case MemberState::present:
+            return "present";
+        case MemberState::lost:
+            return "lost";
+        case MemberState::refused:
+            return "refused";
+        case MemberState::left:
+            return "left";
+    }
+    return "";
+}
+
+Json farm_json(const Farm& farm) {
+    Json workers = Json::array();
+    for (const auto& [peer, member] : farm.roster().members())
+        workers.push_back({{"worker", peer},
+                           {"host", member.hello.host},
+                           {"threads", member.hello.threads},
+                           {"state", member_state_name(member.state)}});
+    return {
+        {"workers", workers}, {"reissued_units", farm.reissued_units()}, {"dropped_results", farm.dropped_results()}};
+}
+
+}  // namespace
+
+const char* run_state_name(RunState state) {
+    switch (state) {
+        case RunState::running:
+            return "running";
+        case RunState::done:
+            return "done";
+        case RunState::interrupted:
+            return "interrupted";
+        case RunState::failed:
+            return "failed";
+    }
+    return "";
+}
+
+RunDirectory::RunDirectory(const Job& job, const RunFacts& facts) : job_(job), facts_(facts), path_(choose_path(job)) {
+    std::error_code error;
+    std::filesystem::create_directories(path_, error);
+    if (error)
+        throw InputError({}, "cannot make the run directory " + path_.string() + ": " + error.message(),
+                         "name another with --run-dir");
+    write_text("job.toml", write_job(job));
+    passes_csv_ = pass_csv_header() + "\n";
+    write_text("passes.csv", passes_csv_);
+}
+
+void RunDirectory::write_text(const std::string& name, const std::string& text) const {
+    write_file_atomically(path_ / name, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+}
+
+void RunDirectory::write_status(const RenderProgress& progress, double elapsed_seconds) {
+    if (elapsed_seconds - last_status_ < 1.0) return;
+    last_status_ = elapsed_seconds;
+    const double left = progress.fraction > 0 ? elapsed_seconds * (1 - progress.fraction) / progress.fraction : 0.0;
+    const Json status = {{"state", run_state_name(RunState::running)},
+                         {"pass", progress.pass},
+                         {"passes", progress.pass_count},
+                         {"spp_done", progress.spp_done},
+                         {"spp", progress.spp_total},
+                         {"fraction", progress.fraction},
+                         {"elapsed_seconds", elapsed_seconds},
+                         {"seconds_left", left},
+                         {"estimated_rmse", progress.estimated_rmse},
+                         {"workers", progress.workers},
+                         {"rays", progress.rays},
+                         {"time", std::time(nullptr)}};
+    write_text("status.json", status.dump(2) + "\n");
+}
+
+void RunDirectory::add_pass(const PassReport& report) {
+    passes_csv_ += pass_csv_line(report) + "\n";
+    write_text("passes.csv", passes_csv_);
+}
+
+void RunDirectory::write_image(const RenderResult& result) {
+    if (result.image.mean.empty()) return;
+    const Image channels = result_channels(result.image, result.width, result.height);
+    const Attributes attributes = {
+        {"treefarm.version", kProgramVersion},
+        {"treefarm.spp", std::to_string(result.spp)},
+        {"treefarm.job", write_job(job_)},
+        {"treefarm.scene_hash", hash_text(facts_.scene_hash)},
+        {"treefarm.image_hash", hash_text(result.image_hash)},
+        {"treefarm.tree_hash", hash_text(result.tree_hash)},
+        {"treefarm.estimated_rmse", std::to_string(result.passes.back().estimated_rmse)},
+    };
+    write_exr(path_ / "image.exr", channels, attributes);
+    if (!job_.output.file.empty()) write_exr(job_.output.file, channels, attributes);
+    write_png(path_ / "preview.png", result_colours(result.image, result.width, result.height));
+}
+
+void RunDirectory::write_summary(RunState state, const RenderResult& result, const Farm* farm, double elapsed_seconds,
+                                 const std::string& error) {
+    Json summary = {{"state", run_state_name(state)},
+                    {"version", kProgramVersion},
+                    {"command", facts_.command},
+                    {"scene", job_.scene.file},
+                    {"scene_hash", hash_text(facts_.scene_hash)},
+                    {"fingerprint", hash_text(facts_.fingerprint)},
+                    {"width", result.width},
+                    {"height", result.height},
+                    {"spp", result.spp},
+                    {"seconds", elapsed_seconds},
+                    {"image_hash", result.spp > 0 ? hash_text(result.image_hash) : ""},
+                    {"tree_hash", result.spp > 0 ? hash_text(result.tree_hash) : ""},
+                    {"estimated_rmse", result.passes.empty() ? 0.0 : result.passes.back().estimated_rmse},
+                    {"pass_weights", result.image.weight}};
+    if (!error.empty()) summary["error"] = error;
+    summary["passes"] = Json::array();
+    for (const PassReport& report : result.passes)
+        summary["passes"].push_back(pass_json(report));
+    if (farm) summary["farm"] = farm_json(*farm);
+    write_text("summary.json", summary.dump(2) + "\n");
+    const Json status = {
+        {"state", run_state_name(state)}, {"spp_done", result.spp}, {"elapsed_seconds", elapsed_seconds}};
+    write_text("status.json", status.dump(2) + "\n");
+}
+
+}  // namespace treefarm

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+
+#include "common/base/timer.h"
+#include "common/config/job.h"
+#include "coordinator/farm.h"
+#include "coordinator/pass_loop.h"
+
+namespace treefarm {
+
+/// How a run ended.
+enum class RunState : std::uint8_t { running, done, interrupted, failed };
+const char* run_state_name(RunState state);
+
+/// What a run is, for its files.
+struct RunFacts {
+    std::string command;  ///< that started it
+    std::uint64_t scene_hash = 0;
+    std::uint64_t fingerprint = 0;
+};
+
+/// The folder of one run: job.toml, log.txt, status.json, passes.csv, image.exr, preview.png, summary.json. Every file
+/// is replaced as a whole or appended to by lines, so that a reader never sees half of one. Throws RunError where a
+/// file cannot be written.
+class RunDirectory {
+  public:
+    /// Makes the folder (runs/<scene>-<time> if the job names none) and writes job.toml.
+    RunDirectory(const Job& job, const RunFacts& facts);
+
+    const std::filesystem::path& path() const { return path_; }
+    std::filesystem::path log_file() const { return path_ / "log.txt"; }
+
+    /// status.json, at most once a second.
+    void write_status(const RenderProgress& progress, double elapsed_seconds);
+    /// A line of passes.csv.
+    void add_pass(const PassReport& report);
+    /// image.exr, preview.png, and the job's output.file.
+    void write_image(const RenderResult& result);
+    /// summary.json and the last status.json.
+    void write_summary(RunState state, const RenderResult& result, const Farm* farm, double elapsed_seconds,
+                       const std::string& error);
+
+  private:
+    void write_text(const std::string& name, const std::string& text) const;
+
+    const Job job_;
+    const RunFacts facts_;
+    std::filesystem::path path_;
+    std::string passes_csv_;
+    double last_status_ = -1e9;
+};
+
+}  // namespace treefarm

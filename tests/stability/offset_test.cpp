@@ -1,0 +1,185 @@
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "tests/support/test_scenes.h"
+#include "worker/geometry/embree_scene.h"
+
+namespace treefarm {
+namespace {
+
+/// Where and how large: the same geometry must behave the same.
+struct Place {
+    float scale;
+    Vec3 offset;  ///< in units of `scale`
+};
+
+const Place kPlaces[] = {{1.0f, Vec3(0.0f)},
+                         {1e-4f, Vec3(0.0f)},
+                         {1e5f, Vec3(0.0f)},
+                         {1.0f, Vec3(1000.0f, -700.0f, 300.0f)},
+                         {1e-4f, Vec3(1000.0f, -700.0f, 300.0f)},
+                         {1e5f, Vec3(-300.0f, 1000.0f, 800.0f)}};
+
+class Offset : public testing::TestWithParam<Place> {
+  protected:
+    Vec3 at(const Vec3& p) const { return (p + GetParam().offset) * GetParam().scale; }
+    float length(float l) const { return l * GetParam().scale; }
+
+    Vec3 direction() {
+        const Vec3 d(normal_(random_), normal_(random_), normal_(random_));
+        return normalize(d);
+    }
+    float uniform() { return uniform_(random_); }
+
+    std::mt19937 random_{17};
+    std::normal_distribution<float> normal_;
+    std::uniform_real_distribution<float> uniform_;
+};
+
+TEST_P(Offset, RaysLeaveTheTriangleTheyStartOn) {
+    for (int i = 0; i < 3000; ++i) {
+        Scene scene;
+        Mesh mesh;
+        const float size = std::pow(10.0f, -2.0f * uniform());
+        const Vec3 corner(uniform(), uniform(), uniform());
+        const Vec3 a = direction() * size, b = direction() * size;
+        if (cross(normalize(a), normalize(b)).length() < 0.05f) continue;
+        mesh.positions = {at(corner), at(corner + a), at(corner + b)};
+        mesh.indices = {0, 1, 2};
+        test::add_shape(scene, mesh, kNone);
+        const EmbreeScene geometry(std::move(scene.shapes), "avx2");
+        for (int j = 0; j < 40; ++j) {
+            const float u = uniform(), v = uniform() * (1.0f - u);
+            const Hit hit = geometry.triangle_point(0, 0, u, v);
+            Vec3 d = direction();
+            if (j % 4 == 0) d = normalize(d - hit.ng * (0.999f * dot(d, hit.ng)));  // grazing
+            ASSERT_FALSE(geometry.occluded({offset_origin(hit, d), d}))
+                << "triangle " << i << " cosine " << dot(d, hit.ng) << " at " << hit.p;
+        }
+    }
+}
+
+TEST_P(Offset, RaysLeaveTheSphereTheyStartOn) {
+    Scene scene;
+    test::add_shape(scene, Sphere{at(Vec3(0.2f, 0.3f, 0.4f)), length(0.7f), false}, kNone);
+    const EmbreeScene geometry(std::move(scene.shapes), "avx2");
+    for (int i = 0; i < 50000; ++i) {
+        const Hit hit = geometry.sphere_point(0, direction());
+        Vec3 d = direction();
+        if (dot(d, hit.ng) < 0.0f) d = -d;
+        ASSERT_FALSE(geometry.occluded({offset_origin(hit, d), d}));
+        Hit other;
+        ASSERT_TRUE(geometry.intersect({offset_origin(hit, -d), -d}, other)) << "inwards it meets the other side";
+    }
+}
+
+TEST_P(Offset, RaysInAClosedRoomStayInside) {
+    Scene scene;
+    test::add_shape(scene, test::box(at(Vec3(-0.5f)), at(Vec3(0.5f)), true), kNone);
+    const EmbreeScene geometry(std::move(scene.shapes), "avx2");
+    // Coordinates that lie 1000 sizes away hold a unit size in steps of 6e-5 only: edges blur by that.
+    const bool moved = GetParam().offset.length() > 1.0f;
+    int lost = 0, wrong_side = 0;
+    constexpr int kRays = 200000;
+    for (int i = 0; i < kRays; ++i) {
+        Hit hit, next;
+        if (!geometry.intersect({at(Vec3(0.1f, 0.05f, -0.07f)), direction()}, hit)) {
+            ++lost;
+            continue;
+        }
+        Vec3 d = direction();
+        if (dot(d, hit.ng) < 0.0f) d = -d;
+        if (!geometry.intersect({offset_origin(hit, d), d}, next))
+            ++lost;
+        else if (dot(next.ng, d) > 0.0f)
+            ++wrong_side;
+    }
+    EXPECT_LE(lost, moved ? kRays / 1000 : 0);
+    EXPECT_LE(wrong_side, moved ? kRays / 1000 : 0);
+}
+
+TEST_P(Offset, ShadowSegmentsBetweenTwoSurfacesAreFree) {
+    const float half = 0.5f;
+    Scene scene;
+    const auto wall = [&](float z, bool up) {
+        const Vec3 x(2 * half, 0, 0), y(0, 2 * half, 0);
+        const Vec3 corner(-half, -half, z);
+        Mesh mesh;
+        mesh.positions = {at(corner), at(corner + x), at(corner + x + y), at(corner + y)};
+        if (up)
+            mesh.indices = {0, 1, 2, 0, 2, 3};
+        else
+            mesh.indices = {0, 2, 1, 0, 3, 2};
+        return mesh;
+    };
+    test::add_shape(scene, wall(0.0f, true), kNone);
+    test::add_shape(scene, wall(1.0f, false), kNone);
+    std::vector<Shape> blocked = scene.shapes;
+    const EmbreeScene geometry(std::move(scene.shapes), "avx2");
+    blocked.push_back(blocked[0]);
+    std::get<Mesh>(blocked.back().geometry) = wall(0.97f, true);
+    const EmbreeScene with_blocker(std::move(blocked), "avx2");
+    for (int i = 0; i < 20000; ++i) {
+        const auto triangle = static_cast<std::uint32_t>(i & 1);
+        const float u = uniform(), v = uniform() * (1.0f - u), s = uniform(), t = uniform() * (1.0f - s);
+        const Hit from = geometry.triangle_point(0, triangle, u, v), to = geometry.triangle_point(1, triangle, s, t);
+        const Vec3 d = to.p - from.p;
+        const Vec3 start = offset_origin(from, d);
+        const Ray segment{start, offset_origin(to, -d) - start, 1.0f};
+        ASSERT_FALSE(geometry.occluded(segment));
+        ASSERT_TRUE(with_blocker.occluded(segment));
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Places, Offset, testing::ValuesIn(kPlaces));
+
+/// Shells a hundred-thousandth of their radius apart: an offset must leave one without passing the next.
+TEST(ConcentricShells, GapsOfAHundredThousandthAreSeen) {
+    std::mt19937 random(5);
+    std::normal_distribution<float> normal;
+    for (const float radius : {1e-4f, 1.0f, 1e5f, 3.8e8f}) {
+        Scene scene;
+        for (int i = 0; i < 4; ++i)
+            test::add_shape(scene, Sphere{Vec3(0.0f), radius * (1.0f + 1e-5f * static_cast<float>(i)), false}, kNone);
+        const EmbreeScene geometry(std::move(scene.shapes), "avx2");
+        for (int i = 0; i < 20000; ++i) {
+            Vec3 d = normalize(Vec3(normal(random), normal(random), normal(random)));
+            for (std::uint32_t shell = 0; shell < 3; ++shell) {
+                const Hit hit = geometry.sphere_point(shell, d);
+                Hit next;
+                ASSERT_TRUE(geometry.intersect({offset_origin(hit, d), d}, next)) << radius;
+                ASSERT_EQ(next.shape, shell + 1) << radius;
+                ASSERT_TRUE(geometry.intersect({offset_origin(hit, -d), -d}, next)) << radius;
+                ASSERT_EQ(next.shape, shell == 0 ? 0 : shell - 1) << radius;
+            }
+        }
+    }
+}
+
+TEST(ParallelSheets, GapsOfAHundredThousandthAreSeen) {
+    std::mt19937 random(6);
+    std::normal_distribution<float> normal;
+    std::uniform_real_distribution<float> uniform;
+    for (const float size : {1e-4f, 1.0f, 1e5f}) {
+        Scene scene;
+        for (int i = 0; i < 3; ++i)
+            test::add_shape(scene,
+                            test::quad(Vec3(-size, -size, size * (0.5f + 1e-5f * static_cast<float>(i))),
+                                       Vec3(2 * size, 0, 0), Vec3(0, 2 * size, 0)),
+                            kNone);
+        const EmbreeScene geometry(std::move(scene.shapes), "avx2");
+        for (int i = 0; i < 50000; ++i) {
+            const float u = uniform(random), v = uniform(random) * (1.0f - u);
+            const Hit hit = geometry.triangle_point(1, static_cast<std::uint32_t>(i & 1), u, v);
+            Vec3 d = normalize(Vec3(normal(random), normal(random), 3.0f * normal(random)));
+            if (std::abs(d.z) < 0.1f || std::abs(hit.p.x) > 0.99f * size || std::abs(hit.p.y) > 0.99f * size) continue;
+            Hit next;
+            ASSERT_TRUE(geometry.intersect({offset_origin(hit, d), d}, next)) << size;
+            ASSERT_EQ(next.shape, d.z > 0.0f ? 2u : 0u) << size;
+        }
+    }
+}
+
+}  // namespace
+}  // namespace treefarm

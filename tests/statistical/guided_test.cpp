@@ -1,0 +1,76 @@
+// Guided renders estimate the same image as unguided ones. Combination `fixed`: exactly unbiased, so any trend is a bug.
+#include <gtest/gtest.h>
+
+#include "common/config/job.h"
+#include "common/metrics/z_test.h"
+#include "common/scene/load.h"
+#include "tests/support/local_render.h"
+#include "tests/support/support.h"
+
+namespace treefarm {
+namespace {
+
+struct Case {
+    const char* scene;
+    NextEvent next_event;
+    MisHeuristic mis = MisHeuristic::power;
+    int spp_unit = 4;
+};
+
+void PrintTo(const Case& c, std::ostream* out) {
+    *out << c.scene << ", next event " << static_cast<int>(c.next_event) << ", MIS " << static_cast<int>(c.mis);
+}
+
+struct Estimate {
+    RgbImage mean, variance;
+};
+
+Estimate render(const Scene& scene, const Job& job) {
+    const test::LocalRender run = test::render_locally(scene, job);
+    Estimate e{RgbImage(scene.film.width, scene.film.height), RgbImage(scene.film.width, scene.film.height)};
+    for (std::size_t p = 0; p < e.mean.pixels.size(); ++p) {
+        e.mean.pixels[p] = Rgb(run.image.mean[p]);
+        e.variance.pixels[p] = Rgb(run.image.variance[p]);
+    }
+    return e;
+}
+
+class GuidedAgainstUnguided : public ::testing::TestWithParam<Case> {};
+
+TEST_P(GuidedAgainstUnguided, AgreesInEveryBlock) {
+    Scene scene = load_scene(test::own_scene(GetParam().scene), {}, false).scene;
+    scene.film.width = scene.film.height = 64;
+    Job job;
+    job.integrator.max_depth = 8;
+    job.integrator.mis = GetParam().mis;
+    job.sampler.seed = 1;
+    job.budget.spp = 512;
+    job.guiding.type = GuidingType::none;
+    job.integrator.next_event = NextEvent::always;
+    const Estimate unguided = render(scene, job);
+
+    job.sampler.seed = 2;
+    job.budget.spp = 508;
+    job.guiding.type = GuidingType::ppg;
+    job.guiding.combination = Combination::fixed;
+    job.guiding.spatial_threshold = 1000;  // a fine tree for a small image
+    job.guiding.spp_unit = GetParam().spp_unit;
+    job.integrator.next_event = GetParam().next_event;
+    const Estimate guided = render(scene, job);
+
+    const ZTestInput input{guided.mean, unguided.mean, &guided.variance, &unguided.variance};
+    const BlockZTest blocks = block_z_test(input);
+    EXPECT_TRUE(blocks.pass) << "worst block z " << blocks.max_abs_z << " at " << blocks.worst_x << ", " << blocks.worst_y;
+    for (const double z : blocks.image_z) EXPECT_LT(std::abs(z), 4.0);
+    EXPECT_LT(blocks.mean_z2, 2.0);
+    EXPECT_GT(blocks.mean_z2, 0.3);  // the variances are honest, not inflated
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, GuidedAgainstUnguided,
+                         ::testing::Values(Case{"cornell-box.xml", NextEvent::never}, Case{"cornell-box.xml", NextEvent::always},
+                                           Case{"cornell-box.xml", NextEvent::kickstart},
+                                           Case{"cornell-box.xml", NextEvent::always, MisHeuristic::balance, 1},
+                                           Case{"door-ajar.xml", NextEvent::always}, Case{"door-ajar.xml", NextEvent::kickstart}));
+
+}  // namespace
+}  // namespace treefarm

@@ -1,0 +1,153 @@
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "common/comm/broadcast_chain.h"
+#include "common/comm/in_process_channel.h"
+
+namespace treefarm {
+namespace {
+
+Bytes pattern(std::size_t size) {
+    Bytes bytes(size);
+    for (std::size_t i = 0; i < size; ++i)
+        bytes[i] = static_cast<std::uint8_t>(i * 31 + i / 256);
+    return bytes;
+}
+
+/// A coordinator and some workers that are stepped by hand.
+struct Farm {
+    explicit Farm(int workers) : channels(make_in_process_channels(workers + 1)) {
+        for (int w = 1; w <= workers; ++w) {
+            receivers.push_back(std::make_unique<ChainReceiver>(*channels[static_cast<std::size_t>(w)]));
+            chain.push_back(static_cast<std::uint32_t>(w));
+        }
+    }
+
+    /// Lets every worker take what has arrived until nothing moves; `drop(worker, chunk)` loses pieces on the way in.
+    template <class Drop>
+    void settle(Drop drop) {
+        for (bool moved = true; moved;) {
+            moved = false;
+            for (std::size_t w = 1; w < channels.size(); ++w)
+                while (const auto message = channels[w]->poll()) {
+                    moved = true;
+                    const auto chunk = std::get<Chunk>(decode(message->bytes));
+                    if (!drop(static_cast<int>(w), chunk)) receivers[w - 1]->take(chunk, now);
+                }
+        }
+    }
+    void settle() {
+        settle([](int, const Chunk&) { return false; });
+    }
+
+    std::vector<std::pair<int, Resend>> complaints() {
+        std::vector<std::pair<int, Resend>> found;
+        while (const auto message = channels[0]->poll())
+            found.emplace_back(message->peer, std::get<Resend>(decode(message->bytes)));
+        return found;
+    }
+
+    double now = 0;
+    std::vector<std::unique_ptr<Channel>> channels;
+    std::vector<std::unique_ptr<ChainReceiver>> receivers;
+    std::vector<std::uint32_t> chain;
+};
+
+constexpr BlobName kTree{Blob::tree, 3};
+
+class BroadcastChain : public ::testing::TestWithParam<int> {};
+
+TEST_P(BroadcastChain, EveryWorkerGetsTheSameBytesAndTheCoordinatorSendsThemOnce) {
+    Farm farm(GetParam());
+    const Bytes tree = pattern(10'050);
+    send_along_chain(*farm.channels[0], kTree, tree, 0, farm.chain, 1000);
+    EXPECT_LT(farm.channels[0]->bytes_sent(), 1.2 * static_cast<double>(tree.size()));
+    farm.settle();
+    for (const auto& receiver : farm.receivers) {
+        EXPECT_EQ(receiver->collect(kTree), tree);
+        EXPECT_FALSE(receiver->collect(kTree)) << "handed out twice";
+    }
+    EXPECT_TRUE(farm.complaints().empty());
+}
+
+TEST_P(BroadcastChain, AMissingPieceIsAskedForAndThenAllIsWhole) {
+    Farm farm(GetParam());
+    const Bytes tree = pattern(5'000);
+    const int deaf = (GetParam() + 1) / 2;
+    send_along_chain(*farm.channels[0], kTree, tree, 0, farm.chain, 1000);
+    farm.settle([&](int worker, const Chunk& chunk) { return worker == deaf && chunk.offset == 2000; });
+    const auto complaints = farm.complaints();
+    ASSERT_FALSE(complaints.empty());
+    for (const auto& [peer, resend] : complaints) {
+        EXPECT_GE(peer, deaf);
+        EXPECT_EQ(resend, (Resend{Blob::tree, 3, 2000}));
+        const std::uint32_t only[] = {static_cast<std::uint32_t>(peer)};
+        send_along_chain(*farm.channels[0], kTree, tree, resend.offset, only, 1000);
+    }
+    EXPECT_EQ(complaints.size(), static_cast<std::size_t>(GetParam() - deaf + 1)) << "one each, from the deaf one on";
+    farm.settle();
+    for (const auto& receiver : farm.receivers)
+        EXPECT_EQ(receiver->collect(kTree), tree);
+}
+
+INSTANTIATE_TEST_SUITE_P(Workers, BroadcastChain, ::testing::Values(1, 2, 5));
+
+TEST(ChainReceiver, NoticesSilence) {
+    Farm farm(1);
+    ChainReceiver& receiver = *farm.receivers[0];
+    receiver.expect(kTree, 100, 10.0);
+    receiver.complain(11.0, 2.0);
+    EXPECT_TRUE(farm.complaints().empty()) << "too early";
+    receiver.complain(12.5, 2.0);
+    EXPECT_EQ(farm.complaints().size(), 1u);
+    receiver.complain(13.0, 2.0);
+    EXPECT_TRUE(farm.complaints().empty()) << "asked again too soon";
+    receiver.complain(15.0, 2.0);
+    EXPECT_EQ(farm.complaints().size(), 1u);
+}
+
+TEST(ChainReceiver, TheLastPieceMissingIsNoticedBySilence) {
+    Farm farm(1);
+    const Bytes tree = pattern(3'000);
+    send_along_chain(*farm.channels[0], kTree, tree, 0, farm.chain, 1000);
+    farm.settle([&](int, const Chunk& chunk) { return chunk.offset == 2000; });
+    EXPECT_FALSE(farm.receivers[0]->collect(kTree));
+    farm.receivers[0]->complain(5.0, 2.0);
+    const auto complaints = farm.complaints();
+    ASSERT_EQ(complaints.size(), 1u);
+    EXPECT_EQ(complaints[0].second.offset, 2000u);
+}
+
+TEST(ChainReceiver, LatePiecesOfACollectedBlobAreDropped) {
+    Farm farm(1);
+    const Bytes tree = pattern(3'000);
+    send_along_chain(*farm.channels[0], kTree, tree, 0, farm.chain, 1000);
+    send_along_chain(*farm.channels[0], kTree, tree, 0, farm.chain, 1000);
+    farm.settle();
+    EXPECT_EQ(farm.receivers[0]->collect(kTree), tree);
+    send_along_chain(*farm.channels[0], kTree, tree, 0, farm.chain, 1000);
+    farm.settle();
+    EXPECT_FALSE(farm.receivers[0]->collect(kTree));
+    farm.receivers[0]->complain(100.0, 1.0);
+    EXPECT_TRUE(farm.complaints().empty());
+}
+
+TEST(ChainReceiver, ALyingChunkIsRefused) {
+    Farm farm(2);
+    ChainReceiver& receiver = *farm.receivers[0];
+    receiver.take({Blob::tree, 3, 100, 0, {}, Bytes(10)}, 0);
+    EXPECT_THROW(receiver.take({Blob::tree, 3, 99, 10, {}, Bytes(10)}, 0), FormatError) << "length changes";
+    EXPECT_THROW(receiver.take({Blob::tree, 3, 100, 10, {7}, Bytes(10)}, 0), FormatError) << "no such peer";
+    EXPECT_THROW(receiver.take({Blob::tree, 3, 100, 10, {0}, Bytes(10)}, 0), FormatError) << "back to the coordinator";
+}
+
+TEST(ChainReceiver, AnEmptyBlobArrives) {
+    Farm farm(2);
+    send_along_chain(*farm.channels[0], kTree, {}, 0, farm.chain);
+    farm.settle();
+    EXPECT_EQ(farm.receivers[1]->collect(kTree), Bytes{});
+}
+
+}  // namespace
+}  // namespace treefarm

@@ -1,0 +1,91 @@
+#include "coordinator/ledger.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+namespace treefarm {
+namespace {
+
+PassPlan plan(std::uint32_t chunks = 1) {
+    return {.index = 4, .spp = 64 * chunks, .blocks_per_unit = 1, .chunks = chunks};
+}
+
+/// Marks the units' pixels; false if one of them was marked before.
+bool cover(std::vector<int>& marks, int width, int height, const std::vector<WorkUnit>& units) {
+    bool fresh = true;
+    for (const WorkUnit& unit : units)
+        for (int y = unit.y0; y < unit.y1; ++y)
+            for (int x = unit.x0; x < unit.x1; ++x) {
+                const auto at = static_cast<std::size_t>((static_cast<int>(unit.chunk) * height + y) * width + x);
+                fresh &= ++marks[at] == 1;
+            }
+    return fresh;
+}
+
+TEST(Ledger, IssuesEveryAtomOnceInAFixedOrder) {
+    for (const int tile : {8, 32, 50})
+        for (const std::uint32_t chunks : {1u, 3u}) {
+            constexpr int kWidth = 101, kHeight = 37;
+            Ledger a(plan(chunks), kWidth, kHeight, tile), b(plan(chunks), kWidth, kHeight, tile);
+            std::vector<int> marks(kWidth * kHeight * chunks, 0);
+            while (a.waiting() > 0) {
+                const auto units = a.issue(1, 3, 20);
+                EXPECT_EQ(units, b.issue(2, 3, 20));
+                EXPECT_TRUE(cover(marks, kWidth, kHeight, units));
+                EXPECT_FALSE(a.complete());
+                EXPECT_TRUE(a.accept(1, units));
+            }
+            EXPECT_TRUE(a.complete());
+            EXPECT_EQ(a.done(), a.total());
+            EXPECT_EQ(std::set<int>(marks.begin(), marks.end()), std::set<int>{1});
+        }
+}
+
+TEST(Ledger, PiecesShrinkTowardsTheEnd) {
+    Ledger ledger(plan(), 256, 256, 32);
+    EXPECT_EQ(ledger.waiting(), 64u);
+    EXPECT_EQ(ledger.issue(1, 1, 10)[0].pixel_count(), 32u * 32u);
+    ledger.issue(1, 54, 10);
+    EXPECT_EQ(ledger.issue(1, 1, 10)[0].pixel_count(), 16u * 16u);
+}
+
+TEST(Ledger, TinyPiecesAreNotCutFurther) {
+    Ledger ledger(plan(), 7, 7, 32);
+    EXPECT_EQ(ledger.issue(1, 10, 100).size(), 1u);
+}
+
+TEST(Ledger, AcceptsOnlyWhatTheWorkerHasAndOnlyOnce) {
+    Ledger ledger(plan(), 64, 32, 32);
+    const auto mine = ledger.issue(1, 1, 0);
+    const auto other = ledger.issue(2, 1, 0);
+    EXPECT_FALSE(ledger.accept(2, mine));
+    EXPECT_FALSE(ledger.accept(1, std::vector{mine[0], other[0]})) << "one of them is not worker 1's";
+    EXPECT_FALSE(ledger.accept(1, std::vector{mine[0], mine[0]})) << "twice in one result";
+    EXPECT_EQ(ledger.done(), 0u) << "a refused result must leave no trace";
+    EXPECT_TRUE(ledger.accept(1, mine));
+    EXPECT_FALSE(ledger.accept(1, mine)) << "accepted twice";
+    WorkUnit forged = other[0];
+    forged.chunk = 9;
+    EXPECT_FALSE(ledger.accept(2, std::vector{forged}));
+    EXPECT_TRUE(ledger.accept(2, other));
+    EXPECT_TRUE(ledger.complete());
+}
+
+TEST(Ledger, WorkOfALostWorkerIsIssuedAgainFirst) {
+    Ledger ledger(plan(), 128, 32, 32);
+    const auto lost = ledger.issue(1, 2, 0);
+    const auto kept = ledger.issue(2, 1, 0);
+    EXPECT_EQ(ledger.outstanding(1), 2u);
+    EXPECT_EQ(ledger.reclaim(1), 2u);
+    EXPECT_EQ(ledger.outstanding(1), 0u);
+    EXPECT_FALSE(ledger.accept(1, lost)) << "a late result of a lost worker counts nothing";
+    EXPECT_EQ(ledger.issue(2, 2, 0), lost);
+    EXPECT_TRUE(ledger.accept(2, lost));
+    EXPECT_TRUE(ledger.accept(2, kept));
+    EXPECT_TRUE(ledger.accept(3, ledger.issue(3, 5, 0)));
+    EXPECT_TRUE(ledger.complete());
+}
+
+}  // namespace
+}  // namespace treefarm

@@ -1,0 +1,385 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "common/config/job_reader.h"
+#include "common/scene/load.h"
+#include "tests/support/support.h"
+
+namespace treefarm {
+namespace {
+
+/// Writes files below the test's temporary folder and reads them.
+class Mitsuba : public ::testing::Test {
+  protected:
+    void SetUp() override {
+        folder_ = std::filesystem::path(::testing::TempDir()) / "mitsuba_test" /
+                  ::testing::UnitTest::GetInstance()->current_test_info()->name();
+        std::filesystem::remove_all(folder_);
+        std::filesystem::create_directories(folder_ / "sub");
+    }
+
+    std::filesystem::path write(const std::string& name, const std::string& text) const {
+        std::ofstream(folder_ / name, std::ios::binary) << text;
+        return folder_ / name;
+    }
+
+    LoadedScene load(const std::string& body, const std::string& version = "0.6.0",
+                     const std::map<std::string, std::string>& defines = {}, bool lenient = false) const {
+        return load_scene(write("scene.xml", "<scene version=\"" + version + "\">\n" + body + "</scene>\n"), defines,
+                          lenient);
+    }
+
+    /// With a sensor, for tests about something else.
+    LoadedScene load_with_sensor(const std::string& body, const std::string& version = "0.6.0") const {
+        return load("<sensor type=\"perspective\"/>\n" + body, version);
+    }
+
+    std::filesystem::path folder_;
+};
+
+void expect_near(const Vec3& a, const Vec3& b, float tolerance = 1e-5f) {
+    EXPECT_LT((a - b).length(), tolerance) << a << " and " << b;
+}
+
+Vec3 triangle_normal(const Mesh& mesh, std::size_t i) {
+    const Vec3 a = mesh.positions[mesh.indices[3 * i]], b = mesh.positions[mesh.indices[3 * i + 1]],
+               c = mesh.positions[mesh.indices[3 * i + 2]];
+    return normalize(cross(b - a, c - a));
+}
+
+const Mesh& mesh_of(const LoadedScene& loaded, std::size_t shape = 0) {
+    return std::get<Mesh>(loaded.scene.shapes.at(shape).geometry);
+}
+
+Vec3 direction(const Camera& camera, float x, float y) {
+    return normalize(camera.corner + camera.across * x + camera.down * y);
+}
+
+std::string sensor(const std::string& inside, int width = 200, int height = 100) {
+    return "<sensor type=\"perspective\">" + inside + "<film type=\"hdrfilm\"><integer name=\"width\" value=\"" +
+           std::to_string(width) + "\"/><integer name=\"height\" value=\"" + std::to_string(height) +
+           "\"/></film></sensor>\n";
+}
+
+TEST_F(Mitsuba, CameraHasXToTheLeft) {
+    const auto loaded = load(
+        "<sensor type=\"perspective\"><float name=\"fov\" value=\"90\"/><transform name=\"toWorld\">"
+        "<lookAt origin=\"0, 0, 0\" target=\"0 0 1\" up=\"0,1,0\"/></transform></sensor>");
+    const Camera& camera = loaded.scene.camera;
+    expect_near(direction(camera, 0.5f, 0.5f), Vec3(0, 0, 1));
+    EXPECT_GT(direction(camera, 0.0f, 0.5f).x, 0.7f) << "+x must appear at the left edge";
+    EXPECT_LT(direction(camera, 1.0f, 0.5f).x, -0.7f);
+    EXPECT_GT(direction(camera, 0.5f, 0.0f).y, 0.5f) << "+y must appear at the upper edge";
+    expect_near(camera.corner, Vec3(1.0f, 0.75f, 1.0f));
+}
+
+TEST_F(Mitsuba, FieldOfViewAlongEachAxis) {
+    const auto half_angles = [&](const std::string& axis, int width, int height) {
+        const auto loaded =
+            load(sensor("<float name=\"fov\" value=\"60\"/><string name=\"fov_axis\" value=\"" + axis + "\"/>", width,
+                        height),
+                 "3.0.0");
+        return loaded.scene.camera.corner;
+    };
+    const float tangent = std::tan(static_cast<float>(M_PI) / 6.0f);
+    expect_near(half_angles("x", 200, 100), Vec3(tangent, tangent / 2, 1));
+    expect_near(half_angles("y", 200, 100), Vec3(2 * tangent, tangent, 1));
+    expect_near(half_angles("smaller", 200, 100), Vec3(2 * tangent, tangent, 1));
+    expect_near(half_angles("larger", 200, 100), Vec3(tangent, tangent / 2, 1));
+    expect_near(half_angles("smaller", 100, 200), Vec3(tangent, 2 * tangent, 1));
+    const Vec3 diagonal = half_angles("diagonal", 300, 400);
+    EXPECT_NEAR(std::hypot(diagonal.x, diagonal.y), tangent, 1e-5f);
+    const Vec3 lens = load(sensor("<string name=\"focalLength\" value=\"50mm\"/>", 36, 24)).scene.camera.corner;
+    expect_near(lens, Vec3(18.0f / 50.0f, 12.0f / 50.0f, 1.0f));
+}
+
+TEST_F(Mitsuba, PrincipalPointMovesTheImage) {
+    const auto loaded = load(
+        sensor("<float name=\"fov\" value=\"90\"/><float name=\"principal_point_offset_x\" value=\"0.25\"/>"), "3.0.0");
+    expect_near(direction(loaded.scene.camera, 0.25f, 0.5f), Vec3(0, 0, 1));
+}
+
+TEST_F(Mitsuba, FilmSizeFromOutsideChangesTheCamera) {
+    const auto path =
+        write("s.xml", "<scene version=\"3.0.0\">" + sensor("<float name=\"fov\" value=\"90\"/>") + "</scene>");
+    const auto loaded = load_scene(path, {}, false, 100, 0);
+    EXPECT_EQ(loaded.scene.film.width, 100);
+    EXPECT_EQ(loaded.scene.film.height, 100);
+    expect_near(loaded.scene.camera.corner, Vec3(1, 1, 1));
+}
+
+TEST_F(Mitsuba, TransformsApplyInTheirOrder) {
+    const auto loaded = load_with_sensor(
+        "<shape type=\"sphere\"><point name=\"center\" x=\"1\" y=\"0\" z=\"0\"/><transform name=\"to_world\">"
+        "<rotate z=\"1\" angle=\"90\"/><scale value=\"2\"/><translate value=\"1, 2, 3\"/></transform></shape>",
+        "3.0.0");
+    const auto& sphere = std::get<Sphere>(loaded.scene.shapes[0].geometry);
+    expect_near(sphere.center, Vec3(1, 4, 3));
+    EXPECT_NEAR(sphere.radius, 2.0f, 1e-6f);
+}
+
+TEST_F(Mitsuba, SphereOfVersion0DoesNotScaleItsCentre) {
+    const std::string body =
+        "<shape type=\"sphere\"><point name=\"center\" x=\"1\" y=\"0\" z=\"0\"/><float name=\"radius\" value=\"3\"/>"
+        "<transform name=\"toWorld\"><scale x=\"-2\" y=\"2\" z=\"2\"/></transform></shape>";
+    const auto old = load_with_sensor(body);
+    expect_near(std::get<Sphere>(old.scene.shapes[0].geometry).center, Vec3(-1, 0, 0));
+    EXPECT_FALSE(std::get<Sphere>(old.scene.shapes[0].geometry).flip_normals);
+    const auto recent = load_with_sensor(body, "3.0.0");
+    expect_near(std::get<Sphere>(recent.scene.shapes[0].geometry).center, Vec3(-2, 0, 0));
+    EXPECT_NEAR(std::get<Sphere>(recent.scene.shapes[0].geometry).radius, 6.0f, 1e-6f);
+    EXPECT_TRUE(std::get<Sphere>(recent.scene.shapes[0].geometry).flip_normals) << "a mirror turns it inside out";
+}
+
+TEST_F(Mitsuba, MatrixIsRowByRow) {
+    const auto loaded = load_with_sensor(
+        "<shape type=\"rectangle\"><transform name=\"toWorld\"><matrix value=\"0 0 1 5  0 1 0 6  -1 0 0 7  0 0 0 1\"/>"
+        "</transform></shape>");
+    const Mesh& mesh = mesh_of(loaded);
+    expect_near(mesh.positions[0], Vec3(5, 5, 8));
+    expect_near(triangle_normal(mesh, 0), Vec3(1, 0, 0));
+}
+
+TEST_F(Mitsuba, RectangleFrontUnderMirrorsAndFlips) {
+    const auto normal = [&](const std::string& inside) {
+        const auto loaded = load_with_sensor("<shape type=\"rectangle\">" + inside + "</shape>");
+        EXPECT_EQ(mesh_of(loaded).triangle_count(), 2u);
+        expect_near(triangle_normal(mesh_of(loaded), 0), triangle_normal(mesh_of(loaded), 1));
+        return triangle_normal(mesh_of(loaded), 0);
+    };
+    const std::string mirror = "<transform name=\"toWorld\"><scale x=\"-1\"/></transform>";
+    const std::string flip = "<boolean name=\"flipNormals\" value=\"true\"/>";
+    expect_near(normal(""), Vec3(0, 0, 1));
+    expect_near(normal(mirror), Vec3(0, 0, 1));
+    expect_near(normal(flip), Vec3(0, 0, -1));
+    expect_near(normal(mirror + flip), Vec3(0, 0, -1));
+    expect_near(normal("<transform name=\"toWorld\"><scale z=\"-1\"/></transform>"), Vec3(0, 0, -1));
+}
+
+TEST_F(Mitsuba, CubeFacesOutwards) {
+    for (const char* scale : {"1", "-1"}) {
+        const auto loaded = load_with_sensor("<shape type=\"cube\"><transform name=\"toWorld\"><scale x=\"" +
+                                             std::string(scale) + "\" y=\"2\" z=\"3\"/></transform></shape>");
+        const Mesh& mesh = mesh_of(loaded);
+        ASSERT_EQ(mesh.triangle_count(), 12u);
+        float area = 0.0f;
+        for (std::size_t i = 0; i < 12; ++i) {
+            const Vec3 a = mesh.positions[mesh.indices[3 * i]], b = mesh.positions[mesh.indices[3 * i + 1]],
+                       c = mesh.positions[mesh.indices[3 * i + 2]];
+            EXPECT_GT(dot(triangle_normal(mesh, i), a), 0.9f);
+            area += cross(b - a, c - a).length() / 2;
+        }
+        EXPECT_NEAR(area, 2 * (2 * 4 + 2 * 6 + 4 * 6), 1e-4f);
+    }
+}
+
+TEST_F(Mitsuba, EllipsoidsAreRefused) {
+    EXPECT_THROW(
+        load_with_sensor("<shape type=\"sphere\"><transform name=\"toWorld\"><scale x=\"2\"/></transform></shape>"),
+        InputError);
+}
+
+TEST_F(Mitsuba, MaterialsAndReferences) {
+    const auto loaded = load_with_sensor(
+        "<bsdf type=\"twosided\" id=\"both\"><bsdf type=\"diffuse\"><rgb name=\"reflectance\" value=\"0.1 0.2 "
+        "0.3\"/></bsdf></bsdf>"
+        "<bsdf type=\"twosided\" id=\"of ref\"><ref id=\"one\"/></bsdf>"
+        "<bsdf type=\"diffuse\" id=\"one\"/><alias id=\"one\" as=\"uno\"/>"
+        "<shape type=\"rectangle\"><ref id=\"both\"/></shape>"
+        "<shape type=\"rectangle\"><ref name=\"bsdf\" id=\"uno\"/></shape>"
+        "<shape type=\"rectangle\"><ref id=\"of ref\"/></shape>"
+        "<shape type=\"rectangle\"/>"
+        "<shape type=\"rectangle\"><emitter type=\"area\"><spectrum name=\"radiance\" value=\"3\"/></emitter></shape>"
+        "<emitter type=\"constant\"><rgb name=\"radiance\" value=\"4\"/></emitter>");
+    const Scene& scene = loaded.scene;
+    const auto material = [&](std::size_t shape) {
+        return scene.materials.at(static_cast<std::size_t>(scene.shapes[shape].material));
+    };
+    const auto reflectance = [&](std::size_t shape) {
+        return std::get<DiffuseMaterial>(material(shape).bsdf).reflectance;
+    };
+    EXPECT_TRUE(material(0).twosided);
+    EXPECT_EQ(material(0).name, "both");
+    EXPECT_EQ(reflectance(0), Rgb(0.1f, 0.2f, 0.3f));
+    EXPECT_FALSE(material(1).twosided);
+    EXPECT_EQ(material(1).name, "one");
+    EXPECT_TRUE(material(2).twosided);
+    EXPECT_EQ(reflectance(2), Rgb(0.5f));
+    EXPECT_EQ(reflectance(3), Rgb(0.5f));
+    EXPECT_EQ(reflectance(4), Rgb(0.0f)) << "an emitter without a BSDF is black";
+    EXPECT_EQ(scene.shapes[4].emitter, 0);
+    EXPECT_EQ(std::get<AreaEmitter>(scene.emitters[0].kind).shape, 4);
+    EXPECT_EQ(std::get<AreaEmitter>(scene.emitters[0].kind).radiance, Rgb(3.0f));
+    EXPECT_EQ(scene.environment(), 1);
+}
+
+TEST_F(Mitsuba, DefaultsAndDefines) {
+    const std::string body =
+        "<default name=\"w\" value=\"10\"/><default name=\"ww\" value=\"20\"/><sensor type=\"perspective\"><film "
+        "type=\"hdrfilm\">"
+        "<integer name=\"width\" value=\"$ww\"/><integer name=\"height\" value=\"1$w\"/></film></sensor>";
+    EXPECT_EQ(load(body).scene.film.width, 20);
+    EXPECT_EQ(load(body).scene.film.height, 110);
+    EXPECT_EQ(load(body, "3.0.0", {{"ww", "30"}}).scene.film.width, 30);
+    EXPECT_THROW(load(body, "3.0.0", {{"www", "30"}}), InputError);
+    EXPECT_THROW(load("<sensor type=\"$missing\"/>"), InputError);
+}
+
+TEST_F(Mitsuba, IncludesAreRelativeToTheirFile) {
+    write("sub/parts.xml",
+          "<scene version=\"0.6.0\"><default name=\"x\" value=\"9\"/><bsdf type=\"diffuse\" id=\"b\"/>"
+          "<include filename=\"more.xml\"/></scene>");
+    write("sub/more.xml",
+          "<scene version=\"0.6.0\"><shape type=\"obj\"><string name=\"filename\" value=\"m.obj\"/><ref id=\"b\"/>"
+          "</shape></scene>");
+    write("sub/m.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    const auto loaded = load_with_sensor("<include filename=\"sub/parts.xml\"/>");
+    EXPECT_EQ(mesh_of(loaded).triangle_count(), 1u);
+    EXPECT_EQ(loaded.scene.shapes[0].where.file, (folder_ / "sub/more.xml").string());
+}
+
+TEST_F(Mitsuba, FiltersOfTheFilm) {
+    const auto film = [&](const std::string& filter) {
+        return load("<sensor type=\"perspective\"><film type=\"hdrfilm\">" + filter + "</film></sensor>").scene.film;
+    };
+    EXPECT_EQ(film("").width, 768);
+    EXPECT_EQ(film("").height, 576);
+    EXPECT_EQ(film("").filter, PixelFilter::gaussian);
+    EXPECT_EQ(film("").filter_radius, 2.0f);
+    EXPECT_EQ(film("<rfilter type=\"box\"/>").filter, PixelFilter::box);
+    EXPECT_EQ(film("<rfilter type=\"box\"/>").filter_radius, 0.5f);
+    EXPECT_EQ(film("<rfilter type=\"tent\"/>").filter_radius, 1.0f);
+    EXPECT_EQ(film("<rfilter type=\"gaussian\"><float name=\"stddev\" value=\"0.25\"/></rfilter>").filter_stddev,
+              0.25f);
+    EXPECT_EQ(film("<boolean name=\"banner\" value=\"false\"/><string name=\"pixelFormat\" value=\"rgba\"/>").width,
+              768);
+}
+
+TEST_F(Mitsuba, IntegratorsBecomeSettings) {
+    Job job;
+    apply_layer(
+        job, load_with_sensor(
+                 "<integrator type=\"path\"><integer name=\"maxDepth\" value=\"7\"/>"
+                 "<integer name=\"rrDepth\" value=\"3\"/><boolean name=\"hideEmitters\" value=\"true\"/></integrator>")
+                 .settings);
+    EXPECT_EQ(job.guiding.type, GuidingType::none);
+    EXPECT_EQ(job.integrator.next_event, NextEvent::always);
+    EXPECT_EQ(job.integrator.max_depth, 7);
+    EXPECT_EQ(job.integrator.rr_depth, 3);
+    EXPECT_TRUE(job.integrator.hide_emitters);
+
+    const std::string guided = "<string name=\"budgetType\" value=\"spp\"/><float name=\"budget\" value=\"127\"/>";
+    Job paper;
+    apply_layer(paper,
+                load("<sensor type=\"perspective\"><sampler type=\"sobol\"><integer name=\"sampleCount\" value=\"4\"/>"
+                     "<integer name=\"seed\" value=\"5\"/></sampler></sensor><integrator type=\"guided_path\">" +
+                     guided + "</integrator>")
+                    .settings);
+    EXPECT_EQ(paper.guiding.type, GuidingType::ppg);
+    EXPECT_EQ(paper.guiding.preset, "paper");
+    EXPECT_EQ(paper.integrator.next_event, NextEvent::never);
+    EXPECT_EQ(paper.guiding.combination, Combination::last);
+    EXPECT_EQ(paper.budget.spp, 127u) << "the integrator's budget wins over the sampler's";
+    EXPECT_EQ(paper.sampler.seed, 5u);
+
+    Job other;
+    apply_layer(other,
+                load_with_sensor(
+                    "<integrator type=\"guided_path\">" + guided +
+                    "<string name=\"nee\" value=\"kickstart\"/><integer name=\"sTreeThreshold\" value=\"4000\"/>"
+                    "<float name=\"dTreeThreshold\" value=\"0.02\"/><integer name=\"sppPerPass\" value=\"1\"/>"
+                    "<float name=\"bsdfSamplingFraction\" value=\"0.25\"/><boolean name=\"dumpSDTree\" value=\"true\"/>"
+                    "<string name=\"sampleCombination\" value=\"inversevar\"/>"
+                    "<string name=\"spatialFilter\" value=\"nearest\"/><integer name=\"sdTreeMaxMemory\" value=\"-1\"/>"
+                    "<string name=\"bsdfSamplingFractionLoss\" value=\"none\"/></integrator>")
+                    .settings);
+    EXPECT_EQ(other.integrator.next_event, NextEvent::kickstart);
+    EXPECT_EQ(other.guiding.spatial_threshold, 4000);
+    EXPECT_EQ(other.guiding.directional_threshold, 0.02f);
+    EXPECT_EQ(other.guiding.spp_unit, 1);
+    EXPECT_EQ(other.guiding.bsdf_fraction, 0.25f);
+    EXPECT_EQ(other.guiding.combination, Combination::inverse_variance);
+}
+
+TEST_F(Mitsuba, LenientReadingApproximatesAndWarns) {
+    const std::string body =
+        "<sensor type=\"perspective\"/><integrator type=\"bdpt\"/><medium type=\"homogeneous\" id=\"fog\"/>"
+        "<bsdf type=\"dielectric\" id=\"glass\"><float name=\"intIOR\" value=\"1.5\"/></bsdf>"
+        "<bsdf type=\"twosided\" id=\"metal\"><bsdf type=\"conductor\"/></bsdf>"
+        "<shape type=\"hair\"/><shape type=\"rectangle\"><ref id=\"glass\"/><float name=\"unknown\" "
+        "value=\"1\"/></shape>"
+        "<shape type=\"rectangle\"><ref id=\"metal\"/></shape><emitter type=\"sunsky\"/><mystery/>";
+    EXPECT_THROW(load(body), InputError);
+    const auto loaded = load(body, "0.6.0", {}, true);
+    EXPECT_EQ(loaded.scene.shapes.size(), 2u);
+    EXPECT_EQ(std::get<DiffuseMaterial>(loaded.scene.materials[0].bsdf).reflectance, Rgb(0.5f));
+    EXPECT_TRUE(loaded.scene.materials[1].twosided);
+    // integrator, medium, two BSDFs, hair, the property, sunsky, mystery, and that there is no emitter
+    EXPECT_EQ(loaded.warnings.size(), 9u);
+    for (const Warning& warning : loaded.warnings)
+        EXPECT_EQ(warning.text().find((folder_ / "scene.xml").string()), 0u) << warning.text();
+}
+
+TEST_F(Mitsuba, BothSpellingsMeanTheSame) {
+    const auto old = load(
+        "<sensor type=\"perspective\"><float name=\"nearClip\" value=\"1\"/><string name=\"fovAxis\" value=\"y\"/>"
+        "<float name=\"fov\" value=\"30\"/></sensor>");
+    const auto recent = load(
+        "<sensor type=\"perspective\"><float name=\"near_clip\" value=\"1\"/><string name=\"fov_axis\" value=\"y\"/>"
+        "<float name=\"fov\" value=\"30\"/></sensor>",
+        "3.0.0");
+    EXPECT_EQ(old.scene.camera.corner, recent.scene.camera.corner);
+}
+
+TEST_F(Mitsuba, OwnScenesAreStrictlyReadable) {
+    for (const char* name : {"cornell-box.xml", "white-furnace.xml", "door-ajar.xml"}) {
+        const auto loaded = load_scene(test::own_scene(name));
+        EXPECT_TRUE(loaded.warnings.empty()) << name;
+        EXPECT_FALSE(loaded.scene.shapes.empty()) << name;
+        EXPECT_FALSE(loaded.scene.emitters.empty()) << name;
+    }
+}
+
+TEST_F(Mitsuba, SharedCornellBox) {
+    const std::string path = test::shared_scene("cbox/cbox.xml");
+    if (path.empty()) GTEST_SKIP() << "../shared/scenes is not here";
+    const auto loaded = load_scene(path);
+    const Scene& scene = loaded.scene;
+    EXPECT_TRUE(loaded.warnings.empty());
+    EXPECT_EQ(scene.triangle_count(), 36u);
+    EXPECT_EQ(scene.film.width, 512);
+    EXPECT_EQ(scene.film.filter, PixelFilter::box);
+    expect_near(scene.camera.origin, Vec3(278, 273, -800));
+    EXPECT_NEAR(scene.camera.corner.x, std::tan(39.3077 / 2 * M_PI / 180), 1e-5);
+    const auto white = std::get<DiffuseMaterial>(scene.materials[1].bsdf).reflectance;
+    EXPECT_EQ(scene.materials[1].name, "white");
+    // Integrated independently from the CIE's tables at 1 nm.
+    expect_near(white, Vec3(0.885887f, 0.698846f, 0.666744f), 1e-4f);
+    expect_near(std::get<DiffuseMaterial>(scene.materials[2].bsdf).reflectance, Vec3(0.570140f, 0.042777f, 0.044417f),
+                1e-4f);
+    const auto& lamp = std::get<AreaEmitter>(scene.emitters[0].kind);
+    expect_near(lamp.radiance, Vec3(41.559525f, 21.695162f, 5.541110f), 1e-2f);
+    const Mesh& mesh = std::get<Mesh>(scene.shapes[static_cast<std::size_t>(lamp.shape)].geometry);
+    expect_near(triangle_normal(mesh, 0), Vec3(0, 1, 0));
+    Job job;
+    apply_layer(job, loaded.settings);
+    EXPECT_EQ(job.budget.spp, 127u);
+    EXPECT_EQ(job.integrator.max_depth, 10);
+    EXPECT_TRUE(job.integrator.strict_normals);
+}
+
+TEST_F(Mitsuba, SharedScenesCanBeReadLeniently) {
+    for (const char* name : {"spaceship/spaceship.xml", "kitchen/kitchen.xml"}) {
+        const std::string path = test::shared_scene(name);
+        if (path.empty()) GTEST_SKIP() << "../shared/scenes is not here";
+        const auto loaded = load_scene(path, {}, true);
+        EXPECT_GT(loaded.scene.triangle_count(), 200000u) << name;
+        EXPECT_FALSE(loaded.warnings.empty());
+    }
+}
+
+}  // namespace
+}  // namespace treefarm

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstdint>
+
+#include "common/math/vec.h"
+
+namespace treefarm {
+
+/// A point on a surface. Position and normals depend on the primitive and the barycentrics alone, never on the ray, so
+/// a point that a light sampler picks and the same point hit by a ray are the same bits.
+struct Hit {
+    std::uint32_t shape = 0;      ///< index in Scene::shapes
+    std::uint32_t primitive = 0;  ///< triangle of the mesh; 0 for spheres
+    float b1 = 0, b2 = 0;         ///< barycentrics of the second and third vertex
+    Vec3 p{0.0f};
+    Vec3 ng{0.0f};    ///< unit geometric normal on the front; turned towards the shading normal where there is one
+    Vec3 ns{0.0f};    ///< unit shading normal; ng where the mesh has none, or a useless one
+    float error = 0;  ///< how far along ng a ray must start to leave the surface for sure, in scene units
+};
+
+/// Offset that clears a surface whose coordinates are at most `magnitude` in absolute value: 32 half-ulps of it.
+/// Rounding in the position (3 half-ulps), in Embree's edges, normal and dot products (up to about 24 in the worst
+/// corner of a large triangle) stays below it, at any scale of the scene.
+inline float offset_bound(float magnitude) {
+    return magnitude * 0x1p-19f;
+}
+
+/// Where a ray from `hit` into `direction` starts: moved off the surface along ng, to the side the direction points to.
+/// The rounding of this sum is below a sixteenth of the bound.
+inline Vec3 offset_origin(const Hit& hit, const Vec3& direction) {
+    return hit.p + hit.ng * (dot(hit.ng, direction) < 0.0f ? -hit.error : hit.error);
+}
+
+}  // namespace treefarm

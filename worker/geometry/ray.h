@@ -1,0 +1,16 @@
+#pragma once
+
+#include <limits>
+
+#include "common/math/vec.h"
+
+namespace treefarm {
+
+/// The half line (or segment, up to `length` times the direction) that geometry is asked about.
+struct Ray {
+    Vec3 origin;
+    Vec3 direction;  ///< need not be unit
+    float length = std::numeric_limits<float>::infinity();
+};
+
+}  // namespace treefarm

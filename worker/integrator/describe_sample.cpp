@@ -1,0 +1,71 @@
+#include <sstream>
+
+#include "worker/integrator/dispatch.h"
+#include "worker/integrator/path_kernel.h"
+#include "worker/integrator/tile_renderer.h"
+
+namespace treefarm {
+namespace {
+
+std::ostream& operator<<(std::ostream& out, const Vec3& v) {
+    return out << '(' << v.x << ", " << v.y << ", " << v.z << ')';
+}
+
+/// Writes one line per event of a path.
+struct TextObserver {
+    const TraceScene* scene = nullptr;
+    std::ostringstream text;
+
+    void camera(const Ray& ray) { text << "camera from " << ray.origin << " along " << ray.direction << '\n'; }
+    void arrive(int depth, const Hit* hit) {
+        text << "depth " << depth << ": ";
+        if (!hit) {
+            text << "environment\n";
+            return;
+        }
+        const Shape& shape = scene->geometry().shape(hit->shape);
+        text << "shape \"" << shape.name << "\" primitive " << hit->primitive << " at " << hit->p << " ng " << hit->ng
+             << " ns " << hit->ns << '\n';
+    }
+    void emission(const Rgb& radiance, float light_pdf, float weight, const Rgb& contribution) {
+        text << "  emission " << radiance << " light pdf " << light_pdf << " weight " << weight << " contributes "
+             << contribution << '\n';
+    }
+    void scatter(const ScatterSample& s, const Rgb& throughput) {
+        text << "  scatter along " << s.world << " pdf " << s.pdf << " f cos " << s.f_cos << " throughput "
+             << throughput << '\n';
+    }
+    void next_event(const DirectSample& light, float scatter_pdf, float weight, const Rgb& contribution) {
+        text << "  next event along " << light.wi << " distance " << light.distance << " pdf " << light.pdf
+             << " scatter pdf " << scatter_pdf << " weight " << weight << " contributes " << contribution << '\n';
+    }
+    void roulette(float survival, bool survives) {
+        text << "  roulette survival " << survival << (survives ? "" : ", lost") << '\n';
+    }
+    void end(const char* why) { text << "  end: " << why << '\n'; }
+};
+
+}  // namespace
+
+std::string describe_sample(const TraceScene& scene, const Job& job, const PassPlan& pass, const Guide& guide, int x,
+                            int y, std::uint32_t sample) {
+    const PathKey path{job.sampler.seed, static_cast<std::uint32_t>(y * std::int64_t(scene.film().width) + x),
+                       pass.first_sample + sample};
+    const bool guided = job.guiding.type != GuidingType::none && guide.trained();
+    std::string text;
+    dispatch(pass.next_event && scene.emitters().can_sample(), guided, false, [&](auto next_event, auto guides, auto) {
+        TraceStats stats;
+        PathKernel<next_event(), guides(), false, TextObserver> kernel(scene, guide, PathSettings(job, pass, guide),
+                                                                       stats);
+        kernel.observer().scene = &scene;
+        const Rgb radiance = kernel.trace(path, scene.camera().generate(x, y, draw(path, 0, Stream::camera)));
+        std::ostringstream head;
+        head.precision(9);
+        head << "pass " << pass.index << " pixel (" << x << ", " << y << ") sample " << sample << " (path sample "
+             << path.sample << ") seed " << path.seed << ": radiance " << radiance << '\n';
+        text = head.str() + kernel.observer().text.str();
+    });
+    return text;
+}
+
+}  // namespace treefarm

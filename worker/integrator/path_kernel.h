@@ -1,0 +1,185 @@
+#pragma once
+
+#include "common/config/job.h"
+#include "common/film/trace_stats.h"
+#include "common/plan/schedule.h"
+#include "worker/integrator/guided_sampling.h"
+#include "worker/integrator/mis.h"
+#include "worker/integrator/path_recorder.h"
+#include "worker/integrator/roulette.h"
+#include "worker/integrator/trace_scene.h"
+
+namespace treefarm {
+
+/// What the walk is told besides the scene: fixed for a pass.
+struct PathSettings {
+    int max_depth;
+    MisHeuristic mis;
+    bool strict_normals;
+    bool hide_emitters;
+    bool record_light_samples;  ///< kick-start: what next event finds teaches the tree, too
+    float bsdf_fraction;
+    Roulette roulette;
+
+    PathSettings(const Job& job, const PassPlan& pass, const Guide& guide)
+        : max_depth(job.integrator.max_depth),
+          mis(job.integrator.mis),
+          strict_normals(job.integrator.strict_normals),
+          hide_emitters(job.integrator.hide_emitters),
+          record_light_samples(job.integrator.next_event == NextEvent::kickstart && pass.next_event),
+          bsdf_fraction(job.guiding.bsdf_fraction),
+          roulette(job.guiding.type == GuidingType::none ? Roulette::Rule::unguided
+                   : guide.trained()                     ? Roulette::Rule::trained
+                                                         : Roulette::Rule::untrained,
+                   job.integrator.rr_depth) {}
+};
+
+/// Watches nothing, at no cost. describe_sample() passes one that writes.
+struct NoObserver {
+    void camera(const Ray&) {}
+    void arrive(int, const Hit*) {}
+    void emission(const Rgb&, float, float, const Rgb&) {}
+    void scatter(const ScatterSample&, const Rgb&) {}
+    void next_event(const DirectSample&, float, float, const Rgb&) {}
+    void roulette(float, bool) {}
+    void end(const char*) {}
+};
+
+/// Path tracing from the camera with optional next event, guiding and recording (Mueller et al. 2017; the order of
+/// tests is that of their program). Depth counts path edges: a surface seen by the camera has depth 1. One kernel per
+/// thread.
+template <bool kNextEvent, bool kGuided, bool kRecord, class Observer = NoObserver>
+class PathKernel {
+  public:
+    PathKernel(const TraceScene& scene, const Guide& guide, const PathSettings& settings, TraceStats& stats)
+        : scene_(scene), guide_(guide), settings_(settings), stats_(stats) {}
+
+    /// Radiance along a camera ray. What was learned stays in recorder() until it is committed or the next path begins.
+    Rgb trace(const PathKey& path, Ray ray) {
+        Rgb radiance(0.0f), throughput(1.0f);
+        float scatter_pdf = 0.0f;
+        Vec3 scatter_point(0.0f);
+        if constexpr (kRecord) recorder_.begin_path();
+        observer_.camera(ray);
+        if (settings_.max_depth == 0) return radiance;
+        for (int depth = 1;; ++depth) {
+            Hit hit;
+            ++stats_.rays;
+            const bool found = scene_.geometry().intersect(ray, hit);
+            observer_.arrive(depth, found ? &hit : nullptr);
+
+            const Rgb emitted =
+                found ? scene_.emitters().emitted(hit, -ray.direction) : scene_.emitters().environment();
+            if (!is_black(emitted) && !(depth == 1 && settings_.hide_emitters)) {
+                float light_pdf = 0.0f, weight = 1.0f;
+                if (kNextEvent && depth > 1) {
+                    light_pdf = found ? scene_.emitters().pdf_direct(scatter_point, ray.direction, hit)
+                                      : scene_.emitters().pdf_environment();
+                    weight = mis_weight(settings_.mis, scatter_pdf, light_pdf);
+                }
+                const Rgb weighted = emitted * weight;
+                radiance += throughput * weighted;
+                if constexpr (kRecord) recorder_.add_emission(weighted);
+                observer_.emission(emitted, light_pdf, weight, throughput * weighted);
+            }
+            if (!found) return end(radiance, "left the scene");
+            if (depth == settings_.max_depth) return end(radiance, "depth limit");
+
+            if (depth > 1 && settings_.roulette.plays(depth - 1)) {
+                const float survival = settings_.roulette.survival(throughput);
+                const bool survives = to_unit(draw(path, vertex_of(depth - 1), Stream::roulette)[0]) < survival;
+                observer_.roulette(survival, survives);
+                if (!survives) return end(radiance, "roulette");
+                throughput *= 1.0f / survival;
+                if constexpr (kRecord) recorder_.survive(survival);
+            }
+
+            const Bsdf& bsdf = scene_.bsdf(hit.shape);
+            const Frame frame(hit.ns);
+            const Vec3 wo = frame.to_local(-ray.direction);
+            if (!bsdf_reflects(bsdf, wo)) return end(radiance, "black surface");
+            if (settings_.strict_normals && -dot(hit.ng, ray.direction) * wo.z < 0.0f)
+                return end(radiance, "normals disagree");
+
+            ++stats_.vertices;
+            std::uint32_t region = 0;
+            if constexpr (kGuided || kRecord) region = guide_.region(hit.p);
+            if constexpr (kRecord)
+                if (!guide_.contains(hit.p)) recorder_.add_outside();
+            const GuidedSampling<kGuided> sampling(bsdf, frame, wo, guide_, region, settings_.bsdf_fraction);
+
+            if constexpr (kNextEvent) {
+                const Rgb reflected = next_event(path, depth, hit, bsdf, frame, wo, sampling, region, throughput);
+                radiance += throughput * reflected;
+                if constexpr (kRecord) recorder_.add_reflected(reflected);
+            }
+
+            const ScatterSample s = sampling.sample(draw(path, vertex_of(depth), Stream::scatter), kRecord);
+            if (!(s.pdf > 0.0f) || is_black(s.f_cos)) return end(radiance, "no direction");
+            if (settings_.strict_normals && dot(hit.ng, s.world) * s.local.z <= 0.0f)
+                return end(radiance, "normals disagree");
+            const Rgb weight = s.f_cos * (1.0f / s.pdf);
+            throughput *= weight;
+            observer_.scatter(s, throughput);
+            if constexpr (kRecord) recorder_.add_vertex(region, s.code, s.pdf, weight, vertex_of(depth));
+            scatter_pdf = s.pdf;
+            scatter_point = hit.p;
+            ray = {offset_origin(hit, s.world), s.world};
+        }
+    }
+
+    PathRecorder& recorder() { return recorder_; }
+    Observer& observer() { return observer_; }
+
+  private:
+    static std::uint32_t vertex_of(int depth) { return static_cast<std::uint32_t>(depth); }
+
+    Rgb end(const Rgb& radiance, const char* why) {
+        observer_.end(why);
+        return radiance;
+    }
+
+    /// What a sampled emitter sends via this surface against the incoming ray, weighted against scattering.
+    Rgb next_event(const PathKey& path, int depth, const Hit& hit, const Bsdf& bsdf, const Frame& frame, const Vec3& wo,
+                   const GuidedSampling<kGuided>& sampling, std::uint32_t region, const Rgb& throughput) {
+        const DirectSample light = scene_.emitters().sample_direct(hit.p, draw(path, vertex_of(depth), Stream::light));
+        if (!(light.pdf > 0.0f) || is_black(light.radiance)) return Rgb(0.0f);
+        const Vec3 wi = frame.to_local(light.wi);
+        const Rgb f_cos = bsdf_eval(bsdf, wo, wi);
+        if (is_black(f_cos)) return Rgb(0.0f);
+        if (settings_.strict_normals && dot(hit.ng, light.wi) * wi.z <= 0.0f) return Rgb(0.0f);
+        ++stats_.shadow_rays;
+        if (shadowed(hit, light)) return Rgb(0.0f);
+
+        std::uint32_t code = 0;
+        if (kGuided || (kRecord && settings_.record_light_samples)) code = direction_to_code(light.wi);
+        const float scatter_pdf = sampling.pdf(wi, code);
+        const float weight = mis_weight(settings_.mis, light.pdf, scatter_pdf);
+        const Rgb reflected = f_cos * light.radiance * (weight / light.pdf);
+        if (kRecord && settings_.record_light_samples)
+            recorder_.add_light_sample(region, code, average(light.radiance) * weight / light.pdf, vertex_of(depth));
+        observer_.next_event(light, scatter_pdf, weight, throughput * reflected);
+        return reflected;
+    }
+
+    /// Both ends of the segment are moved off their surfaces towards each other.
+    bool shadowed(const Hit& hit, const DirectSample& light) const {
+        Ray shadow = {offset_origin(hit, light.wi), light.wi};
+        if (!light.to_environment()) {
+            shadow.direction = offset_origin(light.on_light, -light.wi) - shadow.origin;
+            if (!(dot(shadow.direction, light.wi) > 0.0f))
+                return false;  // closer than the offsets: nothing fits between
+            shadow.length = 1.0f;
+        }
+        return scene_.geometry().occluded(shadow);
+    }
+
+    const TraceScene& scene_;
+    const Guide& guide_;
+    const PathSettings settings_;
+    TraceStats& stats_;
+    PathRecorder recorder_;
+    Observer observer_;
+};
+
+}  // namespace treefarm

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "common/film/pixel_estimate.h"
+#include "common/film/trace_stats.h"
+#include "common/film/work_unit.h"
+#include "common/guiding/guide.h"
+#include "common/plan/schedule.h"
+#include "worker/integrator/record_log.h"
+#include "worker/integrator/trace_scene.h"
+
+namespace treefarm {
+
+/// Renders a work unit: a pure function of its arguments' values. `pixels` gets one reduced estimate per pixel, row by
+/// row; `log` is begun and filled if the pass records; `stats` is added to. Thread-safe for different outputs.
+void render_unit(const TraceScene& scene, const Job& job, const PassPlan& pass, const Guide& guide,
+                 const WorkUnit& unit, std::vector<PixelEstimate>& pixels, RecordLog& log, TraceStats& stats);
+
+/// The same path as in render_unit, vertex by vertex, as text. `sample` counts within the pass.
+std::string describe_sample(const TraceScene& scene, const Job& job, const PassPlan& pass, const Guide& guide, int x,
+                            int y, std::uint32_t sample);
+
+}  // namespace treefarm

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace treefarm {
+
+/// Chooses among a few or many by weight. Probabilities are whole multiples of 2^-32, so that what pick() does with 32
+/// random bits and what probability() says are exactly the same. An entry below that granularity is never picked.
+class DiscreteTable {
+  public:
+    DiscreteTable() = default;
+
+    /// Weights are non-negative and finite; if all are zero nothing can be picked.
+    explicit DiscreteTable(std::span<const double> weights) {
+        double total = 0;
+        for (const double w : weights)
+            total += w;
+        if (!(total > 0)) return;
+        begin_.reserve(weights.size() + 1);
+        begin_.push_back(0);
+        double sum = 0;
+        for (const double w : weights) {
+            sum += w;
+            begin_.push_back(static_cast<std::uint64_t>(std::min(sum / total, 1.0) * 0x1p32));
+        }
+        // The last entry with weight takes what rounding left.
+        for (std::size_t i = weights.size(); i > 0; --i) {
+            begin_[i] = std::uint64_t(1) << 32;
+            if (weights[i - 1] > 0) break;
+        }
+    }
+
+    bool empty() const { return begin_.empty(); }
+
+    /// Index of the entry that owns these bits; the table must not be empty.
+    std::uint32_t pick(std::uint32_t bits) const {
+        if (begin_.size() <= 9) {
+            std::uint32_t i = 0;
+            while (begin_[i + 1] <= bits)
+                ++i;
+            return i;
+        }
+        const auto above = std::upper_bound(begin_.begin() + 1, begin_.end(), std::uint64_t(bits));
+        return static_cast<std::uint32_t>(above - begin_.begin() - 1);
+    }
+
+    float probability(std::uint32_t index) const {
+        return begin_.empty() ? 0.0f : static_cast<float>(begin_[index + 1] - begin_[index]) * 0x1p-32f;
+    }
+
+  private:
+    std::vector<std::uint64_t> begin_;  ///< of 2^32; one more than entries
+};
+
+}  // namespace treefarm

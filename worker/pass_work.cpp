@@ -1,0 +1,40 @@
+#include "worker/pass_work.h"
+
+#include <utility>
+
+#include "common/base/timer.h"
+
+namespace treefarm {
+
+PassWork::PassWork(const PassPlan& plan, const SdTree& tree) : plan_(plan), guide_(tree) {
+    if (plan_.record) accumulator_.emplace(plan_.index, guide_);
+}
+
+void PassWork::deliver(UnitResult unit, RecordLog& log, TraceStats stats) {
+    const std::shared_lock bundle(bundle_);
+    if (accumulator_) {
+        const Timer timer;
+        accumulator_->commit(log.records, log.counts, log.caps);
+        stats.splat_seconds += timer.seconds();
+    }
+    const std::scoped_lock lock(units_lock_);
+    units_.push_back(std::move(unit));
+    stats_.add(stats);
+}
+
+std::optional<Result> PassWork::close() {
+    Result result;
+    result.pass = plan_.index;
+    std::optional<TreeSums> sums;
+    {
+        const std::unique_lock bundle(bundle_);
+        if (units_.empty()) return std::nullopt;
+        result.units = std::exchange(units_, {});
+        result.stats = std::exchange(stats_, {});
+        if (accumulator_) sums = accumulator_->take();
+    }
+    if (sums) result.update = sums->encode();
+    return result;
+}
+
+}  // namespace treefarm

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <shared_mutex>
+#include <vector>
+
+#include "common/guiding/splat.h"
+#include "common/protocol/messages.h"
+#include "worker/integrator/record_log.h"
+
+namespace treefarm {
+
+/// What a worker holds for one pass: the plan, the guide, and the bundle of finished units with exactly what these
+/// units taught the tree. Tracing threads deliver while the communication thread closes bundles.
+class PassWork {
+  public:
+    PassWork(const PassPlan& plan, const SdTree& tree);
+
+    const PassPlan& plan() const { return plan_; }
+    const Guide& guide() const { return guide_; }
+
+    /// Adds a finished unit and its records to the open bundle. Thread-safe; `log` is reordered.
+    void deliver(UnitResult unit, RecordLog& log, TraceStats stats);
+
+    /// Closes the bundle and opens a new one; nothing if no unit was delivered since. The message's incarnation is the
+    /// caller's to fill in. Waits for deliveries that are under way, not for tracing.
+    std::optional<Result> close();
+
+  private:
+    const PassPlan plan_;
+    const Guide guide_;
+    std::shared_mutex bundle_;  ///< shared: adding to the open bundle; exclusive: closing it
+    std::mutex units_lock_;
+    std::vector<UnitResult> units_;
+    TraceStats stats_;
+    std::optional<Accumulator> accumulator_;  ///< of passes that record
+};
+
+}  // namespace treefarm

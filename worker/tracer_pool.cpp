@@ -1,0 +1,92 @@
+#include "worker/tracer_pool.h"
+
+#include <exception>
+
+namespace treefarm {
+
+TracerPool::TracerPool(unsigned threads, RenderUnit render) : render_(std::move(render)) {
+    for (unsigned t = 0; t < threads; ++t)
+        threads_.emplace_back([this] { run(); });
+}
+
+TracerPool::~TracerPool() {
+    {
+        const std::scoped_lock lock(mutex_);
+        stop_ = true;
+    }
+    changed_.notify_all();
+    for (std::thread& thread : threads_)
+        thread.join();
+}
+
+void TracerPool::begin(std::shared_ptr<PassWork> pass) {
+    const std::scoped_lock lock(mutex_);
+    queue_.clear();
+    pass_ = std::move(pass);
+}
+
+void TracerPool::add(std::span<const WorkUnit> units) {
+    {
+        const std::scoped_lock lock(mutex_);
+        queue_.insert(queue_.end(), units.begin(), units.end());
+    }
+    changed_.notify_all();
+}
+
+void TracerPool::cancel() {
+    const std::scoped_lock lock(mutex_);
+    queue_.clear();
+}
+
+std::size_t TracerPool::queued() const {
+    const std::scoped_lock lock(mutex_);
+    return queue_.size();
+}
+
+bool TracerPool::idle() const {
+    const std::scoped_lock lock(mutex_);
+    return queue_.empty() && running_ == 0;
+}
+
+std::optional<std::string> TracerPool::failure() const {
+    const std::scoped_lock lock(mutex_);
+    return failure_;
+}
+
+void TracerPool::run() {
+    RecordLog log;
+    std::unique_lock lock(mutex_);
+    for (;;) {
+        changed_.wait(lock, [&] { return stop_ || !queue_.empty(); });
+        if (stop_) return;
+        const WorkUnit unit = queue_.front();
+        queue_.pop_front();
+        const std::shared_ptr<PassWork> pass = pass_;
+        ++running_;
+        lock.unlock();
+        std::optional<std::string> failure;
+        try {
+            trace(*pass, unit, log);
+        } catch (const std::exception& error) {
+            failure = error.what();
+        }
+        lock.lock();
+        --running_;
+        if (failure) {
+            failure_ = failure;
+            queue_.clear();
+        }
+    }
+}
+
+void TracerPool::trace(PassWork& pass, const WorkUnit& unit, RecordLog& log) {
+    UnitResult result{unit, {}};
+    TraceStats stats;
+    log.begin(pass.guide().region_count());
+    render_(pass.plan(), pass.guide(), unit, result.pixels, log, stats);
+    samples_ += stats.paths;
+    rays_ += stats.rays + stats.shadow_rays;
+    pass.deliver(std::move(result), log, std::move(stats));
+}
+
+}  // namespace treefarm

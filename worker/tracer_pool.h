@@ -1,0 +1,59 @@
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <deque>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "worker/pass_work.h"
+#include "worker/render_function.h"
+
+namespace treefarm {
+
+/// The threads that trace. Fed by the communication thread; each takes a unit, renders it, and delivers it to its pass.
+class TracerPool {
+  public:
+    TracerPool(unsigned threads, RenderUnit render);
+    ~TracerPool();
+
+    /// From now on units are of this pass. Units still queued are dropped; those being traced go to the pass they are
+    /// of.
+    void begin(std::shared_ptr<PassWork> pass);
+    void add(std::span<const WorkUnit> units);
+    /// Drops what is queued.
+    void cancel();
+
+    std::size_t queued() const;
+    /// Nothing queued, nothing being traced.
+    bool idle() const;
+    /// Why a thread could not go on, if so.
+    std::optional<std::string> failure() const;
+
+    unsigned thread_count() const { return static_cast<unsigned>(threads_.size()); }
+    /// Traced since the start.
+    std::uint64_t samples() const { return samples_; }
+    std::uint64_t rays() const { return rays_; }
+
+  private:
+    void run();
+    void trace(PassWork& pass, const WorkUnit& unit, RecordLog& log);
+
+    RenderUnit render_;
+    mutable std::mutex mutex_;
+    std::condition_variable changed_;
+    std::shared_ptr<PassWork> pass_;
+    std::deque<WorkUnit> queue_;
+    unsigned running_ = 0;
+    bool stop_ = false;
+    std::optional<std::string> failure_;
+    std::atomic<std::uint64_t> samples_{0}, rays_{0};
+    std::vector<std::thread> threads_;
+};
+
+}  // namespace treefarm

@@ -1,0 +1,243 @@
+#include "worker/worker_loop.h"
+
+#include <algorithm>
+#include <chrono>
+#include <future>
+#include <random>
+
+#include "common/base/hash.h"
+#include "common/base/timer.h"
+#include "common/comm/broadcast_chain.h"
+#include "common/config/job_reader.h"
+#include "common/protocol/fingerprint.h"
+#include "common/protocol/messages.h"
+#include "worker/tracer_pool.h"
+
+namespace treefarm {
+
+namespace {
+
+/// Units that a worker keeps per thread, so that none waits while more are under way.
+constexpr std::size_t kUnitsPerThread = 3;
+
+/// A tree or scene of which nothing was heard for so many heartbeats is asked for again.
+constexpr double kPatienceHeartbeats = 5.0;
+
+/// Before it speaks for the first time the coordinator reads the scene, in silence.
+constexpr double kFirstContactFactor = 20.0;
+
+constexpr double kRestSeconds = 2e-3;
+
+template <class T>
+bool ready(const std::future<T>& task) {
+    return task.valid() && task.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+}
+
+std::uint64_t draw_incarnation() {
+    std::random_device device;  // names a process, enters no result
+    return (static_cast<std::uint64_t>(device()) << 32 | device()) | 1;
+}
+
+class WorkerLoop {
+  public:
+    WorkerLoop(Channel& channel, const WorkerSettings& settings, const MakeRenderer& make_renderer, const Log& log)
+        : channel_(channel), settings_(settings), make_renderer_(make_renderer), log_(log), chain_(channel) {}
+
+    WorkerEnd run() {
+        say_hello();
+        while (!end_) {
+            while (const auto message = channel_.poll()) {
+                heard_ = clock_.seconds();
+                take(*message);
+                if (end_) return *end_;
+            }
+            try {
+                advance();
+            } catch (const std::exception& error) {
+                fail(error.what());
+            }
+            beat();
+            const double silence = clock_.seconds() - heard_;
+            if (silence > settings_.silence_seconds * (heard_ > 0 ? 1.0 : kFirstContactFactor)) {
+                log_->error("the coordinator has been silent for {:.0f} s: leaving", silence);
+                return WorkerEnd::orphaned;
+            }
+            channel_.rest(kRestSeconds);
+        }
+        return *end_;
+    }
+
+  private:
+    template <class M>
+    void tell(const M& message) {
+        channel_.send(0, std::make_shared<const Bytes>(encode(message)));
+    }
+
+    void say_hello() {
+        incarnation_ = draw_incarnation();
+        tell(Hello{incarnation_, settings_.fingerprint, settings_.threads, scene_arrived_, settings_.host,
+                   kProgramVersion});
+    }
+
+    void take(const Received& received) {
+        try {
+            std::visit(
+                Overloads{[&](const Welcome& m) { on(m); },
+                          [&](const Refuse& m) { log_->error("refused by the coordinator: {}", m.reason); },
+                          [&](const Chunk& m) { chain_.take(m, clock_.seconds()); }, [&](const PassBegin& m) { on(m); },
+                          [&](const Work& m) { on(m); }, [&](const Heartbeat&) {}, [&](const Rejoin&) { on_rejoin(); },
+                          [&](const Quit&) { on_quit(); },
+                          [&](const Leave& m) { end_ = m.finalize ? WorkerEnd::orderly : WorkerEnd::disorderly; },
+                          [&](const auto&) { throw FormatError("a message that workers send, not receive"); }},
+                decode(received.bytes));
+        } catch (const std::exception& error) {
+            fail("message from peer " + std::to_string(received.peer) + ": " + error.what());
+        }
+    }
+
+    void on(const Welcome& m) {
+        job_ = Job{};
+        apply_layer(job_, parse_job_settings(m.job, "job from the coordinator"));
+        heartbeat_seconds_ = m.heartbeat_seconds;
+    }
+
+    void on(const PassBegin& m) {
+        coming_ = m;
+        chain_.expect({Blob::tree, m.plan.index}, m.tree_bytes, clock_.seconds());
+    }
+
+    void on(const Work& m) {
+        if (!pass_ || m.pass != pass_->plan().index || !pool_) return;  // of a life that was given up
+        credit_ -= std::min(credit_, m.units.size());
+        pool_->add(m.units);
+    }
+
+    /// The coordinator has issued again what this worker had: none of it may be sent any more.
+    void on_rejoin() {
+        log_->warn("the coordinator thought this worker lost: joining again");
+        drop_work();
+        chain_.restart(Blob::tree);
+        say_hello();
+    }
+
+    void on_quit() {
+        drop_work();
+        quitting_ = true;
+    }
+
+    void drop_work() {
+        if (pool_) pool_->cancel();
+        pass_.reset();
+        coming_.reset();
+        credit_ = 0;
+    }
+
+    /// Everything that becomes possible without a message.
+    void advance() {
+        chain_.complain(clock_.seconds(), kPatienceHeartbeats * heartbeat_seconds_);
+        if (auto scene = chain_.collect({Blob::scene, 0})) {
+            scene_arrived_ = true;
+            renderer_task_ = std::async(std::launch::async, [make = make_renderer_, bytes = std::move(*scene),
+                                                             job = job_] { return make(bytes, job); });
+        }
+        if (ready(renderer_task_)) pool_.emplace(settings_.threads, renderer_task_.get());
+        if (quitting_) {
+            if (!said_bye_ && (!pool_ || pool_->idle())) {
+                tell(Bye{incarnation_});
+                said_bye_ = true;
+            }
+            return;
+        }
+        if (failed_) return;
+        if (pool_)
+            if (const auto failure = pool_->failure()) throw RunError(*failure);
+        prepare_pass();
+        if (!pass_) return;
+        send_finished();
+        ask_for_work();
+    }
+
+    /// Tree arrived: build the guide, aside; guide built: start the pass.
+    void prepare_pass() {
+        if (coming_ && !pass_task_.valid()) {
+            if (auto tree = chain_.collect({Blob::tree, coming_->plan.index})) {
+                if (hash_bytes(*tree) != coming_->tree_hash) throw FormatError("the tree arrived with a wrong hash");
+                pass_task_ = std::async(std::launch::async, [plan = coming_->plan, bytes = std::move(*tree)] {
+                    return std::make_shared<PassWork>(plan, decode_tree(bytes));
+                });
+            }
+        }
+        if (!pool_ || !ready(pass_task_)) return;
+        std::shared_ptr<PassWork> built = pass_task_.get();
+        if (!coming_ || built->plan().index != coming_->plan.index) return;
+        coming_.reset();
+        pass_ = std::move(built);
+        credit_ = 0;
+        pool_->begin(pass_);
+        last_update_ = clock_.seconds();
+    }
+
+    void send_finished() {
+        if (!pool_->idle() && clock_.seconds() - last_update_ < job_.farm.update_seconds) return;
+        last_update_ = clock_.seconds();
+        if (auto result = pass_->close()) {
+            result->incarnation = incarnation_;
+            tell(*result);
+        }
+    }
+
+    void ask_for_work() {
+        const std::size_t depth = kUnitsPerThread * settings_.threads;
+        const std::size_t queued = pool_->queued();
+        if (queued + credit_ >= depth) return;
+        const std::size_t more = depth - queued - credit_;
+        if (more < std::max<std::size_t>(1, settings_.threads / 2) && queued > 0) return;
+        credit_ += more;
+        tell(Want{incarnation_, pass_->plan().index, static_cast<std::uint32_t>(more)});
+    }
+
+    void beat() {
+        const double now = clock_.seconds();
+        if (now - last_beat_ < heartbeat_seconds_) return;
+        last_beat_ = now;
+        tell(Heartbeat{incarnation_, pool_ ? pool_->samples() : 0, pool_ ? pool_->rays() : 0});
+    }
+
+    /// Tells the coordinator once, then waits to be dismissed.
+    void fail(const std::string& text) {
+        log_->error("{}", text);
+        if (failed_) return;
+        failed_ = true;
+        drop_work();
+        tell(Failure{incarnation_, text});
+    }
+
+    Channel& channel_;
+    const WorkerSettings settings_;
+    const MakeRenderer make_renderer_;
+    const Log log_;
+    ChainReceiver chain_;
+    const Timer clock_;
+    std::uint64_t incarnation_ = 0;
+    Job job_;
+    double heartbeat_seconds_ = 1.0;
+    double heard_ = 0, last_beat_ = 0, last_update_ = 0;
+    bool scene_arrived_ = false, quitting_ = false, said_bye_ = false, failed_ = false;
+    std::optional<WorkerEnd> end_;
+
+    std::future<RenderUnit> renderer_task_;
+    std::optional<PassBegin> coming_;  ///< announced, its guide not yet built
+    std::future<std::shared_ptr<PassWork>> pass_task_;
+    std::shared_ptr<PassWork> pass_;
+    std::optional<TracerPool> pool_;
+    std::size_t credit_ = 0;  ///< units asked for that have not come
+};
+
+}  // namespace
+
+WorkerEnd run_worker(Channel& channel, const WorkerSettings& settings, const MakeRenderer& make_renderer,
+                     const Log& log) {
+    return WorkerLoop(channel, settings, make_renderer, log).run();
+}
+
+}  // namespace treefarm
