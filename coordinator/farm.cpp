@@ -121,10 +121,12 @@ void Farm::take(const Received& received) {
     } catch (const FormatError& error) {
         last_failure_ = "bad message from worker " + std::to_string(peer) + ": " + error.what();
         Member* member = roster_.find(peer);
-        if (member && member->state == MemberState::present)
+        if (member && member->state == MemberState::present) {
             give_up(*member, std::string("sent a bad message: ") + error.what());
-        else
+            member->asked_back = true;  // not again: it may do so for ever
+        } else {
             log_->warn("{}", last_failure_);
+        }
     }
 }
 
@@ -197,10 +199,13 @@ void Farm::serve(Member& member) {
 }
 
 void Farm::on(int peer, Result&& m) {
-    const Member* member = hear(peer, m.incarnation);
-    if (member && collector_ && collector_->take(peer, std::move(m), *ledger_)) return;
-    ++dropped_results_;
-    log_->warn("a result of worker {} came too late and was dropped: its work was issued again", peer);
+    if (!hear(peer, m.incarnation)) {
+        ++dropped_results_;
+        log_->warn("a result of worker {} came too late and was dropped: its work was issued again", peer);
+        return;
+    }
+    if (!collector_ || !collector_->take(peer, std::move(m), *ledger_))
+        throw FormatError("a result for work that the worker does not have");
 }
 
 void Farm::on(int peer, const Failure& m) {

@@ -21,7 +21,7 @@ namespace treefarm {
 /// Limits of the conversation with workers, seconds.
 struct FarmLimits {
     double gather = 20.0;  ///< how long the start waits for workers that have not said hello
-    double lost = 10.0;    ///< a worker silent for so long is given up (at least ten heartbeats)
+    double lost = 2.0;     ///< least silence after which a worker is given up; ten heartbeats if that is longer
     double dismiss = 5.0;  ///< how long the end waits for good-byes
 };
 

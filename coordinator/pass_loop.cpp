@@ -67,7 +67,7 @@ class PassLoop {
     }
 
     void keep(const PassPlan& plan) {
-        if (job_.guiding.combination == Combination::last) finished_.clear();
+        if (guided() && job_.guiding.combination == Combination::last) finished_.clear();
         finished_.push_back({plan.spp, plan.first_sample, farm_.collector().film().pixels()});
         result_.spp = plan.first_sample + plan.spp;
         result_.tree_hash = coming_tree_hash_;

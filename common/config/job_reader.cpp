@@ -177,7 +177,7 @@ std::vector<Setting> parse_job_settings(const std::string& toml, const std::stri
         const toml::table table = toml::parse(toml, std::string_view(name));
         collect(table, "", name, settings);
     } catch (const toml::parse_error& error) {
-        throw InputError(place(error.source(), name), "this is not TOML: " + std::string(error.description()),
+        throw InputError(place(error.source(), name), "this is not TOML: " + one_line(error.description()),
                          "write key = value, text in quotes");
     }
     return settings;

@@ -106,11 +106,14 @@ std::string nearest_word(std::string_view word, std::span<const std::string> can
 
 std::string in_quotes(std::string_view text) {
     constexpr std::size_t kLongest = 60;
-    std::string result = "\"";
-    for (const char c : text.substr(0, kLongest))
-        result += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? '?' : c;
-    if (text.size() > kLongest) result += "...";
-    return result + "\"";
+    return "\"" + one_line(text.substr(0, kLongest)) + (text.size() > kLongest ? "...\"" : "\"");
+}
+
+std::string one_line(std::string_view text) {
+    std::string result(text);
+    for (char& c : result)
+        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
+    return result;
 }
 
 }  // namespace treefarm

@@ -32,4 +32,7 @@ std::string nearest_word(std::string_view word, std::span<const std::string> can
 /// Input text for a message: quoted, printable, and no longer than a line can hold.
 std::string in_quotes(std::string_view text);
 
+/// The text with control characters, line ends among them, replaced by "?".
+std::string one_line(std::string_view text);
+
 }  // namespace treefarm

@@ -104,15 +104,15 @@ CombinedImage combine_whole(std::span<const PassResult> passes, const std::vecto
 
 CombinedImage combine_passes(std::span<const PassResult> passes, Combination method, bool guided) {
     if (passes.empty()) return {};
+    if (!guided) method = Combination::fixed;  // all samples are alike: none is thrown away
     if (method == Combination::last) passes = passes.last(1);
     const bool halves = std::any_of(passes.begin(), passes.end(), [](const PassResult& p) { return p.spp >= 2; });
     if (!halves) return combine_whole(passes, fixed_weights(passes, guided));
 
     // Set weights apply to all samples of a pass alike. Variances cross over: what half A reports weighs half B, so
     // that a weight never depends on the samples that it multiplies.
-    const bool cross = method == Combination::inverse_variance && guided;
     const std::vector<double> fixed = fixed_weights(passes, guided);
-    if (!cross) {
+    if (method != Combination::inverse_variance) {
         CombinedImage image = combine_whole(passes, fixed);
         image.half[0] = combine_half(passes, fixed, 0).mean;
         image.half[1] = combine_half(passes, fixed, 1).mean;

@@ -276,13 +276,24 @@ TEST_F(FarmTest, AResultThatLiesIsRefused) {
     faulty_[0]->outgoing = [&](Bytes& bytes) {
         if (!is<Result>(bytes) || ++results != 2) return true;
         auto result = std::get<Result>(decode(bytes));
-        result.units[0].unit.chunk += 1;  // work that it was not given
+        ++result.units[0].unit.x0;  // work that it was not given
+        ++result.units[0].unit.x1;
         bytes = encode(result);
         return true;
     };
-    const RenderResult result = render(kShort);
-    expect_truth(result);
-    EXPECT_GE(dropped_, 1u);
+    expect_truth(render());
+    EXPECT_EQ(lost_, std::set<int>{1});
+}
+
+TEST_F(FarmTest, AResultThatComesTwiceCountsOnce) {
+    make_workers(2);
+    int results = 0;
+    faulty_[0]->outgoing = [&](Bytes& bytes) {
+        if (is<Result>(bytes) && ++results == 2) channels_[1]->send(0, std::make_shared<const Bytes>(bytes));
+        return true;
+    };
+    expect_truth(render());
+    EXPECT_EQ(lost_, std::set<int>{1});
 }
 
 TEST_F(FarmTest, MissingPiecesOfATreeAreAskedForAgain) {

@@ -36,7 +36,7 @@ TEST(Combine, FixedWeightsGrowWithSamplesAndTraining) {
 
 TEST(Combine, WithoutGuidingEverySampleWeighsTheSame) {
     const std::vector<PassResult> passes{make_pass(4, 0, 1.0f, 0.0f, 2, 1), make_pass(12, 4, 2.0f, 0.0f, 2, 2)};
-    for (const Combination method : {Combination::fixed, Combination::inverse_variance})
+    for (const Combination method : {Combination::fixed, Combination::inverse_variance, Combination::last})
         EXPECT_NEAR(combine_passes(passes, method, false).mean[1].z, (4 * 1.0 + 12 * 2.0) / 16, 1e-12);
 }
 

@@ -71,7 +71,7 @@ TEST_F(Malformed, Files) {
     write("text.xml", "this is no XML");
     EXPECT_EQ(message_of_file("text.xml").substr(0, 9), "text.xml:");
     write("cut.xml", "<scene version=\"0.6.0\">\n  <sensor type=\"perspective\"\n");
-    EXPECT_EQ(message_of_file("cut.xml").substr(0, 10), "cut.xml:3:");
+    EXPECT_EQ(message_of_file("cut.xml").substr(0, 10), "cut.xml:2:");
     write("tags.xml", "<scene version=\"0.6.0\">\n<a>\n</b>\n</scene>");
     EXPECT_EQ(message_of_file("tags.xml").substr(0, 11), "tags.xml:3:");
     write("two.xml", "<scene version=\"0.6.0\"/>\n<scene version=\"0.6.0\"/>");
@@ -119,7 +119,7 @@ TEST_F(Malformed, Structure) {
     expect(
         "<shape type=\"cube\"><boolean name=\"flipNormals\" value=\"true\"/><boolean name=\"flip_normals\" "
         "value=\"true\"/></shape>",
-        "s.xml:3:61: \"flip_normals\" of <shape type=\"cube\"> is given twice");
+        "s.xml:3:62: \"flip_normals\" of <shape type=\"cube\"> is given twice");
     expect("<shape type=\"cube\"><bsdf type=\"diffuse\"/><bsdf type=\"diffuse\"/></shape>", "s.xml:3:42: ");
     expect("<shape type=\"torus\"/>",
            "s.xml:3:1: the shape \"torus\" is not available in this version; use obj, rectangle, cube or sphere");

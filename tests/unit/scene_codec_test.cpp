@@ -64,15 +64,17 @@ TEST(SceneCodec, EveryCutIsRefused) {
 TEST(SceneCodec, EveryFlippedByteIsRefusedOrReadable) {
     const Bytes bytes = encode_scene(example());
     for (std::size_t i = 0; i < bytes.size(); ++i)
-        for (const std::uint8_t flip : {0x01, 0x80, 0xff}) {
+        for (const int flip : {0x01, 0x80, 0xff}) {
             Bytes damaged = bytes;
             damaged[i] = static_cast<std::uint8_t>(damaged[i] ^ flip);
             try {
                 const Scene scene = decode_scene(damaged);
-                for (const Shape& shape : scene.shapes)
-                    if (const auto* mesh = std::get_if<Mesh>(&shape.geometry))
-                        for (const std::uint32_t index : mesh->indices)
-                            EXPECT_LT(index, mesh->positions.size());
+                for (const Shape& shape : scene.shapes) {
+                    const auto* mesh = std::get_if<Mesh>(&shape.geometry);
+                    if (mesh == nullptr) continue;
+                    for (const std::uint32_t index : mesh->indices)
+                        EXPECT_LT(index, mesh->positions.size());
+                }
             } catch (const FormatError&) {
             }
         }

@@ -81,6 +81,14 @@ TEST(Spectrum, ListsFallToZeroInVersion0) {
     EXPECT_LT(cut.x, list.x);
 }
 
+TEST(Spectrum, RunsBackwardsBetweenSamplesInVersion05) {
+    XmlElement element = element_of("spectrum", "400:0, 500:16, 600:31.2, 700:36.8", 0);
+    element.is_0_5 = true;
+    Diagnostics diagnostics(false);
+    // The light of the published Cornell box: what its published renders show, within their noise.
+    expect_near(read_color(element, ColorUse::radiance, diagnostics), Rgb(36.8f, 22.0f, 5.515f), 0.1f);
+}
+
 TEST(Spectrum, ColoursOfElements) {
     expect_near(color_of("rgb", "0.1, 0.2 0.3"), Rgb(0.1f, 0.2f, 0.3f), 1e-7f);
     expect_near(color_of("rgb", "0.25"), Rgb(0.25f), 1e-7f);

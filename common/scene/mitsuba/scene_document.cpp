@@ -30,12 +30,16 @@ class Expander {
                              "include fewer files");
         open_files_.push_back(canonical);
         XmlElement root = read_xml(path, asked_from);
-        if (root.tag == "scene")
+        const bool outer_is_0_5 = is_0_5_;
+        if (root.tag == "scene") {
             version = scene_version(root);
-        else if (open_files_.size() == 1)
+            is_0_5_ = root.require("version") < "0.6";
+        } else if (open_files_.size() == 1) {
             throw InputError(root.where, "the outermost element is <" + root.tag + ">, not <scene>",
                              "give a Mitsuba scene");
+        }
         expand(root, path.parent_path(), version);
+        is_0_5_ = outer_is_0_5;
         open_files_.pop_back();
         return root;
     }
@@ -55,6 +59,7 @@ class Expander {
             throw InputError(element.where, "the scene has more than " + std::to_string(kMaxElements) + " elements",
                              "include fewer files");
         element.version = version;
+        element.is_0_5 = is_0_5_;
         for (XmlAttribute& attribute : element.attributes)
             attribute.value = parameters_.substitute(attribute.value, element.where);
 
@@ -93,6 +98,7 @@ class Expander {
     Parameters& parameters_;
     std::vector<std::filesystem::path> open_files_;
     std::size_t element_count_ = 0;
+    bool is_0_5_ = false;
 };
 
 }  // namespace

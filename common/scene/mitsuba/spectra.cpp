@@ -34,6 +34,18 @@ SpectrumSamples extend_to_zero(SpectrumSamples samples) {
     return samples;
 }
 
+/// Mitsuba 0.5 swaps the ends when it interpolates: between two samples a spectrum runs backwards, from the second value to
+/// the first (its InterpolatedSpectrum::eval; mended in 0.6). Scenes of that version look as published only so: the light of
+/// the published Cornell box would be 13 % too bright in red. The result has each inner wavelength twice.
+SpectrumSamples reverse_segments(const SpectrumSamples& samples) {
+    SpectrumSamples reversed;
+    for (std::size_t i = 0; i + 1 < samples.size(); ++i) {
+        reversed.emplace_back(samples[i].first, samples[i + 1].second);
+        reversed.emplace_back(samples[i + 1].first, samples[i].second);
+    }
+    return reversed;
+}
+
 SpectrumSamples parse_list(const std::vector<std::string_view>& tokens, const Location& where) {
     SpectrumSamples samples;
     for (const std::string_view token : tokens) {
@@ -88,6 +100,7 @@ Rgb64 read_spectrum(const XmlElement& element, ColorUse use) {
     if (tokens.empty()) throw InputError(element.where, "<spectrum> is empty", "give a value");
     if (text.find(':') != std::string::npos) {
         const SpectrumSamples samples = parse_list(tokens, element.where);
+        if (element.is_0_5) return spectrum_to_rgb(reverse_segments(extend_to_zero(samples)), false);
         if (element.version == 0) return spectrum_to_rgb(extend_to_zero(samples), false);
         return spectrum_to_rgb(samples, element.version >= 3 && use == ColorUse::reflectance);
     }

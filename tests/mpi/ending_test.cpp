@@ -1,0 +1,141 @@
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <fstream>
+
+#include "tests/mpi/program.h"
+#include "tests/support/support.h"
+
+// How runs end: with bad input, by signals, and when workers die.
+
+namespace treefarm::test {
+namespace {
+
+constexpr double kSoon = 60;  ///< seconds; what is meant is "not never"
+
+std::vector<std::string> render(const std::string& scene, const std::filesystem::path& folder,
+                                const std::vector<std::string>& options = {}) {
+    return std::vector<std::string>{TREEFARM_PROGRAM, "render", scene, "--run-dir", folder.string()} + options;
+}
+
+std::vector<std::string> long_render(const std::filesystem::path& folder, const std::string& spp) {
+    return render(own_scene("cornell-box.xml"), folder,
+                  {"-D", "size=64", "--spp", spp, "--threads", "1", "--set", "farm.heartbeat_seconds=0.2", "--set",
+                   "farm.update_seconds=0.05", "--set", "farm.tile_size=16"});
+}
+
+std::filesystem::path bad_scene() {
+    const auto path = fresh_folder("scene") / "bad.xml";
+    std::ofstream(path) << "<scene version=\"3.0.0\">\n  <shape type=\"sphere\">\n</scene>\n";
+    return path;
+}
+
+int count(const std::string& text, const std::string& what) {
+    int found = 0;
+    for (std::size_t at = 0; (at = text.find(what, at)) != std::string::npos; ++at)
+        ++found;
+    return found;
+}
+
+TEST(Ending, BadInputEndsWithCode2AndOneLine) {
+    const auto scene = bad_scene();
+    for (const int ranks : {0, 2, 4}) {
+        const auto launcher = ranks == 0 ? std::vector<std::string>() : mpirun(ranks);
+        const Ending ending = Program(launcher + render(scene, fresh_folder("run"))).wait(kSoon);
+        EXPECT_FALSE(ending.timed_out) << ending.output;
+        EXPECT_EQ(ending.code, 2) << ranks << " ranks: " << ending.output;
+        EXPECT_EQ(count(ending.output, "treefarm: "), 1) << ending.output;
+        EXPECT_NE(ending.output.find("bad.xml:"), std::string::npos) << ending.output;
+    }
+}
+
+TEST(Ending, BadUsageEndsWithCode2AndOneLine) {
+    const std::vector<std::vector<std::string>> wrong = {{"render"},
+                                                         {"render", "x.xml", "--no-such-option"},
+                                                         {"render", "x.xml", "--seconds", "5"},
+                                                         {"render", "x.xml", "--error", "0.1"},
+                                                         {"no-such-command"}};
+    for (const auto& arguments : wrong)
+        for (const int ranks : {0, 3}) {
+            const auto launcher = ranks == 0 ? std::vector<std::string>() : mpirun(ranks);
+            const Ending ending =
+                Program(launcher + std::vector<std::string>{TREEFARM_PROGRAM} + arguments).wait(kSoon);
+            EXPECT_FALSE(ending.timed_out) << ending.output;
+            EXPECT_EQ(ending.code, 2) << ending.output;
+            EXPECT_EQ(count(ending.output, "treefarm: "), 1) << ending.output;
+        }
+}
+
+TEST(Ending, ASignalKeepsFinishedPasses) {
+    for (const int number : {SIGINT, SIGTERM}) {
+        const auto folder = fresh_folder("run");
+        Program program(long_render(folder, "1000000"));
+        ASSERT_TRUE(program.wait_until([&] { return passes_done(folder) >= 2; }, kSoon));
+        program.signal(number);
+        const Ending ending = program.wait(kSoon);
+        EXPECT_EQ(ending.code, 3) << ending.output;
+        EXPECT_EQ(read_summary(folder)["state"], "interrupted");
+        EXPECT_TRUE(std::filesystem::exists(folder / "image.exr"));
+    }
+}
+
+TEST(Ending, ASignalToMpirunEndsEverything) {
+    const auto folder = fresh_folder("run");
+    Program program(mpirun(3, {"--mca", "odls_base_sigkill_timeout", "3"}) + long_render(folder, "1000000"));
+    ASSERT_TRUE(program.wait_until([&] { return passes_done(folder) >= 2; }, kSoon));
+    program.signal(SIGTERM);
+    const Ending ending = program.wait(kSoon);
+    EXPECT_FALSE(ending.timed_out) << ending.output;
+    EXPECT_EQ(read_summary(folder)["state"], "interrupted");
+    EXPECT_TRUE(std::filesystem::exists(folder / "image.exr"));
+}
+
+TEST(Ending, AKilledWorkerCostsTimeNotBits) {
+    const auto calm = fresh_folder("calm");
+    ASSERT_EQ(Program(long_render(calm, "508")).wait(kSoon).code, 0);
+    const nlohmann::json truth = read_summary(calm);
+
+    const auto folder = fresh_folder("run");
+    Program program(mpirun(4, {"--enable-recovery"}) + long_render(folder, "508"));
+    ASSERT_TRUE(program.wait_until([&] { return passes_done(folder) >= 1; }, kSoon));
+    const pid_t worker = program.rank(2);
+    ASSERT_GT(worker, 0);
+    ASSERT_EQ(kill(worker, SIGKILL), 0);
+    const Ending ending = program.wait(kSoon);
+    EXPECT_FALSE(ending.timed_out) << ending.output;
+    const nlohmann::json summary = read_summary(folder);
+    EXPECT_EQ(summary["state"], "done") << ending.output;
+    EXPECT_EQ(summary["image_hash"], truth["image_hash"]);
+    EXPECT_EQ(summary["tree_hash"], truth["tree_hash"]);
+    EXPECT_EQ(summary["farm"]["workers"][1]["state"], "lost") << summary["farm"].dump(2);
+}
+
+TEST(Ending, WhenAllWorkersAreKilledTheRunFails) {
+    const auto folder = fresh_folder("run");
+    Program program(mpirun(3, {"--enable-recovery"}) + long_render(folder, "1000000"));
+    ASSERT_TRUE(program.wait_until([&] { return passes_done(folder) >= 1; }, kSoon));
+    for (const int rank : {1, 2})
+        kill(program.rank(rank), SIGKILL);
+    const Ending ending = program.wait(kSoon);
+    EXPECT_FALSE(ending.timed_out) << ending.output;
+    const nlohmann::json summary = read_summary(folder);
+    EXPECT_EQ(summary["state"], "failed");
+    EXPECT_NE(summary["error"].get<std::string>().find("no worker is left"), std::string::npos);
+}
+
+TEST(Ending, ADebugSampleTellsItsPath) {
+    const auto folder = fresh_folder("run");
+    const Ending ending =
+        Program(std::vector<std::string>{TREEFARM_PROGRAM, "render", own_scene("cornell-box.xml"), "-D", "size=32",
+                                         "--spp", "28", "--debug-sample", "2,16,16,3"})
+            .wait(kSoon);
+    EXPECT_EQ(ending.code, 0) << ending.output;
+    EXPECT_NE(ending.output.find("pass 2 pixel (16, 16) sample 3"), std::string::npos) << ending.output;
+    const Ending wrong = Program(std::vector<std::string>{TREEFARM_PROGRAM, "render", own_scene("cornell-box.xml"),
+                                                          "-D", "size=32", "--debug-sample", "0,32,0,0"})
+                             .wait(kSoon);
+    EXPECT_EQ(wrong.code, 2) << wrong.output;
+}
+
+}  // namespace
+}  // namespace treefarm::test

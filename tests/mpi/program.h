@@ -1,0 +1,61 @@
+#pragma once
+
+#include <sys/types.h>
+
+#include <filesystem>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace treefarm::test {
+
+/// How a program ended.
+struct Ending {
+    int code = -1;           ///< 128 + signal if it was killed
+    bool timed_out = false;  ///< and was killed by us
+    std::string output;      ///< standard output and error
+};
+
+/// A program that was started; killed if the test forgets it.
+class Program {
+  public:
+    /// Output goes to a file in TempDir.
+    explicit Program(const std::vector<std::string>& arguments);
+    ~Program();
+    Program(const Program&) = delete;
+    Program& operator=(const Program&) = delete;
+
+    pid_t pid() const { return pid_; }
+    bool running();
+    void signal(int number);
+    /// Waits for `condition` while the program runs; false if it ended, or `seconds` passed, before.
+    bool wait_until(const std::function<bool()>& condition, double seconds);
+    Ending wait(double seconds);
+    /// The process of this rank, if the program is mpirun on this machine; 0 if there is none.
+    pid_t rank(int number) const;
+
+  private:
+    bool reap();
+
+    pid_t pid_ = 0;
+    bool ended_ = false;
+    int status_ = 0;
+    std::filesystem::path output_;
+};
+
+/// mpirun with the flags that tests need: as root, on few cores, on the loopback only.
+std::vector<std::string> mpirun(int ranks, const std::vector<std::string>& flags = {});
+
+/// treefarm's arguments after mpirun's, or alone.
+std::vector<std::string> operator+(std::vector<std::string> a, const std::vector<std::string>& b);
+
+/// A fresh folder below TempDir.
+std::filesystem::path fresh_folder(const std::string& name);
+
+nlohmann::json read_summary(const std::filesystem::path& run_directory);
+
+/// Lines of passes.csv without the header; 0 if it is not there.
+int passes_done(const std::filesystem::path& run_directory);
+
+}  // namespace treefarm::test

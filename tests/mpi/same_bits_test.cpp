@@ -1,0 +1,84 @@
+#include <gtest/gtest.h>
+
+#include "tests/mpi/program.h"
+#include "tests/support/support.h"
+
+// The same image and the same tree, whatever renders them (docs/testing.md).
+
+namespace treefarm::test {
+namespace {
+
+struct Hashes {
+    std::string image, tree;
+    bool operator==(const Hashes&) const = default;
+};
+
+std::ostream& operator<<(std::ostream& out, const Hashes& h) {
+    return out << "image " << h.image << " tree " << h.tree;
+}
+
+Hashes render(const std::vector<std::string>& launcher, const std::vector<std::string>& options,
+              const std::string& scene = "cornell-box.xml") {
+    const auto folder = fresh_folder("same");
+    Program program(launcher +
+                    std::vector<std::string>{TREEFARM_PROGRAM, "render", own_scene(scene), "-D", "size=64", "--spp",
+                                             "60", "--set", "guiding.spatial_threshold=500", "--set",
+                                             "farm.update_seconds=0.05", "--run-dir", folder.string()} +
+                    options);
+    const Ending ending = program.wait(240);
+    EXPECT_EQ(ending.code, 0) << ending.output;
+    const nlohmann::json summary = read_summary(folder);
+    EXPECT_EQ(summary["state"], "done") << ending.output;
+    if (summary["state"] != "done") return {};
+    EXPECT_EQ(summary["farm"]["reissued_units"], 0);
+    EXPECT_GT(summary["passes"].back()["tree_regions"], 8) << "the test must exercise the tree";
+    std::filesystem::remove_all(folder);
+    return {summary["image_hash"], summary["tree_hash"]};
+}
+
+const Hashes& one_thread() {
+    static const Hashes hashes = render({}, {"--threads", "1"});
+    return hashes;
+}
+
+TEST(SameBits, HashesTellImagesApart) {
+    const Hashes other = render({}, {"--threads", "1", "--set", "sampler.seed=1"});
+    EXPECT_NE(other.image, one_thread().image);
+    EXPECT_NE(other.tree, one_thread().tree);
+}
+
+TEST(SameBits, Threads2) {
+    EXPECT_EQ(render({}, {"--threads", "2"}), one_thread());
+}
+
+TEST(SameBits, Threads5) {
+    EXPECT_EQ(render({}, {"--threads", "5"}), one_thread());
+}
+
+TEST(SameBits, TileSizes) {
+    for (const char* size : {"8", "50"})
+        EXPECT_EQ(render({}, {"--threads", "2", "--set", std::string("farm.tile_size=") + size}), one_thread()) << size;
+}
+
+TEST(SameBits, Ranks1) {
+    EXPECT_EQ(render(mpirun(1), {}), one_thread());
+}
+
+TEST(SameBits, Ranks2) {
+    EXPECT_EQ(render(mpirun(2), {"--threads", "1"}), one_thread());
+}
+
+TEST(SameBits, Ranks3) {
+    EXPECT_EQ(render(mpirun(3), {"--threads", "1", "--set", "farm.tile_size=8"}), one_thread());
+}
+
+TEST(SameBits, Ranks5) {
+    EXPECT_EQ(render(mpirun(5), {"--threads", "2", "--set", "farm.tile_size=50"}), one_thread());
+}
+
+TEST(SameBits, Ranks3OverTcp) {
+    EXPECT_EQ(render(mpirun(3, {"--mca", "btl", "tcp,self"}), {"--threads", "1"}), one_thread());
+}
+
+}  // namespace
+}  // namespace treefarm::test
