@@ -14,6 +14,9 @@ LaunchEnvironment read_launch_environment();
 /// Processors that this process may run on.
 unsigned affinity_threads();
 
+/// Processors of this host.
+unsigned host_processors();
+
 std::string host_name();
 
 }  // namespace treefarm

@@ -57,7 +57,12 @@ int render_here(const RenderOptions& options) {
     auto channels = make_in_process_channels(2);
     const unsigned threads = options.threads > 0 ? options.threads : affinity_threads();
     std::thread worker([&channel = *channels[1], threads, quiet = options.quiet] {
-        run_worker(channel, worker_settings(threads), make_path_renderer, make_log("worker", {}, quiet));
+        const Log log = make_log("worker", {}, quiet);
+        try {
+            run_worker(channel, worker_settings(threads), make_path_renderer, log);
+        } catch (const std::exception& error) {  // the coordinator notices the silence
+            log->error("{}", error.what());
+        }
     });
     const auto send_away = [&] {
         dismiss_workers(*channels[0], {}, kDismissSeconds);
@@ -105,12 +110,21 @@ int work(MpiSession& session, const RenderOptions& options) {
     const Log log = make_log("worker " + std::to_string(session.rank()), {}, options.quiet);
     std::vector<std::string> warnings;
     warn_if_crowded(options, warnings);
+    if (affinity_threads() < host_processors() / static_cast<unsigned>(std::max(1, session.workers_on_host())))
+        warnings.push_back("bound to " + std::to_string(affinity_threads()) + " of " +
+                           std::to_string(host_processors()) + " processors; start mpirun with --bind-to none");
     for (const std::string& warning : warnings)
         log->warn("{}", warning);
-    const WorkerEnd end = run_worker(session.channel(), worker_settings(threads), make_path_renderer, log);
-    const int code = end == WorkerEnd::orphaned ? 1 : 0;
-    session.finish(end == WorkerEnd::orderly, code, kFinalizeSeconds);
-    return code;
+    try {
+        const WorkerEnd end = run_worker(session.channel(), worker_settings(threads), make_path_renderer, log);
+        const int code = end == WorkerEnd::orphaned ? 1 : 0;
+        session.finish(end == WorkerEnd::orderly, code, kFinalizeSeconds);
+        return code;
+    } catch (const std::exception& error) {
+        log->error("{}", error.what());
+        session.finish(false, 1, kFinalizeSeconds);
+        return 1;
+    }
 }
 
 int render_under_mpi(const RenderOptions& options) {

@@ -54,7 +54,7 @@ RenderRequest read_request(const RenderOptions& options) {
     if (input.extension() == ".toml")
         file_layer = read_job_settings(input);
     else
-        file_layer.push_back({"scene.file", options.input, Location{options.input, 0, 0}});
+        file_layer.push_back({"scene.file", std::filesystem::absolute(input).string(), Location{options.input, 0, 0}});
     const std::vector<Setting> line_layer = command_line_layer(options);
 
     Job where;  // which scene, and how to read it, stands in the upper layers

@@ -39,7 +39,7 @@ struct PassSeconds {
     double film = 0;       ///< combining the images of the passes
     Spread trace;          ///< thread-seconds tracing, per worker
     double splat = 0;      ///< thread-seconds adding records, all workers
-    double idle = 0;       ///< thread-seconds in which threads neither traced nor added
+    double idle = 0;       ///< thread-seconds in which threads neither traced nor added, or waited for a processor
 };
 
 /// Everything worth knowing of one finished pass.

@@ -84,6 +84,8 @@ class RenderRun {
         const double rmse = result_.passes.empty() ? 0.0 : result_.passes.back().estimated_rmse;
         log_->info("{} spp in {:.2f} s, estimated rmse {:.4g}; image {} tree {}", result_.spp, elapsed, rmse,
                    hash_text(result_.image_hash), hash_text(result_.tree_hash));
+        if (rmse > 0)
+            log_->info("half this error would take about {:.0f} s more", 3 * elapsed);  // error ~ 1 / sqrt(time)
     }
 
     const RenderRequest& request_;

@@ -36,6 +36,15 @@ std::filesystem::path choose_path(const Job& job) {
     return path;
 }
 
+void check_output_file(const std::string& file) {
+    if (file.empty()) return;
+    const std::filesystem::path path(file), folder = path.has_parent_path() ? path.parent_path() : ".";
+    if (path.extension() != ".exr")
+        throw InputError(Location{file, 0, 0}, "the image is written as EXR", "give it a name that ends in .exr");
+    if (!std::filesystem::is_directory(folder))
+        throw InputError(Location{file, 0, 0}, "there is no folder " + folder.string(), "make it first");
+}
+
 Json pass_json(const PassReport& r) {
     return {{"pass", r.plan.index},
             {"spp", r.plan.spp},
@@ -102,14 +111,18 @@ const char* run_state_name(RunState state) {
 }
 
 RunDirectory::RunDirectory(const Job& job, const RunFacts& facts) : job_(job), facts_(facts), path_(choose_path(job)) {
-    std::error_code error;
-    std::filesystem::create_directories(path_, error);
-    if (error)
-        throw InputError({}, "cannot make the run directory " + path_.string() + ": " + error.message(),
+    check_output_file(job.output.file);
+    try {
+        std::filesystem::create_directories(path_);
+        for (const char* stale : {"summary.json", "status.json"})
+            std::filesystem::remove(path_ / stale);
+        write_text("job.toml", write_job(job));
+        passes_csv_ = pass_csv_header() + "\n";
+        write_text("passes.csv", passes_csv_);
+    } catch (const std::exception& error) {  // better now than after the render
+        throw InputError(Location{path_.string(), 0, 0}, std::string("cannot be the run directory: ") + error.what(),
                          "name another with --run-dir");
-    write_text("job.toml", write_job(job));
-    passes_csv_ = pass_csv_header() + "\n";
-    write_text("passes.csv", passes_csv_);
+    }
 }
 
 void RunDirectory::write_text(const std::string& name, const std::string& text) const {

@@ -24,6 +24,9 @@ namespace {
 /// A message travels as parts of at most this many bytes: MPI counts in int, and a short transfer is a short wait.
 constexpr std::size_t kPartBytes = std::size_t{64} << 20;
 
+/// When somebody was lost, what was sent to it never drains: how long to wait for the rest.
+constexpr double kDisorderlyDrainSeconds = 1.0;
+
 /// The tags on the farm's communicator.
 enum Tag : int {
     tag_last = 1,  ///< the last or only part of a message
@@ -238,7 +241,8 @@ Channel& MpiSession::channel() {
 void MpiSession::finish(bool orderly, int exit_code, double patience) {
     const Timer timer;
     Channel& channel = *impl_->channel;
-    while (!channel.drained() && timer.seconds() < patience) {
+    const double drain_seconds = orderly ? patience : std::min(patience, kDisorderlyDrainSeconds);
+    while (!channel.drained() && timer.seconds() < drain_seconds) {
         channel.poll();  // what still arrives is of no use any more
         channel.rest(1e-3);
     }

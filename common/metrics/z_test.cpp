@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <vector>
 
 #include "common/base/error.h"
 #include "common/metrics/error_metrics.h"
@@ -63,6 +65,21 @@ double square(double v) {
     return v * v;
 }
 
+/// Mean variance of the valid pixels in the window around (x, y).
+Rgb64 pooled_variance(const std::vector<std::optional<Difference>>& pixels, int width, int height, int x, int y,
+                      int radius) {
+    Rgb64 sum(0.0);
+    int count = 0;
+    for (int j = std::max(0, y - radius); j <= std::min(height - 1, y + radius); ++j)
+        for (int i = std::max(0, x - radius); i <= std::min(width - 1, x + radius); ++i)
+            if (const auto& d = pixels[static_cast<std::size_t>(j) * static_cast<std::size_t>(width) +
+                                       static_cast<std::size_t>(i)]) {
+                sum += d->variance;
+                ++count;
+            }
+    return sum / static_cast<double>(std::max(count, 1));
+}
+
 /// Sums over the pixels of a block.
 struct BlockSum {
     Rgb64 difference{0.0}, variance{0.0}, reference{0.0};
@@ -91,16 +108,25 @@ struct BlockSum {
 PixelZTest pixel_z_test(const ZTestInput& input, const ZTestOptions& options) {
     require_sizes(input);
     PixelZTest result;
-    std::vector<double> z;
-    z.reserve(input.image.pixels.size() * 3);
-    Difference d;
-    for (std::size_t i = 0; i < input.image.pixels.size(); ++i) {
-        if (!difference_at(input, i, d)) {
+    const int width = input.image.width, height = input.image.height;
+    std::vector<std::optional<Difference>> pixels(input.image.pixels.size());
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+        Difference d;
+        if (difference_at(input, i, d))
+            pixels[i] = d;
+        else
             ++result.invalid;
-            continue;
-        }
+    }
+    std::vector<double> z;
+    z.reserve(pixels.size() * 3);
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+        if (!pixels[i]) continue;
+        const Difference& d = *pixels[i];
+        const int x = static_cast<int>(i) % width, y = static_cast<int>(i) / width;
+        const Rgb64 pooled = pooled_variance(pixels, width, height, x, y, options.pool_radius);
         for (int c = 0; c < 3; ++c) {
-            const double variance = d.variance[c] + square(input.reference_relative_error * d.reference[c]);
+            const double variance =
+                std::max(d.variance[c], pooled[c]) + square(input.reference_relative_error * d.reference[c]);
             z.push_back(std::abs(d.value[c]) / std::sqrt(std::max(variance, options.variance_floor)));
         }
     }

@@ -26,6 +26,11 @@ struct ZTestOptions {
     /// Least variance of a difference in the pixel test, in squared radiance: pixels whose rare bright paths were all
     /// missed estimate a variance near zero. Mitsuba 3 uses 1e-4 per sample, that is 1e-4 / spp.
     double variance_floor = 1e-8;
+    /// The pixel test takes the larger of a pixel's variance and the mean over the window of this radius around it. A
+    /// pixel whose few samples all missed the rare bright paths is too dark and thinks itself certain: the error of its
+    /// own variance goes along with the error of its value, so the normal law holds only with a variance from outside.
+    /// 0: off.
+    int pool_radius = 2;
     int block = 16;  ///< side of a block in pixels, at least 1
 };
 

@@ -17,7 +17,8 @@ class CornellReference : public ::testing::TestWithParam<GuidingType> {};
 TEST_P(CornellReference, AgreesInTheZTests) {
     const std::string path = test::shared_scene("cbox/cbox-small.xml");
     const std::string reference_path = test::shared_scene("cbox/reference/cbox-small.exr");
-    if (path.empty() || reference_path.empty()) GTEST_SKIP() << "../shared/scenes/cbox is absent: nothing to compare with";
+    if (path.empty() || reference_path.empty())
+        GTEST_SKIP() << "../shared/scenes/cbox is absent: nothing to compare with";
     const LoadedScene loaded = load_scene(path, {}, false);
     Job job;
     apply_layer(job, loaded.settings);

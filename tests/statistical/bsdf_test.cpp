@@ -4,6 +4,8 @@
 
 #include "common/base/random.h"
 #include "tests/support/chi_square.h"
+#include "tests/support/random_tree.h"
+#include "worker/integrator/guided_sampling.h"
 
 namespace treefarm {
 namespace {
@@ -65,6 +67,69 @@ TEST(BsdfDistribution, ReflectsItsReflectanceAndNoMore) {
             }
         EXPECT_NEAR(sum * 4 * M_PI / (kSteps * kSteps), reflectance, 1e-4);
     }
+}
+
+/// A trained tree; its cells are no finer than the grid on which the tests integrate.
+const Guide& trained_guide() {
+    static const Guide guide(test::random_tree(5, 100000, 2000.0, 3));
+    return guide;
+}
+
+TEST(GuideDistribution, SamplesFollowTheDensity) {
+    const Guide& guide = trained_guide();
+    ASSERT_GT(guide.region_count(), 8u);
+    for (const std::uint32_t region : {0u, guide.region_count() / 2, guide.region_count() - 1}) {
+        const auto sample = [&](std::uint32_t i, Vec3& d) {
+            const Draw r = draw({8, i, 0}, 0, Stream::scatter);
+            const Guide::Sample s = guide.sample(region, r[1], r[2], r[3]);
+            d = s.direction;
+            return s.pdf > 0.0f;
+        };
+        const auto density = [&](const Vec3& d) { return guide.pdf(region, direction_to_code(d)); };
+        const auto result = test::test_directions(sample, density, kSamples, 16, 64);
+        EXPECT_NEAR(result.integral, 1.0, 1e-3);
+        EXPECT_EQ(result.success, 1.0);
+        EXPECT_GT(result.p_value, kSignificance) << "region " << region;
+    }
+}
+
+TEST(GuideDistribution, MixtureFollowsItsDensity) {
+    const Guide& guide = trained_guide();
+    const Bsdf bsdf = grey(0.5f, false);
+    const Frame frame(normalize(Vec3(0.3f, -0.4f, 0.2f)));
+    const Vec3 wo = normalize(Vec3(0.1f, 0.5f, 0.9f));
+    for (const float fraction : {0.1f, 0.5f, 1.0f}) {
+        const GuidedSampling<true> sampling(bsdf, frame, wo, guide, guide.region_count() / 3, fraction);
+        const auto sample = [&](std::uint32_t i, Vec3& d) {
+            const ScatterSample s = sampling.sample(draw({8, i, 0}, 0, Stream::scatter), true);
+            d = s.world;
+            return s.pdf > 0.0f;
+        };
+        // Directions of the guide below the surface are sampled and discarded: the density counts above it only.
+        const auto density = [&](const Vec3& d) {
+            const Vec3 local = frame.to_local(d);
+            return local.z > 0.0f ? sampling.pdf(local, direction_to_code(d)) : 0.0f;
+        };
+        const auto result = test::test_directions(sample, density, kSamples, 16, 64);
+        EXPECT_NEAR(result.integral, result.success, 3e-3);
+        EXPECT_GT(result.p_value, kSignificance) << "fraction " << fraction;
+    }
+}
+
+TEST(GuideDistribution, SampleAndDensityOfTheMixtureAgree) {
+    const Guide& guide = trained_guide();
+    const Bsdf bsdf = grey(0.5f, true);
+    const Frame frame(normalize(Vec3(-0.3f, 0.4f, -0.8f)));
+    const Vec3 wo = normalize(Vec3(0.1f, 0.5f, -0.9f));
+    const GuidedSampling<true> sampling(bsdf, frame, wo, guide, 1, 0.5f);
+    int at_borders = 0;
+    for (std::uint32_t i = 0; i < 100000; ++i) {
+        const ScatterSample s = sampling.sample(draw({8, i, 0}, 0, Stream::scatter), true);
+        if (!(s.pdf > 0.0f)) continue;
+        ASSERT_EQ(s.pdf, sampling.pdf(s.local, s.code));
+        at_borders += s.code != direction_to_code(s.world);
+    }
+    EXPECT_LT(at_borders, 20000) << "codes differ from those of the rounded directions by a step at most, and seldom";
 }
 
 TEST(BsdfDistribution, TheTestCanFail) {

@@ -1,4 +1,5 @@
-// Guided renders estimate the same image as unguided ones. Combination `fixed`: exactly unbiased, so any trend is a bug.
+// Guided renders estimate the same image as unguided ones. Combination `fixed`: exactly unbiased, so any trend is a
+// bug.
 #include <gtest/gtest.h>
 
 #include "common/config/job.h"
@@ -60,17 +61,21 @@ TEST_P(GuidedAgainstUnguided, AgreesInEveryBlock) {
 
     const ZTestInput input{guided.mean, unguided.mean, &guided.variance, &unguided.variance};
     const BlockZTest blocks = block_z_test(input);
-    EXPECT_TRUE(blocks.pass) << "worst block z " << blocks.max_abs_z << " at " << blocks.worst_x << ", " << blocks.worst_y;
-    for (const double z : blocks.image_z) EXPECT_LT(std::abs(z), 4.0);
+    EXPECT_TRUE(blocks.pass) << "worst block z " << blocks.max_abs_z << " at " << blocks.worst_x << ", "
+                             << blocks.worst_y;
+    for (const double z : blocks.image_z)
+        EXPECT_LT(std::abs(z), 4.0);
     EXPECT_LT(blocks.mean_z2, 2.0);
     EXPECT_GT(blocks.mean_z2, 0.3);  // the variances are honest, not inflated
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, GuidedAgainstUnguided,
-                         ::testing::Values(Case{"cornell-box.xml", NextEvent::never}, Case{"cornell-box.xml", NextEvent::always},
+                         ::testing::Values(Case{"cornell-box.xml", NextEvent::never},
+                                           Case{"cornell-box.xml", NextEvent::always},
                                            Case{"cornell-box.xml", NextEvent::kickstart},
                                            Case{"cornell-box.xml", NextEvent::always, MisHeuristic::balance, 1},
-                                           Case{"door-ajar.xml", NextEvent::always}, Case{"door-ajar.xml", NextEvent::kickstart}));
+                                           Case{"door-ajar.xml", NextEvent::always},
+                                           Case{"door-ajar.xml", NextEvent::kickstart}));
 
 }  // namespace
 }  // namespace treefarm

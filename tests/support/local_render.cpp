@@ -50,9 +50,9 @@ LocalRender render_locally(const Scene& scene, const Job& job) {
         if (!pass.record) continue;
         RefineReport report;
         const PassPlan& next = run.plans[pass.index + 1];
-        run.tree = refine(run.tree, accumulator.take(),
-                          {.spatial_threshold = spatial_split_threshold(job, next), .record_weight = pass.record_weight},
-                          report);
+        run.tree = refine(
+            run.tree, accumulator.take(),
+            {.spatial_threshold = spatial_split_threshold(job, next), .record_weight = pass.record_weight}, report);
     }
     run.image = combine_passes(run.passes, job.guiding.combination, job.guiding.type != GuidingType::none);
     return run;

@@ -19,7 +19,8 @@ std::vector<Record> random_records(const Guide& guide, std::size_t count, unsign
         const Frame lobe(normalize(position - Vec3(0.4f, 0.6f, 1.5f)));
         const Vec3 direction = lobe.to_world(square_to_cone({uniform(engine), uniform(engine)}, width));
         const std::uint32_t region = guide.region(position);
-        record = {region, direction_to_code(direction), static_cast<std::uint32_t>(engine()), -std::log(1.0f - uniform(engine))};
+        record = {region, direction_to_code(direction), static_cast<std::uint32_t>(engine()),
+                  -std::log(1.0f - uniform(engine))};
     }
     return records;
 }

@@ -16,7 +16,8 @@ TEST(Docs, ListEveryJobKeyAsTheProgramKnowsIt) {
     const std::string expected = job_key_documentation();
     const bool found = text.str().find(expected) != std::string::npos;
     if (!found) std::ofstream(::testing::TempDir() + "jobs.md") << expected;
-    EXPECT_TRUE(found) << "docs/jobs.md is out of date; the table it should hold is in " << ::testing::TempDir() << "jobs.md";
+    EXPECT_TRUE(found) << "docs/jobs.md is out of date; the table it should hold is in " << ::testing::TempDir()
+                       << "jobs.md";
 }
 
 }  // namespace

@@ -206,6 +206,11 @@ TEST(Geometry, WrongIndicesAreRefused) {
     }
 }
 
+TEST(Geometry, AnInstructionSetThatIsNotThereIsRefused) {
+    EXPECT_THROW(EmbreeScene({}, "avx1024"), RunError);
+    EXPECT_NO_THROW(EmbreeScene({}, "sse4.2"));
+}
+
 TEST(Geometry, PickedPointsAreTheHitPoints) {
     Scene scene;
     add_shape(scene, sphere_mesh(Vec3(3, 1, 2), 2.0f, 2, true), kNone);

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <random>
 
 #include "common/base/error.h"
 #include "common/base/random.h"
@@ -182,6 +183,26 @@ TEST(ZTest, TwoPerCentOfBiasFailsInBlocksThoughPixelsHideIt) {
     EXPECT_GT(blocks.beyond_3, 50u);
     EXPECT_GT(blocks.image_z[0], 20.0);
     EXPECT_TRUE(pixel_z_test({a, mean, &variance}).pass);
+}
+
+TEST(ZTest, PixelsThatMissedRarePathsDoNotVouchForThemselves) {
+    // One sample in 20 brings 20: of 32 samples a fifth of the pixels see none, are black, and report no variance.
+    std::mt19937 engine(5);
+    std::bernoulli_distribution bright(0.05);
+    RgbImage image(64, 64), variance(64, 64);
+    for (std::size_t p = 0; p < image.pixels.size(); ++p) {
+        int hits = 0;
+        for (int s = 0; s < 32; ++s)
+            hits += bright(engine);
+        image.pixels[p] = Rgb(20.0f * static_cast<float>(hits) / 32.0f);
+        const float share = static_cast<float>(hits) / 32.0f;
+        variance.pixels[p] = Rgb(400.0f * share * (1.0f - share) / 31.0f);
+    }
+    const RgbImage truth(64, 64, Rgb(1.0f));
+    EXPECT_FALSE(pixel_z_test({image, truth, &variance}, {.pool_radius = 0}).pass);
+    EXPECT_TRUE(pixel_z_test({image, truth, &variance}).pass);
+    const RgbImage wrong(64, 64, Rgb(6.0f));
+    EXPECT_FALSE(pixel_z_test({image, wrong, &variance}).pass);
 }
 
 TEST(ZTest, NoiseOfTheReferenceCounts) {

@@ -15,6 +15,20 @@ void note_error(void* user, RTCError code, const char* text) {
     if (message.empty()) message = "error " + std::to_string(static_cast<int>(code)) + ", " + (text ? text : "");
 }
 
+/// Embree takes what the processor has when it does not know, or does not find, the instruction set it is asked for.
+/// Its roundings would then silently differ from other workers'.
+void require_isa(const std::string& isa) {
+    const bool present = isa == "sse2"     ? __builtin_cpu_supports("sse2")
+                         : isa == "sse4.2" ? __builtin_cpu_supports("sse4.2")
+                         : isa == "avx"    ? __builtin_cpu_supports("avx")
+                         : isa == "avx2"   ? __builtin_cpu_supports("avx2")
+                         : isa == "avx512" ? __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl")
+                                           : false;
+    if (!present)
+        throw RunError("this processor (or Embree) does not have the instruction set \"" + isa +
+                       "\"; set farm.isa to one that all workers have: sse2, sse4.2, avx, avx2 or avx512");
+}
+
 float max_abs(const Vec3& v) {
     return std::max(std::abs(v.x), std::max(std::abs(v.y), std::abs(v.z)));
 }
@@ -67,12 +81,12 @@ void EmbreeScene::ReleaseScene::operator()(RTCScene scene) const {
 
 EmbreeScene::EmbreeScene(std::vector<Shape> shapes, const std::string& isa)
     : shapes_(std::move(shapes)), surfaces_(shapes_.size()), error_(std::make_unique<std::string>()) {
+    require_isa(isa);
     const std::string config = "threads=1,set_affinity=0,hugepages=0,isa=" + isa;
     device_.reset(rtcNewDevice(config.c_str()));
     if (!device_)
         throw RunError("Embree refused the device \"" + config + "\" (error " +
-                       std::to_string(static_cast<int>(rtcGetDeviceError(nullptr))) +
-                       "); set farm.isa to what this processor has, on every worker");
+                       std::to_string(static_cast<int>(rtcGetDeviceError(nullptr))) + ")");
     rtcSetDeviceErrorFunction(device_.get(), note_error, error_.get());
     scene_.reset(rtcNewScene(device_.get()));
     check_errors("making a scene");

@@ -19,7 +19,7 @@ class EmbreeScene {
   public:
     /// Takes the shapes over. `isa` as in Job::Farm: the same on every worker, since it decides roundings. Built by one
     /// thread, so that the hierarchy, and with it the winner among equally near hits, is the same everywhere.
-    /// Throws RunError when Embree reports an error or an index is out of range.
+    /// Throws RunError when Embree reports an error, the processor lacks the isa, or an index is out of range.
     EmbreeScene(std::vector<Shape> shapes, const std::string& isa);
     ~EmbreeScene();
     EmbreeScene(const EmbreeScene&) = delete;

@@ -19,7 +19,7 @@ struct XmlElement {
     std::vector<XmlElement> children;
     Location where;
     bool is_0_5 = false;  ///< written for Mitsuba 0.5 (or older), which reads spectra differently
-    int version = 0;  ///< major version of the file format that it is written in: 0 (Mitsuba 0.5, 0.6), 2, 3
+    int version = 0;      ///< major version of the file format that it is written in: 0 (Mitsuba 0.5, 0.6), 2, 3
 
     /// The attribute's value, or nullptr.
     const std::string* find(std::string_view name) const;

@@ -1,0 +1,199 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <set>
+#include <thread>
+
+#include "common/base/hash.h"
+#include "common/base/random.h"
+#include "common/comm/in_process_channel.h"
+#include "coordinator/farm.h"
+#include "coordinator/pass_loop.h"
+#include "worker/worker_loop.h"
+
+namespace treefarm::test {
+
+inline constexpr int kWidth = 45, kHeight = 30;
+inline constexpr std::uint64_t kFingerprint = 7;
+inline const Bytes kScene(3'000'000, 42);  // three chunks
+
+inline Job test_job() {
+    Job job;
+    job.budget.spp = 100;
+    job.guiding.spp_unit = 4;
+    job.guiding.spatial_threshold = 100;
+    job.farm.tile_size = 8;
+    job.farm.heartbeat_seconds = 0.02;
+    job.farm.update_seconds = 0.01;
+    return job;
+}
+
+inline Log quiet_log() {
+    return std::make_shared<spdlog::logger>("test");
+}
+
+/// A renderer without a scene: radiance and records come straight from the keyed generator.
+inline RenderUnit fake_renderer(const Job& job) {
+    return [job](const PassPlan& pass, const Guide& guide, const WorkUnit& unit, std::vector<PixelEstimate>& pixels,
+                 RecordLog& log, TraceStats& stats) {
+        const std::uint32_t run = kBlockSamples * pass.blocks_per_unit;
+        const std::uint32_t first = run * unit.chunk, last = std::min(first + run, pass.spp);
+        for (std::uint32_t y = unit.y0; y < unit.y1; ++y)
+            for (std::uint32_t x = unit.x0; x < unit.x1; ++x) {
+                std::vector<PixelEstimate> blocks;
+                for (std::uint32_t sample = first; sample < last; ++sample) {
+                    if (sample % kBlockSamples == 0) blocks.emplace_back();
+                    const PathKey key{job.sampler.seed, y * kWidth + x, pass.first_sample + sample};
+                    const Draw d = draw(key, 0, Stream::scatter);
+                    const float value = to_unit(d[0]);
+                    blocks.back().add(sample, Rgb(value, value * value, 1.0f));
+                    ++stats.paths;
+                    stats.rays += 2;
+                    if (!pass.record) continue;
+                    const std::uint32_t region = guide.region({to_unit(d[1]), to_unit(d[2]), 0.5f});
+                    ++log.counts[region];
+                    ++stats.records;
+                    if (value > 0.5f) log.records.push_back({region, d[3] & d[1], d[2], value});
+                }
+                pixels.push_back(reduce_blocks(blocks));
+            }
+    };
+}
+
+inline MakeRenderer make_fake() {
+    return [](std::span<const std::uint8_t> scene, const Job& job) {
+        if (!std::equal(scene.begin(), scene.end(), kScene.begin(), kScene.end())) throw RunError("wrong scene");
+        return fake_renderer(job);
+    };
+}
+
+/// Does to a worker's messages what a bad network or a dying process would.
+class FaultyChannel final : public Channel {
+  public:
+    using Filter = std::function<bool(Bytes&)>;  ///< may change the message; false: it is lost
+
+    explicit FaultyChannel(Channel& inner) : inner_(inner) {}
+    Filter outgoing, incoming;
+    std::atomic<bool> cut{false};  ///< nothing passes in either direction
+
+    int self() const override { return inner_.self(); }
+    int peer_count() const override { return inner_.peer_count(); }
+    void send(int peer, Payload payload) override {
+        Bytes bytes = *payload;
+        if (cut || (outgoing && !outgoing(bytes)) || cut) return;
+        inner_.send(peer, std::make_shared<const Bytes>(std::move(bytes)));
+    }
+    std::optional<Received> poll() override {
+        if (cut) return std::nullopt;
+        auto message = inner_.poll();
+        if (message && incoming && !incoming(message->bytes)) return std::nullopt;
+        return message;
+    }
+    bool drained() override { return inner_.drained(); }
+    void rest(double seconds) override {
+        cut ? std::this_thread::sleep_for(std::chrono::milliseconds(1)) : inner_.rest(seconds);
+    }
+    std::uint64_t bytes_sent() const override { return inner_.bytes_sent(); }
+    std::uint64_t bytes_received() const override { return inner_.bytes_received(); }
+
+  private:
+    Channel& inner_;
+};
+
+template <class M>
+bool is(const Bytes& bytes) {
+    return open_envelope(bytes).kind == M::kKind;
+}
+
+/// A coordinator in the test's thread and workers in threads of their own.
+class FarmTest : public ::testing::Test {
+  protected:
+    void make_workers(int count) {
+        channels_ = make_in_process_channels(count + 1);
+        for (int w = 1; w <= count; ++w)
+            faulty_.push_back(std::make_unique<FaultyChannel>(*channels_[std::size_t(w)]));
+        settings_.assign(std::size_t(count), {2, "here", kFingerprint, 60.0});
+        renderers_.assign(std::size_t(count), make_fake());
+        ends_.assign(std::size_t(count), WorkerEnd::orderly);
+    }
+
+    void start_worker(std::size_t w) {
+        threads_.emplace_back(
+            [this, w] { ends_[w] = run_worker(*faulty_[w], settings_[w], renderers_[w], quiet_log()); });
+    }
+
+    /// Starts all workers, renders, sends them away.
+    RenderResult render(const FarmLimits& limits = {.gather = 20, .lost = 20, .dismiss = 20}) {
+        if (threads_.empty())
+            for (std::size_t w = 0; w < faulty_.size(); ++w)
+                start_worker(w);
+        Farm farm(*channels_[0], job_, kScene, kFingerprint, quiet_log(), limits);
+        RenderResult result;
+        try {
+            farm.gather([] { return false; });
+            const SdTree tree = initial_tree(Box3(Vec3(0.0f), Vec3(1.0f)), 1.0f);
+            result = run_passes(farm, job_, plan_passes(job_), tree, kWidth, kHeight, {});
+        } catch (...) {
+            leave(farm.lost_peers(), limits);
+            throw;
+        }
+        reissued_ = farm.reissued_units();
+        dropped_ = farm.dropped_results();
+        lost_ = farm.lost_peers();
+        leave(lost_, limits);
+        return result;
+    }
+
+    void leave(const std::set<int>& lost, const FarmLimits& limits) {
+        orderly_ = dismiss_workers(*channels_[0], lost, limits.dismiss);
+        for (std::thread& thread : threads_)
+            thread.join();
+        threads_.clear();
+    }
+
+    /// What one undisturbed worker with one thread makes of it.
+    static const RenderResult& truth() {
+        static const RenderResult result = [] {
+            struct Plain : FarmTest {
+                void TestBody() override {}
+                RenderResult run() {
+                    make_workers(1);
+                    settings_[0].threads = 1;
+                    return render();
+                }
+            } plain;
+            return plain.run();
+        }();
+        return result;
+    }
+
+    void expect_truth(const RenderResult& result) {
+        EXPECT_EQ(hash_text(result.image_hash), hash_text(truth().image_hash));
+        EXPECT_EQ(hash_text(result.tree_hash), hash_text(truth().tree_hash));
+        EXPECT_EQ(result.spp, 100u);
+        ASSERT_EQ(result.passes.size(), truth().passes.size());
+        for (std::size_t k = 0; k < result.passes.size(); ++k) {
+            EXPECT_EQ(result.passes[k].stats.paths, truth().passes[k].stats.paths) << "pass " << k;
+            EXPECT_EQ(result.passes[k].stats.records, truth().passes[k].stats.records) << "pass " << k;
+            EXPECT_EQ(result.passes[k].tree.cells, truth().passes[k].tree.cells) << "pass " << k;
+        }
+    }
+
+    Job job_ = test_job();
+    std::vector<std::unique_ptr<Channel>> channels_;
+    std::vector<std::unique_ptr<FaultyChannel>> faulty_;
+    std::vector<WorkerSettings> settings_;
+    std::vector<MakeRenderer> renderers_;
+    std::vector<WorkerEnd> ends_;
+    std::vector<std::thread> threads_;
+    std::uint64_t reissued_ = 0, dropped_ = 0;
+    std::set<int> lost_;
+    bool orderly_ = false;
+};
+
+}  // namespace treefarm::test
