@@ -151,7 +151,7 @@ TEST(ZTest, HandComputedBlock) {
     EXPECT_NEAR(blocks.image_z[0], 2.0, 1e-5);
     EXPECT_NEAR(blocks.mean_z2, 4.0 / 3.0, 1e-5);
     EXPECT_TRUE(blocks.pass);
-    const PixelZTest pixels = pixel_z_test({a, b, &v});
+    const PixelZTest pixels = pixel_z_test({a, b, &v}, {.pool_radius = 0});
     EXPECT_NEAR(pixels.max_abs_z, 3.0, 1e-5);
     EXPECT_NEAR(pixels.limit, critical_z(1.0 - std::sqrt(0.99)), 1e-9);
     EXPECT_EQ(pixels.accepted, 5u);
