@@ -72,6 +72,17 @@ inline MakeRenderer make_fake() {
     };
 }
 
+/// The fake renderer, but it waits with every unit until `flag` is up: so that the fault under test comes to pass.
+inline MakeRenderer make_patient(const std::atomic<bool>& flag) {
+    return [&flag](std::span<const std::uint8_t>, const Job& job) -> RenderUnit {
+        return [&flag, render = fake_renderer(job)](auto&... args) {
+            for (int k = 0; k < 20'000 && !flag; ++k)
+                std::this_thread::sleep_for(std::chrono::milliseconds(1));
+            render(args...);
+        };
+    };
+}
+
 /// Does to a worker's messages what a bad network or a dying process would.
 class FaultyChannel final : public Channel {
   public:

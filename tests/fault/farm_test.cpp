@@ -27,9 +27,11 @@ TEST_F(FarmTest, AnyNumberOfWorkersGivesTheSameBits) {
 TEST_F(FarmTest, AWorkerThatDiesIsReplaced) {
     make_workers(3);
     settings_[1].silence_seconds = 1.0;
+    std::atomic<bool> dead = false;
+    renderers_[0] = renderers_[2] = make_patient(dead);
     int results = 0;
     faulty_[1]->outgoing = [&](Bytes& bytes) {
-        if (is<Result>(bytes) && ++results == 3) faulty_[1]->cut = true;
+        if (is<Result>(bytes) && ++results == 1) faulty_[1]->cut = dead = true;
         return true;
     };
     expect_truth(render(kShort));
@@ -43,27 +45,26 @@ TEST_F(FarmTest, AWorkerThatDiesIsReplaced) {
 TEST_F(FarmTest, AWorkerThatWasThoughtLostJoinsAgain) {
     make_workers(2);
     int results = 0;
+    int hellos = 0;
+    std::atomic<bool> back = false;
     std::thread mend;
     faulty_[1]->outgoing = [&](Bytes& bytes) {
-        if (is<Result>(bytes) && ++results == 2) {
+        if (is<Hello>(bytes) && ++hellos == 2) back = true;
+        if (is<Result>(bytes) && ++results == 1) {
             faulty_[1]->cut = true;
             mend = std::thread([&] {
-                std::this_thread::sleep_for(std::chrono::milliseconds(900));
+                std::this_thread::sleep_for(std::chrono::milliseconds(1500));  // five times the limit
                 faulty_[1]->cut = false;
             });
         }
         return true;
     };
-    // The other worker is slow, so that there is something left to join.
-    renderers_[0] = [](std::span<const std::uint8_t>, const Job& job) -> RenderUnit {
-        return [render = fake_renderer(job)](auto&... args) {
-            std::this_thread::sleep_for(std::chrono::milliseconds(15));
-            render(args...);
-        };
-    };
+    // The other worker waits for it to be back, so that there is something left to join.
+    renderers_[0] = make_patient(back);
     const RenderResult result = render(kShort);
     mend.join();
     expect_truth(result);
+    EXPECT_EQ(hellos, 2);
     EXPECT_GT(reissued_, 0u);
     EXPECT_TRUE(lost_.empty()) << "it is back";
     EXPECT_TRUE(orderly_);
@@ -71,9 +72,10 @@ TEST_F(FarmTest, AWorkerThatWasThoughtLostJoinsAgain) {
 
 TEST_F(FarmTest, ACorruptResultCostsTheWorkerItsPlace) {
     make_workers(2);
-    int results = 0;
+    std::atomic<bool> sent = false;
+    renderers_[1] = make_patient(sent);
     faulty_[0]->outgoing = [&](Bytes& bytes) {
-        if (is<Result>(bytes) && ++results == 2) bytes[bytes.size() / 2] ^= 0x10;
+        if (is<Result>(bytes) && !sent.exchange(true)) bytes[bytes.size() / 2] ^= 0x10;
         return true;
     };
     expect_truth(render());
@@ -82,9 +84,10 @@ TEST_F(FarmTest, ACorruptResultCostsTheWorkerItsPlace) {
 
 TEST_F(FarmTest, AResultThatLiesIsRefused) {
     make_workers(2);
-    int results = 0;
+    std::atomic<bool> sent = false;
+    renderers_[1] = make_patient(sent);
     faulty_[0]->outgoing = [&](Bytes& bytes) {
-        if (!is<Result>(bytes) || ++results != 2) return true;
+        if (!is<Result>(bytes) || sent.exchange(true)) return true;
         auto result = std::get<Result>(decode(bytes));
         ++result.units[0].unit.x0;  // work that it was not given
         ++result.units[0].unit.x1;
@@ -97,9 +100,10 @@ TEST_F(FarmTest, AResultThatLiesIsRefused) {
 
 TEST_F(FarmTest, AResultThatComesTwiceCountsOnce) {
     make_workers(2);
-    int results = 0;
+    std::atomic<bool> sent = false;
+    renderers_[1] = make_patient(sent);
     faulty_[0]->outgoing = [&](Bytes& bytes) {
-        if (is<Result>(bytes) && ++results == 2) channels_[1]->send(0, std::make_shared<const Bytes>(bytes));
+        if (is<Result>(bytes) && !sent.exchange(true)) channels_[1]->send(0, std::make_shared<const Bytes>(bytes));
         return true;
     };
     expect_truth(render());
@@ -150,14 +154,15 @@ TEST_F(FarmTest, WithoutAUsableWorkerTheRunFailsWithTheReason) {
 }
 
 TEST_F(FarmTest, AFailingWorkerIsReplacedAndTheLastOneEndsTheRun) {
-    const MakeRenderer broken = [](std::span<const std::uint8_t>, const Job& job) -> RenderUnit {
-        return [render = fake_renderer(job)](const PassPlan& pass, auto&... args) {
-            if (pass.index == 1) throw RunError("the disk is on fire");
-            render(pass, args...);
+    std::atomic<bool> failed = false;
+    const MakeRenderer broken = [&](std::span<const std::uint8_t>, const Job&) -> RenderUnit {
+        return [&](auto&...) {
+            failed = true;
+            throw RunError("the disk is on fire");
         };
     };
     make_workers(2);
-    renderers_[0] = broken;
+    renderers_ = {broken, make_patient(failed)};
     expect_truth(render());
     EXPECT_EQ(lost_, std::set<int>{1});
 
