@@ -97,6 +97,8 @@ void run_z_tests(const CompareOptions& options, const Side& image, Side& referen
 }  // namespace
 
 int run_compare(const CompareOptions& options, std::ostream& out) {
+    if (!(options.reference_error >= 0.0 && options.reference_error <= 1.0))  // CLI's range lets NaN through
+        throw InputError(Location{"--reference-error"}, "is not a number", "give 0 to 1, e.g. 0.001");
     const Side image = read_side(options.image);
     Side reference = read_side(options.reference);
     if (image.colour.width != reference.colour.width || image.colour.height != reference.colour.height)

@@ -46,6 +46,9 @@ int run(int argc, char** argv) {
     } catch (const std::exception& error) {
         return fail(launch, error.what(), 1);
     }
+    std::cout.flush();
+    if (exit_code == 0 && (!std::cout || std::fflush(stdout) != 0 || std::ferror(stdout)))
+        return fail(launch, "cannot write to the standard output", 1);
     return exit_code;
 }
 

@@ -49,6 +49,8 @@ std::string shell_quoted(const std::string& word) {
 }  // namespace
 
 RenderRequest read_request(const RenderOptions& options) {
+    if (options.input.empty())
+        throw InputError(Location{"input", 0, 0}, "the name is empty", "give a Mitsuba scene (.xml) or job (.toml)");
     const std::filesystem::path input(options.input);
     std::vector<Setting> file_layer;
     if (input.extension() == ".toml")
@@ -80,7 +82,10 @@ RenderRequest read_request(const RenderOptions& options) {
 }
 
 std::string debug_command(const RenderOptions& options) {
-    std::string text = "treefarm render " + shell_quoted(options.input);
+    std::error_code error;  // whole paths, so that it can be pasted anywhere
+    const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
+    std::string text = shell_quoted(error ? "treefarm" : program.string()) + " render " +
+                       shell_quoted(std::filesystem::absolute(options.input).string());
     for (const std::string& argument : options.set)
         text += " --set " + shell_quoted(argument);
     for (const std::string& define : options.defines)

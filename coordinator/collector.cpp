@@ -21,7 +21,6 @@ void Collector::check_samples(const UnitResult& result) const {
 }
 
 bool Collector::take(int worker, Result result, Ledger& ledger) {
-    const Timer timer;
     std::vector<WorkUnit> units;
     for (const UnitResult& unit : result.units) {
         check_samples(unit);
@@ -29,7 +28,10 @@ bool Collector::take(int worker, Result result, Ledger& ledger) {
     }
     if (result.pass != plan_.index || !ledger.holds(worker, units)) return false;
     // merge_encoded checks everything before it adds anything: a result counts whole or not at all.
+    Timer timer;
     if (plan_.record) touched_cells_ += sums_.merge_encoded(result.update);
+    merge_seconds_ += timer.seconds();
+    timer.restart();
     ledger.accept(worker, units);
     update_bytes_ += result.update.size();
     WorkerShare& share = shares_[worker];
@@ -38,7 +40,7 @@ bool Collector::take(int worker, Result result, Ledger& ledger) {
         share.pixels += unit.unit.pixel_count();
     }
     share.stats.add(result.stats);
-    merge_seconds_ += timer.seconds();
+    film_seconds_ += timer.seconds();
     return true;
 }
 

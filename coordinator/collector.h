@@ -32,7 +32,8 @@ class Collector {
     const std::map<int, WorkerShare>& shares() const { return shares_; }
     std::uint64_t update_bytes() const { return update_bytes_; }
     std::uint64_t touched_cells() const { return touched_cells_; }
-    double merge_seconds() const { return merge_seconds_; }
+    double merge_seconds() const { return merge_seconds_; }  ///< adding tree updates
+    double film_seconds() const { return film_seconds_; }    ///< adding pixels
 
   private:
     void check_samples(const UnitResult& result) const;
@@ -43,7 +44,7 @@ class Collector {
     std::map<int, WorkerShare> shares_;
     std::uint64_t update_bytes_ = 0;   ///< of all encoded tree updates
     std::uint64_t touched_cells_ = 0;  ///< of all of them, a cell once per update that touches it
-    double merge_seconds_ = 0;
+    double merge_seconds_ = 0, film_seconds_ = 0;
 };
 
 }  // namespace treefarm

@@ -28,6 +28,19 @@ class PassLoop {
     }
 
     RenderResult run() {
+        try {
+            render_passes();
+        } catch (...) {
+            result_.image_hash = hash_image(result_.image);
+            if (hooks_.on_failure) hooks_.on_failure(std::move(result_));
+            throw;
+        }
+        result_.image_hash = hash_image(result_.image);
+        return std::move(result_);
+    }
+
+  private:
+    void render_passes() {
         for (const PassPlan& plan : plans_) {
             const Timer timer;
             PassReport report;
@@ -42,11 +55,8 @@ class PassLoop {
             learn(plan, report);
             finish(report, timer.seconds());
         }
-        result_.image_hash = hash_image(result_.image);
-        return std::move(result_);
     }
 
-  private:
     bool guided() const { return job_.guiding.type != GuidingType::none; }
 
     void broadcast(const PassPlan& plan, PassReport& report) {

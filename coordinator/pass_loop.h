@@ -23,11 +23,14 @@ struct RenderProgress {
     std::uint64_t rays = 0;  ///< so far
 };
 
+struct RenderResult;
+
 /// What the pass loop calls out to. Any of them may be empty.
 struct PassHooks {
     std::function<bool()> interrupted;  ///< asked often; true ends the render after the last whole pass
     std::function<void(const RenderProgress&)> on_progress;  ///< called often
     std::function<void(const PassReport&)> on_pass;          ///< after each pass
+    std::function<void(RenderResult)> on_failure;            ///< the finished passes, before the error leaves
 };
 
 /// What came out. After an interruption: of the passes that were whole by then, possibly none.

@@ -123,6 +123,7 @@ void fill_from_collector(PassReport& report, const Collector& collector) {
     report.variance = pass_variance(collector.film().pixels());
     PassSeconds& s = report.seconds;
     s.merge = collector.merge_seconds();
+    s.film += collector.film_seconds();
     s.splat = report.stats.splat_seconds;
     bool first = true;
     for (const auto& [worker, share] : collector.shares()) {

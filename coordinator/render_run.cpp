@@ -30,10 +30,13 @@ class RenderRun {
             outcome.state = result_.interrupted ? RunState::interrupted : RunState::done;
             bar_.clear();
             directory_.write_image(result_);
-        } catch (const RunError& failure) {
-            bar_.clear();
-            error = failure.what();
-            log_->error("{}", error);
+        } catch (const InputError&) {
+            throw;
+        } catch (const std::bad_alloc&) {
+            error = fail("not enough memory; render a smaller image, or on a machine that has more");
+            outcome.state = RunState::failed;
+        } catch (const std::exception& failure) {
+            error = fail(failure.what());
             outcome.state = RunState::failed;
         }
         report(outcome.state, error);
@@ -42,6 +45,19 @@ class RenderRun {
     }
 
   private:
+    /// Keeps what the finished passes gave, where that can still be written.
+    std::string fail(const std::string& error) {
+        bar_.clear();
+        log_->error("{}", error);
+        try {
+            directory_.write_image(result_);
+            if (!result_.passes.empty()) log_->info("kept the {} spp of finished passes", result_.spp);
+        } catch (const std::exception& again) {
+            if (again.what() != error) log_->error("{}", again.what());
+        }
+        return error;
+    }
+
     void render() {
         const std::vector<PassPlan> plans = plan_passes(request_.job);
         const Film& film = request_.scene.film;
@@ -57,6 +73,7 @@ class RenderRun {
             bar_.update(progress, elapsed);
             directory_.write_status(progress, elapsed);
         };
+        hooks.on_failure = [this](RenderResult finished) { result_ = std::move(finished); };
         hooks.on_pass = [this, &plans](const PassReport& pass) { tell(pass, plans.size()); };
         result_ = run_passes(farm_, request_.job, plans, first_tree(request_.scene), film.width, film.height, hooks);
     }
@@ -80,8 +97,12 @@ class RenderRun {
         const double elapsed = clock_.seconds();
         directory_.write_summary(state, result_, &farm_, elapsed, error);
         if (state == RunState::failed) return;
+        if (result_.passes.empty()) {
+            log_->warn("interrupted before the first pass was finished: there is no image");
+            return;
+        }
         if (state == RunState::interrupted) log_->warn("interrupted: kept the {} spp of finished passes", result_.spp);
-        const double rmse = result_.passes.empty() ? 0.0 : result_.passes.back().estimated_rmse;
+        const double rmse = result_.passes.back().estimated_rmse;
         log_->info("{} spp in {:.2f} s, estimated rmse {:.4g}; image {} tree {}", result_.spp, elapsed, rmse,
                    hash_text(result_.image_hash), hash_text(result_.tree_hash));
         if (rmse > 0)

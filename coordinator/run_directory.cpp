@@ -94,6 +94,15 @@ Json farm_json(const Farm& farm) {
         {"workers", workers}, {"reissued_units", farm.reissued_units()}, {"dropped_results", farm.dropped_results()}};
 }
 
+/// A run replaces what an earlier run left. A folder that holds something else is none of ours: it might be a person's.
+void check_run_directory(const std::filesystem::path& path) {
+    std::error_code error;
+    if (!std::filesystem::is_directory(path, error) || std::filesystem::is_empty(path, error)) return;
+    if (std::filesystem::exists(path / "passes.csv", error)) return;
+    throw InputError(Location{path.string(), 0, 0}, "is no run directory, but a folder that holds other files",
+                     "name an empty or a new one with --run-dir");
+}
+
 }  // namespace
 
 const char* run_state_name(RunState state) {
@@ -112,9 +121,11 @@ const char* run_state_name(RunState state) {
 
 RunDirectory::RunDirectory(const Job& job, const RunFacts& facts) : job_(job), facts_(facts), path_(choose_path(job)) {
     check_output_file(job.output.file);
+    check_run_directory(path_);
     try {
         std::filesystem::create_directories(path_);
-        for (const char* stale : {"summary.json", "status.json"})
+        // A run that ends early must not stand beside the image or the log of another.
+        for (const char* stale : {"summary.json", "status.json", "image.exr", "preview.png", "log.txt"})
             std::filesystem::remove(path_ / stale);
         write_text("job.toml", write_job(job));
         passes_csv_ = pass_csv_header() + "\n";
@@ -154,7 +165,7 @@ void RunDirectory::add_pass(const PassReport& report) {
 }
 
 void RunDirectory::write_image(const RenderResult& result) {
-    if (result.image.mean.empty()) return;
+    if (result.passes.empty()) return;
     const Image channels = result_channels(result.image, result.width, result.height);
     const Attributes attributes = {
         {"treefarm.version", kProgramVersion},

@@ -157,8 +157,10 @@ PassVariance pass_variance(std::span<const PixelEstimate> pixels) {
     const auto count = static_cast<double>(pixels.size());
     result.stuv /= count;
     result.stuv_ppg /= count;
-    std::sort(variances.begin(), variances.end());
-    variances.resize(variances.size() - variances.size() / 1000);
+    const std::size_t kept = variances.size() - variances.size() / 1000;
+    if (kept < variances.size())
+        std::nth_element(variances.begin(), variances.begin() + static_cast<std::ptrdiff_t>(kept), variances.end());
+    variances.resize(kept);
     for (const double v : variances)
         result.stuv_trimmed += v;
     result.stuv_trimmed /= static_cast<double>(variances.size());

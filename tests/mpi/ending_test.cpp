@@ -51,6 +51,7 @@ TEST(Ending, BadInputEndsWithCode2AndOneLine) {
 
 TEST(Ending, BadUsageEndsWithCode2AndOneLine) {
     const std::vector<std::vector<std::string>> wrong = {{"render"},
+                                                         {"render", ""},
                                                          {"render", "x.xml", "--no-such-option"},
                                                          {"render", "x.xml", "--seconds", "5"},
                                                          {"render", "x.xml", "--error", "0.1"},
@@ -121,6 +122,31 @@ TEST(Ending, WhenAllWorkersAreKilledTheRunFails) {
     const nlohmann::json summary = read_summary(folder);
     EXPECT_EQ(summary["state"], "failed");
     EXPECT_NE(summary["error"].get<std::string>().find("no worker is left"), std::string::npos);
+    EXPECT_GE(summary["spp"], 4) << "finished passes are kept";
+    EXPECT_TRUE(std::filesystem::exists(folder / "image.exr"));
+}
+
+TEST(Ending, ARunLeavesNothingOfAnotherInItsFolder) {
+    const auto folder = fresh_folder("run");
+    ASSERT_EQ(Program(long_render(folder, "4")).wait(kSoon).code, 0);
+    ASSERT_TRUE(std::filesystem::exists(folder / "image.exr"));
+    Program program(long_render(folder, "1000000") + std::vector<std::string>{"--set", "guiding.spp_unit=65536"});
+    ASSERT_TRUE(program.wait_until([&] { return !std::filesystem::exists(folder / "image.exr"); }, kSoon));
+    program.signal(SIGINT);
+    EXPECT_EQ(program.wait(kSoon).code, 3);
+    EXPECT_EQ(read_summary(folder)["spp"], 0);
+    for (const char* name : {"image.exr", "preview.png"})
+        EXPECT_FALSE(std::filesystem::exists(folder / name)) << name;
+}
+
+TEST(Ending, AFolderOfOtherFilesIsNoRunDirectory) {
+    const auto folder = fresh_folder("mine");
+    std::ofstream(folder / "job.toml") << "mine";
+    const Ending ending = Program(long_render(folder, "4")).wait(kSoon);
+    EXPECT_EQ(ending.code, 2) << ending.output;
+    std::string text;
+    std::ifstream(folder / "job.toml") >> text;
+    EXPECT_EQ(text, "mine");
 }
 
 TEST(Ending, ADebugSampleTellsItsPath) {

@@ -163,6 +163,8 @@ TEST_F(Compare, BadInputIsOneLineAndExitCodeTwo) {
     EXPECT_EQ(compare(image).code, 2);
     EXPECT_EQ(compare(image + " " + image + " --block 0").code, 2);
     EXPECT_EQ(compare(image + " " + image + " --unknown").code, 2);
+    EXPECT_EQ(compare(image + " " + image + " --reference-error nan").code, 2);
+    EXPECT_EQ(compare(image + " " + image + " > /dev/full").code, 1);
 }
 
 }  // namespace
