@@ -75,6 +75,8 @@ std::vector<std::uint32_t> Farm::chain_of_present() {
 }
 
 void Farm::step() {
+    // Between steps the caller combines, refines and writes, and a message that waits may need more than one look.
+    roster_.excuse(clock_.seconds() - listened_);
     bool busy = false;
     while (const auto message = channel_.poll()) {
         busy = true;
@@ -87,6 +89,7 @@ void Farm::step() {
         throw RunError("no worker is left" + (last_failure_.empty() ? "" : ": " + last_failure_));
     beat();
     if (!busy) channel_.rest(kRestSeconds);
+    listened_ = clock_.seconds();
 }
 
 void Farm::beat() {

@@ -102,6 +102,7 @@ class Farm {
     std::unique_ptr<Collector> collector_;
     std::vector<int> not_ready_;  ///< peers that have not yet asked for work of this pass
     double pass_began_ = 0, broadcast_seconds_ = 0, last_beat_ = 0;
+    double listened_ = 0;  ///< when step() last looked for messages
     std::string last_failure_;
     std::uint64_t reissued_units_ = 0, dropped_results_ = 0;
 };

@@ -20,6 +20,11 @@ Member* Roster::hear(int peer, std::uint64_t incarnation, double now) {
     return member;
 }
 
+void Roster::excuse(double seconds) {
+    for (Member* member : present())
+        member->last_heard += seconds;
+}
+
 Member* Roster::find(int peer) {
     const auto found = members_.find(peer);
     return found == members_.end() ? nullptr : &found->second;

@@ -40,6 +40,9 @@ class Roster {
     /// The member that speaks, if it is present under this incarnation; notes that it lives.
     Member* hear(int peer, std::uint64_t incarnation, double now);
 
+    /// For so long nobody could have been heard: it is no silence of theirs.
+    void excuse(double seconds);
+
     Member* find(int peer);
     /// Those silent for too long at `now`, not yet marked.
     std::vector<Member*> overdue(double now);

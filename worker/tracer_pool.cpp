@@ -5,11 +5,20 @@
 namespace treefarm {
 
 TracerPool::TracerPool(unsigned threads, RenderUnit render) : render_(std::move(render)) {
-    for (unsigned t = 0; t < threads; ++t)
-        threads_.emplace_back([this] { run(); });
+    try {
+        for (unsigned t = 0; t < threads; ++t)
+            threads_.emplace_back([this] { run(); });
+    } catch (...) {  // no more threads to be had: those that run must not outlive the pool
+        stop();
+        throw;
+    }
 }
 
 TracerPool::~TracerPool() {
+    stop();
+}
+
+void TracerPool::stop() {
     {
         const std::scoped_lock lock(mutex_);
         stop_ = true;

@@ -42,6 +42,7 @@ class TracerPool {
 
   private:
     void run();
+    void stop();
     void trace(PassWork& pass, const WorkUnit& unit, RecordLog& log);
 
     RenderUnit render_;

@@ -1,5 +1,6 @@
 #include "common/scene/validate.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace treefarm {
@@ -7,6 +8,13 @@ namespace {
 
 bool finite(const Vec3& v) {
     return is_finite(v);
+}
+
+/// Embree silently leaves out what lies beyond 1.8e18, and squared distances must stay floats.
+constexpr float kFarthest = 1e18f;
+
+bool too_far(const Vec3& v, float margin = 0.0f) {
+    return std::max(std::abs(v.x), std::max(std::abs(v.y), std::abs(v.z))) + margin > kFarthest;
 }
 
 /// "shape "lamp"", or "the shape" if it has no name.
@@ -53,6 +61,8 @@ void validate_mesh(Mesh& mesh, const Shape& shape, std::vector<Warning>& warning
             throw InputError(shape.where,
                              name + " has a vertex that is not finite (number " + std::to_string(i + 1) + ")",
                              "repair the mesh or its transformation");
+    if (std::any_of(mesh.positions.begin(), mesh.positions.end(), [](const Vec3& v) { return too_far(v); }))
+        throw InputError(shape.where, name + " has a coordinate beyond 1e18", "scale the scene down");
     if (!mesh.normals.empty() && mesh.normals.size() != mesh.positions.size())
         throw InputError(shape.where, name + " has normals for some vertices only", "repair the mesh");
     if (!mesh.uvs.empty() && mesh.uvs.size() != mesh.positions.size())
@@ -79,6 +89,8 @@ void validate_shape(Shape& shape, std::size_t index, const Scene& scene, std::ve
         if (sphere->radius <= 0.0f)
             throw InputError(shape.where, shape_name(shape) + " has a radius that is not positive",
                              "give a positive radius");
+        if (too_far(sphere->center, sphere->radius))
+            throw InputError(shape.where, shape_name(shape) + " has a coordinate beyond 1e18", "scale the scene down");
     }
     if (shape.material < 0 || static_cast<std::size_t>(shape.material) >= scene.materials.size())
         throw InputError(shape.where, shape_name(shape) + " has no material", "give it a bsdf");

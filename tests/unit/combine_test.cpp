@@ -12,11 +12,11 @@ namespace {
 PassResult make_pass(std::uint32_t spp, std::uint32_t before, float mean, float deviation, std::size_t pixels,
                      unsigned seed) {
     std::mt19937 engine(seed);
-    std::normal_distribution<float> noise(mean, deviation);
+    std::normal_distribution<float> noise;
     PassResult pass{spp, before, std::vector<PixelEstimate>(pixels)};
     for (PixelEstimate& pixel : pass.pixels)
         for (std::uint32_t s = 0; s < spp; ++s)
-            pixel.add(before + s, Rgb(noise(engine)));
+            pixel.add(before + s, Rgb(mean + deviation * noise(engine)));
     return pass;
 }
 
@@ -51,6 +51,24 @@ TEST(Combine, InverseVarianceFavoursTheQuietPass) {
     for (const Rgb64& m : image.mean)
         squared += (m.x - 1.0) * (m.x - 1.0);
     EXPECT_NEAR(std::sqrt(squared / 2000), rmse, 0.1 * rmse);
+}
+
+TEST(Combine, EachHalfIsWeighedByTheOthersVariance) {
+    // The even samples of the first pass are noisy, its odd ones quiet; in the second pass it is the other way round.
+    std::vector<PassResult> passes;
+    for (const float mean : {1.0f, 2.0f}) {
+        PassResult pass{8, 8 * static_cast<std::uint32_t>(passes.size()), std::vector<PixelEstimate>(3)};
+        for (PixelEstimate& pixel : pass.pixels)
+            for (std::uint32_t s = 0; s < 8; ++s) {
+                const bool noisy = (s % 2 == 0) == (mean == 1.0f);
+                pixel.add(s, Rgb(mean + (s / 2 % 2 ? 1.0f : -1.0f) * (noisy ? 1.0f : 0.125f)));
+            }
+        passes.push_back(std::move(pass));
+    }
+    const CombinedImage image = combine_passes(passes, Combination::inverse_variance, true);
+    EXPECT_NEAR(image.half[0][0].x, (64 * 1.0 + 1 * 2.0) / 65, 1e-9);  // the odd samples trust the first pass
+    EXPECT_NEAR(image.half[1][0].x, (1 * 1.0 + 64 * 2.0) / 65, 1e-9);
+    EXPECT_NEAR(image.mean[0].x, 1.5, 1e-9);
 }
 
 TEST(Combine, IsUnbiasedWhenVarianceFollowsTheSignal) {

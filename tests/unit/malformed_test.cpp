@@ -222,6 +222,10 @@ TEST_F(Malformed, ShapesAndColours) {
            "s.xml:3:22: <point> has no attribute \"z\"");
     expect("<shape type=\"sphere\"><float name=\"radius\" value=\"1e39\"/></shape>",
            "s.xml:3:1: the shape is not finite");
+    expect("<shape type=\"sphere\"><float name=\"radius\" value=\"2e18\"/></shape>",
+           "s.xml:3:1: the shape has a coordinate beyond 1e18");
+    expect("<shape type=\"cube\"><transform name=\"toWorld\"><scale value=\"2e18\"/></transform></shape>",
+           "s.xml:3:1: the shape has a coordinate beyond 1e18");
     expect("<shape type=\"obj\"/>", "s.xml:3:1: <shape type=\"obj\"> has no file name");
     expect("<shape type=\"obj\"><string name=\"filename\" value=\"no.obj\"/></shape>",
            "s.xml:3:19: there is no file \"no.obj\"");

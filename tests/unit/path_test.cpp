@@ -4,6 +4,7 @@
 
 #include "tests/support/test_scenes.h"
 #include "worker/integrator/mis.h"
+#include "worker/integrator/path_kernel.h"
 #include "worker/integrator/path_recorder.h"
 #include "worker/integrator/roulette.h"
 #include "worker/integrator/tile_renderer.h"
@@ -107,6 +108,37 @@ TEST(PathRecorder, CountsVerticesWithoutRadiance) {
     EXPECT_EQ(recorder.commit({}, log), 2u);
     EXPECT_TRUE(log.records.empty());
     EXPECT_EQ(log.counts[0], 2u);
+}
+
+TEST(Path, RecordsHoldTheRadianceOfTheirDirections) {
+    // In a furnace all directions of the hemisphere carry 1 / (1 - a), so L / p has the mean 2 pi / (1 - a). In
+    // kick-start passes the records of scattering and those of next event share the emission between them.
+    Scene scene = test::furnace(0.5f, 1.0f, 2.0f, Vec3(0.0f));
+    test::set_film(scene, 32, 32);
+    Job job;
+    job.integrator.rr_depth = 2;
+    const double exact = 2.0 * double(kPi) / (1.0 - 0.5);
+    for (const NextEvent next_event : {NextEvent::never, NextEvent::kickstart}) {
+        job.integrator.next_event = next_event;
+        const Rendered r = render(scene, job, one_pass(64, next_event == NextEvent::kickstart, true));
+        double sum = 0;
+        for (const Record& record : r.log.records)
+            sum += static_cast<double>(record.value);
+        EXPECT_NEAR(sum / static_cast<double>(r.stats.vertices), exact, 0.04 * exact) << static_cast<int>(next_event);
+    }
+}
+
+TEST(Path, RouletteIsPlayedByWhatGuides) {
+    SdTree tree = initial_tree(Box3(Vec3(0.0f), Vec3(1.0f)), 1.0f);
+    const Guide untrained(tree);
+    tree.trained = true;
+    const Guide trained(tree);
+    const auto survival = [](const Job& job, const Guide& guide) {
+        return PathSettings(job, one_pass(1, false), guide).roulette.survival(Rgb(0.01f));
+    };
+    EXPECT_FLOAT_EQ(survival(unguided(), untrained), 0.01f);
+    EXPECT_FLOAT_EQ(survival({}, untrained), 0.1f);
+    EXPECT_FLOAT_EQ(survival({}, trained), 0.99f);
 }
 
 TEST(Path, DepthCountsEdges) {

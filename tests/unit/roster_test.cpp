@@ -37,6 +37,14 @@ TEST(Roster, SilenceIsNoticedAndSpeakingResetsIt) {
     EXPECT_EQ(roster.thread_count(), 5u);
 }
 
+TEST(Roster, WhatNobodyListenedToIsNoSilence) {
+    Roster roster(10.0);
+    roster.admit(1, hello(100), 0.0);
+    roster.excuse(30.0);
+    EXPECT_TRUE(roster.overdue(40.0).empty());
+    EXPECT_EQ(roster.overdue(40.5).size(), 1u);
+}
+
 TEST(Roster, ANewLifeReplacesTheOld) {
     Roster roster(10.0);
     roster.admit(1, hello(100), 0.0).state = MemberState::lost;
