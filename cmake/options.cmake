@@ -35,7 +35,8 @@ add_library(treefarm_flags INTERFACE)
 target_compile_options(treefarm_flags INTERFACE -march=${TREEFARM_ARCH} -ffp-contract=off -Wall -Wextra -Wconversion)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     # GCC 12 warns of overlapping copies inside std::string's operator+ (GCC bug 105651).
-    target_compile_options(treefarm_flags INTERFACE -Wno-restrict)
+    # It also takes the alternatives that a std::variant does not hold for values that may be read (GCC bug 80635).
+    target_compile_options(treefarm_flags INTERFACE -Wno-restrict -Wno-maybe-uninitialized)
 endif()
 if(TREEFARM_WERROR)
     target_compile_options(treefarm_flags INTERFACE -Werror)

@@ -148,10 +148,7 @@ class PassLoop {
 SdTree first_tree(const Scene& scene) {
     Box3 bounds = scene.bounds();
     bounds.extendBy(scene.camera.origin);
-    float scale = 0.0f;
-    for (const Emitter& emitter : scene.emitters)
-        scale = std::max(scale, std::visit([](const auto& e) { return average(e.radiance); }, emitter.kind));
-    return initial_tree(bounds, scale > 0.0f ? scale : 1.0f);
+    return initial_tree(bounds, scene.radiance_scale());
 }
 
 RenderResult run_passes(Farm& farm, const Job& job, std::span<const PassPlan> passes, SdTree tree, int width,

@@ -51,4 +51,23 @@ inline float atan_quadrant(float x) {
                                         x2 * (-0.0355991094f + x2 * (0.0139211997f + x2 * -0.002581966f)))))));
 }
 
+/// The angle of (x, y) from the x axis over 2 pi, in [0, 1); 0 for (0, 0). Error below 1e-7.
+inline float azimuth_turn(float x, float y) {
+    const float ax = std::abs(x), ay = std::abs(y);
+    const float large = ax > ay ? ax : ay, small = ax > ay ? ay : ax;
+    if (!(large > 0.0f)) return 0.0f;
+    float turn = 0.25f * atan_quadrant(small / large);
+    if (ay > ax) turn = 0.25f - turn;
+    if (x < 0.0f) turn = 0.5f - turn;
+    if (y < 0.0f) turn = 1.0f - turn;
+    return turn < 1.0f ? turn : 0.0f;
+}
+
+/// acos(x) / pi for x in [-1, 1] (bounded to it), without the cancellation near the ends that `1 - x` cannot carry.
+inline float acos_half_turn(float x) {
+    if (!(x > -1.0f)) return 1.0f;
+    if (!(x < 1.0f)) return 0.0f;
+    return 2.0f * azimuth_turn(x, std::sqrt((1.0f - x) * (1.0f + x)));
+}
+
 }  // namespace treefarm

@@ -1,13 +1,11 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
-#include <string>
-#include <variant>
 #include <vector>
 
-#include "common/base/error.h"
-#include "common/math/vec.h"
+#include "common/scene/emitter.h"
+#include "common/scene/material.h"
+#include "common/scene/shape.h"
 
 namespace treefarm {
 
@@ -15,69 +13,17 @@ namespace treefarm {
 /// never pointers. Positions are in world space. Everything that needs the C library's transcendental functions
 /// (rotations, spectra, gamma) is computed here, once, on the coordinator, so that workers cannot differ in it.
 
-inline constexpr std::int32_t kNone = -1;
-
-struct DiffuseMaterial {
-    Rgb reflectance{0.5f};  ///< albedo per channel, in [0, 1]
-};
-
-/// How a surface scatters. Later effects add alternatives.
-struct Material {
-    std::variant<DiffuseMaterial> bsdf;
-    bool twosided = false;  ///< the same BSDF on both sides; otherwise the back is black
-    std::string name;
-    Location where;
-};
-
-/// An indexed triangle mesh in world space.
-struct Mesh {
-    std::vector<Vec3> positions;
-    std::vector<Vec3> normals;           ///< unit shading normals, one per position; empty: use the triangle's own
-    std::vector<Vec2> uvs;               ///< one per position; empty: none
-    std::vector<std::uint32_t> indices;  ///< three per triangle, counter-clockwise seen from the front
-
-    std::size_t triangle_count() const { return indices.size() / 3; }
-};
-
-/// An analytic sphere in world space.
-struct Sphere {
-    Vec3 center{0.0f};
-    float radius = 1.0f;
-    bool flip_normals = false;  ///< normals point inwards
-};
-
-/// Something that rays can hit. Its place in Scene::shapes is its id everywhere (Embree's geomID, the emitter table).
-struct Shape {
-    std::variant<Mesh, Sphere> geometry;
-    std::int32_t material = kNone;
-    std::int32_t emitter = kNone;  ///< index of an area emitter on the front side, or kNone
-    std::string name;
-    Location where;
-};
-
-/// Emits `radiance` from the front of a shape, in every direction of the hemisphere.
-struct AreaEmitter {
-    Rgb radiance{1.0f};  ///< W / (m^2 sr), per channel
-    std::int32_t shape = kNone;
-};
-
-/// Emits `radiance` from infinity, in every direction.
-struct ConstantEmitter {
-    Rgb radiance{1.0f};
-};
-
-struct Emitter {
-    std::variant<AreaEmitter, ConstantEmitter> kind;
-    Location where;
-};
-
-/// A pinhole camera. The pixel (x, y) (y down) at film position (sx, sy) in [0,1]^2 sees along
-/// normalize(corner + sx * across + sy * down).
+/// A camera. The film position (sx, sy) in [0,1]^2 (y down) sees through origin + corner + sx * across + sy * down:
+/// with a pinhole from the origin, with a lens from origin + a * lens_u + b * lens_v for (a, b) in the unit disk, so
+/// that the plane of focus is where those points lie.
 struct Camera {
     Vec3 origin{0.0f};
-    Vec3 corner{0.0f};  ///< direction to the film's upper left corner, not normalised
-    Vec3 across{0.0f};  ///< from the left to the right edge of the film
-    Vec3 down{0.0f};    ///< from the upper to the lower edge
+    Vec3 corner{0.0f};                ///< to the film's upper left corner, not normalised
+    Vec3 across{0.0f};                ///< from the left to the right edge of the film
+    Vec3 down{0.0f};                  ///< from the upper to the lower edge
+    Vec3 lens_u{0.0f}, lens_v{0.0f};  ///< half axes of the lens, in scene units; zero: a pinhole
+
+    bool has_lens() const { return lens_u != Vec3(0.0f) || lens_v != Vec3(0.0f); }
 };
 
 /// The pixel's reconstruction filter, sampled by importance (docs/guiding.md): the sub-pixel offset is drawn from it.
@@ -94,14 +40,20 @@ struct Film {
 struct Scene {
     std::vector<Shape> shapes;
     std::vector<Material> materials;
+    std::vector<Texture> textures;
+    std::vector<TextureImage> images;
     std::vector<Emitter> emitters;
+    std::int32_t group_count = 0;  ///< groups of shapes that instances place
     Camera camera;
     Film film;
 
-    /// Index of the constant emitter, or kNone.
+    /// Index of the constant or image-based environment, or kNone.
     std::int32_t environment() const;
-    /// Box of all shapes; empty if there are none.
+    /// Box of all shapes in the world, instances included; empty if there are none.
     Box3 bounds() const;
+    /// Order of magnitude of the radiance that its brightest emitter brings to its surfaces, above 0.
+    float radiance_scale() const;
+    /// Triangles in memory: those of a group count once.
     std::size_t triangle_count() const;
 };
 

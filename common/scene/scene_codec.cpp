@@ -138,7 +138,7 @@ Shape get_shape(ByteReader& in, std::size_t material_count) {
 void put_emitter(ByteWriter& out, const Emitter& emitter) {
     if (const auto* area = std::get_if<AreaEmitter>(&emitter.kind)) {
         out.put(static_cast<std::uint8_t>(EmitterKind::area));
-        put_vector(out, area->radiance);
+        put_vector(out, area->radiance.value);
         out.put(area->shape);
     } else {
         out.put(static_cast<std::uint8_t>(EmitterKind::constant));
@@ -211,7 +211,7 @@ Bytes encode_scene(const Scene& scene) {
     out.put_varint(scene.materials.size());
     for (const Material& material : scene.materials) {
         out.put(static_cast<std::uint8_t>(MaterialKind::diffuse));
-        put_vector(out, std::get<DiffuseMaterial>(material.bsdf).reflectance);
+        put_vector(out, std::get<DiffuseMaterial>(material.bsdf).reflectance.value);
         out.put<std::uint8_t>(material.twosided ? 1 : 0);
         out.put_string(material.name);
         put_location(out, material.where);

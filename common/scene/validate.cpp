@@ -123,7 +123,7 @@ void validate_film(const Film& film) {
 
 void validate_scene(Scene& scene, std::vector<Warning>& warnings) {
     for (const Material& material : scene.materials) {
-        const Rgb& reflectance = std::get<DiffuseMaterial>(material.bsdf).reflectance;
+        const Rgb& reflectance = std::get<DiffuseMaterial>(material.bsdf).reflectance.value;
         for (int i = 0; i < 3; ++i)
             if (!(reflectance[i] >= 0.0f && reflectance[i] <= 1.0f))
                 throw InputError(material.where, "the reflectance is outside 0 to 1", "give values from 0 to 1");
@@ -133,7 +133,7 @@ void validate_scene(Scene& scene, std::vector<Warning>& warnings) {
     std::size_t environments = 0;
     for (const Emitter& emitter : scene.emitters) {
         if (const auto* area = std::get_if<AreaEmitter>(&emitter.kind)) {
-            validate_radiance(area->radiance, emitter.where);
+            validate_radiance(area->radiance.value, emitter.where);
             if (area->shape < 0 || static_cast<std::size_t>(area->shape) >= scene.shapes.size())
                 throw InputError(emitter.where, "the area emitter has no shape", "put it into a shape");
         } else {

@@ -21,7 +21,7 @@ struct Lights {
     Emitters emitters;
 };
 
-Scene only(std::variant<Mesh, Sphere> geometry) {
+Scene only(decltype(Shape::geometry) geometry) {
     Scene scene;
     add_shape(scene, std::move(geometry), kNone, Rgb(1.0f));
     return scene;

@@ -20,7 +20,7 @@ inline std::int32_t add_diffuse(Scene& scene, const Rgb& reflectance, bool twosi
 }
 
 /// Adds the shape; `radiance` that is not black makes it an area emitter.
-inline std::int32_t add_shape(Scene& scene, std::variant<Mesh, Sphere> geometry, std::int32_t material,
+inline std::int32_t add_shape(Scene& scene, decltype(Shape::geometry) geometry, std::int32_t material,
                               const Rgb& radiance = Rgb(0.0f), const std::string& name = "shape") {
     Shape shape;
     shape.geometry = std::move(geometry);

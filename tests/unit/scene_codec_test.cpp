@@ -11,17 +11,20 @@ namespace {
 Scene example() {
     Scene scene;
     scene.materials.resize(2);
-    scene.materials[0] = {DiffuseMaterial{Rgb(0.1f, 0.2f, 0.3f)}, true, "paint", {"a.xml", 1, 2}};
+    scene.materials[0].bsdf = DiffuseMaterial{Rgb(0.1f, 0.2f, 0.3f)};
+    scene.materials[0].twosided = true;
+    scene.materials[0].name = "paint";
+    scene.materials[0].where = {"a.xml", 1, 2};
     Mesh mesh;
     mesh.positions = {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)};
     mesh.normals = {Vec3(0, 0, 1), Vec3(0, 0, 1), Vec3(0, 0, 1)};
     mesh.uvs = {Vec2(0, 0), Vec2(1, 0), Vec2(0, 1)};
     mesh.indices = {0, 1, 2};
-    scene.shapes.push_back({mesh, 1, 0, "lamp", {"b.xml", 3, 4}});
-    scene.shapes.push_back({Sphere{Vec3(1, 2, 3), 4.0f, true}, 0, kNone, "", {}});
+    scene.shapes.push_back({mesh, 1, 0, kNone, "lamp", {"b.xml", 3, 4}});
+    scene.shapes.push_back({Sphere{Vec3(1, 2, 3), 4.0f, true}, 0, kNone, kNone, "", {}});
     scene.emitters.push_back({AreaEmitter{Rgb(1, 2, 3), 0}, {"b.xml", 5, 6}});
     scene.emitters.push_back({ConstantEmitter{Rgb(4, 5, 6)}, {}});
-    scene.camera = {Vec3(1, 2, 3), Vec3(4, 5, 6), Vec3(7, 8, 9), Vec3(10, 11, 12)};
+    scene.camera = {Vec3(1, 2, 3), Vec3(4, 5, 6), Vec3(7, 8, 9), Vec3(10, 11, 12), {}, {}};
     scene.film = {65535, 1, PixelFilter::gaussian, 2.0f, 0.5f};
     return scene;
 }

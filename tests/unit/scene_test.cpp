@@ -101,8 +101,8 @@ TEST(Validate, RefusesWhatCannotBeRendered) {
     refused("s.xml:7:3: ", [&](Scene& s) { s.shapes[0].geometry = Sphere{Vec3(nan), 1.0f, false}; });
     refused("s.xml:7:3: ", [](Scene& s) { s.shapes[0].material = 1; });
     refused("s.xml:7:3: ", [](Scene& s) { s.shapes[0].emitter = 1; });
-    refused("s.xml:8:5: ", [](Scene& s) { std::get<AreaEmitter>(s.emitters[0].kind).radiance.y = -1.0f; });
-    refused("s.xml:8:5: ", [&](Scene& s) { std::get<AreaEmitter>(s.emitters[0].kind).radiance.y = inf; });
+    refused("s.xml:8:5: ", [](Scene& s) { std::get<AreaEmitter>(s.emitters[0].kind).radiance.value.y = -1.0f; });
+    refused("s.xml:8:5: ", [&](Scene& s) { std::get<AreaEmitter>(s.emitters[0].kind).radiance.value.y = inf; });
     refused("", [](Scene& s) { s.materials[0].bsdf = DiffuseMaterial{Rgb(0.1f, 0.2f, 1.1f)}; });
     refused("", [&](Scene& s) { s.materials[0].bsdf = DiffuseMaterial{Rgb(nan)}; });
     refused("", [](Scene& s) { s.film.width = 0; });

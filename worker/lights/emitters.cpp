@@ -43,7 +43,7 @@ Emitters::Emitters(const std::vector<Emitter>& emitters, const EmbreeScene& geom
 
 double Emitters::add_area_light(const AreaEmitter& emitter, const EmbreeScene& geometry) {
     AreaLight light;
-    light.radiance = emitter.radiance;
+    light.radiance = emitter.radiance.value;
     light.shape = static_cast<std::uint32_t>(emitter.shape);
     light.sphere = geometry.sphere(light.shape);
     double area = 0;
@@ -61,7 +61,7 @@ double Emitters::add_area_light(const AreaEmitter& emitter, const EmbreeScene& g
     }
     light_of_shape_[light.shape] = static_cast<std::int32_t>(area_lights_.size());
     area_lights_.push_back(std::move(light));
-    return area * double(kPi) * double(average(emitter.radiance));
+    return area * double(kPi) * double(average(emitter.radiance.value));
 }
 
 DirectSample Emitters::sample_direct(const Vec3& p, const Draw& random) const {

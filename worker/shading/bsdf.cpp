@@ -7,7 +7,7 @@ Bsdf make_bsdf(const Scene& scene, std::int32_t material) {
     if (material == kNone) return bsdf;
     const Material& m = scene.materials[static_cast<std::size_t>(material)];
     bsdf.twosided = m.twosided;
-    bsdf.reflectance = std::get<DiffuseMaterial>(m.bsdf).reflectance;
+    bsdf.reflectance = std::get<DiffuseMaterial>(m.bsdf).reflectance.value;
     bsdf.kind = is_black(bsdf.reflectance) ? Bsdf::Kind::black : Bsdf::Kind::diffuse;
     return bsdf;
 }

@@ -55,8 +55,8 @@ Material MaterialReader::convert_diffuse(Properties& properties) {
         diagnostics_.unsupported(texture.where, "textures are not available in this version", "give an <rgb>",
                                  "reflectance 0.5 is used");
     const bool long_name = properties.has("diffuse_reflectance");
-    diffuse.reflectance =
-        properties.color(long_name ? "diffuse_reflectance" : "reflectance", diffuse.reflectance, ColorUse::reflectance);
+    diffuse.reflectance = properties.color(long_name ? "diffuse_reflectance" : "reflectance", diffuse.reflectance.value,
+                                           ColorUse::reflectance);
     Material material;
     material.bsdf = diffuse;
     return material;

@@ -82,7 +82,7 @@ Sphere read_sphere(Properties& properties) {
 
 }  // namespace
 
-std::optional<std::variant<Mesh, Sphere>> read_geometry(Properties& properties, Diagnostics& diagnostics) {
+std::optional<decltype(Shape::geometry)> read_geometry(Properties& properties, Diagnostics& diagnostics) {
     const std::string type = properties.type();
     if (type == "obj") return read_obj_mesh(properties, diagnostics);
     if (type == "rectangle") return read_rectangle(properties);

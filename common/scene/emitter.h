@@ -1,0 +1,54 @@
+#pragma once
+
+#include <variant>
+
+#include "common/scene/texture.h"
+
+namespace treefarm {
+
+/// Emits `radiance` from the front of a shape, in every direction of the hemisphere.
+struct AreaEmitter {
+    ColorInput radiance{Rgb(1.0f)};  ///< W / (m^2 sr), per channel
+    std::int32_t shape = kNone;
+};
+
+struct PointEmitter {
+    Vec3 position{0.0f};
+    Rgb intensity{1.0f};  ///< W / sr
+};
+
+/// A point that shines along `axis`: fully within `beam` of it, not at all beyond `cutoff`, and in between linearly in
+/// the angle.
+struct SpotEmitter {
+    Vec3 position{0.0f};
+    Vec3 axis{0.0f, 0.0f, 1.0f};  ///< unit, away from the emitter
+    Rgb intensity{1.0f};          ///< W / sr, on the axis
+    float cutoff = 0.3490659f;    ///< radians, above 0, at most pi
+    float beam = 0.2617994f;      ///< radians, 0 to cutoff
+};
+
+/// Parallel light.
+struct DirectionalEmitter {
+    Vec3 direction{0.0f, 0.0f, 1.0f};  ///< unit, along which the light travels
+    Rgb irradiance{1.0f};              ///< W / m^2 on a surface that faces it
+};
+
+/// Emits `radiance` from infinity, in every direction.
+struct ConstantEmitter {
+    Rgb radiance{1.0f};
+};
+
+/// A distant sphere of radiance. The direction d, turned into its frame as (d . x_axis, d . y_axis, d . z_axis), lies
+/// at u = atan2(x, -z) / (2 pi) and v = acos(y) / pi of the image: v runs down from the pole y, u repeats.
+struct EnvironmentEmitter {
+    std::int32_t image = kNone;  ///< index in Scene::images; three linear channels
+    float scale = 1.0f;
+    Vec3 x_axis{1.0f, 0.0f, 0.0f}, y_axis{0.0f, 1.0f, 0.0f}, z_axis{0.0f, 0.0f, 1.0f};  ///< unit, at right angles
+};
+
+struct Emitter {
+    std::variant<AreaEmitter, PointEmitter, SpotEmitter, DirectionalEmitter, ConstantEmitter, EnvironmentEmitter> kind;
+    Location where;
+};
+
+}  // namespace treefarm

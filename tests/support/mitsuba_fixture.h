@@ -1,0 +1,68 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <string>
+
+#include "common/scene/load.h"
+
+namespace treefarm::test {
+
+/// Writes files below the test's temporary folder and reads them.
+class MitsubaFixture : public ::testing::Test {
+  protected:
+    void SetUp() override {
+        folder_ = std::filesystem::path(::testing::TempDir()) / "mitsuba_test" /
+                  ::testing::UnitTest::GetInstance()->current_test_info()->name();
+        std::filesystem::remove_all(folder_);
+        std::filesystem::create_directories(folder_ / "sub");
+    }
+
+    std::filesystem::path write(const std::string& name, const std::string& text) const {
+        std::ofstream(folder_ / name, std::ios::binary) << text;
+        return folder_ / name;
+    }
+
+    LoadedScene load(const std::string& body, const std::string& version = "0.6.0",
+                     const std::map<std::string, std::string>& defines = {}, bool lenient = false) const {
+        return load_scene(write("scene.xml", "<scene version=\"" + version + "\">\n" + body + "</scene>\n"), defines,
+                          lenient);
+    }
+
+    /// With a sensor, for tests about something else.
+    LoadedScene load_with_sensor(const std::string& body, const std::string& version = "0.6.0") const {
+        return load("<sensor type=\"perspective\"/>\n" + body, version);
+    }
+
+    std::filesystem::path folder_;
+};
+
+inline void expect_near(const Vec3& a, const Vec3& b, float tolerance = 1e-5f) {
+    EXPECT_LT((a - b).length(), tolerance) << a << " and " << b;
+}
+
+inline Vec3 triangle_normal(const Mesh& mesh, std::size_t i) {
+    const Vec3 a = mesh.positions[mesh.indices[3 * i]], b = mesh.positions[mesh.indices[3 * i + 1]],
+               c = mesh.positions[mesh.indices[3 * i + 2]];
+    return normalize(cross(b - a, c - a));
+}
+
+inline const Mesh& mesh_of(const LoadedScene& loaded, std::size_t shape = 0) {
+    return std::get<Mesh>(loaded.scene.shapes.at(shape).geometry);
+}
+
+inline Vec3 direction(const Camera& camera, float x, float y) {
+    return normalize(camera.corner + camera.across * x + camera.down * y);
+}
+
+inline std::string sensor(const std::string& inside, int width = 200, int height = 100) {
+    return "<sensor type=\"perspective\">" + inside + "<film type=\"hdrfilm\"><integer name=\"width\" value=\"" +
+           std::to_string(width) + "\"/><integer name=\"height\" value=\"" + std::to_string(height) +
+           "\"/></film></sensor>\n";
+}
+
+}  // namespace treefarm::test

@@ -1,0 +1,127 @@
+#include "worker/textures/texture_set.h"
+
+#include <cmath>
+#include <utility>
+
+namespace treefarm {
+namespace {
+
+Vec2 transformed(const UvTransform& t, const Vec2& uv) {
+    return {t.u_row.x * uv.x + t.u_row.y * uv.y + t.u_row.z, t.v_row.x * uv.x + t.v_row.y * uv.y + t.v_row.z};
+}
+
+/// Coordinates beyond this have no fraction left; NaN becomes 0.
+float bounded(float x) {
+    constexpr float kLargest = 0x1p22f;
+    return x > -kLargest && x < kLargest ? x : 0.0f;
+}
+
+/// Index of a texel after wrapping, or -1 for zero and -2 for one.
+int wrapped(int i, int size, Wrap wrap) {
+    if (i >= 0 && i < size) return i;
+    switch (wrap) {
+        case Wrap::repeat:
+            i %= size;
+            return i < 0 ? i + size : i;
+        case Wrap::mirror:
+            i %= 2 * size;
+            if (i < 0) i += 2 * size;
+            return i < size ? i : 2 * size - 1 - i;
+        case Wrap::clamp:
+            return i < 0 ? 0 : size - 1;
+        case Wrap::zero:
+            return -1;
+        case Wrap::one:
+            return -2;
+    }
+    return 0;
+}
+
+Rgb wrapped_texel(const TextureImage& image, const BitmapTexture& bitmap, int x, int y) {
+    x = wrapped(x, image.width, bitmap.wrap_u);
+    y = wrapped(y, image.height, bitmap.wrap_v);
+    if (x < 0 || y < 0) return Rgb(std::min(x, y) == -1 ? 0.0f : 1.0f);
+    return texel(image, x, y);
+}
+
+Rgb look_up(const TextureImage& image, const BitmapTexture& bitmap, const Vec2& at) {
+    const Vec2 uv = transformed(bitmap.uv, at);
+    // Whole units are taken off first where they make no difference, so that large coordinates keep their fraction.
+    const auto place = [](float x, int size, Wrap wrap) {
+        x = bounded(x);
+        if (wrap == Wrap::repeat) x -= std::floor(x);
+        const float scaled = x * static_cast<float>(size);
+        return scaled > -0x1p30f && scaled < 0x1p30f ? scaled : (scaled > 0.0f ? 0x1p30f : -0x1p30f);
+    };
+    const float x = place(uv.x, image.width, bitmap.wrap_u), y = place(uv.y, image.height, bitmap.wrap_v);
+    if (!bitmap.bilinear)
+        return wrapped_texel(image, bitmap, static_cast<int>(std::floor(x)), static_cast<int>(std::floor(y)));
+    const float left = std::floor(x - 0.5f), top = std::floor(y - 0.5f);
+    const float fx = x - 0.5f - left, fy = y - 0.5f - top;
+    const int x0 = static_cast<int>(left), y0 = static_cast<int>(top);
+    const Rgb upper =
+        wrapped_texel(image, bitmap, x0, y0) * (1.0f - fx) + wrapped_texel(image, bitmap, x0 + 1, y0) * fx;
+    const Rgb lower =
+        wrapped_texel(image, bitmap, x0, y0 + 1) * (1.0f - fx) + wrapped_texel(image, bitmap, x0 + 1, y0 + 1) * fx;
+    return upper * (1.0f - fy) + lower * fy;
+}
+
+bool in_upper_half(float x) {
+    x = bounded(x);
+    return x - std::floor(x) >= 0.5f;
+}
+
+}  // namespace
+
+Rgb texel(const TextureImage& image, int x, int y) {
+    const auto channels = static_cast<std::size_t>(image.channels);
+    const std::size_t at =
+        (static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) + static_cast<std::size_t>(x)) * channels;
+    if (!image.bytes.empty()) {
+        const std::uint8_t* p = &image.bytes[at];
+        if (channels == 1) return Rgb(image.decode[p[0]]);
+        return {image.decode[p[0]], image.decode[p[1]], image.decode[p[2]]};
+    }
+    const float* p = &image.floats[at];
+    if (channels == 1) return Rgb(p[0]);
+    return {p[0], p[1], p[2]};
+}
+
+TextureSet::TextureSet(std::vector<Texture> textures, std::vector<TextureImage> images)
+    : textures_(std::move(textures)), images_(std::move(images)) {}
+
+Rgb TextureSet::color(std::int32_t texture, const Vec2& uv) const {
+    const auto& kind = textures_[static_cast<std::size_t>(texture)].kind;
+    if (const auto* bitmap = std::get_if<BitmapTexture>(&kind))
+        return look_up(images_[static_cast<std::size_t>(bitmap->image)], *bitmap, uv);
+    const auto& board = std::get<CheckerboardTexture>(kind);
+    const Vec2 at = transformed(board.uv, uv);
+    return in_upper_half(at.x) == in_upper_half(at.y) ? board.color0 : board.color1;
+}
+
+Vec2 TextureSet::gradient(std::int32_t texture, const Vec2& uv) const {
+    const auto* bitmap = std::get_if<BitmapTexture>(&textures_[static_cast<std::size_t>(texture)].kind);
+    if (!bitmap) return Vec2(0.0f);  // a board has steps only
+    const TextureImage& image = images_[static_cast<std::size_t>(bitmap->image)];
+    // Half a texel, in the coordinates before the transform.
+    const auto half_step = [&](float du, float dv) {
+        const float texels =
+            std::max(std::abs(du) * static_cast<float>(image.width), std::abs(dv) * static_cast<float>(image.height));
+        return texels > 0.0f ? 0.5f / texels : 0.0f;
+    };
+    const float hu = half_step(bitmap->uv.u_row.x, bitmap->uv.v_row.x);
+    const float hv = half_step(bitmap->uv.u_row.y, bitmap->uv.v_row.y);
+    const auto difference = [&](const Vec2& step, float h) {
+        return h > 0.0f ? (value(texture, uv + step) - value(texture, uv - step)) / (2.0f * h) : 0.0f;
+    };
+    return {difference({hu, 0.0f}, hu), difference({0.0f, hv}, hv)};
+}
+
+std::size_t TextureSet::memory() const {
+    std::size_t bytes = 0;
+    for (const TextureImage& image : images_)
+        bytes += image.bytes.size() + image.floats.size() * sizeof(float);
+    return bytes;
+}
+
+}  // namespace treefarm
