@@ -120,7 +120,7 @@ int run_compare(const CompareOptions& options, std::ostream& out) {
     return 0;
 }
 
-void add_compare_command(CLI::App& app, int& exit_code) {
+void add_compare_command(CLI::App& app, const LaunchEnvironment& launch, int& exit_code) {
     const auto options = std::make_shared<CompareOptions>();
     CLI::App* command = app.add_subcommand("compare", "measure an image against a reference, and test it for bias");
     command->add_option("IMAGE", options->image, "EXR image")->required();
@@ -138,7 +138,9 @@ void add_compare_command(CLI::App& app, int& exit_code) {
         ->add_option("--reference-error", options->reference_error,
                      "standard deviation of a relative error that all of the reference shares, e.g. 0.001")
         ->check(CLI::Range(0.0, 1.0));
-    command->callback([options, &exit_code] { exit_code = run_compare(*options, std::cout); });
+    command->callback([options, launch, &exit_code] {
+        if (launch.rank == 0) exit_code = run_compare(*options, std::cout);  // under mpirun one process is enough
+    });
 }
 
 }  // namespace treefarm

@@ -4,6 +4,8 @@
 #include <iosfwd>
 #include <string>
 
+#include "cli/launch.h"
+
 namespace CLI {
 class App;
 }
@@ -30,6 +32,6 @@ int run_compare(const CompareOptions& options, std::ostream& out);
 
 /// Registers the subcommand. Its callback calls run_compare with standard output and stores the exit code; InputError
 /// and RunError leave CLI::App::parse.
-void add_compare_command(CLI::App& app, int& exit_code);
+void add_compare_command(CLI::App& app, const LaunchEnvironment& launch, int& exit_code);
 
 }  // namespace treefarm

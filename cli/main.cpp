@@ -34,7 +34,7 @@ int run(int argc, char** argv) {
     app.set_version_flag("--version", std::string("treefarm ") + kProgramVersion);
     app.require_subcommand(1);
     add_render_command(app, launch, joined(argc, argv), exit_code);
-    add_compare_command(app, exit_code);
+    add_compare_command(app, launch, exit_code);
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& done) {  // --help, --version

@@ -154,6 +154,10 @@ void Farm::on(int peer, const Hello& m) {
                    ", the coordinator's is " + hash_text(fingerprint_) + "): start the same build everywhere");
         return;
     }
+    if (m.threads == 0) {
+        refuse(peer, m, "it has no threads to trace with");
+        return;
+    }
     roster_.admit(peer, m, clock_.seconds());
     log_->debug("worker {} on {} with {} threads", peer, m.host, m.threads);
     tell(peer, Welcome{static_cast<std::uint32_t>(peer), job_.farm.heartbeat_seconds, job_text_});

@@ -1,5 +1,7 @@
 #include "coordinator/run_directory.h"
 
+#include <unistd.h>
+
 #include <chrono>
 #include <ctime>
 #include <nlohmann/json.hpp>
@@ -43,6 +45,10 @@ void check_output_file(const std::string& file) {
         throw InputError(Location{file, 0, 0}, "the image is written as EXR", "give it a name that ends in .exr");
     if (!std::filesystem::is_directory(folder))
         throw InputError(Location{file, 0, 0}, "there is no folder " + folder.string(), "make it first");
+    if (std::filesystem::is_directory(path)) throw InputError(Location{file, 0, 0}, "is a folder", "name a file");
+    if (access(folder.c_str(), W_OK) != 0)  // now, not after hours of rendering
+        throw InputError(Location{file, 0, 0}, "nothing can be written in " + folder.string(),
+                         "choose another place or change its permissions");
 }
 
 Json pass_json(const PassReport& r) {

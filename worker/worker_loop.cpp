@@ -27,6 +27,7 @@ constexpr double kPatienceHeartbeats = 5.0;
 constexpr double kFirstContactFactor = 20.0;
 
 constexpr double kRestSeconds = 2e-3;
+constexpr double kLongestTurnSeconds = 0.5;
 
 template <class T>
 bool ready(const std::future<T>& task) {
@@ -47,7 +48,8 @@ class WorkerLoop {
         say_hello();
         while (!end_) {
             while (const auto message = channel_.poll()) {
-                heard_ = clock_.seconds();
+                heard_ = true;
+                silence_ = 0;
                 take(*message);
                 if (end_) return *end_;
             }
@@ -57,9 +59,8 @@ class WorkerLoop {
                 fail(error.what());
             }
             beat();
-            const double silence = clock_.seconds() - heard_;
-            if (silence > settings_.silence_seconds * (heard_ > 0 ? 1.0 : kFirstContactFactor)) {
-                log_->error("the coordinator has been silent for {:.0f} s: leaving", silence);
+            if (grown_too_silent()) {
+                log_->error("the coordinator has been silent for {:.0f} s: leaving", silence_);
                 return WorkerEnd::orphaned;
             }
             channel_.rest(kRestSeconds);
@@ -68,6 +69,14 @@ class WorkerLoop {
     }
 
   private:
+    /// While this process was stopped, or starved, nobody could be heard: long turns count as short ones.
+    bool grown_too_silent() {
+        const double now = clock_.seconds();
+        silence_ += std::min(now - turned_, kLongestTurnSeconds);
+        turned_ = now;
+        return silence_ > settings_.silence_seconds * (heard_ ? 1.0 : kFirstContactFactor);
+    }
+
     template <class M>
     void tell(const M& message) {
         channel_.send(0, std::make_shared<const Bytes>(encode(message)));
@@ -221,7 +230,9 @@ class WorkerLoop {
     std::uint64_t incarnation_ = 0;
     Job job_;
     double heartbeat_seconds_ = 1.0;
-    double heard_ = 0, last_beat_ = 0, last_update_ = 0;
+    bool heard_ = false;               ///< of the coordinator, ever
+    double silence_ = 0, turned_ = 0;  ///< since it spoke; end of the last turn of run()
+    double last_beat_ = 0, last_update_ = 0;
     bool scene_arrived_ = false, quitting_ = false, said_bye_ = false, failed_ = false;
     std::optional<WorkerEnd> end_;
 

@@ -92,6 +92,7 @@ class FaultyChannel final : public Channel {
     explicit FaultyChannel(Channel& inner) : inner_(inner) {}
     Filter outgoing, incoming;
     std::atomic<bool> cut{false};  ///< nothing passes in either direction
+    std::atomic<int> nap_ms{0};    ///< the next rest takes so long, and the look after it sees nothing yet
 
     int self() const override { return inner_.self(); }
     int peer_count() const override { return inner_.peer_count(); }
@@ -101,13 +102,18 @@ class FaultyChannel final : public Channel {
         inner_.send(peer, std::make_shared<const Bytes>(std::move(bytes)));
     }
     std::optional<Received> poll() override {
-        if (cut) return std::nullopt;
+        if (cut || std::exchange(woken_, false)) return std::nullopt;
         auto message = inner_.poll();
         if (message && incoming && !incoming(message->bytes)) return std::nullopt;
         return message;
     }
     bool drained() override { return inner_.drained(); }
     void rest(double seconds) override {
+        if (const int nap = nap_ms.exchange(0)) {
+            std::this_thread::sleep_for(std::chrono::milliseconds(nap));
+            woken_ = true;
+            return;
+        }
         cut ? std::this_thread::sleep_for(std::chrono::milliseconds(1)) : inner_.rest(seconds);
     }
     std::uint64_t bytes_sent() const override { return inner_.bytes_sent(); }
@@ -115,6 +121,7 @@ class FaultyChannel final : public Channel {
 
   private:
     Channel& inner_;
+    bool woken_ = false;
 };
 
 template <class M>

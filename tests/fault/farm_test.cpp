@@ -267,6 +267,24 @@ TEST_F(FarmTest, WorkersLeaveWhenTheCoordinatorFallsSilent) {
     EXPECT_EQ(run_worker(*faulty_[0], settings_[0], renderers_[0], quiet_log()), WorkerEnd::orphaned);
 }
 
+TEST_F(FarmTest, AWorkerThatWasStoppedForAWhileStays) {
+    make_workers(2);
+    settings_[1].silence_seconds = 0.7;
+    faulty_[1]->incoming = [&, passes = 0](Bytes& bytes) mutable {
+        if (is<PassBegin>(bytes) && ++passes == 2) faulty_[1]->nap_ms = 1000;
+        return true;
+    };
+    expect_truth(render());
+    EXPECT_TRUE(orderly_);
+    EXPECT_EQ(ends_[1], WorkerEnd::orderly);
+}
+
+TEST_F(FarmTest, AWorkerWithoutThreadsIsRefused) {
+    make_workers(1);
+    settings_[0].threads = 0;
+    EXPECT_THROW(render(kShort), RunError);
+}
+
 TEST_F(FarmTest, WorkersCanBeSentAwayBeforeAnythingStarted) {
     make_workers(3);
     for (std::size_t w = 0; w < 3; ++w)
