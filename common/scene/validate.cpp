@@ -123,7 +123,9 @@ void validate_film(const Film& film) {
 
 void validate_scene(Scene& scene, std::vector<Warning>& warnings) {
     for (const Material& material : scene.materials) {
-        const Rgb& reflectance = std::get<DiffuseMaterial>(material.bsdf).reflectance.value;
+        const auto* diffuse = std::get_if<DiffuseMaterial>(&material.bsdf);
+        if (diffuse == nullptr) continue;
+        const Rgb& reflectance = diffuse->reflectance.value;
         for (int i = 0; i < 3; ++i)
             if (!(reflectance[i] >= 0.0f && reflectance[i] <= 1.0f))
                 throw InputError(material.where, "the reflectance is outside 0 to 1", "give values from 0 to 1");
@@ -136,8 +138,8 @@ void validate_scene(Scene& scene, std::vector<Warning>& warnings) {
             validate_radiance(area->radiance.value, emitter.where);
             if (area->shape < 0 || static_cast<std::size_t>(area->shape) >= scene.shapes.size())
                 throw InputError(emitter.where, "the area emitter has no shape", "put it into a shape");
-        } else {
-            validate_radiance(std::get<ConstantEmitter>(emitter.kind).radiance, emitter.where);
+        } else if (const auto* constant = std::get_if<ConstantEmitter>(&emitter.kind)) {
+            validate_radiance(constant->radiance, emitter.where);
             if (++environments > 1)
                 throw InputError(emitter.where, "this is a second environment emitter", "keep one of them");
         }

@@ -4,6 +4,7 @@
 #include "common/scene/mitsuba/integrator.h"
 #include "common/scene/mitsuba/materials.h"
 #include "common/scene/mitsuba/shapes.h"
+#include "common/scene/remove_unused.h"
 #include "common/scene/validate.h"
 
 namespace treefarm {
@@ -26,7 +27,8 @@ void read_shape(const XmlElement& element, Scene& scene, MaterialReader& materia
     shape.material = bsdf ? materials.read(*bsdf) : materials.read_default(emitter != nullptr, element.where);
     scene.shapes.push_back(std::move(shape));
     if (emitter)
-        read_area_emitter(*emitter, static_cast<std::int32_t>(scene.shapes.size() - 1), scene, document, diagnostics);
+        read_area_emitter(*emitter, static_cast<std::int32_t>(scene.shapes.size() - 1), scene, materials.textures(),
+                          document, diagnostics);
 }
 
 }  // namespace
@@ -55,8 +57,9 @@ SceneReading read_mitsuba(const std::filesystem::path& path, const std::map<std:
     for (const Child& shape : root.children("shape"))
         read_shape(*shape.object, scene, materials, document, diagnostics);
     for (const Child& emitter : root.children("emitter"))
-        read_environment(*emitter.object, scene, document, diagnostics);
+        read_emitter(*emitter.object, scene, materials.textures(), document, diagnostics);
     root.finish();
+    materials.textures().images().read(remove_unused(scene), scene, diagnostics);
 
     reading.warnings = std::move(diagnostics.warnings());
     std::vector<Warning> found;

@@ -103,7 +103,7 @@ Rgb64 read_spectrum(const XmlElement& element, ColorUse use) {
         const SpectrumSamples samples = parse_list(tokens, element.where);
         if (element.is_0_5) return spectrum_to_rgb(reverse_segments(extend_to_zero(samples)), false);
         if (element.version == 0) return spectrum_to_rgb(extend_to_zero(samples), false);
-        return spectrum_to_rgb(samples, element.version >= 3 && use == ColorUse::reflectance);
+        return spectrum_to_rgb(samples, element.version >= 3 && use != ColorUse::radiance);
     }
     const std::vector<double> values = numbers_of(text, element.where);
     if (values.size() == 3 && element.version == 0) return {values[0], values[1], values[2]};
@@ -186,8 +186,10 @@ Rgb read_color(const XmlElement& element, ColorUse use, Diagnostics& diagnostics
         if (!(color[i] >= 0.0) || color[i] > limit)
             throw InputError(
                 element.where,
-                std::string(use == ColorUse::reflectance ? "a reflectance" : "a radiance") + " of " +
-                    number_text(color[i]),
+                std::string(use == ColorUse::reflectance   ? "a reflectance"
+                            : use == ColorUse::coefficient ? "a coefficient"
+                                                           : "a radiance") +
+                    " of " + number_text(color[i]),
                 use == ColorUse::reflectance ? "give values from 0 to 1" : "give finite values of 0 or more");
     }
     return Rgb(static_cast<float>(color.x), static_cast<float>(color.y), static_cast<float>(color.z));

@@ -11,7 +11,11 @@
 namespace treefarm::mitsuba {
 
 /// What a colour is for: it decides how spectra become Rgb.
-enum class ColorUse { reflectance, radiance };
+enum class ColorUse {
+    reflectance,  ///< in [0, 1]
+    coefficient,  ///< a property of a surface without an upper limit: index of refraction, absorption
+    radiance      ///< of something that shines
+};
 
 /// (wavelength in nm, value), wavelengths rising: a piecewise linear spectrum, 0 outside.
 using SpectrumSamples = std::vector<std::pair<double, double>>;
