@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "common/config/parse_text.h"
+#include "common/scene/mitsuba/sky_emitters.h"
 
 namespace treefarm::mitsuba {
 namespace {
@@ -74,21 +75,8 @@ ConstantEmitter read_constant(Properties& properties) {
     return {properties.color("radiance", Rgb(1.0f), ColorUse::radiance)};
 }
 
-/// Axes of a rotation (or mirror); anything else throws InputError.
-void set_axes(EnvironmentEmitter& environment, Properties& properties) {
-    const Matrix to_world = properties.transform("to_world");
-    const double scale = uniform_scale(to_world, 1e-3);
-    if (std::abs(scale - 1.0) > 1e-3)
-        throw InputError(properties.where("to_world"), "the environment's transformation contains a scale or shear",
-                         "remove it: only rotations and mirrors can turn an environment");
-    environment.x_axis = normalize(transform_vector(to_world, Vec3(1.0f, 0.0f, 0.0f)));
-    environment.y_axis = normalize(transform_vector(to_world, Vec3(0.0f, 1.0f, 0.0f)));
-    environment.z_axis = normalize(transform_vector(to_world, Vec3(0.0f, 0.0f, 1.0f)));
-}
-
 EnvironmentEmitter read_envmap(Properties& properties, TextureReader& textures) {
-    EnvironmentEmitter environment;
-    set_axes(environment, properties);
+    EnvironmentEmitter environment = read_environment_axes(properties);
     const double scale = properties.number("scale", 1.0);
     if (!(scale >= 0.0))
         throw InputError(properties.where("scale"), "a scale of " + number_text(scale), "give 0 or more");
@@ -99,6 +87,19 @@ EnvironmentEmitter read_envmap(Properties& properties, TextureReader& textures) 
 }
 
 }  // namespace
+
+EnvironmentEmitter read_environment_axes(Properties& properties) {
+    const Matrix to_world = properties.transform("to_world");
+    const double scale = uniform_scale(to_world, 1e-3);
+    if (std::abs(scale - 1.0) > 1e-3)
+        throw InputError(properties.where("to_world"), "the environment's transformation contains a scale or shear",
+                         "remove it: only rotations and mirrors can turn an environment");
+    EnvironmentEmitter environment;
+    environment.x_axis = normalize(transform_vector(to_world, Vec3(1.0f, 0.0f, 0.0f)));
+    environment.y_axis = normalize(transform_vector(to_world, Vec3(0.0f, 1.0f, 0.0f)));
+    environment.z_axis = normalize(transform_vector(to_world, Vec3(0.0f, 0.0f, 1.0f)));
+    return environment;
+}
 
 void read_area_emitter(const XmlElement& emitter, std::int32_t shape, Scene& scene, TextureReader& textures,
                        const SceneDocument& document, Diagnostics& diagnostics) {
@@ -122,17 +123,21 @@ void read_emitter(const XmlElement& emitter, Scene& scene, TextureReader& textur
                   Diagnostics& diagnostics) {
     Properties properties(emitter, document, diagnostics);
     const std::string type = properties.type();
-    Emitter result{ConstantEmitter{}, emitter.where};
+    const std::size_t first = scene.emitters.size();
+    const bool had_environment = scene.environment() != kNone;
+    const auto add = [&](auto kind) { scene.emitters.push_back({std::move(kind), emitter.where}); };
     if (type == "point") {
-        result.kind = read_point(properties);
+        add(read_point(properties));
     } else if (type == "spot") {
-        result.kind = read_spot(properties, diagnostics);
+        add(read_spot(properties, diagnostics));
     } else if (type == "directional") {
-        result.kind = read_directional(properties);
+        add(read_directional(properties));
     } else if (type == "constant") {
-        result.kind = read_constant(properties);
+        add(read_constant(properties));
     } else if (type == "envmap") {
-        result.kind = read_envmap(properties, textures);
+        add(read_envmap(properties, textures));
+    } else if (type == "sky" || type == "sun" || type == "sunsky") {
+        read_sky(properties, scene, diagnostics);
     } else {
         diagnostics.unsupported(
             emitter.where, properties.title() + " is not available in this version",
@@ -141,11 +146,12 @@ void read_emitter(const XmlElement& emitter, Scene& scene, TextureReader& textur
     }
     ignore_sampling(properties);
     properties.finish();
-    const bool surrounds =
-        std::holds_alternative<ConstantEmitter>(result.kind) || std::holds_alternative<EnvironmentEmitter>(result.kind);
-    if (surrounds && scene.environment() != kNone)
-        throw InputError(emitter.where, "this is a second environment emitter", "keep one of them");
-    scene.emitters.push_back(std::move(result));
+    for (std::size_t i = first; i < scene.emitters.size(); ++i) {
+        const auto& kind = scene.emitters[i].kind;
+        if (had_environment &&
+            (std::holds_alternative<ConstantEmitter>(kind) || std::holds_alternative<EnvironmentEmitter>(kind)))
+            throw InputError(emitter.where, "this is a second environment emitter", "keep one of them");
+    }
 }
 
 }  // namespace treefarm::mitsuba

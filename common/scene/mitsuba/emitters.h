@@ -15,4 +15,8 @@ void read_area_emitter(const XmlElement& emitter, std::int32_t shape, Scene& sce
 void read_emitter(const XmlElement& emitter, Scene& scene, TextureReader& textures, const SceneDocument& document,
                   Diagnostics& diagnostics);
 
+/// An environment whose axes are turned by the property to_world; anything but a rotation or a mirror throws
+/// InputError.
+EnvironmentEmitter read_environment_axes(Properties& properties);
+
 }  // namespace treefarm::mitsuba

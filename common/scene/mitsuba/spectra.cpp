@@ -13,12 +13,6 @@ namespace {
 
 using Rgb64 = Imath::Color3<double>;
 
-/// ITU-R BT.709 primaries, white D65.
-Rgb64 xyz_to_rgb(double x, double y, double z) {
-    return {3.240479 * x - 1.537150 * y - 0.498535 * z, -0.969256 * x + 1.875991 * y + 0.041556 * z,
-            0.055648 * x - 0.204043 * y + 1.057311 * z};
-}
-
 /// Value at `wavelength` between samples `i` and `i + 1`.
 double interpolate(const SpectrumSamples& samples, std::size_t i, double wavelength) {
     const auto& [w0, v0] = samples[i];
@@ -118,6 +112,12 @@ Rgb64 read_spectrum(const XmlElement& element, ColorUse use) {
 }
 
 }  // namespace
+
+// ITU-R BT.709 primaries, white D65.
+Rgb64 xyz_to_rgb(double x, double y, double z) {
+    return {3.240479 * x - 1.537150 * y - 0.498535 * z, -0.969256 * x + 1.875991 * y + 0.041556 * z,
+            0.055648 * x - 0.204043 * y + 1.057311 * z};
+}
 
 double srgb_to_linear(double encoded) {
     return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);

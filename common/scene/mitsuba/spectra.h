@@ -25,6 +25,9 @@ using SpectrumSamples = std::vector<std::pair<double, double>>;
 /// D65: the white one is (1, 1, 1) then.
 Imath::Color3<double> spectrum_to_rgb(const SpectrumSamples& samples, bool under_d65);
 
+/// CIE XYZ to linear Rec. 709; channels can be negative.
+Imath::Color3<double> xyz_to_rgb(double x, double y, double z);
+
 /// Linear value of an sRGB channel (IEC 61966-2-1).
 double srgb_to_linear(double encoded);
 
