@@ -63,4 +63,7 @@ struct Shape {
     Location where;
 };
 
+/// Box of a shape's own surface, in its group's space; empty for instances.
+Box3 own_box(const Shape& shape);
+
 }  // namespace treefarm
