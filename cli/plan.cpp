@@ -20,7 +20,7 @@ int run_plan(const RenderOptions& options, bool json, std::ostream& out) {
 
 }  // namespace
 
-void add_plan_command(CLI::App& app, int& exit_code) {
+void add_plan_command(CLI::App& app, const LaunchEnvironment& launch, int& exit_code) {
     const auto options = std::make_shared<RenderOptions>();
     const auto json = std::make_shared<bool>(false);
     CLI::App* command = app.add_subcommand("plan", "Tells what a render would simulate, why, and what it costs");
@@ -31,7 +31,9 @@ void add_plan_command(CLI::App& app, int& exit_code) {
     command->add_option("-D", options->defines, "name=value: gives $name in the scene a value")
         ->allow_extra_args(false);
     command->add_flag("--lenient", options->lenient, "replace what the scene reader does not know instead of refusing");
-    command->callback([options, json, &exit_code] { exit_code = run_plan(*options, *json, std::cout); });
+    command->callback([options, json, launch, &exit_code] {
+        if (launch.rank == 0) exit_code = run_plan(*options, *json, std::cout);  // under mpirun one process is enough
+    });
 }
 
 }  // namespace treefarm

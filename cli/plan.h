@@ -1,5 +1,7 @@
 #pragma once
 
+#include "cli/launch.h"
+
 namespace CLI {
 class App;
 }
@@ -8,6 +10,6 @@ namespace treefarm {
 
 /// treefarm plan SCENE.xml|JOB.toml: says what a render would simulate, and renders nothing. Registers the subcommand;
 /// InputError leaves CLI::App::parse.
-void add_plan_command(CLI::App& app, int& exit_code);
+void add_plan_command(CLI::App& app, const LaunchEnvironment& launch, int& exit_code);
 
 }  // namespace treefarm

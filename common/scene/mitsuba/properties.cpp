@@ -177,6 +177,25 @@ Matrix Properties::transform(const std::string& name) {
     return read_transform(*element, title() + (id().empty() ? "" : " " + in_quotes(id())));
 }
 
+std::string Properties::tag_of(const std::string& name) const {
+    const auto value = values_.find(name);
+    return value == values_.end() ? "" : value->second.element->tag;
+}
+
+const XmlElement* Properties::named_child(const std::string& tag, const std::string& name) {
+    asked_.push_back(name);
+    const XmlElement* found = nullptr;
+    for (Entry& entry : children_) {
+        if (entry.child.object->tag != tag || snake_case(entry.child.name) != name) continue;
+        if (found != nullptr || has(name))
+            throw InputError(entry.child.where, in_quotes(entry.child.name) + " of " + title() + " is given twice",
+                             "remove one of them");
+        entry.used = true;
+        found = entry.child.object;
+    }
+    return found;
+}
+
 std::vector<Child> Properties::children(const std::string& tag) {
     std::vector<Child> found;
     for (Entry& entry : children_)

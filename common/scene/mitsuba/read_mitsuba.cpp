@@ -4,9 +4,11 @@
 #include "common/scene/mitsuba/integrator.h"
 #include "common/scene/mitsuba/materials.h"
 #include "common/scene/mitsuba/shape_reader.h"
+#include "common/scene/remove_unused.h"
 #include "common/scene/validate.h"
 
 namespace treefarm {
+
 SceneReading read_mitsuba(const std::filesystem::path& path, const std::map<std::string, std::string>& defines,
                           bool lenient, const mitsuba::FilmSize& film_size) {
     using namespace mitsuba;
@@ -31,8 +33,9 @@ SceneReading read_mitsuba(const std::filesystem::path& path, const std::map<std:
     for (const Child& shape : root.children("shape"))
         shapes.read(*shape.object);
     for (const Child& emitter : root.children("emitter"))
-        read_environment(*emitter.object, scene, document, diagnostics);
+        read_emitter(*emitter.object, scene, materials.textures(), document, diagnostics);
     root.finish();
+    materials.textures().images().read(remove_unused(scene), scene, diagnostics);
 
     reading.warnings = std::move(diagnostics.warnings());
     std::vector<Warning> found;

@@ -43,8 +43,8 @@ void ShapeReader::read_shape(const XmlElement& element, std::int32_t group) {
     shape.material = bsdf ? materials_.read(*bsdf) : materials_.read_default(emitter != nullptr, element.where);
     scene_.shapes.push_back(std::move(shape));
     if (emitter)
-        read_area_emitter(*emitter, static_cast<std::int32_t>(scene_.shapes.size() - 1), scene_, document_,
-                          diagnostics_);
+        read_area_emitter(*emitter, static_cast<std::int32_t>(scene_.shapes.size() - 1), scene_, materials_.textures(),
+                          document_, diagnostics_);
 }
 
 std::int32_t ShapeReader::group_of(const XmlElement& element) {

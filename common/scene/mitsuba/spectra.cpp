@@ -13,12 +13,6 @@ namespace {
 
 using Rgb64 = Imath::Color3<double>;
 
-/// ITU-R BT.709 primaries, white D65.
-Rgb64 xyz_to_rgb(double x, double y, double z) {
-    return {3.240479 * x - 1.537150 * y - 0.498535 * z, -0.969256 * x + 1.875991 * y + 0.041556 * z,
-            0.055648 * x - 0.204043 * y + 1.057311 * z};
-}
-
 /// Value at `wavelength` between samples `i` and `i + 1`.
 double interpolate(const SpectrumSamples& samples, std::size_t i, double wavelength) {
     const auto& [w0, v0] = samples[i];
@@ -103,7 +97,7 @@ Rgb64 read_spectrum(const XmlElement& element, ColorUse use) {
         const SpectrumSamples samples = parse_list(tokens, element.where);
         if (element.is_0_5) return spectrum_to_rgb(reverse_segments(extend_to_zero(samples)), false);
         if (element.version == 0) return spectrum_to_rgb(extend_to_zero(samples), false);
-        return spectrum_to_rgb(samples, element.version >= 3 && use == ColorUse::reflectance);
+        return spectrum_to_rgb(samples, element.version >= 3 && use != ColorUse::radiance);
     }
     const std::vector<double> values = numbers_of(text, element.where);
     if (values.size() == 3 && element.version == 0) return {values[0], values[1], values[2]};
@@ -118,6 +112,12 @@ Rgb64 read_spectrum(const XmlElement& element, ColorUse use) {
 }
 
 }  // namespace
+
+// ITU-R BT.709 primaries, white D65.
+Rgb64 xyz_to_rgb(double x, double y, double z) {
+    return {3.240479 * x - 1.537150 * y - 0.498535 * z, -0.969256 * x + 1.875991 * y + 0.041556 * z,
+            0.055648 * x - 0.204043 * y + 1.057311 * z};
+}
 
 double srgb_to_linear(double encoded) {
     return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
@@ -186,8 +186,10 @@ Rgb read_color(const XmlElement& element, ColorUse use, Diagnostics& diagnostics
         if (!(color[i] >= 0.0) || color[i] > limit)
             throw InputError(
                 element.where,
-                std::string(use == ColorUse::reflectance ? "a reflectance" : "a radiance") + " of " +
-                    number_text(color[i]),
+                std::string(use == ColorUse::reflectance   ? "a reflectance"
+                            : use == ColorUse::coefficient ? "a coefficient"
+                                                           : "a radiance") +
+                    " of " + number_text(color[i]),
                 use == ColorUse::reflectance ? "give values from 0 to 1" : "give finite values of 0 or more");
     }
     return Rgb(static_cast<float>(color.x), static_cast<float>(color.y), static_cast<float>(color.z));
