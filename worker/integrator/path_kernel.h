@@ -69,12 +69,12 @@ class PathKernel {
             observer_.arrive(depth, found ? &hit : nullptr);
 
             const Rgb emitted =
-                found ? scene_.emitters().emitted(hit, -ray.direction) : scene_.emitters().environment();
+                found ? scene_.emitters().emitted(hit, -ray.direction) : scene_.emitters().environment(ray.direction);
             if (!is_black(emitted) && !(depth == 1 && settings_.hide_emitters)) {
                 float light_pdf = 0.0f, weight = 1.0f;
                 if (kNextEvent && depth > 1) {
                     light_pdf = found ? scene_.emitters().pdf_direct(scatter_point, ray.direction, hit)
-                                      : scene_.emitters().pdf_environment();
+                                      : scene_.emitters().pdf_environment(ray.direction);
                     weight = mis_weight(settings_.mis, scatter_pdf, light_pdf);
                 }
                 const Rgb weighted = emitted * weight;
@@ -153,7 +153,7 @@ class PathKernel {
 
         std::uint32_t code = 0;
         if (kGuided || (kRecord && settings_.record_light_samples)) code = direction_to_code(light.wi);
-        const float scatter_pdf = sampling.pdf(wi, code);
+        const float scatter_pdf = light.delta ? 0.0f : sampling.pdf(wi, code);
         const float weight = mis_weight(settings_.mis, light.pdf, scatter_pdf);
         const Rgb reflected = f_cos * light.radiance * (weight / light.pdf);
         if (kRecord && settings_.record_light_samples)

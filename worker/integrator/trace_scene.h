@@ -20,14 +20,19 @@ class TraceScene {
     const EmbreeScene& geometry() const { return geometry_; }
     const Emitters& emitters() const { return emitters_; }
     const CameraRays& camera() const { return camera_; }
+    const TextureSet& textures() const { return textures_; }
     const Film& film() const { return film_; }
     const Bsdf& bsdf(std::uint32_t shape) const { return bsdfs_[shape]; }
 
   private:
+    /// `opacity` as in ShapeMasks. Takes the scene apart.
+    TraceScene(Scene&& scene, const std::vector<FloatInput>& opacity, const Job& job);
+
     Film film_;
     CameraRays camera_;
     std::vector<Bsdf> bsdfs_;  ///< per shape
     Box3 bounds_;
+    TextureSet textures_;
     EmbreeScene geometry_;
     Emitters emitters_;
 };
