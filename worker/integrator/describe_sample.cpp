@@ -32,8 +32,8 @@ struct TextObserver {
              << contribution << '\n';
     }
     void scatter(const ScatterSample& s, const Rgb& throughput) {
-        text << "  scatter along " << s.world << " pdf " << s.pdf << " f cos " << s.f_cos << " throughput "
-             << throughput << '\n';
+        text << "  scatter " << (s.delta ? "(delta) " : "") << "along " << s.world << " pdf " << s.pdf << " f cos "
+             << s.f_cos << " throughput " << throughput << '\n';
     }
     void next_event(const DirectSample& light, float scatter_pdf, float weight, const Rgb& contribution) {
         text << "  next event along " << light.wi << " distance " << light.distance << " pdf " << light.pdf
@@ -53,10 +53,10 @@ std::string describe_sample(const TraceScene& scene, const Job& job, const PassP
                        pass.first_sample + sample};
     const bool guided = job.guiding.type != GuidingType::none && guide.trained();
     std::string text;
-    dispatch(pass.next_event && scene.emitters().can_sample(), guided, false, [&](auto next_event, auto guides, auto) {
+    dispatch(scene.plainly_diffuse(), guided, false, [&](auto surface, auto guides, auto) {
         TraceStats stats;
-        PathKernel<next_event(), guides(), false, TextObserver> kernel(scene, guide, PathSettings(job, pass, guide),
-                                                                       stats);
+        PathKernel<typename decltype(surface)::type, guides(), false, TextObserver> kernel(
+            scene, guide, PathSettings(scene, job, pass, guide), stats);
         kernel.observer().scene = &scene;
         const Rgb radiance = kernel.trace(path, scene.camera().generate(x, y, draw(path, 0, Stream::camera)));
         std::ostringstream head;

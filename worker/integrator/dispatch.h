@@ -2,16 +2,23 @@
 
 #include <type_traits>
 
+#include "worker/integrator/surface.h"
+
 namespace treefarm {
 
-/// Calls f with three compile-time booleans: the one place where a pass's switches choose a kernel.
+/// Calls f(std::type_identity<Surface>, guided, record) with types and compile-time booleans: the one place where a
+/// pass's switches choose a kernel. Two surfaces, guided or not, recording or not: eight kernels, and four more for
+/// describe_sample().
 template <class F>
-void dispatch(bool a, bool b, bool c, F&& f) {
-    const auto with = [&](auto ka) {
-        const auto with_b = [&](auto kb) { c ? f(ka, kb, std::true_type{}) : f(ka, kb, std::false_type{}); };
-        b ? with_b(std::true_type{}) : with_b(std::false_type{});
+void dispatch(bool plainly_diffuse, bool guided, bool record, F&& f) {
+    const auto with_surface = [&](auto surface) {
+        const auto with_guided = [&](auto g) {
+            record ? f(surface, g, std::true_type{}) : f(surface, g, std::false_type{});
+        };
+        guided ? with_guided(std::true_type{}) : with_guided(std::false_type{});
     };
-    a ? with(std::true_type{}) : with(std::false_type{});
+    plainly_diffuse ? with_surface(std::type_identity<DiffuseSurface>{})
+                    : with_surface(std::type_identity<GeneralSurface>{});
 }
 
 }  // namespace treefarm

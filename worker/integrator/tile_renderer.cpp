@@ -28,10 +28,10 @@ bool refuse_invalid(Rgb& radiance, const WorkUnit& unit, int x, int y, std::uint
     return true;
 }
 
-template <bool kNextEvent, bool kGuided, bool kRecord>
+template <class Surface, bool kGuided, bool kRecord>
 void render(const TraceScene& scene, const Job& job, const PassPlan& pass, const Guide& guide, const WorkUnit& unit,
             std::vector<PixelEstimate>& pixels, RecordLog& log, TraceStats& stats) {
-    PathKernel<kNextEvent, kGuided, kRecord> kernel(scene, guide, PathSettings(job, pass, guide), stats);
+    PathKernel<Surface, kGuided, kRecord> kernel(scene, guide, PathSettings(scene, job, pass, guide), stats);
     const std::uint32_t first = unit.chunk * pass.blocks_per_unit * kBlockSamples;
     const std::uint32_t last = std::min(first + pass.blocks_per_unit * kBlockSamples, pass.spp);
     std::vector<PixelEstimate> blocks;
@@ -64,10 +64,10 @@ void render_unit(const TraceScene& scene, const Job& job, const PassPlan& pass, 
     pixels.reserve(unit.pixel_count());
     log.begin(pass.record ? guide.region_count() : 0);
     const bool guided = job.guiding.type != GuidingType::none && guide.trained();
-    dispatch(pass.next_event && scene.emitters().can_sample(), guided, pass.record,
-             [&](auto next_event, auto guides, auto records) {
-                 render<next_event(), guides(), records()>(scene, job, pass, guide, unit, pixels, log, stats);
-             });
+    dispatch(scene.plainly_diffuse(), guided, pass.record, [&](auto surface, auto guides, auto records) {
+        render<typename decltype(surface)::type, guides(), records()>(scene, job, pass, guide, unit, pixels, log,
+                                                                      stats);
+    });
     stats.trace_seconds += thread_cpu_seconds() - start;
 }
 
