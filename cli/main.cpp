@@ -5,6 +5,7 @@
 
 #include "cli/compare.h"
 #include "cli/launch.h"
+#include "cli/plan.h"
 #include "cli/render.h"
 #include "common/base/error.h"
 #include "common/protocol/fingerprint.h"
@@ -34,6 +35,7 @@ int run(int argc, char** argv) {
     app.set_version_flag("--version", std::string("treefarm ") + kProgramVersion);
     app.require_subcommand(1);
     add_render_command(app, launch, joined(argc, argv), exit_code);
+    add_plan_command(app, exit_code);
     add_compare_command(app, exit_code);
     try {
         app.parse(argc, argv);

@@ -72,8 +72,11 @@ RenderRequest read_request(const RenderOptions& options) {
     apply_layer(request.job, file_layer);
     apply_layer(request.job, line_layer);
     request.scene = std::move(loaded.scene);
+    request.plan = plan_effects(request.scene, request.job);
     for (const Warning& warning : loaded.warnings)
         request.warnings.push_back(warning.text());
+    request.warnings.insert(request.warnings.end(), request.plan.warnings.begin(), request.plan.warnings.end());
+    request.plan.warnings = request.warnings;  // what the reader had to replace belongs to the plan, too
     request.command = options.command;
     request.debug_command = debug_command(options);
     request.fingerprint = own_fingerprint().hash();

@@ -1,6 +1,7 @@
 #include "coordinator/render_run.h"
 
 #include "common/base/hash.h"
+#include "common/plan/plan_text.h"
 #include "common/scene/scene_codec.h"
 #include "coordinator/progress.h"
 
@@ -14,7 +15,7 @@ class RenderRun {
         : request_(request),
           interrupted_(interrupted),
           scene_(encode_scene(request.scene)),
-          directory_(request.job, {request.command, hash_bytes(scene_), request.fingerprint}),
+          directory_(request.job, {request.command, hash_bytes(scene_), request.fingerprint}, request.plan),
           log_(make_log("treefarm", directory_.log_file(), request.quiet)),
           bar_(request.progress_bar),
           farm_(channel, request.job, std::move(scene_), request.fingerprint, log_) {}
@@ -23,6 +24,8 @@ class RenderRun {
         log_->debug("{}", request_.command);
         for (const std::string& warning : request_.warnings)
             log_->warn("{}", warning);
+        for (const Approximation& approximation : request_.plan.approximations)
+            log_->warn("{}", approximation_text(approximation));
         RenderOutcome outcome;
         std::string error;
         try {

@@ -7,6 +7,7 @@
 
 #include "common/comm/channel.h"
 #include "common/config/job.h"
+#include "common/plan/effects.h"
 #include "common/scene/scene.h"
 #include "coordinator/run_directory.h"
 
@@ -15,7 +16,8 @@ namespace treefarm {
 /// A render as it was asked for: everything read and checked.
 struct RenderRequest {
     Job job;
-    Scene scene;
+    Scene scene;                        ///< without the effects that the job forces off
+    EffectPlan plan;                    ///< of both
     std::vector<std::string> warnings;  ///< of the readers, for the log
     std::string command;                ///< as it was typed
     std::string debug_command;          ///< reproduces a sample when " pass,x,y,sample" is appended

@@ -9,6 +9,7 @@
 #include "common/config/job_reader.h"
 #include "common/image/atomic_file.h"
 #include "common/image/png.h"
+#include "common/plan/plan_text.h"
 #include "common/protocol/fingerprint.h"
 #include "coordinator/result_image.h"
 
@@ -119,7 +120,8 @@ const char* run_state_name(RunState state) {
     return "";
 }
 
-RunDirectory::RunDirectory(const Job& job, const RunFacts& facts) : job_(job), facts_(facts), path_(choose_path(job)) {
+RunDirectory::RunDirectory(const Job& job, const RunFacts& facts, const EffectPlan& plan)
+    : job_(job), facts_(facts), approximations_(plan.approximations), path_(choose_path(job)) {
     check_output_file(job.output.file);
     check_run_directory(path_);
     try {
@@ -128,6 +130,8 @@ RunDirectory::RunDirectory(const Job& job, const RunFacts& facts) : job_(job), f
         for (const char* stale : {"summary.json", "status.json", "image.exr", "preview.png", "log.txt"})
             std::filesystem::remove(path_ / stale);
         write_text("job.toml", write_job(job));
+        write_text("plan.txt", plan_text(plan, job.scene.file));
+        write_text("plan.json", plan_json(plan, job.scene.file));
         passes_csv_ = pass_csv_header() + "\n";
         write_text("passes.csv", passes_csv_);
     } catch (const std::exception& error) {  // better now than after the render
@@ -198,6 +202,9 @@ void RunDirectory::write_summary(RunState state, const RenderResult& result, con
                     {"estimated_rmse", result.passes.empty() ? 0.0 : result.passes.back().estimated_rmse},
                     {"pass_weights", result.image.weight}};
     if (!error.empty()) summary["error"] = error;
+    summary["approximations"] = Json::array();
+    for (const Approximation& approximation : approximations_)
+        summary["approximations"].push_back(approximation_text(approximation));
     summary["passes"] = Json::array();
     for (const PassReport& report : result.passes)
         summary["passes"].push_back(pass_json(report));

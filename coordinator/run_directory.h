@@ -6,6 +6,7 @@
 
 #include "common/base/timer.h"
 #include "common/config/job.h"
+#include "common/plan/effects.h"
 #include "coordinator/farm.h"
 #include "coordinator/pass_loop.h"
 
@@ -22,13 +23,13 @@ struct RunFacts {
     std::uint64_t fingerprint = 0;
 };
 
-/// The folder of one run: job.toml, log.txt, status.json, passes.csv, image.exr, preview.png, summary.json. Every file
-/// is replaced as a whole or appended to by lines, so that a reader never sees half of one. Throws RunError where a
-/// file cannot be written.
+/// The folder of one run: job.toml, plan.txt, plan.json, log.txt, status.json, passes.csv, image.exr, preview.png,
+/// summary.json. Every file is replaced as a whole or appended to by lines, so that a reader never sees half of one.
+/// Throws RunError where a file cannot be written.
 class RunDirectory {
   public:
-    /// Makes the folder (runs/<scene>-<time> if the job names none) and writes job.toml.
-    RunDirectory(const Job& job, const RunFacts& facts);
+    /// Makes the folder (runs/<scene>-<time> if the job names none) and writes job.toml, plan.txt and plan.json.
+    RunDirectory(const Job& job, const RunFacts& facts, const EffectPlan& plan);
 
     const std::filesystem::path& path() const { return path_; }
     std::filesystem::path log_file() const { return path_ / "log.txt"; }
@@ -48,6 +49,7 @@ class RunDirectory {
 
     const Job job_;
     const RunFacts facts_;
+    const std::vector<Approximation> approximations_;
     std::filesystem::path path_;
     std::string passes_csv_;
     double last_status_ = -1e9;

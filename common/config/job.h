@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <map>
+#include <set>
 #include <string>
 
 namespace treefarm {
@@ -49,6 +50,10 @@ struct Job {
         bool strict_normals = false;  ///< drop light that geometric and shading normal disagree about
         bool hide_emitters = false;   ///< the camera does not see emitters directly
     } integrator;
+
+    struct Effects {
+        std::set<std::string> off;  ///< forced off, a listed approximation: names of effect_switches.h
+    } effects;
 
     struct Guiding {
         GuidingType type = GuidingType::ppg;

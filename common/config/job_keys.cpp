@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "common/config/effect_switches.h"
 #include "common/config/parse_text.h"
 
 namespace treefarm {
@@ -124,6 +125,22 @@ JobKey single_value_key(const char* name, const char* doc, const char* only, std
     return key;
 }
 
+/// Forces an effect off.
+JobKey effect_key(const EffectSwitch& effect) {
+    const std::string name = effect.name;
+    return {kEffectsPrefix + name,
+            ValueKind::off_switch,
+            "\"auto\" or false",
+            "auto: as the scene calls for it; false: " + effect.replacement,
+            [name](Job& job, const std::string& text) {
+                if (text == "false") job.effects.off.insert(name);
+                if (text == "auto") job.effects.off.erase(name);
+                return text == "false" || text == "auto";
+            },
+            [name](const Job& job) { return std::string(job.effects.off.contains(name) ? "false" : "auto"); },
+            {}};
+}
+
 std::vector<JobKey> make_job_keys() {
     std::vector<JobKey> keys;
     const auto add = [&](JobKey key) { keys.push_back(std::move(key)); };
@@ -169,6 +186,9 @@ std::vector<JobKey> make_job_keys() {
     add(boolean_key(
         "integrator.hide_emitters", "the camera does not see emitters directly",
         [](auto& j) -> auto& { return j.integrator.hide_emitters; }));
+
+    for (const EffectSwitch& effect : effect_switches())
+        add(effect_key(effect));
 
     add(word_key(
         "guiding.type", "what guides paths; ppg: a tree learned from the passes before (Mueller et al. 2017)",

@@ -6,6 +6,7 @@
 #include <sstream>
 #include <string_view>
 
+#include "common/config/effect_switches.h"
 #include "common/config/job_keys.h"
 #include "common/config/parse_text.h"
 
@@ -33,6 +34,8 @@ bool is_section(const std::string& name) {
 [[noreturn]] void refuse_key(const std::string& name, const Location& where) {
     for (const auto& [key, cure] : unavailable_job_keys())
         if (key == name) throw InputError(where, name + " is not available in this version", cure);
+    for (const auto& [effect, cure] : effects_without_switch())
+        if (name == kEffectsPrefix + effect) throw InputError(where, name + " cannot be switched off by a key", cure);
     std::vector<std::string> names;
     for (const JobKey& key : job_keys())
         names.push_back(key.name);
@@ -80,6 +83,8 @@ std::string wanted_type_name(ValueKind kind) {
             return "a number";
         case ValueKind::boolean:
             return "true or false";
+        case ValueKind::off_switch:
+            return "false";
         case ValueKind::text:
             break;
     }
@@ -94,6 +99,8 @@ bool matches(const toml::node& node, ValueKind kind) {
             return node.is_number();
         case ValueKind::boolean:
             return node.is_boolean();
+        case ValueKind::off_switch:
+            return node.is_boolean() || node.is_string();
         case ValueKind::text:
             break;
     }
@@ -154,6 +161,9 @@ void apply_setting(Job& job, const std::string& key_name, const std::string& val
     }
     const JobKey& key = require_key(key_name, where);
     refuse_unavailable(key, value, where);
+    if (key.kind == ValueKind::off_switch && value == "true")
+        throw InputError(where, key.name + " cannot be forced on: it is on wherever the scene calls for it",
+                         "leave the key out; treefarm plan tells what is on and why");
     if (!key.parse(job, value))
         throw InputError(where, key.name + " = " + in_quotes(value) + " is not allowed", "allowed: " + key.range);
     if (key.name == "guiding.preset")
@@ -250,7 +260,8 @@ std::string write_job(const Job& job) {
         }
         begin_section(name);
         std::string value = key.print(job);
-        if (key.kind == ValueKind::text) value = toml_string(value);
+        const bool word = key.kind == ValueKind::text || (key.kind == ValueKind::off_switch && value != "false");
+        if (word) value = toml_string(value);
         // TOML tells numbers from integers by the point; reading takes both.
         text += key.name.substr(dot + 1) + " = " + value + "\n";
     }

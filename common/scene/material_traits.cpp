@@ -1,5 +1,7 @@
 #include "common/scene/material_traits.h"
 
+#include <functional>
+#include <set>
 #include <type_traits>
 
 namespace treefarm {
@@ -28,6 +30,8 @@ void add_roughness(const Roughness& roughness, bool transmits, MaterialTraits& t
     traits.anisotropic |= !(roughness.alpha_u == roughness.alpha_v);
     traits.textured |= roughness.alpha_u.varies() || roughness.alpha_v.varies();
 }
+
+}  // namespace
 
 MaterialTraits own_traits(const Material& material) {
     MaterialTraits traits;
@@ -66,8 +70,6 @@ MaterialTraits own_traits(const Material& material) {
     return traits;
 }
 
-}  // namespace
-
 Lobes& Lobes::operator|=(const Lobes& other) {
     diffuse |= other.diffuse;
     glossy_reflection |= other.glossy_reflection;
@@ -94,18 +96,18 @@ MaterialTraits& MaterialTraits::operator|=(const MaterialTraits& other) {
 }
 
 MaterialTraits material_traits(const Scene& scene, std::int32_t material) {
-    // Parts stand below what they are part of: one walk down visits each once, however they are shared.
-    const auto count = static_cast<std::size_t>(material) + 1;
-    std::vector<bool> reached(count, false);
-    reached[count - 1] = true;
     MaterialTraits traits;
-    for (std::size_t i = count; i-- > 0;) {
-        if (!reached[i]) continue;
-        MaterialTraits own = own_traits(scene.materials[i]);
-        if (i + 1 != count) own.masked = false;
+    // A part stands below what it is part of: taking the highest first visits each once, however they are shared.
+    std::set<std::int32_t, std::greater<>> reached = {material};
+    while (!reached.empty()) {
+        const std::int32_t index = *reached.begin();
+        reached.erase(reached.begin());
+        const Material& description = scene.materials[static_cast<std::size_t>(index)];
+        MaterialTraits own = own_traits(description);
+        own.masked = own.masked && index == material;
         traits |= own;
-        for (const std::int32_t part : parts_of(scene.materials[i]).index)
-            if (part != kNone) reached[static_cast<std::size_t>(part)] = true;
+        for (const std::int32_t part : parts_of(description).index)
+            if (part != kNone) reached.insert(part);
     }
     return traits;
 }

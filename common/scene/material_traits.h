@@ -48,6 +48,9 @@ struct MaterialTraits {
 /// count, masks do not: they are the shape's own material's.
 MaterialTraits material_traits(const Scene& scene, std::int32_t material);
 
+/// Traits of a material alone, without what it is made of.
+MaterialTraits own_traits(const Material& material);
+
 /// The union over the materials that shapes use.
 MaterialTraits scene_traits(const Scene& scene);
 

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <utility>
+
+namespace treefarm {
+
+/// Job keys that switch an effect off stand below this: "effects.bump".
+inline constexpr char kEffectsPrefix[] = "effects.";
+
+/// An effect that a job can force off.
+struct EffectSwitch {
+    std::string name;         ///< "bump"
+    std::string replacement;  ///< what the image shows in its place
+};
+
+/// All of them, in the order of job.toml.
+std::span<const EffectSwitch> effect_switches();
+
+/// Effects that have no switch: name and what to do instead.
+std::span<const std::pair<std::string, std::string>> effects_without_switch();
+
+}  // namespace treefarm

@@ -1,0 +1,193 @@
+#include "common/plan/approximation.h"
+
+#include <cmath>
+#include <functional>
+#include <map>
+
+#include "common/config/effect_switches.h"
+#include "common/plan/strip_scene.h"
+#include "common/plan/texture_mean.h"
+#include "common/plan/texture_uses.h"
+#include "common/scene/material_traits.h"
+
+namespace treefarm {
+namespace {
+
+/// Takes effects out of a scene and notes where they stood. Materials that no shape uses are left as they are: they
+/// are not simulated anyway.
+class Remover {
+  public:
+    explicit Remover(Scene& scene) : scene_(scene), used_(used_materials(scene)) {}
+
+    int uses() const { return uses_; }
+    const Location& where() const { return where_; }
+
+    void textures() {
+        for_used([&](Material& material) {
+            for_each_input(material, [&](auto& input) {
+                if (!input.varies()) return;
+                note(scene_.textures[static_cast<std::size_t>(input.texture)].where);
+                flatten(input);
+            });
+        });
+    }
+
+    void masks() {
+        for (const Shape& shape : scene_.shapes) {
+            if (shape.material == kNone) continue;
+            Material& material = scene_.materials[static_cast<std::size_t>(shape.material)];
+            if (!material.masked()) continue;
+            note(material.where);
+            material.opacity = 1.0f;
+        }
+    }
+
+    void bump() {
+        for_used([&](Material& material) {
+            if (material.detail.bump == kNone) return;
+            note(material.where);
+            material.detail.bump = kNone;
+        });
+    }
+
+    void normal_maps() {
+        for_used([&](Material& material) {
+            if (material.detail.normal_map == kNone) return;
+            note(material.where);
+            material.detail.normal_map = kNone;
+        });
+    }
+
+    void transmission() {
+        for_used([&](Material& material) {
+            const auto reflect_only = [&](float eta, const ColorInput& reflectance, const Roughness& roughness) {
+                note(material.where);
+                PlasticMaterial coat;  // over black: what a dielectric reflects of what comes from outside
+                coat.eta = eta < 1.0f ? 1.0f / eta : eta;
+                coat.diffuse_reflectance = Rgb(0.0f);
+                coat.specular_reflectance = reflectance;
+                coat.roughness = roughness;
+                coat.roughness.alpha_v = coat.roughness.alpha_u;
+                material.bsdf = coat;
+            };
+            if (const auto* glass = std::get_if<DielectricMaterial>(&material.bsdf)) {
+                const DielectricMaterial copy = *glass;
+                reflect_only(copy.eta, copy.specular_reflectance, copy.roughness);
+            } else if (const auto* pane = std::get_if<ThinDielectricMaterial>(&material.bsdf)) {
+                const ThinDielectricMaterial copy = *pane;
+                reflect_only(copy.eta, copy.specular_reflectance, Roughness{});
+            }
+        });
+    }
+
+    void anisotropy() {
+        for_used([&](Material& material) {
+            const auto make_isotropic = [&](Roughness& roughness) {
+                if (roughness.smooth() || roughness.alpha_u == roughness.alpha_v) return;
+                note(material.where);
+                if (!roughness.alpha_u.varies() && !roughness.alpha_v.varies())
+                    roughness.alpha_u = std::sqrt(roughness.alpha_u.value * roughness.alpha_v.value);
+                roughness.alpha_v = roughness.alpha_u;
+            };
+            if (auto* conductor = std::get_if<ConductorMaterial>(&material.bsdf)) make_isotropic(conductor->roughness);
+            if (auto* glass = std::get_if<DielectricMaterial>(&material.bsdf)) make_isotropic(glass->roughness);
+        });
+    }
+
+    void textured_area() {
+        for (Emitter& emitter : scene_.emitters) {
+            auto* area = std::get_if<AreaEmitter>(&emitter.kind);
+            if (!area || !area->radiance.varies()) continue;
+            note(emitter.where);
+            flatten(area->radiance);
+        }
+    }
+
+    void delta_lights() {
+        remove_emitters([](const Emitter& emitter) {
+            return std::holds_alternative<PointEmitter>(emitter.kind) ||
+                   std::holds_alternative<SpotEmitter>(emitter.kind) ||
+                   std::holds_alternative<DirectionalEmitter>(emitter.kind);
+        });
+    }
+
+    void environment() {
+        remove_emitters([](const Emitter& emitter) {
+            return std::holds_alternative<ConstantEmitter>(emitter.kind) ||
+                   std::holds_alternative<EnvironmentEmitter>(emitter.kind);
+        });
+    }
+
+    void lens() {
+        if (!scene_.camera.has_lens()) return;
+        note({});
+        scene_.camera.lens_u = scene_.camera.lens_v = Vec3(0.0f);
+    }
+
+  private:
+    void note(const Location& where) {
+        if (uses_++ == 0) where_ = where;
+    }
+
+    template <class F>
+    void for_used(F&& f) {
+        for (std::size_t i = 0; i < scene_.materials.size(); ++i)
+            if (used_[i]) f(scene_.materials[i]);
+    }
+
+    void flatten(ColorInput& input) { input = ColorInput(input.value * texture_mean(scene_, input.texture)); }
+    void flatten(FloatInput& input) { input = FloatInput(input.value * average(texture_mean(scene_, input.texture))); }
+
+    template <class Test>
+    void remove_emitters(Test&& test) {
+        std::vector<Emitter> kept;
+        for (Emitter& emitter : scene_.emitters) {
+            if (test(emitter)) {
+                note(emitter.where);
+                continue;
+            }
+            if (const auto* area = std::get_if<AreaEmitter>(&emitter.kind); area && area->shape != kNone)
+                scene_.shapes[static_cast<std::size_t>(area->shape)].emitter = static_cast<std::int32_t>(kept.size());
+            kept.push_back(std::move(emitter));
+        }
+        scene_.emitters = std::move(kept);
+    }
+
+    Scene& scene_;
+    const std::vector<bool> used_;
+    int uses_ = 0;
+    Location where_;
+};
+
+using Removal = void (Remover::*)();
+
+Removal removal_of(const std::string& effect) {
+    static const std::map<std::string, Removal> removals = {{"textures", &Remover::textures},
+                                                            {"masks", &Remover::masks},
+                                                            {"bump", &Remover::bump},
+                                                            {"normal_maps", &Remover::normal_maps},
+                                                            {"transmission", &Remover::transmission},
+                                                            {"anisotropy", &Remover::anisotropy},
+                                                            {"textured_area", &Remover::textured_area},
+                                                            {"delta_lights", &Remover::delta_lights},
+                                                            {"environment", &Remover::environment},
+                                                            {"lens", &Remover::lens}};
+    return removals.at(effect);
+}
+
+}  // namespace
+
+std::vector<Approximation> switch_effects_off(Scene& scene, const Job& job) {
+    std::vector<Approximation> approximations;
+    for (const EffectSwitch& effect : effect_switches()) {
+        if (!job.effects.off.contains(effect.name)) continue;
+        Remover remover(scene);
+        (remover.*removal_of(effect.name))();
+        if (remover.uses() > 0)
+            approximations.push_back({effect.name, remover.uses(), remover.where(), effect.replacement});
+    }
+    strip_scene(scene);
+    return approximations;
+}
+
+}  // namespace treefarm

@@ -1,0 +1,121 @@
+#include "common/plan/effect_table.h"
+
+#include <vector>
+
+#include "common/config/effect_switches.h"
+
+namespace treefarm {
+namespace {
+
+std::vector<EffectDescription> make_table() {
+    const char* no_memory = "no memory";
+    return {
+        {"next_event", "light", "emitters are sampled directly at every surface that is hit",
+         "`integrator.next_event` is not never, and there are emitters",
+         "a choice and a shadow ray per vertex; tables: see the emitters"},
+        {"mis", "light", "next event and scattering are weighed against each other (Veach 1997)", "with next event",
+         "no memory; a density per vertex"},
+        {"kickstart", "light", "next event only in passes that start with fewer than 128 spp done",
+         "`integrator.next_event` is kickstart", no_memory},
+        {"area", "light", "surfaces that emit", "a shape has an emitter",
+         "128 bytes per emitter, 12 per emitting triangle"},
+        {"textured_area", "light", "emission that a texture varies", "an area emitter's radiance is a texture",
+         "a lookup where it is hit; the image counts with bitmaps"},
+        {"delta_lights", "light", "emitters that no ray can hit", "there are point, spot or directional emitters",
+         "128 bytes per emitter"},
+        {"point", "light", "a point that shines in all directions", "the scene has one", "with delta_lights"},
+        {"spot", "light", "a point that shines along a cone", "the scene has one", "with delta_lights"},
+        {"directional", "light", "parallel light", "the scene has one", "with delta_lights"},
+        {"environment", "light", "light from infinity", "there is a constant emitter or an environment map",
+         "see the two kinds"},
+        {"constant", "light", "the same radiance from everywhere", "the scene has one", "128 bytes"},
+        {"environment_map", "light", "an image around the scene, a sky model's among them", "the scene has one",
+         "its pixels, 8 bytes per pixel to sample it; a lookup per ray that leaves"},
+
+        {"diffuse", "materials", "Lambertian reflection", "a material has such a lobe", no_memory},
+        {"delta_reflection", "materials", "mirrors, smooth glass and coats", "a material has such a lobe", no_memory},
+        {"microfacets", "materials", "rough metal, glass and coats (Walter et al. 2007)", "a material is rough",
+         "no memory; sampling by visible normals"},
+        {"anisotropy", "materials", "roughness that differs along and across",
+         "a material's two roughnesses differ or are looked up apart", "tangents at every hit of a textured scene"},
+        {"transmission", "materials", "light passes through dielectrics, refracted or straight",
+         "a material is a dielectric, rough, smooth or thin", no_memory},
+        {"coats", "materials", "a diffuse base under a dielectric coat", "a material is plastic", no_memory},
+        {"blends", "materials", "two materials mixed", "a material is a blend", "both parts are evaluated"},
+        {"null", "materials", "surfaces that are not there", "a material is null", "a ray continues"},
+        {"twosided", "materials", "the back scatters, too", "a material is twosided", no_memory},
+        {"textures", "materials", "colours, weights and roughness that are looked up",
+         "a material that a shape uses names a texture", "8 bytes per vertex of the meshes that carry them"},
+        {"bitmaps", "materials", "images as textures, bump, normal maps or masks", "a texture in use is a bitmap",
+         "the images: 1 byte per channel and pixel, 4 for floats"},
+        {"checkerboards", "materials", "squares of two colours", "a texture in use is a checkerboard", no_memory},
+        {"bump", "materials", "shading normals tilted by a texture of displacements", "a material has a bump map",
+         "three lookups per vertex"},
+        {"normal_maps", "materials", "shading normals read from an image", "a material has a normal map",
+         "a lookup per vertex"},
+
+        {"masks", "shapes", "surfaces that are not met everywhere", "a shape's material has an opacity below 1",
+         "a call and a lookup for every surface that a ray may meet"},
+        {"triangles", "shapes", "meshes, rectangles and cubes", "a shape is a mesh",
+         "its arrays: 12 bytes per triangle, 12 to 32 per vertex; hierarchy: 90 bytes per triangle"},
+        {"smooth_normals", "shapes", "normals interpolated over triangles", "a mesh has normals",
+         "12 bytes per vertex"},
+        {"analytic_shapes", "shapes", "spheres, disks and cylinders without triangles", "a shape is one of them",
+         "1 KiB each"},
+        {"instances", "shapes", "groups of shapes placed several times", "a shape is an instance",
+         "1 KiB each; a second level of hierarchy"},
+
+        {"lens", "camera", "depth of field of a thin lens", "the sensor is a thin lens with an aperture",
+         "no memory; two random numbers per path"},
+        {"pixel_filter", "camera", "a tent or Gaussian filter, sampled", "the film's filter is not a box of one pixel",
+         no_memory},
+
+        {"guiding", "transport", "directions drawn from what earlier passes learned (Mueller et al. 2017)",
+         "`guiding.type` is ppg and there is more than one pass",
+         "560 bytes per region and 8 per cell; a lookup per vertex"},
+        {"recording", "transport", "paths teach the tree", "with guiding, in all passes but the last",
+         "21 bytes per cell and 22 per region; a record per vertex"},
+        {"roulette", "transport", "Russian roulette ends paths that carry little",
+         "paths may be longer than `integrator.rr_depth`", no_memory},
+        {"depth_limit", "transport", "paths end at a given length: light is lost", "`integrator.max_depth` is set",
+         no_memory},
+        {"strict_normals", "transport", "light that geometric and shading normal disagree about is dropped",
+         "`integrator.strict_normals`", no_memory},
+        {"hidden_emitters", "transport", "the camera does not see emitters", "`integrator.hide_emitters`", no_memory},
+
+        {"media", "never", "fog, smoke and clouds", "", "", false},
+        {"subsurface", "never", "light that wanders below surfaces", "", "", false},
+        {"motion", "never", "motion blur", "", "", false},
+        {"polarisation", "never", "polarised light", "", "", false},
+        {"dispersion", "never", "refraction by wavelength", "", "", false},
+    };
+}
+
+std::string switch_text(const EffectDescription& effect) {
+    for (const EffectSwitch& known : effect_switches())
+        if (known.name == effect.name) return "`effects." + effect.name + " = false`: " + known.replacement;
+    for (const auto& [name, cure] : effects_without_switch())
+        if (name == effect.name) return cure;
+    return "";
+}
+
+}  // namespace
+
+std::span<const EffectDescription> effect_table() {
+    static const std::vector<EffectDescription> table = make_table();
+    return table;
+}
+
+std::string effect_documentation() {
+    std::string text = "| effect | what it is | on when | cost | off by |\n|---|---|---|---|---|\n";
+    for (const EffectDescription& effect : effect_table())
+        if (effect.simulated)
+            text += "| `" + effect.name + "` | " + effect.what + " | " + effect.when + " | " + effect.cost + " | " +
+                    switch_text(effect) + " |\n";
+    text += "\nNever simulated:\n\n";
+    for (const EffectDescription& effect : effect_table())
+        if (!effect.simulated) text += "- `" + effect.name + "`: " + effect.what + "\n";
+    return text;
+}
+
+}  // namespace treefarm

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <span>
+#include <string>
+
+namespace treefarm {
+
+/// What an effect of the program is, for people: the rows of docs/effects.md.
+struct EffectDescription {
+    std::string name;   ///< "bump"
+    std::string group;  ///< "materials"
+    std::string what;   ///< one line
+    std::string when;   ///< when it is on
+    std::string cost;   ///< in memory and in time
+    bool simulated = true;
+};
+
+/// Every effect that the program knows, those that it never simulates last.
+std::span<const EffectDescription> effect_table();
+
+/// A Markdown table of all effects, for docs/effects.md.
+std::string effect_documentation();
+
+}  // namespace treefarm

@@ -1,0 +1,75 @@
+#include "common/plan/effects.h"
+
+#include <algorithm>
+
+#include "common/plan/effect_finder.h"
+#include "common/plan/effect_table.h"
+
+namespace treefarm {
+namespace {
+
+/// An effect that the edit of the scene has taken away says so, with the place that called for it.
+void tell_forced_off(Effect& after, const Effect& before, const std::vector<Approximation>& approximations) {
+    if (!before.on || after.on || approximations.empty()) return;
+    std::string by;
+    for (const Approximation& approximation : approximations) {
+        if (approximation.effect == after.name) {
+            by = approximation.effect;
+            break;
+        }
+        by += (by.empty() ? "" : ", effects.") + approximation.effect;
+    }
+    after.reason = "forced off by effects." + by + " = false; without that: " + before.reason;
+    after.where = before.where;
+}
+
+std::vector<std::string> warnings_of(const Scene& scene, const Job& job) {
+    std::vector<std::string> warnings;
+    const auto lights = std::count_if(scene.emitters.begin(), scene.emitters.end(), is_delta_light);
+    if (lights > 0 && job.integrator.next_event != NextEvent::always)
+        warnings.push_back(std::to_string(lights) +
+                           " point, spot or directional emitters light passes with next event only: set "
+                           "integrator.next_event = \"always\"");
+    return warnings;
+}
+
+}  // namespace
+
+std::vector<Effect> find_effects(const Scene& scene, const Job& job) {
+    EffectFinder finder(scene, job);
+    std::vector<Effect> effects;
+    for (const EffectDescription& description : effect_table()) {
+        Effect effect = finder.find(description.name);
+        effect.name = description.name;
+        effect.group = description.group;
+        if (!effect.on) effect.bytes = 0;
+        effects.push_back(std::move(effect));
+    }
+    return effects;
+}
+
+const Effect* EffectPlan::find(const std::string& name) const {
+    const auto found = std::find_if(effects.begin(), effects.end(), [&](const Effect& e) { return e.name == name; });
+    return found == effects.end() ? nullptr : &*found;
+}
+
+EffectPlan plan_effects(Scene& scene, const Job& job) {
+    EffectPlan plan;
+    const std::vector<Effect> asked = find_effects(scene, job);
+    plan.approximations = switch_effects_off(scene, job);
+    plan.effects = find_effects(scene, job);
+    for (std::size_t i = 0; i < asked.size(); ++i)
+        tell_forced_off(plan.effects[i], asked[i], plan.approximations);
+    const std::vector<PassPlan> passes = plan_passes(job);
+    plan.width = scene.film.width;
+    plan.height = scene.film.height;
+    plan.spp = passes.back().first_sample + passes.back().spp;
+    plan.pass_count = passes.size();
+    plan.triangles = scene.triangle_count();
+    plan.kernels = kernels_of(scene, job);
+    plan.memory = expected_memory(scene, job);
+    plan.warnings = warnings_of(scene, job);
+    return plan;
+}
+
+}  // namespace treefarm

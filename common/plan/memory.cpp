@@ -1,0 +1,134 @@
+#include "common/plan/memory.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include "common/film/pixel_estimate.h"
+#include "common/plan/schedule.h"
+#include "common/plan/texture_mean.h"
+
+namespace treefarm {
+namespace {
+
+constexpr double kVerticesPerPath = 4.0;
+
+/// Sampling form of a cell, and its two sums (docs/guiding.md).
+constexpr std::uint64_t kGuideBytesPerCell = 8;
+constexpr std::uint64_t kGuideBytesPerRegion = 2 * 65 * 4 + 40;
+constexpr std::uint64_t kSumBytes = 8;
+constexpr std::uint64_t kPlainTreeBytesPerCell = 5;
+constexpr std::uint64_t kPlainTreeBytesPerRegion = 2 * 8 + 6;
+
+std::uint64_t pixel_count(const Scene& scene) {
+    return static_cast<std::uint64_t>(scene.film.width) * static_cast<std::uint64_t>(scene.film.height);
+}
+
+std::uint64_t total(const std::vector<MemoryItem>& items) {
+    std::uint64_t bytes = 0;
+    for (const MemoryItem& item : items)
+        bytes += item.bytes;
+    return bytes;
+}
+
+std::string count_text(std::uint64_t count, const char* what) {
+    return std::to_string(count) + " " + what;
+}
+
+std::uint64_t geometry_bytes(const Scene& scene) {
+    std::uint64_t bytes = scene.shapes.size() * sizeof(Shape);
+    for (const Shape& shape : scene.shapes)
+        if (const auto* mesh = std::get_if<Mesh>(&shape.geometry)) bytes += mesh_bytes(*mesh);
+    return bytes;
+}
+
+std::uint64_t texture_bytes(const Scene& scene) {
+    std::uint64_t bytes = scene.textures.size() * sizeof(Texture);
+    for (const TextureImage& image : scene.images)
+        bytes += image_bytes(image);
+    return bytes;
+}
+
+std::uint64_t emitters_bytes(const Scene& scene) {
+    std::uint64_t bytes = 0;
+    for (const Emitter& emitter : scene.emitters)
+        bytes += kEmitterBytes + emitter_table_bytes(scene, emitter);
+    return bytes;
+}
+
+}  // namespace
+
+std::uint64_t mesh_bytes(const Mesh& mesh) {
+    return mesh.positions.size() * sizeof(Vec3) + mesh.normals.size() * sizeof(Vec3) + mesh.uvs.size() * sizeof(Vec2) +
+           mesh.indices.size() * sizeof(std::uint32_t);
+}
+
+std::uint64_t emitter_table_bytes(const Scene& scene, const Emitter& emitter) {
+    if (const auto* area = std::get_if<AreaEmitter>(&emitter.kind); area && area->shape != kNone) {
+        const auto* mesh = std::get_if<Mesh>(&scene.shapes[static_cast<std::size_t>(area->shape)].geometry);
+        return mesh ? 12 * mesh->triangle_count() : 0;
+    }
+    if (const auto* environment = std::get_if<EnvironmentEmitter>(&emitter.kind)) {
+        const TextureImage& image = scene.images[static_cast<std::size_t>(environment->image)];
+        return 8 * static_cast<std::uint64_t>(image.width) * static_cast<std::uint64_t>(image.height);
+    }
+    return 0;
+}
+
+std::uint64_t TreeSize::guide_bytes() const {
+    return regions * kGuideBytesPerRegion + cells * kGuideBytesPerCell;
+}
+
+std::uint64_t TreeSize::sum_bytes() const {
+    return regions * kPlainTreeBytesPerRegion + cells * (kPlainTreeBytesPerCell + kSumBytes);
+}
+
+std::uint64_t MemoryPlan::worker_bytes() const {
+    return total(worker);
+}
+
+std::uint64_t MemoryPlan::coordinator_bytes() const {
+    return total(coordinator);
+}
+
+TreeSize expected_tree(const Scene& scene, const Job& job) {
+    if (job.guiding.type == GuidingType::none) return {};
+    const std::vector<PassPlan> passes = plan_passes(job);
+    double regions = 1.0;
+    for (std::size_t k = 0; k + 1 < passes.size(); ++k) {
+        const double vertices = kVerticesPerPath * static_cast<double>(pixel_count(scene)) * passes[k].spp;
+        // Halving ends between half the threshold and all of it.
+        regions = std::max(regions, vertices / (0.75 * spatial_split_threshold(job, passes[k + 1])));
+    }
+    const double cells = regions / static_cast<double>(job.guiding.directional_threshold);
+    return {static_cast<std::uint64_t>(regions), static_cast<std::uint64_t>(cells)};
+}
+
+MemoryPlan expected_memory(const Scene& scene, const Job& job) {
+    const std::uint64_t pixels = pixel_count(scene), triangles = scene.triangle_count();
+    const std::uint64_t passes = plan_passes(job).size();
+    std::uint64_t objects = 0;
+    for (const Shape& shape : scene.shapes)
+        objects += std::holds_alternative<Mesh>(shape.geometry) ? 0 : 1;
+    const TreeSize tree = expected_tree(scene, job);
+    const std::string tree_text = count_text(tree.regions, "regions, ") + count_text(tree.cells, "cells");
+
+    MemoryPlan plan;
+    plan.worker.push_back({"geometry", geometry_bytes(scene), count_text(triangles, "triangles, as arrays")});
+    plan.worker.push_back({"hierarchy", kHierarchyBytesPerTriangle * triangles + kHierarchyBytesPerObject * objects,
+                           count_text(kHierarchyBytesPerTriangle, "bytes per triangle, ") +
+                               count_text(kHierarchyBytesPerObject, "per other shape")});
+    plan.worker.push_back(
+        {"materials", scene.materials.size() * sizeof(Material), count_text(scene.materials.size(), "materials")});
+    plan.worker.push_back({"textures", texture_bytes(scene), count_text(scene.images.size(), "images")});
+    plan.worker.push_back({"emitters", emitters_bytes(scene), count_text(scene.emitters.size(), "emitters")});
+    plan.worker.push_back({"tree", tree.guide_bytes() + tree.sum_bytes(), tree_text});
+    const std::uint64_t scene_bytes = geometry_bytes(scene) + texture_bytes(scene);
+    plan.coordinator.push_back({"scene", 2 * scene_bytes, "as values and packed for workers"});
+    plan.coordinator.push_back({"film", pixels * ((passes + 1) * sizeof(PixelEstimate) + 4 * sizeof(Rgb64)),
+                                count_text(pixels, "pixels, ") + count_text(passes, "passes")});
+    plan.coordinator.push_back({"tree", 2 * tree.sum_bytes(), tree_text + ", before and after refinement"});
+    return plan;
+}
+
+}  // namespace treefarm

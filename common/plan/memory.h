@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "common/config/job.h"
+#include "common/scene/scene.h"
+
+namespace treefarm {
+
+/// Bytes that one kind of data is expected to take.
+struct MemoryItem {
+    std::string name;
+    std::uint64_t bytes = 0;
+    std::string formula;  ///< one line: how the figure comes about
+};
+
+struct MemoryPlan {
+    std::vector<MemoryItem> worker;       ///< of one worker process, whatever its threads
+    std::vector<MemoryItem> coordinator;  ///< beside its packed copy of the scene, none of it grows with workers
+
+    std::uint64_t worker_bytes() const;
+    std::uint64_t coordinator_bytes() const;
+};
+
+/// What an SD-tree is expected to have after the last pass that records.
+struct TreeSize {
+    std::uint64_t regions = 0, cells = 0;
+
+    std::uint64_t guide_bytes() const;  ///< the form that workers sample from
+    std::uint64_t sum_bytes() const;    ///< the plain form and the sums of what is recorded
+};
+
+/// What an emitter takes beside its table.
+inline constexpr std::uint64_t kEmitterBytes = 128;
+/// Embree's hierarchy over triangles, and over other shapes with their geometry objects.
+inline constexpr std::uint64_t kHierarchyBytesPerTriangle = 90;
+inline constexpr std::uint64_t kHierarchyBytesPerObject = 1024;
+
+/// Bytes of the arrays of a mesh.
+std::uint64_t mesh_bytes(const Mesh& mesh);
+
+/// Bytes of the table by which an emitter is sampled: per triangle a bound and a density, per texel of an environment
+/// map a bound.
+std::uint64_t emitter_table_bytes(const Scene& scene, const Emitter& emitter);
+
+/// Expected size of the tree: a region holds about as many vertices as its splitting threshold asks for. A path is
+/// counted as four vertices, a region's quadtree as 1 / directional_threshold cells. 0 without guiding.
+TreeSize expected_tree(const Scene& scene, const Job& job);
+
+/// Memory of the data of a render as formulas of scene and job. Program, libraries, MPI's buffers and the peak while
+/// Embree builds come on top.
+MemoryPlan expected_memory(const Scene& scene, const Job& job);
+
+}  // namespace treefarm

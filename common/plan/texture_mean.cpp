@@ -1,0 +1,34 @@
+#include "common/plan/texture_mean.h"
+
+namespace treefarm {
+namespace {
+
+Rgb image_mean(const TextureImage& image) {
+    double sum[3] = {0, 0, 0};
+    const std::size_t count = image.bytes.empty() ? image.floats.size() : image.bytes.size();
+    const auto channels = static_cast<std::size_t>(image.channels);
+    for (std::size_t i = 0; i < count; ++i)
+        sum[i % channels] += double(image.bytes.empty() ? image.floats[i] : image.decode[image.bytes[i]]);
+    Rgb mean(0.0f);
+    for (std::size_t c = 0; c < 3 && count > 0; ++c)
+        mean[static_cast<int>(c)] =
+            static_cast<float>(sum[channels == 1 ? 0 : c] * static_cast<double>(channels) / static_cast<double>(count));
+    return mean;
+}
+
+}  // namespace
+
+Rgb texture_mean(const Scene& scene, std::int32_t texture) {
+    const Texture& described = scene.textures[static_cast<std::size_t>(texture)];
+    if (const auto* squares = std::get_if<CheckerboardTexture>(&described.kind))
+        return (squares->color0 + squares->color1) * 0.5f;
+    const auto& bitmap = std::get<BitmapTexture>(described.kind);
+    return image_mean(scene.images[static_cast<std::size_t>(bitmap.image)]);
+}
+
+std::size_t image_bytes(const TextureImage& image) {
+    const std::size_t table = image.bytes.empty() ? 0 : sizeof image.decode;
+    return image.bytes.size() + image.floats.size() * sizeof(float) + table;
+}
+
+}  // namespace treefarm
