@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -7,7 +8,8 @@
 #include "common/scene/scene.h"
 #include "worker/integrator/camera_rays.h"
 #include "worker/lights/emitters.h"
-#include "worker/shading/bsdf.h"
+#include "worker/shading/material_set.h"
+#include "worker/shading/plain_diffuse.h"
 
 namespace treefarm {
 
@@ -22,7 +24,10 @@ class TraceScene {
     const CameraRays& camera() const { return camera_; }
     const TextureSet& textures() const { return textures_; }
     const Film& film() const { return film_; }
-    const Bsdf& bsdf(std::uint32_t shape) const { return bsdfs_[shape]; }
+    /// Whether plain_diffuse() holds every material; otherwise materials() does.
+    bool plainly_diffuse() const { return !materials_; }
+    const PlainDiffuse& plain_diffuse(std::uint32_t shape) const { return plain_diffuse_[shape]; }
+    const MaterialSet& materials() const { return *materials_; }
 
   private:
     /// `opacity` as in ShapeMasks. Takes the scene apart.
@@ -30,9 +35,10 @@ class TraceScene {
 
     Film film_;
     CameraRays camera_;
-    std::vector<Bsdf> bsdfs_;  ///< per shape
     Box3 bounds_;
     TextureSet textures_;
+    std::vector<PlainDiffuse> plain_diffuse_;  ///< per shape
+    std::optional<MaterialSet> materials_;
     EmbreeScene geometry_;
     Emitters emitters_;
 };
