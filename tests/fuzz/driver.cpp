@@ -80,8 +80,9 @@ class Mutator {
     }
 
     void mutate(std::string& input) {
-        static const char* const words[] = {"nan",        "inf",        "-1",          "0",      "1e999", "-",
-                                            "4294967295", "2147483648", "99999999999", "1e-320", "/",     "<"};
+        static const char* const words[] = {"nan",    "inf",        "-1",        "0",          "1e999",
+                                            "-",      "4294967295", "100000000", "2147483648", "99999999999",
+                                            "1e-320", "/",          "<"};
         static const std::uint64_t numbers[] = {0,          1,          0x7f,       0x80,       0xff,
                                                 0xffff,     0x7fffffff, 0x80000000, 0xffffffff, 0x7f800000,
                                                 0x7fc00000, 1u << 20,   1u << 28,   ~0ull,      1ull << 62};

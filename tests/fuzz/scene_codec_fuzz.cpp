@@ -11,6 +11,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         const Scene scene = decode_scene({data, size});
         // One scene has one byte form, and what was read can be walked.
         if (encode_scene(scene) != Bytes(data, data + size)) std::abort();
+        for (const Shape& shape : scene.shapes)
+            if (const auto* mesh = std::get_if<Mesh>(&shape.geometry))
+                for (const std::uint32_t index : mesh->indices)
+                    if (index >= mesh->positions.size()) std::abort();
         scene.bounds();
         scene.radiance_scale();
     } catch (const FormatError&) {
