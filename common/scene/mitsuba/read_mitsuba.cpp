@@ -52,6 +52,7 @@ SceneReading read_mitsuba(const std::filesystem::path& path, const std::map<std:
         read_integrator(*integrator, reading.settings, document, diagnostics);
 
     MaterialReader materials(scene, document, diagnostics);
+    root.children("texture");  // read where they are referred to
     for (const Child& bsdf : root.children("bsdf"))
         materials.read(*bsdf.object);
     for (const Child& shape : root.children("shape"))
