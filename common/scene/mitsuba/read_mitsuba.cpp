@@ -27,6 +27,7 @@ SceneReading read_mitsuba(const std::filesystem::path& path, const std::map<std:
         read_integrator(*integrator, reading.settings, document, diagnostics);
 
     MaterialReader materials(scene, document, diagnostics);
+    root.children("texture");  // read where they are referred to
     for (const Child& bsdf : root.children("bsdf"))
         materials.read(*bsdf.object);
     ShapeReader shapes(scene, materials, document, diagnostics);

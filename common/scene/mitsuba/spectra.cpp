@@ -5,7 +5,9 @@
 #include <optional>
 
 #include "common/config/parse_text.h"
+#include "common/scene/mitsuba/blackbody.h"
 #include "common/scene/mitsuba/cie_1931.h"
+#include "common/scene/mitsuba/spectrum_file.h"
 #include "common/scene/mitsuba/values.h"
 
 namespace treefarm::mitsuba {
@@ -89,16 +91,18 @@ Rgb64 parse_triple(const XmlElement& element) {
     return {values[0], values[1], values[2]};
 }
 
+/// Colour of a list of wavelengths, as the version of Mitsuba that the file is written for computes it.
+Rgb64 color_of_list(const SpectrumSamples& samples, const XmlElement& element, ColorUse use) {
+    if (element.is_0_5) return spectrum_to_rgb(reverse_segments(extend_to_zero(samples)), false);
+    if (element.version == 0) return spectrum_to_rgb(extend_to_zero(samples), false);
+    return spectrum_to_rgb(samples, element.version >= 3 && use != ColorUse::radiance);
+}
+
 Rgb64 read_spectrum(const XmlElement& element, ColorUse use) {
     const std::string& text = element.require("value");
     const std::vector<std::string_view> tokens = split_list(text);
     if (tokens.empty()) throw InputError(element.where, "<spectrum> is empty", "give a value");
-    if (text.find(':') != std::string::npos) {
-        const SpectrumSamples samples = parse_list(tokens, element.where);
-        if (element.is_0_5) return spectrum_to_rgb(reverse_segments(extend_to_zero(samples)), false);
-        if (element.version == 0) return spectrum_to_rgb(extend_to_zero(samples), false);
-        return spectrum_to_rgb(samples, element.version >= 3 && use != ColorUse::radiance);
-    }
+    if (text.find(':') != std::string::npos) return color_of_list(parse_list(tokens, element.where), element, use);
     const std::vector<double> values = numbers_of(text, element.where);
     if (values.size() == 3 && element.version == 0) return {values[0], values[1], values[2]};
     if (values.size() != 1)
@@ -160,26 +164,35 @@ Imath::Color3<double> spectrum_to_rgb(const SpectrumSamples& samples, bool under
 
 Rgb read_color(const XmlElement& element, ColorUse use, Diagnostics& diagnostics) {
     Rgb64 color;
-    if (element.tag == "spectrum") {
+    bool of_list = false;
+    if (element.tag == "spectrum" && element.find("filename")) {
+        element.allow_attributes({"name", "filename"});
+        const std::filesystem::path scene_file = element.where.file;
+        color = color_of_list(read_spectrum_file(scene_file.parent_path() / element.require("filename"), element.where),
+                              element, use);
+        of_list = true;
+    } else if (element.tag == "spectrum") {
         element.allow_attributes({"name", "value", "intent"});
         color = read_spectrum(element, use);
-        const bool of_list = element.require("value").find(':') != std::string::npos;
-        if (of_list) {
-            for (int i = 0; i < 3; ++i)
-                color[i] = std::max(color[i], 0.0);
-            const double largest = std::max({color.x, color.y, color.z});
-            if (use == ColorUse::reflectance && largest > 1.0) {
-                diagnostics.warn(element.where,
-                                 "the spectrum's colour exceeds 1 in a channel and was scaled down to it");
-                color /= largest;
-            }
-        }
+        of_list = element.require("value").find(':') != std::string::npos;
+    } else if (element.tag == "blackbody") {
+        color = read_blackbody(element);
+        of_list = true;
     } else {
         element.allow_attributes({"name", "value", "intent"});
         color = parse_triple(element);
         if (element.tag == "srgb")
             for (int i = 0; i < 3; ++i)
                 color[i] = srgb_to_linear(color[i]);
+    }
+    if (of_list) {
+        for (int i = 0; i < 3; ++i)
+            color[i] = std::max(color[i], 0.0);
+        const double largest = std::max({color.x, color.y, color.z});
+        if (use == ColorUse::reflectance && largest > 1.0) {
+            diagnostics.warn(element.where, "the spectrum's colour exceeds 1 in a channel and was scaled down to it");
+            color /= largest;
+        }
     }
     const double limit = use == ColorUse::reflectance ? 1.0 : std::numeric_limits<float>::max();
     for (int i = 0; i < 3; ++i) {

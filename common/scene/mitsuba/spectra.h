@@ -31,8 +31,8 @@ Imath::Color3<double> xyz_to_rgb(double x, double y, double z);
 /// Linear value of an sRGB channel (IEC 61966-2-1).
 double srgb_to_linear(double encoded);
 
-/// The colour of an <rgb>, <srgb> or <spectrum> element, not negative. Wavelength lists become Rgb as the version of
-/// Mitsuba that the file is written for does it when it renders in RGB.
+/// The colour of an <rgb>, <srgb>, <spectrum> (value or file) or <blackbody> element, not negative. Wavelength lists
+/// become Rgb as the version of Mitsuba that the file is written for does it when it renders in RGB.
 Rgb read_color(const XmlElement& element, ColorUse use, Diagnostics& diagnostics);
 
 }  // namespace treefarm::mitsuba
