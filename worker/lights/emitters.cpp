@@ -96,9 +96,13 @@ Rgb Emitters::textured(const AreaLight& light, const Hit& hit) const {
 DirectSample Emitters::sample_direct(const Vec3& p, const Draw& random) const {
     if (selection_.empty()) return {};
     const std::uint32_t chosen = selection_.pick(random[0]);
+    if (chosen < area_lights_.size() && area_lights_[chosen].plain) return sample_mesh(area_lights_[chosen], p, random);
+    return sample_other(chosen, p, random);
+}
+
+DirectSample Emitters::sample_other(std::uint32_t chosen, const Vec3& p, const Draw& random) const {
     if (chosen >= area_lights_.size()) return sample_without_area(chosen, p, random);
     const AreaLight& light = area_lights_[chosen];
-    if (light.plain) return sample_mesh(light, p, random);
     DirectSample sample = light.sphere ? sample_sphere(light, p, random) : sample_area(light, p, random);
     if (is_black(sample.radiance)) return sample;
     if (light.texture != kNone) sample.radiance = textured(light, sample.on_light);
@@ -111,7 +115,7 @@ DirectSample Emitters::sample_mesh(const AreaLight& light, const Vec3& p, const 
     const std::uint32_t triangle = light.triangles.pick(random[1]);
     const Vec2 b = square_to_triangle({to_unit(random[2]), to_unit(random[3])});
     DirectSample sample;
-    sample.on_light = geometry_->triangle_point(light.shape, triangle, b.x, b.y);
+    geometry_->set_triangle_point(sample.on_light, light.shape, triangle, b.x, b.y);
     look_at(sample, p, light.radiance, light.selection, light.area_density[triangle]);
     return sample;
 }
