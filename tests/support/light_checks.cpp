@@ -15,13 +15,14 @@ constexpr double kSignificance = 1e-4;
 
 }  // namespace
 
-void expect_light_distribution(const Scene& scene, const Vec3& p, const std::string& what) {
+void expect_light_distribution(const Scene& scene, const Vec3& p, const std::string& what, float min_cosine) {
     const TraceScene lights(scene, Job());
     const auto sample = [&](std::uint32_t i, Vec3& d) {
         const DirectSample s = lights.emitters().sample_direct(p, draw({3, i, 0}, 1, Stream::light));
         d = s.wi;
         if (!(s.pdf > 0.0f) || is_black(s.radiance)) return false;
         if (s.to_environment()) return !lights.geometry().occluded({p, s.wi});
+        if (-dot(s.on_light.ng, s.wi) < min_cosine) return false;
         Hit hit;
         return lights.geometry().intersect({p, s.wi, s.distance * 0.999f}, hit) == false ||
                hit.shape == s.on_light.shape;
@@ -30,6 +31,7 @@ void expect_light_distribution(const Scene& scene, const Vec3& p, const std::str
         Hit hit;
         if (!lights.geometry().intersect({p, d}, hit))
             return is_black(lights.emitters().environment(d)) ? 0.0 : lights.emitters().pdf_environment(d);
+        if (-dot(hit.ng, d) < min_cosine) return 0.0;
         return is_black(lights.emitters().emitted(hit, -d)) ? 0.0 : lights.emitters().pdf_direct(p, d, hit);
     };
     const auto result = test_directions(sample, density, 200000, 16, 96);

@@ -100,10 +100,11 @@ TEST(Instances, AreHitLikeTheFlattenedMeshes) {
         ASSERT_EQ(placed.shape(a.shape).name, "member");
         ASSERT_EQ(placed.shape(a.instance - 1).name, "instance");
         ASSERT_LT((a.ng - b.ng).length(), 1e-4f);
-        ASSERT_LT((a.ns - b.ns).length(), 1e-4f);
-        ASSERT_LT((placed.uv(a) - flat.uv(b)).length(), 1e-3f);
+        // Uneven scales do not commute with interpolation: between vertices the two shade a little differently.
+        ASSERT_LT((a.ns - b.ns).length(), a.instance == 4 ? 1e-4f : 0.02f);
         const SurfaceDetail da = placed.detail(a), db = flat.detail(b);
         if ((b.shape & 1) == 1) {  // the textured member; corners are exchanged in mirrored bare meshes
+            ASSERT_LT((placed.uv(a) - flat.uv(b)).length(), 1e-3f);
             ASSERT_LT((da.dp_du - db.dp_du).length(), 1e-3f * db.dp_du.length());
             ASSERT_LT((da.dp_dv - db.dp_dv).length(), 1e-3f * db.dp_dv.length());
         }

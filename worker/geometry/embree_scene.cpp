@@ -130,12 +130,14 @@ Hit EmbreeScene::cylinder_point(std::uint32_t shape, float along, const Vec3& ou
     return hit;
 }
 
-/// Away from the centre or axis, in the shape's own space: what the normal at the hit was made of.
+/// Away from the centre of a sphere or the axis of a cylinder, in the shape's own space: what the normal at the hit was
+/// made of. Other shapes have no use for it.
 Vec3 EmbreeScene::outward(const Hit& hit) const {
-    const Vec3 n = hit.instance ? placements_[surfaces_[hit.instance - 1].placement].normal_to_local(hit.ng) : hit.ng;
     const auto* sphere = std::get_if<Sphere>(&shapes_[hit.shape].geometry);
     const auto* cylinder = std::get_if<Cylinder>(&shapes_[hit.shape].geometry);
-    return (sphere && sphere->flip_normals) || (cylinder && cylinder->flip_normals) ? -n : n;
+    if (!sphere && !cylinder) return Vec3(0.0f);
+    const Vec3 n = hit.instance ? placements_[surfaces_[hit.instance - 1].placement].normal_to_local(hit.ng) : hit.ng;
+    return (sphere ? sphere->flip_normals : cylinder->flip_normals) ? -n : n;
 }
 
 Vec2 EmbreeScene::uv(const Hit& hit) const {

@@ -71,6 +71,7 @@ double Emitters::add_area_light(const AreaEmitter& emitter) {
     light.shape = static_cast<std::uint32_t>(emitter.shape);
     light.sphere = geometry_->sphere(light.shape);
     light.mask = geometry_->mask(light.shape);
+    light.by_cone = light.sphere && !(light.mask && light.sphere->flip_normals);
     if (light.texture != kNone && !textures_) throw RunError("an emitter has a texture, but there are no textures");
     const std::vector<double> areas = part_areas(*geometry_, light.shape);
     const double area = std::accumulate(areas.begin(), areas.end(), 0.0);
@@ -133,7 +134,7 @@ DirectSample Emitters::sample_sphere(const AreaLight& light, const Vec3& p, cons
     DirectSample sample;
     const Vec2 u = {to_unit(random[2]), to_unit(random[3])};
     const SphereCone cone = sphere_cone(*light.sphere, p);
-    if (cone.outside) {
+    if (cone.outside && light.by_cone) {
         const ConeSample c = sample_cone(cone, u);
         sample.wi = c.direction;
         sample.on_light = geometry_->sphere_point(light.shape, c.normal);
@@ -167,7 +168,7 @@ float Emitters::pdf_direct(const Vec3& p, const Vec3& wi, const Hit& hit) const 
     float area_density;
     if (light.sphere) {
         const SphereCone cone = sphere_cone(*light.sphere, p);
-        if (cone.outside) return light.selection * cone.pdf();
+        if (cone.outside && light.by_cone) return light.selection * cone.pdf();
         area_density = sphere_area_density(*light.sphere);
     } else {
         area_density = light.area_density[hit.primitive];

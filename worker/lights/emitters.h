@@ -63,6 +63,8 @@ class Emitters {
         DiscreteTable triangles;          ///< meshes
         std::vector<float> area_density;  ///< per triangle: per area, within this light; none for spheres
         const Mask* mask = nullptr;
+        /// Spheres: sampled by their cone from outside. Not those that shine inwards through the holes of a mask.
+        bool by_cone = true;
     };
 
     double add_area_light(const AreaEmitter& emitter);
