@@ -35,17 +35,20 @@ Mesh member() {
     return mesh;
 }
 
+Vec3 transformed_normal(const Vec3& n, const Imath::M44f& inverse) {
+    Vec3 result;
+    for (int i = 0; i < 3; ++i)
+        result[i] = n.x * inverse[i][0] + n.y * inverse[i][1] + n.z * inverse[i][2];
+    return normalize(result);
+}
+
 Mesh flattened(const Mesh& mesh, const Imath::M44f& m) {
     Mesh flat = mesh;
     const Imath::M44f inverse = m.inverse();
     for (Vec3& p : flat.positions)
         p = p * m;
-    for (Vec3& n : flat.normals) {
-        const Vec3 old = n;
-        for (int i = 0; i < 3; ++i)
-            n[i] = old.x * inverse[i][0] + old.y * inverse[i][1] + old.z * inverse[i][2];
-        n = normalize(n);
-    }
+    for (Vec3& n : flat.normals)
+        n = transformed_normal(n, inverse);
     if (m.determinant() < 0)
         for (std::size_t i = 0; i < flat.indices.size(); i += 3)
             std::swap(flat.indices[i], flat.indices[i + 1]);
@@ -100,8 +103,12 @@ TEST(Instances, AreHitLikeTheFlattenedMeshes) {
         ASSERT_EQ(placed.shape(a.shape).name, "member");
         ASSERT_EQ(placed.shape(a.instance - 1).name, "instance");
         ASSERT_LT((a.ng - b.ng).length(), 1e-4f);
-        // Uneven scales do not commute with interpolation: between vertices the two shade a little differently.
-        ASSERT_LT((a.ns - b.ns).length(), a.instance == 4 ? 1e-4f : 0.02f);
+        // Uneven scales do not commute with interpolation, so the flattened mesh shades a little differently between
+        // its vertices: the normal is that of the member, transformed.
+        const Hit local = placed.triangle_point(a.shape, a.primitive, a.b1, a.b2);
+        const Imath::M44f m = placements()[a.instance - 4];
+        ASSERT_LT((a.ns - transformed_normal(local.ns, m.inverse())).length(), 1e-5f);
+        ASSERT_LT((a.p - local.p * m).length(), 1e-5f);
         const SurfaceDetail da = placed.detail(a), db = flat.detail(b);
         if ((b.shape & 1) == 1) {  // the textured member; corners are exchanged in mirrored bare meshes
             ASSERT_LT((placed.uv(a) - flat.uv(b)).length(), 1e-3f);
@@ -109,7 +116,7 @@ TEST(Instances, AreHitLikeTheFlattenedMeshes) {
             ASSERT_LT((da.dp_dv - db.dp_dv).length(), 1e-3f * db.dp_dv.length());
         }
     }
-    EXPECT_GT(on_members, 10000);
+    EXPECT_GT(on_members, 5000);
     EXPECT_LT(different, 50);
 }
 
