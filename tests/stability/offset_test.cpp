@@ -74,6 +74,90 @@ TEST_P(Offset, RaysLeaveTheSphereTheyStartOn) {
     }
 }
 
+TEST_P(Offset, RaysLeaveTheDiskTheyStartOn) {
+    for (int i = 0; i < 300; ++i) {
+        Scene scene;
+        const float size = std::pow(10.0f, -2.0f * uniform());
+        const Vec3 a = direction() * size, b = direction() * size;
+        if (cross(normalize(a), normalize(b)).length() < 0.05f) continue;
+        const Disk disk{at(Vec3(uniform(), uniform(), uniform())), a * length(1.0f), b * length(1.0f)};
+        test::add_shape(scene, disk, kNone);
+        const EmbreeScene geometry(std::move(scene.shapes), "avx2");
+        for (int j = 0; j < 100; ++j) {
+            const Hit hit = geometry.disk_point(0, 0.7f * (2 * uniform() - 1), 0.7f * (2 * uniform() - 1));
+            Vec3 d = direction();
+            if (j % 4 == 0) d = normalize(d - hit.ng * (0.999f * dot(d, hit.ng)));  // grazing
+            ASSERT_FALSE(geometry.occluded({offset_origin(hit, d), d})) << i << " cosine " << dot(d, hit.ng);
+            ASSERT_TRUE(geometry.occluded({hit.p + hit.ng * length(0.1f) * size, -hit.ng}));
+        }
+    }
+}
+
+TEST_P(Offset, RaysLeaveTheCylinderTheyStartOn) {
+    for (int i = 0; i < 300; ++i) {
+        Scene scene;
+        const Vec3 axis = direction();
+        const Vec3 side = normalize(cross(axis, direction())), other = cross(axis, side);
+        const Vec3 p0(uniform(), uniform(), uniform());
+        const float radius = length(0.05f + uniform());
+        test::add_shape(scene, Cylinder{at(p0), at(p0 + axis), radius}, kNone);
+        const EmbreeScene geometry(std::move(scene.shapes), "avx2");
+        for (int j = 0; j < 100; ++j) {
+            const Hit hit = geometry.cylinder_point(0, 0.4f + 0.2f * uniform(),
+                                                    normalize(side * (uniform() - 0.5f) + other * (uniform() - 0.5f)));
+            Vec3 d = direction();
+            if (dot(d, hit.ng) < 0.0f) d = -d;
+            ASSERT_FALSE(geometry.occluded({offset_origin(hit, d), d})) << i << " cosine " << dot(d, hit.ng);
+            // Straight through the middle it meets the other side.
+            Hit opposite;
+            ASSERT_TRUE(geometry.intersect({offset_origin(hit, -hit.ng), -hit.ng}, opposite));
+            ASSERT_LT(dot(opposite.ng, hit.ng), 0.0f);
+        }
+    }
+}
+
+/// Under rotations, uneven scales and mirror images.
+TEST_P(Offset, RaysLeaveTheInstancedTriangleTheyStartOn) {
+    int tested = 0;
+    for (int i = 0; i < 2000; ++i) {
+        Scene scene;
+        Mesh mesh;
+        mesh.positions = {Vec3(uniform(), uniform(), uniform()), Vec3(uniform(), uniform(), uniform()),
+                          Vec3(uniform(), uniform(), uniform())};
+        mesh.indices = {0, 1, 2};
+        test::add_shape(scene, mesh, kNone);
+        scene.shapes[0].group = 0;
+        Instance instance;
+        instance.group = 0;
+        const Vec3 t = at(Vec3(0.3f, 0.2f, 0.1f));
+        for (int row = 0; row < 3; ++row) {
+            const Vec3 axis = direction() * length(std::pow(10.0f, -2.0f * uniform()));
+            for (int j = 0; j < 3; ++j) {
+                instance.to_world[row][j] = axis[j];
+                instance.to_world[3][j] = t[j];
+            }
+        }
+        test::add_shape(scene, instance, kNone);
+        const EmbreeScene geometry(std::move(scene.shapes), "avx2");
+        for (int j = 0; j < 10; ++j) {
+            const float u = 0.1f + 0.5f * uniform(), v = 0.1f + 0.2f * uniform();
+            const Vec3 p =
+                (mesh.positions[0] * (1 - u - v) + mesh.positions[1] * u + mesh.positions[2] * v) * instance.to_world;
+            const Vec3 to = direction();
+            Hit hit;
+            if (!geometry.intersect({p - to * length(1.0f), to}, hit)) continue;
+            ++tested;
+            for (int k = 0; k < 10; ++k) {
+                Vec3 d = direction();
+                if (k % 4 == 0) d = normalize(d - hit.ng * (0.999f * dot(d, hit.ng)));  // grazing
+                ASSERT_FALSE(geometry.occluded({offset_origin(hit, d), d}))
+                    << i << " cosine " << dot(d, hit.ng) << " at " << hit.p << " error " << hit.error;
+            }
+        }
+    }
+    EXPECT_GT(tested, 5000);
+}
+
 TEST_P(Offset, RaysInAClosedRoomStayInside) {
     Scene scene;
     test::add_shape(scene, test::box(at(Vec3(-0.5f)), at(Vec3(0.5f)), true), kNone);

@@ -57,6 +57,58 @@ TEST(Camera, LongLensesKeepPixelsApart) {
     EXPECT_LT(worst, 0.1 * 2e-4 / 512) << "less than a tenth of a pixel";
 }
 
+/// Focused on the plane z = -focus.
+Camera thin_lens(float focus, float radius) {
+    Camera camera = test::look_at(Vec3(0.0f), Vec3(0, 0, -1), Vec3(0, 1, 0), 0.5f);
+    camera.corner *= focus;
+    camera.across *= focus;
+    camera.down *= focus;
+    camera.lens_u = Vec3(radius, 0, 0);
+    camera.lens_v = Vec3(0, radius, 0);
+    return camera;
+}
+
+Vec3 at_depth(const Ray& ray, float depth) {
+    return ray.origin + ray.direction * ((depth + ray.origin.z) / -ray.direction.z);
+}
+
+TEST(Camera, LensIsSharpInItsPlaneOfFocus) {
+    const CameraRays lens(thin_lens(4.0f, 0.3f), film(8, 8));
+    const CameraRays pinhole(test::look_at(Vec3(0.0f), Vec3(0, 0, -1), Vec3(0, 1, 0), 0.5f), film(8, 8));
+    for (std::uint32_t i = 0; i < 1000; ++i) {
+        const Draw r = draw({1, i, 0}, 0, Stream::camera);
+        const Vec3 sharp = at_depth(pinhole.generate(2, 5, r), 4.0f), seen = at_depth(lens.generate(2, 5, r), 4.0f);
+        ASSERT_LT((sharp - seen).length(), 2e-6f);
+        ASSERT_NEAR(lens.generate(2, 5, r).direction.length(), 1.0f, 1e-6f);
+    }
+}
+
+TEST(Camera, LensBlursOtherDepthsByTheCircleOfConfusion) {
+    // By similar triangles: lens radius times |depth - focus| / focus, filled uniformly.
+    const CameraRays lens(thin_lens(4.0f, 0.3f), film(8, 8));
+    for (const float depth : {1.0f, 3.0f, 6.0f, 20.0f}) {
+        const float radius = 0.3f * std::abs(depth - 4.0f) / 4.0f;
+        const Ray middle = lens.generate(2, 5, {kCentre[0], kCentre[1], 0x80000000u, 0x80000000u});
+        ASSERT_EQ(middle.origin, Vec3(0.0f));
+        float farthest = 0;
+        double sum2 = 0;
+        Vec3 mean(0.0f);
+        constexpr int kRays = 20000;
+        for (std::uint32_t i = 0; i < kRays; ++i) {
+            const Draw r = draw({2, i, 0}, 0, Stream::camera);
+            const Vec3 off =
+                at_depth(lens.generate(2, 5, {kCentre[0], kCentre[1], r[2], r[3]}), depth) - at_depth(middle, depth);
+            farthest = std::max(farthest, off.length());
+            sum2 += double(dot(off, off));
+            mean += off * (1.0f / kRays);
+        }
+        EXPECT_LE(farthest, radius * 1.0001f);
+        EXPECT_GE(farthest, radius * 0.99f);
+        EXPECT_NEAR(sum2 / kRays, 0.5 * double(radius) * double(radius), 0.02 * double(radius) * double(radius));
+        EXPECT_LT(mean.length(), 0.03f * radius);
+    }
+}
+
 TEST(Camera, ExtremeRandomNumbersStayWithinTheFilter) {
     for (const PixelFilter kind : {PixelFilter::box, PixelFilter::tent, PixelFilter::gaussian}) {
         Film f;

@@ -44,7 +44,7 @@ bool EmbreeScene::intersect(const Ray& ray, Hit& hit) const {
     rtcIntersect1(scene_.get(), &context, &query);
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
     if (query.hit.instID[0] == RTC_INVALID_GEOMETRY_ID)
-        hit = triangle_point(query.hit.geomID, query.hit.primID, query.hit.u, query.hit.v);
+        set_triangle_point(hit, query.hit.geomID, query.hit.primID, query.hit.u, query.hit.v);
     else
         hit = other_point(query.hit.instID[0], query.hit.geomID, query.hit.primID, query.hit.u, query.hit.v,
                           {query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z});
@@ -58,17 +58,17 @@ bool EmbreeScene::occluded(const Ray& ray) const {
     return query.tfar < 0.0f;
 }
 
-Hit EmbreeScene::triangle_point(std::uint32_t shape, std::uint32_t primitive, float b1, float b2) const {
+void EmbreeScene::set_triangle_point(Hit& hit, std::uint32_t shape, std::uint32_t primitive, float b1, float b2) const {
     const Surface& surface = surfaces_[shape];
     const std::uint32_t* corner = surface.indices + 3 * std::size_t(primitive);
     const Vec3 &v0 = surface.positions[corner[0]], &v1 = surface.positions[corner[1]],
                &v2 = surface.positions[corner[2]];
     const Vec3 e1 = v1 - v0, e2 = v2 - v0;
-    Hit hit;
     hit.shape = shape;
     hit.primitive = primitive;
     hit.b1 = b1;
     hit.b2 = b2;
+    hit.instance = 0;
     hit.p = v0 + (e1 * b1 + e2 * b2);
     hit.error = offset_bound(std::max(max_abs(v0), std::max(max_abs(v1), max_abs(v2))));
     hit.ng = unit_normal(e1, e2);
@@ -82,6 +82,11 @@ Hit EmbreeScene::triangle_point(std::uint32_t shape, std::uint32_t primitive, fl
             if (dot(hit.ng, hit.ns) < 0.0f) hit.ng = -hit.ng;
         }
     }
+}
+
+Hit EmbreeScene::triangle_point(std::uint32_t shape, std::uint32_t primitive, float b1, float b2) const {
+    Hit hit;
+    set_triangle_point(hit, shape, primitive, b1, b2);
     return hit;
 }
 
@@ -125,12 +130,14 @@ Hit EmbreeScene::cylinder_point(std::uint32_t shape, float along, const Vec3& ou
     return hit;
 }
 
-/// Away from the centre or axis, in the shape's own space: what the normal at the hit was made of.
+/// Away from the centre of a sphere or the axis of a cylinder, in the shape's own space: what the normal at the hit was
+/// made of. Other shapes have no use for it.
 Vec3 EmbreeScene::outward(const Hit& hit) const {
-    const Vec3 n = hit.instance ? placements_[surfaces_[hit.instance - 1].placement].normal_to_local(hit.ng) : hit.ng;
     const auto* sphere = std::get_if<Sphere>(&shapes_[hit.shape].geometry);
     const auto* cylinder = std::get_if<Cylinder>(&shapes_[hit.shape].geometry);
-    return (sphere && sphere->flip_normals) || (cylinder && cylinder->flip_normals) ? -n : n;
+    if (!sphere && !cylinder) return Vec3(0.0f);
+    const Vec3 n = hit.instance ? placements_[surfaces_[hit.instance - 1].placement].normal_to_local(hit.ng) : hit.ng;
+    return (sphere ? sphere->flip_normals : cylinder->flip_normals) ? -n : n;
 }
 
 Vec2 EmbreeScene::uv(const Hit& hit) const {

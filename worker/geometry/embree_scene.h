@@ -43,6 +43,8 @@ class EmbreeScene {
 
     /// A point of a triangle from its barycentrics: what intersect() reports for a ray through it.
     Hit triangle_point(std::uint32_t shape, std::uint32_t primitive, float b1, float b2) const;
+    /// The same in place: a hit is too large to be copied for each ray.
+    void set_triangle_point(Hit& hit, std::uint32_t shape, std::uint32_t primitive, float b1, float b2) const;
     /// The point of a sphere in the direction `outward` (unit) from its centre.
     Hit sphere_point(std::uint32_t shape, const Vec3& outward) const;
     /// The points of disks and cylinders: see primitive_points.h.

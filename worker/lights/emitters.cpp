@@ -71,6 +71,7 @@ double Emitters::add_area_light(const AreaEmitter& emitter) {
     light.shape = static_cast<std::uint32_t>(emitter.shape);
     light.sphere = geometry_->sphere(light.shape);
     light.mask = geometry_->mask(light.shape);
+    light.by_cone = light.sphere && !(light.mask && light.sphere->flip_normals);
     if (light.texture != kNone && !textures_) throw RunError("an emitter has a texture, but there are no textures");
     const std::vector<double> areas = part_areas(*geometry_, light.shape);
     const double area = std::accumulate(areas.begin(), areas.end(), 0.0);
@@ -96,9 +97,13 @@ Rgb Emitters::textured(const AreaLight& light, const Hit& hit) const {
 DirectSample Emitters::sample_direct(const Vec3& p, const Draw& random) const {
     if (selection_.empty()) return {};
     const std::uint32_t chosen = selection_.pick(random[0]);
+    if (chosen < area_lights_.size() && area_lights_[chosen].plain) return sample_mesh(area_lights_[chosen], p, random);
+    return sample_other(chosen, p, random);
+}
+
+DirectSample Emitters::sample_other(std::uint32_t chosen, const Vec3& p, const Draw& random) const {
     if (chosen >= area_lights_.size()) return sample_without_area(chosen, p, random);
     const AreaLight& light = area_lights_[chosen];
-    if (light.plain) return sample_mesh(light, p, random);
     DirectSample sample = light.sphere ? sample_sphere(light, p, random) : sample_area(light, p, random);
     if (is_black(sample.radiance)) return sample;
     if (light.texture != kNone) sample.radiance = textured(light, sample.on_light);
@@ -111,7 +116,7 @@ DirectSample Emitters::sample_mesh(const AreaLight& light, const Vec3& p, const 
     const std::uint32_t triangle = light.triangles.pick(random[1]);
     const Vec2 b = square_to_triangle({to_unit(random[2]), to_unit(random[3])});
     DirectSample sample;
-    sample.on_light = geometry_->triangle_point(light.shape, triangle, b.x, b.y);
+    geometry_->set_triangle_point(sample.on_light, light.shape, triangle, b.x, b.y);
     look_at(sample, p, light.radiance, light.selection, light.area_density[triangle]);
     return sample;
 }
@@ -129,7 +134,7 @@ DirectSample Emitters::sample_sphere(const AreaLight& light, const Vec3& p, cons
     DirectSample sample;
     const Vec2 u = {to_unit(random[2]), to_unit(random[3])};
     const SphereCone cone = sphere_cone(*light.sphere, p);
-    if (cone.outside) {
+    if (cone.outside && light.by_cone) {
         const ConeSample c = sample_cone(cone, u);
         sample.wi = c.direction;
         sample.on_light = geometry_->sphere_point(light.shape, c.normal);
@@ -163,7 +168,7 @@ float Emitters::pdf_direct(const Vec3& p, const Vec3& wi, const Hit& hit) const 
     float area_density;
     if (light.sphere) {
         const SphereCone cone = sphere_cone(*light.sphere, p);
-        if (cone.outside) return light.selection * cone.pdf();
+        if (cone.outside && light.by_cone) return light.selection * cone.pdf();
         area_density = sphere_area_density(*light.sphere);
     } else {
         area_density = light.area_density[hit.primitive];

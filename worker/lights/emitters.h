@@ -63,11 +63,15 @@ class Emitters {
         DiscreteTable triangles;          ///< meshes
         std::vector<float> area_density;  ///< per triangle: per area, within this light; none for spheres
         const Mask* mask = nullptr;
+        /// Spheres: sampled by their cone from outside. Not those that shine inwards through the holes of a mask.
+        bool by_cone = true;
     };
 
     double add_area_light(const AreaEmitter& emitter);
     void select(std::vector<double> power);
     Rgb textured(const AreaLight& light, const Hit& hit) const;
+    /// Kept out of line, so that plain meshes pay nothing for the other kinds.
+    [[gnu::noinline]] DirectSample sample_other(std::uint32_t chosen, const Vec3& p, const Draw& random) const;
     DirectSample sample_mesh(const AreaLight& light, const Vec3& p, const Draw& random) const;
     DirectSample sample_area(const AreaLight& light, const Vec3& p, const Draw& random) const;
     DirectSample sample_sphere(const AreaLight& light, const Vec3& p, const Draw& random) const;

@@ -1,0 +1,181 @@
+#include <gtest/gtest.h>
+
+#include "tests/support/light_checks.h"
+#include "tests/support/test_scenes.h"
+
+namespace treefarm {
+namespace {
+
+using test::add_shape;
+using test::expect_irradiance;
+using test::expect_light_distribution;
+using test::quad;
+
+const Vec3 kUp(0, 0, 1);
+
+Scene only(decltype(Shape::geometry) geometry) {
+    Scene scene;
+    add_shape(scene, std::move(geometry), kNone, Rgb(1.0f));
+    return scene;
+}
+
+/// With something small in it, so that the scene has a size.
+Scene lit_by(decltype(Emitter::kind) kind) {
+    Scene scene;
+    add_shape(scene, quad({-1, -1, -2}, {2, 0, 0}, {0, 2, 0}), kNone);
+    scene.emitters.push_back({std::move(kind), {}});
+    return scene;
+}
+
+/// A rectangle below z = h that faces down, whose texture is black for u below 0.5 (x below the middle).
+Scene half_black_lamp(float h) {
+    Scene scene;
+    TextureImage image;
+    image.width = 2;
+    image.height = image.channels = 1;
+    image.floats = {0.0f, 4.0f};
+    scene.images.push_back(image);
+    scene.textures.push_back({BitmapTexture{0, false, Wrap::repeat, Wrap::repeat, {}}, "", {}});
+    Mesh mesh = quad({-1, -1, h}, {0, 2, 0}, {2, 0, 0});
+    mesh.uvs = {{0, 0}, {0, 1}, {1, 1}, {1, 0}};
+    add_shape(scene, mesh, kNone, Rgb(0.5f));
+    std::get<AreaEmitter>(scene.emitters[0].kind).radiance.texture = 0;
+    return scene;
+}
+
+/// A map of zeros with some bright texels.
+Scene environment(int width, int height, const std::vector<std::pair<int, int>>& bright, float background = 0.0f) {
+    Scene scene = lit_by(EnvironmentEmitter{});
+    TextureImage image;
+    image.width = width;
+    image.height = height;
+    image.floats.assign(static_cast<std::size_t>(3 * width * height), background);
+    for (const auto& [x, y] : bright)
+        for (int c = 0; c < 3; ++c)
+            image.floats[static_cast<std::size_t>(3 * (y * width + x) + c)] = 10.0f;
+    scene.images.push_back(image);
+    auto& map = std::get<EnvironmentEmitter>(scene.emitters[0].kind);
+    map.image = 0;
+    map.scale = 2.0f;
+    // Turned, so that no axis of the map is one of the world.
+    map.x_axis = normalize(Vec3(1, 2, 0.5f));
+    map.z_axis = normalize(cross(map.x_axis, Vec3(0, 1, 0)));
+    map.y_axis = cross(map.z_axis, map.x_axis);
+    return scene;
+}
+
+TEST(LightDistribution, Ellipse) {
+    expect_light_distribution(only(Disk{Vec3(0.3f, 0, 1.5f), Vec3(0, 2, 0.3f), Vec3(1, 0.4f, 0)}), Vec3(0.3f, 0.1f, 0),
+                              "ellipse");
+}
+
+TEST(LightDistribution, CylinderFromOutside) {
+    expect_light_distribution(only(Cylinder{Vec3(-1, 0.3f, 2), Vec3(1.5f, 0.3f, 1.5f), 0.7f, false, Vec3(0, 1, 0)}),
+                              Vec3(0.1f), "cylinder", 0.2f);
+}
+
+TEST(LightDistribution, CylinderFromInside) {
+    Cylinder tube{Vec3(0, 0, -1), Vec3(0, 0, 2), 1.2f};
+    tube.flip_normals = true;
+    expect_light_distribution(only(tube), Vec3(0.5f, 0.3f, 0.2f), "tube");
+}
+
+TEST(LightDistribution, TexturedRectangle) {
+    // Black halves are sampled, too, and count as no success: the density is compared where the lamp shines.
+    expect_light_distribution(half_black_lamp(0.8f), Vec3(0.2f, 0.1f, 0), "half black");
+}
+
+TEST(LightDistribution, ImageWithOneBrightTexel) {
+    const std::vector<std::pair<std::string, std::pair<int, int>>> places = {
+        {"amid", {5, 3}}, {"left of the seam", {15, 4}}, {"right of the seam", {0, 4}}};
+    for (const auto& [what, texel] : places)
+        for (const float background : {0.0f, 0.2f})
+            expect_light_distribution(environment(16, 8, {texel}, background), Vec3(0.0f), what);
+}
+
+TEST(LightDistribution, ImagesOfOddShapes) {
+    for (const auto& [width, height] : {std::pair{1, 1}, {1, 6}, {7, 1}, {2, 2}, {33, 5}})
+        expect_light_distribution(environment(width, height, {{width - 1, height - 1}}, 1.0f), Vec3(0.0f),
+                                  std::to_string(width) + " x " + std::to_string(height));
+}
+
+TEST(LightIrradiance, Disk) {
+    for (const double scale : {1e-4, 1.0, 1e5})
+        for (const double h : {0.1, 1.0, 20.0}) {
+            const auto r = static_cast<float>(scale);
+            const Scene scene = only(Disk{Vec3(0, 0, static_cast<float>(h * scale)), Vec3(0, r, 0), Vec3(r, 0, 0)});
+            expect_irradiance(scene, Vec3(0.0f), kUp, M_PI / (1 + h * h),
+                              "height " + std::to_string(h) + " scale " + std::to_string(scale));
+        }
+}
+
+TEST(LightIrradiance, TubeAroundAPatch) {
+    // What does not leave through the open end comes from the wall.
+    for (const double scale : {1e-4, 1.0, 1e5}) {
+        const auto s = static_cast<float>(scale);
+        Cylinder tube{Vec3(0.0f), Vec3(0, 0, 1.5f * s), s};
+        tube.flip_normals = true;
+        expect_irradiance(only(tube), Vec3(0.0f), kUp, M_PI * (1 - 1 / (1 + 1.5 * 1.5)), std::to_string(scale));
+    }
+}
+
+TEST(LightIrradiance, TexturesDimTheirEmitter) {
+    // The lit half, at radiance 2, seen from below the middle: half of the whole rectangle's form factor.
+    const double x = 1.0;
+    const double corner = 2 * x / std::sqrt(1 + x * x) * std::atan(x / std::sqrt(1 + x * x)) / (2 * M_PI);
+    expect_irradiance(half_black_lamp(1.0f), Vec3(0.0f), kUp, 2 * M_PI * 2 * corner, "half black");
+}
+
+TEST(LightIrradiance, MasksDimTheirEmitter) {
+    Scene scene = only(Disk{Vec3(0, 0, 1), Vec3(0, 1, 0), Vec3(1, 0, 0)});
+    scene.shapes[0].material = test::add_diffuse(scene, Rgb(0.5f));
+    scene.materials[0].opacity = FloatInput(0.3f);
+    expect_irradiance(scene, Vec3(0.0f), kUp, 0.3 * M_PI / 2, "opacity 0.3");
+}
+
+TEST(LightIrradiance, SpheresShineInwardsThroughTheHolesOfTheirMask) {
+    // Light sampling finds the inside of the far half; that the near half hides some of it is the shadow ray's to say.
+    Sphere sphere{Vec3(0, 0, 4), 1.0f, true};
+    Scene scene = only(sphere);
+    scene.shapes[0].material = test::add_diffuse(scene, Rgb(0.5f));
+    scene.materials[0].opacity = FloatInput(0.3f);
+    const test::Irradiance e = test::irradiance(scene, Vec3(0.0f), kUp, 400000);
+    EXPECT_NEAR(e.light, 0.3 * M_PI / 16, 4.5 * e.light_error);
+}
+
+TEST(LightIrradiance, PointSpotAndParallelLight) {
+    const Vec3 n = normalize(Vec3(0.5f, 0.2f, 1));
+    for (const double scale : {1e-4, 1.0, 1e5}) {
+        const auto s = static_cast<float>(scale);
+        const Vec3 at = Vec3(1, 2, 3) * s;
+        const double d2 = 14 * scale * scale, cosine = double(dot(n, normalize(at)));
+        expect_irradiance(lit_by(PointEmitter{at, Rgb(5.0f)}), Vec3(0.0f), n, 5 * cosine / d2, "point");
+        const Vec3 away = normalize(-at);
+        const Vec3 side = normalize(cross(away, Vec3(0, 1, 0)));
+        for (const double angle : {0.0, 0.29, 0.4, 0.49, 0.51, 2.0}) {
+            const Vec3 axis = away * static_cast<float>(std::cos(angle)) + side * static_cast<float>(std::sin(angle));
+            const double falloff = std::clamp((0.5 - angle) / 0.2, 0.0, 1.0);
+            expect_irradiance(lit_by(SpotEmitter{at, axis, Rgb(5.0f), 0.5f, 0.3f}), Vec3(0.0f), n,
+                              falloff * 5 * cosine / d2, "spot " + std::to_string(angle));
+        }
+        expect_irradiance(lit_by(DirectionalEmitter{away, Rgb(4.0f)}), Vec3(0.0f), n, 4 * cosine, "parallel");
+    }
+}
+
+TEST(LightIrradiance, ConstantEnvironmentAndConstantImage) {
+    expect_irradiance(lit_by(ConstantEmitter{Rgb(1.5f)}), Vec3(0.0f), kUp, 1.5 * M_PI, "constant");
+    for (const auto& [width, height] : {std::pair{1, 1}, {16, 8}, {512, 256}})
+        expect_irradiance(environment(width, height, {}, 0.75f), Vec3(0.0f), kUp, 1.5 * M_PI,
+                          "constant image of " + std::to_string(width));
+}
+
+TEST(LightIrradiance, SeveralEmittersAddUp) {
+    Scene scene = environment(16, 8, {}, 0.5f);
+    scene.emitters.push_back({ConstantEmitter{Rgb(0.25f)}, {}});
+    scene.emitters.push_back({PointEmitter{Vec3(0, 0, 2), Rgb(3.0f)}, {}});
+    scene.emitters.push_back({DirectionalEmitter{Vec3(0, 0, -1), Rgb(0.5f)}, {}});
+    expect_irradiance(scene, Vec3(0.0f), kUp, 1.25 * M_PI + 0.75 + 0.5, "several");
+}
+
+}  // namespace
+}  // namespace treefarm

@@ -1,0 +1,143 @@
+#include "worker/textures/texture_set.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace treefarm {
+namespace {
+
+/// Values 0 to 5 in 3 x 2 grey texels.
+TextureImage small_image() {
+    TextureImage image;
+    image.width = 3;
+    image.height = 2;
+    image.channels = 1;
+    image.floats = {0, 1, 2, 3, 4, 5};
+    return image;
+}
+
+TextureSet bitmap(TextureImage image, BitmapTexture texture) {
+    texture.image = 0;
+    return TextureSet({{texture, "", {}}}, {std::move(image)});
+}
+
+TextureSet nearest(Wrap u, Wrap v) {
+    return bitmap(small_image(), {0, false, u, v, {}});
+}
+
+/// Texture coordinates of the middle of a texel, also outside of the image.
+Vec2 middle(int x, int y) {
+    return {(static_cast<float>(x) + 0.5f) / 3.0f, (static_cast<float>(y) + 0.5f) / 2.0f};
+}
+
+TEST(TextureSet, TexelsAreWhereTheInterfaceSays) {
+    const TextureSet set = nearest(Wrap::repeat, Wrap::repeat);
+    for (int y = 0; y < 2; ++y)
+        for (int x = 0; x < 3; ++x)
+            EXPECT_EQ(set.value(0, middle(x, y)), static_cast<float>(3 * y + x));
+}
+
+TEST(TextureSet, WrapsOnEachAxis) {
+    EXPECT_EQ(nearest(Wrap::repeat, Wrap::clamp).value(0, middle(3, 0)), 0.0f);
+    EXPECT_EQ(nearest(Wrap::repeat, Wrap::clamp).value(0, middle(-1, 5)), 5.0f);
+    EXPECT_EQ(nearest(Wrap::clamp, Wrap::repeat).value(0, middle(7, 2)), 2.0f);
+    EXPECT_EQ(nearest(Wrap::clamp, Wrap::repeat).value(0, middle(-7, -1)), 3.0f);
+    EXPECT_EQ(nearest(Wrap::mirror, Wrap::mirror).value(0, middle(3, 0)), 2.0f);
+    EXPECT_EQ(nearest(Wrap::mirror, Wrap::mirror).value(0, middle(6, 0)), 0.0f);
+    EXPECT_EQ(nearest(Wrap::mirror, Wrap::mirror).value(0, middle(-1, -1)), 0.0f);
+    EXPECT_EQ(nearest(Wrap::mirror, Wrap::mirror).value(0, middle(-4, 2)), 5.0f);
+    EXPECT_EQ(nearest(Wrap::zero, Wrap::repeat).value(0, middle(3, 1)), 0.0f);
+    EXPECT_EQ(nearest(Wrap::one, Wrap::repeat).value(0, middle(-1, 1)), 1.0f);
+    EXPECT_EQ(nearest(Wrap::zero, Wrap::repeat).value(0, middle(2, 1)), 5.0f);
+}
+
+TEST(TextureSet, InterpolatesBetweenTheMiddles) {
+    const TextureSet set = bitmap(small_image(), {0, true, Wrap::clamp, Wrap::clamp, {}});
+    EXPECT_NEAR(set.value(0, middle(1, 0)), 1.0f, 1e-5f);
+    EXPECT_NEAR(set.value(0, {0.5f, 0.5f}), 2.5f, 1e-5f);
+    EXPECT_NEAR(set.value(0, {(0.5f + 0.25f) / 3, 0.25f}), 0.25f, 1e-5f);
+    EXPECT_NEAR(set.value(0, {0.0f, 0.0f}), 0.0f, 1e-5f);
+    const TextureSet around = bitmap(small_image(), {0, true, Wrap::repeat, Wrap::clamp, {}});
+    EXPECT_NEAR(around.value(0, {0.0f, 0.0f}), 1.0f, 1e-5f) << "halfway between the first and the last column";
+    EXPECT_NEAR(around.value(0, {1.0f, 0.0f}), 1.0f, 1e-5f);
+}
+
+TEST(TextureSet, TransformsCoordinatesFirst) {
+    BitmapTexture texture{0, false, Wrap::repeat, Wrap::repeat, {}};
+    texture.uv.u_row = {0, 2, 1.0f / 3};  // u' = 2 v + 1/3
+    texture.uv.v_row = {1, 0, 0};
+    const TextureSet set = bitmap(small_image(), texture);
+    EXPECT_EQ(set.value(0, {0.25f, 1.0f / 12}), 1.0f);
+    EXPECT_EQ(set.value(0, {0.75f, 1.0f / 4}), 5.0f);
+}
+
+TEST(TextureSet, HugeAndInvalidCoordinatesGiveSomeTexel) {
+    constexpr float kInfinity = std::numeric_limits<float>::infinity();
+    for (const Wrap wrap : {Wrap::repeat, Wrap::mirror, Wrap::clamp, Wrap::zero, Wrap::one})
+        for (const bool bilinear : {false, true}) {
+            const TextureSet set = bitmap(small_image(), {0, bilinear, wrap, wrap, {}});
+            for (const float x : {1e6f, -1e6f, 4e6f, 1e30f, -1e30f, kInfinity, -kInfinity, std::nanf("")})
+                for (const Vec2& uv : {Vec2(x, 0.3f), Vec2(0.3f, x), Vec2(x, x)}) {
+                    const float value = set.value(0, uv);
+                    EXPECT_TRUE(value >= 0.0f && value <= 5.0f) << uv;
+                    EXPECT_TRUE(std::isfinite(set.gradient(0, uv).x));
+                }
+        }
+}
+
+TEST(TextureSet, BytesAreDecodedByTheirTable) {
+    TextureImage image;
+    image.width = image.height = 1;
+    image.channels = 3;
+    image.bytes = {0, 128, 255};
+    for (std::size_t i = 0; i < 256; ++i)
+        image.decode[i] = static_cast<float>(i * i);
+    const TextureSet set = bitmap(image, {});
+    EXPECT_EQ(set.color(0, {0.5f, 0.5f}), Rgb(0, 16384, 65025));
+    EXPECT_NEAR(set.value(0, {0.5f, 0.5f}), (16384.0f + 65025.0f) / 3, 1e-2f);
+    EXPECT_EQ(set.memory(), 3u);
+}
+
+TEST(TextureSet, GradientFollowsARamp) {
+    TextureImage image;
+    image.width = 8;
+    image.height = 4;
+    image.channels = 1;
+    for (int y = 0; y < 4; ++y)
+        for (int x = 0; x < 8; ++x)
+            image.floats.push_back(2.0f * static_cast<float>(x) + 3.0f * static_cast<float>(y));
+    const TextureSet set = bitmap(image, {0, true, Wrap::clamp, Wrap::clamp, {}});
+    const Vec2 gradient = set.gradient(0, {0.5f, 0.5f});
+    EXPECT_NEAR(gradient.x, 16.0f, 1e-3f);
+    EXPECT_NEAR(gradient.y, 12.0f, 1e-3f);
+    BitmapTexture turned{0, true, Wrap::clamp, Wrap::clamp, {}};
+    turned.uv.u_row = {0, 1, 0};
+    turned.uv.v_row = {0.5f, 0, 0.25f};
+    const Vec2 other = bitmap(image, turned).gradient(0, {0.5f, 0.5f});
+    EXPECT_NEAR(other.x, 6.0f, 1e-3f);
+    EXPECT_NEAR(other.y, 16.0f, 1e-3f);
+}
+
+TEST(TextureSet, Checkerboard) {
+    CheckerboardTexture board{Rgb(1.0f), Rgb(0.25f), {}};
+    board.uv.u_row = {2, 0, 0};
+    const TextureSet set({{board, "", {}}}, {});
+    EXPECT_EQ(set.value(0, {0.1f, 0.1f}), 1.0f);
+    EXPECT_EQ(set.value(0, {0.3f, 0.1f}), 0.25f);
+    EXPECT_EQ(set.value(0, {0.3f, 0.6f}), 1.0f);
+    EXPECT_EQ(set.value(0, {-0.1f, 0.1f}), 0.25f);
+    EXPECT_EQ(set.value(0, {-0.1f, -0.1f}), 1.0f);
+    EXPECT_EQ(set.gradient(0, {0.3f, 0.6f}), Vec2(0.0f));
+}
+
+TEST(TextureSet, InputsAreFactorsOfTheirTextures) {
+    const TextureSet set = nearest(Wrap::repeat, Wrap::repeat);
+    EXPECT_EQ(set.eval(ColorInput(Rgb(1, 2, 3)), middle(1, 1)), Rgb(1, 2, 3));
+    EXPECT_EQ(set.eval(ColorInput(Rgb(1, 2, 3), 0), middle(1, 1)), Rgb(4, 8, 12));
+    EXPECT_EQ(set.eval(FloatInput(0.5f), middle(1, 1)), 0.5f);
+    EXPECT_EQ(set.eval(FloatInput(0.5f, 0), middle(1, 1)), 2.0f);
+}
+
+}  // namespace
+}  // namespace treefarm
