@@ -121,7 +121,7 @@ def mixed_room():
     rough_plastic(w, "parquet", (0.33, 0.19, 0.1), 0.2)
     w.bsdf("china", "plastic", diffuseReflectance=(0.75, 0.75, 0.8), nonlinear=True)
     w.bsdf("mirror", "conductor", material="none")
-    metal(w, "brass", "CuZn", 0.15)
+    metal(w, "brass", "Au", 0.15)
     metal(w, "steel", "Cr", 0.25)
     w.bsdf("pane", "thindielectric")
     w.bsdf("glass", "dielectric", intIOR="bk7", extIOR="air")

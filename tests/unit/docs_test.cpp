@@ -5,19 +5,28 @@
 #include <sstream>
 
 #include "common/config/job_keys.h"
+#include "common/plan/effect_table.h"
 
 namespace treefarm {
 namespace {
 
-TEST(Docs, ListEveryJobKeyAsTheProgramKnowsIt) {
-    std::ifstream page(std::string(TREEFARM_SOURCE_DIR) + "/docs/jobs.md");
+/// The page of docs/ holds a table that the program writes; if not, the table is left in a file.
+void expect_page_holds(const std::string& name, const std::string& table) {
+    std::ifstream page(std::string(TREEFARM_SOURCE_DIR) + "/docs/" + name);
     std::ostringstream text;
     text << page.rdbuf();
-    const std::string expected = job_key_documentation();
-    const bool found = text.str().find(expected) != std::string::npos;
-    if (!found) std::ofstream(::testing::TempDir() + "jobs.md") << expected;
-    EXPECT_TRUE(found) << "docs/jobs.md is out of date; the table it should hold is in " << ::testing::TempDir()
-                       << "jobs.md";
+    const bool found = text.str().find(table) != std::string::npos;
+    if (!found) std::ofstream(::testing::TempDir() + name) << table;
+    EXPECT_TRUE(found) << "docs/" << name << " is out of date; the table it should hold is in " << ::testing::TempDir()
+                       << name;
+}
+
+TEST(Docs, ListEveryJobKeyAsTheProgramKnowsIt) {
+    expect_page_holds("jobs.md", job_key_documentation());
+}
+
+TEST(Docs, ListEveryEffectAsTheProgramKnowsIt) {
+    expect_page_holds("effects.md", effect_documentation());
 }
 
 }  // namespace
