@@ -29,11 +29,13 @@ struct Put {
         put_flag(out, sphere.flip_normals);
         put_vector(out, sphere.pole);
         put_vector(out, sphere.meridian);
+        put_flag(out, sphere.mirrored);
     }
     void operator()(const Disk& disk) const {
         put_vector(out, disk.center);
         put_vector(out, disk.half_u);
         put_vector(out, disk.half_v);
+        put_flag(out, disk.mirrored);
     }
     void operator()(const Cylinder& cylinder) const {
         put_vector(out, cylinder.p0);
@@ -81,6 +83,7 @@ Sphere get_sphere(ByteReader& in) {
     sphere.flip_normals = get_flag(in, "a sphere's flip");
     sphere.pole = get_vector<Vec3>(in);
     sphere.meridian = get_vector<Vec3>(in);
+    sphere.mirrored = get_flag(in, "a sphere's mirror");
     return sphere;
 }
 
@@ -89,6 +92,7 @@ Disk get_disk(ByteReader& in) {
     disk.center = get_vector<Vec3>(in);
     disk.half_u = get_vector<Vec3>(in);
     disk.half_v = get_vector<Vec3>(in);
+    disk.mirrored = get_flag(in, "a disk's mirror");
     return disk;
 }
 

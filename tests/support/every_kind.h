@@ -59,8 +59,8 @@ inline Scene every_kind_scene() {
     mesh.indices = {0, 1, 2};
     Imath::M44f to_world(0, 2, 0, 0, -2, 0, 0, 0, 0, 0, 3, 0, 5, 6, 7, 1);
     scene.shapes = {{mesh, 1, 0, kNone, "lamp", {"b.xml", 3, 4}},
-                    {Sphere{Vec3(1, 2, 3), 4.0f, true, Vec3(0, 1, 0), Vec3(0, 0, 1)}, 0, kNone, kNone, "", {}},
-                    {Disk{Vec3(1, 1, 1), Vec3(2, 0, 0), Vec3(1, 3, 0)}, 5, 1, kNone, "disk", {}},
+                    {Sphere{Vec3(1, 2, 3), 4.0f, true, Vec3(0, 1, 0), Vec3(0, 0, 1), true}, 0, kNone, kNone, "", {}},
+                    {Disk{Vec3(1, 1, 1), Vec3(2, 0, 0), Vec3(1, 3, 0), true}, 5, 1, kNone, "disk", {}},
                     {Cylinder{Vec3(0, 0, 1), Vec3(0, 0, 4), 2.0f, true, Vec3(0, 1, 0), true}, 2, kNone, kNone, "", {}},
                     {mesh, 7, kNone, 0, "part", {}},
                     {Instance{0, to_world}, kNone, kNone, kNone, "placed", {"b.xml", 9, 9}}};

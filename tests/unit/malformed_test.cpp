@@ -122,7 +122,7 @@ TEST_F(Malformed, Structure) {
         "s.xml:3:62: \"flip_normals\" of <shape type=\"cube\"> is given twice");
     expect("<shape type=\"cube\"><bsdf type=\"diffuse\"/><bsdf type=\"diffuse\"/></shape>", "s.xml:3:42: ");
     expect("<shape type=\"torus\"/>",
-           "s.xml:3:1: the shape \"torus\" is not available in this version; use obj, rectangle, cube or sphere");
+           "s.xml:3:1: the shape \"torus\" is not available in this version; use obj, ply, serialized, rectangle");
     std::string deep;
     for (int i = 0; i < 5000; ++i)
         deep += "<bsdf type=\"twosided\">";
