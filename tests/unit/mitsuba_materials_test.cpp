@@ -234,6 +234,22 @@ TEST_F(MitsubaMaterials, BlendsAndMixtures) {
         EXPECT_THROW(material(nested), InputError) << nested;
 }
 
+TEST_F(MitsubaMaterials, BlendsOfReferencesDoNotExplode) {
+    std::string chain = "<bsdf type=\"diffuse\" id=\"0\"/>";
+    for (int i = 1; i < 60; ++i) {
+        const std::string below = "<ref id=\"" + std::to_string(i - 1) + "\"/>";
+        chain += "<bsdf type=\"blendbsdf\" id=\"" + std::to_string(i) + "\">" + below + below + "</bsdf>";
+    }
+    EXPECT_THROW(load_with_sensor(chain), InputError);
+    std::string nested = "<bsdf type=\"diffuse\" id=\"0\"/>";
+    for (int i = 1; i < 60; ++i) {
+        const std::string below = "<ref id=\"" + std::to_string(i - 1) + "\"/>";
+        nested += "<bsdf type=\"twosided\" id=\"" + std::to_string(i) + "\">" + below + below + "</bsdf>";
+    }
+    EXPECT_EQ(load_with_sensor(nested + "<shape type=\"rectangle\"><ref id=\"59\"/></shape>").scene.materials.size(),
+              1u);
+}
+
 TEST_F(MitsubaMaterials, UnknownPropertiesOfEveryBsdfAreRefused) {
     for (const char* type : {"diffuse", "conductor", "roughconductor", "dielectric", "thindielectric",
                              "roughdielectric", "plastic", "roughplastic", "null"})

@@ -55,11 +55,23 @@ std::int32_t MaterialReader::read_default(bool on_emitter, const Location& where
 }
 
 std::int32_t MaterialReader::add(Material material) {
+    constexpr int kMostLeaves = 64;
+    const Summary summary = summary_of(material);
+    if (summary.leaves > kMostLeaves)
+        throw InputError(material.where, "a blend of more than " + std::to_string(kMostLeaves) + " BSDFs",
+                         "blend fewer, every ray pays for them");
+    summaries_.push_back(summary);
     scene_.materials.push_back(std::move(material));
     return static_cast<std::int32_t>(scene_.materials.size() - 1);
 }
 
-Material MaterialReader::convert(const XmlElement& bsdf) {
+const Material& MaterialReader::convert(const XmlElement& bsdf) {
+    const auto known = converted_.find(&bsdf);
+    if (known != converted_.end()) return known->second;
+    return converted_.emplace(&bsdf, convert_new(bsdf)).first->second;
+}
+
+Material MaterialReader::convert_new(const XmlElement& bsdf) {
     Properties properties(bsdf, document_, diagnostics_);
     const std::string type = properties.type();
     Material material;
@@ -93,15 +105,16 @@ Material MaterialReader::convert(const XmlElement& bsdf) {
     return material;
 }
 
-bool MaterialReader::transmits(const Material& material) const {
-    if (std::holds_alternative<DielectricMaterial>(material.bsdf) ||
-        std::holds_alternative<ThinDielectricMaterial>(material.bsdf) ||
-        std::holds_alternative<NullMaterial>(material.bsdf))
-        return true;
-    const auto* blend = std::get_if<BlendMaterial>(&material.bsdf);
-    if (blend == nullptr) return false;
-    const auto part = [&](std::int32_t index) { return transmits(scene_.materials[static_cast<std::size_t>(index)]); };
-    return part(blend->first) || part(blend->second);
+MaterialReader::Summary MaterialReader::summary_of(const Material& material) const {
+    if (const auto* blend = std::get_if<BlendMaterial>(&material.bsdf)) {
+        const Summary& first = summaries_[static_cast<std::size_t>(blend->first)];
+        const Summary& second = summaries_[static_cast<std::size_t>(blend->second)];
+        return {first.transmits || second.transmits, first.leaves + second.leaves};
+    }
+    return {std::holds_alternative<DielectricMaterial>(material.bsdf) ||
+                std::holds_alternative<ThinDielectricMaterial>(material.bsdf) ||
+                std::holds_alternative<NullMaterial>(material.bsdf),
+            1};
 }
 
 Material MaterialReader::convert_child(Properties& properties) {

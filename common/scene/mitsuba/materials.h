@@ -28,7 +28,9 @@ class MaterialReader {
     TextureReader& textures() { return textures_; }
 
   private:
-    Material convert(const XmlElement& bsdf);
+    /// The same element is converted once: references can make a few lines stand for any number of BSDFs.
+    const Material& convert(const XmlElement& bsdf);
+    Material convert_new(const XmlElement& bsdf);
     Material convert_twosided(Properties& properties);
     Material convert_mask(Properties& properties);
     Material convert_bump(Properties& properties);
@@ -44,14 +46,23 @@ class MaterialReader {
     Material blend(const FloatInput& weight, Material first, Material second, const Properties& properties);
     /// A material that a blend holds: masks become blends with nothing.
     std::int32_t add_part(Material material);
-    bool transmits(const Material& material) const;
     std::int32_t add(Material material);
+
+    /// What a material is made of, its parts included.
+    struct Summary {
+        bool transmits = false;
+        int leaves = 1;  ///< BSDFs that hold no others
+    };
+    Summary summary_of(const Material& material) const;
+    bool transmits(const Material& material) const { return summary_of(material).transmits; }
 
     Scene& scene_;
     const SceneDocument& document_;
     Diagnostics& diagnostics_;
     TextureReader textures_;
     std::map<const XmlElement*, std::int32_t> known_;
+    std::map<const XmlElement*, Material> converted_;
+    std::vector<Summary> summaries_;  ///< of each material of the scene
     std::int32_t default_[2] = {kNone, kNone};
 };
 

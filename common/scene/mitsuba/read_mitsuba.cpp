@@ -8,7 +8,6 @@
 #include "common/scene/validate.h"
 
 namespace treefarm {
-
 SceneReading read_mitsuba(const std::filesystem::path& path, const std::map<std::string, std::string>& defines,
                           bool lenient, const mitsuba::FilmSize& film_size) {
     using namespace mitsuba;

@@ -176,6 +176,8 @@ Rgb read_color(const XmlElement& element, ColorUse use, Diagnostics& diagnostics
         color = read_spectrum(element, use);
         of_list = element.require("value").find(':') != std::string::npos;
     } else if (element.tag == "blackbody") {
+        if (use != ColorUse::radiance)
+            throw InputError(element.where, "<blackbody> is light, not a property of a surface", "give an <rgb>");
         color = read_blackbody(element);
         of_list = true;
     } else {
