@@ -90,8 +90,14 @@ double Emitters::add_area_light(const AreaEmitter& emitter) {
     return area * double(kPi) * double(average(mean));
 }
 
-Rgb Emitters::textured(const AreaLight& light, const Hit& hit) const {
-    return light.radiance * textures_->color(light.texture, geometry_->uv(hit));
+Emitters::Channels Emitters::textured(const AreaLight& light, const Hit& hit) const {
+    const Rgb c = light.radiance * textures_->color(light.texture, geometry_->uv(hit));
+    return {c.x, c.y, c.z};
+}
+
+Emitters::Channels Emitters::with_map(const Vec3& direction) const {
+    const Rgb c = constant_ + map_->radiance(direction);
+    return {c.x, c.y, c.z};
 }
 
 DirectSample Emitters::sample_direct(const Vec3& p, const Draw& random) const {
@@ -106,7 +112,7 @@ DirectSample Emitters::sample_other(std::uint32_t chosen, const Vec3& p, const D
     const AreaLight& light = area_lights_[chosen];
     DirectSample sample = light.sphere ? sample_sphere(light, p, random) : sample_area(light, p, random);
     if (is_black(sample.radiance)) return sample;
-    if (light.texture != kNone) sample.radiance = textured(light, sample.on_light);
+    if (light.texture != kNone) sample.radiance = textured(light, sample.on_light).rgb();
     // The shadow ray ends before the emitter, so its own mask is not asked: on average it lets this much be seen.
     if (light.mask) sample.radiance *= geometry_->opacity(sample.on_light);
     return sample;

@@ -45,13 +45,25 @@ class Emitters {
         const std::int32_t light = light_of_shape_[hit.shape];
         if (light == kNone || !(dot(hit.ng, wo) > 0.0f)) return Rgb(0.0f);
         const AreaLight& area = area_lights_[static_cast<std::size_t>(light)];
-        return area.texture == kNone ? area.radiance : textured(area, hit);
+        if (area.texture != kNone) [[unlikely]]
+            return textured(area, hit).rgb();
+        return area.radiance;
     }
 
     /// Radiance that comes from infinity, against the unit `direction`.
-    Rgb environment(const Vec3& direction) const { return map_ ? constant_ + map_->radiance(direction) : constant_; }
+    Rgb environment(const Vec3& direction) const {
+        if (map_) [[unlikely]]
+            return with_map(direction).rgb();
+        return constant_;
+    }
 
   private:
+    /// A colour that is returned in registers: the rare case then does not force the frequent one through memory.
+    struct Channels {
+        float r, g, b;
+        Rgb rgb() const { return {r, g, b}; }
+    };
+
     /// A shape that emits, with the probabilities of its triangles. Disks and cylinders count as one triangle.
     struct AreaLight {
         Rgb radiance{0.0f};  ///< or what its texture is multiplied by
@@ -69,7 +81,8 @@ class Emitters {
 
     double add_area_light(const AreaEmitter& emitter);
     void select(std::vector<double> power);
-    Rgb textured(const AreaLight& light, const Hit& hit) const;
+    Channels textured(const AreaLight& light, const Hit& hit) const;
+    Channels with_map(const Vec3& direction) const;
     /// Kept out of line, so that plain meshes pay nothing for the other kinds.
     [[gnu::noinline]] DirectSample sample_other(std::uint32_t chosen, const Vec3& p, const Draw& random) const;
     DirectSample sample_mesh(const AreaLight& light, const Vec3& p, const Draw& random) const;
