@@ -137,17 +137,16 @@ std::vector<std::pair<std::string, decltype(Shape::geometry)>> all_kinds() {
     Mesh bare = test::sphere_mesh(Vec3(0.0f), 1.0f, 2, false);
     Sphere sphere{Vec3(0.2f, 0, 0), 0.9f, false, normalize(Vec3(1, 1, 0)), normalize(Vec3(1, -1, 0))};
     Sphere flipped = sphere;
-    flipped.flip_normals = true;
+    flipped.flip_normals = flipped.mirrored = true;
     Cylinder cylinder{Vec3(0, -1, 0), Vec3(0, 1, 0.5f), 0.8f, false, Vec3(1, 0, 0), false};
     Cylinder mirrored = cylinder;
     mirrored.mirrored = mirrored.flip_normals = true;
-    return {{"bare mesh", bare},
-            {"mesh", textured_mesh()},
-            {"sphere", sphere},
-            {"flipped sphere", flipped},
-            {"disk", Disk{Vec3(0, 0, 0.1f), Vec3(1.5f, 0, 0.2f), Vec3(0.3f, 1, 0)}},
-            {"cylinder", cylinder},
-            {"mirrored cylinder", mirrored}};
+    const Disk disk{Vec3(0, 0, 0.1f), Vec3(1.5f, 0, 0.2f), Vec3(0.3f, 1, 0)};
+    Disk mirrored_disk = disk;
+    mirrored_disk.mirrored = true;
+    return {
+        {"bare mesh", bare}, {"mesh", textured_mesh()},        {"sphere", sphere},     {"flipped sphere", flipped},
+        {"disk", disk},      {"mirrored disk", mirrored_disk}, {"cylinder", cylinder}, {"mirrored cylinder", mirrored}};
 }
 
 TEST(SurfaceDetail, TangentsFollowTextureCoordinates) {
@@ -171,6 +170,14 @@ TEST(SurfaceDetail, ConventionsOfEachShape) {
     EXPECT_LT((sphere.uv(sphere.sphere_point(0, {0, -1e-3f, 1})) - Vec2(0.75f, 1e-3f / float(M_PI))).length(), 1e-6f);
     const EmbreeScene disk = only(Disk{});
     EXPECT_LT((disk.uv(disk.disk_point(0, 0, -0.5f)) - Vec2(0.5f, 0.75f)).length(), 1e-6f);
+    Disk d;
+    d.mirrored = true;
+    const EmbreeScene mirrored_disk = only(d);
+    EXPECT_LT((mirrored_disk.uv(mirrored_disk.disk_point(0, 0, -0.5f)) - Vec2(0.5f, 0.25f)).length(), 1e-6f);
+    Sphere s;
+    s.mirrored = true;
+    const EmbreeScene mirrored_sphere = only(s);
+    EXPECT_LT((mirrored_sphere.uv(mirrored_sphere.sphere_point(0, {0, 1, 0})) - Vec2(0.75f, 0.5f)).length(), 1e-6f);
     Cylinder c;
     const EmbreeScene cylinder = only(c);
     EXPECT_LT((cylinder.uv(cylinder.cylinder_point(0, 0.3f, {0, 1, 0})) - Vec2(0.25f, 0.3f)).length(), 1e-6f);

@@ -49,7 +49,7 @@ SurfaceDetail of(const Mesh& mesh, std::uint32_t primitive, float b1, float b2, 
 }
 
 SurfaceDetail of(const Sphere& s, std::uint32_t, float, float, const Vec3& n) {
-    const Vec3 side = cross(s.pole, s.meridian);
+    const Vec3 side = cross(s.pole, s.meridian) * (s.mirrored ? -1.0f : 1.0f);
     const float x = dot(n, s.meridian), y = dot(n, side), z = dot(n, s.pole);
     const float sine = std::sqrt(x * x + y * y);
     SurfaceDetail detail;
@@ -62,11 +62,11 @@ SurfaceDetail of(const Sphere& s, std::uint32_t, float, float, const Vec3& n) {
 }
 
 SurfaceDetail of(const Disk& d, std::uint32_t, float a, float b, const Vec3&) {
-    const float r = std::sqrt(a * a + b * b);
+    const float r = std::sqrt(a * a + b * b), turn = d.mirrored ? -1.0f : 1.0f;
     SurfaceDetail detail;
-    detail.uv = {r, azimuth_turn(a, b)};
+    detail.uv = {r, azimuth_turn(a, turn * b)};
     if (r > 0.0f) detail.dp_du = d.half_u * (a / r) + d.half_v * (b / r);
-    detail.dp_dv = (d.half_v * a - d.half_u * b) * kTwoPi;
+    detail.dp_dv = (d.half_v * a - d.half_u * b) * (turn * kTwoPi);
     ensure_tangents(detail, unit_normal(d.half_u, d.half_v), std::max(d.half_u.length(), d.half_v.length()));
     return detail;
 }
