@@ -102,7 +102,7 @@ inline Scene glossy_room() {
     add_shape(scene, quad({0.35f, 0.05f, 0.55f}, {0.35f, 0, 0}, {0, 0.6f, 0}), mixed, Rgb(0.0f), "pane");
     add_shape(scene, quad({0.35f, 0.97f, 0.35f}, x * 0.3f, z * 0.3f), white, Rgb(14.0f, 12.0f, 10.0f), "lamp");
     scene.camera = look_at({0.5f, 0.5f, -1.4f}, {0.5f, 0.5f, 0.0f}, y, 0.357f);
-    set_film(scene, 48, 48);
+    set_film(scene, 32, 32);
     return scene;
 }
 
