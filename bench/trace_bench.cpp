@@ -3,7 +3,7 @@
 
 #include "common/guiding/refine.h"
 #include "common/guiding/splat.h"
-#include "tests/support/test_scenes.h"
+#include "tests/support/material_scenes.h"
 #include "worker/integrator/tile_renderer.h"
 
 namespace treefarm {
@@ -39,8 +39,8 @@ SdTree train(const TraceScene& scene, const Job& job, const Box3& bounds) {
     return tree;
 }
 
-void trace(benchmark::State& state, bool guided, bool next_event, bool record) {
-    Scene box = test::cornell_box(1.0f, Vec3(0.0f));
+/// A scene of diffuse surfaces, or one with metals, glass and plastic.
+void trace_in(benchmark::State& state, Scene box, bool guided, bool next_event, bool record) {
     test::set_film(box, kSize, kSize);
     const Box3 bounds = box.bounds();
     Job job;
@@ -65,6 +65,14 @@ void trace(benchmark::State& state, bool guided, bool next_event, bool record) {
     state.counters["records/path"] = static_cast<double>(log.records.size()) / (kSize * kSize * 16);
 }
 
+void trace(benchmark::State& state, bool guided, bool next_event, bool record) {
+    trace_in(state, test::cornell_box(1.0f, Vec3(0.0f)), guided, next_event, record);
+}
+
+void trace_glossy(benchmark::State& state, bool guided, bool next_event, bool record) {
+    trace_in(state, test::glossy_room(), guided, next_event, record);
+}
+
 BENCHMARK_CAPTURE(trace, path, false, false, false)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(trace, path_next_event, false, true, false)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(trace, first_pass, false, false, true)->Unit(benchmark::kMillisecond);
@@ -73,6 +81,9 @@ BENCHMARK_CAPTURE(trace, guided, true, false, false)->Unit(benchmark::kMilliseco
 BENCHMARK_CAPTURE(trace, guided_next_event, true, true, false)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(trace, guided_recording, true, false, true)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(trace, guided_recording_next_event, true, true, true)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(trace_glossy, path_next_event, false, true, false)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(trace_glossy, guided_next_event, true, true, false)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(trace_glossy, guided_recording_next_event, true, true, true)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace treefarm

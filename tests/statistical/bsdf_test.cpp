@@ -1,11 +1,10 @@
-#include "worker/shading/bsdf.h"
-
 #include <gtest/gtest.h>
 
 #include "common/base/random.h"
 #include "tests/support/chi_square.h"
 #include "tests/support/random_tree.h"
 #include "worker/integrator/guided_sampling.h"
+#include "worker/shading/plain_diffuse.h"
 
 namespace treefarm {
 namespace {
@@ -18,25 +17,21 @@ Vec2 uniform(std::uint32_t i) {
     return {to_unit(r[2]), to_unit(r[3])};
 }
 
-Bsdf grey(float reflectance, bool twosided) {
-    Bsdf bsdf;
-    bsdf.kind = Bsdf::Kind::diffuse;
-    bsdf.twosided = twosided;
-    bsdf.reflectance = Rgb(reflectance);
-    return bsdf;
+PlainDiffuse grey(float reflectance, bool twosided) {
+    return {Rgb(reflectance), twosided};
 }
 
 TEST(BsdfDistribution, SamplesFollowTheDensity) {
     for (const bool twosided : {false, true})
         for (const Vec3& wo : {Vec3(0, 0, 1), normalize(Vec3(1, 0.3f, 0.01f)), normalize(Vec3(-0.2f, 0.5f, -0.6f))}) {
-            const Bsdf bsdf = grey(0.5f, twosided);
+            const PlainDiffuse bsdf = grey(0.5f, twosided);
             const auto sample = [&](std::uint32_t i, Vec3& d) {
-                const BsdfSample s = bsdf_sample(bsdf, wo, uniform(i));
+                const BsdfSample s = bsdf.sample(wo, {0.0f, uniform(i)});
                 d = s.wi;
                 return s.pdf > 0.0f;
             };
             const auto result = test::test_directions(
-                sample, [&](const Vec3& d) { return bsdf_pdf(bsdf, wo, d); }, kSamples);
+                sample, [&](const Vec3& d) { return bsdf.value(wo, d).pdf; }, kSamples);
             const bool visible = wo.z > 0.0f || twosided;
             EXPECT_NEAR(result.integral, visible ? 1.0 : 0.0, 1e-3);
             EXPECT_NEAR(result.success, visible ? 1.0 : 0.0, 1e-5);
@@ -45,25 +40,25 @@ TEST(BsdfDistribution, SamplesFollowTheDensity) {
 }
 
 TEST(BsdfDistribution, SamplesAndDensityAreOfTheSameBsdf) {
-    const Bsdf bsdf = grey(0.7f, true);
+    const PlainDiffuse bsdf = grey(0.7f, true);
     const Vec3 wo = normalize(Vec3(0.3f, 0.1f, -0.8f));
     for (std::uint32_t i = 0; i < 10000; ++i) {
-        const BsdfSample s = bsdf_sample(bsdf, wo, uniform(i));
+        const BsdfSample s = bsdf.sample(wo, {0.0f, uniform(i)});
         if (!(s.pdf > 0.0f)) continue;
-        ASSERT_EQ(s.pdf, bsdf_pdf(bsdf, wo, s.wi));
-        ASSERT_EQ(s.f_cos, bsdf_eval(bsdf, wo, s.wi));
+        ASSERT_EQ(s.pdf, bsdf.value(wo, s.wi).pdf);
+        ASSERT_EQ(s.f_cos, bsdf.value(wo, s.wi).f_cos);
     }
 }
 
 TEST(BsdfDistribution, ReflectsItsReflectanceAndNoMore) {
     for (const float reflectance : {0.0f, 0.3f, 1.0f}) {
-        Bsdf bsdf = grey(reflectance, false);
+        PlainDiffuse bsdf = grey(reflectance, false);
         double sum = 0;
         constexpr int kSteps = 512;
         for (int y = 0; y < kSteps; ++y)
             for (int x = 0; x < kSteps; ++x) {
                 const Vec3 d = square_to_sphere({(float(x) + 0.5f) / kSteps, (float(y) + 0.5f) / kSteps});
-                sum += bsdf_eval(bsdf, normalize(Vec3(1, 1, 1)), d).x;
+                sum += bsdf.value(normalize(Vec3(1, 1, 1)), d).f_cos.x;
             }
         EXPECT_NEAR(sum * 4 * M_PI / (kSteps * kSteps), reflectance, 1e-4);
     }
@@ -95,11 +90,11 @@ TEST(GuideDistribution, SamplesFollowTheDensity) {
 
 TEST(GuideDistribution, MixtureFollowsItsDensity) {
     const Guide& guide = trained_guide();
-    const Bsdf bsdf = grey(0.5f, false);
+    const PlainDiffuse bsdf = grey(0.5f, false);
     const Frame frame(normalize(Vec3(0.3f, -0.4f, 0.2f)));
     const Vec3 wo = normalize(Vec3(0.1f, 0.5f, 0.9f));
     for (const float fraction : {0.1f, 0.5f, 1.0f}) {
-        const GuidedSampling<true> sampling(bsdf, frame, wo, guide, guide.region_count() / 3, fraction);
+        const GuidedSampling<PlainDiffuse, true> sampling(bsdf, frame, wo, guide, guide.region_count() / 3, fraction);
         const auto sample = [&](std::uint32_t i, Vec3& d) {
             const ScatterSample s = sampling.sample(draw({8, i, 0}, 0, Stream::scatter), true);
             d = s.world;
@@ -108,7 +103,7 @@ TEST(GuideDistribution, MixtureFollowsItsDensity) {
         // Directions of the guide below the surface are sampled and discarded: the density counts above it only.
         const auto density = [&](const Vec3& d) {
             const Vec3 local = frame.to_local(d);
-            return local.z > 0.0f ? sampling.pdf(local, direction_to_code(d)) : 0.0f;
+            return local.z > 0.0f ? sampling.pdf(bsdf.value(wo, local).pdf, direction_to_code(d)) : 0.0f;
         };
         const auto result = test::test_directions(sample, density, kSamples, 16, 64);
         EXPECT_NEAR(result.integral, result.success, 3e-3);
@@ -118,24 +113,24 @@ TEST(GuideDistribution, MixtureFollowsItsDensity) {
 
 TEST(GuideDistribution, SampleAndDensityOfTheMixtureAgree) {
     const Guide& guide = trained_guide();
-    const Bsdf bsdf = grey(0.5f, true);
+    const PlainDiffuse bsdf = grey(0.5f, true);
     const Frame frame(normalize(Vec3(-0.3f, 0.4f, -0.8f)));
     const Vec3 wo = normalize(Vec3(0.1f, 0.5f, -0.9f));
-    const GuidedSampling<true> sampling(bsdf, frame, wo, guide, 1, 0.5f);
+    const GuidedSampling<PlainDiffuse, true> sampling(bsdf, frame, wo, guide, 1, 0.5f);
     int at_borders = 0;
     for (std::uint32_t i = 0; i < 100000; ++i) {
         const ScatterSample s = sampling.sample(draw({8, i, 0}, 0, Stream::scatter), true);
         if (!(s.pdf > 0.0f)) continue;
-        ASSERT_EQ(s.pdf, sampling.pdf(s.local, s.code));
+        ASSERT_EQ(s.pdf, sampling.pdf(bsdf.value(wo, s.local).pdf, s.code));
         at_borders += s.code != direction_to_code(s.world);
     }
     EXPECT_LT(at_borders, 20000) << "codes differ from those of the rounded directions by a step at most, and seldom";
 }
 
 TEST(BsdfDistribution, TheTestCanFail) {
-    const Bsdf bsdf = grey(0.5f, false);
+    const PlainDiffuse bsdf = grey(0.5f, false);
     const auto sample = [&](std::uint32_t i, Vec3& d) {
-        d = bsdf_sample(bsdf, Vec3(0, 0, 1), uniform(i)).wi;
+        d = bsdf.sample(Vec3(0, 0, 1), {0.0f, uniform(i)}).wi;
         return true;
     };
     const auto tilted = [](const Vec3& d) { return d.z > 0 ? (d.z + 0.02 * d.x) / M_PI : 0.0; };

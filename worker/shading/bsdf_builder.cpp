@@ -221,7 +221,7 @@ Vec3 BsdfBuilder::tilted_normal(const NormalDetail& detail, const ShadingPoint& 
     if (detail.bump != kNone) {
         const Vec2 slope = textures_->gradient(detail.bump, point.uv) * detail.bump_scale;
         const Vec3 outward = n * side;
-        // Blinn 1978: the displaced surface's tangents, without the term in the change of the normal.
+        // The displaced surface's tangents, as in Mitsuba 0.6: without the term in the change of the normal.
         const Vec3 du = point.dp_du + outward * (slope.x - dot(outward, point.dp_du));
         const Vec3 dv = point.dp_dv + outward * (slope.y - dot(outward, point.dp_dv));
         Vec3 bumped = cross(du, dv);

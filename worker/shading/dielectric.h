@@ -6,7 +6,7 @@
 namespace treefarm {
 
 /// A smooth boundary between transparent media. Radiance that comes from the far side is scaled by 1/eta^2: rays
-/// spread where they leave the denser medium (Veach 1997, section 5.2).
+/// spread where they leave the denser medium (the convention of Mitsuba 0.6 for radiance).
 struct DielectricBsdf {
     float eta = 1.5f;  ///< index of refraction of the far side over that of wo's side
     Rgb reflectance{1.0f}, transmittance{1.0f};

@@ -5,23 +5,36 @@
 namespace treefarm {
 namespace {
 
-/// Mean over visible normals of what a facet transmits, times the masking of where it goes.
+/// A uniform number as a smooth function of another that is dense near both ends, where the normals are those of a
+/// distribution's tail, and its derivative.
+struct Graded {
+    float value, weight;
+};
+
+Graded graded(int i, int count) {
+    const float t = (static_cast<float>(i) + 0.5f) / static_cast<float>(count);
+    return {t * t * (3.0f - 2.0f * t), 6.0f * t * (1.0f - t)};
+}
+
+/// Mean over visible normals of what a facet transmits, times the masking of where it goes. Good to about 1e-3.
 float transmitted(const Microfacet& facets, float eta, float cos) {
-    constexpr int kAlong = 32, kAcross = 24;
+    const int steps = facets.ggx ? 24 : 16;  // GGX has the longer tails, and costs less
     const Vec3 wo(std::sqrt((1.0f - cos) * (1.0f + cos)), 0.0f, cos);
-    double sum = 0;
-    for (int j = 0; j < kAcross; ++j)
-        for (int i = 0; i < kAlong; ++i) {
-            const Vec2 u((static_cast<float>(i) + 0.5f) / kAlong, (static_cast<float>(j) + 0.5f) / kAcross);
-            const Vec3 m = facets.sample_visible(wo, u);
+    double sum = 0, weights = 0;
+    for (int j = 0; j < steps; ++j)
+        for (int i = 0; i < steps; ++i) {
+            const Graded along = graded(i, steps), across = graded(j, steps);
+            const auto weight = double(along.weight * across.weight);
+            weights += weight;
+            const Vec3 m = facets.sample_visible(wo, {along.value, across.value});
             const float cos_o = std::min(1.0f, dot(wo, m));
             if (!(cos_o > 0.0f)) continue;
             const DielectricFresnel f = fresnel_dielectric(cos_o, eta);
             const Vec3 wi = refract(wo, m, cos_o, f.cos_transmitted, eta);
             if (f.reflectance < 1.0f && wi.z < 0.0f)
-                sum += double((1.0f - f.reflectance) * facets.masking({wi.x, wi.y, -wi.z}));
+                sum += weight * double((1.0f - f.reflectance) * facets.masking({wi.x, wi.y, -wi.z}));
         }
-    return static_cast<float>(sum / (kAlong * kAcross));
+    return static_cast<float>(sum / weights);
 }
 
 }  // namespace

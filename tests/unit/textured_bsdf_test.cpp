@@ -1,0 +1,154 @@
+// Materials that vary over a surface: textures, bump and normal maps, tangents.
+#include <gtest/gtest.h>
+
+#include "common/base/random.h"
+#include "common/math/warp.h"
+#include "tests/support/material_scenes.h"
+
+namespace treefarm {
+namespace {
+
+using test::PreparedMaterial;
+
+const Vec3 kUp(0, 0, 1);
+
+ShadingPoint point_at(float u, float v, const Vec3& wo = kUp, bool mirrored = false) {
+    ShadingPoint point;
+    point.uv = {u, v};
+    point.wo = wo;
+    point.mirrored = mirrored;
+    return point;
+}
+
+TEST(Textured, ReflectanceIsLookedUp) {
+    Scene scene;
+    const std::int32_t board = test::add_board(scene, Rgb(0.8f, 0.4f, 0.2f), Rgb(0.1f));
+    test::add_material(scene, DiffuseMaterial{ColorInput(Rgb(1.0f, 1.0f, 0.5f), board)});
+    PreparedMaterial prepared(scene);
+    ASSERT_TRUE(prepared.varies());
+    EXPECT_EQ(prepared.at(point_at(0.1f, 0.1f)).value(kUp, kUp).f_cos, Rgb(0.8f, 0.4f, 0.1f) * kInvPi);
+    EXPECT_EQ(prepared.at(point_at(0.6f, 0.1f)).value(kUp, kUp).f_cos, Rgb(0.1f, 0.1f, 0.05f) * kInvPi);
+}
+
+TEST(Textured, BlendWeightIsLookedUp) {
+    Scene scene;
+    const std::int32_t board = test::add_board(scene, Rgb(0.0f), Rgb(1.0f));
+    const std::int32_t black = test::add_diffuse(scene, Rgb(0.0f)), white = test::add_diffuse(scene, Rgb(1.0f));
+    test::add_material(scene, BlendMaterial{FloatInput(1.0f, board), black, white});
+    PreparedMaterial prepared(scene);
+    EXPECT_EQ(prepared.at(point_at(0.1f, 0.1f)).value(kUp, kUp).f_cos.x, 0.0f);
+    EXPECT_NEAR(prepared.at(point_at(0.6f, 0.1f)).value(kUp, kUp).f_cos.x, kInvPi, 1e-6f);
+}
+
+/// Diffuse with a bump whose height rises by `slope` per unit of u (within a large image).
+Scene bumped(float slope, bool twosided = false) {
+    Scene scene;
+    std::vector<float> heights;
+    for (int y = 0; y < 8; ++y)
+        for (int x = 0; x < 64; ++x)
+            heights.insert(heights.end(), 3, slope * (float(x) + 0.5f) / 64);
+    const std::int32_t height = test::add_image_texture(scene, 64, 8, heights);
+    const std::int32_t material = test::add_material(scene, DiffuseMaterial{Rgb(1.0f)}, twosided);
+    scene.materials[static_cast<std::size_t>(material)].detail.bump = height;
+    return scene;
+}
+
+TEST(Bump, TiltsTheNormalByTheSlope) {
+    PreparedMaterial prepared(bumped(0.5f));
+    const Vec3 expected = normalize(Vec3(-0.5f, 0.0f, 1.0f));
+    const Bsdf& bsdf = prepared.at(point_at(0.5f, 0.5f));
+    const auto* frame = std::get_if<OrientedBsdf>(&bsdf.kind);
+    ASSERT_NE(frame, nullptr);
+    EXPECT_LT((frame->n - expected).length(), 1e-4f);
+    EXPECT_NEAR(dot(frame->s, frame->n), 0.0f, 1e-6f);
+    EXPECT_NEAR(dot(frame->s, frame->t), 0.0f, 1e-6f);
+    const Vec3 wi = normalize(Vec3(0.3f, 0.2f, 0.8f));
+    EXPECT_NEAR(bsdf.value(kUp, wi).f_cos.x, dot(wi, expected) * kInvPi, 1e-4f);
+}
+
+TEST(Bump, BackSeesTheSameTiltedSurface) {
+    PreparedMaterial prepared(bumped(0.5f, true));
+    // The frame of the back is mirrored in z: the tilted normal, reversed, is (0.5, 0, 1) there.
+    const Bsdf& bsdf = prepared.at(point_at(0.5f, 0.5f, kUp, true), true);
+    const auto* frame = std::get_if<OrientedBsdf>(&bsdf.kind);
+    ASSERT_NE(frame, nullptr);
+    EXPECT_LT((frame->n - normalize(Vec3(0.5f, 0.0f, 1.0f))).length(), 1e-4f);
+}
+
+TEST(Bump, NeitherLeaksNorTurnsBlack) {
+    PreparedMaterial prepared(bumped(4.0f));
+    int black = 0;
+    for (std::uint32_t i = 0; i < 2000; ++i) {
+        const Draw r = draw({23, i, 0}, 0, Stream::scatter);
+        const Vec3 wo = square_to_cosine_hemisphere({to_unit(r[0]), to_unit(r[1])});
+        if (!(wo.z > 0.0f)) continue;
+        const Bsdf& bsdf = prepared.at(point_at(0.5f, 0.5f, wo));
+        const auto* frame = std::get_if<OrientedBsdf>(&bsdf.kind);
+        ASSERT_NE(frame, nullptr);
+        ASSERT_GT(dot(frame->n, wo), 0.0f);
+        const Vec3 below = square_to_sphere({to_unit(r[2]), to_unit(r[3])});
+        if (below.z < 0.0f) {
+            ASSERT_EQ(bsdf.value(wo, below).f_cos.x, 0.0f) << "light from behind the surface";
+        }
+        bool any = false;
+        for (std::uint32_t k = 0; k < 8 && !any; ++k) {
+            const Draw d = draw({29, i, k}, 0, Stream::scatter);
+            const BsdfSample s = bsdf.sample(wo, {to_unit(d[0]), {to_unit(d[1]), to_unit(d[2])}});
+            if (s.pdf > 0.0f) {
+                ASSERT_GT(s.wi.z, 0.0f);
+                any = s.f_cos.x > 0.0f;
+            }
+        }
+        black += !any;
+    }
+    EXPECT_LT(black, 40);
+}
+
+TEST(NormalMap, FlatIsTheSurface) {
+    for (const bool mirrored : {false, true}) {
+        Scene scene;
+        const std::int32_t flat = test::add_image_texture(scene, 1, 1, {0.5f, 0.5f, 1.0f});
+        const std::int32_t material = test::add_material(scene, DiffuseMaterial{Rgb(1.0f)}, true);
+        scene.materials[static_cast<std::size_t>(material)].detail.normal_map = flat;
+        PreparedMaterial prepared(scene);
+        const Bsdf& bsdf = prepared.at(point_at(0.5f, 0.5f, kUp, mirrored), mirrored);
+        EXPECT_LT((std::get<OrientedBsdf>(bsdf.kind).n - kUp).length(), 1e-6f);
+    }
+}
+
+TEST(NormalMap, TiltsAlongTheTangent) {
+    Scene scene;
+    const std::int32_t map = test::add_image_texture(scene, 1, 1, {0.8f, 0.5f, 0.9f});
+    const std::int32_t material = test::add_material(scene, DiffuseMaterial{Rgb(1.0f)}, true);
+    scene.materials[static_cast<std::size_t>(material)].detail.normal_map = map;
+    PreparedMaterial prepared(scene);
+    ShadingPoint point = point_at(0.5f, 0.5f);
+    point.dp_du = {0.0f, 2.0f, 0.0f};
+    point.dp_dv = {-1.0f, 0.0f, 0.0f};
+    const Vec3 n = std::get<OrientedBsdf>(prepared.at(point).kind).n;
+    EXPECT_LT((n - normalize(Vec3(0.0f, 0.6f, 0.8f))).length(), 1e-5f);
+}
+
+TEST(Anisotropic, IsWideAlongItsTangent) {
+    const ConductorMaterial metal{Rgb(0.0f), Rgb(1.0f), Rgb(1.0f), test::rough(Microfacets::ggx, 0.4f, 0.05f)};
+    PreparedMaterial prepared{decltype(Material::bsdf)(metal)};
+    ASSERT_TRUE(prepared.varies());
+    for (const bool mirrored : {false, true}) {
+        ShadingPoint point = point_at(0.0f, 0.0f, kUp, mirrored);
+        point.dp_du = {0.0f, 3.0f, 1.0f};
+        const Bsdf& bsdf = mirrored ? prepared.at(point_at(0, 0)) : prepared.at(point);
+        const Vec3 along = mirrored ? Vec3(0.5f, 0, 0) : Vec3(0, 0.5f, 0), across(along.y, along.x, 0);
+        EXPECT_GT(bsdf.value(kUp, normalize(along + kUp)).f_cos.x,
+                  20.0f * bsdf.value(kUp, normalize(across + kUp)).f_cos.x);
+    }
+}
+
+TEST(Constant, MaterialsAreNotLookedUp) {
+    const PreparedMaterial metal(
+        ConductorMaterial{Rgb(0.2f), Rgb(3.0f), Rgb(1.0f), test::rough(Microfacets::ggx, 0.2f, 0.2f)});
+    EXPECT_FALSE(metal.varies());
+    EXPECT_NE(metal.side(false), nullptr);
+}
+
+}  // namespace
+}  // namespace treefarm
