@@ -41,7 +41,7 @@ void expect_agreement(const Scene& scene, const Vec3& p, const std::string& what
     };
     const auto density = [&](const Vec3& d) -> double {
         Hit hit;
-        if (!lights.geometry.intersect({p, d}, hit)) return lights.emitters.pdf_environment();
+        if (!lights.geometry.intersect({p, d}, hit)) return lights.emitters.pdf_environment(d);
         return is_black(lights.emitters.emitted(hit, -d)) ? 0.0 : lights.emitters.pdf_direct(p, d, hit);
     };
     const auto result = test::test_directions(sample, density, 200000, 16, 96);

@@ -4,46 +4,11 @@
 
 #include <cmath>
 
-#include "common/base/error.h"
-#include "worker/geometry/sphere_geometry.h"
+#include "worker/geometry/primitive_points.h"
+#include "worker/geometry/user_geometry.h"
 
 namespace treefarm {
 namespace {
-
-void note_error(void* user, RTCError code, const char* text) {
-    std::string& message = *static_cast<std::string*>(user);
-    if (message.empty()) message = "error " + std::to_string(static_cast<int>(code)) + ", " + (text ? text : "");
-}
-
-/// Embree takes what the processor has when it does not know, or does not find, the instruction set it is asked for.
-/// Its roundings would then silently differ from other workers'.
-void require_isa(const std::string& isa) {
-    const bool present = isa == "sse2"     ? __builtin_cpu_supports("sse2")
-                         : isa == "sse4.2" ? __builtin_cpu_supports("sse4.2")
-                         : isa == "avx"    ? __builtin_cpu_supports("avx")
-                         : isa == "avx2"   ? __builtin_cpu_supports("avx2")
-                         : isa == "avx512" ? __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl")
-                                           : false;
-    if (!present)
-        throw RunError("this processor (or Embree) does not have the instruction set \"" + isa +
-                       "\"; set farm.isa to one that all workers have: sse2, sse4.2, avx, avx2 or avx512");
-}
-
-float max_abs(const Vec3& v) {
-    return std::max(std::abs(v.x), std::max(std::abs(v.y), std::abs(v.z)));
-}
-
-/// Unit normal of a triangle with these edges; a product of edges that leaves the range of float is redone in double.
-Vec3 unit_normal(const Vec3& e1, const Vec3& e2) {
-    const Vec3 n = cross(e1, e2);
-    const float length2 = dot(n, n);
-    if (length2 > 1e-30f && length2 < 1e30f) return n * (1.0f / std::sqrt(length2));
-    const Imath::V3d a(e1), b(e2);
-    const Imath::V3d wide = a.cross(b);
-    const double length = std::sqrt(wide.dot(wide));
-    if (!(length > 0)) return {0.0f, 0.0f, 1.0f};  // no area: no ray finds it
-    return Vec3(wide / length);
-}
 
 RTCRay make_ray(const Ray& ray) {
     RTCRay r;
@@ -71,77 +36,6 @@ RTCIntersectContext incoherent_context() {
 
 }  // namespace
 
-void EmbreeScene::ReleaseDevice::operator()(RTCDevice device) const {
-    rtcReleaseDevice(device);
-}
-
-void EmbreeScene::ReleaseScene::operator()(RTCScene scene) const {
-    rtcReleaseScene(scene);
-}
-
-EmbreeScene::EmbreeScene(std::vector<Shape> shapes, const std::string& isa)
-    : shapes_(std::move(shapes)), surfaces_(shapes_.size()), error_(std::make_unique<std::string>()) {
-    require_isa(isa);
-    const std::string config = "threads=1,set_affinity=0,hugepages=0,isa=" + isa;
-    device_.reset(rtcNewDevice(config.c_str()));
-    if (!device_)
-        throw RunError("Embree refused the device \"" + config + "\" (error " +
-                       std::to_string(static_cast<int>(rtcGetDeviceError(nullptr))) + ")");
-    rtcSetDeviceErrorFunction(device_.get(), note_error, error_.get());
-    scene_.reset(rtcNewScene(device_.get()));
-    check_errors("making a scene");
-    rtcSetSceneFlags(scene_.get(), RTC_SCENE_FLAG_NONE);
-    rtcSetSceneBuildQuality(scene_.get(), RTC_BUILD_QUALITY_MEDIUM);
-    for (std::uint32_t i = 0; i < shape_count(); ++i) {
-        if (auto* mesh = std::get_if<Mesh>(&shapes_[i].geometry))
-            attach_mesh(i, *mesh);
-        else
-            attach_sphere(i, std::get<Sphere>(shapes_[i].geometry));
-        check_errors("adding the shape \"" + shapes_[i].name + "\"");
-    }
-    rtcCommitScene(scene_.get());
-    check_errors("building the hierarchy");
-}
-
-EmbreeScene::~EmbreeScene() = default;
-
-void EmbreeScene::check_errors(const std::string& doing) const {
-    if (!error_->empty()) throw RunError("Embree failed while " + doing + ": " + *error_);
-}
-
-void EmbreeScene::attach_mesh(std::uint32_t index, Mesh& mesh) {
-    const std::size_t vertices = mesh.positions.size(), triangles = mesh.triangle_count();
-    for (const std::uint32_t i : mesh.indices)
-        if (i >= vertices)
-            throw RunError("the shape \"" + shapes_[index].name + "\" refers to vertex " + std::to_string(i) + " of " +
-                           std::to_string(vertices));
-    if (!mesh.normals.empty() && mesh.normals.size() != vertices)
-        throw RunError("the shape \"" + shapes_[index].name + "\" has " + std::to_string(mesh.normals.size()) +
-                       " normals for " + std::to_string(vertices) + " vertices");
-    // Embree shares these arrays and reads 16 bytes from the start of each element: the last one needs room behind it.
-    mesh.positions.emplace_back(0.0f);
-    mesh.indices.push_back(0);
-    surfaces_[index] = {mesh.positions.data(), mesh.normals.empty() ? nullptr : mesh.normals.data(),
-                        mesh.indices.data(), static_cast<std::uint32_t>(triangles)};
-    if (triangles == 0) return;
-    RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
-    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, mesh.positions.data(), 0,
-                               sizeof(Vec3), vertices);
-    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, mesh.indices.data(), 0,
-                               3 * sizeof(std::uint32_t), triangles);
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometryByID(scene_.get(), geometry, index);
-    rtcReleaseGeometry(geometry);
-}
-
-void EmbreeScene::attach_sphere(std::uint32_t index, const Sphere& sphere) {
-    RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_USER);
-    set_sphere_callbacks(geometry, sphere);
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometryByID(scene_.get(), geometry, index);
-    rtcReleaseGeometry(geometry);
-}
-
 bool EmbreeScene::intersect(const Ray& ray, Hit& hit) const {
     RTCIntersectContext context = incoherent_context();
     RTCRayHit query;
@@ -149,10 +43,11 @@ bool EmbreeScene::intersect(const Ray& ray, Hit& hit) const {
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     rtcIntersect1(scene_.get(), &context, &query);
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
-    if (surfaces_[query.hit.geomID].positions)
+    if (query.hit.instID[0] == RTC_INVALID_GEOMETRY_ID)
         hit = triangle_point(query.hit.geomID, query.hit.primID, query.hit.u, query.hit.v);
     else
-        hit = sphere_point(query.hit.geomID, {query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z});
+        hit = other_point(query.hit.instID[0], query.hit.geomID, query.hit.primID, query.hit.u, query.hit.v,
+                          {query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z});
     return true;
 }
 
@@ -190,24 +85,71 @@ Hit EmbreeScene::triangle_point(std::uint32_t shape, std::uint32_t primitive, fl
     return hit;
 }
 
-Hit EmbreeScene::sphere_point(std::uint32_t shape, const Vec3& outward) const {
-    const Sphere& s = std::get<Sphere>(shapes_[shape].geometry);
+/// What a ray found under an instance, or on a shape that is no mesh.
+Hit EmbreeScene::other_point(std::uint32_t instance, std::uint32_t id, std::uint32_t primitive, float u, float v,
+                             const Vec3& outward) const {
+    const Placement* placement = instance == kWorldUserShape ? nullptr : &placements_[surfaces_[instance].placement];
+    const std::uint32_t shape = placement ? groups_[placement->group()].members[id] : id;
     Hit hit;
+    switch (shapes_[shape].geometry.index()) {
+        case 0:
+            hit = triangle_point(shape, primitive, u, v);
+            break;
+        case 1:
+            hit = sphere_point(shape, outward);
+            break;
+        case 2:
+            hit = disk_point(shape, u, v);
+            break;
+        default:
+            hit = cylinder_point(shape, u, outward);
+    }
+    return placement ? placement->to_world(hit) : hit;
+}
+
+Hit EmbreeScene::sphere_point(std::uint32_t shape, const Vec3& outward) const {
+    Hit hit = treefarm::sphere_point(std::get<Sphere>(shapes_[shape].geometry), outward);
     hit.shape = shape;
-    const Vec3 n = normalize(outward);
-    hit.p = s.center + n * s.radius;
-    hit.error = offset_bound(max_abs(s.center) + s.radius);
-    hit.ng = s.flip_normals ? -n : n;
-    hit.ns = hit.ng;
     return hit;
 }
 
+Hit EmbreeScene::disk_point(std::uint32_t shape, float a, float b) const {
+    Hit hit = treefarm::disk_point(std::get<Disk>(shapes_[shape].geometry), a, b);
+    hit.shape = shape;
+    return hit;
+}
+
+Hit EmbreeScene::cylinder_point(std::uint32_t shape, float along, const Vec3& outward) const {
+    Hit hit = treefarm::cylinder_point(std::get<Cylinder>(shapes_[shape].geometry), along, outward);
+    hit.shape = shape;
+    return hit;
+}
+
+/// Away from the centre or axis, in the shape's own space: what the normal at the hit was made of.
+Vec3 EmbreeScene::outward(const Hit& hit) const {
+    const Vec3 n = hit.instance ? placements_[surfaces_[hit.instance - 1].placement].normal_to_local(hit.ng) : hit.ng;
+    const auto* sphere = std::get_if<Sphere>(&shapes_[hit.shape].geometry);
+    const auto* cylinder = std::get_if<Cylinder>(&shapes_[hit.shape].geometry);
+    return (sphere && sphere->flip_normals) || (cylinder && cylinder->flip_normals) ? -n : n;
+}
+
 Vec2 EmbreeScene::uv(const Hit& hit) const {
-    const auto* mesh = std::get_if<Mesh>(&shapes_[hit.shape].geometry);
-    if (!mesh || mesh->uvs.empty()) return {hit.b1, hit.b2};
-    const std::uint32_t* corner = mesh->indices.data() + 3 * std::size_t(hit.primitive);
-    return mesh->uvs[corner[0]] * (1.0f - hit.b1 - hit.b2) + mesh->uvs[corner[1]] * hit.b1 +
-           mesh->uvs[corner[2]] * hit.b2;
+    return shape_uv(shapes_[hit.shape], hit.primitive, hit.b1, hit.b2, outward(hit));
+}
+
+SurfaceDetail EmbreeScene::detail(const Hit& hit) const {
+    SurfaceDetail detail = shape_detail(shapes_[hit.shape], hit.primitive, hit.b1, hit.b2, outward(hit));
+    if (hit.instance) {
+        const Placement& placement = placements_[surfaces_[hit.instance - 1].placement];
+        detail.dp_du = placement.vector_to_world(detail.dp_du);
+        detail.dp_dv = placement.vector_to_world(detail.dp_dv);
+    }
+    return detail;
+}
+
+float EmbreeScene::opacity(const Hit& hit) const {
+    const Mask* m = mask(hit.shape);
+    return m ? m->opacity_at(hit.primitive, hit.b1, hit.b2, outward(hit)) : 1.0f;
 }
 
 double EmbreeScene::triangle_area(std::uint32_t shape, std::uint32_t primitive) const {

@@ -6,12 +6,22 @@
 
 #include "common/scene/scene.h"
 #include "worker/geometry/hit.h"
+#include "worker/geometry/mask.h"
+#include "worker/geometry/placement.h"
 #include "worker/geometry/ray.h"
+#include "worker/geometry/surface_detail.h"
 
 struct RTCDeviceTy;
+struct RTCGeometryTy;
 struct RTCSceneTy;
 
 namespace treefarm {
+
+/// Which shapes let some rays pass.
+struct ShapeMasks {
+    std::vector<FloatInput> opacity;       ///< per shape; empty: all are opaque
+    const TextureSet* textures = nullptr;  ///< must outlive the scene; nullptr if no opacity varies
+};
 
 /// The shapes of a scene with Embree's hierarchy over them: the only place that sees Embree. Immutable after
 /// construction; any number of threads may ask.
@@ -19,8 +29,9 @@ class EmbreeScene {
   public:
     /// Takes the shapes over. `isa` as in Job::Farm: the same on every worker, since it decides roundings. Built by one
     /// thread, so that the hierarchy, and with it the winner among equally near hits, is the same everywhere.
+    /// Masks, instances and analytic shapes cost nothing where there are none.
     /// Throws RunError when Embree reports an error, the processor lacks the isa, or an index is out of range.
-    EmbreeScene(std::vector<Shape> shapes, const std::string& isa);
+    EmbreeScene(std::vector<Shape> shapes, const std::string& isa, const ShapeMasks& masks = {});
     ~EmbreeScene();
     EmbreeScene(const EmbreeScene&) = delete;
     EmbreeScene& operator=(const EmbreeScene&) = delete;
@@ -34,14 +45,23 @@ class EmbreeScene {
     Hit triangle_point(std::uint32_t shape, std::uint32_t primitive, float b1, float b2) const;
     /// The point of a sphere in the direction `outward` (unit) from its centre.
     Hit sphere_point(std::uint32_t shape, const Vec3& outward) const;
+    /// The points of disks and cylinders: see primitive_points.h.
+    Hit disk_point(std::uint32_t shape, float a, float b) const;
+    Hit cylinder_point(std::uint32_t shape, float along, const Vec3& outward) const;
     /// Texture coordinates of a hit; the barycentrics where the mesh has none.
     Vec2 uv(const Hit& hit) const;
+    /// The same with tangents, in world space.
+    SurfaceDetail detail(const Hit& hit) const;
+    /// Probability that a ray meets the shape of the hit there, in [0, 1].
+    float opacity(const Hit& hit) const;
 
-    /// nullptr if the shape is a mesh.
+    /// nullptr if the shape is another.
     const Sphere* sphere(std::uint32_t shape) const { return std::get_if<Sphere>(&shapes_[shape].geometry); }
     std::uint32_t triangle_count(std::uint32_t shape) const { return surfaces_[shape].triangle_count; }
     double triangle_area(std::uint32_t shape, std::uint32_t primitive) const;
     const Shape& shape(std::uint32_t index) const { return shapes_[index]; }
+    /// nullptr: every ray meets the shape.
+    const Mask* mask(std::uint32_t shape) const;
     std::uint32_t shape_count() const { return static_cast<std::uint32_t>(shapes_.size()); }
 
     /// Embree's handle, for benchmarks.
@@ -54,6 +74,7 @@ class EmbreeScene {
         const Vec3* normals = nullptr;  ///< nullptr: none
         const std::uint32_t* indices = nullptr;
         std::uint32_t triangle_count = 0;
+        std::uint32_t placement = 0;  ///< of an instance, in placements_
     };
     struct ReleaseDevice {
         void operator()(RTCDeviceTy* device) const;
@@ -62,14 +83,30 @@ class EmbreeScene {
         void operator()(RTCSceneTy* scene) const;
     };
 
-    void attach_mesh(std::uint32_t index, Mesh& mesh);
-    void attach_sphere(std::uint32_t index, const Sphere& sphere);
+    /// The shapes that instances of a group place, numbered by their order in it.
+    struct Group {
+        std::unique_ptr<RTCSceneTy, ReleaseScene> scene;
+        std::vector<std::uint32_t> members;  ///< indices in Scene::shapes
+    };
+
+    void make_masks(const ShapeMasks& masks);
+    std::unique_ptr<RTCSceneTy, ReleaseScene> make_scene() const;
+    void make_groups();
+    void attach(RTCSceneTy* scene, std::uint32_t id, std::uint32_t shape);
+    RTCGeometryTy* mesh_geometry(std::uint32_t shape, Mesh& mesh);
+    RTCGeometryTy* instance_geometry(std::uint32_t shape, const Instance& instance);
+    Hit other_point(std::uint32_t instance, std::uint32_t id, std::uint32_t primitive, float u, float v,
+                    const Vec3& outward) const;
+    Vec3 outward(const Hit& hit) const;
     void check_errors(const std::string& doing) const;
 
     std::vector<Shape> shapes_;
     std::vector<Surface> surfaces_;
+    std::vector<Mask> masks_;  ///< of the masked shapes, in their order
+    std::vector<Placement> placements_;
     std::unique_ptr<std::string> error_;  ///< written by Embree's error callback
     std::unique_ptr<RTCDeviceTy, ReleaseDevice> device_;
+    std::vector<Group> groups_;
     std::unique_ptr<RTCSceneTy, ReleaseScene> scene_;
 };
 

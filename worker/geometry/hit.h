@@ -9,9 +9,12 @@ namespace treefarm {
 /// A point on a surface. Position and normals depend on the primitive and the barycentrics alone, never on the ray, so
 /// a point that a light sampler picks and the same point hit by a ray are the same bits.
 struct Hit {
-    std::uint32_t shape = 0;      ///< index in Scene::shapes
-    std::uint32_t primitive = 0;  ///< triangle of the mesh; 0 for spheres
-    float b1 = 0, b2 = 0;         ///< barycentrics of the second and third vertex
+    std::uint32_t shape = 0;      ///< index in Scene::shapes; under an instance that of the group's member
+    std::uint32_t primitive = 0;  ///< triangle of the mesh; 0 for other shapes
+    /// Barycentrics of the second and third vertex; disk: place along its half axes; cylinder: b1 along its axis, 0
+    /// to 1.
+    float b1 = 0, b2 = 0;
+    std::uint32_t instance = 0;  ///< 1 + index of the instance in Scene::shapes; 0: the shape stands in the world
     Vec3 p{0.0f};
     Vec3 ng{0.0f};    ///< unit geometric normal on the front; turned towards the shading normal where there is one
     Vec3 ns{0.0f};    ///< unit shading normal; ng where the mesh has none, or a useless one

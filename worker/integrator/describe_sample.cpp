@@ -1,6 +1,5 @@
 #include <sstream>
 
-#include "worker/integrator/dispatch.h"
 #include "worker/integrator/path_kernel.h"
 #include "worker/integrator/tile_renderer.h"
 
@@ -32,8 +31,8 @@ struct TextObserver {
              << contribution << '\n';
     }
     void scatter(const ScatterSample& s, const Rgb& throughput) {
-        text << "  scatter along " << s.world << " pdf " << s.pdf << " f cos " << s.f_cos << " throughput "
-             << throughput << '\n';
+        text << "  scatter " << (s.delta ? "(delta) " : "") << "along " << s.world << " pdf " << s.pdf << " f cos "
+             << s.f_cos << " throughput " << throughput << '\n';
     }
     void next_event(const DirectSample& light, float scatter_pdf, float weight, const Rgb& contribution) {
         text << "  next event along " << light.wi << " distance " << light.distance << " pdf " << light.pdf
@@ -45,6 +44,21 @@ struct TextObserver {
     void end(const char* why) { text << "  end: " << why << '\n'; }
 };
 
+template <class Surface, bool kGuided>
+std::string described(const TraceScene& scene, const Job& job, const PassPlan& pass, const Guide& guide, int x, int y,
+                      const PathKey& path) {
+    TraceStats stats;
+    PathKernel<Surface, kGuided, false, TextObserver> kernel(scene, guide, PathSettings(scene, job, pass, guide),
+                                                             stats);
+    kernel.observer().scene = &scene;
+    const Rgb radiance = kernel.trace(path, scene.camera().generate(x, y, draw(path, 0, Stream::camera)));
+    std::ostringstream head;
+    head.precision(9);
+    head << "pass " << pass.index << " pixel (" << x << ", " << y << ") sample " << path.sample - pass.first_sample
+         << " (path sample " << path.sample << ") seed " << path.seed << ": radiance " << radiance << '\n';
+    return head.str() + kernel.observer().text.str();
+}
+
 }  // namespace
 
 std::string describe_sample(const TraceScene& scene, const Job& job, const PassPlan& pass, const Guide& guide, int x,
@@ -52,20 +66,11 @@ std::string describe_sample(const TraceScene& scene, const Job& job, const PassP
     const PathKey path{job.sampler.seed, static_cast<std::uint32_t>(y * std::int64_t(scene.film().width) + x),
                        pass.first_sample + sample};
     const bool guided = job.guiding.type != GuidingType::none && guide.trained();
-    std::string text;
-    dispatch(pass.next_event && scene.emitters().can_sample(), guided, false, [&](auto next_event, auto guides, auto) {
-        TraceStats stats;
-        PathKernel<next_event(), guides(), false, TextObserver> kernel(scene, guide, PathSettings(job, pass, guide),
-                                                                       stats);
-        kernel.observer().scene = &scene;
-        const Rgb radiance = kernel.trace(path, scene.camera().generate(x, y, draw(path, 0, Stream::camera)));
-        std::ostringstream head;
-        head.precision(9);
-        head << "pass " << pass.index << " pixel (" << x << ", " << y << ") sample " << sample << " (path sample "
-             << path.sample << ") seed " << path.seed << ": radiance " << radiance << '\n';
-        text = head.str() + kernel.observer().text.str();
-    });
-    return text;
+    if (scene.plainly_diffuse())
+        return guided ? described<DiffuseSurface, true>(scene, job, pass, guide, x, y, path)
+                      : described<DiffuseSurface, false>(scene, job, pass, guide, x, y, path);
+    return guided ? described<GeneralSurface, true>(scene, job, pass, guide, x, y, path)
+                  : described<GeneralSurface, false>(scene, job, pass, guide, x, y, path);
 }
 
 }  // namespace treefarm

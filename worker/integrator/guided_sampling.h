@@ -3,7 +3,7 @@
 #include "common/base/random.h"
 #include "common/guiding/guide.h"
 #include "common/math/frame.h"
-#include "worker/shading/bsdf.h"
+#include "worker/shading/bsdf_sample.h"
 
 namespace treefarm {
 
@@ -12,30 +12,39 @@ struct ScatterSample {
     Vec3 local{0.0f};  ///< in the shading frame
     Vec3 world{0.0f};
     Rgb f_cos{0.0f};         ///< f |cos|
-    float pdf = 0;           ///< per steradian, of the whole mixture
+    float pdf = 0;           ///< per steradian, of the whole mixture; delta: the probability of the lobe
     std::uint32_t code = 0;  ///< Z-order code of the direction, if it was asked for
+    bool delta = false;      ///< of a lobe without density, which the guide cannot find
 };
 
 /// The density from which directions are drawn at one surface point: the BSDF's, or
 /// bsdf_fraction * p_BSDF + (1 - bsdf_fraction) * p_guide. sample() and pdf() agree by construction: the guide's part
-/// of a guided sample is the density of the very cell it was drawn from.
-template <bool kGuided>
+/// of a guided sample is the density of the very cell it was drawn from. The guide stands in for smooth lobes only: the
+/// delta lobes of a BSDF that has both are sampled by the BSDF, at bsdf_fraction times their probability (Mueller et
+/// al. 2017, as their program does it).
+template <class Bsdf, bool kGuided>
 class GuidedSampling {
   public:
     GuidedSampling(const Bsdf& bsdf, const Frame& frame, const Vec3& wo, const Guide& guide, std::uint32_t region,
                    float bsdf_fraction)
         : bsdf_(bsdf), frame_(frame), wo_(wo), guide_(guide), region_(region), bsdf_fraction_(bsdf_fraction) {}
 
-    /// random[0] chooses BSDF or guide, [1] the guide's cell, [2] and [3] the place. `need_code` fills `code`.
+    /// random[0] chooses BSDF or guide, [1] the BSDF's lobe or the guide's cell, [2] and [3] the place. `need_code`
+    /// fills `code`.
     ScatterSample sample(const Draw& random, bool need_code) const {
         ScatterSample s;
         if (!kGuided || to_unit(random[0]) < bsdf_fraction_) {
-            const BsdfSample b = bsdf_sample(bsdf_, wo_, {to_unit(random[2]), to_unit(random[3])});
+            const BsdfSample b = bsdf_.sample(wo_, {to_unit(random[1]), Vec2(to_unit(random[2]), to_unit(random[3]))});
             if (!(b.pdf > 0.0f)) return s;
             s.local = b.wi;
             s.world = frame_.to_world(b.wi);
             s.f_cos = b.f_cos;
             s.pdf = b.pdf;
+            if (b.delta) {
+                s.delta = true;
+                if constexpr (kGuided) s.pdf *= bsdf_fraction_;
+                return s;
+            }
             if (kGuided || need_code) s.code = direction_to_code(s.world);
             if constexpr (kGuided) s.pdf = mix(b.pdf, guide_.pdf(region_, s.code));
         } else {
@@ -43,17 +52,18 @@ class GuidedSampling {
             s.world = g.direction;
             s.code = g.code;
             s.local = frame_.to_local(g.direction);
-            s.f_cos = bsdf_eval(bsdf_, wo_, s.local);
-            if (!is_black(s.f_cos)) s.pdf = mix(bsdf_pdf(bsdf_, wo_, s.local), g.pdf);
+            const BsdfValue b = bsdf_.value(wo_, s.local);
+            s.f_cos = b.f_cos;
+            if (!is_black(s.f_cos)) s.pdf = mix(b.pdf, g.pdf);
         }
         return s;
     }
 
-    /// Density of sample() per steradian for a direction with this code (which only a guide needs).
-    float pdf(const Vec3& local, std::uint32_t code) const {
-        const float bsdf = bsdf_pdf(bsdf_, wo_, local);
-        if constexpr (kGuided) return mix(bsdf, guide_.pdf(region_, code));
-        return bsdf;
+    /// Density of sample() per steradian for a direction with this code (which only a guide needs), where the BSDF's is
+    /// `bsdf_pdf`.
+    float pdf(float bsdf_pdf, std::uint32_t code) const {
+        if constexpr (kGuided) return mix(bsdf_pdf, guide_.pdf(region_, code));
+        return bsdf_pdf;
     }
 
   private:

@@ -7,13 +7,14 @@
 #include "worker/integrator/mis.h"
 #include "worker/integrator/path_recorder.h"
 #include "worker/integrator/roulette.h"
-#include "worker/integrator/trace_scene.h"
+#include "worker/integrator/surface.h"
 
 namespace treefarm {
 
 /// What the walk is told besides the scene: fixed for a pass.
 struct PathSettings {
     int max_depth;
+    bool next_event;  ///< a flag, not a kernel of its own: one predictable branch per vertex
     MisHeuristic mis;
     bool strict_normals;
     bool hide_emitters;
@@ -21,8 +22,9 @@ struct PathSettings {
     float bsdf_fraction;
     Roulette roulette;
 
-    PathSettings(const Job& job, const PassPlan& pass, const Guide& guide)
+    PathSettings(const TraceScene& scene, const Job& job, const PassPlan& pass, const Guide& guide)
         : max_depth(job.integrator.max_depth),
+          next_event(pass.next_event && scene.emitters().can_sample()),
           mis(job.integrator.mis),
           strict_normals(job.integrator.strict_normals),
           hide_emitters(job.integrator.hide_emitters),
@@ -47,17 +49,18 @@ struct NoObserver {
 
 /// Path tracing from the camera with optional next event, guiding and recording (Mueller et al. 2017; the order of
 /// tests is that of their program). Depth counts path edges: a surface seen by the camera has depth 1. One kernel per
-/// thread.
-template <bool kNextEvent, bool kGuided, bool kRecord, class Observer = NoObserver>
+/// thread. `Surface` is one of surface.h.
+template <class Surface, bool kGuided, bool kRecord, class Observer = NoObserver>
 class PathKernel {
   public:
     PathKernel(const TraceScene& scene, const Guide& guide, const PathSettings& settings, TraceStats& stats)
-        : scene_(scene), guide_(guide), settings_(settings), stats_(stats) {}
+        : scene_(scene), guide_(guide), settings_(settings), stats_(stats), scratch_(Surface::make_scratch(scene)) {}
 
     /// Radiance along a camera ray. What was learned stays in recorder() until it is committed or the next path begins.
     Rgb trace(const PathKey& path, Ray ray) {
         Rgb radiance(0.0f), throughput(1.0f);
-        float scatter_pdf = 0.0f;
+        float scatter_pdf = 0.0f;  // infinite after a delta lobe: next event cannot have found what it meets
+        float spread = 1.0f;       // product of eta^2: what refraction took from the throughput and gives back later
         Vec3 scatter_point(0.0f);
         if constexpr (kRecord) recorder_.begin_path();
         observer_.camera(ray);
@@ -69,12 +72,12 @@ class PathKernel {
             observer_.arrive(depth, found ? &hit : nullptr);
 
             const Rgb emitted =
-                found ? scene_.emitters().emitted(hit, -ray.direction) : scene_.emitters().environment();
+                found ? scene_.emitters().emitted(hit, -ray.direction) : scene_.emitters().environment(ray.direction);
             if (!is_black(emitted) && !(depth == 1 && settings_.hide_emitters)) {
                 float light_pdf = 0.0f, weight = 1.0f;
-                if (kNextEvent && depth > 1) {
+                if (settings_.next_event && depth > 1) {
                     light_pdf = found ? scene_.emitters().pdf_direct(scatter_point, ray.direction, hit)
-                                      : scene_.emitters().pdf_environment();
+                                      : scene_.emitters().pdf_environment(ray.direction);
                     weight = mis_weight(settings_.mis, scatter_pdf, light_pdf);
                 }
                 const Rgb weighted = emitted * weight;
@@ -86,7 +89,8 @@ class PathKernel {
             if (depth == settings_.max_depth) return end(radiance, "depth limit");
 
             if (depth > 1 && settings_.roulette.plays(depth - 1)) {
-                const float survival = settings_.roulette.survival(throughput);
+                const float survival =
+                    settings_.roulette.survival(Surface::kGeneral ? throughput * spread : throughput);
                 const bool survives = to_unit(draw(path, vertex_of(depth - 1), Stream::roulette)[0]) < survival;
                 observer_.roulette(survival, survives);
                 if (!survives) return end(radiance, "roulette");
@@ -94,36 +98,44 @@ class PathKernel {
                 if constexpr (kRecord) recorder_.survive(survival);
             }
 
-            const Bsdf& bsdf = scene_.bsdf(hit.shape);
-            const Frame frame(hit.ns);
-            const Vec3 wo = frame.to_local(-ray.direction);
-            if (!bsdf_reflects(bsdf, wo)) return end(radiance, "black surface");
-            if (settings_.strict_normals && -dot(hit.ng, ray.direction) * wo.z < 0.0f)
+            const Surface surface(scene_, hit, -ray.direction, scratch_);
+            if (surface.black()) return end(radiance, "black surface");
+            if (settings_.strict_normals && -dot(surface.ng(), ray.direction) * surface.wo().z < 0.0f)
                 return end(radiance, "normals disagree");
 
             ++stats_.vertices;
             std::uint32_t region = 0;
-            if constexpr (kGuided || kRecord) region = guide_.region(hit.p);
-            if constexpr (kRecord)
-                if (!guide_.contains(hit.p)) recorder_.add_outside();
-            const GuidedSampling<kGuided> sampling(bsdf, frame, wo, guide_, region, settings_.bsdf_fraction);
+            if ((kGuided || kRecord) && surface.smooth()) {
+                region = guide_.region(hit.p);
+                if constexpr (kRecord)
+                    if (!guide_.contains(hit.p)) recorder_.add_outside();
+            }
+            const GuidedSampling<Bsdf, kGuided> sampling(surface.bsdf(), surface.frame(), surface.wo(), guide_, region,
+                                                         surface.smooth() ? settings_.bsdf_fraction : 1.0f);
 
-            if constexpr (kNextEvent) {
-                const Rgb reflected = next_event(path, depth, hit, bsdf, frame, wo, sampling, region, throughput);
+            if (settings_.next_event && surface.smooth()) {
+                const Rgb reflected = next_event(path, depth, hit, surface, sampling, region, throughput);
                 radiance += throughput * reflected;
                 if constexpr (kRecord) recorder_.add_reflected(reflected);
             }
 
             const ScatterSample s = sampling.sample(draw(path, vertex_of(depth), Stream::scatter), kRecord);
             if (!(s.pdf > 0.0f) || is_black(s.f_cos)) return end(radiance, "no direction");
-            if (settings_.strict_normals && dot(hit.ng, s.world) * s.local.z <= 0.0f)
+            if (settings_.strict_normals && dot(surface.ng(), s.world) * s.local.z <= 0.0f)
                 return end(radiance, "normals disagree");
             const Rgb weight = s.f_cos * (1.0f / s.pdf);
             throughput *= weight;
             observer_.scatter(s, throughput);
-            if constexpr (kRecord) recorder_.add_vertex(region, s.code, s.pdf, weight, vertex_of(depth));
             scatter_pdf = s.pdf;
             scatter_point = hit.p;
+            if (Surface::kGeneral && s.delta) {
+                if constexpr (kRecord) recorder_.add_delta_vertex(weight);
+                scatter_pdf = std::numeric_limits<float>::infinity();
+            } else {
+                if constexpr (kRecord) recorder_.add_vertex(region, s.code, s.pdf, weight, vertex_of(depth));
+            }
+            if constexpr (Surface::kGeneral)
+                if (s.local.z < 0.0f) spread *= surface.eta2();
             ray = {offset_origin(hit, s.world), s.world};
         }
     }
@@ -132,6 +144,8 @@ class PathKernel {
     Observer& observer() { return observer_; }
 
   private:
+    using Bsdf = typename Surface::Bsdf;
+
     static std::uint32_t vertex_of(int depth) { return static_cast<std::uint32_t>(depth); }
 
     Rgb end(const Rgb& radiance, const char* why) {
@@ -140,23 +154,25 @@ class PathKernel {
     }
 
     /// What a sampled emitter sends via this surface against the incoming ray, weighted against scattering.
-    Rgb next_event(const PathKey& path, int depth, const Hit& hit, const Bsdf& bsdf, const Frame& frame, const Vec3& wo,
-                   const GuidedSampling<kGuided>& sampling, std::uint32_t region, const Rgb& throughput) {
+    Rgb next_event(const PathKey& path, int depth, const Hit& hit, const Surface& surface,
+                   const GuidedSampling<Bsdf, kGuided>& sampling, std::uint32_t region, const Rgb& throughput) {
         const DirectSample light = scene_.emitters().sample_direct(hit.p, draw(path, vertex_of(depth), Stream::light));
         if (!(light.pdf > 0.0f) || is_black(light.radiance)) return Rgb(0.0f);
-        const Vec3 wi = frame.to_local(light.wi);
-        const Rgb f_cos = bsdf_eval(bsdf, wo, wi);
-        if (is_black(f_cos)) return Rgb(0.0f);
-        if (settings_.strict_normals && dot(hit.ng, light.wi) * wi.z <= 0.0f) return Rgb(0.0f);
+        const Vec3 wi = surface.frame().to_local(light.wi);
+        const BsdfValue bsdf = surface.bsdf().value(surface.wo(), wi);
+        if (is_black(bsdf.f_cos)) return Rgb(0.0f);
+        if (settings_.strict_normals && dot(surface.ng(), light.wi) * wi.z <= 0.0f) return Rgb(0.0f);
         ++stats_.shadow_rays;
         if (shadowed(hit, light)) return Rgb(0.0f);
 
+        // Scattering never meets a light without extent: its samples are weighted alone and teach the guide nothing.
+        const bool record = kRecord && settings_.record_light_samples && !light.delta;
         std::uint32_t code = 0;
-        if (kGuided || (kRecord && settings_.record_light_samples)) code = direction_to_code(light.wi);
-        const float scatter_pdf = sampling.pdf(wi, code);
+        if (kGuided || record) code = direction_to_code(light.wi);
+        const float scatter_pdf = light.delta ? 0.0f : sampling.pdf(bsdf.pdf, code);
         const float weight = mis_weight(settings_.mis, light.pdf, scatter_pdf);
-        const Rgb reflected = f_cos * light.radiance * (weight / light.pdf);
-        if (kRecord && settings_.record_light_samples)
+        const Rgb reflected = bsdf.f_cos * light.radiance * (weight / light.pdf);
+        if (record)
             recorder_.add_light_sample(region, code, average(light.radiance) * weight / light.pdf, vertex_of(depth));
         observer_.next_event(light, scatter_pdf, weight, throughput * reflected);
         return reflected;
@@ -178,6 +194,7 @@ class PathKernel {
     const Guide& guide_;
     const PathSettings settings_;
     TraceStats& stats_;
+    [[no_unique_address]] typename Surface::Scratch scratch_;
     PathRecorder recorder_;
     Observer observer_;
 };

@@ -26,6 +26,11 @@ class PathRecorder {
         vertices_.push_back({weight, Rgb(0.0f), Rgb(0.0f), 1.0f, pdf, region, code, vertex});
     }
 
+    /// The same of a delta lobe: its direction is no record, but what it carried belongs to the vertices before it.
+    void add_delta_vertex(const Rgb& weight) {
+        vertices_.push_back({weight, Rgb(0.0f), Rgb(0.0f), 1.0f, 0.0f, kNotRecorded, 0, 0});
+    }
+
     /// Emission that the last sampled direction met, weighted against next event.
     void add_emission(const Rgb& radiance) {
         if (!vertices_.empty()) vertices_.back().emission += radiance;
@@ -51,11 +56,15 @@ class PathRecorder {
     /// Appends the path's records. Returns how many vertices and next-event samples were counted.
     std::uint64_t commit(const PathKey& path, RecordLog& log) {
         Rgb carried(0.0f);
+        std::uint64_t recorded = light_samples_.size();
         for (std::size_t i = vertices_.size(); i-- > 0;) {
             const Vertex& v = vertices_[i];
             carried = v.emission + (v.reflected + carried) * (1.0f / v.survival);
-            ++log.counts[v.region];
-            append(path, {v.region, v.code, v.vertex, average(carried) / v.pdf}, Stream::rounding, log);
+            if (v.region != kNotRecorded) {
+                ++recorded;
+                ++log.counts[v.region];
+                append(path, {v.region, v.code, v.vertex, average(carried) / v.pdf}, Stream::rounding, log);
+            }
             carried *= v.weight;
         }
         for (const LightSample& s : light_samples_) {
@@ -63,10 +72,12 @@ class PathRecorder {
             append(path, s, Stream::light_rounding, log);
         }
         log.caps.outside_positions += outside_;
-        return vertices_.size() + light_samples_.size();
+        return recorded;
     }
 
   private:
+    static constexpr std::uint32_t kNotRecorded = 0xffffffffu;
+
     struct Vertex {
         Rgb weight, emission, reflected;
         float survival, pdf;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -7,7 +8,8 @@
 #include "common/scene/scene.h"
 #include "worker/integrator/camera_rays.h"
 #include "worker/lights/emitters.h"
-#include "worker/shading/bsdf.h"
+#include "worker/shading/material_set.h"
+#include "worker/shading/plain_diffuse.h"
 
 namespace treefarm {
 
@@ -20,14 +22,23 @@ class TraceScene {
     const EmbreeScene& geometry() const { return geometry_; }
     const Emitters& emitters() const { return emitters_; }
     const CameraRays& camera() const { return camera_; }
+    const TextureSet& textures() const { return textures_; }
     const Film& film() const { return film_; }
-    const Bsdf& bsdf(std::uint32_t shape) const { return bsdfs_[shape]; }
+    /// Whether plain_diffuse() holds every material; otherwise materials() does.
+    bool plainly_diffuse() const { return !materials_; }
+    const PlainDiffuse& plain_diffuse(std::uint32_t shape) const { return plain_diffuse_[shape]; }
+    const MaterialSet& materials() const { return *materials_; }
 
   private:
+    /// `opacity` as in ShapeMasks. Takes the scene apart.
+    TraceScene(Scene&& scene, const std::vector<FloatInput>& opacity, const Job& job);
+
     Film film_;
     CameraRays camera_;
-    std::vector<Bsdf> bsdfs_;  ///< per shape
     Box3 bounds_;
+    TextureSet textures_;
+    std::vector<PlainDiffuse> plain_diffuse_;  ///< per shape
+    std::optional<MaterialSet> materials_;
     EmbreeScene geometry_;
     Emitters emitters_;
 };

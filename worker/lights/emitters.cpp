@@ -1,18 +1,14 @@
 #include "worker/lights/emitters.h"
 
+#include <algorithm>
 #include <limits>
+#include <numeric>
+
+#include "common/base/error.h"
+#include "worker/lights/area_measure.h"
 
 namespace treefarm {
 namespace {
-
-/// Turns a density per area into one per steradian as seen along wi over a distance.
-float per_steradian(float area_density, float distance2, float cosine) {
-    return cosine > 0.0f ? area_density * distance2 / cosine : 0.0f;
-}
-
-float sphere_area_density(const Sphere& sphere) {
-    return kInvFourPi / (sphere.radius * sphere.radius);
-}
 
 double bounding_radius(const Box3& bounds) {
     if (bounds.isEmpty()) return 1.0;
@@ -23,68 +19,109 @@ double bounding_radius(const Box3& bounds) {
 
 }  // namespace
 
-Emitters::Emitters(const std::vector<Emitter>& emitters, const EmbreeScene& geometry, const Box3& bounds)
-    : geometry_(&geometry), light_of_shape_(geometry.shape_count(), kNone) {
-    std::vector<double> power;
+Emitters::Emitters(const std::vector<Emitter>& emitters, const EmbreeScene& geometry, const Box3& bounds,
+                   const TextureSet* textures)
+    : geometry_(&geometry), textures_(textures), light_of_shape_(geometry.shape_count(), kNone) {
+    const double radius = bounding_radius(bounds);
+    std::vector<double> power, delta_power;
     for (const Emitter& emitter : emitters) {
         if (const auto* area = std::get_if<AreaEmitter>(&emitter.kind)) {
-            if (area->shape != kNone) power.push_back(add_area_light(*area, geometry));
-        } else
-            environment_ += std::get<ConstantEmitter>(emitter.kind).radiance;
+            if (area->shape != kNone) power.push_back(add_area_light(*area));
+        } else if (const auto delta = DeltaLight::make(emitter)) {
+            delta_lights_.push_back(*delta);
+            delta_power.push_back(delta->power(radius));
+        } else if (const auto* constant = std::get_if<ConstantEmitter>(&emitter.kind)) {
+            constant_ += constant->radiance;
+        } else if (const auto* image = std::get_if<EnvironmentEmitter>(&emitter.kind)) {
+            if (map_) throw RunError("the scene has two environment maps");
+            if (!textures || image->image < 0 || static_cast<std::size_t>(image->image) >= textures->images().size())
+                throw RunError("the image of an environment map is missing");
+            map_ = std::make_unique<EnvironmentMap>(*image, textures->images()[static_cast<std::size_t>(image->image)]);
+        }
     }
+    power.insert(power.end(), delta_power.begin(), delta_power.end());
     // What crosses the scene's bounding sphere, as seen by a surface: pi L times its cross-section.
-    const double radius = bounding_radius(bounds);
-    power.push_back(double(kPi) * radius * radius * double(kPi) * double(average(environment_)));
-    selection_ = DiscreteTable(power);
-    for (std::size_t i = 0; i < area_lights_.size(); ++i)
-        area_lights_[i].selection = selection_.probability(static_cast<std::uint32_t>(i));
-    environment_pdf_ = selection_.probability(static_cast<std::uint32_t>(area_lights_.size())) * kInvFourPi;
+    const double from_infinity = double(kPi) * radius * radius * double(kPi);
+    power.push_back(from_infinity * double(average(constant_)));
+    power.push_back(map_ ? from_infinity * map_->mean_radiance() : 0.0);
+    select(std::move(power));
 }
 
-double Emitters::add_area_light(const AreaEmitter& emitter, const EmbreeScene& geometry) {
+/// An emitter that is hardly ever chosen would be all noise where it is the only one that counts.
+void Emitters::select(std::vector<double> power) {
+    const auto shining = std::count_if(power.begin(), power.end(), [](double p) { return p > 0; });
+    const double total = std::accumulate(power.begin(), power.end(), 0.0);
+    const double least = shining > 0 ? 1e-3 * total / static_cast<double>(shining) : 0.0;
+    for (double& p : power)
+        if (p > 0) p = std::max(p, least);
+    selection_ = DiscreteTable(power);
+    std::uint32_t next = 0;
+    for (AreaLight& light : area_lights_)
+        light.selection = selection_.probability(next++);
+    for (std::size_t i = 0; i < delta_lights_.size(); ++i)
+        delta_selection_.push_back(selection_.probability(next++));
+    constant_pdf_ = selection_.probability(next++) * kInvFourPi;
+    map_selection_ = selection_.probability(next);
+}
+
+double Emitters::add_area_light(const AreaEmitter& emitter) {
     AreaLight light;
     light.radiance = emitter.radiance.value;
+    light.texture = emitter.radiance.texture;
     light.shape = static_cast<std::uint32_t>(emitter.shape);
-    light.sphere = geometry.sphere(light.shape);
-    double area = 0;
-    if (light.sphere) {
-        area = 4.0 * double(kPi) * double(light.sphere->radius) * double(light.sphere->radius);
-    } else {
-        std::vector<double> areas(geometry.triangle_count(light.shape));
-        for (std::uint32_t i = 0; i < areas.size(); ++i)
-            area += areas[i] = geometry.triangle_area(light.shape, i);
+    light.sphere = geometry_->sphere(light.shape);
+    light.mask = geometry_->mask(light.shape);
+    if (light.texture != kNone && !textures_) throw RunError("an emitter has a texture, but there are no textures");
+    const std::vector<double> areas = part_areas(*geometry_, light.shape);
+    const double area = std::accumulate(areas.begin(), areas.end(), 0.0);
+    if (!light.sphere) {
         light.triangles = DiscreteTable(areas);
         light.area_density.resize(areas.size(), 0.0f);
         for (std::uint32_t i = 0; i < areas.size(); ++i)
             if (areas[i] > 0)
                 light.area_density[i] = static_cast<float>(double(light.triangles.probability(i)) / areas[i]);
     }
+    light.plain = geometry_->triangle_count(light.shape) > 0 && light.texture == kNone && !light.mask;
     light_of_shape_[light.shape] = static_cast<std::int32_t>(area_lights_.size());
     area_lights_.push_back(std::move(light));
-    return area * double(kPi) * double(average(emitter.radiance.value));
+    const Rgb mean = emitter.radiance.value *
+                     (emitter.radiance.varies() ? mean_color(*textures_, emitter.radiance.texture) : Rgb(1.0f));
+    return area * double(kPi) * double(average(mean));
+}
+
+Rgb Emitters::textured(const AreaLight& light, const Hit& hit) const {
+    return light.radiance * textures_->color(light.texture, geometry_->uv(hit));
 }
 
 DirectSample Emitters::sample_direct(const Vec3& p, const Draw& random) const {
     if (selection_.empty()) return {};
     const std::uint32_t chosen = selection_.pick(random[0]);
-    if (chosen == area_lights_.size()) return sample_environment(random);
+    if (chosen >= area_lights_.size()) return sample_without_area(chosen, p, random);
     const AreaLight& light = area_lights_[chosen];
-    return light.sphere ? sample_sphere(light, p, random) : sample_mesh(light, p, random);
+    if (light.plain) return sample_mesh(light, p, random);
+    DirectSample sample = light.sphere ? sample_sphere(light, p, random) : sample_area(light, p, random);
+    if (is_black(sample.radiance)) return sample;
+    if (light.texture != kNone) sample.radiance = textured(light, sample.on_light);
+    // The shadow ray ends before the emitter, so its own mask is not asked: on average it lets this much be seen.
+    if (light.mask) sample.radiance *= geometry_->opacity(sample.on_light);
+    return sample;
 }
 
 DirectSample Emitters::sample_mesh(const AreaLight& light, const Vec3& p, const Draw& random) const {
-    DirectSample sample;
     const std::uint32_t triangle = light.triangles.pick(random[1]);
     const Vec2 b = square_to_triangle({to_unit(random[2]), to_unit(random[3])});
+    DirectSample sample;
     sample.on_light = geometry_->triangle_point(light.shape, triangle, b.x, b.y);
-    const Vec3 to_light = sample.on_light.p - p;
-    const float distance2 = dot(to_light, to_light);
-    if (!(distance2 > 0.0f)) return sample;
-    sample.distance = std::sqrt(distance2);
-    sample.wi = to_light * (1.0f / sample.distance);
-    const float cosine = -dot(sample.on_light.ng, sample.wi);
-    sample.pdf = light.selection * per_steradian(light.area_density[triangle], distance2, std::abs(cosine));
-    if (cosine > 0.0f) sample.radiance = light.radiance;
+    look_at(sample, p, light.radiance, light.selection, light.area_density[triangle]);
+    return sample;
+}
+
+/// Any shape but a sphere, uniformly by area.
+DirectSample Emitters::sample_area(const AreaLight& light, const Vec3& p, const Draw& random) const {
+    if (geometry_->triangle_count(light.shape) > 0) return sample_mesh(light, p, random);
+    DirectSample sample;
+    sample.on_light = uniform_point(*geometry_, light.shape, {to_unit(random[2]), to_unit(random[3])});
+    look_at(sample, p, light.radiance, light.selection, light.area_density[0]);
     return sample;
 }
 
@@ -103,23 +140,19 @@ DirectSample Emitters::sample_sphere(const AreaLight& light, const Vec3& p, cons
         return sample;
     }
     sample.on_light = geometry_->sphere_point(light.shape, square_to_sphere(u));
-    const Vec3 to_light = sample.on_light.p - p;
-    const float distance2 = dot(to_light, to_light);
-    if (!(distance2 > 0.0f)) return sample;
-    sample.distance = std::sqrt(distance2);
-    sample.wi = to_light * (1.0f / sample.distance);
-    const float cosine = -dot(sample.on_light.ng, sample.wi);
-    sample.pdf = light.selection * per_steradian(sphere_area_density(*light.sphere), distance2, std::abs(cosine));
-    if (cosine > 0.0f) sample.radiance = light.radiance;
+    look_at(sample, p, light.radiance, light.selection, sphere_area_density(*light.sphere));
     return sample;
 }
 
-DirectSample Emitters::sample_environment(const Draw& random) const {
+DirectSample Emitters::sample_without_area(std::uint32_t chosen, const Vec3& p, const Draw& random) const {
+    std::size_t index = chosen - area_lights_.size();
+    if (index < delta_lights_.size()) return delta_lights_[index].sample(p, delta_selection_[index]);
+    index -= delta_lights_.size();
     DirectSample sample;
-    sample.wi = square_to_sphere({to_unit(random[2]), to_unit(random[3])});
+    sample.wi = index == 0 ? square_to_sphere({to_unit(random[2]), to_unit(random[3])}) : map_->sample(random);
     sample.distance = std::numeric_limits<float>::infinity();
-    sample.pdf = environment_pdf_;
-    sample.radiance = environment_;
+    sample.pdf = pdf_environment(sample.wi);
+    sample.radiance = environment(sample.wi);
     return sample;
 }
 

@@ -1,15 +1,40 @@
 #include "worker/shading/bsdf.h"
 
+#include <type_traits>
+
 namespace treefarm {
 
-Bsdf make_bsdf(const Scene& scene, std::int32_t material) {
-    Bsdf bsdf;
-    if (material == kNone) return bsdf;
-    const Material& m = scene.materials[static_cast<std::size_t>(material)];
-    bsdf.twosided = m.twosided;
-    bsdf.reflectance = std::get<DiffuseMaterial>(m.bsdf).reflectance.value;
-    bsdf.kind = is_black(bsdf.reflectance) ? Bsdf::Kind::black : Bsdf::Kind::diffuse;
-    return bsdf;
+LobeBits lobes_of(const Bsdf& bsdf) {
+    return bsdf.visit([](const auto& b) -> LobeBits {
+        using Kind = std::decay_t<decltype(b)>;
+        if constexpr (std::is_same_v<Kind, BlackBsdf>)
+            return 0;
+        else if constexpr (std::is_same_v<Kind, BlendBsdf>)
+            return static_cast<LobeBits>(lobes_of(*b.first) | lobes_of(*b.second));
+        else if constexpr (std::is_same_v<Kind, OrientedBsdf>)
+            return lobes_of(*b.inner);
+        else if constexpr (std::is_same_v<Kind, PlasticBsdf>)
+            return kSmoothLobe | kDeltaLobe;
+        else if constexpr (std::is_same_v<Kind, DiffuseBsdf> || requires { b.facets; })
+            return kSmoothLobe;
+        else
+            return kDeltaLobe;
+    });
+}
+
+float refraction_of(const Bsdf& bsdf) {
+    return bsdf.visit([](const auto& b) -> float {
+        using Kind = std::decay_t<decltype(b)>;
+        if constexpr (std::is_same_v<Kind, DielectricBsdf> || std::is_same_v<Kind, RoughDielectricBsdf>)
+            return b.eta;
+        else if constexpr (std::is_same_v<Kind, OrientedBsdf>)
+            return refraction_of(*b.inner);
+        else if constexpr (std::is_same_v<Kind, BlendBsdf>) {
+            const float first = refraction_of(*b.first);
+            return first != 1.0f ? first : refraction_of(*b.second);
+        } else
+            return 1.0f;
+    });
 }
 
 }  // namespace treefarm

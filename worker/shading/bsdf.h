@@ -1,77 +1,118 @@
 #pragma once
 
-#include <cstdint>
+#include <variant>
 
-#include "common/scene/scene.h"
+#include "worker/shading/blend.h"
+#include "worker/shading/conductor.h"
+#include "worker/shading/dielectric.h"
 #include "worker/shading/diffuse.h"
+#include "worker/shading/null.h"
+#include "worker/shading/oriented.h"
+#include "worker/shading/plastic.h"
+#include "worker/shading/rough_conductor.h"
+#include "worker/shading/rough_dielectric.h"
+#include "worker/shading/rough_plastic.h"
+#include "worker/shading/thin_dielectric.h"
 
 namespace treefarm {
 
-/// How a surface scatters, ready for the path walk: a closed set told apart by `kind`, no virtual call. Directions are
-/// in the shading frame, `wo` to where light goes, `wi` to where it comes from.
+/// Reflects nothing.
+struct BlackBsdf {
+    BsdfValue value(const Vec3&, const Vec3&) const { return {}; }
+    BsdfSample sample(const Vec3&, const BsdfRandom&) const { return {}; }
+};
+
+/// How one side of a surface scatters, at one point: a closed set, no virtual call, no allocation.
 struct Bsdf {
-    enum class Kind : std::uint8_t { black, diffuse };
+    std::variant<BlackBsdf, DiffuseBsdf, RoughConductorBsdf, RoughDielectricBsdf, RoughPlasticBsdf, PlasticBsdf,
+                 ConductorBsdf, DielectricBsdf, ThinDielectricBsdf, NullBsdf, BlendBsdf, OrientedBsdf>
+        kind;
 
-    Kind kind = Kind::black;
-    bool twosided = false;
-    Rgb reflectance{0.0f};
+    /// Calls f with the alternative that is held: a switch, where std::visit would call through a table.
+    template <class F>
+    auto visit(F&& f) const {
+        switch (kind.index()) {
+            case 1:
+                return f(*std::get_if<1>(&kind));
+            case 2:
+                return f(*std::get_if<2>(&kind));
+            case 3:
+                return f(*std::get_if<3>(&kind));
+            case 4:
+                return f(*std::get_if<4>(&kind));
+            case 5:
+                return f(*std::get_if<5>(&kind));
+            case 6:
+                return f(*std::get_if<6>(&kind));
+            case 7:
+                return f(*std::get_if<7>(&kind));
+            case 8:
+                return f(*std::get_if<8>(&kind));
+            case 9:
+                return f(*std::get_if<9>(&kind));
+            case 10:
+                return f(*std::get_if<10>(&kind));
+            case 11:
+                return f(*std::get_if<11>(&kind));
+            default:
+                return f(*std::get_if<0>(&kind));
+        }
+    }
+
+    /// f |cos(wi)| and density for wo.z > 0, delta lobes left out.
+    BsdfValue value(const Vec3& wo, const Vec3& wi) const {
+        return visit([&](const auto& bsdf) { return bsdf.value(wo, wi); });
+    }
+    /// Draws wi for wo.z > 0.
+    BsdfSample sample(const Vec3& wo, const BsdfRandom& random) const {
+        return visit([&](const auto& bsdf) { return bsdf.sample(wo, random); });
+    }
 };
 
-/// What a material is to the walk; kNone (a shape without material) is black.
-Bsdf make_bsdf(const Scene& scene, std::int32_t material);
+static_assert(std::variant_size_v<decltype(Bsdf::kind)> == 12, "Bsdf::visit has a case for each");
 
-/// A sampled direction; pdf 0 means that none was found (black, or seen from the back).
-struct BsdfSample {
-    Vec3 wi{0.0f};
-    float pdf = 0;    ///< per steradian
-    Rgb f_cos{0.0f};  ///< f |cos(wi)|
-};
+/// The lobes of a BSDF.
+LobeBits lobes_of(const Bsdf& bsdf);
 
-/// False where the BSDF is black for light leaving along wo, whatever wi: nothing need be sampled.
-inline bool bsdf_reflects(const Bsdf& bsdf, const Vec3& wo) {
-    return bsdf.kind != Bsdf::Kind::black && (wo.z > 0.0f || (bsdf.twosided && wo.z < 0.0f));
+/// Index of refraction of the far side over that of wo's side, 1 where nothing refracts: what roulette undoes of the
+/// scaling of radiance. Of a blend, the first that refracts.
+float refraction_of(const Bsdf& bsdf);
+
+inline BsdfValue BlendBsdf::value(const Vec3& wo, const Vec3& wi) const {
+    const BsdfValue a = first->value(wo, wi), b = second->value(wo, wi);
+    return {a.f_cos * (1.0f - weight) + b.f_cos * weight, a.pdf * (1.0f - weight) + b.pdf * weight};
 }
 
-namespace detail {
-
-/// Mirrors a direction to the side where the BSDF is defined.
-inline Vec3 on_side(const Vec3& w, bool mirrored) {
-    return mirrored ? Vec3(w.x, w.y, -w.z) : w;
-}
-
-}  // namespace detail
-
-/// f |cos(wi)|, per steradian.
-inline Rgb bsdf_eval(const Bsdf& bsdf, const Vec3& wo, const Vec3& wi) {
-    const bool mirrored = bsdf.twosided && wo.z < 0.0f;
-    switch (bsdf.kind) {
-        case Bsdf::Kind::diffuse:
-            return diffuse::eval(bsdf.reflectance, detail::on_side(wo, mirrored), detail::on_side(wi, mirrored));
-        case Bsdf::Kind::black:
-            break;
+inline BsdfSample BlendBsdf::sample(const Vec3& wo, const BsdfRandom& random) const {
+    const bool takes_second = !(random.lobe < 1.0f - weight);
+    const float share = takes_second ? weight : 1.0f - weight;
+    // What is left of the number chooses among the lobes of the part; rounding may bring it to 1.
+    const float rest = std::min((takes_second ? random.lobe - (1.0f - weight) : random.lobe) / share, 0x1.fffffep-1f);
+    BsdfSample s = (takes_second ? second : first)->sample(wo, {rest, random.place});
+    if (!(s.pdf > 0.0f)) return s;
+    if (s.delta) {
+        s.pdf *= share;
+        s.f_cos *= share;
+    } else {
+        const BsdfValue v = value(wo, s.wi);
+        s.pdf = v.pdf;
+        s.f_cos = v.f_cos;
     }
-    return Rgb(0.0f);
+    return s;
 }
 
-/// Density of bsdf_sample(), per steradian.
-inline float bsdf_pdf(const Bsdf& bsdf, const Vec3& wo, const Vec3& wi) {
-    const bool mirrored = bsdf.twosided && wo.z < 0.0f;
-    switch (bsdf.kind) {
-        case Bsdf::Kind::diffuse:
-            return diffuse::pdf(detail::on_side(wo, mirrored), detail::on_side(wi, mirrored));
-        case Bsdf::Kind::black:
-            break;
-    }
-    return 0.0f;
+inline BsdfValue OrientedBsdf::value(const Vec3& wo, const Vec3& wi) const {
+    const Vec3 inside = to_inner(wi);
+    if (!(inside.z * wi.z > 0.0f)) return {};
+    return inner->value(to_inner(wo), inside);
 }
 
-/// Draws wi for a given wo from two uniform numbers in [0, 1).
-inline BsdfSample bsdf_sample(const Bsdf& bsdf, const Vec3& wo, const Vec2& u) {
-    BsdfSample sample;
-    if (!bsdf_reflects(bsdf, wo)) return sample;
-    sample.wi = detail::on_side(diffuse::sample(u), wo.z < 0.0f);
-    sample.pdf = bsdf_pdf(bsdf, wo, sample.wi);
-    sample.f_cos = bsdf_eval(bsdf, wo, sample.wi);
+inline BsdfSample OrientedBsdf::sample(const Vec3& wo, const BsdfRandom& random) const {
+    BsdfSample sample = inner->sample(to_inner(wo), random);
+    if (!(sample.pdf > 0.0f)) return sample;
+    const float inside = sample.wi.z;
+    sample.wi = to_outer(sample.wi);
+    if (!(inside * sample.wi.z > 0.0f)) return {};
     return sample;
 }
 

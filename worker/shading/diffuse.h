@@ -1,25 +1,24 @@
 #pragma once
 
 #include "common/math/warp.h"
+#include "worker/shading/bsdf_sample.h"
 
-namespace treefarm::diffuse {
+namespace treefarm {
 
-/// Lambertian reflection on the side of +z. Directions are unit vectors in the shading frame, both pointing away from
-/// the surface: `wo` to where light goes, `wi` to where it comes from.
+/// Lambertian reflection.
+struct DiffuseBsdf {
+    Rgb reflectance{0.0f};
 
-/// f |cos(wi)|, per steradian.
-inline Rgb eval(const Rgb& reflectance, const Vec3& wo, const Vec3& wi) {
-    return wo.z > 0.0f && wi.z > 0.0f ? reflectance * (wi.z * kInvPi) : Rgb(0.0f);
-}
+    BsdfValue value(const Vec3& /*wo*/, const Vec3& wi) const {
+        if (!(wi.z > 0.0f)) return {};
+        return {reflectance * (wi.z * kInvPi), cosine_hemisphere_pdf(wi.z)};
+    }
 
-/// Density of sample() per steradian.
-inline float pdf(const Vec3& wo, const Vec3& wi) {
-    return wo.z > 0.0f ? cosine_hemisphere_pdf(wi.z) : 0.0f;
-}
+    BsdfSample sample(const Vec3& wo, const BsdfRandom& random) const {
+        const Vec3 wi = square_to_cosine_hemisphere(random.place);
+        const BsdfValue v = value(wo, wi);
+        return {wi, v.pdf, v.f_cos, false};
+    }
+};
 
-/// Draws wi in proportion to its cosine; its density is pdf().
-inline Vec3 sample(const Vec2& u) {
-    return square_to_cosine_hemisphere(u);
-}
-
-}  // namespace treefarm::diffuse
+}  // namespace treefarm

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+
+namespace treefarm {
+
+/// exp(-x) for x >= 0, relative error below 3e-7 (see elementary.h for why it is our own). Exactly 0 from 87 on.
+inline float exp_negative(float x) {
+    if (!(x < 87.0f)) return 0.0f;
+    // 2^-n e^-r with |r| <= ln 2 / 2; ln 2 is split so that n times its first part is exact.
+    const float n = std::floor(x * 1.44269504088896340736f + 0.5f);
+    const float r = (x - n * 0.693359375f) + n * 2.12194440e-4f;
+    const float p =
+        1.0f + r * (-1.0f + r * (0.5f + r * (-1.66666667e-1f +
+                                             r * (4.16666667e-2f + r * (-8.33333333e-3f + r * 1.38888889e-3f)))));
+    const auto exponent = static_cast<std::uint32_t>(127 - static_cast<int>(n));
+    return p * std::bit_cast<float>(exponent << 23);
+}
+
+inline constexpr std::array<float, 11> kErfcScaled = {
+    0.2256758315f,   0.2256763169f, 0.2076007204f,  0.1718905719f, 0.1180951231f,   0.08712064143f,
+    -0.05379316585f, 0.146803245f,  -0.2430417313f, 0.143841069f,  -0.02986862843f,
+};
+
+/// exp(x^2) erfc(x) for x >= 0, relative error below 3e-7: t P(t) with t = 1 / (1 + 0.4 x), own fit at Chebyshev nodes.
+inline float erfc_scaled(float x) {
+    const float t = 1.0f / (1.0f + 0.4f * x);
+    float p = kErfcScaled.back();
+    for (std::size_t i = kErfcScaled.size() - 1; i-- > 0;)
+        p = p * t + kErfcScaled[i];
+    return p * t;
+}
+
+}  // namespace treefarm

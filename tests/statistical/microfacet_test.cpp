@@ -1,0 +1,123 @@
+// Every rough BSDF: samples against density, over roughness and angle, on both sides.
+#include <gtest/gtest.h>
+
+#include "common/base/random.h"
+#include "tests/support/lobe_test.h"
+#include "tests/support/material_scenes.h"
+
+namespace treefarm {
+namespace {
+
+constexpr double kSignificance = 1e-5;
+constexpr std::uint32_t kSamples = 40000;
+
+BsdfRandom uniform(std::uint32_t i) {
+    const Draw r = draw({11, i, 0}, 0, Stream::scatter);
+    return {to_unit(r[1]), {to_unit(r[2]), to_unit(r[3])}};
+}
+
+Vec3 at_cosine(float cos, float azimuth) {
+    const float sin = std::sqrt(1.0f - cos * cos);
+    return normalize(Vec3(sin * std::cos(azimuth), sin * std::sin(azimuth), cos));
+}
+
+struct Case {
+    Microfacets distribution;
+    float alpha;
+};
+
+void PrintTo(const Case& c, std::ostream* out) {
+    *out << (c.distribution == Microfacets::ggx ? "GGX" : "Beckmann") << " alpha " << c.alpha;
+}
+
+class RoughLobes : public ::testing::TestWithParam<Case> {
+  protected:
+    /// Tests the lobe about `center` on its side of the surface.
+    void test(const Bsdf& bsdf, const Vec3& wo, Vec3 center, float width, const char* what) {
+        const float side = center.z;
+        if (std::abs(side) < 0.05f) center.z = 0.0f;
+        // Reflection at grazing angles is narrow horizontally: facets turn wi by their tilt times cos(wo).
+        const double across = double(side > 0.0f ? width * std::max(wo.z, std::min(0.5f * width, 1.0f)) : width);
+        const auto sample = [&](std::uint32_t i, Vec3& d) {
+            const BsdfSample s = bsdf.sample(wo, uniform(i));
+            d = s.wi;
+            return s.pdf > 0.0f && d.z * side > 0.0f;
+        };
+        const auto density = [&](const Vec3& d) { return d.z * side > 0.0f ? double(bsdf.value(wo, d).pdf) : 0.0; };
+        const test::LobeTest result =
+            test::test_lobe(sample, density, normalize(center), across, double(width), kSamples, 12,
+                            wo.z < 0.01f && (width < 0.05f || side < 0.0f) ? 100 : 32);
+        EXPECT_GT(result.p_value, kSignificance) << what << " wo.z " << wo.z;
+        EXPECT_NEAR(result.integral, result.inside, 0.01) << what << " wo.z " << wo.z;
+    }
+};
+
+constexpr float kCosines[] = {1.0f, 0.7f, 0.2f, 0.02f, 0.002f};
+
+TEST_P(RoughLobes, MetalIsotropicAndNot) {
+    const auto [distribution, alpha] = GetParam();
+    const test::PreparedMaterial metal(
+        ConductorMaterial{Rgb(0.2f), Rgb(3.0f), Rgb(1.0f), test::rough(distribution, alpha, alpha)});
+    test::PreparedMaterial brushed(ConductorMaterial{Rgb(0.2f), Rgb(3.0f), Rgb(1.0f),
+                                                     test::rough(distribution, alpha, std::min(1.0f, 3 * alpha))});
+    for (const float cos : kCosines) {
+        const Vec3 wo = at_cosine(cos, 0.7f), mirror(-wo.x, -wo.y, wo.z);
+        test(metal.front(), wo, mirror, 2 * alpha, "metal");
+        if (alpha == 1.0f) continue;
+        ShadingPoint point;
+        point.dp_du = {0.6f, 0.8f, 0.3f};
+        point.dp_dv = {-0.8f, 0.6f, 0.0f};
+        point.wo = wo;
+        test(brushed.at(point), wo, mirror, 4 * alpha, "brushed metal");
+    }
+}
+
+TEST_P(RoughLobes, GlassFromBothSides) {
+    const auto [distribution, alpha] = GetParam();
+    const test::PreparedMaterial glass(
+        DielectricMaterial{1.5f, Rgb(1.0f), Rgb(1.0f), test::rough(distribution, alpha, alpha)});
+    for (const bool back : {false, true})
+        for (const float cos : kCosines) {
+            const Vec3 wo = at_cosine(cos, -2.0f);
+            const float eta = back ? 1 / 1.5f : 1.5f;
+            test(*glass.side(back), wo, {-wo.x, -wo.y, wo.z}, 2 * alpha, back ? "inside, reflected" : "reflected");
+            const DielectricFresnel f = fresnel_dielectric(wo.z, eta);
+            if (f.reflectance < 1.0f)
+                test(*glass.side(back), wo, {-wo.x / eta, -wo.y / eta, -f.cos_transmitted}, alpha,
+                     back ? "inside, refracted" : "refracted");
+        }
+}
+
+TEST_P(RoughLobes, Plastic) {
+    const auto [distribution, alpha] = GetParam();
+    const test::PreparedMaterial plastic(
+        PlasticMaterial{1.5f, Rgb(0.5f), Rgb(1.0f), false, test::rough(distribution, alpha, alpha)});
+    if (alpha < 0.1f) return;  // the diffuse base is too wide for the cells of a narrow lobe; metal tests that
+    for (const float cos : kCosines) {
+        const Vec3 wo = at_cosine(cos, 0.3f);
+        test(plastic.front(), wo, {-wo.x, -wo.y, wo.z}, 2 * alpha, "plastic");
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Roughness, RoughLobes,
+                         ::testing::Values(Case{Microfacets::ggx, 0.001f}, Case{Microfacets::ggx, 0.01f},
+                                           Case{Microfacets::ggx, 0.1f}, Case{Microfacets::ggx, 0.3f},
+                                           Case{Microfacets::ggx, 1.0f}, Case{Microfacets::beckmann, 0.001f},
+                                           Case{Microfacets::beckmann, 0.01f}, Case{Microfacets::beckmann, 0.1f},
+                                           Case{Microfacets::beckmann, 0.3f}, Case{Microfacets::beckmann, 1.0f}));
+
+TEST(RoughLobesTest, CanFail) {
+    const test::PreparedMaterial a(
+        ConductorMaterial{Rgb(0.2f), Rgb(3.0f), Rgb(1.0f), test::rough(Microfacets::ggx, 0.1f, 0.1f)}),
+        b(ConductorMaterial{Rgb(0.2f), Rgb(3.0f), Rgb(1.0f), test::rough(Microfacets::ggx, 0.103f, 0.103f)});
+    const Vec3 wo = at_cosine(0.7f, 0.0f);
+    const auto sample = [&](std::uint32_t i, Vec3& d) {
+        d = a.front().sample(wo, uniform(i)).wi;
+        return true;
+    };
+    const auto density = [&](const Vec3& d) { return double(b.front().value(wo, d).pdf); };
+    EXPECT_LT(test::test_lobe(sample, density, {-wo.x, -wo.y, wo.z}, 0.2, 0.2, kSamples).p_value, kSignificance);
+}
+
+}  // namespace
+}  // namespace treefarm

@@ -1,0 +1,33 @@
+#pragma once
+
+#include "common/scene/shape.h"
+#include "worker/geometry/hit.h"
+#include "worker/geometry/surface_detail.h"
+
+namespace treefarm {
+
+/// Where an instance puts its group: carries hits from the group's space to the world.
+///
+/// Normals keep their side: what is the front in the group is the front in the world, mirrored or not.
+class Placement {
+  public:
+    /// Throws RunError if the transform cannot be inverted.
+    Placement(const Instance& instance, std::uint32_t shape);
+
+    std::uint32_t group() const { return group_; }
+
+    /// The same point in the world. Its error holds what the ray's way into the group's space rounds: Embree inverts
+    /// the transform in single precision.
+    Hit to_world(const Hit& local) const;
+    /// A unit normal of the group's space, from one of the world.
+    Vec3 normal_to_local(const Vec3& world) const;
+    Vec3 vector_to_world(const Vec3& local) const;
+
+  private:
+    Imath::M44f to_world_;
+    Imath::M33f inverse_;  ///< of the linear part: row vectors of the world to those of the group
+    Imath::M33f slack_;    ///< bound of each term's error in the group's space, per unit of world coordinate
+    std::uint32_t group_ = 0, instance_ = 0;
+};
+
+}  // namespace treefarm

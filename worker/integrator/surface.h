@@ -1,0 +1,84 @@
+#pragma once
+
+#include "common/math/frame.h"
+#include "worker/integrator/trace_scene.h"
+
+namespace treefarm {
+
+/// What the walk needs of the surface it stands on. Two kinds, a template argument of the path kernel, so that plainly
+/// diffuse scenes pay for no other material.
+
+/// A surface of a plainly diffuse scene (is_plainly_diffuse()): no delta lobes, no transmission, no textures.
+class DiffuseSurface {
+  public:
+    using Bsdf = PlainDiffuse;
+    static constexpr bool kGeneral = false;
+    struct Scratch {};
+    static Scratch make_scratch(const TraceScene&) { return {}; }
+
+    /// `outgoing`: unit, in world space, to where light goes.
+    DiffuseSurface(const TraceScene& scene, const Hit& hit, const Vec3& outgoing, Scratch&)
+        : bsdf_(scene.plain_diffuse(hit.shape)), hit_(hit), frame_(hit.ns), wo_(frame_.to_local(outgoing)) {}
+
+    bool black() const { return !bsdf_.reflects(wo_); }
+    const Bsdf& bsdf() const { return bsdf_; }
+    const Frame& frame() const { return frame_; }
+    const Vec3& wo() const { return wo_; }
+    const Vec3& ng() const { return hit_.ng; }
+    static constexpr bool smooth() { return true; }
+
+  private:
+    const Bsdf& bsdf_;
+    const Hit& hit_;
+    Frame frame_;
+    Vec3 wo_;
+};
+
+/// A surface of any material. Its frame is turned so that `wo` is on the side of +z; textures, bumps and tangents are
+/// looked up only for the materials that have them.
+class GeneralSurface {
+  public:
+    using Bsdf = treefarm::Bsdf;
+    static constexpr bool kGeneral = true;
+    using Scratch = BsdfScratch;
+    static Scratch make_scratch(const TraceScene& scene) { return scene.materials().make_scratch(); }
+
+    GeneralSurface(const TraceScene& scene, const Hit& hit, const Vec3& outgoing, Scratch& scratch)
+        : frame_(hit.ns), wo_(frame_.to_local(outgoing)), ng_(hit.ng) {
+        const bool back = wo_.z < 0.0f;
+        if (back) {
+            frame_.n = -frame_.n;
+            wo_.z = -wo_.z;
+            ng_ = -ng_;
+        }
+        const MaterialSet::Side& side = scene.materials().side(hit.shape, back);
+        bsdf_ = side.bsdf;
+        lobes_ = side.lobes;
+        if (!bsdf_ && side.material != kNone) look_up(scene, hit, side.material, back, scratch);
+    }
+
+    bool black() const { return !bsdf_ || !(wo_.z > 0.0f); }
+    const Bsdf& bsdf() const { return *bsdf_; }
+    const Frame& frame() const { return frame_; }
+    const Vec3& wo() const { return wo_; }
+    /// Geometric normal on wo's side of the shading normal's plane.
+    const Vec3& ng() const { return ng_; }
+    /// Whether any lobe has a density: next event and guides are of no use without.
+    bool smooth() const { return lobes_ & kSmoothLobe; }
+
+    /// What radiance is scaled by, over what it was, for a ray that goes on to the far side.
+    float eta2() const {
+        const float eta = refraction_of(*bsdf_);
+        return eta * eta;
+    }
+
+  private:
+    void look_up(const TraceScene& scene, const Hit& hit, std::int32_t material, bool back, Scratch& scratch);
+
+    const Bsdf* bsdf_;
+    Frame frame_;
+    Vec3 wo_, ng_;
+    LobeBits lobes_;
+};
+
+}  // namespace treefarm

@@ -1,0 +1,51 @@
+#include "worker/lights/area_measure.h"
+
+#include "common/math/warp.h"
+
+namespace treefarm {
+
+std::vector<double> part_areas(const EmbreeScene& geometry, std::uint32_t shape) {
+    const auto& kind = geometry.shape(shape).geometry;
+    if (const auto* s = std::get_if<Sphere>(&kind)) return {4.0 * double(kPi) * double(s->radius) * double(s->radius)};
+    if (const auto* d = std::get_if<Disk>(&kind)) {
+        const Imath::V3d n = Imath::V3d(d->half_u).cross(Imath::V3d(d->half_v));
+        return {double(kPi) * std::sqrt(n.dot(n))};
+    }
+    if (const auto* c = std::get_if<Cylinder>(&kind)) {
+        const Imath::V3d axis = Imath::V3d(c->p1) - Imath::V3d(c->p0);
+        return {2.0 * double(kPi) * double(c->radius) * std::sqrt(axis.dot(axis))};
+    }
+    std::vector<double> areas(geometry.triangle_count(shape));
+    for (std::uint32_t i = 0; i < areas.size(); ++i)
+        areas[i] = geometry.triangle_area(shape, i);
+    return areas;
+}
+
+Hit uniform_point(const EmbreeScene& geometry, std::uint32_t shape, const Vec2& u) {
+    const auto& kind = geometry.shape(shape).geometry;
+    if (std::holds_alternative<Disk>(kind)) {
+        const Vec2 d = square_to_disk(u);
+        return geometry.disk_point(shape, d.x, d.y);
+    }
+    const Cylinder& c = std::get<Cylinder>(kind);
+    const SinCos turn = sincos_turn(u.y);
+    const Vec3 side = cross(normalize(c.p1 - c.p0), c.meridian);
+    return geometry.cylinder_point(shape, u.x, c.meridian * turn.cos + side * turn.sin);
+}
+
+Rgb mean_color(const TextureSet& textures, std::int32_t texture) {
+    const auto& kind = textures.textures()[static_cast<std::size_t>(texture)].kind;
+    if (const auto* board = std::get_if<CheckerboardTexture>(&kind)) return (board->color0 + board->color1) * 0.5f;
+    const auto& bitmap = std::get<BitmapTexture>(kind);
+    const TextureImage& image = textures.images()[static_cast<std::size_t>(bitmap.image)];
+    Imath::V3d sum(0.0);
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x)
+            sum += Imath::V3d(texel(image, x, y));
+    Rgb mean(Vec3(sum / (double(image.width) * double(image.height))));
+    // White beyond the image may be all that is seen of it.
+    if (bitmap.wrap_u == Wrap::one || bitmap.wrap_v == Wrap::one) mean = mean * 0.5f + Rgb(0.5f);
+    return mean;
+}
+
+}  // namespace treefarm

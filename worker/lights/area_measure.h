@@ -1,0 +1,40 @@
+#pragma once
+
+#include <vector>
+
+#include "worker/geometry/embree_scene.h"
+#include "worker/lights/direct_sample.h"
+
+namespace treefarm {
+
+/// Turns a density per area into one per steradian as seen along wi over a distance.
+inline float per_steradian(float area_density, float distance2, float cosine) {
+    return cosine > 0.0f ? area_density * distance2 / cosine : 0.0f;
+}
+
+inline float sphere_area_density(const Sphere& sphere) {
+    return kInvFourPi / (sphere.radius * sphere.radius);
+}
+
+/// Completes a sample whose point on the light is chosen with density `selection * area_density` per area.
+inline void look_at(DirectSample& sample, const Vec3& p, const Rgb& radiance, float selection, float area_density) {
+    const Vec3 to_light = sample.on_light.p - p;
+    const float distance2 = dot(to_light, to_light);
+    if (!(distance2 > 0.0f)) return;
+    sample.distance = std::sqrt(distance2);
+    sample.wi = to_light * (1.0f / sample.distance);
+    const float cosine = -dot(sample.on_light.ng, sample.wi);
+    sample.pdf = selection * per_steradian(area_density, distance2, std::abs(cosine));
+    if (cosine > 0.0f) sample.radiance = radiance;
+}
+
+/// Area of each triangle of a mesh; one value for other shapes.
+std::vector<double> part_areas(const EmbreeScene& geometry, std::uint32_t shape);
+
+/// A point of a disk or cylinder, uniform by area.
+Hit uniform_point(const EmbreeScene& geometry, std::uint32_t shape, const Vec2& u);
+
+/// Mean of a texture over its unit square, for a guess at an emitter's power: above 0 wherever the texture may be.
+Rgb mean_color(const TextureSet& textures, std::int32_t texture);
+
+}  // namespace treefarm

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "worker/geometry/hit.h"
+
+namespace treefarm {
+
+/// A direction in which an emitter was sampled from a point.
+struct DirectSample {
+    Vec3 wi{0.0f};       ///< unit, towards the emitter
+    float distance = 0;  ///< infinite for the environment and parallel light
+    float pdf = 0;       ///< per steradian, choice of the emitter included; 0: no sample
+    Rgb radiance{0.0f};  ///< that leaves the emitter against wi, occlusion aside; black on the back
+    Hit on_light;        ///< the sampled point; meaningless at infinity
+    /// Of a point, spot or directional emitter, which scattering never finds: pdf is the probability of its choice, and
+    /// radiance the irradiance on a surface that faces it.
+    bool delta = false;
+
+    bool to_environment() const { return std::isinf(distance); }
+};
+
+}  // namespace treefarm

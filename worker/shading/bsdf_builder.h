@@ -1,0 +1,92 @@
+#pragma once
+
+#include <deque>
+#include <map>
+#include <tuple>
+#include <vector>
+
+#include "common/scene/scene.h"
+#include "worker/shading/bsdf.h"
+#include "worker/textures/texture_set.h"
+
+namespace treefarm {
+
+/// Where a surface was hit, in the frame that its BSDF is wanted in.
+struct ShadingPoint {
+    Vec2 uv{0.0f};
+    Vec3 dp_du{1.0f, 0.0f, 0.0f}, dp_dv{0.0f, 1.0f, 0.0f};  ///< in the shading frame
+    Vec3 wo{0.0f, 0.0f, 1.0f};                              ///< in the shading frame, wo.z > 0
+    bool mirrored = false;                                  ///< the frame's normal is the reverse of the surface's
+};
+
+/// Storage for the BSDFs of one hit: a thread keeps it; it never grows.
+class BsdfScratch {
+  public:
+    explicit BsdfScratch(std::size_t nodes = 0) : nodes_(nodes), coats_(nodes) {}
+
+    void clear() { used_ = coats_used_ = 0; }
+    Bsdf& add() { return nodes_[used_++]; }
+    RoughTransmittance& add_coat() { return coats_[coats_used_++]; }
+
+  private:
+    std::vector<Bsdf> nodes_;
+    std::vector<RoughTransmittance> coats_;
+    std::size_t used_ = 0, coats_used_ = 0;
+};
+
+/// Turns descriptions into BSDFs: once for those that are the same everywhere, at every hit for the others.
+class BsdfBuilder {
+  public:
+    /// Takes what it needs of the scene's materials that shapes use. `textures` must outlive the builder. Throws
+    /// RunError for a material made of more than kMaxNodes parts.
+    BsdfBuilder(const Scene& scene, const TextureSet& textures);
+    BsdfBuilder(const BsdfBuilder&) = delete;
+    BsdfBuilder& operator=(const BsdfBuilder&) = delete;
+
+    /// One side of a material that does not vary. The result lives as long as the builder.
+    const Bsdf* constant(std::int32_t material, bool back);
+
+    /// One side of a material at a point; the result lives until the scratch is cleared, which must hold nodes().
+    const Bsdf* at(std::int32_t material, bool back, const ShadingPoint& point, BsdfScratch& scratch) const;
+
+    /// Whether it must be built at every hit: textures, tilted normals, tangents.
+    bool varies(std::int32_t material) const { return notes_[static_cast<std::size_t>(material)].varies; }
+    /// Nodes that at() needs for it.
+    std::size_t nodes(std::int32_t material) const { return notes_[static_cast<std::size_t>(material)].nodes; }
+
+    static constexpr std::size_t kMaxNodes = 256;
+
+  private:
+    /// What is known of a material before any point of it.
+    struct Notes {
+        bool varies = false;
+        bool transmits = false;  ///< its back scatters by nature: glass, nothing, blends with them
+        std::size_t nodes = 0;
+        const RoughTransmittance* coat = nullptr;    ///< rough plastic of one roughness
+        const RoughTransmittances* coats = nullptr;  ///< rough plastic whose roughness varies
+        float smooth_coat = 1;                       ///< smooth plastic: diffuse light that its coat lets in
+    };
+
+    void note(std::size_t material);
+    void note_coat(const PlasticMaterial& plastic, Notes& notes);
+
+    template <class Nodes>
+    const Bsdf* side(std::int32_t material, bool back, const ShadingPoint& point, Nodes& nodes) const;
+    template <class Nodes>
+    const Bsdf* described(std::int32_t material, bool back, const ShadingPoint& point, Nodes& nodes) const;
+    template <class Nodes>
+    Bsdf leaf(std::int32_t material, bool back, const ShadingPoint& point, Nodes& nodes) const;
+
+    Rgb color(const ColorInput& input, const ShadingPoint& point) const;
+    Microfacet facets(const Roughness& roughness, const ShadingPoint& point) const;
+    Vec3 tilted_normal(const NormalDetail& detail, const ShadingPoint& point) const;
+
+    std::vector<Material> materials_;
+    const TextureSet* textures_;
+    std::vector<Notes> notes_;
+    std::map<std::tuple<bool, float, float>, RoughTransmittance> coats_;
+    std::map<std::tuple<bool, float>, RoughTransmittances> varying_coats_;
+    std::deque<Bsdf> constants_;
+};
+
+}  // namespace treefarm

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstdint>
+
+#include "common/math/vec.h"
+
+namespace treefarm {
+
+/// Value and density of a BSDF for a pair of directions, delta lobes left out.
+struct BsdfValue {
+    Rgb f_cos{0.0f};  ///< f |cos(wi)|, per steradian
+    float pdf = 0;    ///< per steradian, of the smooth lobes' part of sample()
+};
+
+/// A sampled direction; pdf 0 means that none was found (black, absorbed, or below the surface).
+struct BsdfSample {
+    Vec3 wi{0.0f};
+    float pdf = 0;    ///< per steradian; of a delta lobe: the probability that it was chosen
+    Rgb f_cos{0.0f};  ///< f |cos(wi)|; of a delta lobe: its reflectance or transmittance, so f_cos / pdf is the weight
+    bool delta = false;  ///< no density: only sampling the BSDF finds this direction
+};
+
+/// What sample() consumes: uniform numbers in [0, 1).
+struct BsdfRandom {
+    float lobe = 0;  ///< which lobe
+    Vec2 place{0.0f};
+};
+
+/// Which kinds of lobes a BSDF has, as bits.
+using LobeBits = std::uint8_t;
+inline constexpr LobeBits kSmoothLobe = 1;  ///< has a density: next event and guides can use it
+inline constexpr LobeBits kDeltaLobe = 2;
+
+/// All directions of a BSDF are unit vectors in the shading frame, pointing away from the surface: `wo` to where light
+/// goes, `wi` to where it comes from. wo is on the side of +z: the other side has a BSDF of its own (MaterialSet).
+
+}  // namespace treefarm

@@ -1,0 +1,33 @@
+#pragma once
+
+#include "common/math/warp.h"
+#include "worker/shading/bsdf_sample.h"
+
+namespace treefarm {
+
+/// What smooth and rough plastic share: a diffuse base under a dielectric coat.
+struct CoatedBase {
+    /// albedo / (1 - albedo fdr), or albedo / (1 - fdr) if linear, over eta^2: diffuse interreflection below the coat,
+    /// fdr being the share that the coat sends back inside.
+    Rgb base{0.0f};
+    float specular_weight = 0.5f;  ///< luminance of the coat over that of coat and base: steers sampling only
+
+    /// Probability of sampling the coat that reflects the share `reflected` of what arrives.
+    float coat_probability(float reflected) const {
+        const float coat = reflected * specular_weight, rest = (1.0f - reflected) * (1.0f - specular_weight);
+        return coat + rest > 0.0f ? coat / (coat + rest) : 0.0f;
+    }
+
+    /// f cos(wi) of the base below a coat that lets the shares `in` and `out` through.
+    Rgb f_cos(const Vec3& wi, float in, float out) const { return base * (wi.z * kInvPi * in * out); }
+};
+
+/// The base of plastic with this albedo, where the coat transmits the share `transmitted` of diffuse light from
+/// outside. By reciprocity it transmits transmitted / eta^2 from inside: that is 1 - fdr.
+inline Rgb coated_base(const Rgb& albedo, float transmitted, float eta, bool nonlinear) {
+    const float inverse = 1.0f / (eta * eta), escapes = transmitted * inverse, fdr = 1.0f - escapes;
+    const auto channel = [&](float a) { return a * inverse / (nonlinear ? 1.0f - a * fdr : escapes); };
+    return {channel(albedo.x), channel(albedo.y), channel(albedo.z)};
+}
+
+}  // namespace treefarm

@@ -1,0 +1,36 @@
+#pragma once
+
+#include "worker/shading/bsdf_builder.h"
+
+namespace treefarm {
+
+/// The materials of a scene's shapes, ready for the path walk. What is the same everywhere is prepared once; the rest
+/// is a case of its own, looked up at the hit. Immutable: any number of threads may ask.
+class MaterialSet {
+  public:
+    /// One side of a shape's surface.
+    struct Side {
+        const Bsdf* bsdf = nullptr;     ///< nullptr: see `material`
+        std::int32_t material = kNone;  ///< varies over the surface: look_up() at every hit; kNone: black
+        LobeBits lobes = 0;             ///< of `bsdf`
+    };
+
+    /// `textures` must outlive the set. Throws as BsdfBuilder.
+    MaterialSet(const Scene& scene, const TextureSet& textures);
+
+    const Side& side(std::uint32_t shape, bool back) const { return sides_[2 * shape + (back ? 1 : 0)]; }
+
+    /// The BSDF of a material that varies, at a point.
+    const Bsdf* look_up(std::int32_t material, bool back, const ShadingPoint& point, BsdfScratch& scratch) const {
+        return builder_.at(material, back, point, scratch);
+    }
+    /// Scratch that is large enough for every material of the scene.
+    BsdfScratch make_scratch() const { return BsdfScratch(scratch_nodes_); }
+
+  private:
+    BsdfBuilder builder_;
+    std::vector<Side> sides_;  ///< front and back of each shape
+    std::size_t scratch_nodes_ = 0;
+};
+
+}  // namespace treefarm

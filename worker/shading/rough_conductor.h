@@ -1,0 +1,26 @@
+#pragma once
+
+#include "worker/shading/fresnel.h"
+#include "worker/shading/rough_reflection.h"
+
+namespace treefarm {
+
+/// A rough metal (thesis 2.8 to 2.12; Walter et al. 2007): f = F D G1(wo) G1(wi) / (4 cos cos).
+struct RoughConductorBsdf {
+    Rgb eta{0.0f}, k{1.0f}, reflectance{1.0f};
+    Microfacet facets;
+
+    BsdfValue value(const Vec3& wo, const Vec3& wi) const {
+        if (!(wi.z > 0.0f)) return {};
+        const RoughReflection r = rough_reflection(facets, wo, wi);
+        return {reflectance * fresnel_conductor(r.cos_o, eta, k) * r.f_cos, r.pdf};
+    }
+
+    BsdfSample sample(const Vec3& wo, const BsdfRandom& random) const {
+        const Vec3 wi = reflected(wo, facets.sample_visible(wo, random.place));
+        const BsdfValue v = value(wo, wi);
+        return {wi, v.pdf, v.f_cos, false};
+    }
+};
+
+}  // namespace treefarm

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "worker/shading/microfacet.h"
+
+namespace treefarm {
+
+/// Share of light that a rough dielectric boundary lets through, by the cosine of its incidence: what is transmitted by
+/// single scattering at the facets, as in Mitsuba 0.6's tables, but integrated when the scene is loaded, by a fixed
+/// quadrature over visible normals.
+class RoughTransmittance {
+  public:
+    RoughTransmittance() = default;
+    /// `eta`: index of refraction of the far side over that of the side from which light comes.
+    RoughTransmittance(const Microfacet& facets, float eta);
+
+    /// At a cosine in [0, 1].
+    float at(float cos) const {
+        const float place = std::sqrt(cos) * kIntervals;
+        const auto i = std::min(static_cast<std::size_t>(place), kIntervals - 1);
+        return values_[i] + (values_[i + 1] - values_[i]) * (place - static_cast<float>(i));
+    }
+    /// Of diffuse light: the mean weighted by the cosine.
+    float diffuse() const { return diffuse_; }
+
+    /// (1 - t) a + t b.
+    static RoughTransmittance between(const RoughTransmittance& a, const RoughTransmittance& b, float t);
+
+  private:
+    static constexpr std::size_t kIntervals = 64;
+
+    std::array<float, kIntervals + 1> values_{};  ///< at cosines (i / kIntervals)^2
+    float diffuse_ = 1;
+};
+
+/// The same for roughness that varies over a surface.
+class RoughTransmittances {
+  public:
+    RoughTransmittances(bool ggx, float eta);
+    /// Bounded to the tabulated roughness, up to 1.
+    RoughTransmittance at(float alpha) const;
+
+  private:
+    static constexpr int kIntervals = 16;
+
+    std::vector<RoughTransmittance> tables_;  ///< at alpha (i / kIntervals)^2
+};
+
+/// Of diffuse light through a smooth boundary, from the side where the index is 1 into eta.
+float smooth_diffuse_transmittance(float eta);
+
+}  // namespace treefarm

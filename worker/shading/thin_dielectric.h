@@ -1,0 +1,23 @@
+#pragma once
+
+#include "worker/shading/bsdf_sample.h"
+#include "worker/shading/fresnel.h"
+
+namespace treefarm {
+
+/// A thin pane: R + T R T + T R^3 T + ... is reflected, the rest goes straight on.
+struct ThinDielectricBsdf {
+    float eta = 1.5f;  ///< index of refraction of the pane over that around it
+    Rgb reflectance{1.0f}, transmittance{1.0f};
+
+    BsdfValue value(const Vec3&, const Vec3&) const { return {}; }
+
+    BsdfSample sample(const Vec3& wo, const BsdfRandom& random) const {
+        const float once = fresnel_dielectric(wo.z, eta).reflectance;
+        const float r = 2.0f * once / (1.0f + once);  // the series summed up
+        if (random.lobe < r) return {{-wo.x, -wo.y, wo.z}, r, reflectance * r, true};
+        return {-wo, 1.0f - r, transmittance * (1.0f - r), true};
+    }
+};
+
+}  // namespace treefarm
