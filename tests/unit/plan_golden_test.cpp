@@ -60,39 +60,36 @@ Names with(Names names, const Names& more) {
 }
 
 TEST(GoldenPlan, CornellBox) {
-    expect_plan(test::own_scene("cornell-box.xml"), with(kDiffuseMeshes, {"analytic_shapes"}),
-                "diffuse, next event, guided");
+    expect_plan(test::own_scene("cornell-box.xml"), with(kDiffuseMeshes, {"analytic_shapes"}), "diffuse, guided");
 }
 
 TEST(GoldenPlan, DoorAjar) {
-    expect_plan(test::own_scene("door-ajar.xml"), with(kDiffuseMeshes, {"analytic_shapes"}),
-                "diffuse, next event, guided");
+    expect_plan(test::own_scene("door-ajar.xml"), with(kDiffuseMeshes, {"analytic_shapes"}), "diffuse, guided");
 }
 
 TEST(GoldenPlan, DiffuseRoom) {
     expect_plan(test::own_scene("diffuse-room.xml"),
                 with(kDiffuseMeshes, {"analytic_shapes", "smooth_normals", "environment", "constant"}),
-                "diffuse, next event, guided");
+                "diffuse, guided");
 }
 
 TEST(GoldenPlan, GlossyRoom) {
     expect_plan(test::own_scene("glossy-room.xml"),
-                with(kDiffuseMeshes, {"analytic_shapes", "smooth_normals", "microfacets", "coats"}),
-                "general, next event, guided");
+                with(kDiffuseMeshes, {"analytic_shapes", "smooth_normals", "microfacets", "coats"}), "general, guided");
 }
 
 TEST(GoldenPlan, MixedRoom) {
     expect_plan(test::own_scene("mixed-room.xml"),
                 with(kDiffuseMeshes, {"analytic_shapes", "smooth_normals", "environment", "constant", "microfacets",
                                       "coats", "delta_reflection", "transmission", "twosided"}),
-                "general, next event, guided");
+                "general, guided");
 }
 
 TEST(GoldenPlan, Caustic) {
     expect_plan(test::own_scene("caustic.xml"),
                 with(kDiffuseMeshes, {"analytic_shapes", "smooth_normals", "microfacets", "delta_reflection",
                                       "transmission", "twosided"}),
-                "general, next event, guided");
+                "general, guided");
 }
 
 TEST(GoldenPlan, Features) {
@@ -102,7 +99,7 @@ TEST(GoldenPlan, Features) {
                                       "coats",           "blends",    "null",        "twosided",    "textured_area",
                                       "delta_lights",    "point",     "spot",        "directional", "environment",
                                       "environment_map", "lens"}),
-                "general, next event, guided");
+                "general, guided");
 }
 
 TEST(GoldenPlan, WithoutWhatItForcesOffAFeatureIsNotSimulated) {
