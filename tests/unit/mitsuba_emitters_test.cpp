@@ -207,14 +207,14 @@ TEST_F(MitsubaEmitters, TheFrameOfTheSkyDependsOnTheVersion) {
         return brightest_direction(
             emitter("sunsky", "<float name=\"hour\" value=\"" + std::string(hour) + "\"/>", version).scene);
     };
-    // 0.6: y up, east at x, north at -z. 3: z up, north at x, east at y.
+    // 0.6: y up, east at x, north at -z. 3: z up, south at x, west at y.
     const Vec3 old_morning = sun("8", "0.6.0"), old_noon = sun("11.77", "0.6.0");
     EXPECT_GT(old_morning.x, 0.6f);
     EXPECT_GT(old_noon.z, 0.2f);
     EXPECT_GT(old_noon.y, 0.9f);
     const Vec3 morning = sun("8", "3.0.0"), noon = sun("11.77", "3.0.0");
-    EXPECT_GT(morning.y, 0.6f);
-    EXPECT_LT(noon.x, -0.2f);
+    EXPECT_LT(morning.y, -0.6f);
+    EXPECT_GT(noon.x, 0.2f);
     EXPECT_GT(noon.z, 0.9f);
 }
 
