@@ -30,7 +30,7 @@ class ByteWriter {
         std::memcpy(bytes_.data() + at, &value, sizeof(T));
     }
 
-    /// LEB128: 7 bits a byte, low bits first; 1 to 10 bytes.
+    /// LEB128: 7 bits a byte, low bits first; 1 to 10 bytes. A value has one form: the shortest.
     void put_varint(std::uint64_t value) {
         while (value >= 0x80) {
             bytes_.push_back(static_cast<std::uint8_t>(value | 0x80));
@@ -78,6 +78,7 @@ class ByteReader {
             require(1);
             const std::uint8_t byte = bytes_[at_++];
             if (shift == 63 && byte > 1) break;
+            if (shift > 0 && byte == 0) throw FormatError("a variable-length integer is longer than it need be");
             value |= static_cast<std::uint64_t>(byte & 0x7f) << shift;
             if (byte < 0x80) return value;
         }

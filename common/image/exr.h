@@ -27,6 +27,9 @@ struct ExrImage {
 /// InputError that names the file: missing, not EXR, damaged, cut short, too large, subsampled, no such channel.
 ExrImage read_exr(const std::filesystem::path& path, const std::function<bool(const std::string&)>& wanted = {});
 
+/// The file can be opened and begins like an OpenEXR file.
+bool is_exr_file(const std::filesystem::path& path);
+
 struct ExrRgb {
     RgbImage image;
     bool half = false;  ///< a channel was stored as half

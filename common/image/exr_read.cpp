@@ -96,6 +96,11 @@ ExrImage read_checked(const std::filesystem::path& path, const std::function<boo
 
 }  // namespace
 
+bool is_exr_file(const std::filesystem::path& path) {
+    std::error_code none;
+    return std::filesystem::is_regular_file(path, none) && Imf::isOpenExrFile(path.c_str());
+}
+
 ExrImage read_exr(const std::filesystem::path& path, const std::function<bool(const std::string&)>& wanted) {
     check_is_exr(path);
     // OpenEXR keeps these limits per process; they are always the same, and checked before it allocates by the header.

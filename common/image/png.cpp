@@ -2,11 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 
 #include "common/base/error.h"
 #include "common/image/atomic_file.h"
+#include "common/image/read_bytes.h"
 #include "common/image/stb.h"
 
 namespace treefarm {
@@ -15,19 +14,6 @@ namespace {
 
 [[noreturn]] void refuse(const std::filesystem::path& path, const std::string& what, const std::string& cure) {
     throw InputError(Location{path.string()}, what, cure);
-}
-
-std::vector<std::uint8_t> read_bytes(const std::filesystem::path& path) {
-    std::error_code none;
-    const auto status = std::filesystem::status(path, none);
-    if (!std::filesystem::exists(status)) refuse(path, "no such file", "check the path");
-    if (!std::filesystem::is_regular_file(status)) refuse(path, "not a regular file", "give a PNG or JPEG file");
-    constexpr std::uintmax_t kMaxBytes = 0x7fffffff;  // stb counts in int
-    if (std::filesystem::file_size(path, none) > kMaxBytes) refuse(path, "is larger than 2 GiB", "reduce its size");
-    std::ifstream file(path, std::ios::binary);
-    std::vector<std::uint8_t> bytes((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
-    if (file.bad() || !file.is_open()) refuse(path, "cannot be read", "check its permissions");
-    return bytes;
 }
 
 std::uint8_t to_byte(float linear) {
@@ -59,9 +45,9 @@ void write_png(const std::filesystem::path& path, const RgbImage& image, float e
 }
 
 Image read_ldr(const std::filesystem::path& path, Encoding encoding) {
-    const std::vector<std::uint8_t> bytes = read_bytes(path);
+    const std::vector<std::uint8_t> bytes = read_bytes(path, "give a PNG or JPEG file");
     const auto size = stb::image_size(bytes);
-    if (!size) refuse(path, "is neither PNG nor JPEG, or damaged", "convert it to PNG");
+    if (!size || stb::is_hdr(bytes)) refuse(path, "is neither PNG nor JPEG, or damaged", "convert it to PNG");
     if (size->width > kMaxImageSide || size->height > kMaxImageSide ||
         static_cast<std::size_t>(size->width) * static_cast<std::size_t>(size->height) > kMaxImageValues / 4)
         refuse(path, "claims " + std::to_string(size->width) + " x " + std::to_string(size->height) + " pixels",

@@ -1,6 +1,7 @@
 #include "common/image/stb.h"
 
 #include <memory>
+#include <type_traits>
 
 // The implementations live in this file alone and are held to their own standard of warnings, not ours.
 #pragma GCC diagnostic push
@@ -13,6 +14,7 @@
 #define STBI_NO_STDIO
 #define STBI_ONLY_PNG
 #define STBI_ONLY_JPEG
+#define STBI_ONLY_HDR
 #include <stb/stb_image.h>
 #define STB_IMAGE_WRITE_STATIC
 #define STB_IMAGE_WRITE_IMPLEMENTATION
@@ -39,6 +41,10 @@ std::optional<Size> image_size(std::span<const std::uint8_t> bytes) {
     return size;
 }
 
+bool is_hdr(std::span<const std::uint8_t> bytes) {
+    return stbi_is_hdr_from_memory(bytes.data(), static_cast<int>(bytes.size())) != 0;
+}
+
 std::optional<Decoded> decode(std::span<const std::uint8_t> bytes, std::string& why) {
     Decoded result;
     const std::unique_ptr<stbi_us, void (*)(void*)> values(
@@ -53,6 +59,43 @@ std::optional<Decoded> decode(std::span<const std::uint8_t> bytes, std::string& 
     const std::size_t count = static_cast<std::size_t>(result.width) * static_cast<std::size_t>(result.height) *
                               static_cast<std::size_t>(result.channels);
     result.values.assign(values.get(), values.get() + count);
+    return result;
+}
+
+std::optional<Stored> decode_as_stored(std::span<const std::uint8_t> bytes, std::string& why) {
+    Stored result;
+    const auto size = static_cast<int>(bytes.size());
+    const auto take = [&](auto* pixels, auto convert) {
+        using Pixel = std::remove_pointer_t<decltype(pixels)>;
+        const std::unique_ptr<Pixel, void (*)(void*)> values(pixels, &stbi_image_free);
+        if (!values) {
+            const char* reason = stbi_failure_reason();
+            why = reason != nullptr ? reason : "unknown reason";
+            return false;
+        }
+        const std::size_t count = static_cast<std::size_t>(result.width) * static_cast<std::size_t>(result.height) *
+                                  static_cast<std::size_t>(result.channels);
+        convert(values.get(), values.get() + count);
+        return true;
+    };
+    const auto copy_floats = [&](const float* begin, const float* end) { result.floats.assign(begin, end); };
+    const auto copy_bytes = [&](const stbi_uc* begin, const stbi_uc* end) { result.bytes.assign(begin, end); };
+    const auto scale_words = [&](const stbi_us* begin, const stbi_us* end) {
+        result.floats.reserve(static_cast<std::size_t>(end - begin));
+        for (const stbi_us* p = begin; p != end; ++p)
+            result.floats.push_back(static_cast<float>(*p) / 65535.0f);
+    };
+    int *w = &result.width, *h = &result.height, *n = &result.channels;
+    bool done = false;
+    if (is_hdr(bytes)) {
+        result.linear = true;
+        done = take(stbi_loadf_from_memory(bytes.data(), size, w, h, n, 0), copy_floats);
+    } else if (stbi_is_16_bit_from_memory(bytes.data(), size) != 0) {
+        done = take(stbi_load_16_from_memory(bytes.data(), size, w, h, n, 0), scale_words);
+    } else {
+        done = take(stbi_load_from_memory(bytes.data(), size, w, h, n, 0), copy_bytes);
+    }
+    if (!done) return std::nullopt;
     return result;
 }
 

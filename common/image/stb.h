@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-/// The only door to the stb libraries; png.cpp is its only user.
+/// The only door to the stb libraries, used within this room.
 namespace treefarm::stb {
 
 struct Size {
@@ -19,11 +19,24 @@ struct Decoded {
     std::vector<std::uint16_t> values;
 };
 
-/// Size that a PNG or JPEG claims; nothing for other formats.
+/// Pixels in the file's own precision.
+struct Stored {
+    int width = 0, height = 0, channels = 0;
+    std::vector<std::uint8_t> bytes;  ///< 8-bit files
+    std::vector<float> floats;        ///< 16-bit files as 0 to 1, and Radiance HDR
+    bool linear = false;              ///< Radiance HDR
+};
+
+/// Size that a PNG, JPEG or Radiance HDR file claims; nothing for other formats.
 std::optional<Size> image_size(std::span<const std::uint8_t> bytes);
+
+/// The bytes begin like a Radiance HDR file.
+bool is_hdr(std::span<const std::uint8_t> bytes);
 
 /// Nothing, and `why`, if it cannot be decoded.
 std::optional<Decoded> decode(std::span<const std::uint8_t> bytes, std::string& why);
+
+std::optional<Stored> decode_as_stored(std::span<const std::uint8_t> bytes, std::string& why);
 
 /// A PNG of 8-bit RGB triples, row by row; empty if the size and the data do not agree or memory runs out.
 std::vector<std::uint8_t> encode_png(int width, int height, std::span<const std::uint8_t> rgb);

@@ -1,7 +1,9 @@
 #include "common/scene/mesh_normals.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numeric>
 
 namespace treefarm {
 namespace {
@@ -53,6 +55,46 @@ void orient_by_normals(Mesh& mesh) {
             sum += Vec3d(mesh.normals[mesh.indices[3 * i + k]]);
         if (sum.dot(triangle_normal(mesh, i)) < 0.0) std::swap(mesh.indices[3 * i + 1], mesh.indices[3 * i + 2]);
     }
+}
+
+void split_at_edges(Mesh& mesh, double min_cosine) {
+    const bool has_uvs = !mesh.uvs.empty();
+    const auto key = [&](std::uint32_t corner) {
+        const std::uint32_t vertex = mesh.indices[corner];
+        const Vec3& p = mesh.positions[vertex];
+        const Vec2 uv = has_uvs ? mesh.uvs[vertex] : Vec2(0.0f);
+        return std::array<float, 5>{p.x, p.y, p.z, uv.x, uv.y};
+    };
+    std::vector<std::uint32_t> corners(mesh.indices.size());
+    std::iota(corners.begin(), corners.end(), 0u);
+    std::stable_sort(corners.begin(), corners.end(), [&](auto a, auto b) { return key(a) < key(b); });
+    std::vector<Vec3d> normals(mesh.triangle_count());
+    for (std::size_t i = 0; i < normals.size(); ++i)
+        normals[i] = triangle_normal(mesh, i);
+
+    Mesh split;
+    split.indices.resize(mesh.indices.size());
+    for (std::size_t begin = 0, end; begin < corners.size(); begin = end) {
+        for (end = begin + 1; end < corners.size() && key(corners[end]) == key(corners[begin]);)
+            ++end;
+        // Normals of the clusters at this place, and their vertices: few, as few triangles meet in a point.
+        std::vector<std::pair<Vec3d, std::uint32_t>> clusters;
+        for (std::size_t i = begin; i < end; ++i) {
+            const Vec3d& normal = normals[corners[i] / 3];
+            const auto fits = [&](const auto& cluster) {
+                return cluster.first == normal || cluster.first.dot(normal) > min_cosine;
+            };
+            auto cluster = std::find_if(clusters.begin(), clusters.end(), fits);
+            if (cluster == clusters.end()) {
+                clusters.emplace_back(normal, static_cast<std::uint32_t>(split.positions.size()));
+                cluster = clusters.end() - 1;
+                split.positions.push_back(mesh.positions[mesh.indices[corners[i]]]);
+                if (has_uvs) split.uvs.push_back(mesh.uvs[mesh.indices[corners[i]]]);
+            }
+            split.indices[corners[i]] = cluster->second;
+        }
+    }
+    mesh = std::move(split);
 }
 
 void drop_redundant_normals(Mesh& mesh) {

@@ -3,18 +3,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fstream>
 #include <limits>
 #include <string>
 #include <string_view>
 
 #include "common/config/parse_text.h"
+#include "common/scene/input_file.h"
 #include "common/scene/triangulate.h"
 
 namespace treefarm {
 namespace {
-
-constexpr std::uintmax_t kMaxFileBytes = std::uintmax_t{8} << 30;
 
 bool is_blank(char c) {
     return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
@@ -256,22 +254,12 @@ class Reader {
 
 }  // namespace
 
-ObjFile read_obj(const std::filesystem::path& path, const Location& asked_from) {
-    std::error_code error;
-    const std::string file = path.string();
-    if (!std::filesystem::exists(path, error))
-        throw InputError(asked_from, "there is no file " + in_quotes(file), "check the path");
-    if (!std::filesystem::is_regular_file(path, error))
-        throw InputError(asked_from, in_quotes(file) + " is not a file", "check the path");
-    const std::uintmax_t size = std::filesystem::file_size(path, error);
-    if (error || size > kMaxFileBytes)
-        throw InputError(asked_from, in_quotes(file) + " has more than 8 GiB", "split it");
-    std::string text(static_cast<std::size_t>(size), '\0');
-    std::ifstream in(path, std::ios::binary);
-    in.read(text.data(), static_cast<std::streamsize>(size));
-    if (!in || in.gcount() != static_cast<std::streamsize>(size))
-        throw InputError(asked_from, in_quotes(file) + " cannot be read", "check its permissions");
+ObjFile parse_obj(std::string_view text, const std::string& file) {
     return Reader(text, file).read();
+}
+
+ObjFile read_obj(const std::filesystem::path& path, const Location& asked_from) {
+    return parse_obj(read_input_file(path, asked_from), path.string());
 }
 
 }  // namespace treefarm

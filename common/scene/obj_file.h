@@ -2,6 +2,8 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "common/base/error.h"
@@ -29,5 +31,8 @@ struct ObjFile {
 /// more than three corners may be concave but must be nearly flat; lines, points and curves are left out. `asked_from`
 /// is where the file's name stands.
 ObjFile read_obj(const std::filesystem::path& path, const Location& asked_from);
+
+/// The same from memory; `file` is the name for messages.
+ObjFile parse_obj(std::string_view text, const std::string& file);
 
 }  // namespace treefarm

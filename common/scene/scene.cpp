@@ -16,8 +16,19 @@ void add(Box3& box, const Vec3& center, const Vec3& extent) {
     box.extendBy(center + extent);
 }
 
-/// Box of everything but instances.
-Box3 box_of(const Shape& shape) {
+float mean_value(const TextureImage& image) {
+    double sum = 0;
+    for (const std::uint8_t byte : image.bytes)
+        sum += double(image.decode[byte]);
+    for (const float value : image.floats)
+        sum += double(value);
+    const std::size_t count = image.bytes.size() + image.floats.size();
+    return count > 0 ? static_cast<float>(sum / static_cast<double>(count)) : 0.0f;
+}
+
+}  // namespace
+
+Box3 own_box(const Shape& shape) {
     Box3 box;
     if (const auto* mesh = std::get_if<Mesh>(&shape.geometry)) {
         for (const Vec3& position : mesh->positions)
@@ -35,18 +46,6 @@ Box3 box_of(const Shape& shape) {
     return box;
 }
 
-float mean_value(const TextureImage& image) {
-    double sum = 0;
-    for (const std::uint8_t byte : image.bytes)
-        sum += double(image.decode[byte]);
-    for (const float value : image.floats)
-        sum += double(value);
-    const std::size_t count = image.bytes.size() + image.floats.size();
-    return count > 0 ? static_cast<float>(sum / static_cast<double>(count)) : 0.0f;
-}
-
-}  // namespace
-
 std::int32_t Scene::environment() const {
     for (std::size_t i = 0; i < emitters.size(); ++i)
         if (std::holds_alternative<ConstantEmitter>(emitters[i].kind) ||
@@ -59,7 +58,7 @@ Box3 Scene::bounds() const {
     Box3 box;
     std::vector<Box3> groups(static_cast<std::size_t>(group_count));
     for (const Shape& shape : shapes)
-        (shape.group == kNone ? box : groups[static_cast<std::size_t>(shape.group)]).extendBy(box_of(shape));
+        (shape.group == kNone ? box : groups[static_cast<std::size_t>(shape.group)]).extendBy(own_box(shape));
     for (const Shape& shape : shapes) {
         const auto* instance = std::get_if<Instance>(&shape.geometry);
         if (!instance) continue;

@@ -49,7 +49,8 @@ struct Scene {
 
     /// Index of the constant or image-based environment, or kNone.
     std::int32_t environment() const;
-    /// Box of all shapes in the world, instances included; empty if there are none.
+    /// Box of all shapes in the world, instances included; empty if there are none. Like all that follows indices, only
+    /// for scenes that validate_scene or decode_scene has accepted.
     Box3 bounds() const;
     /// Order of magnitude of the radiance that its brightest emitter brings to its surfaces, above 0.
     float radiance_scale() const;

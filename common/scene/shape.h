@@ -28,6 +28,7 @@ struct Sphere {
     float radius = 1.0f;
     bool flip_normals = false;                                ///< normals point inwards
     Vec3 pole{0.0f, 0.0f, 1.0f}, meridian{1.0f, 0.0f, 0.0f};  ///< unit, at right angles
+    bool mirrored = false;                                    ///< the azimuth runs clockwise about the pole
 };
 
 /// A flat ellipse: center + a * half_u + b * half_v for a^2 + b^2 <= 1, seen from the front where
@@ -35,6 +36,7 @@ struct Sphere {
 struct Disk {
     Vec3 center{0.0f};
     Vec3 half_u{1.0f, 0.0f, 0.0f}, half_v{0.0f, 1.0f, 0.0f};  ///< at right angles or not, but not parallel
+    bool mirrored = false;                                    ///< the azimuth is that of (a, -b)
 };
 
 /// The side of a cylinder, without caps. Texture coordinates: (azimuth from `meridian` over 2 pi, place along the
@@ -62,5 +64,8 @@ struct Shape {
     std::string name;
     Location where;
 };
+
+/// Box of a shape's own surface, in its group's space; empty for instances.
+Box3 own_box(const Shape& shape);
 
 }  // namespace treefarm

@@ -7,10 +7,10 @@
 
 namespace treefarm {
 
-/// Checks a scene that a reader has put together. Indices out of range, values that are not finite, meshes without
-/// triangles, spheres without a radius, reflectance outside [0, 1], negative radiance and a film that is not 1 to 65535
-/// pixels throw InputError at the place of what is wrong. Triangles without area are removed, and a scene without
-/// shapes or emitters is allowed: both give a warning.
+/// Checks a scene that a reader has put together: every index, every number's domain as the scene's headers state it,
+/// and that coordinates stay below 1e18. What is wrong throws InputError at its place. Triangles without area are
+/// removed, roughness below 1e-4 is raised to it, and factors that a texture takes above 1 are scaled down; these, and
+/// a scene without shapes or emitters, give a warning.
 void validate_scene(Scene& scene, std::vector<Warning>& warnings);
 
 }  // namespace treefarm

@@ -122,7 +122,7 @@ TEST_F(Malformed, Structure) {
         "s.xml:3:62: \"flip_normals\" of <shape type=\"cube\"> is given twice");
     expect("<shape type=\"cube\"><bsdf type=\"diffuse\"/><bsdf type=\"diffuse\"/></shape>", "s.xml:3:42: ");
     expect("<shape type=\"torus\"/>",
-           "s.xml:3:1: the shape \"torus\" is not available in this version; use obj, rectangle, cube or sphere");
+           "s.xml:3:1: the shape \"torus\" is not available in this version; use obj, ply, serialized, rectangle");
     std::string deep;
     for (int i = 0; i < 5000; ++i)
         deep += "<bsdf type=\"twosided\">";
@@ -244,14 +244,14 @@ TEST_F(Malformed, ShapesAndColours) {
     expect("<bsdf type=\"diffuse\"><rgb name=\"reflectance\" value=\"1.2\"/></bsdf>",
            "s.xml:3:22: a reflectance of 1.2; give values from 0 to 1");
     expect("<bsdf type=\"diffuse\"><texture type=\"bitmap\" name=\"reflectance\"/></bsdf>",
-           "s.xml:3:22: textures are not available");
+           "s.xml:3:22: <texture type=\"bitmap\"> has no file name");
     expect("<bsdf type=\"twosided\"/>", "s.xml:3:1: <bsdf type=\"twosided\"> has no BSDF inside");
     expect("<bsdf type=\"diffuse\"><blackbody name=\"reflectance\" temperature=\"5000\"/></bsdf>",
-           "s.xml:3:22: <blackbody> is not available");
+           "s.xml:3:22: <blackbody> is light");
     expect("<shape type=\"cube\"><emitter type=\"area\"><rgb name=\"radiance\" value=\"-1\"/></emitter></shape>",
            "s.xml:3:41: a radiance of -1");
     expect("<shape type=\"cube\"><emitter type=\"spot\"/></shape>", "s.xml:3:20: <emitter type=\"spot\"> in a shape");
-    expect("<emitter type=\"sunsky\"/>", "s.xml:3:1: <emitter type=\"sunsky\"> is not available");
+    expect("<emitter type=\"projector\"/>", "s.xml:3:1: <emitter type=\"projector\"> is not available");
     expect("<emitter type=\"constant\"/><emitter type=\"constant\"/>", "s.xml:3:27: this is a second environment");
 }
 
@@ -270,7 +270,7 @@ TEST_F(Malformed, SensorsAndFilms) {
         EXPECT_EQ(film(inside).substr(0, 8), "s.xml:3:") << inside;
     for (const char* line : {"<float name=\"fov\" value=\"0\"/>", "<float name=\"fov\" value=\"180\"/>",
                              "<float name=\"fov\" value=\"nan\"/>", "<string name=\"focalLength\" value=\"long\"/>",
-                             "<float name=\"apertureRadius\" value=\"1\"/>", "<film type=\"ldrfilm\"/>",
+                             "<float name=\"apertureRadius\" value=\"1\"/>", "<film type=\"mfilm\"/>",
                              "<transform name=\"toWorld\"><scale value=\"2\"/></transform>",
                              "<sampler type=\"independent\"><integer name=\"sampleCount\" value=\"0\"/></sampler>",
                              "<sampler type=\"independent\"><integer name=\"seed\" value=\"-1\"/></sampler>",

@@ -5,7 +5,37 @@ namespace {
 
 using namespace treefarm::test;
 
-using MitsubaMaterials = MitsubaFixture;
+class MitsubaMaterials : public MitsubaFixture {
+  protected:
+    Scene scene(const std::string& bsdf, const std::string& version = "0.6.0") const {
+        return load_with_sensor("<shape type=\"rectangle\">" + bsdf + "</shape>", version).scene;
+    }
+    /// The material of a shape with this BSDF.
+    Material material(const std::string& bsdf, const std::string& version = "0.6.0") const {
+        const Scene s = scene(bsdf, version);
+        return s.materials.at(static_cast<std::size_t>(s.shapes.at(0).material));
+    }
+    template <class T>
+    T of_type(const std::string& type, const std::string& inside = "", const std::string& version = "0.6.0") const {
+        return std::get<T>(material("<bsdf type=\"" + type + "\">" + inside + "</bsdf>", version).bsdf);
+    }
+};
+
+std::string number(const std::string& name, const std::string& value) {
+    return "<float name=\"" + name + "\" value=\"" + value + "\"/>";
+}
+std::string word(const std::string& name, const std::string& value) {
+    return "<string name=\"" + name + "\" value=\"" + value + "\"/>";
+}
+std::string rgb(const std::string& name, const std::string& value) {
+    return "<rgb name=\"" + name + "\" value=\"" + value + "\"/>";
+}
+std::string bsdf(const std::string& type, const std::string& inside = "") {
+    return "<bsdf type=\"" + type + "\">" + inside + "</bsdf>";
+}
+std::string board(const std::string& name) {
+    return "<texture type=\"checkerboard\" name=\"" + name + "\"/>";
+}
 
 TEST_F(MitsubaMaterials, MaterialsAndReferences) {
     const auto loaded = load_with_sensor(
@@ -39,6 +69,196 @@ TEST_F(MitsubaMaterials, MaterialsAndReferences) {
     EXPECT_EQ(std::get<AreaEmitter>(scene.emitters[0].kind).shape, 4);
     EXPECT_EQ(std::get<AreaEmitter>(scene.emitters[0].kind).radiance, Rgb(3.0f));
     EXPECT_EQ(scene.environment(), 1);
+}
+
+TEST_F(MitsubaMaterials, ConductorsInBothDialects) {
+    // Bitterli's converted scenes, spaceship and kitchen among them, spell out the same numbers for aluminium.
+    const auto aluminium = of_type<ConductorMaterial>("conductor", word("material", "Al"), "3.0.0");
+    expect_near(aluminium.eta, Rgb(1.65746f, 0.880369f, 0.521229f), 1e-4f);
+    expect_near(aluminium.k, Rgb(9.22387f, 6.26952f, 4.837f), 1e-4f);
+    EXPECT_TRUE(aluminium.roughness.smooth());
+    const auto copper = of_type<ConductorMaterial>("roughconductor");
+    expect_near(copper.eta * 1.000277f, of_type<ConductorMaterial>("conductor", word("material", "Cu"), "3.0.0").eta);
+    EXPECT_EQ(copper.roughness.distribution, Microfacets::beckmann);
+    EXPECT_EQ(copper.roughness.alpha_u, FloatInput(0.1f));
+    const auto mirror = of_type<ConductorMaterial>("conductor", "", "3.0.0");
+    EXPECT_EQ(mirror.eta, Rgb(0.0f)) << "version 3 has no copper by default";
+    EXPECT_EQ(mirror.k, Rgb(1.0f));
+    EXPECT_EQ(of_type<ConductorMaterial>("conductor", word("material", "none")).k, Rgb(1.0f));
+    const auto given = of_type<ConductorMaterial>(
+        "roughconductor", number("extEta", "2") + rgb("eta", "2 4 6") + rgb("k", "8") + number("alphaU", "0.2") +
+                              number("alphaV", "0.4") + word("distribution", "GGX") +
+                              rgb("specularReflectance", "0.5"));
+    EXPECT_EQ(given.eta, Rgb(1, 2, 3));
+    EXPECT_EQ(given.k, Rgb(4.0f));
+    EXPECT_EQ(given.roughness.distribution, Microfacets::ggx);
+    EXPECT_EQ(given.roughness.alpha_u, FloatInput(0.2f));
+    EXPECT_EQ(given.roughness.alpha_v, FloatInput(0.4f));
+    EXPECT_EQ(given.specular_reflectance.value, Rgb(0.5f));
+
+    const auto refused = [&](const std::string& inside, const char* version = "0.6.0") {
+        EXPECT_THROW(material(bsdf("roughconductor", inside), version), InputError) << inside;
+    };
+    refused(word("material", "Unobtainium"));
+    refused(word("distribution", "phong"));
+    refused(word("distribution", "smooth"));
+    refused(number("alphaU", "0.1"));
+    refused(number("alpha", "0.1") + number("alphaU", "0.1") + number("alphaV", "0.1"));
+    refused(number("alpha", "-0.1"));
+    refused(rgb("k", "-1"));
+    refused(word("material", "Au") + rgb("eta", "1"), "3.0.0");
+    refused(number("roughness", "0.1"));
+}
+
+TEST_F(MitsubaMaterials, DielectricsInBothDialects) {
+    EXPECT_NEAR(of_type<DielectricMaterial>("dielectric").eta, 1.5046 / 1.000277, 1e-6);
+    EXPECT_NEAR(of_type<ThinDielectricMaterial>("thindielectric", "", "3.0.0").eta, 1.5046 / 1.000277, 1e-6);
+    const auto water = of_type<DielectricMaterial>(
+        "roughdielectric", word("int_ior", "Water") + number("ext_ior", "2") + rgb("specular_transmittance", "0.25"),
+        "3.0.0");
+    EXPECT_NEAR(water.eta, 1.333 / 2, 1e-6);
+    EXPECT_EQ(water.specular_transmittance.value, Rgb(0.25f));
+    EXPECT_FALSE(water.roughness.smooth());
+    for (const std::string& inside :
+         {word("intIOR", "vater"), number("intIOR", "0"), number("extIOR", "1e9"), rgb("specularTransmittance", "2")})
+        EXPECT_THROW(material(bsdf("dielectric", inside)), InputError) << inside;
+}
+
+TEST_F(MitsubaMaterials, PlasticsInBothDialects) {
+    const auto smooth = of_type<PlasticMaterial>("plastic");
+    EXPECT_NEAR(smooth.eta, 1.49 / 1.000277, 1e-6);
+    EXPECT_EQ(smooth.diffuse_reflectance.value, Rgb(0.5f));
+    EXPECT_FALSE(smooth.nonlinear);
+    EXPECT_TRUE(smooth.roughness.smooth());
+    const auto rough = of_type<PlasticMaterial>(
+        "roughplastic", "<boolean name=\"nonlinear\" value=\"true\"/>" + board("alpha") + board("diffuse_reflectance"),
+        "3.0.0");
+    EXPECT_TRUE(rough.nonlinear);
+    EXPECT_TRUE(rough.roughness.alpha_u.varies());
+    EXPECT_TRUE(rough.diffuse_reflectance.varies());
+    EXPECT_THROW(material(bsdf("roughplastic", number("alphaU", "0.1") + number("alphaV", "0.2"))), InputError);
+}
+
+TEST_F(MitsubaMaterials, ModifiersFlattenInAnyOrder) {
+    const std::string bump = board("map"), core = bsdf("diffuse", rgb("reflectance", "0.25"));
+    for (const std::string& nested :
+         {bsdf("mask", number("opacity", "0.5") + bsdf("twosided", bsdf("bumpmap", bump + core))),
+          bsdf("bumpmap", bump + bsdf("mask", number("opacity", "0.5") + bsdf("twosided", core))),
+          bsdf("twosided", bsdf("bumpmap", bump + bsdf("mask", rgb("opacity", "0.5") + core)))}) {
+        const Material m = material(nested);
+        EXPECT_TRUE(m.twosided);
+        EXPECT_EQ(m.opacity, FloatInput(0.5f));
+        EXPECT_EQ(m.detail.bump, 0);
+        EXPECT_EQ(m.detail.bump_scale, 1.0f);
+        EXPECT_EQ(std::get<DiffuseMaterial>(m.bsdf).reflectance, Rgb(0.25f));
+    }
+    const Material product = material(bsdf("mask", number("opacity", "0.5") + bsdf("mask", board("opacity") + core)));
+    EXPECT_EQ(product.opacity, FloatInput(0.5f, 0));
+    EXPECT_EQ(material(bsdf("mask", core)).opacity, FloatInput(0.5f));
+    EXPECT_EQ(material(bsdf("bumpmap", number("scale", "3") + bump + core), "3.0.0").detail.bump_scale, 3.0f);
+    EXPECT_EQ(material(bsdf("bumpmap", "<texture type=\"scale\">" + number("scale", "4") + bump + "</texture>" + core))
+                  .detail.bump_scale,
+              4.0f);
+
+    for (const std::string& nested :
+         {bsdf("bumpmap", bump + bsdf("bumpmap", bump + core)), bsdf("bumpmap", core), bsdf("bumpmap", bump),
+          bsdf("mask", number("opacity", "1.5") + core), bsdf("mask", ""), bsdf("twosided", ""),
+          bsdf("twosided", bsdf("dielectric")), bsdf("twosided", core + core + core),
+          bsdf("mask", board("opacity") + bsdf("mask", board("opacity") + core)),
+          bsdf("normalmap", board("normalmap") + core)})
+        EXPECT_THROW(material(nested), InputError) << nested;
+}
+
+TEST_F(MitsubaMaterials, SidesThatDiffer) {
+    const Scene s = scene(bsdf("twosided", bsdf("diffuse", rgb("reflectance", "0.25")) + bsdf("plastic")));
+    const Material& front = s.materials.at(static_cast<std::size_t>(s.shapes[0].material));
+    EXPECT_TRUE(front.twosided);
+    EXPECT_TRUE(std::holds_alternative<DiffuseMaterial>(front.bsdf));
+    ASSERT_LT(front.back, s.shapes[0].material);
+    EXPECT_TRUE(std::holds_alternative<PlasticMaterial>(s.materials.at(static_cast<std::size_t>(front.back)).bsdf));
+    EXPECT_THROW(material(bsdf("twosided", bsdf("diffuse") + bsdf("dielectric"))), InputError);
+    EXPECT_THROW(material(bsdf("twosided", bsdf("diffuse") + bsdf("bumpmap", board("map") + bsdf("diffuse")))),
+                 InputError);
+}
+
+TEST_F(MitsubaMaterials, BlendsAndMixtures) {
+    const auto part = [](const Scene& s, std::int32_t index) {
+        return s.materials.at(static_cast<std::size_t>(index));
+    };
+    const Scene s = scene(bsdf("blendbsdf", board("weight") + bsdf("diffuse") + bsdf("plastic")));
+    const auto blend = std::get<BlendMaterial>(part(s, s.shapes[0].material).bsdf);
+    EXPECT_TRUE(blend.weight.varies());
+    EXPECT_TRUE(std::holds_alternative<DiffuseMaterial>(part(s, blend.first).bsdf));
+    EXPECT_TRUE(std::holds_alternative<PlasticMaterial>(part(s, blend.second).bsdf));
+
+    const Scene both = scene(bsdf(
+        "blendbsdf", number("weight", "0.25") + bsdf("twosided", bsdf("diffuse")) + bsdf("twosided", bsdf("plastic"))));
+    EXPECT_TRUE(part(both, both.shapes[0].material).twosided);
+
+    // A mask inside a blend is a blend with nothing.
+    const Scene masked =
+        scene(bsdf("blendbsdf", number("weight", "0.25") + bsdf("diffuse") + bsdf("mask", bsdf("plastic"))));
+    const auto outer = std::get<BlendMaterial>(part(masked, masked.shapes[0].material).bsdf);
+    const auto inner = std::get<BlendMaterial>(part(masked, outer.second).bsdf);
+    EXPECT_EQ(inner.weight, FloatInput(0.5f));
+    EXPECT_TRUE(std::holds_alternative<NullMaterial>(part(masked, inner.first).bsdf));
+    EXPECT_TRUE(std::holds_alternative<PlasticMaterial>(part(masked, inner.second).bsdf));
+
+    // The share of each BSDF of a mixture: what is missing to 1 is black.
+    const Scene mixed = scene(bsdf(
+        "mixturebsdf", word("weights", "0.2, 0.3, 0.1") + bsdf("diffuse", rgb("reflectance", "0.1")) +
+                           bsdf("diffuse", rgb("reflectance", "0.2")) + bsdf("diffuse", rgb("reflectance", "0.3"))));
+    std::map<float, float> shares;
+    const auto collect = [&](const auto& self, std::int32_t index, float share) -> void {
+        const Material m = part(mixed, index);
+        if (const auto* b = std::get_if<BlendMaterial>(&m.bsdf)) {
+            self(self, b->first, share * (1 - b->weight.value));
+            self(self, b->second, share * b->weight.value);
+        } else {
+            shares[std::get<DiffuseMaterial>(m.bsdf).reflectance.value.x] += share;
+        }
+    };
+    collect(collect, mixed.shapes[0].material, 1.0f);
+    EXPECT_NEAR(shares[0.1f], 0.2f, 1e-6f);
+    EXPECT_NEAR(shares[0.2f], 0.3f, 1e-6f);
+    EXPECT_NEAR(shares[0.3f], 0.1f, 1e-6f);
+    EXPECT_NEAR(shares[0.0f], 0.4f, 1e-6f);
+
+    const std::string bumped = bsdf("bumpmap", board("map") + bsdf("diffuse"));
+    for (const std::string& nested : {bsdf("blendbsdf", bsdf("diffuse")),
+                                      bsdf("blendbsdf", number("weight", "2") + bsdf("diffuse") + bsdf("plastic")),
+                                      bsdf("blendbsdf", bumped + bsdf("plastic")),
+                                      bsdf("blendbsdf", bsdf("twosided", bsdf("diffuse")) + bsdf("plastic")),
+                                      bsdf("mixturebsdf", word("weights", "0.5") + bsdf("diffuse") + bsdf("plastic")),
+                                      bsdf("mixturebsdf", word("weights", "0, 0") + bsdf("diffuse") + bsdf("plastic"))})
+        EXPECT_THROW(material(nested), InputError) << nested;
+}
+
+TEST_F(MitsubaMaterials, BlendsOfReferencesDoNotExplode) {
+    std::string chain = "<bsdf type=\"diffuse\" id=\"0\"/>";
+    for (int i = 1; i < 60; ++i) {
+        const std::string below = "<ref id=\"" + std::to_string(i - 1) + "\"/>";
+        chain += "<bsdf type=\"blendbsdf\" id=\"" + std::to_string(i) + "\">" + below + below + "</bsdf>";
+    }
+    EXPECT_THROW(load_with_sensor(chain), InputError);
+    std::string nested = "<bsdf type=\"diffuse\" id=\"0\"/>";
+    for (int i = 1; i < 60; ++i) {
+        const std::string below = "<ref id=\"" + std::to_string(i - 1) + "\"/>";
+        nested += "<bsdf type=\"twosided\" id=\"" + std::to_string(i) + "\">" + below + below + "</bsdf>";
+    }
+    EXPECT_EQ(load_with_sensor(nested + "<shape type=\"rectangle\"><ref id=\"59\"/></shape>").scene.materials.size(),
+              1u);
+}
+
+TEST_F(MitsubaMaterials, UnknownPropertiesOfEveryBsdfAreRefused) {
+    for (const char* type : {"diffuse", "conductor", "roughconductor", "dielectric", "thindielectric",
+                             "roughdielectric", "plastic", "roughplastic", "null"})
+        for (const char* version : {"0.6.0", "3.0.0"}) {
+            EXPECT_NO_THROW(material(bsdf(type), version)) << type;
+            EXPECT_THROW(material(bsdf(type, number("colour", "1")), version), InputError) << type;
+            EXPECT_THROW(material(bsdf(type, board("colour")), version), InputError) << type;
+            EXPECT_THROW(material(bsdf(type, bsdf("diffuse")), version), InputError) << type;
+        }
 }
 
 }  // namespace

@@ -162,20 +162,40 @@ TEST_F(Mitsuba, IntegratorsBecomeSettings) {
 TEST_F(Mitsuba, LenientReadingApproximatesAndWarns) {
     const std::string body =
         "<sensor type=\"perspective\"/><integrator type=\"bdpt\"/><medium type=\"homogeneous\" id=\"fog\"/>"
-        "<bsdf type=\"dielectric\" id=\"glass\"><float name=\"intIOR\" value=\"1.5\"/></bsdf>"
-        "<bsdf type=\"twosided\" id=\"metal\"><bsdf type=\"conductor\"/></bsdf>"
-        "<shape type=\"hair\"/><shape type=\"rectangle\"><ref id=\"glass\"/><float name=\"unknown\" "
+        "<bsdf type=\"phong\" id=\"old\"><float name=\"exponent\" value=\"15\"/></bsdf>"
+        "<bsdf type=\"twosided\" id=\"both\"><bsdf type=\"ward\"/></bsdf>"
+        "<shape type=\"hair\"/><shape type=\"rectangle\"><ref id=\"old\"/><float name=\"unknown\" "
         "value=\"1\"/></shape>"
-        "<shape type=\"rectangle\"><ref id=\"metal\"/></shape><emitter type=\"sunsky\"/><mystery/>";
+        "<shape type=\"rectangle\"><ref id=\"both\"/></shape><emitter type=\"projector\"/><mystery/>";
     EXPECT_THROW(load(body), InputError);
     const auto loaded = load(body, "0.6.0", {}, true);
     EXPECT_EQ(loaded.scene.shapes.size(), 2u);
     EXPECT_EQ(std::get<DiffuseMaterial>(loaded.scene.materials[0].bsdf).reflectance, Rgb(0.5f));
     EXPECT_TRUE(loaded.scene.materials[1].twosided);
-    // integrator, medium, two BSDFs, hair, the property, sunsky, mystery, and that there is no emitter
+    // integrator, medium, two BSDFs, hair, the property, projector, mystery, and that there is no emitter
     EXPECT_EQ(loaded.warnings.size(), 9u);
     for (const Warning& warning : loaded.warnings)
         EXPECT_EQ(warning.text().find((folder_ / "scene.xml").string()), 0u) << warning.text();
+}
+
+TEST_F(Mitsuba, WhatIsNotSimulatedIsNamed) {
+    const auto message = [&](const std::string& body) {
+        try {
+            load_with_sensor(body);
+        } catch (const InputError& error) {
+            return std::string(error.what());
+        }
+        return std::string("read without complaint");
+    };
+    const auto named = [&](const std::string& body, const std::string& effect) {
+        EXPECT_NE(message(body).find(effect), std::string::npos) << message(body);
+    };
+    named("<shape type=\"rectangle\"><medium name=\"interior\" type=\"homogeneous\"/></shape>", "medium");
+    named("<shape type=\"rectangle\"><subsurface type=\"dipole\"/></shape>", "below surfaces");
+    named("<shape type=\"rectangle\"><animation name=\"toWorld\"><transform time=\"0\"/></animation></shape>",
+          "motion");
+    named("<bsdf type=\"hair\"/>", "hair fibres");
+    named("<bsdf type=\"polarizer\"/>", "polarisation");
 }
 
 TEST_F(Mitsuba, BothSpellingsMeanTheSame) {
@@ -226,13 +246,15 @@ TEST_F(Mitsuba, SharedCornellBox) {
     EXPECT_TRUE(job.integrator.strict_normals);
 }
 
-TEST_F(Mitsuba, SharedScenesCanBeReadLeniently) {
-    for (const char* name : {"spaceship/spaceship.xml", "kitchen/kitchen.xml"}) {
+TEST_F(Mitsuba, SharedScenesAreStrictlyReadable) {
+    for (const char* name : {"spaceship/spaceship.xml", "kitchen/kitchen.xml", "kitchen/kitchen-envmap.xml"}) {
         const std::string path = test::shared_scene(name);
         if (path.empty()) GTEST_SKIP() << "../shared/scenes is not here";
-        const auto loaded = load_scene(path, {}, true);
-        EXPECT_GT(loaded.scene.triangle_count(), 200000u) << name;
-        EXPECT_FALSE(loaded.warnings.empty());
+        const Scene scene = load_scene(path).scene;
+        EXPECT_GT(scene.triangle_count(), 200000u) << name;
+        EXPECT_FALSE(scene.emitters.empty()) << name;
+        for (const TextureImage& image : scene.images)
+            EXPECT_FALSE(image.bytes.empty() && image.floats.empty()) << image.name;
     }
 }
 

@@ -1,19 +1,108 @@
 #include "common/scene/mitsuba/emitters.h"
 
+#include <cmath>
+
 #include "common/config/parse_text.h"
+#include "common/scene/mitsuba/sky_emitters.h"
 
 namespace treefarm::mitsuba {
 namespace {
 
 /// How often emitters are chosen does not change the image.
 void ignore_sampling(Properties& properties) {
-    properties.ignore({"sampling_weight"});
+    properties.ignore({"sampling_weight", "mis_compensation"});
+}
+
+float radians(double degrees) {
+    return static_cast<float>(degrees * M_PI / 180.0);
+}
+
+Vec3 z_axis(const Matrix& to_world) {
+    return normalize(transform_vector(to_world, Vec3(0.0f, 0.0f, 1.0f)));
+}
+
+PointEmitter read_point(Properties& properties) {
+    PointEmitter point;
+    if (properties.has("position") && properties.has("to_world"))
+        throw InputError(properties.where("position"), "both a position and a transformation are given", "keep one");
+    point.position = properties.has("position") ? properties.point("position", point.position)
+                                                : transform_point(properties.transform("to_world"), Vec3(0.0f));
+    point.intensity = properties.color("intensity", Rgb(1.0f), ColorUse::radiance);
+    return point;
+}
+
+SpotEmitter read_spot(Properties& properties, Diagnostics& diagnostics) {
+    SpotEmitter spot;
+    const Matrix to_world = properties.transform("to_world");
+    spot.position = transform_point(to_world, Vec3(0.0f));
+    spot.axis = z_axis(to_world);
+    spot.intensity = properties.color("intensity", Rgb(1.0f), ColorUse::radiance);
+    const double cutoff = properties.number("cutoff_angle", 20.0);
+    const double beam = properties.number("beam_width", cutoff * 0.75);
+    if (!(cutoff > 0.0 && cutoff <= 180.0))
+        throw InputError(properties.where("cutoff_angle"), "a cutoff angle of " + number_text(cutoff) + " degrees",
+                         "give more than 0 and at most 180");
+    if (!(beam >= 0.0 && beam <= cutoff))
+        throw InputError(properties.where("beam_width"), "a beam width of " + number_text(beam) + " degrees",
+                         "give 0 to the cutoff angle");
+    spot.cutoff = radians(cutoff);
+    spot.beam = std::min(radians(beam), spot.cutoff);
+    if (const XmlElement* texture = properties.named_child("texture", "texture"))
+        diagnostics.unsupported(texture->where, "the texture of a spot light is not available in this version",
+                                "remove it");
+    return spot;
+}
+
+DirectionalEmitter read_directional(Properties& properties) {
+    DirectionalEmitter directional;
+    if (properties.has("direction") && properties.has("to_world"))
+        throw InputError(properties.where("direction"), "both a direction and a transformation are given", "keep one");
+    if (properties.has("direction")) {
+        const Vec3 direction = properties.point("direction", directional.direction);
+        if (!(direction.length() > 0.0f) || !is_finite(normalize(direction)))
+            throw InputError(properties.where("direction"), "the direction has no length", "give another");
+        directional.direction = normalize(direction);
+    } else {
+        directional.direction = z_axis(properties.transform("to_world"));
+    }
+    directional.irradiance = properties.color("irradiance", Rgb(1.0f), ColorUse::radiance);
+    return directional;
+}
+
+ConstantEmitter read_constant(Properties& properties) {
+    // A constant looks the same from all sides.
+    properties.ignore({"to_world"});
+    return {properties.color("radiance", Rgb(1.0f), ColorUse::radiance)};
+}
+
+EnvironmentEmitter read_envmap(Properties& properties, TextureReader& textures) {
+    EnvironmentEmitter environment = read_environment_axes(properties);
+    const double scale = properties.number("scale", 1.0);
+    if (!(scale >= 0.0))
+        throw InputError(properties.where("scale"), "a scale of " + number_text(scale), "give 0 or more");
+    environment.scale = static_cast<float>(scale);
+    environment.image = textures.environment_image(properties);
+    properties.ignore({"cache"});
+    return environment;
 }
 
 }  // namespace
 
-void read_area_emitter(const XmlElement& emitter, std::int32_t shape, Scene& scene, const SceneDocument& document,
-                       Diagnostics& diagnostics) {
+EnvironmentEmitter read_environment_axes(Properties& properties) {
+    const Matrix to_world = properties.transform("to_world");
+    const double scale = uniform_scale(to_world, 1e-3);
+    if (std::abs(scale - 1.0) > 1e-3)
+        throw InputError(properties.where("to_world"), "the environment's transformation contains a scale or shear",
+                         "remove it: only rotations and mirrors can turn an environment");
+    EnvironmentEmitter environment;
+    environment.x_axis = normalize(transform_vector(to_world, Vec3(1.0f, 0.0f, 0.0f)));
+    environment.y_axis = normalize(transform_vector(to_world, Vec3(0.0f, 1.0f, 0.0f)));
+    environment.z_axis = normalize(transform_vector(to_world, Vec3(0.0f, 0.0f, 1.0f)));
+    return environment;
+}
+
+void read_area_emitter(const XmlElement& emitter, std::int32_t shape, Scene& scene, TextureReader& textures,
+                       const SceneDocument& document, Diagnostics& diagnostics) {
     Properties properties(emitter, document, diagnostics);
     if (properties.type() != "area") {
         diagnostics.unsupported(emitter.where, properties.title() + " in a shape is not available in this version",
@@ -23,29 +112,46 @@ void read_area_emitter(const XmlElement& emitter, std::int32_t shape, Scene& sce
     if (properties.has("to_world"))
         throw InputError(properties.where("to_world"), "an area emitter has a transformation of its own",
                          "give it to the shape");
-    const Rgb radiance = properties.color("radiance", Rgb(1.0f), ColorUse::radiance);
+    const ColorInput radiance = textures.color(properties, "radiance", Rgb(1.0f), ColorUse::radiance);
     ignore_sampling(properties);
     properties.finish();
     scene.shapes[static_cast<std::size_t>(shape)].emitter = static_cast<std::int32_t>(scene.emitters.size());
     scene.emitters.push_back({AreaEmitter{radiance, shape}, emitter.where});
 }
 
-void read_environment(const XmlElement& emitter, Scene& scene, const SceneDocument& document,
-                      Diagnostics& diagnostics) {
+void read_emitter(const XmlElement& emitter, Scene& scene, TextureReader& textures, const SceneDocument& document,
+                  Diagnostics& diagnostics) {
     Properties properties(emitter, document, diagnostics);
-    if (properties.type() != "constant") {
-        diagnostics.unsupported(emitter.where, properties.title() + " is not available in this version",
-                                "use area emitters in shapes, or <emitter type=\"constant\">");
+    const std::string type = properties.type();
+    const std::size_t first = scene.emitters.size();
+    const bool had_environment = scene.environment() != kNone;
+    const auto add = [&](auto kind) { scene.emitters.push_back({std::move(kind), emitter.where}); };
+    if (type == "point") {
+        add(read_point(properties));
+    } else if (type == "spot") {
+        add(read_spot(properties, diagnostics));
+    } else if (type == "directional") {
+        add(read_directional(properties));
+    } else if (type == "constant") {
+        add(read_constant(properties));
+    } else if (type == "envmap") {
+        add(read_envmap(properties, textures));
+    } else if (type == "sky" || type == "sun" || type == "sunsky") {
+        read_sky(properties, scene, diagnostics);
+    } else {
+        diagnostics.unsupported(
+            emitter.where, properties.title() + " is not available in this version",
+            "use point, spot, directional, constant, envmap, sky, sun or sunsky, or area in shapes");
         return;
     }
-    const Rgb radiance = properties.color("radiance", Rgb(1.0f), ColorUse::radiance);
-    // A constant looks the same from all sides.
-    properties.ignore({"to_world"});
     ignore_sampling(properties);
     properties.finish();
-    if (scene.environment() != kNone)
-        throw InputError(emitter.where, "this is a second environment emitter", "keep one of them");
-    scene.emitters.push_back({ConstantEmitter{radiance}, emitter.where});
+    for (std::size_t i = first; i < scene.emitters.size(); ++i) {
+        const auto& kind = scene.emitters[i].kind;
+        if (had_environment &&
+            (std::holds_alternative<ConstantEmitter>(kind) || std::holds_alternative<EnvironmentEmitter>(kind)))
+            throw InputError(emitter.where, "this is a second environment emitter", "keep one of them");
+    }
 }
 
 }  // namespace treefarm::mitsuba

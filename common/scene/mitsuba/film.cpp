@@ -68,12 +68,17 @@ Film read_film(const XmlElement* element, const FilmSize& wanted, int version, c
         return film;
     }
     Properties properties(*element, document, diagnostics);
-    if (properties.type() != "hdrfilm") {
-        diagnostics.unsupported(element->where,
-                                "the film " + in_quotes(properties.type()) + " is not available in this version",
+    const std::string type = properties.type();
+    if (type == "ldrfilm") {
+        diagnostics.warn(element->where,
+                         "<film type=\"ldrfilm\"> gives the size and the filter only: the image is "
+                         "written as linear OpenEXR");
+    } else if (type != "hdrfilm") {
+        diagnostics.unsupported(element->where, "the film " + in_quotes(type) + " is not available in this version",
                                 "use hdrfilm", "it is read as hdrfilm");
-        properties.ignore({"gamma", "exposure", "tonemap_method", "key", "burn", "digits", "variable"});
     }
+    if (type != "hdrfilm")
+        properties.ignore({"gamma", "exposure", "tonemap_method", "key", "burn", "digits", "variable"});
     film.width = read_pixels(properties, "width", film.width, wanted.width);
     film.height = read_pixels(properties, "height", film.height, wanted.height);
     refuse_crop(properties, diagnostics);

@@ -18,6 +18,15 @@ class IntegratorReader {
         read_common();
     }
 
+    /// Light that comes straight from an emitter: paths of two edges, whatever the numbers of samples are.
+    void read_direct() {
+        set("guiding.type", "none", properties_.where());
+        set("integrator.next_event", "always", properties_.where());
+        set("integrator.max_depth", "2", properties_.where());
+        properties_.ignore({"shading_samples", "emitter_samples", "bsdf_samples"});
+        read_flags();
+    }
+
     void read_guided_path() {
         set("guiding.preset", "paper", properties_.where());
         read_common();
@@ -48,6 +57,10 @@ class IntegratorReader {
     void read_common() {
         read_integer("max_depth", "integrator.max_depth");
         read_integer("rr_depth", "integrator.rr_depth");
+        read_flags();
+    }
+
+    void read_flags() {
         for (const auto& [name, key] : {std::pair("strict_normals", "integrator.strict_normals"),
                                         std::pair("hide_emitters", "integrator.hide_emitters")})
             if (properties_.has(name))
@@ -117,14 +130,17 @@ void read_integrator(const XmlElement& integrator, std::vector<Setting>& setting
     Properties properties(integrator, document, diagnostics);
     const std::string type = properties.type();
     IntegratorReader reader(properties, settings, diagnostics);
-    if (type == "path") {
+    if (type == "path" || type == "volpath" || type == "volpath_simple" || type == "volpathmis") {
+        // Without media, which are refused, the volumetric ones are path tracers.
         reader.read_path();
+    } else if (type == "direct") {
+        reader.read_direct();
     } else if (type == "guided_path") {
         reader.read_guided_path();
     } else {
         diagnostics.unsupported(integrator.where,
                                 "the integrator " + in_quotes(type) + " is not available in this version",
-                                "use path or guided_path", "the job's settings are used");
+                                "use path, volpath, direct or guided_path", "the job's settings are used");
         return;
     }
     properties.finish();

@@ -1,8 +1,38 @@
 #include "common/scene/mitsuba/materials.h"
 
 #include "common/config/parse_text.h"
+#include "common/scene/mitsuba/surface_bsdfs.h"
+#include "common/scene/mitsuba/values.h"
 
 namespace treefarm::mitsuba {
+namespace {
+
+/// What a BSDF that is not available would simulate.
+std::string effect_of(const std::string& type) {
+    static constexpr std::pair<const char*, const char*> kEffects[] = {
+        {"roughdiffuse", "Oren-Nayar's rough diffuse reflection"},
+        {"coating", "a smooth coat over another BSDF"},
+        {"roughcoating", "a rough coat over another BSDF"},
+        {"phong", "Phong's reflection model"},
+        {"ward", "Ward's reflection model"},
+        {"difftrans", "diffuse transmission"},
+        {"hk", "scattering inside a thin slab (Hanrahan-Krueger)"},
+        {"irawan", "Irawan and Marschner's woven cloth"},
+        {"hair", "hair fibres"},
+        {"measured", "measured BRDFs"},
+        {"measured_polarized", "polarisation"},
+        {"pplastic", "polarisation"},
+        {"polarizer", "polarisation"},
+        {"retarder", "polarisation"},
+        {"circular", "polarisation"},
+        {"principled", "Disney's principled BSDF"},
+        {"principledthin", "Disney's principled BSDF"}};
+    for (const auto& [name, effect] : kEffects)
+        if (type == name) return std::string(" (") + effect + ")";
+    return "";
+}
+
+}  // namespace
 
 std::int32_t MaterialReader::read(const XmlElement& bsdf) {
     const auto known = known_.find(&bsdf);
@@ -25,53 +55,272 @@ std::int32_t MaterialReader::read_default(bool on_emitter, const Location& where
 }
 
 std::int32_t MaterialReader::add(Material material) {
+    constexpr int kMostLeaves = 64;
+    const Summary summary = summary_of(material);
+    if (summary.leaves > kMostLeaves)
+        throw InputError(material.where, "a blend of more than " + std::to_string(kMostLeaves) + " BSDFs",
+                         "blend fewer, every ray pays for them");
+    summaries_.push_back(summary);
     scene_.materials.push_back(std::move(material));
     return static_cast<std::int32_t>(scene_.materials.size() - 1);
 }
 
-Material MaterialReader::convert(const XmlElement& bsdf) {
+const Material& MaterialReader::convert(const XmlElement& bsdf) {
+    const auto known = converted_.find(&bsdf);
+    if (known != converted_.end()) return known->second;
+    return converted_.emplace(&bsdf, convert_new(bsdf)).first->second;
+}
+
+Material MaterialReader::convert_new(const XmlElement& bsdf) {
     Properties properties(bsdf, document_, diagnostics_);
     const std::string type = properties.type();
     Material material;
-    if (type == "diffuse") {
-        material = convert_diffuse(properties);
-        properties.finish();
+    if (auto surface = read_surface_bsdf(properties, textures_, diagnostics_)) {
+        material.bsdf = std::move(*surface);
     } else if (type == "twosided") {
         material = convert_twosided(properties);
-        properties.finish();
+    } else if (type == "mask") {
+        material = convert_mask(properties);
+    } else if (type == "bumpmap" || type == "bump") {
+        material = convert_bump(properties);
+    } else if (type == "normalmap") {
+        material = convert_normal_map(properties);
+    } else if (type == "blendbsdf" || type == "blend") {
+        material = convert_blend(properties);
+    } else if (type == "mixturebsdf" || type == "mixture") {
+        material = convert_mixture(properties);
     } else {
-        diagnostics_.unsupported(bsdf.where, "the BSDF " + in_quotes(type) + " is not available in this version",
-                                 "use diffuse or twosided, or read with scene.lenient=true to see it grey",
+        diagnostics_.unsupported(bsdf.where,
+                                 "the BSDF " + in_quotes(type) + effect_of(type) + " is not available in this version",
+                                 "use one of those listed in docs/scenes.md, or read with scene.lenient=true",
                                  "it becomes diffuse with reflectance 0.5");
+        material.bsdf = DiffuseMaterial{Rgb(0.5f)};
+        material.name = properties.id();
+        material.where = bsdf.where;
+        return material;
     }
-    material.name = properties.id();
+    properties.finish();
+    if (!properties.id().empty() || material.name.empty()) material.name = properties.id();
     material.where = bsdf.where;
     return material;
 }
 
-Material MaterialReader::convert_diffuse(Properties& properties) {
-    DiffuseMaterial diffuse;
-    for (const Child& texture : properties.children("texture"))
-        diagnostics_.unsupported(texture.where, "textures are not available in this version", "give an <rgb>",
-                                 "reflectance 0.5 is used");
-    const bool long_name = properties.has("diffuse_reflectance");
-    diffuse.reflectance = properties.color(long_name ? "diffuse_reflectance" : "reflectance", diffuse.reflectance.value,
-                                           ColorUse::reflectance);
-    Material material;
-    material.bsdf = diffuse;
-    return material;
+MaterialReader::Summary MaterialReader::summary_of(const Material& material) const {
+    if (const auto* blend = std::get_if<BlendMaterial>(&material.bsdf)) {
+        const Summary& first = summaries_[static_cast<std::size_t>(blend->first)];
+        const Summary& second = summaries_[static_cast<std::size_t>(blend->second)];
+        return {first.transmits || second.transmits, first.leaves + second.leaves};
+    }
+    return {std::holds_alternative<DielectricMaterial>(material.bsdf) ||
+                std::holds_alternative<ThinDielectricMaterial>(material.bsdf) ||
+                std::holds_alternative<NullMaterial>(material.bsdf),
+            1};
+}
+
+Material MaterialReader::convert_child(Properties& properties) {
+    const XmlElement* child = properties.only_child("bsdf");
+    if (child == nullptr)
+        throw InputError(properties.where(), properties.title() + " has no BSDF inside", "put one into it");
+    return convert(*child);
+}
+
+const XmlElement& MaterialReader::texture_inside(Properties& properties, const char* what) {
+    const XmlElement* texture = properties.only_child("texture");
+    if (texture == nullptr)
+        throw InputError(properties.where(), properties.title() + " has no texture inside",
+                         std::string("put the texture of ") + what + " into it");
+    return *texture;
 }
 
 Material MaterialReader::convert_twosided(Properties& properties) {
     const std::vector<Child> sides = properties.children("bsdf");
     if (sides.empty())
         throw InputError(properties.where(), "<bsdf type=\"twosided\"> has no BSDF inside", "put one into it");
-    if (sides.size() > 1 && sides[1].object != sides[0].object)
-        diagnostics_.unsupported(sides[1].where, "a different BSDF on the back is not available in this version",
-                                 "give a single BSDF", "both sides get the first one");
+    if (sides.size() > 2)
+        throw InputError(sides[2].where, "<bsdf type=\"twosided\"> has more than two BSDFs inside", "keep two of them");
+    if (properties.element().version >= 3 && properties.boolean("allow_transmission", false))
+        diagnostics_.unsupported(properties.where("allow_transmission"),
+                                 "transmission inside twosided is not available in this version", "remove it",
+                                 "it is ignored");
     Material material = convert(*sides[0].object);
+    if (transmits(material)) {
+        diagnostics_.unsupported(sides[0].where, "a BSDF that transmits light is inside <bsdf type=\"twosided\">",
+                                 "take it out: it has both sides by nature", "twosided is ignored");
+        return material;
+    }
+    if (sides.size() == 2 && sides[1].object != sides[0].object) {
+        Material back = convert(*sides[1].object);
+        if (transmits(back) || back.masked() || material.masked() || !(back.detail == material.detail))
+            diagnostics_.unsupported(
+                sides[1].where, "the sides of <bsdf type=\"twosided\"> differ in more than how they reflect",
+                "put masks, bump maps and normal maps around it, and nothing that transmits inside",
+                "the back is like the front");
+        else
+            material.back = add(std::move(back));
+    }
     material.twosided = true;
     return material;
+}
+
+Material MaterialReader::convert_mask(Properties& properties) {
+    const FloatInput opacity = textures_.number(properties, "opacity", 0.5f);
+    if (!opacity.varies() && !(opacity.value >= 0.0f && opacity.value <= 1.0f))
+        throw InputError(properties.where("opacity"), "an opacity of " + number_text(opacity.value),
+                         "give a value from 0 to 1");
+    Material material = convert_child(properties);
+    if (opacity.varies() && material.opacity.varies()) {
+        diagnostics_.unsupported(properties.where("opacity"),
+                                 "a textured mask around another is not available in this version",
+                                 "combine them in one texture", "the inner one is used");
+        return material;
+    }
+    material.opacity = {opacity.value * material.opacity.value,
+                        opacity.varies() ? opacity.texture : material.opacity.texture};
+    return material;
+}
+
+void MaterialReader::set_detail(Material& material, const NormalDetail& detail, const Properties& properties) {
+    if (material.detail.any()) {
+        diagnostics_.unsupported(properties.where(),
+                                 "a bump or normal map around another is not available in this version",
+                                 "keep one of them", "the inner one is used");
+        return;
+    }
+    material.detail = detail;
+}
+
+Material MaterialReader::convert_bump(Properties& properties) {
+    const ColorInput map = textures_.data(texture_inside(properties, "displacements"), true);
+    NormalDetail detail;
+    detail.bump = map.texture;
+    detail.bump_scale = average(map.value);
+    if (properties.element().version >= 2) {
+        detail.bump_scale *= static_cast<float>(properties.number("scale", 1.0));
+        properties.ignore({"flip_invalid_normals", "use_shadowing_function"});
+    }
+    Material material = convert_child(properties);
+    if (map.varies()) set_detail(material, detail, properties);
+    return material;
+}
+
+Material MaterialReader::convert_normal_map(Properties& properties) {
+    const ColorInput map = textures_.data(texture_inside(properties, "normals"), false);
+    if (properties.element().version >= 2) properties.ignore({"flip_invalid_normals", "use_shadowing_function"});
+    Material material = convert_child(properties);
+    const bool is_bitmap = map.varies() && std::holds_alternative<BitmapTexture>(
+                                               scene_.textures[static_cast<std::size_t>(map.texture)].kind);
+    if (!is_bitmap || map.value != Rgb(1.0f)) {
+        diagnostics_.unsupported(properties.where(), "a normal map that is no plain bitmap",
+                                 "give a bitmap of normals");
+        return material;
+    }
+    NormalDetail detail;
+    detail.normal_map = map.texture;
+    set_detail(material, detail, properties);
+    return material;
+}
+
+std::int32_t MaterialReader::add_part(Material material) {
+    if (!material.masked()) return add(std::move(material));
+    BlendMaterial masked;
+    masked.weight = material.opacity;
+    const Location where = material.where;
+    Material nothing;
+    nothing.bsdf = NullMaterial{};
+    nothing.where = where;
+    material.opacity = 1.0f;
+    masked.first = add(std::move(nothing));
+    masked.second = add(std::move(material));
+    Material result;
+    result.bsdf = masked;
+    result.where = where;
+    return add(std::move(result));
+}
+
+Material MaterialReader::blend(const FloatInput& weight, Material first, Material second,
+                               const Properties& properties) {
+    Material material;
+    if (first.detail == second.detail)
+        material.detail = first.detail;
+    else
+        diagnostics_.unsupported(
+            properties.where(),
+            "a bump or normal map inside " + properties.title() + " is not available in this version",
+            "put it around the blend", "it is left out");
+    first.detail = second.detail = {};
+    const bool transmissive = transmits(first) || transmits(second) || first.masked() || second.masked();
+    if (!transmissive && first.twosided != second.twosided) {
+        diagnostics_.unsupported(properties.where(),
+                                 "one BSDF of " + properties.title() + " is two-sided and the other is not",
+                                 "put twosided around the blend", "both are two-sided");
+        first.twosided = second.twosided = true;
+    }
+    if (!transmissive && (first.back != kNone || second.back != kNone)) {
+        diagnostics_.unsupported(
+            properties.where(),
+            "two-sided BSDFs with different sides inside " + properties.title() + " are not available in this version",
+            "put twosided around blends", "the backs are like the fronts");
+        first.back = second.back = kNone;
+    }
+    material.twosided = !transmissive && first.twosided;
+    BlendMaterial mixed;
+    mixed.weight = weight;
+    mixed.first = add_part(std::move(first));
+    mixed.second = add_part(std::move(second));
+    material.bsdf = mixed;
+    material.where = properties.where();
+    return material;
+}
+
+Material MaterialReader::convert_blend(Properties& properties) {
+    const FloatInput weight = textures_.number(properties, "weight", 0.5f);
+    if (!weight.varies() && !(weight.value >= 0.0f && weight.value <= 1.0f))
+        throw InputError(properties.where("weight"), "a weight of " + number_text(weight.value),
+                         "give a value from 0 to 1");
+    const std::vector<Child> parts = properties.children("bsdf");
+    if (parts.size() != 2)
+        throw InputError(properties.where(),
+                         properties.title() + " has " + std::to_string(parts.size()) + " BSDFs inside, not 2",
+                         "give two");
+    Material first = convert(*parts[0].object), second = convert(*parts[1].object);
+    return blend(weight, std::move(first), std::move(second), properties);
+}
+
+Material MaterialReader::convert_mixture(Properties& properties) {
+    const std::vector<Child> parts = properties.children("bsdf");
+    const Location& where = properties.where("weights");
+    const std::vector<double> weights = numbers_of(properties.text("weights", ""), where);
+    if (weights.size() != parts.size() || parts.empty())
+        throw InputError(where,
+                         properties.title() + " has " + std::to_string(parts.size()) + " BSDFs and " +
+                             std::to_string(weights.size()) + " weights",
+                         "give as many of one as of the other");
+    double total = 0.0;
+    for (const double weight : weights) {
+        if (!(weight >= 0.0)) throw InputError(where, "a weight of " + number_text(weight), "give 0 or more");
+        total += weight;
+    }
+    if (!(total > 0.0)) throw InputError(where, "the weights are all 0", "give one that is positive");
+    if (total > 1.0) diagnostics_.warn(where, "the weights sum up to more than 1 and were scaled down to it");
+
+    // From the last to the first: each blend adds one BSDF in front of what follows. What is missing to 1 is black.
+    Material mixed = convert(*parts.back().object);
+    double rest = weights.back();
+    if (total < 1.0) {
+        Material black;
+        black.bsdf = DiffuseMaterial{Rgb(0.0f)};
+        black.twosided = mixed.twosided;
+        const double missing = 1.0 - total;
+        mixed = blend(static_cast<float>(missing / (missing + rest)), std::move(mixed), std::move(black), properties);
+        rest += 1.0 - total;
+    }
+    for (std::size_t i = parts.size() - 1; i-- > 0;) {
+        Material part = convert(*parts[i].object);
+        const double share = rest + weights[i] > 0.0 ? rest / (rest + weights[i]) : 0.0;
+        mixed = blend(static_cast<float>(share), std::move(part), std::move(mixed), properties);
+        rest += weights[i];
+    }
+    return mixed;
 }
 
 }  // namespace treefarm::mitsuba

@@ -1,22 +1,13 @@
-#include "common/scene/mitsuba/obj_mesh.h"
-
 #include <bit>
-#include <filesystem>
 #include <unordered_map>
 
 #include "common/base/hash.h"
-#include "common/scene/mesh_normals.h"
+#include "common/scene/mitsuba/mesh_files.h"
+#include "common/scene/mitsuba/mesh_options.h"
 #include "common/scene/obj_file.h"
 
 namespace treefarm::mitsuba {
 namespace {
-
-struct ObjOptions {
-    bool face_normals = false;
-    bool flip_normals = false;
-    bool flip_tex_coords = true;
-    bool separate_groups = false;  ///< normals are not smoothed across groups
-};
 
 template <class V>
 struct BitHash {
@@ -55,9 +46,8 @@ struct CornerEqual {
 };
 
 /// Corners that agree in everything become one vertex.
-Mesh merge_corners(const ObjFile& obj, const Matrix& to_world, const ObjOptions& options) {
+Mesh merge_corners(const ObjFile& obj, bool with_normals, bool separate_groups) {
     const std::vector<std::uint32_t> position_of = first_equal(obj.positions), uv_of = first_equal(obj.uvs);
-    const NormalTransform normal_to_world(to_world);
     std::unordered_map<ObjFile::Corner, std::uint32_t, CornerHash, CornerEqual> vertices;
     vertices.reserve(obj.corners.size() / 4);
     bool any_uv = false, any_normal = false;
@@ -66,71 +56,59 @@ Mesh merge_corners(const ObjFile& obj, const Matrix& to_world, const ObjOptions&
     for (const ObjFile::Corner& corner : obj.corners) {
         constexpr std::uint32_t missing = ObjFile::Corner::kMissing;
         const ObjFile::Corner key = {position_of[corner.position], corner.uv == missing ? missing : uv_of[corner.uv],
-                                     options.face_normals ? missing : corner.normal,
-                                     options.separate_groups ? corner.group : 0};
+                                     with_normals ? corner.normal : missing, separate_groups ? corner.group : 0};
         const auto [place, is_new] = vertices.emplace(key, static_cast<std::uint32_t>(mesh.positions.size()));
         mesh.indices.push_back(place->second);
         if (!is_new) continue;
-        mesh.positions.push_back(transform_point(to_world, obj.positions[key.position]));
-        Vec2 uv = key.uv == missing ? Vec2(0.0f) : obj.uvs[key.uv];
-        if (key.uv != missing && options.flip_tex_coords) uv.y = 1.0f - uv.y;
-        mesh.uvs.push_back(uv);
-        mesh.normals.push_back(key.normal == missing ? Vec3(0.0f) : normal_to_world(obj.normals[key.normal]));
+        mesh.positions.push_back(obj.positions[key.position]);
+        mesh.uvs.push_back(key.uv == missing ? Vec2(0.0f) : obj.uvs[key.uv]);
+        mesh.normals.push_back(key.normal == missing ? Vec3(0.0f) : obj.normals[key.normal]);
         any_uv = any_uv || key.uv != missing;
         any_normal = any_normal || key.normal != missing;
     }
     if (!any_uv) mesh.uvs.clear();
     if (!any_normal) mesh.normals.clear();
+    mesh.positions.shrink_to_fit();
+    mesh.uvs.shrink_to_fit();
+    mesh.normals.shrink_to_fit();
     return mesh;
 }
 
-Mesh make_mesh(const ObjFile& obj, const Matrix& to_world, const ObjOptions& options, int version) {
-    Mesh mesh = merge_corners(obj, to_world, options);
-    const bool has_normals = !mesh.normals.empty();
-    if (!has_normals && version >= 2 && is_mirroring(to_world)) flip_winding(mesh);
-    if (options.face_normals) {
-        if (options.flip_normals) flip_winding(mesh);
-        return mesh;
+/// Leaves only the group of that number among those that have faces.
+void select_group(ObjFile& obj, std::int64_t number, const Location& where) {
+    std::int64_t at = -1;
+    std::uint32_t group = 0;
+    std::vector<ObjFile::Corner> kept;
+    for (const ObjFile::Corner& corner : obj.corners) {
+        if (at < 0 || corner.group != group) ++at;
+        group = corner.group;
+        if (at == number) kept.push_back(corner);
     }
-    compute_missing_normals(mesh);
-    if (options.flip_normals)
-        for (Vec3& normal : mesh.normals)
-            normal = -normal;
-    orient_by_normals(mesh);
-    drop_redundant_normals(mesh);
-    return mesh;
+    if (kept.empty())
+        throw InputError(where, "group number " + std::to_string(number) + " of " + std::to_string(at + 1),
+                         "give a shape index from 0");
+    obj.corners = std::move(kept);
 }
 
 }  // namespace
 
 Mesh read_obj_mesh(Properties& properties, Diagnostics& diagnostics) {
-    if (!properties.has("filename"))
-        throw InputError(properties.where(), properties.title() + " has no file name",
-                         "add <string name=\"filename\" value=\"...\"/>");
-    const std::filesystem::path scene_file = properties.where().file;
-    const std::filesystem::path path = scene_file.parent_path() / properties.text("filename", "");
+    const MeshOptions options = read_mesh_options(properties, true);
     const bool is_old = properties.element().version < 2;
-
-    ObjOptions options;
-    options.face_normals = properties.boolean("face_normals", false);
-    options.flip_normals = properties.boolean("flip_normals", false);
-    options.flip_tex_coords = properties.boolean("flip_tex_coords", true);
-    options.separate_groups = is_old && !properties.boolean("collapse", false);
+    const bool separate_groups = is_old && !properties.boolean("collapse", false);
     const bool load_materials = properties.boolean("load_materials", is_old);
-    for (const char* name : {"max_smooth_angle", "shape_index"})
-        if (properties.has(name)) {
-            diagnostics.unsupported(properties.where(name), std::string(name) + " is not available in this version",
-                                    "prepare the file in a modelling program", "it is ignored");
-            properties.ignore({name});
-        }
-    const Matrix to_world = properties.transform("to_world");
+    const std::int64_t group = is_old ? properties.integer("shape_index", -1) : -1;
 
-    const ObjFile obj = read_obj(path, properties.where("filename"));
+    ObjFile obj = read_obj(options.file, properties.where("filename"));
     if (obj.corners.empty())
-        throw InputError({path.string()}, "the OBJ file has no faces", "repair it, or remove the shape");
+        throw InputError({options.file.string()}, "the OBJ file has no faces", "repair it, or remove the shape");
     if (obj.names_materials && load_materials && properties.children("bsdf").empty())
-        diagnostics.warn(properties.where(), "the materials of " + path.string() + " are not read: the shape is grey");
-    return make_mesh(obj, to_world, options, properties.element().version);
+        diagnostics.warn(properties.where(),
+                         "the materials of " + options.file.string() + " are not read: the shape is grey");
+    if (group >= 0) select_group(obj, group, properties.where("shape_index"));
+    Mesh mesh = merge_corners(obj, !options.face_normals, separate_groups);
+    place_mesh(mesh, options);
+    return mesh;
 }
 
 }  // namespace treefarm::mitsuba

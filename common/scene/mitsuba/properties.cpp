@@ -23,9 +23,17 @@ char to_lower(char c) {
 }
 
 bool is_value_tag(const std::string& tag) {
-    constexpr std::array<std::string_view, 10> tags = {"float",  "integer", "boolean", "string",   "point",
-                                                       "vector", "rgb",     "srgb",    "spectrum", "transform"};
+    constexpr std::array<std::string_view, 12> tags = {"float",    "integer",   "boolean",   "string",
+                                                       "point",    "vector",    "rgb",       "srgb",
+                                                       "spectrum", "blackbody", "transform", "animation"};
     return std::find(tags.begin(), tags.end(), tag) != tags.end();
+}
+
+/// What objects that are not read would simulate, for messages.
+std::string effect_of(const std::string& tag) {
+    if (tag == "medium" || tag == "phase" || tag == "volume") return " (light scattered and absorbed by a medium)";
+    if (tag == "subsurface") return " (light scattered below surfaces)";
+    return "";
 }
 
 }  // namespace
@@ -51,10 +59,6 @@ Properties::Properties(const XmlElement& object, const SceneDocument& document, 
             children_.push_back({{&document.resolve(element), name ? *name : "", element.where}});
         } else if (is_value_tag(element.tag)) {
             add_value(element);
-        } else if (element.tag == "blackbody") {
-            throw InputError(element.where, "<blackbody> is not available in this version", "give the colour as <rgb>");
-        } else if (element.tag == "animation") {
-            throw InputError(element.where, "<animation> is not available in this version", "use a <transform>");
         } else {
             diagnostics.unsupported(element.where, "unknown element <" + element.tag + "> in " + title(), "remove it");
         }
@@ -64,12 +68,17 @@ Properties::Properties(const XmlElement& object, const SceneDocument& document, 
 void Properties::add_value(const XmlElement& element) {
     if (element.tag == "transform") {
         element.allow_attributes({"name"});
+    } else if (element.tag == "animation") {
+        diagnostics_.unsupported(element.where, "motion (<animation>) is not simulated in this version",
+                                 "use a <transform>", "the object stands still where it begins");
+        if (element.children.empty() || element.children[0].tag != "transform")
+            throw InputError(element.where, "<animation> has no transformation inside", "use a <transform>");
     } else if (!element.children.empty()) {
         throw InputError(element.children[0].where, "<" + element.tag + "> has elements inside", "remove them");
     }
-    if (element.tag == "spectrum" && !element.find("value"))
-        throw InputError(element.where, "a <spectrum> without a value is not available in this version",
-                         "give value=\"...\" with one number or pairs \"wavelength:value\"");
+    if (element.tag == "spectrum" && !element.find("value") && !element.find("filename"))
+        throw InputError(element.where, "a <spectrum> without a value or a file",
+                         "give value=\"...\" with one number or pairs \"wavelength:value\", or filename=\"...\"");
     const auto [place, is_new] = values_.emplace(snake_case(element.require("name")), Value{&element});
     if (!is_new)
         throw InputError(element.where, in_quotes(element.require("name")) + " of " + title() + " is given twice",
@@ -166,15 +175,35 @@ Vec3 Properties::point(const std::string& name, const Vec3& otherwise) {
 }
 
 Rgb Properties::color(const std::string& name, const Rgb& otherwise, ColorUse use) {
-    const XmlElement* element = find(name, {"rgb", "srgb", "spectrum", "float"}, "<rgb>");
+    const XmlElement* element = find(name, {"rgb", "srgb", "spectrum", "blackbody", "float", "integer"}, "<rgb>");
     if (!element) return otherwise;
     return read_color(*element, use, diagnostics_);
 }
 
 Matrix Properties::transform(const std::string& name) {
-    const XmlElement* element = find(name, {"transform"}, "<transform>");
+    const XmlElement* element = find(name, {"transform", "animation"}, "<transform>");
     if (!element) return Matrix();
-    return read_transform(*element, title() + (id().empty() ? "" : " " + in_quotes(id())));
+    const XmlElement& first = element->tag == "animation" ? element->children[0] : *element;
+    return read_transform(first, title() + (id().empty() ? "" : " " + in_quotes(id())));
+}
+
+std::string Properties::tag_of(const std::string& name) const {
+    const auto value = values_.find(name);
+    return value == values_.end() ? "" : value->second.element->tag;
+}
+
+const XmlElement* Properties::named_child(const std::string& tag, const std::string& name) {
+    asked_.push_back(name);
+    const XmlElement* found = nullptr;
+    for (Entry& entry : children_) {
+        if (entry.child.object->tag != tag || snake_case(entry.child.name) != name) continue;
+        if (found != nullptr || has(name))
+            throw InputError(entry.child.where, in_quotes(entry.child.name) + " of " + title() + " is given twice",
+                             "remove one of them");
+        entry.used = true;
+        found = entry.child.object;
+    }
+    return found;
 }
 
 std::vector<Child> Properties::children(const std::string& tag) {
@@ -213,7 +242,8 @@ void Properties::finish() {
         const std::string* type = entry.child.object->find("type");
         diagnostics_.unsupported(entry.child.where,
                                  "<" + entry.child.object->tag + (type ? " type=\"" + type->substr(0, 60) + "\"" : "") +
-                                     "> in " + title() + " is not available in this version",
+                                     "> in " + title() + effect_of(entry.child.object->tag) +
+                                     " is not available in this version",
                                  "remove it");
     }
 }

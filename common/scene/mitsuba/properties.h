@@ -51,6 +51,11 @@ class Properties {
     Rgb color(const std::string& name, const Rgb& otherwise, ColorUse use);
     Matrix transform(const std::string& name);
 
+    /// The tag of the value of this name ("float", "string"...), or "".
+    std::string tag_of(const std::string& name) const;
+
+    /// The object of a tag that stands for the property `name`, or nullptr; a second one throws InputError.
+    const XmlElement* named_child(const std::string& tag, const std::string& name);
     /// The objects of a tag, in their order.
     std::vector<Child> children(const std::string& tag);
     /// The only object of a tag, or nullptr; a second one throws InputError.

@@ -3,35 +3,11 @@
 #include "common/scene/mitsuba/emitters.h"
 #include "common/scene/mitsuba/integrator.h"
 #include "common/scene/mitsuba/materials.h"
-#include "common/scene/mitsuba/shapes.h"
+#include "common/scene/mitsuba/shape_reader.h"
+#include "common/scene/remove_unused.h"
 #include "common/scene/validate.h"
 
 namespace treefarm {
-namespace mitsuba {
-namespace {
-
-void read_shape(const XmlElement& element, Scene& scene, MaterialReader& materials, const SceneDocument& document,
-                Diagnostics& diagnostics) {
-    Properties properties(element, document, diagnostics);
-    auto geometry = read_geometry(properties, diagnostics);
-    if (!geometry) return;
-    const XmlElement* bsdf = properties.only_child("bsdf");
-    const XmlElement* emitter = properties.only_child("emitter");
-    properties.finish();
-
-    Shape shape;
-    shape.geometry = std::move(*geometry);
-    shape.name = properties.id();
-    shape.where = element.where;
-    shape.material = bsdf ? materials.read(*bsdf) : materials.read_default(emitter != nullptr, element.where);
-    scene.shapes.push_back(std::move(shape));
-    if (emitter)
-        read_area_emitter(*emitter, static_cast<std::int32_t>(scene.shapes.size() - 1), scene, document, diagnostics);
-}
-
-}  // namespace
-}  // namespace mitsuba
-
 SceneReading read_mitsuba(const std::filesystem::path& path, const std::map<std::string, std::string>& defines,
                           bool lenient, const mitsuba::FilmSize& film_size) {
     using namespace mitsuba;
@@ -50,13 +26,16 @@ SceneReading read_mitsuba(const std::filesystem::path& path, const std::map<std:
         read_integrator(*integrator, reading.settings, document, diagnostics);
 
     MaterialReader materials(scene, document, diagnostics);
+    root.children("texture");  // read where they are referred to
     for (const Child& bsdf : root.children("bsdf"))
         materials.read(*bsdf.object);
+    ShapeReader shapes(scene, materials, document, diagnostics);
     for (const Child& shape : root.children("shape"))
-        read_shape(*shape.object, scene, materials, document, diagnostics);
+        shapes.read(*shape.object);
     for (const Child& emitter : root.children("emitter"))
-        read_environment(*emitter.object, scene, document, diagnostics);
+        read_emitter(*emitter.object, scene, materials.textures(), document, diagnostics);
     root.finish();
+    materials.textures().images().read(remove_unused(scene), scene, diagnostics);
 
     reading.warnings = std::move(diagnostics.warnings());
     std::vector<Warning> found;

@@ -57,6 +57,25 @@ void read_sampler(const XmlElement& sampler, std::vector<Setting>& settings, con
     properties.finish();
 }
 
+/// Opens the pinhole to a disk and moves the film's image out to the plane of focus: points there stay sharp.
+void add_lens(Properties& properties, const Matrix& to_world, Camera& camera, Diagnostics& diagnostics) {
+    if (!properties.has("aperture_radius"))
+        throw InputError(properties.where(), properties.title() + " has no aperture",
+                         "add <float name=\"apertureRadius\" value=\"...\"/>, or use perspective");
+    const double radius = properties.number("aperture_radius", 0.0);
+    if (!(radius >= 0.0))
+        throw InputError(properties.where("aperture_radius"), "an aperture radius of " + number_text(radius),
+                         "give 0 or more");
+    if (radius == 0.0) diagnostics.warn(properties.where("aperture_radius"), "an aperture without extent is a pinhole");
+    const double focus = properties.positive("focus_distance", properties.number("far_clip", 1e4));
+    const auto distance = static_cast<float>(focus), size = static_cast<float>(radius);
+    camera.corner *= distance;
+    camera.across *= distance;
+    camera.down *= distance;
+    camera.lens_u = transform_vector(to_world, Vec3(size, 0.0f, 0.0f));
+    camera.lens_v = transform_vector(to_world, Vec3(0.0f, size, 0.0f));
+}
+
 }  // namespace
 
 Camera make_camera(const Matrix& to_world, double horizontal_fov, double aspect, double principal_x,
@@ -80,13 +99,16 @@ Camera make_camera(const Matrix& to_world, double horizontal_fov, double aspect,
 void read_sensor(const XmlElement& sensor, const FilmSize& wanted, Scene& scene, std::vector<Setting>& settings,
                  const SceneDocument& document, Diagnostics& diagnostics) {
     Properties properties(sensor, document, diagnostics);
-    if (properties.type() != "perspective") {
-        diagnostics.unsupported(sensor.where,
-                                "the sensor " + in_quotes(properties.type()) + " is not available in this version",
-                                "use perspective", "it is read as perspective");
-        // Lens properties of thinlens and the like.
-        properties.ignore({"aperture_radius", "kc"});
+    const std::string type = properties.type();
+    if (type != "perspective" && type != "thinlens") {
+        diagnostics.unsupported(sensor.where, "the sensor " + in_quotes(type) + " is not available in this version",
+                                "use perspective or thinlens", "it is read as perspective");
+        // What others have in addition.
+        properties.ignore({"aperture_radius", "kc", "scale", "srf"});
     }
+    if (properties.number("shutter_close", 0.0) != properties.number("shutter_open", 0.0))
+        diagnostics.warn(properties.where("shutter_close"),
+                         "the shutter stays open for a while, but nothing moves: no motion is simulated");
     scene.film = read_film(properties.only_child("film"), wanted, sensor.version, document, diagnostics);
     if (const XmlElement* sampler = properties.only_child("sampler"))
         read_sampler(*sampler, settings, document, diagnostics);
@@ -111,8 +133,9 @@ void read_sensor(const XmlElement& sensor, const FilmSize& wanted, Scene& scene,
     const double offset_x = properties.number("principal_point_offset_x", 0.0);
     const double offset_y = properties.number("principal_point_offset_y", 0.0);
     scene.camera = make_camera(to_world, 2.0 * std::atan(width) * 180.0 / M_PI, aspect, offset_x, offset_y);
-    // A pinhole has no focus; nothing moves; and no clipping planes are needed by ray tracing.
-    properties.ignore({"near_clip", "far_clip", "focus_distance", "shutter_open", "shutter_close"});
+    if (type == "thinlens") add_lens(properties, to_world, scene.camera, diagnostics);
+    // A pinhole has no focus, and rays need no clipping planes: what stands before the near one is seen.
+    properties.ignore({"near_clip", "far_clip", "focus_distance"});
     properties.finish();
 }
 

@@ -1,83 +1,52 @@
 #include "common/scene/mitsuba/shapes.h"
 
 #include <array>
-#include <cmath>
 
 #include "common/config/parse_text.h"
 #include "common/scene/mesh_normals.h"
-#include "common/scene/mitsuba/obj_mesh.h"
+#include "common/scene/mitsuba/analytic_shapes.h"
+#include "common/scene/mitsuba/mesh_files.h"
 
 namespace treefarm::mitsuba {
 namespace {
 
-/// A flat face of four corners, object space; its front is where it turns left.
-struct Quad {
-    std::array<Vec3, 4> corners;
+/// A parallelogram by its centre and the half edges along which u and v grow.
+struct Patch {
+    Vec3 center, half_u, half_v;
 };
 
-/// A mesh of flat faces. Its front stays on the same side of the object under a mirroring transformation.
-Mesh mesh_of_quads(std::span<const Quad> quads, const Matrix& to_world, bool flip) {
-    constexpr std::array<Vec2, 4> uvs = {Vec2(0, 0), Vec2(1, 0), Vec2(1, 1), Vec2(0, 1)};
+/// A mesh of flat faces whose fronts are where half_u x half_v points, or half_v x half_u if `turned`. They stay on the
+/// same side of the object under a mirroring transformation.
+Mesh mesh_of_patches(std::span<const Patch> patches, bool turned, Properties& properties) {
+    const Matrix to_world = properties.transform("to_world");
+    const bool flip = properties.boolean("flip_normals", false);
     Mesh mesh;
-    for (const Quad& quad : quads) {
+    for (const Patch& patch : patches) {
         const auto first = static_cast<std::uint32_t>(mesh.positions.size());
-        for (std::size_t i = 0; i < 4; ++i) {
-            mesh.positions.push_back(transform_point(to_world, quad.corners[i]));
-            mesh.uvs.push_back(uvs[i]);
+        for (const Vec2& uv : {Vec2(0, 0), Vec2(1, 0), Vec2(1, 1), Vec2(0, 1)}) {
+            const Vec3 corner =
+                patch.center + patch.half_u * (2.0f * uv.x - 1.0f) + patch.half_v * (2.0f * uv.y - 1.0f);
+            mesh.positions.push_back(transform_point(to_world, corner));
+            mesh.uvs.push_back(uv);
         }
         for (const std::uint32_t i : {0u, 1u, 2u, 2u, 3u, 0u})
             mesh.indices.push_back(first + i);
     }
-    if (flip != is_mirroring(to_world)) flip_winding(mesh);
+    if ((flip != is_mirroring(to_world)) != turned) flip_winding(mesh);
     return mesh;
 }
 
 /// From (-1, -1, 0) to (1, 1, 0), front towards +z.
 Mesh read_rectangle(Properties& properties) {
-    const Quad quad = {{Vec3(-1, -1, 0), Vec3(1, -1, 0), Vec3(1, 1, 0), Vec3(-1, 1, 0)}};
-    const bool flip = properties.boolean("flip_normals", false);
-    return mesh_of_quads(std::span(&quad, 1), properties.transform("to_world"), flip);
+    const Patch patch = {Vec3(0.0f), Vec3(1, 0, 0), Vec3(0, 1, 0)};
+    return mesh_of_patches(std::span(&patch, 1), false, properties);
 }
 
-/// From (-1, -1, -1) to (1, 1, 1), front outside.
+/// From (-1, -1, -1) to (1, 1, 1), front outside. Texture coordinates as Mitsuba 0.6 and 3 have them (cube.cpp).
 Mesh read_cube(Properties& properties) {
-    std::array<Quad, 6> quads;
-    for (int face = 0; face < 6; ++face) {
-        const int axis = face / 2;
-        const float side = face % 2 == 0 ? -1.0f : 1.0f;
-        const int u = (axis + 1) % 3, v = (axis + 2) % 3;
-        constexpr float signs[4][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
-        for (std::size_t i = 0; i < 4; ++i) {
-            // Seen from outside the corners turn left: on the negative side the order is the reverse.
-            const std::size_t at = side > 0.0f ? i : 3 - i;
-            Vec3& corner = quads[static_cast<std::size_t>(face)].corners[at];
-            corner[axis] = side;
-            corner[u] = signs[i][0];
-            corner[v] = signs[i][1];
-        }
-    }
-    const bool flip = properties.boolean("flip_normals", false);
-    return mesh_of_quads(quads, properties.transform("to_world"), flip);
-}
-
-Sphere read_sphere(Properties& properties) {
-    const Matrix to_world = properties.transform("to_world");
-    const double scale = uniform_scale(to_world);
-    if (!(scale > 0.0))
-        throw InputError(properties.where("to_world"), "the sphere's transformation scales axes differently or shears",
-                         "an ellipsoid is not available in this version: scale all axes alike");
-    Sphere sphere;
-    const Vec3 center = properties.point("center", Vec3(0.0f));
-    sphere.radius = static_cast<float>(properties.positive("radius", 1.0) * scale);
-    sphere.flip_normals = properties.boolean("flip_normals", false);
-    if (properties.element().version >= 2) {
-        sphere.center = transform_point(to_world, center);
-        if (is_mirroring(to_world)) sphere.flip_normals = !sphere.flip_normals;
-    } else {
-        // Mitsuba 0.6 takes the scale out of the transformation before it moves the centre.
-        sphere.center = transform_point(to_world, center * static_cast<float>(1.0 / scale));
-    }
-    return sphere;
+    const Vec3 x(1, 0, 0), y(0, 1, 0), z(0, 0, 1);
+    const std::array<Patch, 6> patches = {{{-y, z, x}, {y, -x, -z}, {x, y, -z}, {z, y, x}, {-x, y, z}, {-z, -y, x}}};
+    return mesh_of_patches(patches, true, properties);
 }
 
 }  // namespace
@@ -85,11 +54,16 @@ Sphere read_sphere(Properties& properties) {
 std::optional<decltype(Shape::geometry)> read_geometry(Properties& properties, Diagnostics& diagnostics) {
     const std::string type = properties.type();
     if (type == "obj") return read_obj_mesh(properties, diagnostics);
+    if (type == "ply") return read_ply_mesh(properties);
+    if (type == "serialized") return read_serialized_mesh(properties);
     if (type == "rectangle") return read_rectangle(properties);
     if (type == "cube") return read_cube(properties);
     if (type == "sphere") return read_sphere(properties);
-    diagnostics.unsupported(properties.where(), "the shape " + in_quotes(type) + " is not available in this version",
-                            "use obj, rectangle, cube or sphere");
+    if (type == "disk") return read_disk(properties);
+    if (type == "cylinder") return read_cylinder(properties);
+    diagnostics.unsupported(
+        properties.where(), "the shape " + in_quotes(type) + " is not available in this version",
+        "use obj, ply, serialized, rectangle, cube, sphere, disk, cylinder, shapegroup or instance");
     return std::nullopt;
 }
 

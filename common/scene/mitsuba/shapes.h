@@ -9,7 +9,7 @@
 
 namespace treefarm::mitsuba {
 
-/// The geometry of a shape element in world space: obj, rectangle, cube or sphere. Fronts are where the version of
+/// The geometry of a shape element in world space: a mesh or an analytic shape. Fronts are where the version of
 /// Mitsuba has them that the file is written for. Other shapes throw InputError, or give nothing when lenient.
 std::optional<decltype(Shape::geometry)> read_geometry(Properties& properties, Diagnostics& diagnostics);
 

@@ -5,19 +5,15 @@
 #include <optional>
 
 #include "common/config/parse_text.h"
+#include "common/scene/mitsuba/blackbody.h"
 #include "common/scene/mitsuba/cie_1931.h"
+#include "common/scene/mitsuba/spectrum_file.h"
 #include "common/scene/mitsuba/values.h"
 
 namespace treefarm::mitsuba {
 namespace {
 
 using Rgb64 = Imath::Color3<double>;
-
-/// ITU-R BT.709 primaries, white D65.
-Rgb64 xyz_to_rgb(double x, double y, double z) {
-    return {3.240479 * x - 1.537150 * y - 0.498535 * z, -0.969256 * x + 1.875991 * y + 0.041556 * z,
-            0.055648 * x - 0.204043 * y + 1.057311 * z};
-}
 
 /// Value at `wavelength` between samples `i` and `i + 1`.
 double interpolate(const SpectrumSamples& samples, std::size_t i, double wavelength) {
@@ -95,16 +91,18 @@ Rgb64 parse_triple(const XmlElement& element) {
     return {values[0], values[1], values[2]};
 }
 
+/// Colour of a list of wavelengths, as the version of Mitsuba that the file is written for computes it.
+Rgb64 color_of_list(const SpectrumSamples& samples, const XmlElement& element, ColorUse use) {
+    if (element.is_0_5) return spectrum_to_rgb(reverse_segments(extend_to_zero(samples)), false);
+    if (element.version == 0) return spectrum_to_rgb(extend_to_zero(samples), false);
+    return spectrum_to_rgb(samples, element.version >= 3 && use != ColorUse::radiance);
+}
+
 Rgb64 read_spectrum(const XmlElement& element, ColorUse use) {
     const std::string& text = element.require("value");
     const std::vector<std::string_view> tokens = split_list(text);
     if (tokens.empty()) throw InputError(element.where, "<spectrum> is empty", "give a value");
-    if (text.find(':') != std::string::npos) {
-        const SpectrumSamples samples = parse_list(tokens, element.where);
-        if (element.is_0_5) return spectrum_to_rgb(reverse_segments(extend_to_zero(samples)), false);
-        if (element.version == 0) return spectrum_to_rgb(extend_to_zero(samples), false);
-        return spectrum_to_rgb(samples, element.version >= 3 && use == ColorUse::reflectance);
-    }
+    if (text.find(':') != std::string::npos) return color_of_list(parse_list(tokens, element.where), element, use);
     const std::vector<double> values = numbers_of(text, element.where);
     if (values.size() == 3 && element.version == 0) return {values[0], values[1], values[2]};
     if (values.size() != 1)
@@ -118,6 +116,12 @@ Rgb64 read_spectrum(const XmlElement& element, ColorUse use) {
 }
 
 }  // namespace
+
+// ITU-R BT.709 primaries, white D65.
+Rgb64 xyz_to_rgb(double x, double y, double z) {
+    return {3.240479 * x - 1.537150 * y - 0.498535 * z, -0.969256 * x + 1.875991 * y + 0.041556 * z,
+            0.055648 * x - 0.204043 * y + 1.057311 * z};
+}
 
 double srgb_to_linear(double encoded) {
     return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
@@ -160,20 +164,22 @@ Imath::Color3<double> spectrum_to_rgb(const SpectrumSamples& samples, bool under
 
 Rgb read_color(const XmlElement& element, ColorUse use, Diagnostics& diagnostics) {
     Rgb64 color;
-    if (element.tag == "spectrum") {
+    bool of_list = false;
+    if (element.tag == "spectrum" && element.find("filename")) {
+        element.allow_attributes({"name", "filename"});
+        const std::filesystem::path scene_file = element.where.file;
+        color = color_of_list(read_spectrum_file(scene_file.parent_path() / element.require("filename"), element.where),
+                              element, use);
+        of_list = true;
+    } else if (element.tag == "spectrum") {
         element.allow_attributes({"name", "value", "intent"});
         color = read_spectrum(element, use);
-        const bool of_list = element.require("value").find(':') != std::string::npos;
-        if (of_list) {
-            for (int i = 0; i < 3; ++i)
-                color[i] = std::max(color[i], 0.0);
-            const double largest = std::max({color.x, color.y, color.z});
-            if (use == ColorUse::reflectance && largest > 1.0) {
-                diagnostics.warn(element.where,
-                                 "the spectrum's colour exceeds 1 in a channel and was scaled down to it");
-                color /= largest;
-            }
-        }
+        of_list = element.require("value").find(':') != std::string::npos;
+    } else if (element.tag == "blackbody") {
+        if (use != ColorUse::radiance)
+            throw InputError(element.where, "<blackbody> is light, not a property of a surface", "give an <rgb>");
+        color = read_blackbody(element);
+        of_list = true;
     } else {
         element.allow_attributes({"name", "value", "intent"});
         color = parse_triple(element);
@@ -181,13 +187,24 @@ Rgb read_color(const XmlElement& element, ColorUse use, Diagnostics& diagnostics
             for (int i = 0; i < 3; ++i)
                 color[i] = srgb_to_linear(color[i]);
     }
+    if (of_list) {
+        for (int i = 0; i < 3; ++i)
+            color[i] = std::max(color[i], 0.0);
+        const double largest = std::max({color.x, color.y, color.z});
+        if (use == ColorUse::reflectance && largest > 1.0) {
+            diagnostics.warn(element.where, "the spectrum's colour exceeds 1 in a channel and was scaled down to it");
+            color /= largest;
+        }
+    }
     const double limit = use == ColorUse::reflectance ? 1.0 : std::numeric_limits<float>::max();
     for (int i = 0; i < 3; ++i) {
         if (!(color[i] >= 0.0) || color[i] > limit)
             throw InputError(
                 element.where,
-                std::string(use == ColorUse::reflectance ? "a reflectance" : "a radiance") + " of " +
-                    number_text(color[i]),
+                std::string(use == ColorUse::reflectance   ? "a reflectance"
+                            : use == ColorUse::coefficient ? "a coefficient"
+                                                           : "a radiance") +
+                    " of " + number_text(color[i]),
                 use == ColorUse::reflectance ? "give values from 0 to 1" : "give finite values of 0 or more");
     }
     return Rgb(static_cast<float>(color.x), static_cast<float>(color.y), static_cast<float>(color.z));

@@ -11,7 +11,11 @@
 namespace treefarm::mitsuba {
 
 /// What a colour is for: it decides how spectra become Rgb.
-enum class ColorUse { reflectance, radiance };
+enum class ColorUse {
+    reflectance,  ///< in [0, 1]
+    coefficient,  ///< a property of a surface without an upper limit: index of refraction, absorption
+    radiance      ///< of something that shines
+};
 
 /// (wavelength in nm, value), wavelengths rising: a piecewise linear spectrum, 0 outside.
 using SpectrumSamples = std::vector<std::pair<double, double>>;
@@ -21,11 +25,14 @@ using SpectrumSamples = std::vector<std::pair<double, double>>;
 /// D65: the white one is (1, 1, 1) then.
 Imath::Color3<double> spectrum_to_rgb(const SpectrumSamples& samples, bool under_d65);
 
+/// CIE XYZ to linear Rec. 709; channels can be negative.
+Imath::Color3<double> xyz_to_rgb(double x, double y, double z);
+
 /// Linear value of an sRGB channel (IEC 61966-2-1).
 double srgb_to_linear(double encoded);
 
-/// The colour of an <rgb>, <srgb> or <spectrum> element, not negative. Wavelength lists become Rgb as the version of
-/// Mitsuba that the file is written for does it when it renders in RGB.
+/// The colour of an <rgb>, <srgb>, <spectrum> (value or file) or <blackbody> element, not negative. Wavelength lists
+/// become Rgb as the version of Mitsuba that the file is written for does it when it renders in RGB.
 Rgb read_color(const XmlElement& element, ColorUse use, Diagnostics& diagnostics);
 
 }  // namespace treefarm::mitsuba

@@ -1,0 +1,37 @@
+#include "common/scene/input_file.h"
+
+#include <fstream>
+
+#include "common/config/parse_text.h"
+
+namespace treefarm {
+namespace {
+
+constexpr std::uintmax_t kMaxFileBytes = std::uintmax_t{8} << 30;
+
+}  // namespace
+
+std::uintmax_t input_file_size(const std::filesystem::path& path, const Location& asked_from) {
+    std::error_code error;
+    const std::string file = path.string();
+    if (!std::filesystem::exists(path, error))
+        throw InputError(asked_from, "there is no file " + in_quotes(file), "check the path");
+    if (!std::filesystem::is_regular_file(path, error))
+        throw InputError(asked_from, in_quotes(file) + " is not a file", "check the path");
+    const std::uintmax_t size = std::filesystem::file_size(path, error);
+    if (error || size > kMaxFileBytes)
+        throw InputError(asked_from, in_quotes(file) + " has more than 8 GiB", "split it");
+    return size;
+}
+
+std::string read_input_file(const std::filesystem::path& path, const Location& asked_from) {
+    const std::uintmax_t size = input_file_size(path, asked_from);
+    std::string text(static_cast<std::size_t>(size), '\0');
+    std::ifstream in(path, std::ios::binary);
+    in.read(text.data(), static_cast<std::streamsize>(size));
+    if (!in || in.gcount() != static_cast<std::streamsize>(size))
+        throw InputError(asked_from, in_quotes(path.string()) + " cannot be read", "check its permissions");
+    return text;
+}
+
+}  // namespace treefarm

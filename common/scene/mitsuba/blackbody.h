@@ -1,0 +1,15 @@
+#pragma once
+
+#include "common/scene/mitsuba/spectra.h"
+#include "common/scene/mitsuba/xml_document.h"
+
+namespace treefarm::mitsuba {
+
+/// Colour of a black body (Planck's law), linear Rec. 709, W / (m^2 sr nm) as Mitsuba 0.6 has it; channels can be
+/// negative. `temperature` in kelvin.
+Imath::Color3<double> blackbody_color(double temperature);
+
+/// <blackbody name="..." temperature="5000K" scale="1"/>; wrong attributes and temperatures throw InputError.
+Imath::Color3<double> read_blackbody(const XmlElement& element);
+
+}  // namespace treefarm::mitsuba

@@ -1,0 +1,53 @@
+#pragma once
+
+#include "common/math/vec.h"
+
+namespace treefarm::mitsuba {
+
+/// When and where somebody looks at the sky.
+struct Observation {
+    int year = 2010, month = 7, day = 10;
+    double hour = 15.0, minute = 0.0, second = 0.0;   ///< local time
+    double latitude = 35.6894, longitude = 139.6917;  ///< degrees, north and east positive
+    double timezone = 9.0;                            ///< hours ahead of universal time
+};
+
+/// A direction in the sky, radians.
+struct SkyAngles {
+    double zenith = 0.0;   ///< from straight up
+    double azimuth = 0.0;  ///< from north over east
+};
+
+/// Where the sun stands, to about half a minute of arc from 1999 to 2015 (Blanco-Muriel et al. 2001, Computing the
+/// solar vector: the PSA algorithm, which Mitsuba uses).
+SkyAngles sun_position(const Observation& observation);
+
+/// The clear sky of Preetham, Shirley and Smits 1999 (A practical analytic model for daylight, appendix 2): Perez'
+/// distribution with coefficients that are linear in the turbidity.
+class PreethamSky {
+  public:
+    /// Turbidity from 1.7 to 10 (below, the model's zenith is no longer bright), the sun above the horizon.
+    PreethamSky(double turbidity, double sun_zenith);
+
+    /// Radiance in linear Rec. 709, W / (m^2 sr nm), towards a direction above the horizon, and `from_sun` radians from
+    /// the sun.
+    Imath::Color3<double> radiance(double zenith, double from_sun) const;
+
+  private:
+    /// Perez' five coefficients, and the value at the zenith over the distribution there.
+    struct Channel {
+        double a, b, c, d, e, scale;
+    };
+    static double distribution(const Channel& channel, double cos_zenith, double from_sun);
+
+    Channel luminance_, x_, y_;
+};
+
+/// Radiance of the sun's disk in linear Rec. 709, W / (m^2 sr nm), behind the air of this turbidity (the same paper,
+/// appendix 1).
+Imath::Color3<double> preetham_sun(double turbidity, double sun_zenith);
+
+/// Half the angle under which the sun appears, radians (0.5358 degrees across, as in Mitsuba).
+inline constexpr double kSunRadius = 0.5358 / 2.0 * M_PI / 180.0;
+
+}  // namespace treefarm::mitsuba

@@ -1,0 +1,16 @@
+#pragma once
+
+#include "common/scene/mitsuba/properties.h"
+#include "common/scene/scene.h"
+
+namespace treefarm::mitsuba {
+
+/// The meshes of <shape type="obj">, "ply" and "serialized". Where the file has no normals, smooth ones are computed
+/// unless face_normals is set; where it has them, they decide which side is the front. A mirroring transformation keeps
+/// the front of a file without normals in versions 2 and 3 and of serialized files; in version 0 it reverses that of
+/// the others, as Mitsuba does.
+Mesh read_obj_mesh(Properties& properties, Diagnostics& diagnostics);
+Mesh read_ply_mesh(Properties& properties);
+Mesh read_serialized_mesh(Properties& properties);
+
+}  // namespace treefarm::mitsuba

@@ -1,0 +1,92 @@
+#include "common/scene/mitsuba/shape_reader.h"
+
+#include "common/scene/mitsuba/emitters.h"
+#include "common/scene/mitsuba/shapes.h"
+
+namespace treefarm::mitsuba {
+namespace {
+
+bool is_type(const XmlElement& shape, const char* type) {
+    const std::string* found = shape.find("type");
+    return found && *found == type;
+}
+
+}  // namespace
+
+void ShapeReader::read(const XmlElement& shape) {
+    if (is_type(shape, "shapegroup"))
+        group_of(shape);
+    else if (is_type(shape, "instance"))
+        read_instance(shape);
+    else
+        read_shape(shape, kNone);
+}
+
+void ShapeReader::read_shape(const XmlElement& element, std::int32_t group) {
+    Properties properties(element, document_, diagnostics_);
+    auto geometry = read_geometry(properties, diagnostics_);
+    if (!geometry) return;
+    const XmlElement* bsdf = properties.only_child("bsdf");
+    const XmlElement* emitter = properties.only_child("emitter");
+    properties.finish();
+    if (emitter && group != kNone) {
+        diagnostics_.unsupported(emitter->where, "a shape in a shapegroup has an emitter",
+                                 "take the shape out of the group");
+        emitter = nullptr;
+    }
+
+    Shape shape;
+    shape.geometry = std::move(*geometry);
+    shape.name = properties.id();
+    shape.where = element.where;
+    shape.group = group;
+    shape.material = bsdf ? materials_.read(*bsdf) : materials_.read_default(emitter != nullptr, element.where);
+    scene_.shapes.push_back(std::move(shape));
+    if (emitter)
+        read_area_emitter(*emitter, static_cast<std::int32_t>(scene_.shapes.size() - 1), scene_, materials_.textures(),
+                          document_, diagnostics_);
+}
+
+std::int32_t ShapeReader::group_of(const XmlElement& element) {
+    if (const auto known = groups_.find(&element); known != groups_.end()) return known->second;
+    Properties properties(element, document_, diagnostics_);
+    properties.type();
+    const std::size_t before = scene_.shapes.size();
+    for (const Child& child : properties.children("shape")) {
+        if (is_type(*child.object, "instance") || is_type(*child.object, "shapegroup"))
+            diagnostics_.unsupported(child.where, "instances and shapegroups within a shapegroup are not available",
+                                     "place the inner shapes directly");
+        else
+            read_shape(*child.object, scene_.group_count);
+    }
+    properties.finish();
+    const bool is_empty = scene_.shapes.size() == before;
+    if (is_empty) diagnostics_.unsupported(element.where, "the shapegroup has no shapes", "give it one");
+    const std::int32_t group = is_empty ? kNone : scene_.group_count++;
+    groups_.emplace(&element, group);
+    return group;
+}
+
+void ShapeReader::read_instance(const XmlElement& element) {
+    Properties properties(element, document_, diagnostics_);
+    properties.type();
+    const XmlElement* placed = properties.only_child("shape");
+    if (!placed || !is_type(*placed, "shapegroup"))
+        throw InputError(element.where, "the instance places no shapegroup",
+                         "add <ref id=\"...\"/> with the id of a shapegroup");
+    Instance instance;
+    instance.to_world = Imath::M44f(properties.transform("to_world"));
+    properties.finish();
+    instance.group = group_of(*placed);
+    if (instance.group == kNone) {
+        diagnostics_.warn(element.where, "the instance places a shapegroup without shapes: it is skipped");
+        return;
+    }
+    Shape shape;
+    shape.geometry = instance;
+    shape.name = properties.id();
+    shape.where = element.where;
+    scene_.shapes.push_back(std::move(shape));
+}
+
+}  // namespace treefarm::mitsuba

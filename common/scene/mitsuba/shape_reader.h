@@ -1,0 +1,35 @@
+#pragma once
+
+#include <map>
+
+#include "common/scene/mitsuba/materials.h"
+#include "common/scene/mitsuba/properties.h"
+#include "common/scene/scene.h"
+
+namespace treefarm::mitsuba {
+
+/// Turns shape elements into shapes of the scene, with their materials and area emitters. A shapegroup's shapes become
+/// a group, which instances place.
+class ShapeReader {
+  public:
+    ShapeReader(Scene& scene, MaterialReader& materials, const SceneDocument& document, Diagnostics& diagnostics)
+        : scene_(scene), materials_(materials), document_(document), diagnostics_(diagnostics) {}
+
+    /// Instances within groups, emitters within groups and groups without shapes throw InputError, or are skipped when
+    /// lenient.
+    void read(const XmlElement& shape);
+
+  private:
+    void read_shape(const XmlElement& element, std::int32_t group);
+    void read_instance(const XmlElement& element);
+    /// The group of a <shape type="shapegroup">, read when it is asked for the first time; kNone if it is empty.
+    std::int32_t group_of(const XmlElement& element);
+
+    Scene& scene_;
+    MaterialReader& materials_;
+    const SceneDocument& document_;
+    Diagnostics& diagnostics_;
+    std::map<const XmlElement*, std::int32_t> groups_;
+};
+
+}  // namespace treefarm::mitsuba

@@ -1,0 +1,173 @@
+#include "common/scene/mitsuba/surface_bsdfs.h"
+
+#include "common/config/parse_text.h"
+#include "common/scene/mitsuba/metals.h"
+#include "common/scene/mitsuba/refractive_index.h"
+
+namespace treefarm::mitsuba {
+namespace {
+
+using Bsdf = decltype(Material::bsdf);
+
+std::string lower(std::string text) {
+    for (char& c : text)
+        if ('A' <= c && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    return text;
+}
+
+class SurfaceReader {
+  public:
+    SurfaceReader(Properties& properties, TextureReader& textures, Diagnostics& diagnostics)
+        : properties_(properties), textures_(textures), diagnostics_(diagnostics) {}
+
+    Bsdf diffuse() {
+        // Version 0.6 knows it by both names.
+        const bool long_name = properties_.has("diffuse_reflectance") ||
+                               properties_.named_child("texture", "diffuse_reflectance") != nullptr;
+        return DiffuseMaterial{reflectance(long_name ? "diffuse_reflectance" : "reflectance", 0.5f)};
+    }
+
+    Bsdf conductor(bool rough) {
+        ConductorMaterial conductor;
+        const bool is_old = properties_.element().version < 2;
+        const bool has_eta = properties_.has("eta");
+        const std::string name = properties_.text("material", is_old ? "Cu" : "none");
+        if (!is_old && has_eta && properties_.has("material"))
+            throw InputError(properties_.where("material"), "both a material and eta are given", "keep one of them");
+        if (lower(name) != "none") {
+            const auto metal = find_metal(name);
+            if (!metal) {
+                const std::string nearest = nearest_word(name, metal_names());
+                throw InputError(properties_.where("material"), "no metal is called " + in_quotes(name),
+                                 nearest.empty() ? "give eta and k" : "did you mean " + in_quotes(nearest) + "?");
+            }
+            conductor.eta = metal->eta;
+            conductor.k = metal->k;
+        }
+        conductor.eta = coefficient("eta", conductor.eta);
+        conductor.k = coefficient("k", conductor.k);
+        if (is_old) {
+            const auto outside = static_cast<float>(read_refractive_index(properties_, "ext_eta", "air"));
+            conductor.eta /= outside;
+            conductor.k /= outside;
+        }
+        // Without a real part everything is reflected, whatever k is.
+        if (is_black(conductor.eta)) conductor.k = Rgb(1.0f);
+        conductor.specular_reflectance = reflectance("specular_reflectance", 1.0f);
+        if (rough) conductor.roughness = roughness(true);
+        return conductor;
+    }
+
+    Bsdf dielectric(bool rough) {
+        DielectricMaterial dielectric;
+        dielectric.eta = read_relative_index(properties_, "bk7");
+        dielectric.specular_reflectance = reflectance("specular_reflectance", 1.0f);
+        dielectric.specular_transmittance = reflectance("specular_transmittance", 1.0f);
+        if (rough) dielectric.roughness = roughness(true);
+        return dielectric;
+    }
+
+    Bsdf thin_dielectric() {
+        ThinDielectricMaterial thin;
+        thin.eta = read_relative_index(properties_, "bk7");
+        thin.specular_reflectance = reflectance("specular_reflectance", 1.0f);
+        thin.specular_transmittance = reflectance("specular_transmittance", 1.0f);
+        return thin;
+    }
+
+    Bsdf plastic(bool rough) {
+        PlasticMaterial plastic;
+        plastic.eta = read_relative_index(properties_, "polypropylene");
+        plastic.diffuse_reflectance = reflectance("diffuse_reflectance", 0.5f);
+        plastic.specular_reflectance = reflectance("specular_reflectance", 1.0f);
+        plastic.nonlinear = properties_.boolean("nonlinear", false);
+        if (rough) plastic.roughness = roughness(false);
+        return plastic;
+    }
+
+  private:
+    ColorInput reflectance(const char* name, float otherwise) {
+        return textures_.color(properties_, name, Rgb(otherwise), ColorUse::reflectance);
+    }
+
+    Rgb coefficient(const char* name, const Rgb& otherwise) {
+        const ColorInput input = textures_.color(properties_, name, otherwise, ColorUse::coefficient);
+        if (input.varies())
+            diagnostics_.unsupported(properties_.where(name),
+                                     std::string("a textured ") + name + " is not available in this version",
+                                     "give a colour", "its factor alone is used");
+        return input.value;
+    }
+
+    FloatInput alpha(const std::string& name, float otherwise) {
+        FloatInput alpha = textures_.number(properties_, name, otherwise);
+        const Location& where = properties_.where(name);
+        if (!(alpha.value >= 0.0f) || !(alpha.value <= 100.0f))
+            throw InputError(where, "a roughness of " + number_text(alpha.value), "give more than 0");
+        constexpr float kSmallest = 1e-4f;
+        if (!alpha.varies() && alpha.value < kSmallest) {
+            diagnostics_.warn(where,
+                              "a roughness below 1e-4 was raised to it, as Mitsuba does: for a smooth surface "
+                              "use the BSDF without \"rough\" in its name");
+            alpha.value = kSmallest;
+        }
+        return alpha;
+    }
+
+    Roughness roughness(bool anisotropic) {
+        Roughness roughness;
+        roughness.distribution = Microfacets::beckmann;
+        const std::string name = lower(properties_.text("distribution", "beckmann"));
+        if (name == "ggx")
+            roughness.distribution = Microfacets::ggx;
+        else if (name == "phong" || name == "as")
+            diagnostics_.unsupported(
+                properties_.where("distribution"),
+                "the microfacet distribution " + in_quotes(name) + " is not available in this version",
+                "use beckmann or ggx", "beckmann is used");
+        else if (name != "beckmann")
+            throw InputError(properties_.where("distribution"), "unknown microfacet distribution " + in_quotes(name),
+                             "use beckmann or ggx");
+        const bool has_u = has_input("alpha_u"), has_v = has_input("alpha_v");
+        if (anisotropic && (has_u || has_v)) {
+            if (!has_u || !has_v || has_input("alpha"))
+                throw InputError(properties_.where(has_u ? "alpha_u" : "alpha_v"),
+                                 "a roughness is given in one direction, or in one and in general",
+                                 "give alpha alone, or alphaU and alphaV");
+            roughness.alpha_u = alpha("alpha_u", 0.1f);
+            roughness.alpha_v = alpha("alpha_v", 0.1f);
+        } else {
+            roughness.alpha_u = roughness.alpha_v = alpha("alpha", 0.1f);
+        }
+        // How directions are drawn does not change the image.
+        properties_.ignore({"sample_visible"});
+        return roughness;
+    }
+
+    bool has_input(const std::string& name) {
+        return properties_.has(name) || properties_.named_child("texture", name) != nullptr;
+    }
+
+    Properties& properties_;
+    TextureReader& textures_;
+    Diagnostics& diagnostics_;
+};
+
+}  // namespace
+
+std::optional<Bsdf> read_surface_bsdf(Properties& properties, TextureReader& textures, Diagnostics& diagnostics) {
+    const std::string type = properties.type();
+    SurfaceReader reader(properties, textures, diagnostics);
+    if (type == "diffuse") return reader.diffuse();
+    if (type == "conductor") return reader.conductor(false);
+    if (type == "roughconductor") return reader.conductor(true);
+    if (type == "dielectric") return reader.dielectric(false);
+    if (type == "roughdielectric") return reader.dielectric(true);
+    if (type == "thindielectric") return reader.thin_dielectric();
+    if (type == "plastic") return reader.plastic(false);
+    if (type == "roughplastic") return reader.plastic(true);
+    if (type == "null") return NullMaterial{};
+    return std::nullopt;
+}
+
+}  // namespace treefarm::mitsuba

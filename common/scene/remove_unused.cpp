@@ -1,0 +1,115 @@
+#include "common/scene/remove_unused.h"
+
+#include <utility>
+
+namespace treefarm {
+namespace {
+
+/// Which elements of a list are used, and where they go.
+class Usage {
+  public:
+    explicit Usage(std::size_t count) : kept_(count, kNone) {}
+
+    void mark(std::int32_t index) {
+        if (index >= 0 && static_cast<std::size_t>(index) < kept_.size()) kept_[static_cast<std::size_t>(index)] = 0;
+    }
+    bool marked(std::size_t index) const { return kept_[index] != kNone; }
+
+    /// Drops what is not marked and numbers the rest.
+    template <class T>
+    void compact(std::vector<T>& list) {
+        std::int32_t next = 0;
+        for (std::size_t i = 0; i < list.size(); ++i) {
+            if (!marked(i)) continue;
+            kept_[i] = next;
+            if (static_cast<std::size_t>(next) != i) list[static_cast<std::size_t>(next)] = std::move(list[i]);
+            ++next;
+        }
+        list.resize(static_cast<std::size_t>(next));
+    }
+
+    void renumber(std::int32_t& index) const {
+        if (index >= 0 && static_cast<std::size_t>(index) < kept_.size())
+            index = kept_[static_cast<std::size_t>(index)];
+    }
+
+    std::vector<std::int32_t> take() && { return std::move(kept_); }
+
+  private:
+    std::vector<std::int32_t> kept_;
+};
+
+template <class F>
+void for_textures(Roughness& roughness, F&& f) {
+    f(roughness.alpha_u.texture);
+    f(roughness.alpha_v.texture);
+}
+
+/// Calls f with every texture index of a material.
+template <class F>
+void for_textures(Material& material, F&& f) {
+    f(material.opacity.texture);
+    f(material.detail.bump);
+    f(material.detail.normal_map);
+    const auto visit = [&](auto& bsdf) {
+        using Bsdf = std::decay_t<decltype(bsdf)>;
+        if constexpr (std::is_same_v<Bsdf, DiffuseMaterial>) f(bsdf.reflectance.texture);
+        if constexpr (std::is_same_v<Bsdf, BlendMaterial>) f(bsdf.weight.texture);
+        if constexpr (std::is_same_v<Bsdf, PlasticMaterial>) f(bsdf.diffuse_reflectance.texture);
+        if constexpr (requires { bsdf.specular_reflectance; }) f(bsdf.specular_reflectance.texture);
+        if constexpr (requires { bsdf.specular_transmittance; }) f(bsdf.specular_transmittance.texture);
+        if constexpr (requires { bsdf.roughness; }) for_textures(bsdf.roughness, f);
+    };
+    std::visit(visit, material.bsdf);
+}
+
+/// Calls f with every material index of a material.
+template <class F>
+void for_parts(Material& material, F&& f) {
+    f(material.back);
+    if (auto* blend = std::get_if<BlendMaterial>(&material.bsdf)) {
+        f(blend->first);
+        f(blend->second);
+    }
+}
+
+}  // namespace
+
+std::vector<std::int32_t> remove_unused(Scene& scene) {
+    Usage materials(scene.materials.size()), textures(scene.textures.size()), images(scene.images.size());
+    for (const Shape& shape : scene.shapes)
+        materials.mark(shape.material);
+    // The parts of a material lie below it: from the top down every whole comes before its parts.
+    for (std::size_t i = scene.materials.size(); i-- > 0;)
+        if (materials.marked(i)) for_parts(scene.materials[i], [&](std::int32_t part) { materials.mark(part); });
+    for (std::size_t i = 0; i < scene.materials.size(); ++i)
+        if (materials.marked(i))
+            for_textures(scene.materials[i], [&](std::int32_t texture) { textures.mark(texture); });
+    for (const Emitter& emitter : scene.emitters) {
+        if (const auto* area = std::get_if<AreaEmitter>(&emitter.kind)) textures.mark(area->radiance.texture);
+        if (const auto* environment = std::get_if<EnvironmentEmitter>(&emitter.kind)) images.mark(environment->image);
+    }
+    for (std::size_t i = 0; i < scene.textures.size(); ++i)
+        if (const auto* bitmap = std::get_if<BitmapTexture>(&scene.textures[i].kind); bitmap && textures.marked(i))
+            images.mark(bitmap->image);
+
+    materials.compact(scene.materials);
+    textures.compact(scene.textures);
+    images.compact(scene.images);
+
+    for (Shape& shape : scene.shapes)
+        materials.renumber(shape.material);
+    for (Material& material : scene.materials) {
+        for_parts(material, [&](std::int32_t& part) { materials.renumber(part); });
+        for_textures(material, [&](std::int32_t& texture) { textures.renumber(texture); });
+    }
+    for (Texture& texture : scene.textures)
+        if (auto* bitmap = std::get_if<BitmapTexture>(&texture.kind)) images.renumber(bitmap->image);
+    for (Emitter& emitter : scene.emitters) {
+        if (auto* area = std::get_if<AreaEmitter>(&emitter.kind)) textures.renumber(area->radiance.texture);
+        if (auto* environment = std::get_if<EnvironmentEmitter>(&emitter.kind)) images.renumber(environment->image);
+    }
+    return std::move(images).take();
+}
+
+}  // namespace treefarm

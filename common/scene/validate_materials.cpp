@@ -1,0 +1,170 @@
+#include <algorithm>
+
+#include "common/scene/validation.h"
+
+namespace treefarm::validation {
+namespace {
+
+/// Below it facets' densities leave single precision; Mitsuba 0.6 and 3 raise alpha to the same (microfacet.h).
+constexpr float kLeastAlpha = 1e-4f;
+
+class MaterialCheck {
+  public:
+    MaterialCheck(Scene& scene, std::size_t index, const std::vector<ValueRange>& textures,
+                  const std::vector<bool>& transmits, std::vector<Warning>& warnings)
+        : scene_(scene),
+          index_(index),
+          material_(scene.materials[index]),
+          textures_(textures),
+          transmits_(transmits),
+          warnings_(warnings) {}
+
+    /// Whether light passes through the material.
+    bool run() {
+        const bool transmits = std::visit(*this, material_.bsdf);
+        if (material_.twosided && transmits)
+            refuse("a material that light passes through is twosided", "remove the twosided: it has both sides anyway");
+        if (material_.back != kNone) {
+            if (!material_.twosided) refuse("only a twosided material can have another one for its back", "");
+            if (transmits_[beneath(material_.back)])
+                refuse("the material of the back is one that light passes through", "give an opaque one");
+        }
+        check_fraction(material_.opacity, "the opacity");
+        check_detail(material_.detail);
+        return transmits;
+    }
+
+    bool operator()(DiffuseMaterial& m) {
+        check_fraction(m.reflectance, "the reflectance");
+        return false;
+    }
+    bool operator()(ConductorMaterial& m) {
+        for (int i = 0; i < 3; ++i)
+            if (!(m.eta[i] >= 0.0f && m.k[i] >= 0.0f && std::isfinite(m.eta[i]) && std::isfinite(m.k[i])))
+                refuse("the index of refraction is negative or not finite", "give an eta and a k of 0 or more");
+        check_fraction(m.specular_reflectance, "the specular reflectance");
+        check_roughness(m.roughness);
+        return false;
+    }
+    bool operator()(DielectricMaterial& m) {
+        check_eta(m.eta);
+        check_fraction(m.specular_reflectance, "the specular reflectance");
+        check_fraction(m.specular_transmittance, "the specular transmittance");
+        check_roughness(m.roughness);
+        return true;
+    }
+    bool operator()(ThinDielectricMaterial& m) {
+        check_eta(m.eta);
+        check_fraction(m.specular_reflectance, "the specular reflectance");
+        check_fraction(m.specular_transmittance, "the specular transmittance");
+        return true;
+    }
+    bool operator()(PlasticMaterial& m) {
+        check_eta(m.eta);
+        check_fraction(m.diffuse_reflectance, "the diffuse reflectance");
+        check_fraction(m.specular_reflectance, "the specular reflectance");
+        if (!(m.roughness.alpha_u == m.roughness.alpha_v))
+            refuse("the roughness of a plastic differs between directions", "give a single alpha");
+        check_roughness(m.roughness);
+        return false;
+    }
+    bool operator()(BlendMaterial& m) {
+        check_fraction(m.weight, "the weight of the blend");
+        const std::size_t first = beneath(m.first), second = beneath(m.second);
+        return transmits_[first] || transmits_[second];
+    }
+    bool operator()(NullMaterial&) { return true; }
+
+  private:
+    [[noreturn]] void refuse(const std::string& what, const std::string& cure) const {
+        throw InputError(material_.where, what, cure);
+    }
+
+    /// The index of a material that stands before this one, so that none contains itself.
+    std::size_t beneath(std::int32_t index) const {
+        if (index < 0 || static_cast<std::size_t>(index) >= index_)
+            refuse("a material contains itself, or one that does not exist", "give it another one");
+        return static_cast<std::size_t>(index);
+    }
+
+    const ValueRange& range(std::int32_t texture) const {
+        if (texture < 0 || static_cast<std::size_t>(texture) >= textures_.size())
+            refuse("the material has a texture that does not exist", "define it");
+        return textures_[static_cast<std::size_t>(texture)];
+    }
+
+    /// A factor that its texture takes above 1 is scaled down: what an image holds is rarely the author's intention.
+    /// Returns the factor by which.
+    float fraction_scale(std::int32_t texture, float largest, const std::string& what) {
+        const ValueRange& values = range(texture);
+        if (values.min < 0.0f) refuse(what + " has a texture with negative values", "give values from 0 to 1");
+        if (!(largest * values.max > 1.0f)) return 1.0f;
+        const float scale = 1.0f / (largest * values.max);
+        if (largest * values.max > 1.0f + 1e-5f)
+            warnings_.push_back({material_.where, what + " reaches " + std::to_string(largest * values.max) +
+                                                      " in its texture and is scaled down to 1"});
+        return scale;
+    }
+
+    void check_fraction(ColorInput& input, const std::string& what) {
+        for (int i = 0; i < 3; ++i)
+            if (!(input.value[i] >= 0.0f && input.value[i] <= (input.varies() ? 1e30f : 1.0f)))
+                refuse(what + " is outside 0 to 1", "give values from 0 to 1");
+        if (input.varies()) input.value *= fraction_scale(input.texture, max_component(input.value), what);
+    }
+
+    void check_fraction(FloatInput& input, const std::string& what) {
+        if (!(input.value >= 0.0f && input.value <= (input.varies() ? 1e30f : 1.0f)))
+            refuse(what + " is outside 0 to 1", "give a value from 0 to 1");
+        if (input.varies()) input.value *= fraction_scale(input.texture, input.value, what);
+    }
+
+    void check_eta(float eta) const {
+        if (!(eta > 0.0f && eta <= 1e6f && 1.0f / eta <= 1e6f))
+            refuse("the index of refraction is not positive or not finite",
+                   "give the ratio of the inner to the outer one, above 0");
+    }
+
+    void check_roughness(Roughness& roughness) {
+        if (roughness.smooth()) return;
+        bool raised = false;
+        for (FloatInput* alpha : {&roughness.alpha_u, &roughness.alpha_v}) {
+            if (!(alpha->value > 0.0f && alpha->value <= 1e6f))
+                refuse("the roughness alpha is not positive or not finite", "give a value from 0.0001 to 1");
+            if (alpha->varies()) {
+                if (range(alpha->texture).min < 0.0f)
+                    refuse("the roughness alpha has a texture with negative values", "give values above 0");
+            } else if (alpha->value < kLeastAlpha) {
+                alpha->value = kLeastAlpha;
+                raised = true;
+            }
+        }
+        if (raised) warnings_.push_back({material_.where, "the roughness alpha is below 0.0001 and is raised to it"});
+    }
+
+    void check_detail(const NormalDetail& detail) const {
+        if (!std::isfinite(detail.bump_scale)) refuse("the scale of the bump map is not finite", "give a number");
+        if (detail.bump != kNone) range(detail.bump);
+        if (detail.normal_map == kNone) return;
+        range(detail.normal_map);
+        if (!std::holds_alternative<BitmapTexture>(scene_.textures[static_cast<std::size_t>(detail.normal_map)].kind))
+            refuse("the normal map is no bitmap", "give it an image");
+    }
+
+    const Scene& scene_;
+    std::size_t index_;
+    Material& material_;
+    const std::vector<ValueRange>& textures_;
+    const std::vector<bool>& transmits_;
+    std::vector<Warning>& warnings_;
+};
+
+}  // namespace
+
+void check_materials(Scene& scene, const std::vector<ValueRange>& textures, std::vector<Warning>& warnings) {
+    std::vector<bool> transmits;
+    for (std::size_t i = 0; i < scene.materials.size(); ++i)
+        transmits.push_back(MaterialCheck(scene, i, textures, transmits, warnings).run());
+}
+
+}  // namespace treefarm::validation

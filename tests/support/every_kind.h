@@ -1,0 +1,80 @@
+#pragma once
+
+#include "common/scene/scene.h"
+
+namespace treefarm::test {
+
+/// A valid scene with one of everything that a scene can hold, no two values alike where order matters.
+inline Scene every_kind_scene() {
+    Scene scene;
+
+    TextureImage bytes;
+    bytes.width = 2, bytes.height = 1, bytes.channels = 3;
+    bytes.bytes = {0, 64, 128, 192, 255, 1};
+    for (std::size_t i = 0; i < 256; ++i)
+        bytes.decode[i] = static_cast<float>(i) / 255.0f;
+    bytes.name = "wood.png";
+    TextureImage floats;
+    floats.width = 1, floats.height = 2, floats.channels = 3;
+    floats.floats = {0.0f, 0.25f, 0.5f, 0.75f, 1.0f, 0.125f};
+    floats.name = "sky.exr";
+    TextureImage gray;
+    gray.width = 1, gray.height = 1, gray.channels = 1;
+    gray.floats = {0.5f};
+    scene.images = {bytes, floats, gray};
+
+    BitmapTexture bitmap;
+    bitmap.image = 0, bitmap.bilinear = false, bitmap.wrap_u = Wrap::mirror, bitmap.wrap_v = Wrap::one;
+    bitmap.uv = {Vec3(2, 0, 1), Vec3(0, 3, 4)};
+    BitmapTexture plain;
+    plain.image = 2;
+    scene.textures = {
+        {bitmap, "wood", {"a.xml", 1, 2}},
+        {CheckerboardTexture{Rgb(0.5f, 0.25f, 0.125f), Rgb(1.0f), {Vec3(4, 0, 0), Vec3(0, 5, 0)}}, "", {}},
+        {plain, "gray", {}}};
+
+    const Roughness rough{Microfacets::ggx, {0.25f}, {0.5f, 2}}, coat{Microfacets::beckmann, {0.125f}, {0.125f}};
+    const auto add = [&](decltype(Material::bsdf) bsdf) -> Material& {
+        Material& material = scene.materials.emplace_back();
+        material.bsdf = std::move(bsdf);
+        material.name = "m" + std::to_string(scene.materials.size());
+        material.where = {"a.xml", static_cast<int>(scene.materials.size()), 7};
+        return material;
+    };
+    add(DiffuseMaterial{ColorInput(Rgb(0.1f, 0.2f, 0.3f), 0)});
+    add(ConductorMaterial{Rgb(0.2f, 0.9f, 1.1f), Rgb(3.9f, 2.4f, 2.2f), Rgb(0.5f), rough}).twosided = true;
+    add(DielectricMaterial{1.33f, Rgb(0.9f), ColorInput(Rgb(0.8f), 1), rough}).opacity = {0.5f, 2};
+    add(ThinDielectricMaterial{1.25f, Rgb(0.7f), Rgb(0.6f)});
+    add(PlasticMaterial{1.4f, ColorInput(Rgb(0.4f), 0), Rgb(0.3f), true, coat}).detail = {1, 0.25f, 0};
+    add(BlendMaterial{{0.75f, 2}, 4, 0});
+    add(NullMaterial{});
+    Material& two = add(DiffuseMaterial{Rgb(0.5f)});
+    two.twosided = true;
+    two.back = 1;
+
+    Mesh mesh;
+    mesh.positions = {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)};
+    mesh.normals = {Vec3(0, 0, 1), Vec3(0, 1, 0), Vec3(1, 0, 0)};
+    mesh.uvs = {Vec2(0, 0), Vec2(1, 0), Vec2(0, 1)};
+    mesh.indices = {0, 1, 2};
+    Imath::M44f to_world(0, 2, 0, 0, -2, 0, 0, 0, 0, 0, 3, 0, 5, 6, 7, 1);
+    scene.shapes = {{mesh, 1, 0, kNone, "lamp", {"b.xml", 3, 4}},
+                    {Sphere{Vec3(1, 2, 3), 4.0f, true, Vec3(0, 1, 0), Vec3(0, 0, 1), true}, 0, kNone, kNone, "", {}},
+                    {Disk{Vec3(1, 1, 1), Vec3(2, 0, 0), Vec3(1, 3, 0), true}, 5, 1, kNone, "disk", {}},
+                    {Cylinder{Vec3(0, 0, 1), Vec3(0, 0, 4), 2.0f, true, Vec3(0, 1, 0), true}, 2, kNone, kNone, "", {}},
+                    {mesh, 7, kNone, 0, "part", {}},
+                    {Instance{0, to_world}, kNone, kNone, kNone, "placed", {"b.xml", 9, 9}}};
+    scene.group_count = 1;
+
+    scene.emitters = {{AreaEmitter{ColorInput(Rgb(1, 2, 3), 1), 0}, {"b.xml", 5, 6}},
+                      {AreaEmitter{Rgb(4, 5, 6), 2}, {}},
+                      {PointEmitter{Vec3(1, 2, 3), Rgb(7, 8, 9)}, {}},
+                      {SpotEmitter{Vec3(3, 2, 1), Vec3(0, 1, 0), Rgb(1, 2, 4), 0.5f, 0.25f}, {}},
+                      {DirectionalEmitter{Vec3(1, 0, 0), Rgb(5, 4, 3)}, {}},
+                      {EnvironmentEmitter{1, 2.0f, Vec3(0, 0, 1), Vec3(1, 0, 0), Vec3(0, 1, 0)}, {"b.xml", 7, 7}}};
+    scene.camera = {Vec3(1, 2, 3), Vec3(4, 5, 6), Vec3(7, 8, 9), Vec3(10, 11, 12), Vec3(13, 14, 15), Vec3(16, 17, 18)};
+    scene.film = {65535, 1, PixelFilter::gaussian, 2.0f, 0.5f};
+    return scene;
+}
+
+}  // namespace treefarm::test

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace treefarm::test {
+
+/// A PNG as its specification has it, without compression; readers that check sums would refuse it (stb does not).
+struct TinyPng {
+    int width = 1, height = 1;
+    int channels = 3;                   ///< 1: grey, 2: grey and alpha, 3: RGB, 4: RGBA
+    int bits = 8;                       ///< 8 or 16
+    std::vector<std::uint16_t> values;  ///< rows from the top
+    double gamma = 0.0;                 ///< of the chunk gAMA; 0: none
+
+    std::string bytes() const;
+};
+
+/// A Radiance HDR file of one row: four bytes (mantissas of r, g, b and the exponent plus 128) per pixel.
+std::string tiny_hdr(const std::vector<std::uint8_t>& rgbe);
+
+}  // namespace treefarm::test

@@ -1,0 +1,167 @@
+#include "common/image/exr.h"
+#include "tests/support/mitsuba_fixture.h"
+#include "tests/support/tiny_images.h"
+
+namespace treefarm {
+namespace {
+
+using namespace treefarm::test;
+
+class MitsubaTextures : public MitsubaFixture {
+  protected:
+    void SetUp() override {
+        MitsubaFixture::SetUp();
+        write("rgb.png", TinyPng{2, 1, 3, 8, {0, 128, 255, 255, 0, 64}, 0.0}.bytes());
+    }
+
+    static std::string bitmap(const std::string& inside, const std::string& file = "rgb.png",
+                              const std::string& name = "reflectance") {
+        return "<texture type=\"bitmap\" name=\"" + name + "\"><string name=\"filename\" value=\"" + file + "\"/>" +
+               inside + "</texture>";
+    }
+    static std::string diffuse(const std::string& texture) {
+        return "<shape type=\"rectangle\"><bsdf type=\"diffuse\">" + texture + "</bsdf></shape>";
+    }
+    Scene scene(const std::string& inside, const std::string& file = "rgb.png",
+                const std::string& version = "0.6.0") const {
+        return load_with_sensor(diffuse(bitmap(inside, file)), version).scene;
+    }
+    static const BitmapTexture& bitmap_of(const Scene& scene) {
+        return std::get<BitmapTexture>(scene.textures.at(0).kind);
+    }
+};
+
+TEST_F(MitsubaTextures, BytesStayBytesWithTheirDecoding) {
+    const Scene s = scene("");
+    const TextureImage& image = s.images.at(0);
+    EXPECT_EQ(image.width, 2);
+    EXPECT_EQ(image.channels, 3);
+    EXPECT_EQ(image.bytes, (std::vector<std::uint8_t>{0, 128, 255, 255, 0, 64}));
+    EXPECT_TRUE(image.floats.empty());
+    EXPECT_NEAR(image.decode[128], 0.2158605f, 1e-6f);  // IEC 61966-2-1
+    EXPECT_EQ(image.decode[255], 1.0f);
+    EXPECT_EQ(std::get<DiffuseMaterial>(s.materials[0].bsdf).reflectance.texture, 0);
+    EXPECT_EQ(std::get<DiffuseMaterial>(s.materials[0].bsdf).reflectance.value, Rgb(1.0f));
+
+    const float half = 128.0f / 255.0f;
+    EXPECT_NEAR(scene("<float name=\"gamma\" value=\"1\"/>").images[0].decode[128], half, 1e-6f);
+    EXPECT_NEAR(scene("<float name=\"gamma\" value=\"2\"/>").images[0].decode[128], half * half, 1e-6f);
+    EXPECT_NEAR(scene("<boolean name=\"raw\" value=\"true\"/>", "rgb.png", "3.0.0").images[0].decode[128], half, 1e-6f);
+    EXPECT_THROW(scene("<boolean name=\"raw\" value=\"true\"/>"), InputError) << "0.6 has no raw";
+    EXPECT_THROW(scene("<float name=\"gamma\" value=\"-2\"/>"), InputError);
+}
+
+TEST_F(MitsubaTextures, GammaOfTheFileCountsInTheOldVersion) {
+    write("g.png", TinyPng{1, 1, 1, 8, {128}, 0.5}.bytes());
+    EXPECT_NEAR(scene("", "g.png").images[0].decode[128], std::pow(128.0f / 255.0f, 2.0f), 1e-5f);
+    EXPECT_NEAR(scene("", "g.png", "3.0.0").images[0].decode[128], 0.2158605f, 1e-6f);
+}
+
+TEST_F(MitsubaTextures, SixteenBitsAndHdrAndExrBecomeFloats) {
+    write("deep.png", TinyPng{1, 1, 1, 16, {32768}, 0.0}.bytes());
+    const Scene deep = scene("<float name=\"gamma\" value=\"1\"/>", "deep.png");
+    ASSERT_EQ(deep.images[0].floats.size(), 1u);
+    EXPECT_NEAR(deep.images[0].floats[0], 32768.0f / 65535.0f, 1e-6f);
+    EXPECT_NEAR(scene("", "deep.png").images[0].floats[0], 0.2140505f, 1e-5f);
+
+    write("light.hdr", tiny_hdr({128, 64, 32, 127, 128, 128, 128, 128}));
+    const Scene hdr = scene("", "light.hdr");
+    EXPECT_EQ(hdr.images[0].floats, (std::vector<float>{0.25f, 0.125f, 0.0625f, 0.5f, 0.5f, 0.5f}));
+
+    Image image{1, 1, {}, {}};
+    image.add_channel("Y")[0] = 0.5f;
+    image.add_channel("A")[0] = 0.25f;
+    write_exr(folder_ / "grey.exr", image);
+    EXPECT_EQ(scene("", "grey.exr").images[0].floats, std::vector<float>{0.5f});
+    EXPECT_EQ(scene("<string name=\"channel\" value=\"A\"/>", "grey.exr").images[0].floats, std::vector<float>{0.25f});
+}
+
+TEST_F(MitsubaTextures, AlphaIsDroppedUnlessAskedFor) {
+    write("rgba.png", TinyPng{1, 1, 4, 8, {10, 20, 30, 40}, 0.0}.bytes());
+    EXPECT_EQ(scene("", "rgba.png").images[0].bytes, (std::vector<std::uint8_t>{10, 20, 30}));
+    const Scene alpha = scene("<string name=\"channel\" value=\"a\"/>", "rgba.png");
+    EXPECT_EQ(alpha.images[0].bytes, std::vector<std::uint8_t>{40});
+    EXPECT_NEAR(alpha.images[0].decode[40], 40.0f / 255.0f, 1e-6f) << "alpha is never sRGB";
+    EXPECT_THROW(scene("<string name=\"channel\" value=\"z\"/>", "rgba.png"), InputError);
+}
+
+TEST_F(MitsubaTextures, FiltersAndWraps) {
+    EXPECT_TRUE(bitmap_of(scene("")).bilinear);
+    EXPECT_FALSE(bitmap_of(scene("<string name=\"filterType\" value=\"nearest\"/>")).bilinear);
+    EXPECT_TRUE(bitmap_of(scene("<string name=\"filterType\" value=\"ewa\"/>")).bilinear);
+    EXPECT_THROW(scene("<string name=\"filterType\" value=\"soft\"/>"), InputError);
+    EXPECT_FALSE(bitmap_of(scene("<string name=\"filter_type\" value=\"nearest\"/>", "rgb.png", "3.0.0")).bilinear);
+    const Scene s = scene("<string name=\"wrapMode\" value=\"clamp\"/><string name=\"wrapModeV\" value=\"black\"/>");
+    EXPECT_EQ(bitmap_of(s).wrap_u, Wrap::clamp);
+    EXPECT_EQ(bitmap_of(s).wrap_v, Wrap::zero);
+    EXPECT_THROW(scene("<string name=\"wrapMode\" value=\"around\"/>"), InputError);
+}
+
+TEST_F(MitsubaTextures, TransformsOfTheCoordinates) {
+    const UvTransform old =
+        bitmap_of(scene("<float name=\"uscale\" value=\"2\"/><float name=\"voffset\" value=\"0.5\"/>"
+                        "<float name=\"uvscale\" value=\"3\"/>"))
+            .uv;
+    EXPECT_EQ(old.u_row, Vec3(2, 0, 0));
+    EXPECT_EQ(old.v_row, Vec3(0, 3, 0.5f));
+    const UvTransform recent =
+        bitmap_of(scene("<transform name=\"to_uv\"><scale x=\"2\" y=\"4\"/><rotate z=\"1\" angle=\"90\"/>"
+                        "<translate x=\"1\"/></transform>",
+                        "rgb.png", "3.0.0"))
+            .uv;
+    expect_near(recent.u_row, Vec3(0, -4, 1));
+    expect_near(recent.v_row, Vec3(2, 0, 0));
+}
+
+TEST_F(MitsubaTextures, CheckerboardsAndScales) {
+    const auto material = [&](const std::string& texture) { return load_with_sensor(diffuse(texture)).scene; };
+    const Scene board = material(
+        "<texture type=\"checkerboard\" name=\"reflectance\"><rgb name=\"color1\" value=\"0.1 0.2 0.3\"/>"
+        "<float name=\"uscale\" value=\"5\"/></texture>");
+    const auto& checkers = std::get<CheckerboardTexture>(board.textures.at(0).kind);
+    EXPECT_EQ(checkers.color0, Rgb(0.4f));
+    EXPECT_EQ(checkers.color1, Rgb(0.1f, 0.2f, 0.3f));
+    EXPECT_EQ(checkers.uv.u_row, Vec3(5, 0, 0));
+    const Scene scaled = material("<texture type=\"scale\" name=\"reflectance\"><float name=\"scale\" value=\"0.5\"/>" +
+                                  bitmap("", "rgb.png", "") + "</texture>");
+    const ColorInput input = std::get<DiffuseMaterial>(scaled.materials[0].bsdf).reflectance;
+    EXPECT_EQ(input.value, Rgb(0.5f));
+    EXPECT_EQ(input.texture, 0);
+    EXPECT_THROW(material("<texture type=\"scale\" name=\"reflectance\"/>"), InputError);
+    EXPECT_THROW(material("<texture type=\"wireframe\" name=\"reflectance\"/>"), InputError);
+}
+
+TEST_F(MitsubaTextures, FilesAreReadOnceAndOnlyIfUsed) {
+    write("broken.png", "no image at all");
+    const std::string shared =
+        "<texture type=\"bitmap\" id=\"t\"><string name=\"filename\" value=\"rgb.png\"/></texture>";
+    const std::string user = "<bsdf type=\"diffuse\"><ref name=\"reflectance\" id=\"t\"/></bsdf>";
+    const Scene s = load_with_sensor(shared + "<bsdf type=\"diffuse\" id=\"unused\">" + bitmap("", "broken.png") +
+                                     "</bsdf><shape type=\"rectangle\">" + user + "</shape><shape type=\"rectangle\">" +
+                                     user + "</shape>" + diffuse(bitmap("")))
+                        .scene;
+    EXPECT_EQ(s.images.size(), 1u);
+    EXPECT_EQ(s.textures.size(), 2u);
+    EXPECT_EQ(s.materials.size(), 3u);
+    EXPECT_THROW(scene("", "broken.png"), InputError);
+    EXPECT_THROW(scene("", "missing.png"), InputError);
+    const std::string whole = TinyPng{2, 1, 3, 8, {0, 128, 255, 255, 0, 64}, 0.0}.bytes();
+    for (std::size_t length = 0; length + 20 < whole.size(); length += 5) {
+        write("cut.png", whole.substr(0, length));
+        EXPECT_THROW(scene("", "cut.png"), InputError) << length;
+    }
+}
+
+TEST_F(MitsubaTextures, ImpossibleValuesBecomeZeroWithAWarning) {
+    Image image{2, 1, {}, {}};
+    const auto values = image.add_channel("Y");
+    values[0] = -1.0f;
+    values[1] = std::nanf("");
+    write_exr(folder_ / "bad.exr", image);
+    const auto loaded = load_with_sensor(diffuse(bitmap("", "bad.exr")));
+    EXPECT_EQ(loaded.scene.images[0].floats, (std::vector<float>{0.0f, 0.0f}));
+    EXPECT_NE(loaded.warnings.at(0).text().find("2 values"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace treefarm
