@@ -8,16 +8,14 @@ namespace treefarm {
 
 std::string KernelChoice::name() const {
     std::string text = plain_diffuse ? "diffuse" : "general";
-    if (next_event) text += ", next event";
     if (guided) text += ", guided";
     if (record) text += ", recording";
     return text;
 }
 
-KernelChoice kernel_of(const Job& job, const PassPlan& pass, bool plain_diffuse, bool sampled_emitters) {
+KernelChoice kernel_of(const Job& job, const PassPlan& pass, bool plain_diffuse) {
     KernelChoice kernel;
     kernel.plain_diffuse = plain_diffuse;
-    kernel.next_event = pass.next_event && sampled_emitters;
     kernel.guided = job.guiding.type != GuidingType::none && pass.index > 0;
     kernel.record = pass.record;
     return kernel;
@@ -27,7 +25,7 @@ std::vector<KernelUse> kernels_of(const Scene& scene, const Job& job) {
     const bool plain = is_plainly_diffuse(scene);
     std::vector<KernelUse> uses;
     for (const PassPlan& pass : plan_passes(job)) {
-        const KernelChoice kernel = kernel_of(job, pass, plain, !scene.emitters.empty());
+        const KernelChoice kernel = kernel_of(job, pass, plain);
         const auto known =
             std::find_if(uses.begin(), uses.end(), [&](const KernelUse& u) { return u.kernel == kernel; });
         if (known != uses.end())

@@ -9,24 +9,23 @@
 
 namespace treefarm {
 
-/// Which instance of the path kernel traces a pass. What is not named here (lens, masks, environment, emitter kinds)
-/// is decided by the scene's data outside of the kernel.
+/// Which instance of the path kernel traces a pass. What is not named here (next event, lens, masks, environment,
+/// emitter kinds) is decided by the job's and the scene's data.
 struct KernelChoice {
     bool plain_diffuse = false;  ///< surfaces without textures, lobes or tilted normals; otherwise all of them
-    bool next_event = false;
     bool guided = false;
     bool record = false;
 
     bool operator==(const KernelChoice&) const = default;
-    /// "diffuse, next event, guided, recording".
+    /// "diffuse, guided, recording".
     std::string name() const;
 };
 
 /// Kernels in the program.
-inline constexpr int kKernelCount = 12;
+inline constexpr int kKernelCount = 8;
 
-/// The kernel of one pass; `sampled_emitters` says whether the scene has any that next event can sample.
-KernelChoice kernel_of(const Job& job, const PassPlan& pass, bool plain_diffuse, bool sampled_emitters);
+/// The kernel of one pass.
+KernelChoice kernel_of(const Job& job, const PassPlan& pass, bool plain_diffuse);
 
 /// A kernel with the passes that it traces.
 struct KernelUse {

@@ -46,7 +46,7 @@ std::uint64_t mesh_bytes(const Mesh& mesh);
 std::uint64_t emitter_table_bytes(const Scene& scene, const Emitter& emitter);
 
 /// Expected size of the tree: a region holds about as many vertices as its splitting threshold asks for. A path is
-/// counted as four vertices, a region's quadtree as 1 / directional_threshold cells. 0 without guiding.
+/// counted as eight vertices, a region's quadtree as 2.4 / directional_threshold cells. 0 without guiding.
 TreeSize expected_tree(const Scene& scene, const Job& job);
 
 /// Memory of the data of a render as formulas of scene and job. Program, libraries, MPI's buffers and the peak while

@@ -76,7 +76,7 @@ def glossy_room():
     w.box((4.92, 0.4, 2.3), (4.97, 1.9, 3.6), "steel")
     w.box((0.3, 0, 0.5), (0.9, 1.6, 0.56), "aluminium", turn=35)
     w.blank("The only light.")
-    uplighter(w, (4.4, 0.6), 1.75, "dark steel", (130, 115, 92))
+    uplighter(w, (4.4, 0.6), 1.75, "dark steel", (210, 185, 148))
     w.save(HERE / "glossy-room.xml")
 
 
@@ -108,7 +108,7 @@ def diffuse_room():
     for k in range(11):
         x, tall = 0.66 + 0.1 * k, 0.3 + 0.12 * math.sin(7 * k) ** 2
         w.box((x, 0.9, 0.1), (x + 0.07, 0.9 + tall, 0.34), ("red cloth", "green", "white", "grey")[k % 4])
-    uplighter(w, (2.3, 0.35), 1.7, "grey", (60, 50, 36))
+    uplighter(w, (2.3, 0.35), 1.7, "grey", (150, 125, 90))
     w.save(HERE / "diffuse-room.xml")
 
 
@@ -133,7 +133,7 @@ def mixed_room():
     w.box((5, 0.7, -0.1), (5.1, 2.3, 1.3), "white")
     w.box((5, 0.7, 2.9), (5.1, 2.3, 4.1), "white")
     w.shape("rectangle", "pane", [scale((0.8, 0.8, 1)), turn_y(-90), translate((5.05, 1.5, 2.1))])
-    w.object("emitter", "constant", radiance=(2.2, 2.9, 3.9))
+    w.object("emitter", "constant", radiance=(4.5, 5.8, 7.8))
     w.blank("A commode with a mirror over it.")
     w.box((1.5, 0, 0.05), (3.3, 0.8, 0.5), "ochre")
     w.box((1.7, 1.1, 0), (3.1, 2.1, 0.04), "brass")
@@ -150,14 +150,14 @@ def mixed_room():
     w.shape("cylinder", "steel", points={"p0": (0.75, 0, 0.6), "p1": (0.75, 1.5, 0.6)}, radius=0.02)
     w.bsdf("shade", "twosided", [lambda: w.object("bsdf", "diffuse", reflectance=(0.7, 0.55, 0.35))])
     w.shape("cylinder", "shade", points={"p0": (0.75, 1.5, 0.6), "p1": (0.75, 1.85, 0.6)}, radius=0.2)
-    w.shape("sphere", None, points={"center": (0.75, 1.65, 0.6)}, radius=0.06,
-            children=[lambda: w.object("emitter", "area", radiance=(95, 70, 42))])
+    w.shape("sphere", None, points={"center": (0.75, 1.67, 0.6)}, radius=0.15,
+            children=[lambda: w.object("emitter", "area", radiance=(15, 11, 6.6))])
     w.save(HERE / "mixed-room.xml")
 
 
 def caustic():
     w = Writer("3.0.0", "Glass and metal that focus a small lamp on a table: light that next event cannot find, and guiding can.")
-    w.camera((0.0, 0.95, 1.55), (0.02, 0.12, 0.0), 42, width=384, height=256)
+    w.camera((0.1, 1.15, 1.75), (0.1, 0.08, 0.02), 46, width=384, height=256)
     w.bsdf("table", "diffuse", reflectance=(0.72, 0.68, 0.62))
     w.bsdf("wall", "diffuse", reflectance=(0.35, 0.4, 0.46))
     w.bsdf("glass", "dielectric", intIOR=1.5, extIOR=1.0)
@@ -173,9 +173,9 @@ def caustic():
     w.sphere((0.02, 0.16, -0.35), 0.16, "frosted")
     w.sphere((-0.1, 0.07, 0.42), 0.07, "silver")
     w.blank("The lamp, high to the left.")
-    w.shape("disk", None, [scale((0.07, 0.07, 1)),
+    w.shape("disk", None, [scale((0.25, 0.25, 1)),
                            '<lookat origin="-1.1, 1.7, 0.7" target="0, 0.1, 0" up="0, 1, 0"/>'],
-            [lambda: w.object("emitter", "area", radiance=(330, 310, 280))])
+            [lambda: w.object("emitter", "area", radiance=(34, 32, 29))])
     w.save(HERE / "caustic.xml")
 
 

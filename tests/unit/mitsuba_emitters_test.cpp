@@ -177,6 +177,19 @@ TEST_F(MitsubaEmitters, TheSkyAndItsSettings) {
         InputError);
 }
 
+/// Towards the brightest pixel of the scene's environment.
+Vec3 brightest_direction(const Scene& scene) {
+    const auto& environment = std::get<EnvironmentEmitter>(scene.emitters.at(0).kind);
+    const TextureImage& image = scene.images.at(0);
+    const auto brightest = std::max_element(image.floats.begin(), image.floats.end()) - image.floats.begin();
+    const auto x = static_cast<float>(brightest / 3 % image.width);
+    const auto y = static_cast<float>(brightest / 3 / image.width);
+    const float phi = (x + 0.5f) * 2 * kPi / static_cast<float>(image.width);
+    const float theta = (y + 0.5f) * kPi / static_cast<float>(image.height);
+    return environment.x_axis * (std::sin(theta) * std::sin(phi)) + environment.y_axis * std::cos(theta) -
+           environment.z_axis * (std::sin(theta) * std::cos(phi));
+}
+
 TEST_F(MitsubaEmitters, TheSunIsWhereItsDirectionSays) {
     for (const char* version : {"0.6.0", "3.0.0"}) {
         const auto scene =
@@ -185,18 +198,24 @@ TEST_F(MitsubaEmitters, TheSunIsWhereItsDirectionSays) {
                     "<rotate x=\"1\" angle=\"20\"/></transform>",
                     version)
                 .scene;
-        const auto& environment = std::get<EnvironmentEmitter>(scene.emitters.at(0).kind);
-        const TextureImage& image = scene.images.at(0);
-        const auto brightest = std::max_element(image.floats.begin(), image.floats.end()) - image.floats.begin();
-        const auto x = static_cast<float>(brightest / 3 % image.width),
-                   y = static_cast<float>(brightest / 3 / image.width);
-        const float phi = (x + 0.5f) * 2 * kPi / static_cast<float>(image.width);
-        const float theta = (y + 0.5f) * kPi / static_cast<float>(image.height);
-        const Vec3 towards = environment.x_axis * (std::sin(theta) * std::sin(phi)) +
-                             environment.y_axis * std::cos(theta) -
-                             environment.z_axis * (std::sin(theta) * std::cos(phi));
-        EXPECT_LT((towards - normalize(Vec3(3, 2, 1))).length(), 0.02f) << version;
+        EXPECT_LT((brightest_direction(scene) - normalize(Vec3(3, 2, 1))).length(), 0.02f) << version;
     }
+}
+
+TEST_F(MitsubaEmitters, TheFrameOfTheSkyDependsOnTheVersion) {
+    const auto sun = [&](const char* hour, const char* version) {
+        return brightest_direction(
+            emitter("sunsky", "<float name=\"hour\" value=\"" + std::string(hour) + "\"/>", version).scene);
+    };
+    // 0.6: y up, east at x, north at -z. 3: z up, south at x, west at y.
+    const Vec3 old_morning = sun("8", "0.6.0"), old_noon = sun("11.77", "0.6.0");
+    EXPECT_GT(old_morning.x, 0.6f);
+    EXPECT_GT(old_noon.z, 0.2f);
+    EXPECT_GT(old_noon.y, 0.9f);
+    const Vec3 morning = sun("8", "3.0.0"), noon = sun("11.77", "3.0.0");
+    EXPECT_LT(morning.y, -0.6f);
+    EXPECT_GT(noon.x, 0.2f);
+    EXPECT_GT(noon.z, 0.9f);
 }
 
 TEST_F(MitsubaEmitters, TheKitchensSunAgreesWithMitsubas) {

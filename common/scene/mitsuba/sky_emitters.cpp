@@ -170,14 +170,15 @@ void paint_sun(const SkyAngles& position, double radius, const Rgb64& irradiance
     }
 }
 
-/// Axes of the image: version 0.6 has y up, north at -z and east at x; version 3 has z up, north at x and east at y.
+/// Axes of the image: version 0.6 has y up, north at -z and east at x; version 3 has z up, south at x and west at y
+/// (its sun_coordinates turns the azimuth by pi, though its page says that x is north).
 EnvironmentEmitter read_frame(Properties& properties) {
     EnvironmentEmitter frame = read_environment_axes(properties);
     if (properties.element().version < 2) return frame;
     EnvironmentEmitter turned = frame;
-    turned.x_axis = frame.y_axis;
+    turned.x_axis = -frame.y_axis;
     turned.y_axis = frame.z_axis;
-    turned.z_axis = -frame.x_axis;
+    turned.z_axis = frame.x_axis;
     return turned;
 }
 
