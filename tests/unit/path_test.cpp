@@ -133,8 +133,9 @@ TEST(Path, RouletteIsPlayedByWhatGuides) {
     const Guide untrained(tree);
     tree.trained = true;
     const Guide trained(tree);
-    const auto survival = [](const Job& job, const Guide& guide) {
-        return PathSettings(job, one_pass(1, false), guide).roulette.survival(Rgb(0.01f));
+    const TraceScene scene(test::furnace(0.5f, 1.0f, 2.0f, Vec3(0.0f)), {});
+    const auto survival = [&](const Job& job, const Guide& guide) {
+        return PathSettings(scene, job, one_pass(1, false), guide).roulette.survival(Rgb(0.01f));
     };
     EXPECT_FLOAT_EQ(survival(unguided(), untrained), 0.01f);
     EXPECT_FLOAT_EQ(survival({}, untrained), 0.1f);
