@@ -12,7 +12,7 @@
 namespace treefarm {
 
 /// What a value of a key looks like in TOML.
-enum class ValueKind { integer, number, boolean, text };
+enum class ValueKind { integer, number, number_or_text, boolean, text };
 
 /// A value that is planned but not there yet, and what to use in its place.
 struct UnavailableValue {

@@ -78,6 +78,8 @@ std::string wanted_type_name(ValueKind kind) {
             return "an integer";
         case ValueKind::number:
             return "a number";
+        case ValueKind::number_or_text:
+            return "a number or text in quotes";
         case ValueKind::boolean:
             return "true or false";
         case ValueKind::text:
@@ -92,6 +94,8 @@ bool matches(const toml::node& node, ValueKind kind) {
             return node.is_integer();
         case ValueKind::number:
             return node.is_number();
+        case ValueKind::number_or_text:
+            return node.is_number() || node.is_string();
         case ValueKind::boolean:
             return node.is_boolean();
         case ValueKind::text:
@@ -250,7 +254,8 @@ std::string write_job(const Job& job) {
         }
         begin_section(name);
         std::string value = key.print(job);
-        if (key.kind == ValueKind::text) value = toml_string(value);
+        if (key.kind == ValueKind::text || (key.kind == ValueKind::number_or_text && !parse_number(value)))
+            value = toml_string(value);
         // TOML tells numbers from integers by the point; reading takes both.
         text += key.name.substr(dot + 1) + " = " + value + "\n";
     }
