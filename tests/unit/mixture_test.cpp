@@ -62,7 +62,7 @@ class MixtureLearning : public ::testing::Test {
         TreeSums s(tree.pass, tree.region_count(), tree.cell_count(), true);
         for (std::uint32_t r = 0; r < tree.region_count(); ++r) {
             s.add_count(r, 1000);
-            for (const int even : {kMixtureBins / 2 - 1, kMixtureBins / 2})
+            for (const int even : {0, kMixtureBins - 1})
                 s.add_mixture(r, r == region ? bin : static_cast<std::uint8_t>(even), 500 << 16);
         }
         return s;
