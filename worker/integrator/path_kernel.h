@@ -2,6 +2,7 @@
 
 #include "common/config/job.h"
 #include "common/film/trace_stats.h"
+#include "common/guiding/mixture.h"
 #include "common/plan/schedule.h"
 #include "worker/integrator/guided_sampling.h"
 #include "worker/integrator/mis.h"
@@ -18,7 +19,8 @@ struct PathSettings {
     bool strict_normals;
     bool hide_emitters;
     bool record_light_samples;  ///< kick-start: what next event finds teaches the tree, too
-    float bsdf_fraction;
+    bool jitter_records;        ///< stochastic spatial filter
+    GuidingTarget target;
     Roulette roulette;
 
     PathSettings(const Job& job, const PassPlan& pass, const Guide& guide)
@@ -27,7 +29,8 @@ struct PathSettings {
           strict_normals(job.integrator.strict_normals),
           hide_emitters(job.integrator.hide_emitters),
           record_light_samples(job.integrator.next_event == NextEvent::kickstart && pass.next_event),
-          bsdf_fraction(job.guiding.bsdf_fraction),
+          jitter_records(job.guiding.spatial_filter == SpatialFilter::stochastic),
+          target(job.guiding.target),
           roulette(job.guiding.type == GuidingType::none ? Roulette::Rule::unguided
                    : guide.trained()                     ? Roulette::Rule::trained
                                                          : Roulette::Rule::untrained,
@@ -52,7 +55,7 @@ template <bool kNextEvent, bool kGuided, bool kRecord, class Observer = NoObserv
 class PathKernel {
   public:
     PathKernel(const TraceScene& scene, const Guide& guide, const PathSettings& settings, TraceStats& stats)
-        : scene_(scene), guide_(guide), settings_(settings), stats_(stats) {}
+        : scene_(scene), guide_(guide), settings_(settings), stats_(stats), recorder_(settings.target) {}
 
     /// Radiance along a camera ray. What was learned stays in recorder() until it is committed or the next path begins.
     Rgb trace(const PathKey& path, Ray ray) {
@@ -106,7 +109,7 @@ class PathKernel {
             if constexpr (kGuided || kRecord) region = guide_.region(hit.p);
             if constexpr (kRecord)
                 if (!guide_.contains(hit.p)) recorder_.add_outside();
-            const GuidedSampling<kGuided> sampling(bsdf, frame, wo, guide_, region, settings_.bsdf_fraction);
+            const GuidedSampling<kGuided> sampling(bsdf, frame, wo, guide_, region);
 
             if constexpr (kNextEvent) {
                 const Rgb reflected = next_event(path, depth, hit, bsdf, frame, wo, sampling, region, throughput);
@@ -121,7 +124,9 @@ class PathKernel {
             const Rgb weight = s.f_cos * (1.0f / s.pdf);
             throughput *= weight;
             observer_.scatter(s, throughput);
-            if constexpr (kRecord) recorder_.add_vertex(region, s.code, s.pdf, weight, vertex_of(depth));
+            if constexpr (kRecord)
+                recorder_.add_vertex(record_region(path, depth, hit.p, region, Stream::jitter), s.code, s.pdf, weight,
+                                     mixture_bin(s.bsdf_pdf, s.guide_pdf), vertex_of(depth));
             scatter_pdf = s.pdf;
             scatter_point = hit.p;
             ray = {offset_origin(hit, s.world), s.world};
@@ -133,6 +138,13 @@ class PathKernel {
 
   private:
     static std::uint32_t vertex_of(int depth) { return static_cast<std::uint32_t>(depth); }
+
+    /// Where what is learned here goes.
+    std::uint32_t record_region(const PathKey& path, int depth, const Vec3& p, std::uint32_t region,
+                                Stream jitter) const {
+        return settings_.jitter_records ? guide_.jittered_region(p, region, draw(path, vertex_of(depth), jitter))
+                                        : region;
+    }
 
     Rgb end(const Rgb& radiance, const char* why) {
         observer_.end(why);
@@ -157,7 +169,8 @@ class PathKernel {
         const float weight = mis_weight(settings_.mis, light.pdf, scatter_pdf);
         const Rgb reflected = f_cos * light.radiance * (weight / light.pdf);
         if (kRecord && settings_.record_light_samples)
-            recorder_.add_light_sample(region, code, average(light.radiance) * weight / light.pdf, vertex_of(depth));
+            recorder_.add_light_sample(record_region(path, depth, hit.p, region, Stream::light_jitter), code,
+                                       average(light.radiance) * weight, light.pdf, vertex_of(depth));
         observer_.next_event(light, scatter_pdf, weight, throughput * reflected);
         return reflected;
     }

@@ -15,15 +15,19 @@ namespace treefarm {
 /// Its memory grows to the longest path and stays.
 class PathRecorder {
   public:
+    explicit PathRecorder(GuidingTarget target = GuidingTarget::radiance) : target_(target) {}
+
     void begin_path() {
         vertices_.clear();
         light_samples_.clear();
         outside_ = 0;
     }
 
-    /// A direction was sampled: region and code of the record, its density, and f |cos| / density.
-    void add_vertex(std::uint32_t region, std::uint32_t code, float pdf, const Rgb& weight, std::uint32_t vertex) {
-        vertices_.push_back({weight, Rgb(0.0f), Rgb(0.0f), 1.0f, pdf, region, code, vertex});
+    /// A direction was sampled: region and code of the record, its density, f |cos| / density, and the bin of the
+    /// mixture histogram.
+    void add_vertex(std::uint32_t region, std::uint32_t code, float pdf, const Rgb& weight, std::uint8_t bin,
+                    std::uint32_t vertex) {
+        vertices_.push_back({weight, Rgb(0.0f), Rgb(0.0f), 1.0f, pdf, region, code, vertex, bin});
     }
 
     /// Emission that the last sampled direction met, weighted against next event.
@@ -41,9 +45,9 @@ class PathRecorder {
         if (!vertices_.empty()) vertices_.back().survival = probability;
     }
 
-    /// A next-event sample that is a record itself (kick-start passes).
-    void add_light_sample(std::uint32_t region, std::uint32_t code, float value, std::uint32_t vertex) {
-        light_samples_.push_back({region, code, vertex, value});
+    /// A next-event sample that is a record itself (kick-start passes): weighted radiance and density.
+    void add_light_sample(std::uint32_t region, std::uint32_t code, float radiance, float pdf, std::uint32_t vertex) {
+        light_samples_.push_back({region, code, vertex, radiance, pdf});
     }
 
     void add_outside() { ++outside_; }
@@ -55,12 +59,15 @@ class PathRecorder {
             const Vertex& v = vertices_[i];
             carried = v.emission + (v.reflected + carried) * (1.0f / v.survival);
             ++log.counts[v.region];
-            append(path, {v.region, v.code, v.vertex, average(carried) / v.pdf}, Stream::rounding, log);
+            const Rgb arriving = carried;
             carried *= v.weight;
+            append(path, v.vertex, Stream::rounding,
+                   {v.region, v.code, 0, target_value(average(arriving), v.pdf), finite(average(carried)), v.bin}, log);
         }
         for (const LightSample& s : light_samples_) {
             ++log.counts[s.region];
-            append(path, s, Stream::light_rounding, log);
+            append(path, s.vertex, Stream::light_rounding,
+                   {s.region, s.code, 0, target_value(s.radiance, s.pdf), 0.0f, 0}, log);
         }
         log.caps.outside_positions += outside_;
         return vertices_.size() + light_samples_.size();
@@ -71,19 +78,28 @@ class PathRecorder {
         Rgb weight, emission, reflected;
         float survival, pdf;
         std::uint32_t region, code, vertex;
+        std::uint8_t bin;
     };
     struct LightSample {
         std::uint32_t region, code, vertex;
-        float value;
+        float radiance, pdf;
     };
 
-    static void append(const PathKey& path, const LightSample& s, Stream rounding, RecordLog& log) {
-        if (!(s.value > 0.0f)) return;
-        // A value beyond float becomes the largest one: the sums cap it, and count that.
-        const float value = std::min(s.value, std::numeric_limits<float>::max());
-        log.records.push_back({s.region, s.code, draw(path, s.vertex, rounding)[0], value});
+    /// A value beyond float becomes the largest one: the sums cap it, and count that.
+    static float finite(float value) { return std::min(value, std::numeric_limits<float>::max()); }
+
+    /// L / p, or L^2 / p for the second moment.
+    float target_value(float radiance, float pdf) const {
+        return finite(target_ == GuidingTarget::variance ? radiance * (radiance / pdf) : radiance / pdf);
     }
 
+    static void append(const PathKey& path, std::uint32_t vertex, Stream rounding, Record record, RecordLog& log) {
+        if (!(record.value > 0.0f)) return;
+        record.rounding = draw(path, vertex, rounding)[0];
+        log.records.push_back(record);
+    }
+
+    GuidingTarget target_;
     std::vector<Vertex> vertices_;
     std::vector<LightSample> light_samples_;
     std::uint64_t outside_ = 0;
