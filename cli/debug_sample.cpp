@@ -19,7 +19,7 @@ const Location kHere{"--debug-sample", 0, 0};
 
 /// The tree that guides a pass, learned by rendering the passes before it.
 SdTree learn_tree(const RenderRequest& request, std::span<const PassPlan> plans, std::uint32_t pass) {
-    SdTree tree = first_tree(request.scene);
+    SdTree tree = first_tree(request.scene, request.job);
     if (pass == 0 || request.job.guiding.type == GuidingType::none) return tree;
     const Log log = make_log("treefarm", {}, true);
     auto channels = make_in_process_channels(2);

@@ -75,7 +75,6 @@ RenderRequest read_request(const RenderOptions& options) {
     request.plan = plan_effects(request.scene, request.job);
     for (const Warning& warning : loaded.warnings)
         request.warnings.push_back(warning.text());
-    request.warnings.insert(request.warnings.end(), request.plan.warnings.begin(), request.plan.warnings.end());
     request.plan.warnings = request.warnings;  // what the reader had to replace belongs to the plan, too
     request.command = options.command;
     request.debug_command = debug_command(options);

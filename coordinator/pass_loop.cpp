@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "common/base/hash.h"
+#include "common/guiding/mixture.h"
 
 namespace treefarm {
 
@@ -99,8 +100,12 @@ class PassLoop {
         settings.directional_divisor =
             static_cast<std::uint32_t>(std::lround(1.0 / static_cast<double>(job_.guiding.directional_threshold)));
         settings.record_weight = plan.record_weight;
-        result_.tree = refine(result_.tree, farm_.collector().sums(), settings, report.refine);
-        result_.tree.pass = plan.index + 1;
+        settings.target = job_.guiding.target;
+        const TreeSums& sums = farm_.collector().sums();
+        SdTree next = refine(result_.tree, sums, settings, report.refine);
+        if (plan.learn_mixture) mixture_.learn(result_.tree, sums, report.refine.origins, next);
+        next.pass = plan.index + 1;
+        result_.tree = std::move(next);
         report.seconds.refine = timer.seconds();
         farm_.beat();
     }
@@ -137,6 +142,7 @@ class PassLoop {
     const Job& job_;
     std::span<const PassPlan> plans_;
     const PassHooks& hooks_;
+    MixtureLearner mixture_;
     RenderResult result_;
     std::vector<PassResult> finished_;
     std::uint64_t coming_tree_hash_ = 0;
@@ -145,10 +151,12 @@ class PassLoop {
 
 }  // namespace
 
-SdTree first_tree(const Scene& scene) {
+SdTree first_tree(const Scene& scene, const Job& job) {
     Box3 bounds = scene.bounds();
     bounds.extendBy(scene.camera.origin);
-    return initial_tree(bounds, scene.radiance_scale());
+    const float scale = scene.radiance_scale();
+    return initial_tree(bounds, job.guiding.target == GuidingTarget::variance ? scale * scale : scale,
+                        job.guiding.bsdf_fraction);
 }
 
 RenderResult run_passes(Farm& farm, const Job& job, std::span<const PassPlan> passes, SdTree tree, int width,

@@ -47,7 +47,7 @@ struct RenderResult {
 
 /// The tree before the first pass: over the scene and the camera, as in the authors' program; record units by the
 /// brightest emitter.
-SdTree first_tree(const Scene& scene);
+SdTree first_tree(const Scene& scene, const Job& job);
 
 /// Renders `passes` one after the other: broadcast the tree, hand out the work, collect film and sums, refine.
 RenderResult run_passes(Farm& farm, const Job& job, std::span<const PassPlan> passes, SdTree tree, int width,

@@ -78,7 +78,8 @@ class RenderRun {
         };
         hooks.on_failure = [this](RenderResult finished) { result_ = std::move(finished); };
         hooks.on_pass = [this, &plans](const PassReport& pass) { tell(pass, plans.size()); };
-        result_ = run_passes(farm_, request_.job, plans, first_tree(request_.scene), film.width, film.height, hooks);
+        result_ = run_passes(farm_, request_.job, plans, first_tree(request_.scene, request_.job), film.width,
+                             film.height, hooks);
     }
 
     void tell(const PassReport& pass, std::size_t pass_count) {

@@ -6,8 +6,8 @@
 
 namespace treefarm {
 
-PassWork::PassWork(const PassPlan& plan, const SdTree& tree) : plan_(plan), guide_(tree) {
-    if (plan_.record) accumulator_.emplace(plan_.index, guide_);
+PassWork::PassWork(const PassPlan& plan, const SdTree& tree, DirectionalFilter filter) : plan_(plan), guide_(tree) {
+    if (plan_.record) accumulator_.emplace(plan_.index, guide_, filter, plan_.learn_mixture);
 }
 
 void PassWork::deliver(UnitResult unit, RecordLog& log, TraceStats stats) {

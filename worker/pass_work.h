@@ -16,7 +16,7 @@ namespace treefarm {
 /// units taught the tree. Tracing threads deliver while the communication thread closes bundles.
 class PassWork {
   public:
-    PassWork(const PassPlan& plan, const SdTree& tree);
+    PassWork(const PassPlan& plan, const SdTree& tree, DirectionalFilter filter);
 
     const PassPlan& plan() const { return plan_; }
     const Guide& guide() const { return guide_; }

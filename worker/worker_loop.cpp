@@ -171,8 +171,9 @@ class WorkerLoop {
         if (coming_ && !pass_task_.valid()) {
             if (auto tree = chain_.collect({Blob::tree, coming_->plan.index})) {
                 if (hash_bytes(*tree) != coming_->tree_hash) throw FormatError("the tree arrived with a wrong hash");
-                pass_task_ = std::async(std::launch::async, [plan = coming_->plan, bytes = std::move(*tree)] {
-                    return std::make_shared<PassWork>(plan, decode_tree(bytes));
+                pass_task_ = std::async(std::launch::async, [plan = coming_->plan, bytes = std::move(*tree),
+                                                             filter = job_.guiding.directional_filter] {
+                    return std::make_shared<PassWork>(plan, decode_tree(bytes), filter);
                 });
             }
         }

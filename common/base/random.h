@@ -17,6 +17,8 @@ enum class Stream : std::uint32_t {
     roulette,        ///< survival
     rounding,        ///< stochastic rounding of what scattered directions taught the tree
     light_rounding,  ///< the same for next event's records
+    jitter,          ///< spatial filter of what scattered directions taught the tree
+    light_jitter,    ///< the same for next event's records
 };
 
 /// Names one camera path: the same key gives the same path on any machine, thread or rank.

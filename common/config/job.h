@@ -20,6 +20,24 @@ enum class MisHeuristic : std::uint8_t { balance, power };
 
 enum class GuidingType : std::uint8_t { none, ppg };
 
+/// Into which region of the tree a record goes.
+enum class SpatialFilter : std::uint8_t {
+    nearest,     ///< that of its position
+    stochastic,  ///< that of its position moved by up to half the region's size
+};
+
+/// How a record spreads over a region's directional cells.
+enum class DirectionalFilter : std::uint8_t {
+    nearest,  ///< all of it into the cell of its direction
+    box,      ///< over a square of that cell's size around its direction
+};
+
+/// What the cells of a region are sampled in proportion to.
+enum class GuidingTarget : std::uint8_t {
+    radiance,  ///< their mean radiance: sums of L / p
+    variance,  ///< the square root of their second moment, from sums of L^2 / p (Rath et al. 2020)
+};
+
 /// How the images of the passes become one (docs/guiding.md, "combining passes").
 enum class Combination : std::uint8_t {
     inverse_variance,  ///< one scalar per pass, cross-fitted over two halves
@@ -57,11 +75,15 @@ struct Job {
 
     struct Guiding {
         GuidingType type = GuidingType::ppg;
-        std::string preset;                   ///< "" or "paper": recorded so that the result says what was asked
-        float bsdf_fraction = 0.5f;           ///< probability of sampling the BSDF rather than the tree, (0, 1]
-        int spatial_threshold = 12000;        ///< c of the spatial split rule
+        std::string preset;               ///< "" or "paper": recorded so that the result says what was asked
+        float bsdf_fraction = 0.5f;       ///< probability of sampling the BSDF rather than the tree, (0, 1]
+        bool learn_bsdf_fraction = true;  ///< per region, from bsdf_fraction on
+        SpatialFilter spatial_filter = SpatialFilter::stochastic;
+        DirectionalFilter directional_filter = DirectionalFilter::box;
+        GuidingTarget target = GuidingTarget::radiance;
+        int spatial_threshold = 4000;         ///< c of the spatial split rule
         float directional_threshold = 0.01f;  ///< share of a region's energy above which a cell splits
-        int spp_unit = 4;                     ///< samples per pixel of the first pass; passes double
+        int spp_unit = 1;                     ///< samples per pixel of the first pass; passes double
         Combination combination = Combination::inverse_variance;
     } guiding;
 

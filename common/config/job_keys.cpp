@@ -111,17 +111,25 @@ JobKey word_key(const char* name, const char* doc, Member member, std::vector<st
             std::move(unavailable)};
 }
 
-/// A key with a single value so far; nothing is stored.
-JobKey single_value_key(const char* name, const char* doc, const char* only, std::vector<std::string> planned) {
-    JobKey key{name,
-               ValueKind::text,
-               std::string("\"") + only + "\"",
-               doc,
-               [only](Job&, const std::string& text) { return text == only; },
-               nullptr,
-               {}};
-    for (std::string& value : planned)
-        key.unavailable.push_back({std::move(value), std::string("use \"") + only + "\""});
+/// A number, or that it is learned: from the default on.
+JobKey bsdf_fraction_key() {
+    JobKey key = number_key(
+        "guiding.bsdf_fraction", "more than 0, at most 1; or \"learned\" per region of the tree",
+        "probability of sampling the BSDF rather than the tree",
+        [](auto& j) -> auto& { return j.guiding.bsdf_fraction; }, [](float v) { return v > 0.0f && v <= 1.0f; });
+    key.kind = ValueKind::number_or_text;
+    key.parse = [number = key.parse](Job& job, const std::string& text) {
+        const bool learned = text == "learned";
+        if (learned)
+            job.guiding.bsdf_fraction = Job().guiding.bsdf_fraction;
+        else if (!number(job, text))
+            return false;
+        job.guiding.learn_bsdf_fraction = learned;
+        return true;
+    };
+    key.print = [number = key.print](const Job& job) {
+        return job.guiding.learn_bsdf_fraction ? std::string("learned") : number(job);
+    };
     return key;
 }
 
@@ -200,11 +208,7 @@ std::vector<JobKey> make_job_keys() {
                  [](auto& j) -> auto& { return j.guiding.preset; },
                  std::vector<std::pair<std::string, std::string>>{{"", ""}, {"paper", "paper"}},
                  {{"thesis", "use \"paper\", or set the keys one by one"}}));
-    JobKey fraction = number_key(
-        "guiding.bsdf_fraction", "more than 0, at most 1", "probability of sampling the BSDF rather than the tree",
-        [](auto& j) -> auto& { return j.guiding.bsdf_fraction; }, [](float v) { return v > 0.0f && v <= 1.0f; });
-    fraction.unavailable = {{"learned", "use a number, for instance 0.5"}};
-    add(std::move(fraction));
+    add(bsdf_fraction_key());
     add(integer_key(
         "guiding.spatial_threshold", "1 and more",
         "c of the spatial split rule: a region splits above c sqrt(spp / 4) records",
@@ -224,11 +228,24 @@ std::vector<JobKey> make_job_keys() {
         std::vector<std::pair<std::string, Combination>>{{"inverse_variance", Combination::inverse_variance},
                                                          {"fixed", Combination::fixed},
                                                          {"last", Combination::last}}));
-    add(single_value_key("guiding.spatial_filter", "how a record spreads over regions", "nearest",
-                         {"stochastic", "box"}));
-    add(single_value_key("guiding.directional_filter", "how a record spreads over directional cells", "nearest",
-                         {"box"}));
-    add(single_value_key("guiding.target", "what the tree learns", "radiance", {"variance"}));
+    add(word_key("guiding.spatial_filter",
+                 "which region a record goes to; stochastic: that of its position moved by up to half a region",
+                 [](auto& j) -> auto& { return j.guiding.spatial_filter; },
+                 std::vector<std::pair<std::string, SpatialFilter>>{{"nearest", SpatialFilter::nearest},
+                                                                    {"stochastic", SpatialFilter::stochastic}},
+                 {{"box", "use \"stochastic\", whose expectation is the box filter's"}}));
+    add(word_key(
+        "guiding.directional_filter",
+        "how a record spreads over directional cells; box: over a square of its cell's size",
+        [](auto& j) -> auto& { return j.guiding.directional_filter; },
+        std::vector<std::pair<std::string, DirectionalFilter>>{{"nearest", DirectionalFilter::nearest},
+                                                               {"box", DirectionalFilter::box}}));
+    add(word_key(
+        "guiding.target",
+        "what directions are sampled in proportion to: mean radiance, or the root of its second moment",
+        [](auto& j) -> auto& { return j.guiding.target; },
+        std::vector<std::pair<std::string, GuidingTarget>>{{"radiance", GuidingTarget::radiance},
+                                                           {"variance", GuidingTarget::variance}}));
 
     add(integer_key(
         "budget.spp", "1 to 2^30", "samples per pixel in all passes", [](auto& j) -> auto& { return j.budget.spp; }, 1,
@@ -296,6 +313,9 @@ std::span<const Setting> preset_settings(const std::string& preset) {
         {"guiding.bsdf_fraction", "0.5", {}},
         {"guiding.spp_unit", "4", {}},
         {"guiding.combination", "last", {}},
+        {"guiding.spatial_filter", "nearest", {}},
+        {"guiding.directional_filter", "nearest", {}},
+        {"guiding.target", "radiance", {}},
     };
     if (preset == "paper") return paper;
     return {};

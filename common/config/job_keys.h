@@ -15,6 +15,7 @@ namespace treefarm {
 enum class ValueKind {
     integer,
     number,
+    number_or_text,
     boolean,
     text,
     off_switch,  ///< false, or the text "auto"

@@ -81,6 +81,8 @@ std::string wanted_type_name(ValueKind kind) {
             return "an integer";
         case ValueKind::number:
             return "a number";
+        case ValueKind::number_or_text:
+            return "a number or text in quotes";
         case ValueKind::boolean:
             return "true or false";
         case ValueKind::off_switch:
@@ -97,6 +99,8 @@ bool matches(const toml::node& node, ValueKind kind) {
             return node.is_integer();
         case ValueKind::number:
             return node.is_number();
+        case ValueKind::number_or_text:
+            return node.is_number() || node.is_string();
         case ValueKind::boolean:
             return node.is_boolean();
         case ValueKind::off_switch:
@@ -260,7 +264,8 @@ std::string write_job(const Job& job) {
         }
         begin_section(name);
         std::string value = key.print(job);
-        const bool word = key.kind == ValueKind::text || (key.kind == ValueKind::off_switch && value != "false");
+        const bool word = key.kind == ValueKind::text || (key.kind == ValueKind::off_switch && value != "false") ||
+                          (key.kind == ValueKind::number_or_text && !parse_number(value));
         if (word) value = toml_string(value);
         // TOML tells numbers from integers by the point; reading takes both.
         text += key.name.substr(dot + 1) + " = " + value + "\n";

@@ -23,8 +23,10 @@ Guide::Guide(const SdTree& tree)
       inverse_extent_(1.0f / tree.extent),
       extent_(tree.extent),
       cell_begin_(tree.cell_begin),
-      quantum_exponent_(tree.quantum_exponent) {
-    build_treelet(tree, 0);
+      quantum_exponent_(tree.quantum_exponent),
+      bsdf_fraction_(tree.bsdf_fraction),
+      region_depth_(tree.region_count()) {
+    build_treelet(tree, 0, 0);
 
     cells_.resize(tree.cell_count());
     mass_guide_.resize(region_count());
@@ -51,15 +53,21 @@ Guide::Guide(const SdTree& tree)
 
 /// Three levels of the binary tree (x, y, z) become one line of eight entries; a leaf above the third level fills all
 /// the entries below it.
-std::uint32_t Guide::build_treelet(const SdTree& tree, std::uint32_t node) {
+std::uint32_t Guide::build_treelet(const SdTree& tree, std::uint32_t node, int depth) {
     const auto index = static_cast<std::uint32_t>(treelets_.size());
     treelets_.emplace_back();
     for (std::uint32_t octant = 0; octant < 8; ++octant) {
         std::uint32_t at = node;
-        for (int axis = 0; axis < 3 && !tree.nodes[at].is_leaf(); ++axis)
+        int axis = 0;
+        for (; axis < 3 && !tree.nodes[at].is_leaf(); ++axis)
             at = tree.nodes[at].child[(octant >> axis) & 1];
-        const std::uint32_t entry =
-            tree.nodes[at].is_leaf() ? (tree.nodes[at].child[1] | kLeafFlag) : build_treelet(tree, at);
+        std::uint32_t entry;
+        if (tree.nodes[at].is_leaf()) {
+            entry = tree.nodes[at].child[1] | kLeafFlag;
+            region_depth_[tree.nodes[at].child[1]] = static_cast<std::uint8_t>(depth + axis);
+        } else {
+            entry = build_treelet(tree, at, depth + 3);
+        }
         treelets_[index][octant] = entry;
     }
     return index;
@@ -77,6 +85,16 @@ std::uint32_t Guide::region(const Vec3& p) const {
     }
 }
 
+std::uint32_t Guide::jittered_region(const Vec3& p, std::uint32_t region, const Draw& random) const {
+    const int depth = region_depth_[region];
+    Vec3 moved = p;
+    for (int axis = 0; axis < 3; ++axis) {
+        const int halvings = (depth + 2 - axis) / 3;
+        moved[axis] += std::ldexp(extent_, -halvings) * (to_unit(random[static_cast<std::size_t>(axis)]) - 0.5f);
+    }
+    return this->region(moved);
+}
+
 bool Guide::contains(const Vec3& p) const {
     // Points of the outermost surfaces may lie a rounding error outside.
     const float low = -1e-4f * extent_, high = extent_ - low;
@@ -90,6 +108,12 @@ float Guide::density(std::uint32_t region, std::uint32_t cell) const {
     const std::uint32_t area = (last ? 0u : cells_[cell + 1].code_begin) - cells_[cell].code_begin;  // modulo 2^32
     constexpr float kScale = kInvFourPi * static_cast<float>(1u << (2 * kDirectionBits - kMassBits));
     return kScale * static_cast<float>(mass) / static_cast<float>(area);
+}
+
+std::uint32_t Guide::cell_side(std::uint32_t region, std::uint32_t cell) const {
+    const bool last = cell + 1 == cell_begin_[region + 1];
+    const std::uint32_t area = (last ? 0u : cells_[cell + 1].code_begin) - cells_[cell].code_begin;  // modulo 2^32
+    return 1u << (std::countr_zero(area) / 2);
 }
 
 std::uint32_t Guide::cell(std::uint32_t region, std::uint32_t code) const {
@@ -142,7 +166,7 @@ Guide::Sample Guide::sample(std::uint32_t region, std::uint32_t pick, std::uint3
 std::size_t Guide::bytes() const {
     return treelets_.size() * sizeof(treelets_[0]) + cells_.size() * sizeof(Cell) +
            (mass_guide_.size() + code_guide_.size()) * sizeof(GuideTable) + cell_begin_.size() * 4 +
-           quantum_exponent_.size() * 2;
+           quantum_exponent_.size() * 2 + bsdf_fraction_.size() * 4 + region_depth_.size();
 }
 
 }  // namespace treefarm

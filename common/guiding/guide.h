@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "common/base/random.h"
 #include "common/guiding/sd_tree.h"
 #include "common/math/direction_map.h"
 
@@ -27,11 +28,17 @@ class Guide {
     std::uint32_t region_count() const { return static_cast<std::uint32_t>(quantum_exponent_.size()); }
     std::uint32_t cell_count() const { return static_cast<std::uint32_t>(cells_.size()); }
     std::int16_t quantum_exponent(std::uint32_t region) const { return quantum_exponent_[region]; }
+    /// Probability of sampling the BSDF rather than the tree.
+    float bsdf_fraction(std::uint32_t region) const { return bsdf_fraction_[region]; }
 
     /// The region of a point. Points outside the cube belong to the nearest region (the caller may count them with
     /// contains()).
     std::uint32_t region(const Vec3& position) const;
     bool contains(const Vec3& position) const;
+
+    /// The region of a point moved by up to half the size of `region` along each axis: the stochastic spatial filter of
+    /// the authors' improved program. Three uniform 32-bit numbers.
+    std::uint32_t jittered_region(const Vec3& position, std::uint32_t region, const Draw& random) const;
 
     /// Draws a direction; `pick`, `u0` and `u1` are uniform 32-bit numbers.
     Sample sample(std::uint32_t region, std::uint32_t pick, std::uint32_t u0, std::uint32_t u1) const;
@@ -41,6 +48,8 @@ class Guide {
 
     /// Index (over the whole tree) of the cell of a direction: where a record goes.
     std::uint32_t cell(std::uint32_t region, std::uint32_t code) const;
+    /// A cell's side, in steps of the direction square: 2^(kDirectionBits - depth).
+    std::uint32_t cell_side(std::uint32_t region, std::uint32_t cell) const;
 
     std::size_t bytes() const;
 
@@ -53,7 +62,7 @@ class Guide {
     static constexpr std::uint32_t kGuideSize = 1u << kGuideBits;
     static constexpr std::uint32_t kLeafFlag = 0x80000000u;
 
-    std::uint32_t build_treelet(const SdTree& tree, std::uint32_t node);
+    std::uint32_t build_treelet(const SdTree& tree, std::uint32_t node, int depth);
     float density(std::uint32_t region, std::uint32_t cell) const;
 
     bool trained_ = false;
@@ -67,6 +76,8 @@ class Guide {
     std::vector<GuideTable> mass_guide_;  ///< per region: first cell that may hold probability k/64
     std::vector<GuideTable> code_guide_;  ///< per region: the cell that holds code k/64
     std::vector<std::int16_t> quantum_exponent_;
+    std::vector<float> bsdf_fraction_;
+    std::vector<std::uint8_t> region_depth_;  ///< halvings from the cube to the region
 };
 
 }  // namespace treefarm

@@ -39,8 +39,6 @@ class DirectionRefiner {
         return std::move(result_);
     }
 
-    Wide total() const { return total_; }
-
   private:
     /// "More than 1/divisor of the energy"; an empty region splits as if energy were spread evenly.
     bool splits(int depth, const Wide& sum, int quarters) const {
@@ -115,6 +113,21 @@ class DirectionRefiner {
     Directions result_;
 };
 
+std::uint64_t integer_root(Wide value) {
+    Wide root = static_cast<Wide>(std::sqrt(static_cast<double>(value)));  // right to 53 bits; made exact below
+    while (root * root > value)
+        --root;
+    while ((root + 1) * (root + 1) <= value)
+        ++root;
+    return static_cast<std::uint64_t>(root);
+}
+
+/// Turns a cell's second moment, an integral over the cell, into what it is to be sampled in proportion to: the
+/// variance of an estimate is least where probability follows sqrt(moment * area).
+std::uint64_t deviation(std::uint64_t moment, std::uint8_t depth) {
+    return integer_root(Wide{moment} << (2 * (kMaxDirectionDepth - depth)));
+}
+
 class TreeRefiner {
   public:
     TreeRefiner(const SdTree& tree, const TreeSums& sums, const RefineSettings& settings, RefineReport& report)
@@ -134,7 +147,11 @@ class TreeRefiner {
   private:
     std::uint32_t copy(std::uint32_t old_node, int depth) {
         const SdTree::Node& node = old_.nodes[old_node];
-        if (node.is_leaf()) return split(refine_region(node.child[1]), depth);
+        if (node.is_leaf()) {
+            old_region_ = node.child[1];
+            leaf_depth_ = depth;
+            return split(refine_region(old_region_), depth);
+        }
         const auto index = add_node();
         const std::uint32_t low = copy(node.child[0], depth + 1);
         const std::uint32_t high = copy(node.child[1], depth + 1);
@@ -150,12 +167,21 @@ class TreeRefiner {
 
     Region refine_region(std::uint32_t r) {
         const std::uint32_t begin = old_.cell_begin[r], count = old_.cell_begin[r + 1] - begin;
-        DirectionRefiner refiner({&old_.cell_depth[begin], count}, {&sums_.cells()[begin], count},
-                                 settings_.directional_divisor, report_);
+        std::span<const std::uint64_t> energies(&sums_.cells()[begin], count);
+        Wide total = 0;
+        for (const std::uint64_t sum : energies)
+            total += sum;
+        if (settings_.target == GuidingTarget::variance) {
+            deviations_.resize(count);
+            for (std::uint32_t c = 0; c < count; ++c)
+                deviations_[c] = deviation(energies[c], old_.cell_depth[begin + c]);
+            energies = deviations_;
+        }
+        DirectionRefiner refiner({&old_.cell_depth[begin], count}, energies, settings_.directional_divisor, report_);
         Region region{refiner.run(), old_.quantum_exponent[r],
                       static_cast<double>(sums_.counts()[r]) * settings_.record_weight};
-        if (refiner.total() > 0 && sums_.counts()[r] > 0) {
-            const double mean_quanta = static_cast<double>(refiner.total()) / static_cast<double>(sums_.counts()[r]);
+        if (total > 0 && sums_.counts()[r] > 0) {
+            const double mean_quanta = static_cast<double>(total) / static_cast<double>(sums_.counts()[r]);
             region.quantum_exponent =
                 quantum_exponent_for(static_cast<float>(std::ldexp(mean_quanta, old_.quantum_exponent[r])));
         }
@@ -183,6 +209,8 @@ class TreeRefiner {
         result_.cell_mass.insert(result_.cell_mass.end(), d.mass.begin(), d.mass.end());
         result_.cell_begin.push_back(result_.cell_count());
         result_.quantum_exponent.push_back(region.quantum_exponent);
+        result_.bsdf_fraction.push_back(old_.bsdf_fraction[old_region_]);
+        report_.origins.push_back({old_region_, depth - leaf_depth_});
         return index;
     }
 
@@ -196,6 +224,9 @@ class TreeRefiner {
     const RefineSettings& settings_;
     RefineReport& report_;
     SdTree result_;
+    std::uint32_t old_region_ = 0;  ///< that is being refined
+    int leaf_depth_ = 0;            ///< its depth
+    std::vector<std::uint64_t> deviations_;
 };
 
 }  // namespace

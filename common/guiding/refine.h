@@ -1,5 +1,9 @@
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
+#include "common/config/job.h"
 #include "common/guiding/sd_tree.h"
 #include "common/guiding/tree_update.h"
 
@@ -10,6 +14,13 @@ struct RefineSettings {
         0;  ///< records (weighted) above which a region splits: c sqrt(n_k / 4), n_k spp of the coming pass
     std::uint32_t directional_divisor = 100;  ///< a cell splits while divisor * sum > total
     double record_weight = 1.0;               ///< of each record of the pass: 0.5 in kick-start passes
+    GuidingTarget target = GuidingTarget::radiance;
+};
+
+/// Where a region of the refined tree comes from: the region of the old tree, halved so many times.
+struct RegionOrigin {
+    std::uint32_t region = 0;
+    int halvings = 0;
 };
 
 struct RefineReport {
@@ -18,7 +29,8 @@ struct RefineReport {
     std::uint64_t memory_capped = 0;             ///< regions that would have split beyond 2^31 cells
     int spatial_depth = 0;
     int directional_depth = 0;
-    double mean_cells = 0;  ///< per region
+    double mean_cells = 0;              ///< per region
+    std::vector<RegionOrigin> origins;  ///< per region of the refined tree
 };
 
 /// The next tree: spatial splits by record count, directional splits and prunings by energy, densities re-expressed on

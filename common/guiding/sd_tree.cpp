@@ -18,7 +18,7 @@ int exponent_of(float value) {
 
 }  // namespace
 
-SdTree initial_tree(const Box3& bounds, float radiance_scale) {
+SdTree initial_tree(const Box3& bounds, float radiance_scale, float bsdf_fraction) {
     SdTree tree;
     if (!bounds.isEmpty()) {
         tree.origin = bounds.min;
@@ -33,6 +33,7 @@ SdTree initial_tree(const Box3& bounds, float radiance_scale) {
     tree.cell_depth.assign(cells, kInitialDepth);
     tree.cell_mass.assign(cells, 1u << (kMassBits - 2 * kInitialDepth));
     tree.quantum_exponent = {quantum_exponent_for(radiance_scale)};
+    tree.bsdf_fraction = {bsdf_fraction};
     return tree;
 }
 

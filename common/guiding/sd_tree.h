@@ -30,6 +30,7 @@ struct SdTree {
     std::vector<std::uint32_t>
         cell_mass;  ///< per cell: probability times 2^kMassBits; a region's cells sum to 2^kMassBits
     std::vector<std::int16_t> quantum_exponent;  ///< per region: records are counted in units of 2^e
+    std::vector<float> bsdf_fraction;  ///< per region: probability of sampling the BSDF rather than the tree, (0, 1]
 
     std::uint32_t region_count() const { return static_cast<std::uint32_t>(quantum_exponent.size()); }
     std::uint32_t cell_count() const { return static_cast<std::uint32_t>(cell_depth.size()); }
@@ -40,8 +41,8 @@ inline constexpr int kMaxDirectionDepth = 16;  ///< cells of 4^-16 of the sphere
 inline constexpr int kMaxSpatialDepth = 60;    ///< 20 halvings of each axis: floats have 24 bits
 
 /// The tree before any pass: one region, directions in 4^4 equal cells, records in units that suit `radiance_scale`
-/// (a typical emitted radiance).
-SdTree initial_tree(const Box3& bounds, float radiance_scale);
+/// (a typical emitted radiance), the BSDF sampled with probability `bsdf_fraction`.
+SdTree initial_tree(const Box3& bounds, float radiance_scale, float bsdf_fraction = 0.5f);
 
 /// A region counts its records in units of 2^e such that a record of average value is 2^15 to 2^16 units: fine
 /// enough that rounding adds nothing measurable, with a cap (2^40 units) 2^24 times the average.

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "common/config/job.h"
 #include "common/guiding/guide.h"
 #include "common/guiding/tree_update.h"
 
@@ -15,7 +16,9 @@ namespace treefarm {
 /// cache.
 class Accumulator {
   public:
-    Accumulator(std::uint32_t pass, const Guide& guide);
+    /// `with_mixture`: records also feed the histograms of mixture.h.
+    Accumulator(std::uint32_t pass, const Guide& guide, DirectionalFilter filter = DirectionalFilter::nearest,
+                bool with_mixture = false);
 
     /// Adds a unit's records and the vertex counts per region. Thread-safe.
     void commit(std::span<const Record> records, std::span<const std::uint32_t> counts, const UpdateCaps& caps);
@@ -26,7 +29,13 @@ class Accumulator {
   private:
     static constexpr std::size_t kStripes = 64;
 
+    void add_record(const Record& record, UpdateCaps& met);
+    void add_quanta(const Record& record, std::uint32_t code, float value, std::uint32_t random, UpdateCaps& met);
+    void add_box(const Record& record, UpdateCaps& met);
+
     const Guide& guide_;
+    const DirectionalFilter filter_;
+    const bool with_mixture_;
     TreeSums sums_;
     std::mutex caps_lock_;
     std::array<std::mutex, kStripes> stripe_locks_;

@@ -8,7 +8,7 @@ namespace treefarm {
 namespace {
 
 constexpr std::uint32_t kMagic = 0x52544654;  // "TFTR"
-constexpr std::uint8_t kVersion = 1;
+constexpr std::uint8_t kVersion = 2;
 /// No tree of 2^31 cells needs more; a claim above it is a broken or hostile message.
 constexpr std::uint64_t kMaxRawBytes = std::uint64_t{1} << 34;
 constexpr int kCompressionLevel = 1;  // fast: a broadcast waits for it
@@ -82,6 +82,7 @@ Bytes encode_tree(const SdTree& tree) {
     out.put(tree.extent);
     write_nodes(out, tree);
     out.put_array(std::span<const std::int16_t>(tree.quantum_exponent));
+    out.put_array(std::span<const float>(tree.bsdf_fraction));
     out.put_array(std::span<const std::uint8_t>(tree.cell_depth));
     for (const std::uint32_t mass : tree.cell_mass)
         out.put_varint(mass);
@@ -133,6 +134,10 @@ SdTree decode_tree(std::span<const std::uint8_t> bytes) {
     if (tree.nodes.size() != node_count) throw FormatError("the spatial tree is malformed");
     tree.quantum_exponent = in.get_array<std::int16_t>();
     if (tree.quantum_exponent.size() != nodes.regions) throw FormatError("a tree's regions do not match its nodes");
+    tree.bsdf_fraction = in.get_array<float>();
+    if (tree.bsdf_fraction.size() != nodes.regions) throw FormatError("a tree's mixtures do not match its regions");
+    for (const float fraction : tree.bsdf_fraction)
+        if (!(fraction > 0.0f && fraction <= 1.0f)) throw FormatError("a region's mixture is out of range");
     tree.cell_depth = in.get_array<std::uint8_t>();
     if (tree.cell_depth.size() > in.remaining()) throw FormatError("a tree's cells are cut short");
     tree.cell_mass.reserve(tree.cell_depth.size());

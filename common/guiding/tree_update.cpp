@@ -10,6 +10,13 @@ namespace {
 constexpr std::uint64_t kMaxSum = std::numeric_limits<std::uint64_t>::max();
 constexpr int kMaxQuantaBits = 40;  // of one contribution; leaves 2^24 capped ones before a cell saturates
 
+/// False where the sum would pass 2^64 - 1 and stays there.
+bool add_saturating(std::uint64_t& sum, std::uint64_t quanta) {
+    const bool fits = quanta <= kMaxSum - sum;
+    sum = fits ? sum + quanta : kMaxSum;
+    return fits;
+}
+
 /// Entries of a sparse list: (distance to the last index, value), both varints; calls `visit(index, value)`.
 template <class Visit>
 void read_sparse(ByteReader& in, std::size_t limit, const char* what, Visit visit) {
@@ -53,29 +60,34 @@ void UpdateCaps::add(const UpdateCaps& other) {
     outside_positions += other.outside_positions;
 }
 
-TreeSums::TreeSums(std::uint32_t pass, std::uint32_t regions, std::uint32_t cells)
-    : pass_(pass), cells_(cells), counts_(regions) {}
+TreeSums::TreeSums(std::uint32_t pass, std::uint32_t regions, std::uint32_t cells, bool with_mixture)
+    : pass_(pass), cells_(cells), counts_(regions), mixture_(with_mixture ? std::size_t{regions} * kMixtureBins : 0) {}
 
 bool TreeSums::add_quanta(std::uint32_t cell, std::uint64_t quanta) {
-    std::uint64_t& sum = cells_[cell];
-    const bool fits = quanta <= kMaxSum - sum;
-    sum = fits ? sum + quanta : kMaxSum;
-    return fits;
+    return add_saturating(cells_[cell], quanta);
+}
+
+bool TreeSums::add_mixture(std::uint32_t region, std::uint8_t bin, std::uint64_t quanta) {
+    return add_saturating(mixture_[std::size_t{region} * kMixtureBins + bin], quanta);
 }
 
 void TreeSums::add(const TreeSums& other) {
-    if (other.pass_ != pass_ || other.cells_.size() != cells_.size() || other.counts_.size() != counts_.size())
+    if (other.pass_ != pass_ || other.cells_.size() != cells_.size() || other.counts_.size() != counts_.size() ||
+        other.mixture_.size() != mixture_.size())
         throw RunError("sums of different trees cannot be added");
     for (std::size_t c = 0; c < cells_.size(); ++c)
         if (!add_quanta(static_cast<std::uint32_t>(c), other.cells_[c])) ++caps_.saturated_cells;
     for (std::size_t r = 0; r < counts_.size(); ++r)
         counts_[r] += other.counts_[r];
+    for (std::size_t m = 0; m < mixture_.size(); ++m)
+        if (!add_saturating(mixture_[m], other.mixture_[m])) ++caps_.saturated_cells;
     caps_.add(other.caps_);
 }
 
 void TreeSums::clear() {
     std::fill(cells_.begin(), cells_.end(), 0);
     std::fill(counts_.begin(), counts_.end(), 0);
+    std::fill(mixture_.begin(), mixture_.end(), 0);
     caps_ = {};
 }
 
@@ -84,20 +96,22 @@ Bytes TreeSums::encode() const {
     out.put_varint(pass_);
     out.put_varint(cells_.size());
     out.put_varint(counts_.size());
+    out.put_varint(mixture_.size());
     out.put_varint(caps_.capped_records);
     out.put_varint(caps_.saturated_cells);
     out.put_varint(caps_.outside_positions);
     write_sparse(out, counts_);
     write_sparse(out, cells_);
+    write_sparse(out, mixture_);
     return out.take();
 }
 
 std::uint64_t TreeSums::merge_encoded(std::span<const std::uint8_t> update) {
     // Two readings: the first only checks, so that a bad message changes nothing.
-    const auto read = [&](auto&& on_count, auto&& on_cell) {
+    const auto read = [&](auto&& on_count, auto&& on_cell, auto&& on_mixture) {
         ByteReader in(update);
         const std::uint64_t pass = in.get_varint(), cells = in.get_varint(), regions = in.get_varint();
-        if (pass != pass_ || cells != cells_.size() || regions != counts_.size())
+        if (in.get_varint() != mixture_.size() || pass != pass_ || cells != cells_.size() || regions != counts_.size())
             throw FormatError("a tree update of pass " + std::to_string(pass) + " with " + std::to_string(cells) +
                               " cells does not fit the tree of pass " + std::to_string(pass_) + " with " +
                               std::to_string(cells_.size()));
@@ -107,16 +121,20 @@ std::uint64_t TreeSums::merge_encoded(std::span<const std::uint8_t> update) {
         caps.outside_positions = in.get_varint();
         read_sparse(in, counts_.size(), "region", on_count);
         read_sparse(in, cells_.size(), "cell", on_cell);
+        read_sparse(in, mixture_.size(), "mixture bin", on_mixture);
         in.expect_end();
         return caps;
     };
     const auto ignore = [](std::uint64_t, std::uint64_t) {};
-    read(ignore, ignore);
+    read(ignore, ignore, ignore);
     std::uint64_t touched = 0;
     const UpdateCaps caps = read([&](std::uint64_t region, std::uint64_t count) { counts_[region] += count; },
                                  [&](std::uint64_t cell, std::uint64_t sum) {
                                      if (!add_quanta(static_cast<std::uint32_t>(cell), sum)) ++caps_.saturated_cells;
                                      ++touched;
+                                 },
+                                 [&](std::uint64_t bin, std::uint64_t sum) {
+                                     if (!add_saturating(mixture_[bin], sum)) ++caps_.saturated_cells;
                                  });
     caps_.add(caps);
     return touched;

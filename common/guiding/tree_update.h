@@ -8,12 +8,17 @@
 
 namespace treefarm {
 
+/// Bins of a region's mixture histogram (mixture.h).
+inline constexpr int kMixtureBins = 16;
+
 /// What a path vertex taught: `value` of radiance arrived from the direction `code`.
 struct Record {
     std::uint32_t region;
     std::uint32_t code;      ///< Z-order code of the direction
     std::uint32_t rounding;  ///< uniform bits of the keyed generator, for stochastic rounding
-    float value;             ///< L / p, >= 0 and finite
+    float value;             ///< L / p (or what else the tree's target is), >= 0 and finite
+    float reflected = 0.0f;  ///< f |cos| L / p, >= 0 and finite: what the mixture learns from
+    std::uint8_t bin = 0;    ///< of the mixture histogram, below kMixtureBins
 };
 
 /// Caps that were met. Nothing is dropped silently: they travel with the update and are reported.
@@ -30,17 +35,21 @@ struct UpdateCaps {
 class TreeSums {
   public:
     TreeSums() = default;
-    TreeSums(std::uint32_t pass, std::uint32_t regions, std::uint32_t cells);
+    /// Mixture histograms only `with_mixture`: they take kMixtureBins more sums per region.
+    TreeSums(std::uint32_t pass, std::uint32_t regions, std::uint32_t cells, bool with_mixture = false);
 
     std::uint32_t pass() const { return pass_; }
     const std::vector<std::uint64_t>& cells() const { return cells_; }
     /// Recorded vertices per region, those without radiance included.
     const std::vector<std::uint64_t>& counts() const { return counts_; }
+    /// Bin b of region r is at r * kMixtureBins + b; empty where no mixture is learned.
+    const std::vector<std::uint64_t>& mixture() const { return mixture_; }
     const UpdateCaps& caps() const { return caps_; }
 
     void add_count(std::uint32_t region, std::uint64_t count) { counts_[region] += count; }
     /// Adds to one cell; false where the sum would pass 2^64 - 1 and stays there (the caller counts it).
     bool add_quanta(std::uint32_t cell, std::uint64_t quanta);
+    bool add_mixture(std::uint32_t region, std::uint8_t bin, std::uint64_t quanta);
     void add_caps(const UpdateCaps& caps) { caps_.add(caps); }
     void add(const TreeSums& other);
     void clear();
@@ -57,6 +66,7 @@ class TreeSums {
     std::uint32_t pass_ = 0;
     std::vector<std::uint64_t> cells_;
     std::vector<std::uint64_t> counts_;
+    std::vector<std::uint64_t> mixture_;
     UpdateCaps caps_;
 };
 

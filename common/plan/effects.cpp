@@ -23,16 +23,6 @@ void tell_forced_off(Effect& after, const Effect& before, const std::vector<Appr
     after.where = before.where;
 }
 
-std::vector<std::string> warnings_of(const Scene& scene, const Job& job) {
-    std::vector<std::string> warnings;
-    const auto lights = std::count_if(scene.emitters.begin(), scene.emitters.end(), is_delta_light);
-    if (lights > 0 && job.integrator.next_event != NextEvent::always)
-        warnings.push_back(std::to_string(lights) +
-                           " point, spot or directional emitters light passes with next event only: set "
-                           "integrator.next_event = \"always\"");
-    return warnings;
-}
-
 }  // namespace
 
 std::vector<Effect> find_effects(const Scene& scene, const Job& job) {
@@ -68,7 +58,6 @@ EffectPlan plan_effects(Scene& scene, const Job& job) {
     plan.triangles = scene.triangle_count();
     plan.kernels = kernels_of(scene, job);
     plan.memory = expected_memory(scene, job);
-    plan.warnings = warnings_of(scene, job);
     return plan;
 }
 

@@ -40,7 +40,7 @@ struct EffectPlan {
     std::vector<Approximation> approximations;
     std::vector<KernelUse> kernels;
     MemoryPlan memory;
-    std::vector<std::string> warnings;  ///< where the image will lack something that the scene has
+    std::vector<std::string> warnings;  ///< what reading the scene had to replace or leave out
 
     const Effect* find(const std::string& name) const;
 };

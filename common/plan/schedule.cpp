@@ -44,6 +44,7 @@ std::vector<PassPlan> plan_passes(const Job& job) {
         pass.next_event = kickstart || job.integrator.next_event == NextEvent::always;
         pass.record = guided && remaining > 0;
         pass.record_weight = kickstart ? 0.5 : 1.0;
+        pass.learn_mixture = pass.record && index > 0 && job.guiding.learn_bsdf_fraction;
         cut_into_units(pass, job.farm.tile_size);
         done += pass.spp;
         passes.push_back(pass);

@@ -15,6 +15,7 @@ struct PassPlan {
     bool next_event = false;            ///< sample emitters directly
     bool record = false;                ///< teach the tree (the last pass does not)
     double record_weight = 1.0;         ///< 0.5 in kick-start passes
+    bool learn_mixture = false;         ///< teach how often to sample the BSDF (needs a tree that guides)
     std::uint32_t blocks_per_unit = 1;  ///< power of two: sample blocks (of 64) in a work unit
     std::uint32_t chunks = 1;           ///< work units along the samples of a pixel
 };

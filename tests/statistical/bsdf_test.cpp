@@ -64,9 +64,14 @@ TEST(BsdfDistribution, ReflectsItsReflectanceAndNoMore) {
     }
 }
 
+const SdTree& trained_tree() {
+    static const SdTree tree = test::random_tree(5, 100000, 2000.0, 3);
+    return tree;
+}
+
 /// A trained tree; its cells are no finer than the grid on which the tests integrate.
 const Guide& trained_guide() {
-    static const Guide guide(test::random_tree(5, 100000, 2000.0, 3));
+    static const Guide guide(trained_tree());
     return guide;
 }
 
@@ -89,12 +94,14 @@ TEST(GuideDistribution, SamplesFollowTheDensity) {
 }
 
 TEST(GuideDistribution, MixtureFollowsItsDensity) {
-    const Guide& guide = trained_guide();
     const PlainDiffuse bsdf = grey(0.5f, false);
     const Frame frame(normalize(Vec3(0.3f, -0.4f, 0.2f)));
     const Vec3 wo = normalize(Vec3(0.1f, 0.5f, 0.9f));
     for (const float fraction : {0.1f, 0.5f, 1.0f}) {
-        const GuidedSampling<PlainDiffuse, true> sampling(bsdf, frame, wo, guide, guide.region_count() / 3, fraction);
+        SdTree weighted = trained_tree();
+        weighted.bsdf_fraction.assign(weighted.region_count(), fraction);
+        const Guide guide(weighted);
+        const GuidedSampling<PlainDiffuse, true> sampling(bsdf, frame, wo, guide, guide.region_count() / 3, true);
         const auto sample = [&](std::uint32_t i, Vec3& d) {
             const ScatterSample s = sampling.sample(draw({8, i, 0}, 0, Stream::scatter), true);
             d = s.world;
@@ -116,7 +123,7 @@ TEST(GuideDistribution, SampleAndDensityOfTheMixtureAgree) {
     const PlainDiffuse bsdf = grey(0.5f, true);
     const Frame frame(normalize(Vec3(-0.3f, 0.4f, -0.8f)));
     const Vec3 wo = normalize(Vec3(0.1f, 0.5f, -0.9f));
-    const GuidedSampling<PlainDiffuse, true> sampling(bsdf, frame, wo, guide, 1, 0.5f);
+    const GuidedSampling<PlainDiffuse, true> sampling(bsdf, frame, wo, guide, 1, true);
     int at_borders = 0;
     for (std::uint32_t i = 0; i < 100000; ++i) {
         const ScatterSample s = sampling.sample(draw({8, i, 0}, 0, Stream::scatter), true);

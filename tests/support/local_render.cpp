@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "common/film/pass_film.h"
+#include "common/guiding/mixture.h"
 #include "common/guiding/splat.h"
 #include "worker/integrator/tile_renderer.h"
 
@@ -32,10 +33,11 @@ LocalRender render_locally(const Scene& scene, const Job& job) {
     LocalRender run;
     run.plans = plan_passes(job);
     const TraceScene trace(scene, job);
-    run.tree = initial_tree(guiding_bounds(scene), 1.0f);
+    run.tree = initial_tree(guiding_bounds(scene), 1.0f, job.guiding.bsdf_fraction);
+    MixtureLearner mixture;
     for (const PassPlan& pass : run.plans) {
         const Guide guide(run.tree);
-        Accumulator accumulator(pass.index, guide);
+        Accumulator accumulator(pass.index, guide, job.guiding.directional_filter, pass.learn_mixture);
         PassFilm film(scene.film.width, scene.film.height, pass.chunks);
         TraceStats stats;
         RecordLog log;
@@ -50,9 +52,14 @@ LocalRender render_locally(const Scene& scene, const Job& job) {
         if (!pass.record) continue;
         RefineReport report;
         const PassPlan& next = run.plans[pass.index + 1];
-        run.tree = refine(
-            run.tree, accumulator.take(),
-            {.spatial_threshold = spatial_split_threshold(job, next), .record_weight = pass.record_weight}, report);
+        RefineSettings settings;
+        settings.spatial_threshold = spatial_split_threshold(job, next);
+        settings.record_weight = pass.record_weight;
+        settings.target = job.guiding.target;
+        const TreeSums sums = accumulator.take();
+        SdTree refined = refine(run.tree, sums, settings, report);
+        if (pass.learn_mixture) mixture.learn(run.tree, sums, report.origins, refined);
+        run.tree = std::move(refined);
     }
     run.image = combine_passes(run.passes, job.guiding.combination, job.guiding.type != GuidingType::none);
     return run;

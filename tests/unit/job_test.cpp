@@ -56,7 +56,17 @@ TEST(Job, WrittenJobReadsBackTheSame) {
     job.scene.lenient = true;
     job.image = {640, 360};
     job.integrator = {"path", 12, 3, NextEvent::kickstart, MisHeuristic::balance, true, true};
-    job.guiding = {GuidingType::none, "paper", 0.1f, 4000, 0.0007f, 1, Combination::fixed};
+    job.guiding.type = GuidingType::none;
+    job.guiding.preset = "paper";
+    job.guiding.bsdf_fraction = 0.1f;
+    job.guiding.learn_bsdf_fraction = false;
+    job.guiding.spatial_filter = SpatialFilter::stochastic;
+    job.guiding.directional_filter = DirectionalFilter::box;
+    job.guiding.target = GuidingTarget::variance;
+    job.guiding.spatial_threshold = 4001;
+    job.guiding.directional_threshold = 0.0007f;
+    job.guiding.spp_unit = 3;
+    job.guiding.combination = Combination::fixed;
     job.budget.spp = 1u << 30;
     job.sampler.seed = 123456789012345678u;
     job.farm = {17, 0.1, 2.25, "sse4.2"};
@@ -179,19 +189,26 @@ TEST(Job, WrongTypesAndRanges) {
 }
 
 TEST(Job, WhatIsNotAvailableSaysSoAndNamesACure) {
-    for (const char* line :
-         {"guiding.type = \"view\"", "guiding.type = \"auto\"", "guiding.bsdf_fraction = \"learned\"",
-          "guiding.spatial_filter = \"stochastic\"", "guiding.spatial_filter = \"box\"",
-          "guiding.directional_filter = \"box\"", "guiding.target = \"variance\"", "guiding.preset = \"thesis\"",
-          "guiding.view_threshold = 3", "budget.seconds = 10", "budget.error = 0.1", "budget.strict = true",
-          "farm.checkpoint_seconds = 60"}) {
+    for (const char* line : {"guiding.type = \"view\"", "guiding.type = \"auto\"", "guiding.spatial_filter = \"box\"",
+                             "guiding.preset = \"thesis\"", "guiding.view_threshold = 3", "budget.seconds = 10",
+                             "budget.error = 0.1", "budget.strict = true", "farm.checkpoint_seconds = 60"}) {
         const std::string message = message_of(line);
         EXPECT_NE(message.find("is not available in this version; "), std::string::npos) << line << " -> " << message;
         EXPECT_NE(message.find("job.toml:1:"), std::string::npos) << message;
     }
-    EXPECT_EQ(message_of("guiding.spatial_filter = \"nearest\"\nguiding.directional_filter = \"nearest\"\n"
-                         "guiding.target = \"radiance\"\n"),
-              "no error");
+}
+
+TEST(Job, TheBsdfFractionIsANumberOrLearned) {
+    Job job = job_of("guiding.bsdf_fraction = \"learned\"\n");
+    EXPECT_TRUE(job.guiding.learn_bsdf_fraction);
+    EXPECT_EQ(job.guiding.bsdf_fraction, 0.5f);
+    job = job_of("guiding.bsdf_fraction = 0.25\n");
+    EXPECT_FALSE(job.guiding.learn_bsdf_fraction);
+    EXPECT_EQ(job.guiding.bsdf_fraction, 0.25f);
+    job = job_of("guiding.bsdf_fraction = \"learned\"\n");
+    EXPECT_TRUE(job_of(write_job(job)).guiding.learn_bsdf_fraction);
+    for (const char* bad : {"0", "1.5", "\"earned\"", "true"})
+        EXPECT_NE(message_of(std::string("guiding.bsdf_fraction = ") + bad), "no error") << bad;
 }
 
 TEST(Job, BrokenTomlHasAPlace) {

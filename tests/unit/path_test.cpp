@@ -83,11 +83,11 @@ TEST(PathRecorder, CarriesRadianceBackwards) {
     log.begin(3);
     recorder.begin_path();
     recorder.add_reflected(Rgb(100.0f));  // next event at the first surface: no direction carries it
-    recorder.add_vertex(0, 11, 0.5f, Rgb(0.5f), 1);
+    recorder.add_vertex(0, 11, 0.5f, Rgb(0.5f), 3, 1);
     recorder.add_emission(Rgb(1.0f));
     recorder.survive(0.5f);
     recorder.add_reflected(Rgb(2.0f));
-    recorder.add_vertex(2, 22, 4.0f, Rgb(0.25f), 2);
+    recorder.add_vertex(2, 22, 4.0f, Rgb(0.25f), 4, 2);
     recorder.add_emission(Rgb(8.0f));
     EXPECT_EQ(recorder.commit({}, log), 2u);
     ASSERT_EQ(log.records.size(), 2u);
@@ -103,8 +103,8 @@ TEST(PathRecorder, CountsVerticesWithoutRadiance) {
     RecordLog log;
     log.begin(1);
     recorder.begin_path();
-    recorder.add_vertex(0, 1, 1.0f, Rgb(1.0f), 1);
-    recorder.add_vertex(0, 2, 1.0f, Rgb(1.0f), 2);
+    recorder.add_vertex(0, 1, 1.0f, Rgb(1.0f), 0, 1);
+    recorder.add_vertex(0, 2, 1.0f, Rgb(1.0f), 0, 2);
     EXPECT_EQ(recorder.commit({}, log), 2u);
     EXPECT_TRUE(log.records.empty());
     EXPECT_EQ(log.counts[0], 2u);
@@ -263,6 +263,22 @@ TEST(Path, KickstartRecordsNextEventToo) {
     EXPECT_GT(kickstart.log.counts[0], always.log.counts[0]);
     EXPECT_GT(kickstart.log.records.size(), always.log.records.size());
     EXPECT_LE(kickstart.log.counts[0], always.log.counts[0] + kickstart.stats.shadow_rays);
+}
+
+TEST(Path, LightsWithoutExtentShineWithoutNextEvent) {
+    // A point light of intensity 1 at height 2 above a grey floor: L = 0.5 / pi * I cos / d^2 below it.
+    Scene scene;
+    test::add_shape(scene, test::quad(Vec3(-9, -9, 0), Vec3(18, 0, 0), Vec3(0, 18, 0)),
+                    test::add_diffuse(scene, Rgb(0.5f)));
+    scene.emitters.push_back({PointEmitter{Vec3(0, 0, 2), Rgb(1.0f)}, {}});
+    scene.camera = test::look_at(Vec3(0, 0, 1), Vec3(0.0f), Vec3(0, 1, 0), 0.01f);
+    test::set_film(scene, 4, 4);
+    for (const NextEvent next_event : {NextEvent::never, NextEvent::kickstart, NextEvent::always}) {
+        Job job = unguided();
+        job.integrator.next_event = next_event;
+        const Rendered r = render(scene, job, one_pass(4, next_event == NextEvent::always));
+        EXPECT_NEAR(r.mean.x, 0.5 / M_PI / 4.0, 1e-5) << static_cast<int>(next_event);
+    }
 }
 
 TEST(Path, VerticesOutsideTheTreeAreCounted) {

@@ -48,7 +48,7 @@ TEST(PlanCommand, TellsWhatASceneAndAJobCallFor) {
 
 TEST(PlanCommand, FollowsSettingsAndDefinitions) {
     const nlohmann::json json =
-        nlohmann::json::parse(plan(box() + " --json --spp 4 -D size=32 --set guiding.type=none").output);
+        nlohmann::json::parse(plan(box() + " --json --spp 1 -D size=32 --set guiding.type=none").output);
     EXPECT_EQ(json["width"], 32);
     EXPECT_EQ(json["passes"], 1);
     for (const auto& effect : json["effects"])

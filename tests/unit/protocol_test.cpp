@@ -37,6 +37,7 @@ PassBegin sample_pass() {
                   .next_event = true,
                   .record = false,
                   .record_weight = 0.5,
+                  .learn_mixture = true,
                   .blocks_per_unit = 2,
                   .chunks = 4};
     begin.tree_bytes = 1234;

@@ -13,6 +13,8 @@ struct ScatterSample {
     Vec3 world{0.0f};
     Rgb f_cos{0.0f};         ///< f |cos|
     float pdf = 0;           ///< per steradian, of the whole mixture; delta: the probability of the lobe
+    float bsdf_pdf = 0;      ///< of the BSDF alone
+    float guide_pdf = 0;     ///< of the tree alone, where it guides
     std::uint32_t code = 0;  ///< Z-order code of the direction, if it was asked for
     bool delta = false;      ///< of a lobe without density, which the guide cannot find
 };
@@ -25,9 +27,13 @@ struct ScatterSample {
 template <class Bsdf, bool kGuided>
 class GuidedSampling {
   public:
+    /// `smooth`: the BSDF has a lobe that the guide can stand in for.
     GuidedSampling(const Bsdf& bsdf, const Frame& frame, const Vec3& wo, const Guide& guide, std::uint32_t region,
-                   float bsdf_fraction)
-        : bsdf_(bsdf), frame_(frame), wo_(wo), guide_(guide), region_(region), bsdf_fraction_(bsdf_fraction) {}
+                   bool smooth)
+        : bsdf_(bsdf), frame_(frame), wo_(wo), guide_(guide), region_(region) {
+        if constexpr (kGuided)
+            if (smooth) bsdf_fraction_ = guide.bsdf_fraction(region);
+    }
 
     /// random[0] chooses BSDF or guide, [1] the BSDF's lobe or the guide's cell, [2] and [3] the place. `need_code`
     /// fills `code`.
@@ -39,14 +45,17 @@ class GuidedSampling {
             s.local = b.wi;
             s.world = frame_.to_world(b.wi);
             s.f_cos = b.f_cos;
-            s.pdf = b.pdf;
+            s.pdf = s.bsdf_pdf = b.pdf;
             if (b.delta) {
                 s.delta = true;
                 if constexpr (kGuided) s.pdf *= bsdf_fraction_;
                 return s;
             }
             if (kGuided || need_code) s.code = direction_to_code(s.world);
-            if constexpr (kGuided) s.pdf = mix(b.pdf, guide_.pdf(region_, s.code));
+            if constexpr (kGuided) {
+                s.guide_pdf = guide_.pdf(region_, s.code);
+                s.pdf = mix(b.pdf, s.guide_pdf);
+            }
         } else {
             const Guide::Sample g = guide_.sample(region_, random[1], random[2], random[3]);
             s.world = g.direction;
@@ -54,7 +63,10 @@ class GuidedSampling {
             s.local = frame_.to_local(g.direction);
             const BsdfValue b = bsdf_.value(wo_, s.local);
             s.f_cos = b.f_cos;
-            if (!is_black(s.f_cos)) s.pdf = mix(b.pdf, g.pdf);
+            if (is_black(s.f_cos)) return s;
+            s.bsdf_pdf = b.pdf;
+            s.guide_pdf = g.pdf;
+            s.pdf = mix(b.pdf, g.pdf);
         }
         return s;
     }
@@ -74,7 +86,7 @@ class GuidedSampling {
     const Vec3& wo_;
     const Guide& guide_;
     std::uint32_t region_;
-    float bsdf_fraction_;
+    float bsdf_fraction_ = 1.0f;
 };
 
 }  // namespace treefarm

@@ -2,6 +2,7 @@
 
 #include "common/config/job.h"
 #include "common/film/trace_stats.h"
+#include "common/guiding/mixture.h"
 #include "common/plan/schedule.h"
 #include "worker/integrator/guided_sampling.h"
 #include "worker/integrator/mis.h"
@@ -14,22 +15,26 @@ namespace treefarm {
 /// What the walk is told besides the scene: fixed for a pass.
 struct PathSettings {
     int max_depth;
-    bool next_event;  ///< a flag, not a kernel of its own: one predictable branch per vertex
+    bool next_event;   ///< a flag, not a kernel of its own: one predictable branch per vertex
+    bool delta_alone;  ///< no next event, but for the lights that nothing else finds
     MisHeuristic mis;
     bool strict_normals;
     bool hide_emitters;
     bool record_light_samples;  ///< kick-start: what next event finds teaches the tree, too
-    float bsdf_fraction;
+    bool jitter_records;        ///< stochastic spatial filter
+    GuidingTarget target;
     Roulette roulette;
 
     PathSettings(const TraceScene& scene, const Job& job, const PassPlan& pass, const Guide& guide)
         : max_depth(job.integrator.max_depth),
           next_event(pass.next_event && scene.emitters().can_sample()),
+          delta_alone(!pass.next_event && scene.emitters().has_delta_lights()),
           mis(job.integrator.mis),
           strict_normals(job.integrator.strict_normals),
           hide_emitters(job.integrator.hide_emitters),
           record_light_samples(job.integrator.next_event == NextEvent::kickstart && pass.next_event),
-          bsdf_fraction(job.guiding.bsdf_fraction),
+          jitter_records(job.guiding.spatial_filter == SpatialFilter::stochastic),
+          target(job.guiding.target),
           roulette(job.guiding.type == GuidingType::none ? Roulette::Rule::unguided
                    : guide.trained()                     ? Roulette::Rule::trained
                                                          : Roulette::Rule::untrained,
@@ -54,7 +59,12 @@ template <class Surface, bool kGuided, bool kRecord, class Observer = NoObserver
 class PathKernel {
   public:
     PathKernel(const TraceScene& scene, const Guide& guide, const PathSettings& settings, TraceStats& stats)
-        : scene_(scene), guide_(guide), settings_(settings), stats_(stats), scratch_(Surface::make_scratch(scene)) {}
+        : scene_(scene),
+          guide_(guide),
+          settings_(settings),
+          stats_(stats),
+          scratch_(Surface::make_scratch(scene)),
+          recorder_(settings.target) {}
 
     /// Radiance along a camera ray. What was learned stays in recorder() until it is committed or the next path begins.
     Rgb trace(const PathKey& path, Ray ray) {
@@ -111,9 +121,9 @@ class PathKernel {
                     if (!guide_.contains(hit.p)) recorder_.add_outside();
             }
             const GuidedSampling<Bsdf, kGuided> sampling(surface.bsdf(), surface.frame(), surface.wo(), guide_, region,
-                                                         surface.smooth() ? settings_.bsdf_fraction : 1.0f);
+                                                         surface.smooth());
 
-            if (settings_.next_event && surface.smooth()) {
+            if ((settings_.next_event || settings_.delta_alone) && surface.smooth()) {
                 const Rgb reflected = next_event(path, depth, hit, surface, sampling, region, throughput);
                 radiance += throughput * reflected;
                 if constexpr (kRecord) recorder_.add_reflected(reflected);
@@ -129,10 +139,14 @@ class PathKernel {
             scatter_pdf = s.pdf;
             scatter_point = hit.p;
             if (Surface::kGeneral && s.delta) {
-                if constexpr (kRecord) recorder_.add_delta_vertex(weight);
+                if constexpr (kRecord)
+                    recorder_.add_delta_vertex(weight, surface.smooth() ? region : PathRecorder::kNotRecorded,
+                                               vertex_of(depth));
                 scatter_pdf = std::numeric_limits<float>::infinity();
             } else {
-                if constexpr (kRecord) recorder_.add_vertex(region, s.code, s.pdf, weight, vertex_of(depth));
+                if constexpr (kRecord)
+                    recorder_.add_vertex(record_region(path, depth, hit.p, region, Stream::jitter), s.code, s.pdf,
+                                         weight, mixture_bin(s.bsdf_pdf, s.guide_pdf), vertex_of(depth));
             }
             if constexpr (Surface::kGeneral)
                 if (s.local.z < 0.0f) spread *= surface.eta2();
@@ -148,6 +162,13 @@ class PathKernel {
 
     static std::uint32_t vertex_of(int depth) { return static_cast<std::uint32_t>(depth); }
 
+    /// Where what is learned here goes.
+    std::uint32_t record_region(const PathKey& path, int depth, const Vec3& p, std::uint32_t region,
+                                Stream jitter) const {
+        return settings_.jitter_records ? guide_.jittered_region(p, region, draw(path, vertex_of(depth), jitter))
+                                        : region;
+    }
+
     Rgb end(const Rgb& radiance, const char* why) {
         observer_.end(why);
         return radiance;
@@ -156,7 +177,9 @@ class PathKernel {
     /// What a sampled emitter sends via this surface against the incoming ray, weighted against scattering.
     Rgb next_event(const PathKey& path, int depth, const Hit& hit, const Surface& surface,
                    const GuidedSampling<Bsdf, kGuided>& sampling, std::uint32_t region, const Rgb& throughput) {
-        const DirectSample light = scene_.emitters().sample_direct(hit.p, draw(path, vertex_of(depth), Stream::light));
+        const Draw random = draw(path, vertex_of(depth), Stream::light);
+        const DirectSample light = settings_.delta_alone ? scene_.emitters().sample_delta(hit.p, random)
+                                                         : scene_.emitters().sample_direct(hit.p, random);
         if (!(light.pdf > 0.0f) || is_black(light.radiance)) return Rgb(0.0f);
         const Vec3 wi = surface.frame().to_local(light.wi);
         const BsdfValue bsdf = surface.bsdf().value(surface.wo(), wi);
@@ -173,7 +196,8 @@ class PathKernel {
         const float weight = mis_weight(settings_.mis, light.pdf, scatter_pdf);
         const Rgb reflected = bsdf.f_cos * light.radiance * (weight / light.pdf);
         if (record)
-            recorder_.add_light_sample(region, code, average(light.radiance) * weight / light.pdf, vertex_of(depth));
+            recorder_.add_light_sample(record_region(path, depth, hit.p, region, Stream::light_jitter), code,
+                                       average(light.radiance) * weight, light.pdf, vertex_of(depth));
         observer_.next_event(light, scatter_pdf, weight, throughput * reflected);
         return reflected;
     }

@@ -15,20 +15,27 @@ namespace treefarm {
 /// Its memory grows to the longest path and stays.
 class PathRecorder {
   public:
+    explicit PathRecorder(GuidingTarget target = GuidingTarget::radiance) : target_(target) {}
+
     void begin_path() {
         vertices_.clear();
         light_samples_.clear();
         outside_ = 0;
     }
 
-    /// A direction was sampled: region and code of the record, its density, and f |cos| / density.
-    void add_vertex(std::uint32_t region, std::uint32_t code, float pdf, const Rgb& weight, std::uint32_t vertex) {
-        vertices_.push_back({weight, Rgb(0.0f), Rgb(0.0f), 1.0f, pdf, region, code, vertex});
+    /// A direction was sampled: region and code of the record, its density, f |cos| / density, and the bin of the
+    /// mixture histogram.
+    void add_vertex(std::uint32_t region, std::uint32_t code, float pdf, const Rgb& weight, std::uint8_t bin,
+                    std::uint32_t vertex) {
+        vertices_.push_back({weight, Rgb(0.0f), Rgb(0.0f), 1.0f, pdf, region, code, vertex, bin});
     }
 
-    /// The same of a delta lobe: its direction is no record, but what it carried belongs to the vertices before it.
-    void add_delta_vertex(const Rgb& weight) {
-        vertices_.push_back({weight, Rgb(0.0f), Rgb(0.0f), 1.0f, 0.0f, kNotRecorded, 0, 0});
+    static constexpr std::uint32_t kNotRecorded = 0xffffffffu;
+
+    /// The same of a delta lobe: its direction is no record, but what it carried belongs to the vertices before it, and
+    /// to the mixture of the region where the BSDF has lobes besides; kNotRecorded where it has not.
+    void add_delta_vertex(const Rgb& weight, std::uint32_t region, std::uint32_t vertex) {
+        vertices_.push_back({weight, Rgb(0.0f), Rgb(0.0f), 1.0f, 0.0f, region, 0, vertex, kMixtureBins - 1});
     }
 
     /// Emission that the last sampled direction met, weighted against next event.
@@ -46,9 +53,9 @@ class PathRecorder {
         if (!vertices_.empty()) vertices_.back().survival = probability;
     }
 
-    /// A next-event sample that is a record itself (kick-start passes).
-    void add_light_sample(std::uint32_t region, std::uint32_t code, float value, std::uint32_t vertex) {
-        light_samples_.push_back({region, code, vertex, value});
+    /// A next-event sample that is a record itself (kick-start passes): weighted radiance and density.
+    void add_light_sample(std::uint32_t region, std::uint32_t code, float radiance, float pdf, std::uint32_t vertex) {
+        light_samples_.push_back({region, code, vertex, radiance, pdf});
     }
 
     void add_outside() { ++outside_; }
@@ -60,41 +67,57 @@ class PathRecorder {
         for (std::size_t i = vertices_.size(); i-- > 0;) {
             const Vertex& v = vertices_[i];
             carried = v.emission + (v.reflected + carried) * (1.0f / v.survival);
-            if (v.region != kNotRecorded) {
+            const Rgb arriving = carried;
+            carried *= v.weight;
+            if (v.region == kNotRecorded) continue;
+            const float reflected = finite(average(carried));
+            if (v.pdf > 0.0f) {
                 ++recorded;
                 ++log.counts[v.region];
-                append(path, {v.region, v.code, v.vertex, average(carried) / v.pdf}, Stream::rounding, log);
+                const float value = target_value(average(arriving), v.pdf);
+                append(path, v.vertex, Stream::rounding, {v.region, v.code, 0, value, reflected, v.bin}, log);
+            } else {  // a delta lobe of a BSDF that has others: it only teaches how often to sample the BSDF
+                append(path, v.vertex, Stream::rounding, {v.region, 0, 0, 0.0f, reflected, v.bin}, log);
             }
-            carried *= v.weight;
         }
         for (const LightSample& s : light_samples_) {
             ++log.counts[s.region];
-            append(path, s, Stream::light_rounding, log);
+            append(path, s.vertex, Stream::light_rounding,
+                   {s.region, s.code, 0, target_value(s.radiance, s.pdf), 0.0f, 0}, log);
         }
         log.caps.outside_positions += outside_;
         return recorded;
     }
 
   private:
-    static constexpr std::uint32_t kNotRecorded = 0xffffffffu;
-
     struct Vertex {
         Rgb weight, emission, reflected;
         float survival, pdf;
         std::uint32_t region, code, vertex;
+        std::uint8_t bin;
     };
     struct LightSample {
         std::uint32_t region, code, vertex;
-        float value;
+        float radiance, pdf;
     };
 
-    static void append(const PathKey& path, const LightSample& s, Stream rounding, RecordLog& log) {
-        if (!(s.value > 0.0f)) return;
-        // A value beyond float becomes the largest one: the sums cap it, and count that.
-        const float value = std::min(s.value, std::numeric_limits<float>::max());
-        log.records.push_back({s.region, s.code, draw(path, s.vertex, rounding)[0], value});
+    /// A value beyond float becomes the largest one: the sums cap it, and count that.
+    static float finite(float value) { return std::min(value, std::numeric_limits<float>::max()); }
+
+    /// L / p, or L^2 / p for the second moment.
+    float target_value(float radiance, float pdf) const {
+        return finite(target_ == GuidingTarget::variance ? radiance * (radiance / pdf) : radiance / pdf);
     }
 
+    static void append(const PathKey& path, std::uint32_t vertex, Stream rounding, Record record, RecordLog& log) {
+        if (!(record.value > 0.0f)) record.value = 0.0f;  // also NaN
+        if (!(record.reflected > 0.0f)) record.reflected = 0.0f;
+        if (record.value == 0.0f && record.reflected == 0.0f) return;
+        record.rounding = draw(path, vertex, rounding)[0];
+        log.records.push_back(record);
+    }
+
+    GuidingTarget target_;
     std::vector<Vertex> vertices_;
     std::vector<LightSample> light_samples_;
     std::uint64_t outside_ = 0;

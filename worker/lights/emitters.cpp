@@ -54,6 +54,8 @@ void Emitters::select(std::vector<double> power) {
     const double least = shining > 0 ? 1e-3 * total / static_cast<double>(shining) : 0.0;
     for (double& p : power)
         if (p > 0) p = std::max(p, least);
+    const auto first_delta = power.begin() + static_cast<std::ptrdiff_t>(area_lights_.size());
+    delta_alone_ = DiscreteTable(std::span<const double>(first_delta, delta_lights_.size()));
     selection_ = DiscreteTable(power);
     std::uint32_t next = 0;
     for (AreaLight& light : area_lights_)
@@ -105,6 +107,12 @@ DirectSample Emitters::sample_direct(const Vec3& p, const Draw& random) const {
     const std::uint32_t chosen = selection_.pick(random[0]);
     if (chosen < area_lights_.size() && area_lights_[chosen].plain) return sample_mesh(area_lights_[chosen], p, random);
     return sample_other(chosen, p, random);
+}
+
+DirectSample Emitters::sample_delta(const Vec3& p, const Draw& random) const {
+    if (delta_alone_.empty()) return {};
+    const std::uint32_t chosen = delta_alone_.pick(random[0]);
+    return delta_lights_[chosen].sample(p, delta_alone_.probability(chosen));
 }
 
 DirectSample Emitters::sample_other(std::uint32_t chosen, const Vec3& p, const Draw& random) const {

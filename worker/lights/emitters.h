@@ -32,6 +32,11 @@ class Emitters {
     /// environment's image [1] and [2] the texels, [3] the place between them.
     DirectSample sample_direct(const Vec3& p, const Draw& random) const;
 
+    /// Point, spot and directional lights, which nothing but sampling them finds.
+    bool has_delta_lights() const { return !delta_lights_.empty(); }
+    /// The same as sample_direct, of these alone.
+    DirectSample sample_delta(const Vec3& p, const Draw& random) const;
+
     /// Density per steradian with which sample_direct(p) finds `hit` along the unit direction wi; 0 if it never does.
     float pdf_direct(const Vec3& p, const Vec3& wi, const Hit& hit) const;
 
@@ -96,6 +101,7 @@ class Emitters {
     std::vector<std::int32_t> light_of_shape_;
     std::vector<DeltaLight> delta_lights_;
     std::vector<float> delta_selection_;  ///< probability that each is chosen
+    DiscreteTable delta_alone_;           ///< over delta lights
     DiscreteTable selection_;             ///< over area lights, delta lights, the constant environment, the image
     Rgb constant_{0.0f};
     float constant_pdf_ = 0;

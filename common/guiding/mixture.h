@@ -1,0 +1,48 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "common/guiding/refine.h"
+#include "common/guiding/tree_update.h"
+
+namespace treefarm {
+
+/// How often to sample the BSDF rather than the tree, learned per region from histograms that merge exactly, once per
+/// pass, instead of by an optimiser's step per record (docs/guiding.md, "mixture").
+///
+/// A direction is drawn from p_s = a p_B + (1 - a) p_T. With r = p_B / (p_B + p_T), bin b of the histogram collects
+/// H_b = sum of f |cos| L / p_s over the directions whose r falls into it. Its expectation is the integral of f |cos| L
+/// there, whatever a was, so histograms of passes, regions and workers add up.
+
+/// Bin of a direction with these densities (per steradian, not both zero).
+inline std::uint8_t mixture_bin(float bsdf_pdf, float tree_pdf) {
+    const float place = bsdf_pdf / (bsdf_pdf + tree_pdf) * static_cast<float>(kMixtureBins);
+    if (!(place > 0.0f)) return 0;  // also NaN
+    return static_cast<std::uint8_t>(place < static_cast<float>(kMixtureBins) ? place : kMixtureBins - 1);
+}
+
+using MixtureHistogram = std::array<double, kMixtureBins>;
+
+/// Never 0: where the tree has seen nothing the BSDF alone reaches everything.
+inline constexpr double kLeastBsdfFraction = 0.05;
+
+/// Fraction a in [kLeastBsdfFraction, 1] that brings the mixture closest to f |cos| L in Kullback-Leibler divergence:
+/// it maximises sum_b H_b log(a r_b + (1 - a)(1 - r_b)) + prior_weight (prior log a + (1 - prior) log(1 - a)), which is
+/// concave. `prior_weight` is in the units of the histogram.
+double best_bsdf_fraction(const MixtureHistogram& histogram, double prior, double prior_weight);
+
+/// What the coordinator remembers of the mixtures from pass to pass.
+class MixtureLearner {
+  public:
+    /// Sets next.bsdf_fraction from what the pass over `tree` recorded. `origins` says which region of `tree` each of
+    /// `next` came from. Older passes count half as much with each pass; a split region's parts share its histogram.
+    void learn(const SdTree& tree, const TreeSums& sums, std::span<const RegionOrigin> origins, SdTree& next);
+
+  private:
+    std::vector<MixtureHistogram> histograms_;  ///< per region of the coming tree, in radiance, not in quanta
+};
+
+}  // namespace treefarm
