@@ -122,7 +122,7 @@ TEST(Ending, WhenAllWorkersAreKilledTheRunFails) {
     const nlohmann::json summary = read_summary(folder);
     EXPECT_EQ(summary["state"], "failed");
     EXPECT_NE(summary["error"].get<std::string>().find("no worker is left"), std::string::npos);
-    EXPECT_GE(summary["spp"], 4) << "finished passes are kept";
+    EXPECT_GE(summary["spp"], 1) << "finished passes are kept";
     EXPECT_TRUE(std::filesystem::exists(folder / "image.exr"));
 }
 
