@@ -20,4 +20,7 @@ struct TinyPng {
 /// A Radiance HDR file of one row: four bytes (mantissas of r, g, b and the exponent plus 128) per pixel.
 std::string tiny_hdr(const std::vector<std::uint8_t>& rgbe);
 
+/// A baseline JPEG of some pattern; grey for one channel, and from `quality` (1 to 100) 91 on without subsampling.
+std::string tiny_jpeg(int width, int height, int channels, int quality);
+
 }  // namespace treefarm::test
