@@ -10,6 +10,7 @@
 
 #include "common/base/error.h"
 #include "common/image/exr.h"
+#include "common/image/exr_header.h"
 
 namespace treefarm {
 
@@ -103,6 +104,7 @@ bool is_exr_file(const std::filesystem::path& path) {
 
 ExrImage read_exr(const std::filesystem::path& path, const std::function<bool(const std::string&)>& wanted) {
     check_is_exr(path);
+    check_exr_header(path);
     // OpenEXR keeps these limits per process; they are always the same, and checked before it allocates by the header.
     Imf::Header::setMaxImageSize(kMaxImageSide, kMaxImageSide);
     Imf::Header::setMaxTileSize(kMaxImageSide, kMaxImageSide);

@@ -5,7 +5,7 @@
 
 #include "common/base/error.h"
 #include "common/image/atomic_file.h"
-#include "common/image/read_bytes.h"
+#include "common/image/encoded_image.h"
 #include "common/image/stb.h"
 
 namespace treefarm {
@@ -45,15 +45,10 @@ void write_png(const std::filesystem::path& path, const RgbImage& image, float e
 }
 
 Image read_ldr(const std::filesystem::path& path, Encoding encoding) {
-    const std::vector<std::uint8_t> bytes = read_bytes(path, "give a PNG or JPEG file");
-    const auto size = stb::image_size(bytes);
-    if (!size || stb::is_hdr(bytes)) refuse(path, "is neither PNG nor JPEG, or damaged", "convert it to PNG");
-    if (size->width > kMaxImageSide || size->height > kMaxImageSide ||
-        static_cast<std::size_t>(size->width) * static_cast<std::size_t>(size->height) > kMaxImageValues / 4)
-        refuse(path, "claims " + std::to_string(size->width) + " x " + std::to_string(size->height) + " pixels",
-               "reduce its size, or check whether it is damaged");
+    const EncodedImage file = read_encoded_image(path, "give a PNG or JPEG file");
+    if (file.format == ImageFormat::hdr) refuse(path, "is neither PNG nor JPEG", "convert it to PNG");
     std::string why;
-    const auto decoded = stb::decode(bytes, why);
+    const auto decoded = stb::decode(file.bytes, why);
     if (!decoded) refuse(path, "cannot be decoded (" + why + ")", "it is damaged or cut short; save it again");
 
     const int channels = decoded->channels;

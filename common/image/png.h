@@ -6,7 +6,7 @@
 
 namespace treefarm {
 
-/// Writes an 8-bit sRGB PNG (IEC 61966-2-1) of linear colours times `exposure`, clamped to [0, 1]; NaN becomes black.
+/// Writes an 8-bit sRGB PNG of linear colours times `exposure`, clamped to [0, 1]; NaN becomes black.
 /// Atomic. Throws RunError.
 void write_png(const std::filesystem::path& path, const RgbImage& image, float exposure = 1.0f);
 

@@ -14,7 +14,6 @@
 #define STBI_NO_STDIO
 #define STBI_ONLY_PNG
 #define STBI_ONLY_JPEG
-#define STBI_ONLY_HDR
 #include <stb/stb_image.h>
 #define STB_IMAGE_WRITE_STATIC
 #define STB_IMAGE_WRITE_IMPLEMENTATION
@@ -39,10 +38,6 @@ std::optional<Size> image_size(std::span<const std::uint8_t> bytes) {
     if (!stbi_info_from_memory(bytes.data(), static_cast<int>(bytes.size()), &size.width, &size.height, &channels))
         return std::nullopt;
     return size;
-}
-
-bool is_hdr(std::span<const std::uint8_t> bytes) {
-    return stbi_is_hdr_from_memory(bytes.data(), static_cast<int>(bytes.size())) != 0;
 }
 
 std::optional<Decoded> decode(std::span<const std::uint8_t> bytes, std::string& why) {
@@ -78,7 +73,6 @@ std::optional<Stored> decode_as_stored(std::span<const std::uint8_t> bytes, std:
         convert(values.get(), values.get() + count);
         return true;
     };
-    const auto copy_floats = [&](const float* begin, const float* end) { result.floats.assign(begin, end); };
     const auto copy_bytes = [&](const stbi_uc* begin, const stbi_uc* end) { result.bytes.assign(begin, end); };
     const auto scale_words = [&](const stbi_us* begin, const stbi_us* end) {
         result.floats.reserve(static_cast<std::size_t>(end - begin));
@@ -87,10 +81,7 @@ std::optional<Stored> decode_as_stored(std::span<const std::uint8_t> bytes, std:
     };
     int *w = &result.width, *h = &result.height, *n = &result.channels;
     bool done = false;
-    if (is_hdr(bytes)) {
-        result.linear = true;
-        done = take(stbi_loadf_from_memory(bytes.data(), size, w, h, n, 0), copy_floats);
-    } else if (stbi_is_16_bit_from_memory(bytes.data(), size) != 0) {
+    if (stbi_is_16_bit_from_memory(bytes.data(), size) != 0) {
         done = take(stbi_load_16_from_memory(bytes.data(), size, w, h, n, 0), scale_words);
     } else {
         done = take(stbi_load_from_memory(bytes.data(), size, w, h, n, 0), copy_bytes);

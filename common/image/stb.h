@@ -23,15 +23,11 @@ struct Decoded {
 struct Stored {
     int width = 0, height = 0, channels = 0;
     std::vector<std::uint8_t> bytes;  ///< 8-bit files
-    std::vector<float> floats;        ///< 16-bit files as 0 to 1, and Radiance HDR
-    bool linear = false;              ///< Radiance HDR
+    std::vector<float> floats;        ///< 16-bit files as 0 to 1
 };
 
-/// Size that a PNG, JPEG or Radiance HDR file claims; nothing for other formats.
+/// Size that a PNG or JPEG file claims; nothing for other formats.
 std::optional<Size> image_size(std::span<const std::uint8_t> bytes);
-
-/// The bytes begin like a Radiance HDR file.
-bool is_hdr(std::span<const std::uint8_t> bytes);
 
 /// Nothing, and `why`, if it cannot be decoded.
 std::optional<Decoded> decode(std::span<const std::uint8_t> bytes, std::string& why);

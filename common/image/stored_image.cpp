@@ -1,12 +1,11 @@
 #include "common/image/stored_image.h"
 
-#include <algorithm>
-#include <array>
 #include <cstring>
 
 #include "common/base/error.h"
+#include "common/image/encoded_image.h"
 #include "common/image/exr.h"
-#include "common/image/read_bytes.h"
+#include "common/image/hdr.h"
 #include "common/image/stb.h"
 
 namespace treefarm {
@@ -22,7 +21,7 @@ std::uint32_t big_endian(const std::uint8_t* p) {
     return std::uint32_t{p[0]} << 24 | std::uint32_t{p[1]} << 16 | std::uint32_t{p[2]} << 8 | std::uint32_t{p[3]};
 }
 
-/// The exponent of the chunk gAMA, or 0 where there is none or sRGB overrides it (PNG specification, 11.3.2).
+/// The exponent of the chunk gAMA, or 0 where there is none or the chunk sRGB overrides it, as in Mitsuba 0.6.
 double png_gamma(std::span<const std::uint8_t> bytes) {
     double gamma = 0.0;
     std::size_t at = 8;
@@ -44,26 +43,26 @@ std::vector<std::string> channel_names(int count) {
     return names;
 }
 
-StoredImage read_with_stb(const std::filesystem::path& path) {
-    const std::vector<std::uint8_t> bytes = read_bytes(path, kCure);
-    const auto size = stb::image_size(bytes);
-    if (!size) refuse(path, "is neither PNG, JPEG, OpenEXR nor Radiance HDR, or damaged", kCure);
-    if (size->width > kMaxImageSide || size->height > kMaxImageSide ||
-        static_cast<std::size_t>(size->width) * static_cast<std::size_t>(size->height) > kMaxImageValues / 4)
-        refuse(path, "claims " + std::to_string(size->width) + " x " + std::to_string(size->height) + " pixels",
-               "reduce its size, or check whether it is damaged");
-    std::string why;
-    auto pixels = stb::decode_as_stored(bytes, why);
-    if (!pixels) refuse(path, "cannot be decoded (" + why + ")", "it is damaged or cut short; save it again");
+StoredImage read_encoded(const std::filesystem::path& path) {
+    const EncodedImage file = read_encoded_image(path, kCure);
     StoredImage image;
-    image.width = pixels->width;
-    image.height = pixels->height;
-    image.channels = channel_names(pixels->channels);
-    image.bytes = std::move(pixels->bytes);
-    image.floats = std::move(pixels->floats);
-    image.integers = !pixels->linear;
-    constexpr std::array<std::uint8_t, 4> kPng = {0x89, 'P', 'N', 'G'};
-    if (bytes.size() > 8 && std::equal(kPng.begin(), kPng.end(), bytes.begin())) image.gamma = png_gamma(bytes);
+    image.width = file.width;
+    image.height = file.height;
+    std::string why;
+    if (file.format == ImageFormat::hdr) {
+        auto floats = decode_hdr(file.bytes, {file.width, file.height, file.data_begin}, why);
+        if (floats) {
+            image.channels = channel_names(3);
+            image.floats = std::move(*floats);
+        }
+    } else if (auto pixels = stb::decode_as_stored(file.bytes, why)) {
+        image.channels = channel_names(pixels->channels);
+        image.bytes = std::move(pixels->bytes);
+        image.floats = std::move(pixels->floats);
+        image.integers = true;
+        if (file.format == ImageFormat::png) image.gamma = png_gamma(file.bytes);
+    }
+    if (!why.empty()) refuse(path, "cannot be decoded (" + why + ")", "it is damaged or cut short; save it again");
     return image;
 }
 
@@ -92,7 +91,7 @@ StoredImage read_from_exr(const std::filesystem::path& path) {
 }  // namespace
 
 StoredImage read_stored_image(const std::filesystem::path& path) {
-    return is_exr_file(path) ? read_from_exr(path) : read_with_stb(path);
+    return is_exr_file(path) ? read_from_exr(path) : read_encoded(path);
 }
 
 }  // namespace treefarm

@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -24,7 +25,7 @@
 namespace {
 
 /// Inputs are a few kilobytes: whoever wants this much memory at once has believed a count.
-constexpr std::size_t kLargestAllocation = std::size_t{64} << 20;
+constexpr std::size_t kLargestAllocation = std::size_t{128} << 20;
 constexpr unsigned kSecondsPerInput = 20;
 
 /// For the handlers of signals, which can get at nothing else.
@@ -149,9 +150,13 @@ std::string file_bytes(const char* name) {
     return {std::istreambuf_iterator<char>(in), {}};
 }
 
-void* allocate(std::size_t size) {
+void watch(std::size_t size) {
     if (size > kLargestAllocation && current_input)
-        fail("an input makes the program allocate more than 64 MiB at once");
+        fail("an input makes the program allocate more than 128 MiB at once");
+}
+
+void* allocate(std::size_t size) {
+    watch(size);
     void* memory = std::malloc(size > 0 ? size : 1);
     if (!memory) throw std::bad_alloc();
     return memory;
@@ -177,6 +182,34 @@ void operator delete(void* memory, std::size_t) noexcept {
 void operator delete[](void* memory, std::size_t) noexcept {
     std::free(memory);
 }
+
+// What libraries in C allocate is watched too, where no sanitizer has taken these functions for itself.
+#if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+extern "C" {
+void* __libc_malloc(std::size_t size);
+void* __libc_calloc(std::size_t count, std::size_t size);
+void* __libc_realloc(void* memory, std::size_t size);
+void* __libc_memalign(std::size_t alignment, std::size_t size);
+
+void* malloc(std::size_t size) noexcept {
+    watch(size);
+    return __libc_malloc(size);
+}
+void* calloc(std::size_t count, std::size_t size) noexcept {
+    if (size > 0 && count > kLargestAllocation / size) watch(kLargestAllocation + 1);
+    return __libc_calloc(count, size);
+}
+void* realloc(void* memory, std::size_t size) noexcept {
+    watch(size);
+    return __libc_realloc(memory, size);
+}
+int posix_memalign(void** memory, std::size_t alignment, std::size_t size) noexcept {
+    watch(size);
+    *memory = __libc_memalign(alignment, size);
+    return *memory ? 0 : ENOMEM;
+}
+}
+#endif
 
 int main(int count, char** arguments) {
     if (count == 3 && std::strcmp(arguments[1], "--write-seeds") == 0) return write_seeds(arguments[2]);

@@ -17,28 +17,53 @@ std::ostream& operator<<(std::ostream& out, const Hashes& h) {
     return out << "image " << h.image << " tree " << h.tree;
 }
 
-Hashes render(const std::vector<std::string>& launcher, const std::vector<std::string>& options,
-              const std::string& scene = "cornell-box.xml") {
+/// `options` begin with the scene.
+Hashes render_scene(const std::vector<std::string>& launcher, const std::vector<std::string>& options) {
     const auto folder = fresh_folder("same");
-    Program program(launcher +
-                    std::vector<std::string>{TREEFARM_PROGRAM, "render", own_scene(scene), "-D", "size=64", "--spp",
-                                             "60", "--set", "guiding.spatial_threshold=500", "--set",
-                                             "farm.update_seconds=0.05", "--run-dir", folder.string()} +
-                    options);
+    Program program(launcher + std::vector<std::string>{TREEFARM_PROGRAM, "render"} + options +
+                    std::vector<std::string>{"--set", "farm.update_seconds=0.05", "--run-dir", folder.string()});
     const Ending ending = program.wait(240);
     EXPECT_EQ(ending.code, 0) << ending.output;
     const nlohmann::json summary = read_summary(folder);
     EXPECT_EQ(summary["state"], "done") << ending.output;
     if (summary["state"] != "done") return {};
     EXPECT_EQ(summary["farm"]["reissued_units"], 0);
+    EXPECT_GE(summary["passes"].size(), 3u) << "the test must exercise the tree";
     EXPECT_GT(summary["passes"].back()["tree_regions"], 8) << "the test must exercise the tree";
     std::filesystem::remove_all(folder);
     return {summary["image_hash"], summary["tree_hash"]};
 }
 
+Hashes render(const std::vector<std::string>& launcher, const std::vector<std::string>& options) {
+    return render_scene(launcher, std::vector<std::string>{own_scene("cornell-box.xml"), "-D", "size=64", "--spp", "60",
+                                                           "--set", "guiding.spatial_threshold=500"} +
+                                      options);
+}
+
 const Hashes& one_thread() {
     static const Hashes hashes = render({}, {"--threads", "1"});
     return hashes;
+}
+
+/// A scene on a tiny film in one process, and under mpirun with each of these numbers of ranks.
+void expect_same_bits(const std::string& scene, const std::vector<int>& ranks) {
+    const std::vector<std::string> options = {scene,
+                                              "--set",
+                                              "image.width=36",
+                                              "--set",
+                                              "image.height=24",
+                                              "--spp",
+                                              "60",
+                                              "--set",
+                                              "guiding.spatial_threshold=200",
+                                              "--set",
+                                              "farm.tile_size=8",
+                                              "--threads",
+                                              "1"};
+    const Hashes alone = render_scene({}, options);
+    EXPECT_FALSE(alone.image.empty());
+    for (const int count : ranks)
+        EXPECT_EQ(render_scene(mpirun(count), options), alone) << scene << " with " << count << " ranks";
 }
 
 TEST(SameBits, HashesTellImagesApart) {
@@ -78,6 +103,34 @@ TEST(SameBits, Ranks5) {
 
 TEST(SameBits, Ranks3OverTcp) {
     EXPECT_EQ(render(mpirun(3, {"--mca", "btl", "tcp,self"}), {"--threads", "1"}), one_thread());
+}
+
+TEST(SameBitsOfScenes, GlossyRoom) {
+    expect_same_bits(own_scene("glossy-room.xml"), {3});
+}
+
+TEST(SameBitsOfScenes, MixedRoom) {
+    expect_same_bits(own_scene("mixed-room.xml"), {3});
+}
+
+TEST(SameBitsOfScenes, DiffuseRoom) {
+    expect_same_bits(own_scene("diffuse-room.xml"), {3});
+}
+
+TEST(SameBitsOfScenes, Caustic) {
+    expect_same_bits(own_scene("caustic.xml"), {3});
+}
+
+TEST(SameBitsOfScenes, Features) {
+    expect_same_bits(own_scene("features.xml"), {2, 3, 5});
+}
+
+TEST(SameBitsOfScenes, Published) {
+    for (const char* name : {"spaceship/spaceship-small.xml", "kitchen/kitchen-envmap-small.xml"}) {
+        const std::string scene = shared_scene(name);
+        if (scene.empty()) GTEST_SKIP() << "../shared/scenes is absent";
+        expect_same_bits(scene, {3});
+    }
 }
 
 }  // namespace

@@ -2,6 +2,18 @@
 
 #include <cmath>
 
+// stb's writer is the only one of JPEG at hand; its warnings are its own.
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wconversion"
+#pragma GCC diagnostic ignored "-Wsign-conversion"
+#pragma GCC diagnostic ignored "-Wunused-function"
+#pragma GCC diagnostic ignored "-Wmissing-field-initializers"
+#define STB_IMAGE_WRITE_STATIC
+#define STB_IMAGE_WRITE_IMPLEMENTATION
+#define STBI_WRITE_NO_STDIO
+#include <stb/stb_image_write.h>
+#pragma GCC diagnostic pop
+
 namespace treefarm::test {
 namespace {
 
@@ -30,7 +42,7 @@ std::string TinyPng::bytes() const {
         if (bits == 16) rows += static_cast<char>(values[i] >> 8);
         rows += static_cast<char>(values[i] & 0xff);
     }
-    // One stored block (RFC 1951, 3.2.4) between zlib's header and its sum.
+    // One block of deflate that is not compressed, between zlib's header and its sum.
     const auto size = static_cast<std::uint32_t>(rows.size());
     std::string data = "\x78\x01\x01";
     for (const std::uint32_t word : {size, ~size})
@@ -45,6 +57,18 @@ std::string TinyPng::bytes() const {
 std::string tiny_hdr(const std::vector<std::uint8_t>& rgbe) {
     std::string file = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X " + std::to_string(rgbe.size() / 4) + "\n";
     file.append(rgbe.begin(), rgbe.end());
+    return file;
+}
+
+std::string tiny_jpeg(int width, int height, int channels, int quality) {
+    std::vector<std::uint8_t> pixels;
+    for (int i = 0; i < width * height * channels; ++i)
+        pixels.push_back(static_cast<std::uint8_t>(i * 37 + i / 7));
+    std::string file;
+    const auto append = [](void* text, void* data, int size) {
+        static_cast<std::string*>(text)->append(static_cast<const char*>(data), static_cast<std::size_t>(size));
+    };
+    stbi_write_jpg_to_func(append, &file, width, height, channels, pixels.data(), quality);
     return file;
 }
 

@@ -6,7 +6,7 @@
 
 namespace treefarm::test {
 
-/// A PNG as its specification has it, without compression; readers that check sums would refuse it (stb does not).
+/// A PNG without compression; its sums are 0, so readers that check them would refuse it (stb does not).
 struct TinyPng {
     int width = 1, height = 1;
     int channels = 3;                   ///< 1: grey, 2: grey and alpha, 3: RGB, 4: RGBA
@@ -19,5 +19,8 @@ struct TinyPng {
 
 /// A Radiance HDR file of one row: four bytes (mantissas of r, g, b and the exponent plus 128) per pixel.
 std::string tiny_hdr(const std::vector<std::uint8_t>& rgbe);
+
+/// A baseline JPEG of some pattern; grey for one channel, and from `quality` (1 to 100) 91 on without subsampling.
+std::string tiny_jpeg(int width, int height, int channels, int quality);
 
 }  // namespace treefarm::test

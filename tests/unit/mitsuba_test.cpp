@@ -231,7 +231,7 @@ TEST_F(Mitsuba, SharedCornellBox) {
     EXPECT_NEAR(scene.camera.corner.x, std::tan(39.3077 / 2 * M_PI / 180), 1e-5);
     const auto white = std::get<DiffuseMaterial>(scene.materials[1].bsdf).reflectance;
     EXPECT_EQ(scene.materials[1].name, "white");
-    // Integrated independently from the CIE's tables at 1 nm, interpolated as Mitsuba 0.5 does it.
+    // Integrated independently from tables at 1 nm, interpolated as Mitsuba 0.5 does it.
     expect_near(white.value, Vec3(0.885757f, 0.698917f, 0.666394f), 1e-4f);
     expect_near(std::get<DiffuseMaterial>(scene.materials[2].bsdf).reflectance.value,
                 Vec3(0.570062f, 0.043032f, 0.044359f), 1e-4f);

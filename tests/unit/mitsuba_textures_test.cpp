@@ -38,7 +38,7 @@ TEST_F(MitsubaTextures, BytesStayBytesWithTheirDecoding) {
     EXPECT_EQ(image.channels, 3);
     EXPECT_EQ(image.bytes, (std::vector<std::uint8_t>{0, 128, 255, 255, 0, 64}));
     EXPECT_TRUE(image.floats.empty());
-    EXPECT_NEAR(image.decode[128], 0.2158605f, 1e-6f);  // IEC 61966-2-1
+    EXPECT_NEAR(image.decode[128], 0.2158605f, 1e-6f);  // sRGB
     EXPECT_EQ(image.decode[255], 1.0f);
     EXPECT_EQ(std::get<DiffuseMaterial>(s.materials[0].bsdf).reflectance.texture, 0);
     EXPECT_EQ(std::get<DiffuseMaterial>(s.materials[0].bsdf).reflectance.value, Rgb(1.0f));

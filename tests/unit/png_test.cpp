@@ -36,7 +36,7 @@ TEST(Png, SrgbIsItsOwnInverse) {
         const float encoded = static_cast<float>(i) / 255.0f;
         EXPECT_NEAR(srgb_encode(srgb_decode(encoded)), encoded, 1e-6f);
     }
-    EXPECT_NEAR(srgb_decode(0.5f), 0.21404114f, 1e-6f);  // IEC 61966-2-1
+    EXPECT_NEAR(srgb_decode(0.5f), 0.21404114f, 1e-6f);  // ((0.5 + 0.055) / 1.055)^2.4
 }
 
 TEST(Png, WritesSrgbWithExposureAndReadsItBack) {

@@ -33,7 +33,7 @@ TEST(Cie, SumsAndPeaks) {
         y += cie.y[i];
         z += cie.z[i];
     }
-    // The sums of the CIE's tables at 1 nm: equal, for equal energy is white in XYZ.
+    // The sums of tables at 1 nm: equal, for equal energy is white in XYZ.
     EXPECT_NEAR(x, 106.865, 0.02);
     EXPECT_NEAR(y, 106.857, 0.02);
     EXPECT_NEAR(z, 106.892, 0.02);

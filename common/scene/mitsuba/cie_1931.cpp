@@ -8,7 +8,7 @@ namespace {
 constexpr int kCieStep = 5;
 constexpr std::size_t kCieCount = 95;  // 360, 365, ..., 830 nm
 
-// CIE 018:2019 and ISO/CIE 11664-1; D65: ISO/CIE 11664-2.
+// The values at every 5 nm are those of Mitsuba 0.6's table at 1 nm (src/libcore/spectrum.cpp), digit by digit.
 const std::array<double, kCieCount> kBarX = {
     0.0001299,    0.0002321,    0.0004149,    0.0007416,    0.001368,     0.002236,     0.004243,     0.00765,
     0.01431,      0.02319,      0.04351,      0.07763,      0.13438,      0.21477,      0.2839,       0.3285,

@@ -10,7 +10,7 @@ namespace {
 
 using Rgb64 = Imath::Color3<double>;
 
-/// Days since noon of 1 January 2000, universal time (Fliegel and van Flandern's formula for the day number).
+/// Days since noon of 1 January 2000, universal time, by the integer formula in Mitsuba 0.6's sunmodel.h.
 double days_since_2000(const Observation& o, double universal_hours) {
     const int shift = (o.month - 14) / 12;
     const int day_number = 1461 * (o.year + 4800 + shift) / 4 + 367 * (o.month - 2 - 12 * shift) / 12 -
@@ -30,8 +30,9 @@ double chromaticity(const std::array<std::array<double, 4>, 3>& m, double turbid
     return value;
 }
 
-/// The paper's table 2, from 380 to 750 nm at every 10: radiance of the sun outside the atmosphere in W / (m^2 sr nm),
-/// and absorption of ozone and of water vapour, 1/cm. (Mixed gases absorb beyond 750 nm only.)
+/// From 380 to 750 nm at every 10: radiance of the sun outside the atmosphere in W / (m^2 sr nm), from the table
+/// solAmplitudes of Mitsuba 0.6's sunmodel.h, and absorption of ozone and of water vapour, 1/cm, as there and in
+/// github.com/ebruneton/clear-sky-models. (Mixed gases absorb beyond 750 nm only.)
 struct SunSample {
     double radiance, ozone, vapour;
 };

@@ -18,12 +18,12 @@ struct SkyAngles {
     double azimuth = 0.0;  ///< from north over east
 };
 
-/// Where the sun stands, to about half a minute of arc from 1999 to 2015 (Blanco-Muriel et al. 2001, Computing the
-/// solar vector: the PSA algorithm, which Mitsuba uses).
+/// Where the sun stands, as in Mitsuba 0.6's sunmodel.h (computeSunCoordinates), which names Blanco-Muriel et al. 2001
+/// as its source; to half a minute of arc, by Mitsuba's documentation.
 SkyAngles sun_position(const Observation& observation);
 
-/// The clear sky of Preetham, Shirley and Smits 1999 (A practical analytic model for daylight, appendix 2): Perez'
-/// distribution with coefficients that are linear in the turbidity.
+/// The clear sky of Preetham, Shirley and Smits 1999 (A practical analytic model for daylight), by the coefficients in
+/// github.com/ebruneton/clear-sky-models (preetham.cc): Perez' distribution, linear in the turbidity.
 class PreethamSky {
   public:
     /// Turbidity from 1.7 to 10 (below, the model's zenith is no longer bright), the sun above the horizon.
@@ -43,8 +43,8 @@ class PreethamSky {
     Channel luminance_, x_, y_;
 };
 
-/// Radiance of the sun's disk in linear Rec. 709, W / (m^2 sr nm), behind the air of this turbidity (the same paper,
-/// appendix 1).
+/// Radiance of the sun's disk in linear Rec. 709, W / (m^2 sr nm), behind the air of this turbidity (the same
+/// model, as in Mitsuba 0.6's sunmodel.h, computeSunRadiance).
 Imath::Color3<double> preetham_sun(double turbidity, double sun_zenith);
 
 /// Half the angle under which the sun appears, radians (0.5358 degrees across, as in Mitsuba).

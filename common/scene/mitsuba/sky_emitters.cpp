@@ -99,7 +99,7 @@ SkySettings read_settings(Properties& properties, const EnvironmentEmitter& fram
         sky.sky_scale = type == "sunsky" ? number_within(properties, "sky_scale", scale, 0.0, kMost) : scale;
         sky.sun_scale = type == "sunsky" ? number_within(properties, "sun_scale", scale, 0.0, kMost) : scale;
         sky.stretch = number_within(properties, "stretch", 1.0, 1.0, 2.0);
-        sky.resolution = integer_within(properties, "resolution", 512, 4, 16384);
+        sky.resolution = integer_within(properties, "resolution", 512, 4, 4096);
         if (sky.sky) sky.extend = properties.boolean("extend", false);
         if (sky.sun) sky.sun_radius_scale = number_within(properties, "sun_radius_scale", 1.0, 0.0, 100.0);
     }

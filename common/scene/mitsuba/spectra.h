@@ -28,7 +28,7 @@ Imath::Color3<double> spectrum_to_rgb(const SpectrumSamples& samples, bool under
 /// CIE XYZ to linear Rec. 709; channels can be negative.
 Imath::Color3<double> xyz_to_rgb(double x, double y, double z);
 
-/// Linear value of an sRGB channel (IEC 61966-2-1).
+/// Linear value of an sRGB channel.
 double srgb_to_linear(double encoded);
 
 /// The colour of an <rgb>, <srgb>, <spectrum> (value or file) or <blackbody> element, not negative. Wavelength lists

@@ -1,0 +1,101 @@
+#include "common/image/encoded_image.h"
+
+#include <algorithm>
+#include <array>
+#include <span>
+
+#include "common/base/error.h"
+#include "common/image/hdr.h"
+#include "common/image/image.h"
+#include "common/image/read_bytes.h"
+#include "common/image/stb.h"
+
+namespace treefarm {
+namespace {
+
+/// Format and claimed size from the header.
+void read_header(EncodedImage& image, std::string& why) {
+    constexpr std::array<std::uint8_t, 4> kPng = {0x89, 'P', 'N', 'G'};
+    if (is_hdr(image.bytes)) {
+        image.format = ImageFormat::hdr;
+        if (const auto header = read_hdr_header(image.bytes, why)) {
+            image.width = header->width;
+            image.height = header->height;
+            image.data_begin = header->data_begin;
+        }
+    } else if (const auto size = stb::image_size(image.bytes); size && size->width > 0 && size->height > 0) {
+        image.format = std::equal(kPng.begin(), kPng.end(), image.bytes.begin()) ? ImageFormat::png : ImageFormat::jpeg;
+        image.width = size->width;
+        image.height = size->height;
+    } else {
+        why = "is neither PNG nor JPEG nor Radiance HDR nor OpenEXR, damaged, or absurdly large";
+    }
+}
+
+/// An upper bound of the pixels that one byte of a file can stand for.
+std::size_t most_pixels_per_byte(ImageFormat format) {
+    switch (format) {
+        case ImageFormat::png:
+            return 1032 *
+                   8;  // deflate: a match of 258 bytes takes two bits or more; a byte holds eight pixels of a bit
+        case ImageFormat::jpeg:
+            return 1024;  // a block takes a bit or more, and its 8 x 8 values stand for 128 pixels at most on average
+                          // over the planes
+        case ImageFormat::hdr:
+            break;
+    }
+    return 16;  // a run of at most 127 takes two bytes in each of four planes
+}
+
+/// A JPEG file whose scans begin has an end marker after them. Without one it is cut short, and what is missing would
+/// be grey.
+bool is_cut_jpeg(std::span<const std::uint8_t> bytes) {
+    std::size_t at = 2;
+    while (at + 4 <= bytes.size() && bytes[at] == 0xff && bytes[at + 1] != 0xda)
+        at += bytes[at + 1] == 0xff ? 1 : 2 + (std::size_t{bytes[at + 2]} << 8 | bytes[at + 3]);
+    constexpr std::array<std::uint8_t, 2> kEnd = {0xff, 0xd9};
+    const auto begin = bytes.begin() + static_cast<std::ptrdiff_t>(std::min(at, bytes.size()));
+    return std::search(begin, bytes.end(), kEnd.begin(), kEnd.end()) == bytes.end();
+}
+
+/// A chunk of a PNG file reaches beyond the file's end (stb would allocate for it first), or the last one is missing.
+bool is_cut_png(std::span<const std::uint8_t> bytes) {
+    constexpr std::array<std::uint8_t, 4> kEnd = {'I', 'E', 'N', 'D'};
+    std::size_t at = 8;
+    while (at + 8 <= bytes.size()) {
+        std::size_t length = 0;
+        for (std::size_t i = 0; i < 4; ++i)
+            length = length << 8 | bytes[at + i];
+        if (length > bytes.size() - at - 8) return true;
+        if (std::equal(kEnd.begin(), kEnd.end(), bytes.begin() + static_cast<std::ptrdiff_t>(at) + 4)) return false;
+        at += length + 12;
+    }
+    return true;
+}
+
+}  // namespace
+
+EncodedImage read_encoded_image(const std::filesystem::path& path, const std::string& cure) {
+    const auto refuse = [&](const std::string& what, const std::string& advice) {
+        throw InputError(Location{path.string()}, what, advice);
+    };
+    EncodedImage image;
+    image.bytes = read_bytes(path, cure);
+    std::string why;
+    read_header(image, why);
+    if (!why.empty()) refuse(image.format == ImageFormat::hdr ? "cannot be decoded (" + why + ")" : why, cure);
+    const std::string claim =
+        "claims " + std::to_string(image.width) + " x " + std::to_string(image.height) + " pixels";
+    const std::size_t pixels = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
+    if (image.width > kMaxImageSide || image.height > kMaxImageSide || pixels > kMaxImageValues / 4)
+        refuse(claim, "reduce its size, or check whether it is damaged");
+    if (pixels / most_pixels_per_byte(image.format) > image.bytes.size())
+        refuse(claim + ", which its " + std::to_string(image.bytes.size()) + " bytes cannot hold",
+               "it is damaged or cut short; save it again");
+    if ((image.format == ImageFormat::jpeg && is_cut_jpeg(image.bytes)) ||
+        (image.format == ImageFormat::png && is_cut_png(image.bytes)))
+        refuse("is cut short: its end is missing", "copy or save it again");
+    return image;
+}
+
+}  // namespace treefarm

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace treefarm {
+
+/// Radiance HDR files (RGBE: three mantissas and an exponent per pixel). The decoder is our own: stb's never ends on a
+/// scan line that is cut short.
+struct HdrHeader {
+    int width = 0, height = 0;   ///< pixels, both above 0
+    std::size_t data_begin = 0;  ///< offset of the first pixel
+};
+
+/// The bytes begin like a Radiance HDR file.
+bool is_hdr(std::span<const std::uint8_t> bytes);
+
+/// Nothing, and `why`, for other formats, colours in XYZ, and rows that do not run from the top and from the left.
+std::optional<HdrHeader> read_hdr_header(std::span<const std::uint8_t> bytes, std::string& why);
+
+/// Linear R, G, B of each pixel (mantissa x 2^(exponent - 136)), rows from the top; flat or run-length encoded line by
+/// line. Nothing, and `why`, if the pixels are cut short or malformed.
+std::optional<std::vector<float>> decode_hdr(std::span<const std::uint8_t> bytes, const HdrHeader& header,
+                                             std::string& why);
+
+}  // namespace treefarm

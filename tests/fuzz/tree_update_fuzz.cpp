@@ -1,0 +1,70 @@
+#include <cstdlib>
+
+#include "common/guiding/splat.h"
+#include "tests/fuzz/fuzz.h"
+#include "tests/support/random_tree.h"
+
+using namespace treefarm;
+
+namespace {
+
+const SdTree& small_tree() {
+    static const SdTree tree = test::random_tree(2, 2000, 500, 1);
+    return tree;
+}
+
+TreeSums empty_sums() {
+    return {small_tree().pass, small_tree().region_count(), small_tree().cell_count()};
+}
+
+void merge(std::span<const std::uint8_t> bytes) {
+    TreeSums sums = empty_sums();
+    try {
+        sums.merge_encoded(bytes);
+        TreeSums again = empty_sums();
+        again.merge_encoded(sums.encode());
+        if (again != sums) std::abort();
+    } catch (const FormatError&) {
+        if (sums != empty_sums()) std::abort();  // a bad update changes nothing
+    }
+}
+
+void decode(std::span<const std::uint8_t> bytes) {
+    try {
+        const SdTree tree = decode_tree(bytes);
+        const Bytes form = encode_tree(tree);
+        if (encode_tree(decode_tree(form)) != form) std::abort();
+        // What was read can be walked and sampled.
+        const Guide guide(tree);
+        for (const float at : {0.0f, 0.3f, 1.0f})
+            if (guide.region(tree.origin + Vec3(at * tree.extent)) >= tree.region_count()) std::abort();
+    } catch (const FormatError&) {
+    }
+}
+
+}  // namespace
+
+/// 'u': an update of a certain tree follows; 't': a tree.
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    if (size == 0) return 0;
+    const std::span<const std::uint8_t> rest(data + 1, size - 1);
+    if (data[0] == 'u') merge(rest);
+    if (data[0] == 't') decode(rest);
+    return 0;
+}
+
+std::vector<std::string> fuzz::seeds() {
+    const Guide guide(small_tree());
+    const auto text = [](char kind, const Bytes& bytes) {
+        return std::string(1, kind) + std::string(bytes.begin(), bytes.end());
+    };
+    const auto update = [&](std::size_t count) {
+        std::vector<Record> records = test::random_records(guide, count, 5);
+        std::vector<std::uint32_t> counts(guide.region_count(), 1);
+        Accumulator accumulator(small_tree().pass, guide);
+        accumulator.commit(records, counts, {1, 2, 3});
+        return accumulator.take().encode();
+    };
+    return {text('u', update(20)), text('u', empty_sums().encode()), text('t', encode_tree(small_tree())),
+            text('t', encode_tree(initial_tree(Box3(Vec3(-1.0f), Vec3(1.0f)), 1.0f)))};
+}

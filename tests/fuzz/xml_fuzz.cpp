@@ -1,0 +1,68 @@
+#include <unistd.h>
+
+#include <cstdlib>
+#include <fstream>
+
+#include "common/image/exr.h"
+#include "common/scene/mitsuba/read_mitsuba.h"
+#include "common/scene/scene_codec.h"
+#include "tests/fuzz/fuzz.h"
+#include "tests/fuzz/xml_seeds.h"
+#include "tests/support/mesh_bytes.h"
+#include "tests/support/tiny_images.h"
+
+using namespace treefarm;
+
+namespace {
+
+/// A folder with the files that the seeds name; it is removed when the program ends.
+class SceneFolder {
+  public:
+    SceneFolder() : path_(std::filesystem::temp_directory_path() / ("treefarm_fuzz_" + std::to_string(getpid()))) {
+        std::filesystem::create_directories(path_);
+        write("part.xml", fuzz::kIncludedPart);
+        write("t.png", test::TinyPng{2, 2, 3, 8, {1, 50, 100, 150, 200, 250, 30, 60, 90, 120, 180, 240}, 0.0}.bytes());
+        write("m.ply", test::binary_ply(test::tetrahedron(), false));
+        write("m.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n");
+        write("m.serialized",
+              test::serialized_file({test::serialized_payload(test::tetrahedron(), 4, false, true)}, 4));
+        write("s.spd", "# nm value\n400 0.2\n550 0.4\n700 0.6\n");
+        write("e.hdr", test::tiny_hdr({128, 64, 32, 129, 1, 2, 3, 120}));
+        Image image{4, 2, {}, {}};
+        add_rgb_layer(image, "", RgbImage(4, 2, Rgb(1.0f, 2.0f, 3.0f)));
+        write_exr(path_ / "e.exr", image);
+    }
+    ~SceneFolder() {
+        std::error_code ignored;
+        std::filesystem::remove_all(path_, ignored);
+    }
+
+    std::filesystem::path write(const std::string& name, const std::string& bytes) const {
+        std::ofstream(path_ / name, std::ios::binary) << bytes;
+        return path_ / name;
+    }
+
+  private:
+    std::filesystem::path path_;
+};
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    static const SceneFolder folder;
+    const std::filesystem::path file = folder.write("scene.xml", std::string(data, data + size));
+    for (const bool lenient : {true, false}) {
+        try {
+            const SceneReading reading = read_mitsuba(file, {}, lenient);
+            const Bytes bytes = encode_scene(reading.scene);
+            if (encode_scene(decode_scene(bytes)) != bytes) std::abort();
+        } catch (const InputError&) {
+            if (lenient) break;  // what is malformed is so either way
+        }
+    }
+    return 0;
+}
+
+std::vector<std::string> fuzz::seeds() {
+    return xml_seeds();
+}
