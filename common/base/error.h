@@ -13,6 +13,7 @@ struct Location {
 
     /// "file:line:col", leaving out what is unknown.
     std::string text() const;
+    bool operator==(const Location&) const = default;
 };
 
 /// Bad usage or bad input: the program ends with exit code 2. The message is one line, "file:line:col: what, why, what

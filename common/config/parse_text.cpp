@@ -104,9 +104,21 @@ std::string nearest_word(std::string_view word, std::span<const std::string> can
     return best;
 }
 
+std::string did_you_mean(std::string_view word, std::span<const std::string_view> candidates,
+                         const std::string& otherwise) {
+    const std::vector<std::string> words(candidates.begin(), candidates.end());
+    const std::string nearest = nearest_word(word, words);
+    return nearest.empty() ? otherwise : "did you mean " + in_quotes(nearest) + "? Otherwise " + otherwise;
+}
+
 std::string in_quotes(std::string_view text) {
     constexpr std::size_t kLongest = 60;
     return "\"" + one_line(text.substr(0, kLongest)) + (text.size() > kLongest ? "...\"" : "\"");
+}
+
+std::string path_in_quotes(std::string_view path) {
+    constexpr std::size_t kLongest = 1000;
+    return "\"" + one_line(path.substr(0, kLongest)) + (path.size() > kLongest ? "...\"" : "\"");
 }
 
 std::string one_line(std::string_view text) {

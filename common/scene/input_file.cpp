@@ -15,12 +15,12 @@ std::uintmax_t input_file_size(const std::filesystem::path& path, const Location
     std::error_code error;
     const std::string file = path.string();
     if (!std::filesystem::exists(path, error))
-        throw InputError(asked_from, "there is no file " + in_quotes(file), "check the path");
+        throw InputError(asked_from, "there is no file " + path_in_quotes(file), "check the path");
     if (!std::filesystem::is_regular_file(path, error))
-        throw InputError(asked_from, in_quotes(file) + " is not a file", "check the path");
+        throw InputError(asked_from, path_in_quotes(file) + " is not a file", "check the path");
     const std::uintmax_t size = std::filesystem::file_size(path, error);
     if (error || size > kMaxFileBytes)
-        throw InputError(asked_from, in_quotes(file) + " has more than 8 GiB", "split it");
+        throw InputError(asked_from, path_in_quotes(file) + " has more than 8 GiB", "split it");
     return size;
 }
 
@@ -30,7 +30,7 @@ std::string read_input_file(const std::filesystem::path& path, const Location& a
     std::ifstream in(path, std::ios::binary);
     in.read(text.data(), static_cast<std::streamsize>(size));
     if (!in || in.gcount() != static_cast<std::streamsize>(size))
-        throw InputError(asked_from, in_quotes(path.string()) + " cannot be read", "check its permissions");
+        throw InputError(asked_from, path_in_quotes(path.string()) + " cannot be read", "check its permissions");
     return text;
 }
 

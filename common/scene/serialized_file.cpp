@@ -167,7 +167,7 @@ Mesh parse_serialized(std::istream& in, std::uint64_t size, std::int64_t index, 
 Mesh read_serialized(const std::filesystem::path& path, std::int64_t index, const Location& asked_from) {
     const std::uint64_t size = input_file_size(path, asked_from);
     std::ifstream in(path, std::ios::binary);
-    if (!in) throw InputError(asked_from, in_quotes(path.string()) + " cannot be read", "check its permissions");
+    if (!in) throw InputError(asked_from, path_in_quotes(path.string()) + " cannot be read", "check its permissions");
     return parse(in, size, index, path.string(), asked_from);
 }
 

@@ -16,7 +16,7 @@ class Diagnostics {
     /// Throws InputError, or, when lenient, warns that `instead` is done ("it is skipped") and returns.
     void unsupported(const Location& where, const std::string& what, const std::string& cure,
                      const std::string& instead = "it is skipped") {
-        if (!lenient_) throw InputError(where, what, cure);
+        if (!lenient_) throw InputError(where, what, cure + " (with --lenient " + instead + ")");
         warn(where, what + ": " + instead);
     }
 

@@ -8,6 +8,8 @@
 namespace treefarm::mitsuba {
 namespace {
 
+constexpr std::string_view kEmitters[] = {"point", "spot", "directional", "constant", "envmap", "sky", "sun", "sunsky"};
+
 /// How often emitters are chosen does not change the image.
 void ignore_sampling(Properties& properties) {
     properties.ignore({"sampling_weight", "mis_compensation"});
@@ -123,6 +125,14 @@ void read_emitter(const XmlElement& emitter, Scene& scene, TextureReader& textur
                   Diagnostics& diagnostics) {
     Properties properties(emitter, document, diagnostics);
     const std::string type = properties.type();
+    if (type == "area") {
+        // Shapes refer to it, and were read before.
+        for (const Emitter& known : scene.emitters)
+            if (known.where == emitter.where) return;
+        diagnostics.unsupported(emitter.where, "the area emitter belongs to no shape",
+                                "put it, or a <ref> to its id, into a <shape>");
+        return;
+    }
     const std::size_t first = scene.emitters.size();
     const bool had_environment = scene.environment() != kNone;
     const auto add = [&](auto kind) { scene.emitters.push_back({std::move(kind), emitter.where}); };
@@ -141,7 +151,8 @@ void read_emitter(const XmlElement& emitter, Scene& scene, TextureReader& textur
     } else {
         diagnostics.unsupported(
             emitter.where, properties.title() + " is not available in this version",
-            "use point, spot, directional, constant, envmap, sky, sun or sunsky, or area in shapes");
+            did_you_mean(type, kEmitters,
+                         "use point, spot, directional, constant, envmap, sky, sun or sunsky, or area in shapes"));
         return;
     }
     ignore_sampling(properties);

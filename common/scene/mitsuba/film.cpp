@@ -5,6 +5,9 @@
 namespace treefarm::mitsuba {
 namespace {
 
+constexpr std::string_view kFilms[] = {"hdrfilm", "ldrfilm"};
+constexpr std::string_view kFilters[] = {"box", "tent", "gaussian"};
+
 void use_gaussian(Film& film, double stddev) {
     film.filter = PixelFilter::gaussian;
     film.filter_stddev = static_cast<float>(stddev);
@@ -31,28 +34,29 @@ void read_filter(const XmlElement& element, Film& film, const SceneDocument& doc
         use_gaussian(film, check_size("stddev", properties.number("stddev", 0.5)));
     } else {
         diagnostics.unsupported(element.where, "the filter " + in_quotes(type) + " is not available in this version",
-                                "use box, tent or gaussian", "a Gaussian is used");
+                                did_you_mean(type, kFilters, "use box, tent or gaussian"), "a Gaussian is used");
         use_gaussian(film, 0.5);
         return;
     }
     properties.finish();
 }
 
-int read_pixels(Properties& properties, const char* name, int otherwise, int wanted) {
+int read_pixels(Properties& properties, const char* name, int otherwise) {
     const std::int64_t pixels = properties.integer(name, otherwise);
     if (pixels < 1 || pixels > 65535)
         throw InputError(properties.where(name),
                          "the film's " + std::string(name) + " is " + std::to_string(pixels) + " pixels",
                          "give 1 to 65535");
-    return wanted > 0 ? wanted : static_cast<int>(pixels);
+    return static_cast<int>(pixels);
 }
 
-void refuse_crop(Properties& properties, Diagnostics& diagnostics) {
-    for (const char* name : {"crop_offset_x", "crop_offset_y", "crop_width", "crop_height"}) {
-        if (!properties.has(name)) continue;
+/// A window that is the whole film crops nothing.
+void refuse_crop(Properties& properties, const Film& film, Diagnostics& diagnostics) {
+    for (const auto& [name, whole] : {std::pair("crop_offset_x", 0), std::pair("crop_offset_y", 0),
+                                      std::pair("crop_width", film.width), std::pair("crop_height", film.height)}) {
+        if (properties.integer(name, whole) == whole) continue;
         diagnostics.unsupported(properties.where(name), "a crop window is not available in this version", "remove it",
                                 "the whole film is rendered");
-        properties.ignore({name});
     }
 }
 
@@ -75,13 +79,15 @@ Film read_film(const XmlElement* element, const FilmSize& wanted, int version, c
                          "written as linear OpenEXR");
     } else if (type != "hdrfilm") {
         diagnostics.unsupported(element->where, "the film " + in_quotes(type) + " is not available in this version",
-                                "use hdrfilm", "it is read as hdrfilm");
+                                did_you_mean(type, kFilms, "use hdrfilm"), "it is read as hdrfilm");
     }
-    if (type != "hdrfilm")
-        properties.ignore({"gamma", "exposure", "tonemap_method", "key", "burn", "digits", "variable"});
-    film.width = read_pixels(properties, "width", film.width, wanted.width);
-    film.height = read_pixels(properties, "height", film.height, wanted.height);
-    refuse_crop(properties, diagnostics);
+    // Scenes keep these when their film becomes an hdrfilm. None of them changes the linear image.
+    properties.ignore({"gamma", "exposure", "tonemap_method", "key", "burn", "digits", "variable"});
+    film.width = read_pixels(properties, "width", film.width);
+    film.height = read_pixels(properties, "height", film.height);
+    refuse_crop(properties, film, diagnostics);
+    if (wanted.width > 0) film.width = wanted.width;
+    if (wanted.height > 0) film.height = wanted.height;
     if (const XmlElement* filter = properties.only_child("rfilter")) read_filter(*filter, film, document, diagnostics);
     // How the image is stored is not the scene's business here, and no filter crosses a pixel's own samples.
     properties.ignore({"banner", "attach_log", "file_format", "pixel_format", "component_format", "channel_names",

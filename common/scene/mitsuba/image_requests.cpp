@@ -107,7 +107,7 @@ std::int32_t ImageRequests::add(const std::filesystem::path& path, const Decodin
     if (!is_new) return place->second;
     std::error_code error;
     if (!std::filesystem::is_regular_file(path, error))
-        throw InputError(where, "there is no image file " + in_quotes(path.string()), "check the path");
+        throw InputError(where, "there is no image file " + path_in_quotes(path.string()), "check the path");
     requests_.push_back({path, decoding, where, place->second});
     TextureImage image;
     image.name = path.string();

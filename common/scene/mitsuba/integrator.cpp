@@ -1,11 +1,15 @@
 #include "common/scene/mitsuba/integrator.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "common/config/parse_text.h"
 
 namespace treefarm::mitsuba {
 namespace {
+
+constexpr std::array<std::string_view, 4> kIntegrators = {"path", "volpath", "direct", "guided_path"};
 
 class IntegratorReader {
   public:
@@ -25,6 +29,18 @@ class IntegratorReader {
         set("integrator.max_depth", "2", properties_.where());
         properties_.ignore({"shading_samples", "emitter_samples", "bsdf_samples"});
         read_flags();
+    }
+
+    /// What estimates the same image in another way: how long paths are belongs to the image, the rest does not.
+    void read_other(const std::string& type) {
+        diagnostics_.warn(properties_.where(), "the integrator " + in_quotes(type) +
+                                                   " is replaced by path tracing as the job sets it: it converges to "
+                                                   "the same image");
+        if (!properties_.has("max_depth") && type == "vpl") set("integrator.max_depth", "5", properties_.where());
+        if (!properties_.has("max_depth") && type.starts_with("prb"))
+            set("integrator.max_depth", "6", properties_.where());
+        read_common();
+        properties_.ignore_values();
     }
 
     void read_guided_path() {
@@ -61,6 +77,7 @@ class IntegratorReader {
     }
 
     void read_flags() {
+        properties_.ignore({"block_size", "samples_per_pass", "timeout"});
         for (const auto& [name, key] : {std::pair("strict_normals", "integrator.strict_normals"),
                                         std::pair("hide_emitters", "integrator.hide_emitters")})
             if (properties_.has(name))
@@ -123,6 +140,18 @@ class IntegratorReader {
     Diagnostics& diagnostics_;
 };
 
+/// Integrators of Mitsuba that converge to the image of a path tracer.
+bool is_other_estimator(const std::string& type) {
+    constexpr std::array<std::string_view, 12> kTypes = {"bdpt", "mlt",  "pssmlt", "erpt", "ptracer",   "photonmapper",
+                                                         "ppm",  "sppm", "vpl",    "prb",  "prb_basic", "prbvolpath"};
+    return std::find(kTypes.begin(), kTypes.end(), type) != kTypes.end();
+}
+
+/// Integrators around another one, which makes the image.
+bool is_wrapper(const std::string& type) {
+    return type == "aov" || type == "moment" || type == "adaptive" || type == "irrcache";
+}
+
 }  // namespace
 
 void read_integrator(const XmlElement& integrator, std::vector<Setting>& settings, const SceneDocument& document,
@@ -137,10 +166,18 @@ void read_integrator(const XmlElement& integrator, std::vector<Setting>& setting
         reader.read_direct();
     } else if (type == "guided_path") {
         reader.read_guided_path();
+    } else if (is_other_estimator(type)) {
+        reader.read_other(type);
+    } else if (const XmlElement* inner = is_wrapper(type) ? properties.only_child("integrator") : nullptr) {
+        diagnostics.warn(integrator.where,
+                         "of the integrator " + in_quotes(type) + " only the one inside is used: it makes the image");
+        read_integrator(*inner, settings, document, diagnostics);
+        properties.ignore_values();
     } else {
         diagnostics.unsupported(integrator.where,
                                 "the integrator " + in_quotes(type) + " is not available in this version",
-                                "use path, volpath, direct or guided_path", "the job's settings are used");
+                                did_you_mean(type, kIntegrators, "use path, volpath, direct or guided_path"),
+                                "the job's settings are used");
         return;
     }
     properties.finish();

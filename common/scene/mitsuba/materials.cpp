@@ -7,6 +7,12 @@
 namespace treefarm::mitsuba {
 namespace {
 
+constexpr const char* kCure = "use one of those listed in docs/scenes.md";
+constexpr std::string_view kBsdfs[] = {
+    "diffuse",        "conductor", "roughconductor", "dielectric",  "roughdielectric",
+    "thindielectric", "plastic",   "roughplastic",   "twosided",    "mask",
+    "bumpmap",        "normalmap", "blendbsdf",      "mixturebsdf", "null"};
+
 /// What a BSDF that is not available would simulate.
 std::string effect_of(const std::string& type) {
     static constexpr std::pair<const char*, const char*> kEffects[] = {
@@ -92,7 +98,7 @@ Material MaterialReader::convert_new(const XmlElement& bsdf) {
     } else {
         diagnostics_.unsupported(bsdf.where,
                                  "the BSDF " + in_quotes(type) + effect_of(type) + " is not available in this version",
-                                 "use one of those listed in docs/scenes.md, or read with scene.lenient=true",
+                                 effect_of(type).empty() ? did_you_mean(type, kBsdfs, kCure) : kCure,
                                  "it becomes diffuse with reflectance 0.5");
         material.bsdf = DiffuseMaterial{Rgb(0.5f)};
         material.name = properties.id();

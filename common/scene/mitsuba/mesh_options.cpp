@@ -10,9 +10,8 @@ MeshOptions read_mesh_options(Properties& properties, bool flip_tex_coords) {
     if (!properties.has("filename"))
         throw InputError(properties.where(), properties.title() + " has no file name",
                          "add <string name=\"filename\" value=\"...\"/>");
-    const std::filesystem::path scene_file = properties.where().file;
     MeshOptions options;
-    options.file = scene_file.parent_path() / properties.text("filename", "");
+    options.file = properties.text("filename", "");
     options.face_normals = properties.boolean("face_normals", false);
     options.flip_normals = properties.boolean("flip_normals", false);
     options.flip_tex_coords = properties.boolean("flip_tex_coords", flip_tex_coords);

@@ -22,6 +22,11 @@ char to_lower(char c) {
     return is_upper(c) ? static_cast<char>(c - 'A' + 'a') : c;
 }
 
+std::string lower_case(std::string text) {
+    std::transform(text.begin(), text.end(), text.begin(), to_lower);
+    return text;
+}
+
 bool is_value_tag(const std::string& tag) {
     constexpr std::array<std::string_view, 12> tags = {"float",    "integer",   "boolean",   "string",
                                                        "point",    "vector",    "rgb",       "srgb",
@@ -91,9 +96,7 @@ std::string Properties::title() const {
 }
 
 std::string Properties::type() const {
-    std::string type = object_.require("type");
-    std::transform(type.begin(), type.end(), type.begin(), to_lower);
-    return type;
+    return lower_case(object_.require("type"));
 }
 
 std::string Properties::id() const {
@@ -145,7 +148,7 @@ bool Properties::boolean(const std::string& name, bool otherwise) {
     const XmlElement* element = find(name, {"boolean"}, "<boolean>");
     if (!element) return otherwise;
     element->allow_attributes({"name", "value"});
-    if (const auto value = parse_boolean(element->require("value"))) return *value;
+    if (const auto value = parse_boolean(lower_case(element->require("value")))) return *value;
     throw InputError(element->where, in_quotes(element->require("value")) + " is neither true nor false",
                      "write true or false");
 }
@@ -227,6 +230,16 @@ void Properties::ignore(std::initializer_list<const char*> names) {
         asked_.push_back(name);
         if (const auto value = values_.find(name); value != values_.end()) value->second.used = true;
     }
+}
+
+void Properties::ignore_values() {
+    for (auto& [name, value] : values_)
+        value.used = true;
+}
+
+void Properties::ignore_prefix(const std::string& prefix) {
+    for (auto& [name, value] : values_)
+        if (name.starts_with(prefix)) value.used = true;
 }
 
 void Properties::finish() {

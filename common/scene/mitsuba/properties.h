@@ -64,6 +64,11 @@ class Properties {
     /// Properties that have no influence here: whatever they say is accepted.
     void ignore(std::initializer_list<const char*> names);
 
+    /// The same for all whose name begins so.
+    void ignore_prefix(const std::string& prefix);
+    /// The same for all values that were not asked for yet.
+    void ignore_values();
+
     /// Refuses what nobody asked for.
     void finish();
 

@@ -26,7 +26,9 @@ SceneReading read_mitsuba(const std::filesystem::path& path, const std::map<std:
         read_integrator(*integrator, reading.settings, document, diagnostics);
 
     MaterialReader materials(scene, document, diagnostics);
-    root.children("texture");  // read where they are referred to
+    // What is read where it is referred to.
+    for (const char* tag : {"texture", "sampler", "film", "rfilter"})
+        root.children(tag);
     for (const Child& bsdf : root.children("bsdf"))
         materials.read(*bsdf.object);
     ShapeReader shapes(scene, materials, document, diagnostics);
@@ -34,6 +36,9 @@ SceneReading read_mitsuba(const std::filesystem::path& path, const std::map<std:
         shapes.read(*shape.object);
     for (const Child& emitter : root.children("emitter"))
         read_emitter(*emitter.object, scene, materials.textures(), document, diagnostics);
+    // How Mitsuba builds its hierarchy does not change the image.
+    root.ignore_prefix("kd_");
+    root.ignore({"allow_thread_reordering", "compact_acceleration_structures", "embree_use_robust_intersections"});
     root.finish();
     materials.textures().images().read(remove_unused(scene), scene, diagnostics);
 

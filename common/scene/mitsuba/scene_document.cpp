@@ -16,14 +16,14 @@ constexpr int kMaxReferenceDepth = 100;
 /// Puts includes in place and replaces $name, in the order of the document: a <default> holds from where it stands.
 class Expander {
   public:
-    explicit Expander(Parameters& parameters) : parameters_(parameters) {}
+    Expander(Parameters& parameters, FileSearch& files) : parameters_(parameters), files_(files) {}
 
     XmlElement read(const std::filesystem::path& path, const Location& asked_from, int version) {
         std::error_code error;
         std::filesystem::path canonical = std::filesystem::weakly_canonical(path, error);
         if (error) canonical = path;
         if (std::find(open_files_.begin(), open_files_.end(), canonical) != open_files_.end())
-            throw InputError(asked_from, in_quotes(path.string()) + " includes itself, directly or through others",
+            throw InputError(asked_from, path_in_quotes(path.string()) + " includes itself, directly or through others",
                              "remove one of the includes");
         if (open_files_.size() >= kMaxIncludeDepth)
             throw InputError(asked_from, "includes are nested more than " + std::to_string(kMaxIncludeDepth) + " deep",
@@ -66,7 +66,7 @@ class Expander {
         std::vector<XmlElement> children;
         children.reserve(element.children.size());
         for (XmlElement& child : element.children) {
-            if (child.tag != "default" && child.tag != "include") {
+            if (child.tag != "default" && child.tag != "include" && child.tag != "path") {
                 expand(child, folder, version);
                 children.push_back(std::move(child));
                 continue;
@@ -78,6 +78,12 @@ class Expander {
             if (child.tag == "default") {
                 child.allow_attributes({"name", "value"});
                 parameters_.add_default(child.require("name"), child.require("value"), child.where);
+            } else if (child.tag == "path") {
+                if (element.tag != "scene")
+                    throw InputError(child.where, "<path> stands inside <" + element.tag + ">",
+                                     "put it directly into <scene>");
+                child.allow_attributes({"value"});
+                files_.add(child.require("value"), folder, child.where);
             } else {
                 include(child, folder, version, children);
             }
@@ -88,7 +94,7 @@ class Expander {
     void include(const XmlElement& element, const std::filesystem::path& folder, int version,
                  std::vector<XmlElement>& into) {
         element.allow_attributes({"filename", "name"});
-        XmlElement included = read(folder / element.require("filename"), element.where, version);
+        XmlElement included = read(files_.find(element.require("filename"), folder), element.where, version);
         if (included.tag == "scene")
             std::move(included.children.begin(), included.children.end(), std::back_inserter(into));
         else
@@ -96,6 +102,7 @@ class Expander {
     }
 
     Parameters& parameters_;
+    FileSearch& files_;
     std::vector<std::filesystem::path> open_files_;
     std::size_t element_count_ = 0;
     bool is_0_5_ = false;
@@ -112,8 +119,10 @@ bool is_object_tag(const std::string& tag) {
 
 SceneDocument::SceneDocument(const std::filesystem::path& path, const std::map<std::string, std::string>& defines) {
     Parameters parameters(defines);
-    root_ = std::make_unique<XmlElement>(Expander(parameters).read(path, Location{}, 0));
+    FileSearch files(path.parent_path());
+    root_ = std::make_unique<XmlElement>(Expander(parameters, files).read(path, Location{}, 0));
     parameters.require_all_used(root_->where);
+    find_files(*root_, files);
     collect_ids(*root_);
     apply_aliases(*root_);
     std::map<const XmlElement*, bool> done;
@@ -133,6 +142,18 @@ const XmlElement& SceneDocument::resolve(const XmlElement& element) const {
     throw InputError(
         element.where, "nothing in the scene has the id " + in_quotes(id),
         nearest.empty() ? "define it or remove the reference" : "did you mean " + in_quotes(nearest) + "?");
+}
+
+/// After everything else was read: a <path> also holds for what stands before it.
+void SceneDocument::find_files(XmlElement& element, const FileSearch& files) const {
+    const std::string* name = element.find("name");
+    const bool is_value = element.tag == "string" && name != nullptr && *name == "filename";
+    for (XmlAttribute& attribute : element.attributes)
+        if ((is_value && attribute.name == "value") || (element.tag == "spectrum" && attribute.name == "filename"))
+            attribute.value =
+                files.find(attribute.value, std::filesystem::path(element.where.file).parent_path()).string();
+    for (XmlElement& child : element.children)
+        find_files(child, files);
 }
 
 void SceneDocument::collect_ids(const XmlElement& element) {

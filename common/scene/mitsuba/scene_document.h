@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 
+#include "common/scene/mitsuba/file_search.h"
 #include "common/scene/mitsuba/xml_document.h"
 
 namespace treefarm::mitsuba {
@@ -12,7 +13,7 @@ namespace treefarm::mitsuba {
 /// Elements that make an object (as opposed to a property): they can have an id and be referred to.
 bool is_object_tag(const std::string& tag);
 
-/// A scene's elements with includes put in place and every $name replaced.
+/// A scene's elements with includes put in place, every $name replaced and every file name made one that can be opened.
 class SceneDocument {
   public:
     /// `defines` are values for $name from outside; they win over <default>. Cycles of includes or references, unknown
@@ -25,6 +26,7 @@ class SceneDocument {
     const XmlElement& resolve(const XmlElement& element) const;
 
   private:
+    void find_files(XmlElement& element, const FileSearch& files) const;
     void collect_ids(const XmlElement& element);
     void apply_alias(const XmlElement& alias);
     void apply_aliases(const XmlElement& element);

@@ -8,6 +8,8 @@
 namespace treefarm::mitsuba {
 namespace {
 
+constexpr std::string_view kSensors[] = {"perspective", "thinlens"};
+
 double radians(double degrees) {
     return degrees * M_PI / 180.0;
 }
@@ -53,7 +55,7 @@ void read_sampler(const XmlElement& sampler, std::vector<Setting>& settings, con
             {"budget.spp", std::to_string(properties.integer("sample_count", 0)), properties.where("sample_count")});
     if (properties.has("seed"))
         settings.push_back({"sampler.seed", std::to_string(properties.integer("seed", 0)), properties.where("seed")});
-    properties.ignore({"scramble", "dimension", "jitter"});
+    properties.ignore({"scramble", "dimension", "jitter", "strength"});
     properties.finish();
 }
 
@@ -102,7 +104,8 @@ void read_sensor(const XmlElement& sensor, const FilmSize& wanted, Scene& scene,
     const std::string type = properties.type();
     if (type != "perspective" && type != "thinlens") {
         diagnostics.unsupported(sensor.where, "the sensor " + in_quotes(type) + " is not available in this version",
-                                "use perspective or thinlens", "it is read as perspective");
+                                did_you_mean(type, kSensors, "use perspective or thinlens"),
+                                "it is read as perspective");
         // What others have in addition.
         properties.ignore({"aperture_radius", "kc", "scale", "srf"});
     }

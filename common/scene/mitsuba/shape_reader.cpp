@@ -18,8 +18,24 @@ void ShapeReader::read(const XmlElement& shape) {
         group_of(shape);
     else if (is_type(shape, "instance"))
         read_instance(shape);
+    else if (is_type(shape, "merge"))
+        read_merged(shape, kNone);
     else
         read_shape(shape, kNone);
+}
+
+void ShapeReader::read_merged(const XmlElement& element, std::int32_t group) {
+    Properties properties(element, document_, diagnostics_);
+    properties.type();
+    for (const Child& child : properties.children("shape")) {
+        if (is_type(*child.object, "instance") || is_type(*child.object, "shapegroup") ||
+            is_type(*child.object, "merge"))
+            diagnostics_.unsupported(child.where, "only plain shapes are available within merge in this version",
+                                     "place the shape directly");
+        else
+            read_shape(*child.object, group);
+    }
+    properties.finish();
 }
 
 void ShapeReader::read_shape(const XmlElement& element, std::int32_t group) {
@@ -28,6 +44,7 @@ void ShapeReader::read_shape(const XmlElement& element, std::int32_t group) {
     if (!geometry) return;
     const XmlElement* bsdf = properties.only_child("bsdf");
     const XmlElement* emitter = properties.only_child("emitter");
+    properties.ignore({"silhouette_sampling_weight"});
     properties.finish();
     if (emitter && group != kNone) {
         diagnostics_.unsupported(emitter->where, "a shape in a shapegroup has an emitter",
@@ -56,6 +73,8 @@ std::int32_t ShapeReader::group_of(const XmlElement& element) {
         if (is_type(*child.object, "instance") || is_type(*child.object, "shapegroup"))
             diagnostics_.unsupported(child.where, "instances and shapegroups within a shapegroup are not available",
                                      "place the inner shapes directly");
+        else if (is_type(*child.object, "merge"))
+            read_merged(*child.object, scene_.group_count);
         else
             read_shape(*child.object, scene_.group_count);
     }

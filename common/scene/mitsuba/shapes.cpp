@@ -10,6 +10,9 @@
 namespace treefarm::mitsuba {
 namespace {
 
+constexpr std::string_view kShapes[] = {"obj",    "ply",  "serialized", "rectangle",  "cube",
+                                        "sphere", "disk", "cylinder",   "shapegroup", "instance"};
+
 /// A parallelogram by its centre and the half edges along which u and v grow.
 struct Patch {
     Vec3 center, half_u, half_v;
@@ -63,7 +66,8 @@ std::optional<decltype(Shape::geometry)> read_geometry(Properties& properties, D
     if (type == "cylinder") return read_cylinder(properties);
     diagnostics.unsupported(
         properties.where(), "the shape " + in_quotes(type) + " is not available in this version",
-        "use obj, ply, serialized, rectangle, cube, sphere, disk, cylinder, shapegroup or instance");
+        did_you_mean(type, kShapes,
+                     "use obj, ply, serialized, rectangle, cube, sphere, disk, cylinder, shapegroup or instance"));
     return std::nullopt;
 }
 

@@ -167,9 +167,7 @@ Rgb read_color(const XmlElement& element, ColorUse use, Diagnostics& diagnostics
     bool of_list = false;
     if (element.tag == "spectrum" && element.find("filename")) {
         element.allow_attributes({"name", "filename"});
-        const std::filesystem::path scene_file = element.where.file;
-        color = color_of_list(read_spectrum_file(scene_file.parent_path() / element.require("filename"), element.where),
-                              element, use);
+        color = color_of_list(read_spectrum_file(element.require("filename"), element.where), element, use);
         of_list = true;
     } else if (element.tag == "spectrum") {
         element.allow_attributes({"name", "value", "intent"});

@@ -10,10 +10,10 @@ namespace treefarm::mitsuba {
 SpectrumSamples read_spectrum_file(const std::filesystem::path& path, const Location& asked_from) {
     std::error_code error;
     if (!std::filesystem::is_regular_file(path, error))
-        throw InputError(asked_from, "there is no file " + in_quotes(path.string()), "check the path");
+        throw InputError(asked_from, "there is no file " + path_in_quotes(path.string()), "check the path");
     constexpr std::uintmax_t kMostBytes = 10'000'000;
     if (std::filesystem::file_size(path, error) > kMostBytes || error)
-        throw InputError(asked_from, in_quotes(path.string()) + " is too large for a spectrum", "check the path");
+        throw InputError(asked_from, path_in_quotes(path.string()) + " is too large for a spectrum", "check the path");
     std::ifstream in(path);
     if (!in) throw InputError({path.string()}, "the file cannot be read", "check its permissions");
     SpectrumSamples samples;

@@ -7,6 +7,8 @@
 namespace treefarm::mitsuba {
 namespace {
 
+constexpr std::string_view kTextures[] = {"bitmap", "checkerboard", "scale"};
+
 Wrap read_wrap(const std::string& word, const Location& where) {
     if (word == "repeat") return Wrap::repeat;
     if (word == "mirror") return Wrap::mirror;
@@ -52,8 +54,7 @@ std::filesystem::path file_of(Properties& properties) {
     if (!properties.has("filename"))
         throw InputError(properties.where(), properties.title() + " has no file name",
                          "add <string name=\"filename\" value=\"...\"/>");
-    const std::filesystem::path scene_file = properties.where().file;
-    return scene_file.parent_path() / properties.text("filename", "");
+    return properties.text("filename", "");
 }
 
 ColorInput TextureReader::color(Properties& properties, const std::string& name, const Rgb& otherwise, ColorUse use) {
@@ -109,7 +110,7 @@ ColorInput TextureReader::convert(const XmlElement& texture, const Use& use) {
         input = convert_scale(properties, use);
     } else {
         diagnostics_.unsupported(texture.where, "the texture " + in_quotes(type) + " is not available in this version",
-                                 "use bitmap, checkerboard or scale", "0.5 is used");
+                                 did_you_mean(type, kTextures, "use bitmap, checkerboard or scale"), "0.5 is used");
         return input;
     }
     properties.finish();

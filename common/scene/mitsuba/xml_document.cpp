@@ -34,9 +34,9 @@ class LineTable {
 std::string read_text(const std::filesystem::path& path, const Location& asked_from) {
     std::error_code error;
     if (!std::filesystem::exists(path, error))
-        throw InputError(asked_from, "there is no file " + in_quotes(path.string()), "check the path");
+        throw InputError(asked_from, "there is no file " + path_in_quotes(path.string()), "check the path");
     if (!std::filesystem::is_regular_file(path, error))
-        throw InputError(asked_from, in_quotes(path.string()) + " is not a file", "check the path");
+        throw InputError(asked_from, path_in_quotes(path.string()) + " is not a file", "check the path");
     const std::uintmax_t size = std::filesystem::file_size(path, error);
     if (error || size > kMaxFileBytes)
         throw InputError({path.string()}, "the XML file has more than 256 MiB", "move meshes into files of their own");
