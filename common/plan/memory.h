@@ -34,9 +34,9 @@ struct TreeSize {
 
 /// What an emitter takes beside its table.
 inline constexpr std::uint64_t kEmitterBytes = 128;
-/// Embree's hierarchy over triangles, and over other shapes with their geometry objects.
-inline constexpr std::uint64_t kHierarchyBytesPerTriangle = 90;
-inline constexpr std::uint64_t kHierarchyBytesPerObject = 1024;
+/// Embree's hierarchy over triangles, and over other shapes with their geometry objects, measured (docs/effects.md).
+inline constexpr std::uint64_t kHierarchyBytesPerTriangle = 67;
+inline constexpr std::uint64_t kHierarchyBytesPerObject = 400;
 
 /// Bytes of the arrays of a mesh.
 std::uint64_t mesh_bytes(const Mesh& mesh);
