@@ -156,6 +156,14 @@ void check_links(const Shape& shape, std::size_t index, const Scene& scene) {
 
 }  // namespace
 
+bool is_flat(const Mesh& mesh) {
+    if (!std::all_of(mesh.positions.begin(), mesh.positions.end(), [](const Vec3& p) { return is_finite(p); }))
+        return false;
+    for (std::size_t i = 0; i < mesh.triangle_count(); ++i)
+        if (!without_area(mesh, i)) return false;
+    return true;
+}
+
 void check_shapes(Scene& scene, std::vector<Warning>& warnings) {
     if (scene.group_count < 0 || static_cast<std::size_t>(scene.group_count) > scene.shapes.size())
         throw InputError(Location{}, "the scene has more groups than shapes", "");

@@ -37,6 +37,10 @@ std::vector<ValueRange> check_textures(const std::vector<Texture>& textures, con
 /// Roughness below the least is raised to it and textured factors above 1 are scaled down, with a warning.
 void check_materials(Scene& scene, const std::vector<ValueRange>& textures, std::vector<Warning>& warnings);
 
+/// Whether no triangle has an area (or one too small for single precision to give it a normal), though all vertices are
+/// finite.
+bool is_flat(const Mesh& mesh);
+
 /// Triangles without area are left out, with a warning.
 void check_shapes(Scene& scene, std::vector<Warning>& warnings);
 

@@ -2,6 +2,7 @@
 
 #include "common/scene/mitsuba/emitters.h"
 #include "common/scene/mitsuba/shapes.h"
+#include "common/scene/validation.h"
 
 namespace treefarm::mitsuba {
 namespace {
@@ -46,6 +47,10 @@ void ShapeReader::read_shape(const XmlElement& element, std::int32_t group) {
     const XmlElement* emitter = properties.only_child("emitter");
     properties.ignore({"silhouette_sampling_weight"});
     properties.finish();
+    if (const Mesh* mesh = std::get_if<Mesh>(&*geometry); mesh != nullptr && validation::is_flat(*mesh)) {
+        diagnostics_.warn(element.where, "no triangle of the shape has an area: it is left out");
+        return;
+    }
     if (emitter && group != kNone) {
         diagnostics_.unsupported(emitter->where, "a shape in a shapegroup has an emitter",
                                  "take the shape out of the group");

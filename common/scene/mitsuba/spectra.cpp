@@ -194,14 +194,20 @@ Rgb read_color(const XmlElement& element, ColorUse use, Diagnostics& diagnostics
             color /= largest;
         }
     }
+    if (use == ColorUse::metal && std::min({color.x, color.y, color.z}) < 0.0) {
+        // A fit can have it so; Fresnel's equations depend on the squares of eta and k alone.
+        diagnostics.warn(element.where, "a metal's coefficient is negative: its sign has no influence");
+        for (int i = 0; i < 3; ++i)
+            color[i] = std::abs(color[i]);
+    }
     const double limit = use == ColorUse::reflectance ? 1.0 : std::numeric_limits<float>::max();
     for (int i = 0; i < 3; ++i) {
-        if (!(color[i] >= 0.0) || color[i] > limit)
+        if (!(color[i] >= (use == ColorUse::factor ? -limit : 0.0)) || color[i] > limit)
             throw InputError(
                 element.where,
-                std::string(use == ColorUse::reflectance   ? "a reflectance"
-                            : use == ColorUse::coefficient ? "a coefficient"
-                                                           : "a radiance") +
+                std::string(use == ColorUse::reflectance ? "a reflectance"
+                            : use == ColorUse::radiance  ? "a radiance"
+                                                         : "a coefficient") +
                     " of " + number_text(color[i]),
                 use == ColorUse::reflectance ? "give values from 0 to 1" : "give finite values of 0 or more");
     }

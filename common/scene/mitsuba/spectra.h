@@ -13,7 +13,9 @@ namespace treefarm::mitsuba {
 /// What a colour is for: it decides how spectra become Rgb.
 enum class ColorUse {
     reflectance,  ///< in [0, 1]
-    coefficient,  ///< a property of a surface without an upper limit: index of refraction, absorption
+    coefficient,  ///< a property of a surface without an upper limit
+    metal,        ///< eta or k of a conductor
+    factor,       ///< on displacements, of any sign
     radiance      ///< of something that shines
 };
 

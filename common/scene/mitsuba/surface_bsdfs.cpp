@@ -91,7 +91,7 @@ class SurfaceReader {
     }
 
     Rgb coefficient(const char* name, const Rgb& otherwise) {
-        const ColorInput input = textures_.color(properties_, name, otherwise, ColorUse::coefficient);
+        const ColorInput input = textures_.color(properties_, name, otherwise, ColorUse::metal);
         if (input.varies())
             diagnostics_.unsupported(properties_.where(name),
                                      std::string("a textured ") + name + " is not available in this version",

@@ -129,8 +129,9 @@ ColorInput TextureReader::convert_bitmap(Properties& properties, const Use& use)
     if (is_old) {
         decoding.file_gamma = true;
         if (use.data && !properties.has("gamma"))
-            diagnostics_.unsupported(properties.where(), "a bump or normal map does not say its gamma",
-                                     "add <float name=\"gamma\" value=\"1\"/>", "it is read as linear");
+            diagnostics_.warn(properties.where(),
+                              "a bump or normal map does not say its gamma: it is read as linear (gamma 1), which "
+                              "most of them are");
         decoding.gamma = properties.number("gamma", use.data ? 1.0 : Decoding::kAuto);
         if (!(decoding.gamma >= 0.0 && decoding.gamma <= 100.0) && decoding.gamma != Decoding::kSrgb)
             throw InputError(properties.where("gamma"), "a gamma of " + number_text(decoding.gamma),
@@ -172,7 +173,8 @@ ColorInput TextureReader::convert_checkerboard(Properties& properties, const Use
 }
 
 ColorInput TextureReader::convert_scale(Properties& properties, const Use& use) {
-    const Rgb scale = properties.color("scale", Rgb(1.0f), ColorUse::coefficient);
+    const Rgb scale =
+        properties.color("scale", Rgb(1.0f), use.signed_values ? ColorUse::factor : ColorUse::coefficient);
     ColorInput nested;
     const XmlElement* texture = properties.only_child("texture");
     if (texture != nullptr)
