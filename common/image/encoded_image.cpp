@@ -7,6 +7,7 @@
 #include "common/base/error.h"
 #include "common/image/hdr.h"
 #include "common/image/image.h"
+#include "common/image/jpeg_check.h"
 #include "common/image/read_bytes.h"
 #include "common/image/stb.h"
 
@@ -47,17 +48,6 @@ std::size_t most_pixels_per_byte(ImageFormat format) {
     return 16;  // a run of at most 127 takes two bytes in each of four planes
 }
 
-/// A JPEG file whose scans begin has an end marker after them. Without one it is cut short, and what is missing would
-/// be grey.
-bool is_cut_jpeg(std::span<const std::uint8_t> bytes) {
-    std::size_t at = 2;
-    while (at + 4 <= bytes.size() && bytes[at] == 0xff && bytes[at + 1] != 0xda)
-        at += bytes[at + 1] == 0xff ? 1 : 2 + (std::size_t{bytes[at + 2]} << 8 | bytes[at + 3]);
-    constexpr std::array<std::uint8_t, 2> kEnd = {0xff, 0xd9};
-    const auto begin = bytes.begin() + static_cast<std::ptrdiff_t>(std::min(at, bytes.size()));
-    return std::search(begin, bytes.end(), kEnd.begin(), kEnd.end()) == bytes.end();
-}
-
 /// A chunk of a PNG file reaches beyond the file's end (stb would allocate for it first), or the last one is missing.
 bool is_cut_png(std::span<const std::uint8_t> bytes) {
     constexpr std::array<std::uint8_t, 4> kEnd = {'I', 'E', 'N', 'D'};
@@ -92,9 +82,9 @@ EncodedImage read_encoded_image(const std::filesystem::path& path, const std::st
     if (pixels / most_pixels_per_byte(image.format) > image.bytes.size())
         refuse(claim + ", which its " + std::to_string(image.bytes.size()) + " bytes cannot hold",
                "it is damaged or cut short; save it again");
-    if ((image.format == ImageFormat::jpeg && is_cut_jpeg(image.bytes)) ||
-        (image.format == ImageFormat::png && is_cut_png(image.bytes)))
-        refuse("is cut short: its end is missing", "copy or save it again");
+    if (image.format == ImageFormat::png && is_cut_png(image.bytes)) why = "it is cut short";
+    if (image.format == ImageFormat::jpeg) why = jpeg_fault(image.bytes);
+    if (!why.empty()) refuse("cannot be decoded (" + why + ")", "it is damaged or cut short; save it again");
     return image;
 }
 

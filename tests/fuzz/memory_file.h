@@ -9,10 +9,14 @@ namespace treefarm::fuzz {
 /// Bytes as a file in memory, for readers that want a path: nothing is written to a disk.
 class MemoryFile {
   public:
+    MemoryFile() : MemoryFile(nullptr, 0) {}
     MemoryFile(const std::uint8_t* data, std::size_t size);
     ~MemoryFile();
     MemoryFile(const MemoryFile&) = delete;
     MemoryFile& operator=(const MemoryFile&) = delete;
+
+    /// Replaces what it holds.
+    void assign(const std::uint8_t* data, std::size_t size);
 
     const std::filesystem::path& path() const { return path_; }
 

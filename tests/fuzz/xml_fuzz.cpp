@@ -7,6 +7,7 @@
 #include "common/scene/mitsuba/read_mitsuba.h"
 #include "common/scene/scene_codec.h"
 #include "tests/fuzz/fuzz.h"
+#include "tests/fuzz/memory_file.h"
 #include "tests/fuzz/xml_seeds.h"
 #include "tests/support/mesh_bytes.h"
 #include "tests/support/tiny_images.h"
@@ -31,26 +32,33 @@ class SceneFolder {
         Image image{4, 2, {}, {}};
         add_rgb_layer(image, "", RgbImage(4, 2, Rgb(1.0f, 2.0f, 3.0f)));
         write_exr(path_ / "e.exr", image);
+        std::filesystem::create_symlink(scene_.path(), path_ / "scene.xml");
     }
     ~SceneFolder() {
         std::error_code ignored;
         std::filesystem::remove_all(path_, ignored);
     }
 
-    std::filesystem::path write(const std::string& name, const std::string& bytes) const {
-        std::ofstream(path_ / name, std::ios::binary) << bytes;
-        return path_ / name;
+    /// A scene file of this text; it lies in memory, beside the others only by name.
+    std::filesystem::path write_scene(const std::uint8_t* data, std::size_t size) {
+        scene_.assign(data, size);
+        return path_ / "scene.xml";
     }
 
   private:
+    void write(const std::string& name, const std::string& bytes) const {
+        std::ofstream(path_ / name, std::ios::binary) << bytes;
+    }
+
+    fuzz::MemoryFile scene_;
     std::filesystem::path path_;
 };
 
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-    static const SceneFolder folder;
-    const std::filesystem::path file = folder.write("scene.xml", std::string(data, data + size));
+    static SceneFolder folder;
+    const std::filesystem::path file = folder.write_scene(data, size);
     for (const bool lenient : {true, false}) {
         try {
             const SceneReading reading = read_mitsuba(file, {}, lenient);

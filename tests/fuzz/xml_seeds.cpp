@@ -104,7 +104,7 @@ constexpr char kUnknown[] = R"(<scene version="2.1.0"><sensor type="perspective"
 <shape type="sphere"><bsdf type="twosided"><bsdf type="dielectric"/></bsdf><animation name="to_world">
 <transform time="0"/></animation></shape><texture type="marble" id="x"/>
 <bsdf type="diffuse" id="y"><ref id="x" name="reflectance"/></bsdf><shape type="disk"><ref id="y"/></shape>
-<emitter type="sky"><float name="sun_scale" value="1"/><vector name="sun_direction" value="0 0.1 1"/></emitter></scene>
+<emitter type="sun"><float name="sun_scale" value="1"/><vector name="sun_direction" value="0 0.1 1"/></emitter></scene>
 )";
 
 }  // namespace

@@ -74,6 +74,41 @@ TEST_F(HostileImages, JpegWithoutAnEnd) {
         EXPECT_NE(refusal(jpeg.substr(0, size)), "") << size << " of " << jpeg.size();
 }
 
+TEST_F(HostileImages, JpegTablesThatAreTooLong) {
+    const std::string jpeg = test::tiny_jpeg(8, 8, 1, 50);
+    const std::size_t tables = jpeg.find("\xff\xc4");
+    for (const std::size_t length : {9u, 16u}) {
+        std::string changed = jpeg;
+        changed.replace(tables + 5, length, length, '\xff');  // so many codes of each length
+        expect_refused(changed, "a Huffman table has more than 256 codes");
+    }
+    // Behind the first scan, where a progressive file has tables too.
+    expect_refused(jpeg.substr(0, jpeg.size() - 2) + "\xff\xc4\x7f\xff" + std::string(17, '\xff') + "\xff\xd9",
+                   "a Huffman table has more than 256 codes");
+    // In a comment they are none.
+    const std::string comment = std::string("\xff\xfe\0\x16\xff\xc4", 6) + std::string(18, '\xff');
+    EXPECT_EQ(refusal(jpeg.substr(0, 2) + comment + jpeg.substr(2)), "");
+}
+
+// A scan that refers to a table that is not there: nothing depends on what memory held before.
+TEST_F(HostileImages, JpegWithoutATable) {
+    std::string jpeg = test::tiny_jpeg(40, 30, 3, 80);
+    const std::size_t scan = jpeg.find("\xff\xda");
+    jpeg[scan + 6] = '\x33';
+    const std::string first = refusal(jpeg);
+    const StoredImage image = first.empty() ? read(jpeg) : StoredImage();
+    std::vector<std::vector<char>> dirt;
+    for (int round = 0; round < 20; ++round) {
+        for (int i = 0; i < 50; ++i)
+            dirt.emplace_back(static_cast<std::size_t>(1 + i) * 1000, static_cast<char>(round * 50 + i));
+        dirt.clear();
+        EXPECT_EQ(refusal(jpeg), first);
+        if (first.empty()) {
+            EXPECT_EQ(read(jpeg).bytes, image.bytes);
+        }
+    }
+}
+
 // stb's decoder takes the zeros behind a cut line for runs of no length, and never ends.
 TEST_F(HostileImages, HdrLinesThatAreCutShort) {
     const std::string line = std::string("\x02\x02\x00\x09", 4) + "\x89\x80" +

@@ -123,6 +123,10 @@ TEST_F(Malformed, Structure) {
     expect("<shape type=\"cube\"><bsdf type=\"diffuse\"/><bsdf type=\"diffuse\"/></shape>", "s.xml:3:42: ");
     expect("<shape type=\"torus\"/>",
            "s.xml:3:1: the shape \"torus\" is not available in this version; use obj, ply, serialized, rectangle");
+    std::string wide = "<shape";
+    for (int i = 0; i < 300; ++i)
+        wide += " a" + std::to_string(i) + "=\"\"";
+    expect(wide + "/>", "s.xml:3:1: <shape> has more than 100 attributes");
     std::string deep;
     for (int i = 0; i < 5000; ++i)
         deep += "<bsdf type=\"twosided\">";
@@ -166,6 +170,14 @@ TEST_F(Malformed, Includes) {
               "<scene version=\"0.6.0\"><include filename=\"c" + std::to_string(i + 1) + ".xml\"/></scene>");
     EXPECT_NE(message_of("<include filename=\"c0.xml\"/>").find("includes are nested more than 15 deep"),
               std::string::npos);
+    for (int i = 0; i < 10; ++i) {
+        std::string fivefold;
+        for (int k = 0; k < 5; ++k)
+            fivefold += "<include filename=\"d" + std::to_string(i + 1) + ".xml\"/>";
+        write("d" + std::to_string(i) + ".xml", "<scene version=\"0.6.0\">" + fivefold + "</scene>");
+    }
+    write("d10.xml", "<scene version=\"0.6.0\"/>");
+    EXPECT_NE(message_of("<include filename=\"d0.xml\"/>").find("includes more than 10000 files"), std::string::npos);
 }
 
 TEST_F(Malformed, Parameters) {
@@ -175,6 +187,10 @@ TEST_F(Malformed, Parameters) {
         bomb += "<default name=\"a" + std::to_string(i + 1) + "\" value=\"$a" + std::to_string(i) + "x$a" +
                 std::to_string(i) + "\"/>";
     EXPECT_NE(message_of(bomb).find("more than 16 MiB"), std::string::npos);
+    std::string many = bomb.substr(0, bomb.find("<default name=\"a20\""));
+    for (int i = 0; i < 20; ++i)
+        many += "<shape type=\"cube\" id=\"$a19\"/>";
+    EXPECT_NE(message_of(many).find("more than 64 MiB"), std::string::npos) << message_of(many).substr(0, 200);
     try {
         message_of("");
         load_scene(folder_ / "s.xml", {{"typo", "1"}});

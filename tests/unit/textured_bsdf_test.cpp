@@ -143,6 +143,52 @@ TEST(Anisotropic, IsWideAlongItsTangent) {
     }
 }
 
+// A texture is 0 where it likes, also between texels of what is not: the roughness is clamped at the lookup.
+TEST(Textured, RoughnessIsClampedWhereItIsLookedUp) {
+    constexpr float kU[] = {0.125f, 0.375f, 0.625f, 0.875f};
+    const float values[] = {0.0f, 1e-6f, 0.3f, 1e30f}, clamped[] = {1e-4f, 1e-4f, 0.3f, 1e6f};
+    for (const Microfacets kind : {Microfacets::ggx, Microfacets::beckmann})
+        for (const char* name : {"metal", "glass", "plastic"}) {
+            const auto material = [&](const FloatInput& alpha) -> decltype(Material::bsdf) {
+                const Roughness roughness{kind, alpha, alpha};
+                if (name[0] == 'm') return ConductorMaterial{Rgb(0.2f), Rgb(3.0f), Rgb(1.0f), roughness};
+                if (name[0] == 'g') return DielectricMaterial{1.5f, Rgb(1.0f), Rgb(1.0f), roughness};
+                return PlasticMaterial{1.5f, Rgb(0.5f), Rgb(1.0f), false, roughness};
+            };
+            Scene scene;
+            std::vector<float> texels;
+            for (const float value : values)
+                texels.insert(texels.end(), 3, value);
+            const std::int32_t map = test::add_image_texture(scene, 4, 1, texels);
+            std::get<BitmapTexture>(scene.textures[static_cast<std::size_t>(map)].kind).bilinear = false;
+            test::add_material(scene, material(FloatInput(1.0f, map)));
+            PreparedMaterial textured(scene);
+            ASSERT_TRUE(textured.varies());
+            const Vec3 wo = normalize(Vec3(0.4f, 0.2f, 0.7f));
+            for (std::size_t i = 0; i < std::size(kU); ++i) {
+                PreparedMaterial constant(material(FloatInput(clamped[i])));
+                const Bsdf& looked_up = textured.at(point_at(kU[i], 0.5f, wo));
+                for (const float u : {0.05f, 0.3f, 0.7f, 0.95f}) {
+                    const BsdfRandom random{u, {u, 1.0f - u}};
+                    const BsdfSample sample = looked_up.sample(wo, random);
+                    const BsdfSample expected = constant.varies()
+                                                    ? constant.at(point_at(0.5f, 0.5f, wo)).sample(wo, random)
+                                                    : constant.front().sample(wo, random);
+                    EXPECT_TRUE(is_finite(sample.wi) && is_finite(sample.f_cos) && std::isfinite(sample.pdf))
+                        << name << " " << values[i];
+                    // The table of a plastic's coat ends at alpha = 1.
+                    if (clamped[i] <= 1.0f || name[0] != 'p') {
+                        EXPECT_LT((sample.wi - expected.wi).length(), 1e-5f) << name << " " << values[i];
+                    }
+                    if (sample.pdf > 0.0f) {
+                        const Rgb f = looked_up.value(wo, sample.wi).f_cos;
+                        EXPECT_TRUE(is_finite(f)) << name << " " << values[i];
+                    }
+                }
+            }
+        }
+}
+
 TEST(Constant, MaterialsAreNotLookedUp) {
     const PreparedMaterial metal(
         ConductorMaterial{Rgb(0.2f), Rgb(3.0f), Rgb(1.0f), test::rough(Microfacets::ggx, 0.2f, 0.2f)});

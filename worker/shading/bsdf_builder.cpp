@@ -199,7 +199,7 @@ Rgb BsdfBuilder::color(const ColorInput& input, const ShadingPoint& point) const
 
 Microfacet BsdfBuilder::facets(const Roughness& roughness, const ShadingPoint& point) const {
     const auto alpha = [&](const FloatInput& input) {
-        return std::max(Microfacet::kMinAlpha, textures_->eval(input, point.uv));
+        return std::clamp(textures_->eval(input, point.uv), Microfacet::kMinAlpha, Microfacet::kMaxAlpha);
     };
     return {roughness.distribution == Microfacets::ggx, alpha(roughness.alpha_u), alpha(roughness.alpha_v)};
 }

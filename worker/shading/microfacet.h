@@ -13,6 +13,8 @@ struct Microfacet {
 
     /// Smallest roughness that is used; below it the surface is a mirror to float directions.
     static constexpr float kMinAlpha = 1e-4f;
+    /// Largest; far above any meaning, and its powers are finite.
+    static constexpr float kMaxAlpha = 1e6f;
 
     /// D of the facets whose normal lies along `h` (of any length, h.z > 0), per steradian.
     float density(const Vec3& h) const;

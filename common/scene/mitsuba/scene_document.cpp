@@ -10,6 +10,7 @@ namespace treefarm::mitsuba {
 namespace {
 
 constexpr std::size_t kMaxIncludeDepth = 15;
+constexpr std::size_t kMaxIncludes = 10'000;
 constexpr std::size_t kMaxElements = 10'000'000;
 constexpr int kMaxReferenceDepth = 100;
 
@@ -27,6 +28,9 @@ class Expander {
                              "remove one of the includes");
         if (open_files_.size() >= kMaxIncludeDepth)
             throw InputError(asked_from, "includes are nested more than " + std::to_string(kMaxIncludeDepth) + " deep",
+                             "include fewer files");
+        if (++file_count_ > kMaxIncludes)
+            throw InputError(asked_from, "the scene includes more than " + std::to_string(kMaxIncludes) + " files",
                              "include fewer files");
         open_files_.push_back(canonical);
         XmlElement root = read_xml(path, asked_from);
@@ -104,7 +108,7 @@ class Expander {
     Parameters& parameters_;
     FileSearch& files_;
     std::vector<std::filesystem::path> open_files_;
-    std::size_t element_count_ = 0;
+    std::size_t element_count_ = 0, file_count_ = 0;
     bool is_0_5_ = false;
 };
 

@@ -9,6 +9,7 @@ namespace treefarm::mitsuba {
 namespace {
 
 constexpr std::size_t kMaxAttributeBytes = std::size_t{1} << 24;
+constexpr std::size_t kMaxReplacedBytes = std::size_t{1} << 26;
 
 }  // namespace
 
@@ -45,6 +46,9 @@ std::string Parameters::substitute(const std::string& text, const Location& wher
         if (result.size() > kMaxAttributeBytes)
             throw InputError(where, "an attribute has more than 16 MiB once its $names are replaced", "shorten it");
     }
+    replaced_bytes_ += result.size();
+    if (replaced_bytes_ > kMaxReplacedBytes)
+        throw InputError(where, "the attributes have more than 64 MiB once their $names are replaced", "shorten them");
     return result;
 }
 

@@ -27,6 +27,7 @@ class Parameters {
         bool used = false;
     };
     std::map<std::string, Parameter> parameters_;
+    std::size_t replaced_bytes_ = 0;  ///< of all texts that had a $name
 };
 
 }  // namespace treefarm::mitsuba

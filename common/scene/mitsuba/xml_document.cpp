@@ -11,6 +11,7 @@ namespace {
 
 constexpr std::uintmax_t kMaxFileBytes = std::uintmax_t{256} << 20;
 constexpr int kMaxDepth = 100;
+constexpr std::size_t kMaxAttributes = 100;
 
 /// Byte offsets to lines and columns.
 class LineTable {
@@ -70,6 +71,11 @@ struct Converter {
                 throw InputError(element.where,
                                  "<" + element.tag + "> has the attribute " + in_quotes(attribute.name()) + " twice",
                                  "keep one of them");
+            if (element.attributes.size() >= kMaxAttributes)
+                throw InputError(
+                    element.where,
+                    "<" + element.tag + "> has more than " + std::to_string(kMaxAttributes) + " attributes",
+                    "no element needs that: repair the file");
             element.attributes.push_back({attribute.name(), attribute.value()});
         }
         for (const pugi::xml_node& child : node.children()) {

@@ -30,7 +30,8 @@ struct XmlElement {
 };
 
 /// Reads an XML file into elements. `asked_from` is where the file's name stands, for messages about a missing file.
-/// Malformed XML, text between elements, nesting deeper than 100 and files above 256 MiB throw InputError.
+/// Malformed XML, text between elements, nesting deeper than 100, more than 100 attributes of an element and files
+/// above 256 MiB throw InputError.
 XmlElement read_xml(const std::filesystem::path& path, const Location& asked_from);
 
 }  // namespace treefarm::mitsuba
