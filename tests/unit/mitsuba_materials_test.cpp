@@ -105,7 +105,8 @@ TEST_F(MitsubaMaterials, ConductorsInBothDialects) {
     refused(number("alphaU", "0.1"));
     refused(number("alpha", "0.1") + number("alphaU", "0.1") + number("alphaV", "0.1"));
     refused(number("alpha", "-0.1"));
-    refused(rgb("k", "-1"));
+    EXPECT_EQ(of_type<ConductorMaterial>("roughconductor", number("extEta", "1") + rgb("k", "-1 2 3")).k, Rgb(1, 2, 3))
+        << "only squares count";
     refused(word("material", "Au") + rgb("eta", "1"), "3.0.0");
     refused(number("roughness", "0.1"));
 }

@@ -75,7 +75,7 @@ TEST_F(MitsubaSensors, IntegratorsThatTracePaths) {
                   .integrator.max_depth,
               2);
     EXPECT_EQ(job("<integrator type=\"direct\"/>").guiding.type, GuidingType::none);
-    EXPECT_THROW(job("<integrator type=\"photonmapper\"/>"), InputError);
+    EXPECT_THROW(job("<integrator type=\"ao\"/>"), InputError);
 }
 
 }  // namespace

@@ -168,6 +168,9 @@ ColorInput TextureReader::convert_checkerboard(Properties& properties, const Use
         *color = properties.color(name, *color, use.color);
     }
     board.uv = read_uv_transform(properties);
+    // Where Mitsuba 3 asks a board for one number (eval_1 in its checkerboard.cpp), the squares are exchanged.
+    if (properties.element().version >= 2 && use.color == ColorUse::coefficient && !use.data)
+        std::swap(board.color0, board.color1);
     if (properties.element().version < 2) properties.ignore({"filter_type", "cache"});
     return {Rgb(1.0f), add(board, properties)};
 }
