@@ -72,7 +72,7 @@ std::unique_ptr<RTCSceneTy, EmbreeScene::ReleaseScene> EmbreeScene::make_scene()
 }
 
 void EmbreeScene::make_masks(const ShapeMasks& masks) {
-    if (masks.opacity.empty()) return;
+    if (!kHasMasks || masks.opacity.empty()) return;
     if (masks.opacity.size() != shapes_.size())
         throw RunError("there are opacities for " + std::to_string(masks.opacity.size()) + " of " +
                        std::to_string(shapes_.size()) + " shapes");
@@ -169,7 +169,7 @@ RTCGeometry EmbreeScene::instance_geometry(std::uint32_t index, const Instance& 
     return geometry;
 }
 
-const Mask* EmbreeScene::mask(std::uint32_t shape) const {
+const Mask* EmbreeScene::find_mask(std::uint32_t shape) const {
     const auto at = std::lower_bound(masks_.begin(), masks_.end(), shape,
                                      [](const Mask& m, std::uint32_t index) { return m.shape_index < index; });
     return at != masks_.end() && at->shape_index == shape ? &*at : nullptr;

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "common/base/build_options.h"
 #include "common/scene/scene.h"
 #include "worker/geometry/hit.h"
 #include "worker/geometry/mask.h"
@@ -62,8 +63,10 @@ class EmbreeScene {
     std::uint32_t triangle_count(std::uint32_t shape) const { return surfaces_[shape].triangle_count; }
     double triangle_area(std::uint32_t shape, std::uint32_t primitive) const;
     const Shape& shape(std::uint32_t index) const { return shapes_[index]; }
+    /// Whether any shape lets rays pass.
+    bool masked() const { return !masks_.empty(); }
     /// nullptr: every ray meets the shape.
-    const Mask* mask(std::uint32_t shape) const;
+    const Mask* mask(std::uint32_t shape) const { return kHasMasks ? find_mask(shape) : nullptr; }
     std::uint32_t shape_count() const { return static_cast<std::uint32_t>(shapes_.size()); }
 
     /// Embree's handle, for benchmarks.
@@ -91,6 +94,7 @@ class EmbreeScene {
         std::vector<std::uint32_t> members;  ///< indices in Scene::shapes
     };
 
+    const Mask* find_mask(std::uint32_t shape) const;
     void make_masks(const ShapeMasks& masks);
     std::unique_ptr<RTCSceneTy, ReleaseScene> make_scene() const;
     void make_groups();

@@ -51,7 +51,7 @@ std::string described(const TraceScene& scene, const Job& job, const PassPlan& p
     PathKernel<Surface, kGuided, false, TextObserver> kernel(scene, guide, PathSettings(scene, job, pass, guide),
                                                              stats);
     kernel.observer().scene = &scene;
-    const Rgb radiance = kernel.trace(path, scene.camera().generate(x, y, draw(path, 0, Stream::camera)));
+    const Rgb radiance = kernel.trace(path, scene.camera().generate(x, y, path));
     std::ostringstream head;
     head.precision(9);
     head << "pass " << pass.index << " pixel (" << x << ", " << y << ") sample " << path.sample - pass.first_sample

@@ -2,6 +2,8 @@
 
 namespace treefarm {
 
-template void render_tile<DiffuseSurface>(const TileJob&, bool);
+std::span<const TileKernel> diffuse_kernels() {
+    return kKernelsOf<DiffuseSurface>;
+}
 
 }  // namespace treefarm

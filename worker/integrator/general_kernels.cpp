@@ -2,6 +2,8 @@
 
 namespace treefarm {
 
-template void render_tile<GeneralSurface>(const TileJob&, bool);
+std::span<const TileKernel> general_kernels() {
+    return kKernelsOf<GeneralSurface>;
+}
 
 }  // namespace treefarm

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cassert>
+
 #include "common/config/job.h"
 #include "common/film/trace_stats.h"
 #include "common/guiding/mixture.h"
@@ -81,26 +83,18 @@ class PathKernel {
             const bool found = scene_.geometry().intersect(ray, hit);
             observer_.arrive(depth, found ? &hit : nullptr);
 
-            const Rgb emitted =
-                found ? scene_.emitters().emitted(hit, -ray.direction) : scene_.emitters().environment(ray.direction);
-            if (!is_black(emitted) && !(depth == 1 && settings_.hide_emitters)) {
-                float light_pdf = 0.0f, weight = 1.0f;
-                if (settings_.next_event && depth > 1) {
-                    light_pdf = found ? scene_.emitters().pdf_direct(scatter_point, ray.direction, hit)
-                                      : scene_.emitters().pdf_environment(ray.direction);
-                    weight = mis_weight(settings_.mis, scatter_pdf, light_pdf);
-                }
-                const Rgb weighted = emitted * weight;
-                radiance += throughput * weighted;
-                if constexpr (kRecord) recorder_.add_emission(weighted);
-                observer_.emission(emitted, light_pdf, weight, throughput * weighted);
+            if (!found) {
+                if (scene_.emitters().shines_from_infinity()) [[unlikely]]
+                    radiance += from_infinity(ray.direction, depth, scatter_pdf, throughput);
+                return end(radiance, "left the scene");
             }
-            if (!found) return end(radiance, "left the scene");
+            meet(
+                scene_.emitters().emitted(hit, -ray.direction), depth, scatter_pdf,
+                [&] { return scene_.emitters().pdf_direct(scatter_point, ray.direction, hit); }, throughput, radiance);
             if (depth == settings_.max_depth) return end(radiance, "depth limit");
 
             if (depth > 1 && settings_.roulette.plays(depth - 1)) {
-                const float survival =
-                    settings_.roulette.survival(Surface::kGeneral ? throughput * spread : throughput);
+                const float survival = settings_.roulette.survival(throughput, Surface::kTransmits ? spread : 1.0f);
                 const bool survives = to_unit(draw(path, vertex_of(depth - 1), Stream::roulette)[0]) < survival;
                 observer_.roulette(survival, survives);
                 if (!survives) return end(radiance, "roulette");
@@ -138,7 +132,12 @@ class PathKernel {
             observer_.scatter(s, throughput);
             scatter_pdf = s.pdf;
             scatter_point = hit.p;
-            if (Surface::kGeneral && s.delta) {
+            // One question for what is rare: the same bits say that a lobe may be delta, or refract.
+            const bool rare = Surface::kGeneral && surface.delta_or_transmitting();
+            if constexpr (Surface::kTransmits)
+                if (rare && s.local.z < 0.0f) spread *= surface.eta2();
+            assert(spread == 1.0f || scene_.effects().transmission);
+            if (rare && s.delta) {
                 if constexpr (kRecord)
                     recorder_.add_delta_vertex(weight, surface.smooth() ? region : PathRecorder::kNotRecorded,
                                                vertex_of(depth));
@@ -148,8 +147,6 @@ class PathKernel {
                     recorder_.add_vertex(record_region(path, depth, hit.p, region, Stream::jitter), s.code, s.pdf,
                                          weight, mixture_bin(s.bsdf_pdf, s.guide_pdf), vertex_of(depth));
             }
-            if constexpr (Surface::kGeneral)
-                if (s.local.z < 0.0f) spread *= surface.eta2();
             ray = {offset_origin(hit, s.world), s.world};
         }
     }
@@ -171,6 +168,33 @@ class PathKernel {
 
     Rgb end(const Rgb& radiance, const char* why) {
         observer_.end(why);
+        return radiance;
+    }
+
+    /// Adds emission that a path met, weighted against next event, which finds it with the density `light_pdf()`.
+    template <class LightPdf>
+    void meet(const Rgb& emitted, int depth, float scatter_pdf, LightPdf next_event_pdf, const Rgb& throughput,
+              Rgb& radiance) {
+        if (is_black(emitted) || (depth == 1 && settings_.hide_emitters)) return;
+        float light_pdf = 0.0f, weight = 1.0f;
+        if (settings_.next_event && depth > 1) {
+            light_pdf = next_event_pdf();
+            weight = mis_weight(settings_.mis, scatter_pdf, light_pdf);
+        }
+        const Rgb weighted = emitted * weight;
+        radiance += throughput * weighted;
+        if constexpr (kRecord) recorder_.add_emission(weighted);
+        observer_.emission(emitted, light_pdf, weight, throughput * weighted);
+    }
+
+    /// What a path that leaves the scene brings. Out of line and by value: dark surroundings cost a question.
+    [[gnu::noinline]] Rgb from_infinity(Vec3 direction, int depth, float scatter_pdf, Rgb throughput) {
+        assert(scene_.effects().environment);
+        const Emitters& emitters = scene_.emitters();
+        Rgb radiance(0.0f);
+        meet(
+            emitters.environment(direction), depth, scatter_pdf, [&] { return emitters.pdf_environment(direction); },
+            throughput, radiance);
         return radiance;
     }
 

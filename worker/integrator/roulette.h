@@ -21,12 +21,13 @@ class Roulette {
     /// Whether a path that scattered at `depth` (1 at the first surface) has to play.
     bool plays(int depth) const { return depth >= first_depth_; }
 
-    float survival(const Rgb& throughput) const {
+    /// `scale` (above 0): of the throughput as roulette sees it, without what refraction takes and gives back.
+    float survival(const Rgb& throughput, float scale = 1.0f) const {
         switch (rule_) {
             case Rule::unguided:
-                return std::min(max_component(throughput), 0.95f);
+                return std::min(max_component(throughput) * scale, 0.95f);
             case Rule::untrained:
-                return std::clamp(max_component(throughput), 0.1f, 0.99f);
+                return std::clamp(max_component(throughput) * scale, 0.1f, 0.99f);
             case Rule::trained:
                 break;
         }

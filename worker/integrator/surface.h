@@ -1,5 +1,6 @@
 #pragma once
 
+#include "common/base/build_options.h"
 #include "common/math/frame.h"
 #include "worker/integrator/trace_scene.h"
 
@@ -12,7 +13,7 @@ namespace treefarm {
 class DiffuseSurface {
   public:
     using Bsdf = PlainDiffuse;
-    static constexpr bool kGeneral = false;
+    static constexpr bool kGeneral = false, kTransmits = false;
     struct Scratch {};
     static Scratch make_scratch(const TraceScene&) { return {}; }
 
@@ -26,6 +27,7 @@ class DiffuseSurface {
     const Vec3& wo() const { return wo_; }
     const Vec3& ng() const { return hit_.ng; }
     static constexpr bool smooth() { return true; }
+    static constexpr bool delta_or_transmitting() { return false; }
 
   private:
     const Bsdf& bsdf_;
@@ -39,7 +41,7 @@ class DiffuseSurface {
 class GeneralSurface {
   public:
     using Bsdf = treefarm::Bsdf;
-    static constexpr bool kGeneral = true;
+    static constexpr bool kGeneral = true, kTransmits = kHasTransmission;
     using Scratch = BsdfScratch;
     static Scratch make_scratch(const TraceScene& scene) { return scene.materials().make_scratch(); }
 
@@ -65,6 +67,7 @@ class GeneralSurface {
     const Vec3& ng() const { return ng_; }
     /// Whether any lobe has a density: next event and guides are of no use without.
     bool smooth() const { return lobes_ & kSmoothLobe; }
+    bool delta_or_transmitting() const { return lobes_ & (kDeltaLobe | kTransmittingLobe); }
 
     /// What radiance is scaled by, over what it was, for a ray that goes on to the far side.
     float eta2() const {

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <algorithm>
+#include <span>
 
 #include "common/film/pass_film.h"
+#include "common/plan/kernel.h"
 #include "worker/integrator/path_kernel.h"
 #include "worker/integrator/tile_renderer.h"
 
@@ -20,13 +22,15 @@ struct TileJob {
     TraceStats& stats;
 };
 
-/// Renders a unit with one of the four kernels of a kind of surface. Each kind is compiled by itself: the compiler
-/// inlines less where there are more of them.
-template <class Surface>
-void render_tile(const TileJob& tile, bool guided);
+/// An instance of the path kernel.
+struct TileKernel {
+    KernelChoice choice;
+    void (*render)(const TileJob&);
+};
 
-extern template void render_tile<DiffuseSurface>(const TileJob&, bool);
-extern template void render_tile<GeneralSurface>(const TileJob&, bool);
+/// The kernels of a kind of surface. Each kind is compiled by itself: the compiler inlines less where there are more.
+std::span<const TileKernel> diffuse_kernels();
+std::span<const TileKernel> general_kernels();
 
 /// The film's door: what is not a radiance counts as black, is counted, and can be reproduced from what is kept.
 bool refuse_invalid(Rgb& radiance, const WorkUnit& unit, int x, int y, std::uint32_t sample, TraceStats& stats);
@@ -45,7 +49,7 @@ void render_with(const TileJob& tile) {
             for (std::uint32_t sample = first; sample < last; ++sample) {
                 if (sample % kBlockSamples == 0) blocks.emplace_back();
                 path.sample = pass.first_sample + sample;
-                Rgb radiance = kernel.trace(path, scene.camera().generate(x, y, draw(path, 0, Stream::camera)));
+                Rgb radiance = kernel.trace(path, scene.camera().generate(x, y, path));
                 const bool refused = refuse_invalid(radiance, unit, x, y, sample, stats);
                 if (!is_black(radiance)) ++stats.nonzero_paths;
                 if constexpr (kRecord)
@@ -59,11 +63,11 @@ void render_with(const TileJob& tile) {
 }
 
 template <class Surface>
-void render_tile(const TileJob& tile, bool guided) {
-    if (guided)
-        tile.pass.record ? render_with<Surface, true, true>(tile) : render_with<Surface, true, false>(tile);
-    else
-        tile.pass.record ? render_with<Surface, false, true>(tile) : render_with<Surface, false, false>(tile);
-}
+inline constexpr TileKernel kKernelsOf[] = {
+    {{!Surface::kGeneral, false, false}, render_with<Surface, false, false>},
+    {{!Surface::kGeneral, false, true}, render_with<Surface, false, true>},
+    {{!Surface::kGeneral, true, false}, render_with<Surface, true, false>},
+    {{!Surface::kGeneral, true, true}, render_with<Surface, true, true>},
+};
 
 }  // namespace treefarm

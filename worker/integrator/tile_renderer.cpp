@@ -1,3 +1,4 @@
+#include "common/base/error.h"
 #include "common/base/timer.h"
 #include "worker/integrator/tile_kernel.h"
 
@@ -8,7 +9,22 @@ bool is_valid(const Rgb& c) {
     return is_finite(c) && c.x >= 0.0f && c.y >= 0.0f && c.z >= 0.0f;
 }
 
+const TileKernel& kernel(const KernelChoice& choice) {
+    for (const auto& kernels : {diffuse_kernels(), general_kernels()})
+        for (const TileKernel& kernel : kernels)
+            if (kernel.choice == choice) return kernel;
+    throw RunError("the program has no kernel \"" + choice.name() + "\"");
+}
+
 }  // namespace
+
+std::vector<KernelChoice> compiled_kernels() {
+    std::vector<KernelChoice> choices;
+    for (const auto& kernels : {diffuse_kernels(), general_kernels()})
+        for (const TileKernel& kernel : kernels)
+            choices.push_back(kernel.choice);
+    return choices;
+}
 
 bool refuse_invalid(Rgb& radiance, const WorkUnit& unit, int x, int y, std::uint32_t sample, TraceStats& stats) {
     if (is_valid(radiance)) return false;
@@ -31,7 +47,7 @@ void render_unit(const TraceScene& scene, const Job& job, const PassPlan& pass, 
     log.begin(pass.record ? guide.region_count() : 0);
     const bool guided = job.guiding.type != GuidingType::none && guide.trained();
     const TileJob tile{scene, job, pass, guide, unit, pixels, log, stats};
-    scene.plainly_diffuse() ? render_tile<DiffuseSurface>(tile, guided) : render_tile<GeneralSurface>(tile, guided);
+    kernel(KernelChoice{scene.plainly_diffuse(), guided, pass.record}).render(tile);
     stats.trace_seconds += thread_cpu_seconds() - start;
 }
 

@@ -7,6 +7,7 @@
 #include "common/film/trace_stats.h"
 #include "common/film/work_unit.h"
 #include "common/guiding/guide.h"
+#include "common/plan/kernel.h"
 #include "common/plan/schedule.h"
 #include "worker/integrator/record_log.h"
 #include "worker/integrator/trace_scene.h"
@@ -17,6 +18,9 @@ namespace treefarm {
 /// row; `log` is begun and filled if the pass records; `stats` is added to. Thread-safe for different outputs.
 void render_unit(const TraceScene& scene, const Job& job, const PassPlan& pass, const Guide& guide,
                  const WorkUnit& unit, std::vector<PixelEstimate>& pixels, RecordLog& log, TraceStats& stats);
+
+/// The kernels that render_unit() chooses from: those that the plan names.
+std::vector<KernelChoice> compiled_kernels();
 
 /// The same path as in render_unit, vertex by vertex, as text. `sample` counts within the pass.
 std::string describe_sample(const TraceScene& scene, const Job& job, const PassPlan& pass, const Guide& guide, int x,

@@ -1,5 +1,7 @@
 #include "worker/integrator/trace_scene.h"
 
+#include <cassert>
+
 #include "common/scene/material_traits.h"
 
 namespace treefarm {
@@ -39,13 +41,18 @@ std::optional<MaterialSet> make_materials(const Scene& scene, const TextureSet& 
 TraceScene::TraceScene(Scene scene, const Job& job) : TraceScene(std::move(scene), shape_opacity(scene), job) {}
 
 TraceScene::TraceScene(Scene&& scene, const std::vector<FloatInput>& opacity, const Job& job)
-    : film_(scene.film),
+    : effects_(find_scene_effects(scene, job)),
+      film_(scene.film),
       camera_(scene.camera, scene.film),
       bounds_(scene.bounds()),
       textures_(std::move(scene.textures), std::move(scene.images)),
       plain_diffuse_(is_plainly_diffuse(scene) ? diffuse_bsdfs(scene) : std::vector<PlainDiffuse>()),
       materials_(make_materials(scene, textures_)),
       geometry_(std::move(scene.shapes), job.farm.isa, {opacity, &textures_}),
-      emitters_(scene.emitters, geometry_, bounds_, &textures_) {}
+      emitters_(scene.emitters, geometry_, bounds_, &textures_) {
+    assert(effects_.lens == camera_.has_lens());
+    assert(effects_.masks == geometry_.masked());
+    assert(effects_.environment || !emitters_.shines_from_infinity());
+}
 
 }  // namespace treefarm

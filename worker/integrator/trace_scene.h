@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "common/config/job.h"
+#include "common/plan/scene_effects.h"
 #include "common/scene/scene.h"
 #include "worker/integrator/camera_rays.h"
 #include "worker/lights/emitters.h"
@@ -16,7 +17,8 @@ namespace treefarm {
 /// The scene ready for tracing. Immutable after construction: one per process, shared by its threads.
 class TraceScene {
   public:
-    /// Builds the hierarchy and the light tables; the film is the scene's. Throws RunError where Embree fails.
+    /// Builds the hierarchy and the light tables; the film is the scene's. Throws RunError where Embree fails, and for
+    /// a scene with an effect that the program was built without.
     TraceScene(Scene scene, const Job& job);
 
     const EmbreeScene& geometry() const { return geometry_; }
@@ -24,6 +26,8 @@ class TraceScene {
     const CameraRays& camera() const { return camera_; }
     const TextureSet& textures() const { return textures_; }
     const Film& film() const { return film_; }
+    /// What the scene calls for: for assertions, not for choices.
+    const SceneEffects& effects() const { return effects_; }
     /// Whether plain_diffuse() holds every material; otherwise materials() does.
     bool plainly_diffuse() const { return !materials_; }
     const PlainDiffuse& plain_diffuse(std::uint32_t shape) const { return plain_diffuse_[shape]; }
@@ -33,6 +37,7 @@ class TraceScene {
     /// `opacity` as in ShapeMasks. Takes the scene apart.
     TraceScene(Scene&& scene, const std::vector<FloatInput>& opacity, const Job& job);
 
+    SceneEffects effects_;
     Film film_;
     CameraRays camera_;
     Box3 bounds_;

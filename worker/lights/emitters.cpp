@@ -39,6 +39,7 @@ Emitters::Emitters(const std::vector<Emitter>& emitters, const EmbreeScene& geom
             map_ = std::make_unique<EnvironmentMap>(*image, textures->images()[static_cast<std::size_t>(image->image)]);
         }
     }
+    shines_from_infinity_ = map_ || !is_black(constant_);
     power.insert(power.end(), delta_power.begin(), delta_power.end());
     // What crosses the scene's bounding sphere, as seen by a surface: pi L times its cross-section.
     const double from_infinity = double(kPi) * radius * radius * double(kPi);
@@ -120,9 +121,9 @@ DirectSample Emitters::sample_other(std::uint32_t chosen, const Vec3& p, const D
     const AreaLight& light = area_lights_[chosen];
     DirectSample sample = light.sphere ? sample_sphere(light, p, random) : sample_area(light, p, random);
     if (is_black(sample.radiance)) return sample;
-    if (light.texture != kNone) sample.radiance = textured(light, sample.on_light).rgb();
+    if (kHasTextures && light.texture != kNone) sample.radiance = textured(light, sample.on_light).rgb();
     // The shadow ray ends before the emitter, so its own mask is not asked: on average it lets this much be seen.
-    if (light.mask) sample.radiance *= geometry_->opacity(sample.on_light);
+    if (kHasMasks && light.mask) sample.radiance *= geometry_->opacity(sample.on_light);
     return sample;
 }
 
@@ -168,6 +169,7 @@ DirectSample Emitters::sample_without_area(std::uint32_t chosen, const Vec3& p, 
     if (index < delta_lights_.size()) return delta_lights_[index].sample(p, delta_selection_[index]);
     index -= delta_lights_.size();
     DirectSample sample;
+    if constexpr (!kHasEnvironment) return sample;
     sample.wi = index == 0 ? square_to_sphere({to_unit(random[2]), to_unit(random[3])}) : map_->sample(random);
     sample.distance = std::numeric_limits<float>::infinity();
     sample.pdf = pdf_environment(sample.wi);

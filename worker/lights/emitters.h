@@ -3,6 +3,7 @@
 #include <memory>
 #include <vector>
 
+#include "common/base/build_options.h"
 #include "common/base/random.h"
 #include "common/scene/scene.h"
 #include "worker/geometry/embree_scene.h"
@@ -28,6 +29,9 @@ class Emitters {
     /// False if nothing emits: there is nothing to sample.
     bool can_sample() const { return !selection_.empty(); }
 
+    /// Whether environment() may be other than black.
+    bool shines_from_infinity() const { return kHasEnvironment && shines_from_infinity_; }
+
     /// Samples a direction from p. random[0] chooses the emitter, [1] the triangle, [2] and [3] the place; for an
     /// environment's image [1] and [2] the texels, [3] the place between them.
     DirectSample sample_direct(const Vec3& p, const Draw& random) const;
@@ -42,6 +46,7 @@ class Emitters {
 
     /// The same for directions in which nothing is hit.
     float pdf_environment(const Vec3& direction) const {
+        if constexpr (!kHasEnvironment) return 0.0f;
         return map_ ? constant_pdf_ + map_selection_ * map_->pdf(direction) : constant_pdf_;
     }
 
@@ -50,13 +55,15 @@ class Emitters {
         const std::int32_t light = light_of_shape_[hit.shape];
         if (light == kNone || !(dot(hit.ng, wo) > 0.0f)) return Rgb(0.0f);
         const AreaLight& area = area_lights_[static_cast<std::size_t>(light)];
-        if (area.texture != kNone) [[unlikely]]
-            return textured(area, hit).rgb();
+        if constexpr (kHasTextures)
+            if (area.texture != kNone) [[unlikely]]
+                return textured(area, hit).rgb();
         return area.radiance;
     }
 
     /// Radiance that comes from infinity, against the unit `direction`.
     Rgb environment(const Vec3& direction) const {
+        if constexpr (!kHasEnvironment) return Rgb(0.0f);
         if (map_) [[unlikely]]
             return with_map(direction).rgb();
         return constant_;
@@ -107,6 +114,7 @@ class Emitters {
     float constant_pdf_ = 0;
     std::unique_ptr<EnvironmentMap> map_;
     float map_selection_ = 0;
+    bool shines_from_infinity_ = false;
 };
 
 }  // namespace treefarm

@@ -13,6 +13,10 @@ LobeBits lobes_of(const Bsdf& bsdf) {
             return static_cast<LobeBits>(lobes_of(*b.first) | lobes_of(*b.second));
         else if constexpr (std::is_same_v<Kind, OrientedBsdf>)
             return lobes_of(*b.inner);
+        else if constexpr (std::is_same_v<Kind, RoughDielectricBsdf>)
+            return kSmoothLobe | kTransmittingLobe;
+        else if constexpr (std::is_same_v<Kind, DielectricBsdf> || std::is_same_v<Kind, ThinDielectricBsdf>)
+            return kDeltaLobe | kTransmittingLobe;
         else if constexpr (std::is_same_v<Kind, PlasticBsdf>)
             return kSmoothLobe | kDeltaLobe;
         else if constexpr (std::is_same_v<Kind, DiffuseBsdf> || requires { b.facets; })

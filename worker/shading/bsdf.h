@@ -2,6 +2,7 @@
 
 #include <variant>
 
+#include "common/base/build_options.h"
 #include "worker/shading/blend.h"
 #include "worker/shading/conductor.h"
 #include "worker/shading/dielectric.h"
@@ -31,13 +32,17 @@ struct Bsdf {
     /// Calls f with the alternative that is held: a switch, where std::visit would call through a table.
     template <class F>
     auto visit(F&& f) const {
+        const auto dielectric = [&](const auto* bsdf) {
+            if constexpr (kHasTransmission) return f(*bsdf);
+            return f(BlackBsdf{});
+        };
         switch (kind.index()) {
             case 1:
                 return f(*std::get_if<1>(&kind));
             case 2:
                 return f(*std::get_if<2>(&kind));
             case 3:
-                return f(*std::get_if<3>(&kind));
+                return dielectric(std::get_if<3>(&kind));
             case 4:
                 return f(*std::get_if<4>(&kind));
             case 5:
@@ -45,9 +50,9 @@ struct Bsdf {
             case 6:
                 return f(*std::get_if<6>(&kind));
             case 7:
-                return f(*std::get_if<7>(&kind));
+                return dielectric(std::get_if<7>(&kind));
             case 8:
-                return f(*std::get_if<8>(&kind));
+                return dielectric(std::get_if<8>(&kind));
             case 9:
                 return f(*std::get_if<9>(&kind));
             case 10:

@@ -2,6 +2,7 @@
 
 #include <type_traits>
 
+#include "common/base/build_options.h"
 #include "common/base/error.h"
 #include "common/math/frame.h"
 #include "common/scene/material_traits.h"
@@ -135,7 +136,7 @@ const Bsdf* BsdfBuilder::described(std::int32_t index, bool back, const ShadingP
         slot = &inner;
         inside = seen_in(frame, inside);
     };
-    if (material.detail.any()) orient(tilted_normal(material.detail, point));
+    if (kHasBump && material.detail.any()) orient(tilted_normal(material.detail, point));
     if (traits.anisotropic) orient(Vec3(0.0f, 0.0f, 1.0f));
     *slot = leaf(index, back, inside, nodes);
     return &outer;
@@ -153,6 +154,7 @@ Bsdf BsdfBuilder::leaf(std::int32_t index, bool back, const ShadingPoint& point,
             if (m.roughness.smooth()) return {ConductorBsdf{m.eta, m.k, reflectance}};
             return {RoughConductorBsdf{m.eta, m.k, reflectance, facets(m.roughness, point)}};
         } else if constexpr (std::is_same_v<Kind, DielectricMaterial>) {
+            if constexpr (!kHasTransmission) return {};
             const Rgb reflectance = color(m.specular_reflectance, point),
                       transmittance = color(m.specular_transmittance, point);
             if (!refracts(m.eta)) return {NullBsdf{transmittance}};
@@ -160,6 +162,7 @@ Bsdf BsdfBuilder::leaf(std::int32_t index, bool back, const ShadingPoint& point,
             if (m.roughness.smooth()) return {DielectricBsdf{eta, reflectance, transmittance}};
             return {RoughDielectricBsdf{eta, reflectance, transmittance, facets(m.roughness, point)}};
         } else if constexpr (std::is_same_v<Kind, ThinDielectricMaterial>) {
+            if constexpr (!kHasTransmission) return {};
             return {ThinDielectricBsdf{m.eta, color(m.specular_reflectance, point),
                                        color(m.specular_transmittance, point)}};
         } else if constexpr (std::is_same_v<Kind, PlasticMaterial>) {

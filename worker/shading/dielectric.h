@@ -13,7 +13,9 @@ struct DielectricBsdf {
 
     BsdfValue value(const Vec3&, const Vec3&) const { return {}; }
 
-    BsdfSample sample(const Vec3& wo, const BsdfRandom& random) const {
+    /// Out of line, as those of the other dielectrics: what the compiler makes of opaque surfaces does not depend on
+    /// it.
+    [[gnu::noinline]] BsdfSample sample(const Vec3& wo, const BsdfRandom& random) const {
         const DielectricFresnel f = fresnel_dielectric(wo.z, eta);
         if (random.lobe < f.reflectance)
             return {{-wo.x, -wo.y, wo.z}, f.reflectance, reflectance * f.reflectance, true};

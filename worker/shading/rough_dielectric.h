@@ -11,7 +11,7 @@ struct RoughDielectricBsdf {
     Rgb reflectance{1.0f}, transmittance{1.0f};
     Microfacet facets;
 
-    BsdfValue value(const Vec3& wo, const Vec3& wi) const {
+    [[gnu::noinline]] BsdfValue value(const Vec3& wo, const Vec3& wi) const {
         if (wi.z > 0.0f) {
             const RoughReflection r = rough_reflection(facets, wo, wi);
             const float f = fresnel_dielectric(r.cos_o, eta).reflectance;
@@ -20,7 +20,7 @@ struct RoughDielectricBsdf {
         return wi.z < 0.0f ? refraction(wo, wi) : BsdfValue{};
     }
 
-    BsdfSample sample(const Vec3& wo, const BsdfRandom& random) const {
+    [[gnu::noinline]] BsdfSample sample(const Vec3& wo, const BsdfRandom& random) const {
         const Vec3 m = facets.sample_visible(wo, random.place);
         const float cos_o = dot(wo, m);
         if (!(cos_o > 0.0f)) return {};

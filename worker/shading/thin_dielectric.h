@@ -12,7 +12,7 @@ struct ThinDielectricBsdf {
 
     BsdfValue value(const Vec3&, const Vec3&) const { return {}; }
 
-    BsdfSample sample(const Vec3& wo, const BsdfRandom& random) const {
+    [[gnu::noinline]] BsdfSample sample(const Vec3& wo, const BsdfRandom& random) const {
         const float once = fresnel_dielectric(wo.z, eta).reflectance;
         const float r = 2.0f * once / (1.0f + once);  // the series summed up
         if (random.lobe < r) return {{-wo.x, -wo.y, wo.z}, r, reflectance * r, true};

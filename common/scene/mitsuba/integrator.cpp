@@ -34,8 +34,8 @@ class IntegratorReader {
     /// What estimates the same image in another way: how long paths are belongs to the image, the rest does not.
     void read_other(const std::string& type) {
         diagnostics_.warn(properties_.where(), "the integrator " + in_quotes(type) +
-                                                   " is replaced by path tracing as the job sets it: it converges to "
-                                                   "the same image");
+                                                   " is replaced by path tracing as the job sets it: the same image, "
+                                                   "but for what that integrator leaves out or blurs");
         if (!properties_.has("max_depth") && type == "vpl") set("integrator.max_depth", "5", properties_.where());
         if (!properties_.has("max_depth") && type.starts_with("prb"))
             set("integrator.max_depth", "6", properties_.where());

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "common/config/job.h"
+#include "common/scene/scene.h"
+
+namespace treefarm {
+
+/// What of the plan the worker holds against what happens: which effects are on that code is left out for, or kept out
+/// of line. In a debug build one that occurs although it is off here is an assertion.
+struct SceneEffects {
+    bool textures = false;  ///< of materials or area emitters
+    bool masks = false;
+    bool bump = false;  ///< or normal maps
+    bool anisotropy = false;
+    bool transmission = false;
+    bool environment = false;
+    bool lens = false;
+};
+
+/// The effects as the plan has them (EffectFinder). Throws RunError if the scene calls for one that the program was
+/// built without, naming the option.
+SceneEffects find_scene_effects(const Scene& scene, const Job& job);
+
+/// The same for a program that lacks `left_out`, names of TREEFARM_WITHOUT.
+SceneEffects find_scene_effects(const Scene& scene, const Job& job, std::span<const std::string> left_out);
+
+}  // namespace treefarm

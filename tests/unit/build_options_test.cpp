@@ -1,0 +1,74 @@
+// What a program has: its kernels, and the effects that it was built with.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "common/base/error.h"
+#include "common/plan/scene_effects.h"
+#include "tests/support/test_scenes.h"
+#include "worker/integrator/tile_renderer.h"
+
+namespace treefarm {
+namespace {
+
+TEST(Kernels, AreThoseThatThePlanNamesAndAtMostTwelve) {
+    const std::vector<KernelChoice> compiled = compiled_kernels();
+    EXPECT_LE(compiled.size(), 12u);
+    EXPECT_EQ(compiled.size(), std::size_t(kKernelCount)) << "what the plan says that the program has";
+    for (const bool diffuse : {false, true})
+        for (const bool guided : {false, true})
+            for (const bool record : {false, true}) {
+                const KernelChoice choice{diffuse, guided, record};
+                EXPECT_EQ(std::count(compiled.begin(), compiled.end(), choice), 1) << choice.name();
+            }
+}
+
+/// A masked pane before a camera with a lens, under a constant sky.
+Scene scene_with_effects() {
+    Scene scene;
+    scene.film.width = scene.film.height = 2;
+    const std::int32_t material = test::add_diffuse(scene, Rgb(0.5f));
+    scene.materials[0].opacity = FloatInput(0.5f);
+    scene.materials[0].where = {"pane.xml", 7, 3};
+    test::add_shape(scene, test::quad({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}), material);
+    scene.emitters.push_back({ConstantEmitter{Rgb(1.0f)}, {}});
+    scene.camera.lens_u = Vec3(0.1f, 0.0f, 0.0f);
+    scene.camera.lens_v = Vec3(0.0f, 0.1f, 0.0f);
+    return scene;
+}
+
+TEST(SceneEffects, AreThoseOfThePlan) {
+    const SceneEffects on = find_scene_effects(scene_with_effects(), Job(), {});
+    EXPECT_TRUE(on.masks && on.environment && on.lens);
+    EXPECT_FALSE(on.textures || on.bump || on.anisotropy || on.transmission);
+
+    Scene scene = scene_with_effects();
+    scene.materials[0].opacity = FloatInput(1.0f);
+    scene.materials[0].bsdf = DielectricMaterial{};
+    scene.emitters.clear();
+    scene.camera.lens_u = scene.camera.lens_v = Vec3(0.0f);
+    const SceneEffects glass = find_scene_effects(scene, Job(), {});
+    EXPECT_TRUE(glass.transmission);
+    EXPECT_FALSE(glass.masks || glass.environment || glass.lens);
+}
+
+TEST(SceneEffects, AProgramWithoutOneRefusesScenesThatCallForIt) {
+    const Scene scene = scene_with_effects();
+    const std::vector<std::string> unneeded = {"textures", "bump", "transmission"};
+    EXPECT_NO_THROW(find_scene_effects(scene, Job(), unneeded));
+    for (const std::string option : {"masks", "environment", "lens"}) {
+        const std::vector<std::string> left_out = {"bump", option};
+        try {
+            find_scene_effects(scene, Job(), left_out);
+            FAIL() << option;
+        } catch (const RunError& error) {
+            const std::string message = error.what();
+            EXPECT_NE(message.find('"' + option + '"'), std::string::npos) << message;
+            EXPECT_NE(message.find("TREEFARM_WITHOUT"), std::string::npos) << message;
+            if (option == "masks") EXPECT_EQ(message.find("pane.xml:7:3: "), 0u) << message;
+        }
+    }
+}
+
+}  // namespace
+}  // namespace treefarm
