@@ -88,9 +88,8 @@ class PathKernel {
                     radiance += from_infinity(ray.direction, depth, scatter_pdf, throughput);
                 return end(radiance, "left the scene");
             }
-            meet(
-                scene_.emitters().emitted(hit, -ray.direction), depth, scatter_pdf,
-                [&] { return scene_.emitters().pdf_direct(scatter_point, ray.direction, hit); }, throughput, radiance);
+            if (scene_.emitters().emits(hit.shape)) [[unlikely]]
+                radiance += from_emitter(hit, ray.direction, scatter_point, depth, scatter_pdf, throughput);
             if (depth == settings_.max_depth) return end(radiance, "depth limit");
 
             if (depth > 1 && settings_.roulette.plays(depth - 1)) {
@@ -171,31 +170,37 @@ class PathKernel {
         return radiance;
     }
 
-    /// Adds emission that a path met, weighted against next event, which finds it with the density `light_pdf()`.
-    template <class LightPdf>
-    void meet(const Rgb& emitted, int depth, float scatter_pdf, LightPdf next_event_pdf, const Rgb& throughput,
-              Rgb& radiance) {
-        if (is_black(emitted) || (depth == 1 && settings_.hide_emitters)) return;
+    /// What the path brings that met `emitted`, weighted against next event, which finds that with the density
+    /// `next_event_pdf()`.
+    template <class Pdf>
+    Rgb met(const Rgb& emitted, int depth, float scatter_pdf, const Rgb& throughput, Pdf next_event_pdf) {
+        if (is_black(emitted) || (depth == 1 && settings_.hide_emitters)) return Rgb(0.0f);
         float light_pdf = 0.0f, weight = 1.0f;
         if (settings_.next_event && depth > 1) {
             light_pdf = next_event_pdf();
             weight = mis_weight(settings_.mis, scatter_pdf, light_pdf);
         }
         const Rgb weighted = emitted * weight;
-        radiance += throughput * weighted;
         if constexpr (kRecord) recorder_.add_emission(weighted);
         observer_.emission(emitted, light_pdf, weight, throughput * weighted);
+        return throughput * weighted;
     }
 
-    /// What a path that leaves the scene brings. Out of line and by value: dark surroundings cost a question.
+    // Emitters are met once in a path or never. Out of line and by value, what they may be (textured, an image around
+    // the scene) costs the other vertices nothing, not even registers.
+
+    [[gnu::noinline]] Rgb from_emitter(const Hit& hit, Vec3 direction, Vec3 scatter_point, int depth, float scatter_pdf,
+                                       Rgb throughput) {
+        const Emitters& emitters = scene_.emitters();
+        return met(emitters.emitted(hit, -direction), depth, scatter_pdf, throughput,
+                   [&] { return emitters.pdf_direct(scatter_point, direction, hit); });
+    }
+
     [[gnu::noinline]] Rgb from_infinity(Vec3 direction, int depth, float scatter_pdf, Rgb throughput) {
         assert(scene_.effects().environment);
         const Emitters& emitters = scene_.emitters();
-        Rgb radiance(0.0f);
-        meet(
-            emitters.environment(direction), depth, scatter_pdf, [&] { return emitters.pdf_environment(direction); },
-            throughput, radiance);
-        return radiance;
+        return met(emitters.environment(direction), depth, scatter_pdf, throughput,
+                   [&] { return emitters.pdf_environment(direction); });
     }
 
     /// What a sampled emitter sends via this surface against the incoming ray, weighted against scattering.

@@ -50,6 +50,9 @@ class Emitters {
         return map_ ? constant_pdf_ + map_selection_ * map_->pdf(direction) : constant_pdf_;
     }
 
+    /// Whether emitted() may be other than black on a shape.
+    bool emits(std::uint32_t shape) const { return light_of_shape_[shape] != kNone; }
+
     /// Radiance that leaves a surface point into the direction `wo`.
     Rgb emitted(const Hit& hit, const Vec3& wo) const {
         const std::int32_t light = light_of_shape_[hit.shape];

@@ -22,8 +22,8 @@ inline DielectricFresnel fresnel_dielectric(float cos_i, float eta) {
 }
 
 /// Reflectance of one channel of a metal with complex index eta + i k relative to the outside, `cos_i` in [0, 1]
-/// (the exact equations, as in Mitsuba 0.6).
-inline float fresnel_conductor(float cos_i, float eta, float k) {
+/// (the exact equations, as in Mitsuba 0.6). Inlined by order: the compiler's own choice hangs on unrelated code.
+[[gnu::always_inline]] inline float fresnel_conductor(float cos_i, float eta, float k) {
     const float cos2 = cos_i * cos_i, sin2 = (1.0f - cos_i) * (1.0f + cos_i);
     const float re = eta * eta - k * k - sin2;
     const float a2_plus_b2 = std::sqrt(re * re + 4.0f * eta * eta * k * k);
