@@ -55,6 +55,9 @@ EmbreeScene::EmbreeScene(std::vector<Shape> shapes, const std::string& isa, cons
         if (shapes_[i].group == kNone) attach(scene_.get(), i, i);
     rtcCommitScene(scene_.get());
     check_errors("building the hierarchy");
+    plain_ = masks_.empty() && std::all_of(shapes_.begin(), shapes_.end(), [](const Shape& shape) {
+                 return std::holds_alternative<Mesh>(shape.geometry);
+             });
 }
 
 EmbreeScene::~EmbreeScene() = default;

@@ -2,6 +2,7 @@
 
 #include <embree3/rtcore.h>
 
+#include <array>
 #include <cmath>
 
 #include "worker/geometry/primitive_points.h"
@@ -27,6 +28,8 @@ RTCRay make_ray(const Ray& ray) {
     return r;
 }
 
+constexpr std::size_t kMostRays = 64;
+
 RTCIntersectContext incoherent_context() {
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
@@ -36,18 +39,31 @@ RTCIntersectContext incoherent_context() {
 
 }  // namespace
 
-bool EmbreeScene::intersect(const Ray& ray, Hit& hit) const {
+bool EmbreeScene::meet(const Ray& ray, Meeting& meeting) const {
     RTCIntersectContext context = incoherent_context();
     RTCRayHit query;
     query.ray = make_ray(ray);
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     rtcIntersect1(scene_.get(), &context, &query);
-    if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
-    if (query.hit.instID[0] == RTC_INVALID_GEOMETRY_ID)
-        set_triangle_point(hit, query.hit.geomID, query.hit.primID, query.hit.u, query.hit.v);
+    const RTCHit& hit = query.hit;
+    if (hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
+    meeting = {hit.instID[0], hit.geomID, hit.primID, hit.u, hit.v, {hit.Ng_x, hit.Ng_y, hit.Ng_z}};
+    if (hit.instID[0] == RTC_INVALID_GEOMETRY_ID)
+        __builtin_prefetch(surfaces_[hit.geomID].indices + 3 * std::size_t(hit.primID));
+    return true;
+}
+
+void EmbreeScene::set_point(Hit& hit, const Meeting& m) const {
+    if (m.instance == RTC_INVALID_GEOMETRY_ID)
+        set_triangle_point(hit, m.id, m.primitive, m.u, m.v);
     else
-        hit = other_point(query.hit.instID[0], query.hit.geomID, query.hit.primID, query.hit.u, query.hit.v,
-                          {query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z});
+        hit = other_point(m.instance, m.id, m.primitive, m.u, m.v, m.outward);
+}
+
+bool EmbreeScene::intersect(const Ray& ray, Hit& hit) const {
+    Meeting meeting;
+    if (!meet(ray, meeting)) return false;
+    set_point(hit, meeting);
     return true;
 }
 
@@ -56,6 +72,21 @@ bool EmbreeScene::occluded(const Ray& ray) const {
     RTCRay query = make_ray(ray);
     rtcOccluded1(scene_.get(), &context, &query);
     return query.tfar < 0.0f;
+}
+
+void EmbreeScene::occluded(std::span<const Ray> rays, bool* hidden) const {
+    if (!plain_) {  // our callbacks take single rays
+        for (std::size_t i = 0; i < rays.size(); ++i)
+            hidden[i] = rays[i].length > 0.0f && occluded(rays[i]);
+        return;
+    }
+    RTCIntersectContext context = incoherent_context();
+    std::array<RTCRay, kMostRays> queries;
+    for (std::size_t i = 0; i < rays.size(); ++i)
+        queries[i] = make_ray(rays[i]);
+    rtcOccluded1M(scene_.get(), &context, queries.data(), static_cast<unsigned>(rays.size()), sizeof(RTCRay));
+    for (std::size_t i = 0; i < rays.size(); ++i)
+        hidden[i] = queries[i].tfar == -std::numeric_limits<float>::infinity();
 }
 
 void EmbreeScene::set_triangle_point(Hit& hit, std::uint32_t shape, std::uint32_t primitive, float b1, float b2) const {

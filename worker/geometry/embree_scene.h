@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -37,10 +38,22 @@ class EmbreeScene {
     EmbreeScene(const EmbreeScene&) = delete;
     EmbreeScene& operator=(const EmbreeScene&) = delete;
 
+    /// What a ray meets first, as Embree tells it.
+    struct Meeting {
+        std::uint32_t instance, id, primitive;
+        float u, v;
+        Vec3 outward;
+    };
     /// The nearest surface along the ray; false if there is none. Tuned for incoherent rays (SPEED.md, section 1).
+    bool meet(const Ray& ray, Meeting& meeting) const;
+    /// The point that was met. Apart from meet(), so that of many points none waits for another's memory.
+    void set_point(Hit& hit, const Meeting& meeting) const;
+    /// Both in one.
     bool intersect(const Ray& ray, Hit& hit) const;
     /// Whether anything lies on the segment or half line.
     bool occluded(const Ray& ray) const;
+    /// The same of up to 64 rays, which may be faster together. One of negative length is free.
+    void occluded(std::span<const Ray> rays, bool* hidden) const;
 
     /// A point of a triangle from its barycentrics: what intersect() reports for a ray through it.
     Hit triangle_point(std::uint32_t shape, std::uint32_t primitive, float b1, float b2) const;
@@ -114,6 +127,7 @@ class EmbreeScene {
     std::unique_ptr<RTCDeviceTy, ReleaseDevice> device_;
     std::vector<Group> groups_;
     std::unique_ptr<RTCSceneTy, ReleaseScene> scene_;
+    bool plain_ = true;  ///< nothing but triangles of the world that every ray meets
 };
 
 }  // namespace treefarm

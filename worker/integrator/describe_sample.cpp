@@ -11,7 +11,7 @@ std::ostream& operator<<(std::ostream& out, const Vec3& v) {
 }
 
 /// Writes one line per event of a path.
-struct TextObserver {
+struct TextObserver : NoObserver {
     const TraceScene* scene = nullptr;
     std::ostringstream text;
 
@@ -34,7 +34,7 @@ struct TextObserver {
         text << "  scatter " << (s.delta ? "(delta) " : "") << "along " << s.world << " pdf " << s.pdf << " f cos "
              << s.f_cos << " throughput " << throughput << '\n';
     }
-    void next_event(const DirectSample& light, float scatter_pdf, float weight, const Rgb& contribution) {
+    void next_event(const PendingLight& light, float scatter_pdf, float weight, const Rgb& contribution) {
         text << "  next event along " << light.wi << " distance " << light.distance << " pdf " << light.pdf
              << " scatter pdf " << scatter_pdf << " weight " << weight << " contributes " << contribution << '\n';
     }
@@ -51,11 +51,12 @@ std::string described(const TraceScene& scene, const Job& job, const PassPlan& p
     PathKernel<Surface, kGuided, false, TextObserver> kernel(scene, guide, PathSettings(scene, job, pass, guide),
                                                              stats);
     kernel.observer().scene = &scene;
-    const Rgb radiance = kernel.trace(path, scene.camera().generate(x, y, path));
+    kernel.add(path, scene.camera().generate(x, y, path));
+    kernel.trace();
     std::ostringstream head;
     head.precision(9);
     head << "pass " << pass.index << " pixel (" << x << ", " << y << ") sample " << path.sample - pass.first_sample
-         << " (path sample " << path.sample << ") seed " << path.seed << ": radiance " << radiance << '\n';
+         << " (path sample " << path.sample << ") seed " << path.seed << ": radiance " << kernel.radiance(0) << '\n';
     return head.str() + kernel.observer().text.str();
 }
 

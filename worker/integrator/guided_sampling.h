@@ -19,6 +19,11 @@ struct ScatterSample {
     bool delta = false;      ///< of a lobe without density, which the guide cannot find
 };
 
+/// Density of a mixture that samples the BSDF with the probability `bsdf_fraction`, the guide otherwise.
+inline float mixed_pdf(float bsdf_fraction, float bsdf_pdf, float guide_pdf) {
+    return bsdf_fraction * bsdf_pdf + (1.0f - bsdf_fraction) * guide_pdf;
+}
+
 /// The density from which directions are drawn at one surface point: the BSDF's, or
 /// bsdf_fraction * p_BSDF + (1 - bsdf_fraction) * p_guide. sample() and pdf() agree by construction: the guide's part
 /// of a guided sample is the density of the very cell it was drawn from. The guide stands in for smooth lobes only: the
@@ -71,15 +76,11 @@ class GuidedSampling {
         return s;
     }
 
-    /// Density of sample() per steradian for a direction with this code (which only a guide needs), where the BSDF's is
-    /// `bsdf_pdf`.
-    float pdf(float bsdf_pdf, std::uint32_t code) const {
-        if constexpr (kGuided) return mix(bsdf_pdf, guide_.pdf(region_, code));
-        return bsdf_pdf;
-    }
+    /// 1 where the guide has no part.
+    float bsdf_fraction() const { return bsdf_fraction_; }
 
   private:
-    float mix(float bsdf, float guide) const { return bsdf_fraction_ * bsdf + (1.0f - bsdf_fraction_) * guide; }
+    float mix(float bsdf, float guide) const { return mixed_pdf(bsdf_fraction_, bsdf, guide); }
 
     const Bsdf& bsdf_;
     const Frame& frame_;

@@ -1,162 +1,180 @@
 #pragma once
 
+#include <array>
 #include <cassert>
 
-#include "common/config/job.h"
 #include "common/film/trace_stats.h"
 #include "common/guiding/mixture.h"
-#include "common/plan/schedule.h"
 #include "worker/integrator/guided_sampling.h"
 #include "worker/integrator/mis.h"
+#include "worker/integrator/path_observer.h"
 #include "worker/integrator/path_recorder.h"
-#include "worker/integrator/roulette.h"
+#include "worker/integrator/path_settings.h"
+#include "worker/integrator/pending_light.h"
 #include "worker/integrator/surface.h"
 
 namespace treefarm {
 
-/// What the walk is told besides the scene: fixed for a pass.
-struct PathSettings {
-    int max_depth;
-    bool next_event;   ///< a flag, not a kernel of its own: one predictable branch per vertex
-    bool delta_alone;  ///< no next event, but for the lights that nothing else finds
-    MisHeuristic mis;
-    bool strict_normals;
-    bool hide_emitters;
-    bool record_light_samples;  ///< kick-start: what next event finds teaches the tree, too
-    bool jitter_records;        ///< stochastic spatial filter
-    GuidingTarget target;
-    Roulette roulette;
-
-    PathSettings(const TraceScene& scene, const Job& job, const PassPlan& pass, const Guide& guide)
-        : max_depth(job.integrator.max_depth),
-          next_event(pass.next_event && scene.emitters().can_sample()),
-          delta_alone(!pass.next_event && scene.emitters().has_delta_lights()),
-          mis(job.integrator.mis),
-          strict_normals(job.integrator.strict_normals),
-          hide_emitters(job.integrator.hide_emitters),
-          record_light_samples(job.integrator.next_event == NextEvent::kickstart && pass.next_event),
-          jitter_records(job.guiding.spatial_filter == SpatialFilter::stochastic),
-          target(job.guiding.target),
-          roulette(job.guiding.type == GuidingType::none ? Roulette::Rule::unguided
-                   : guide.trained()                     ? Roulette::Rule::trained
-                                                         : Roulette::Rule::untrained,
-                   job.integrator.rr_depth) {}
-};
-
-/// Watches nothing, at no cost. describe_sample() passes one that writes.
-struct NoObserver {
-    void camera(const Ray&) {}
-    void arrive(int, const Hit*) {}
-    void emission(const Rgb&, float, float, const Rgb&) {}
-    void scatter(const ScatterSample&, const Rgb&) {}
-    void next_event(const DirectSample&, float, float, const Rgb&) {}
-    void roulette(float, bool) {}
-    void end(const char*) {}
-};
-
 /// Path tracing from the camera with optional next event, guiding and recording (Mueller et al. 2017; the order of
 /// tests is that of their program). Depth counts path edges: a surface seen by the camera has depth 1. One kernel per
 /// thread. `Surface` is one of surface.h.
+///
+/// Paths walk in step, up to kBatch of them: what one waits for (memory, square roots) another works through, and the
+/// shadow rays of a step are traced together. A path's result does not depend on its company.
 template <class Surface, bool kGuided, bool kRecord, class Observer = NoObserver>
 class PathKernel {
   public:
+    static constexpr std::uint32_t kBatch = 32;
+
     PathKernel(const TraceScene& scene, const Guide& guide, const PathSettings& settings, TraceStats& stats)
-        : scene_(scene),
-          guide_(guide),
-          settings_(settings),
-          stats_(stats),
-          scratch_(Surface::make_scratch(scene)),
-          recorder_(settings.target) {}
-
-    /// Radiance along a camera ray. What was learned stays in recorder() until it is committed or the next path begins.
-    Rgb trace(const PathKey& path, Ray ray) {
-        Rgb radiance(0.0f), throughput(1.0f);
-        float scatter_pdf = 0.0f;  // infinite after a delta lobe: next event cannot have found what it meets
-        float spread = 1.0f;       // product of eta^2: what refraction took from the throughput and gives back later
-        Vec3 scatter_point(0.0f);
-        if constexpr (kRecord) recorder_.begin_path();
-        observer_.camera(ray);
-        if (settings_.max_depth == 0) return radiance;
-        for (int depth = 1;; ++depth) {
-            Hit hit;
-            ++stats_.rays;
-            const bool found = scene_.geometry().intersect(ray, hit);
-            observer_.arrive(depth, found ? &hit : nullptr);
-
-            if (!found) {
-                if (scene_.emitters().shines_from_infinity()) [[unlikely]]
-                    radiance += from_infinity(ray.direction, depth, scatter_pdf, throughput);
-                return end(radiance, "left the scene");
-            }
-            if (scene_.emitters().emits(hit.shape)) [[unlikely]]
-                radiance += from_emitter(hit, ray.direction, scatter_point, depth, scatter_pdf, throughput);
-            if (depth == settings_.max_depth) return end(radiance, "depth limit");
-
-            if (depth > 1 && settings_.roulette.plays(depth - 1)) {
-                const float survival = settings_.roulette.survival(throughput, Surface::kTransmits ? spread : 1.0f);
-                const bool survives = to_unit(draw(path, vertex_of(depth - 1), Stream::roulette)[0]) < survival;
-                observer_.roulette(survival, survives);
-                if (!survives) return end(radiance, "roulette");
-                throughput *= 1.0f / survival;
-                if constexpr (kRecord) recorder_.survive(survival);
-            }
-
-            const Surface surface(scene_, hit, -ray.direction, scratch_);
-            if (surface.black()) return end(radiance, "black surface");
-            if (settings_.strict_normals && -dot(surface.ng(), ray.direction) * surface.wo().z < 0.0f)
-                return end(radiance, "normals disagree");
-
-            ++stats_.vertices;
-            std::uint32_t region = 0;
-            if ((kGuided || kRecord) && surface.smooth()) {
-                region = guide_.region(hit.p);
-                if constexpr (kRecord)
-                    if (!guide_.contains(hit.p)) recorder_.add_outside();
-            }
-            const GuidedSampling<Bsdf, kGuided> sampling(surface.bsdf(), surface.frame(), surface.wo(), guide_, region,
-                                                         surface.smooth());
-
-            if ((settings_.next_event || settings_.delta_alone) && surface.smooth()) {
-                const Rgb reflected = next_event(path, depth, hit, surface, sampling, region, throughput);
-                radiance += throughput * reflected;
-                if constexpr (kRecord) recorder_.add_reflected(reflected);
-            }
-
-            const ScatterSample s = sampling.sample(draw(path, vertex_of(depth), Stream::scatter), kRecord);
-            if (!(s.pdf > 0.0f) || is_black(s.f_cos)) return end(radiance, "no direction");
-            if (settings_.strict_normals && dot(surface.ng(), s.world) * s.local.z <= 0.0f)
-                return end(radiance, "normals disagree");
-            const Rgb weight = s.f_cos * (1.0f / s.pdf);
-            throughput *= weight;
-            observer_.scatter(s, throughput);
-            scatter_pdf = s.pdf;
-            scatter_point = hit.p;
-            // One question for what is rare: the same bits say that a lobe may be delta, or refract.
-            const bool rare = Surface::kGeneral && surface.delta_or_transmitting();
-            if constexpr (Surface::kTransmits)
-                if (rare && s.local.z < 0.0f) spread *= surface.eta2();
-            assert(spread == 1.0f || scene_.effects().transmission);
-            if (rare && s.delta) {
-                if constexpr (kRecord)
-                    recorder_.add_delta_vertex(weight, surface.smooth() ? region : PathRecorder::kNotRecorded,
-                                               vertex_of(depth));
-                scatter_pdf = std::numeric_limits<float>::infinity();
-            } else {
-                if constexpr (kRecord)
-                    recorder_.add_vertex(record_region(path, depth, hit.p, region, Stream::jitter), s.code, s.pdf,
-                                         weight, mixture_bin(s.bsdf_pdf, s.guide_pdf), vertex_of(depth));
-            }
-            ray = {offset_origin(hit, s.world), s.world};
-        }
+        : scene_(scene), guide_(guide), settings_(settings), stats_(stats), scratch_(Surface::make_scratch(scene)) {
+        if constexpr (kRecord) recorders_.fill(PathRecorder(settings.target));
     }
 
-    PathRecorder& recorder() { return recorder_; }
+    /// Forgets the paths traced so far.
+    void clear() { count_ = 0; }
+
+    /// Adds a camera path; at most kBatch of them.
+    void add(const PathKey& key, const Ray& ray) {
+        assert(count_ < kBatch);
+        paths_[count_].begin(key, ray);
+        if constexpr (kRecord) recorders_[count_].begin_path();
+        observer_.camera(ray);
+        ++count_;
+    }
+
+    /// Traces what was added.
+    void trace() {
+        std::uint32_t alive = settings_.max_depth == 0 ? 0 : count_;
+        for (std::uint32_t i = 0; i < alive; ++i)
+            alive_[i] = static_cast<std::uint8_t>(i);
+        for (int depth = 1; alive != 0; ++depth)
+            alive = step(alive, depth);
+    }
+
+    /// Radiance along the camera ray of the path added as number `path`.
+    const Rgb& radiance(std::uint32_t path) const { return paths_[path].radiance; }
+    /// What it learned, until it is committed.
+    PathRecorder& recorder(std::uint32_t path) { return recorders_[path]; }
     Observer& observer() { return observer_; }
 
   private:
     using Bsdf = typename Surface::Bsdf;
 
+    struct Path {
+        PathKey key;
+        Ray ray;
+        Rgb radiance, throughput;
+        float scatter_pdf;  ///< infinite after a delta lobe: next event cannot have found what it meets
+        float spread;       ///< product of eta^2: what refraction took from the throughput and gives back later
+        Vec3 scatter_point;
+        bool found;
+        EmbreeScene::Meeting meeting;
+        Hit hit;
+
+        void begin(const PathKey& path, const Ray& from_camera) {
+            key = path;
+            ray = from_camera;
+            radiance = scatter_point = Rgb(0.0f);
+            throughput = Rgb(1.0f);
+            scatter_pdf = 0.0f;
+            spread = 1.0f;
+        }
+    };
+
     static std::uint32_t vertex_of(int depth) { return static_cast<std::uint32_t>(depth); }
+
+    /// One more edge for the first `alive` of alive_; returns how many go on.
+    std::uint32_t step(std::uint32_t alive, int depth) {
+        stats_.rays += alive;
+        for (std::uint32_t i = 0; i < alive; ++i) {
+            Path& path = paths_[alive_[i]];
+            observer_.ray(path.ray);
+            path.found = scene_.geometry().meet(path.ray, path.meeting);
+        }
+        for (std::uint32_t i = 0; i < alive; ++i) {
+            Path& path = paths_[alive_[i]];
+            if (path.found) scene_.geometry().set_point(path.hit, path.meeting);
+        }
+        pending_.clear();
+        std::uint32_t left = 0;
+        for (std::uint32_t i = 0; i < alive; ++i) {
+            const std::uint8_t path = alive_[i];
+            if (visit(path, depth)) alive_[left++] = path;
+        }
+        if (!pending_.empty()) look_at_lights(depth);
+        return left;
+    }
+
+    /// What happens where a path's ray has arrived, until its next ray is known. False if it ends.
+    bool visit(std::uint8_t index, int depth) {
+        Path& path = paths_[index];
+        const Hit& hit = path.hit;
+        const Ray& ray = path.ray;
+        observer_.arrive(depth, path.found ? &hit : nullptr);
+        if (!path.found) {
+            if (scene_.emitters().shines_from_infinity()) [[unlikely]]
+                from_infinity(index, depth);
+            return end("left the scene");
+        }
+        if (scene_.emitters().emits(hit.shape)) [[unlikely]]
+            from_emitter(index, depth);
+        if (depth == settings_.max_depth) return end("depth limit");
+
+        if (depth > 1 && settings_.roulette.plays(depth - 1)) {
+            const float survival =
+                settings_.roulette.survival(path.throughput, Surface::kTransmits ? path.spread : 1.0f);
+            const bool survives = to_unit(draw(path.key, vertex_of(depth - 1), Stream::roulette)[0]) < survival;
+            observer_.roulette(survival, survives);
+            if (!survives) return end("roulette");
+            path.throughput *= 1.0f / survival;
+            if constexpr (kRecord) recorders_[index].survive(survival);
+        }
+
+        const Surface surface(scene_, hit, -ray.direction, scratch_);
+        if (surface.black()) return end("black surface");
+        if (settings_.strict_normals && -dot(surface.ng(), ray.direction) * surface.wo().z < 0.0f)
+            return end("normals disagree");
+
+        ++stats_.vertices;
+        std::uint32_t region = 0;
+        if ((kGuided || kRecord) && surface.smooth()) {
+            region = guide_.region(hit.p);
+            if constexpr (kRecord)
+                if (!guide_.contains(hit.p)) recorders_[index].add_outside();
+        }
+        const GuidedSampling<Bsdf, kGuided> sampling(surface.bsdf(), surface.frame(), surface.wo(), guide_, region,
+                                                     surface.smooth());
+
+        if ((settings_.next_event || settings_.delta_alone) && surface.smooth())
+            next_event(index, depth, surface, sampling, region);
+
+        const ScatterSample s = sampling.sample(draw(path.key, vertex_of(depth), Stream::scatter), kRecord);
+        if (!(s.pdf > 0.0f) || is_black(s.f_cos)) return end("no direction");
+        if (settings_.strict_normals && dot(surface.ng(), s.world) * s.local.z <= 0.0f) return end("normals disagree");
+        const Rgb weight = s.f_cos * (1.0f / s.pdf);
+        path.throughput *= weight;
+        observer_.scatter(s, path.throughput);
+        path.scatter_pdf = s.pdf;
+        path.scatter_point = hit.p;
+        // One question for what is rare: the same bits say that a lobe may be delta, or refract.
+        const bool rare = Surface::kGeneral && surface.delta_or_transmitting();
+        if constexpr (Surface::kTransmits)
+            if (rare && s.local.z < 0.0f) path.spread *= surface.eta2();
+        assert(path.spread == 1.0f || scene_.effects().transmission);
+        if (rare && s.delta) {
+            if constexpr (kRecord)
+                recorders_[index].add_delta_vertex(weight, surface.smooth() ? region : PathRecorder::kNotRecorded,
+                                                   vertex_of(depth));
+            path.scatter_pdf = std::numeric_limits<float>::infinity();
+        } else {
+            if constexpr (kRecord)
+                recorders_[index].add_vertex(record_region(path.key, depth, hit.p, region, Stream::jitter), s.code,
+                                             s.pdf, weight, mixture_bin(s.bsdf_pdf, s.guide_pdf), vertex_of(depth));
+        }
+        path.ray = {offset_origin(hit, s.world), s.world};
+        return true;
+    }
 
     /// Where what is learned here goes.
     std::uint32_t record_region(const PathKey& path, int depth, const Vec3& p, std::uint32_t region,
@@ -165,82 +183,103 @@ class PathKernel {
                                         : region;
     }
 
-    Rgb end(const Rgb& radiance, const char* why) {
+    bool end(const char* why) {
         observer_.end(why);
-        return radiance;
+        return false;
     }
 
-    /// What the path brings that met `emitted`, weighted against next event, which finds that with the density
+    /// Adds what the path brings that met `emitted`, weighted against next event, which finds that with the density
     /// `next_event_pdf()`.
     template <class Pdf>
-    Rgb met(const Rgb& emitted, int depth, float scatter_pdf, const Rgb& throughput, Pdf next_event_pdf) {
-        if (is_black(emitted) || (depth == 1 && settings_.hide_emitters)) return Rgb(0.0f);
+    void meet(std::uint8_t index, const Rgb& emitted, int depth, Pdf next_event_pdf) {
+        if (is_black(emitted) || (depth == 1 && settings_.hide_emitters)) return;
+        Path& path = paths_[index];
         float light_pdf = 0.0f, weight = 1.0f;
         if (settings_.next_event && depth > 1) {
             light_pdf = next_event_pdf();
-            weight = mis_weight(settings_.mis, scatter_pdf, light_pdf);
+            weight = mis_weight(settings_.mis, path.scatter_pdf, light_pdf);
         }
         const Rgb weighted = emitted * weight;
-        if constexpr (kRecord) recorder_.add_emission(weighted);
-        observer_.emission(emitted, light_pdf, weight, throughput * weighted);
-        return throughput * weighted;
+        if constexpr (kRecord) recorders_[index].add_emission(weighted);
+        observer_.emission(emitted, light_pdf, weight, path.throughput * weighted);
+        path.radiance += path.throughput * weighted;
     }
 
-    // Emitters are met once in a path or never. Out of line and by value, what they may be (textured, an image around
-    // the scene) costs the other vertices nothing, not even registers.
+    // Emitters are met once in a path or never. Out of line, what they may be (textured, an image around the scene)
+    // costs the other vertices nothing, not even registers.
 
-    [[gnu::noinline]] Rgb from_emitter(const Hit& hit, Vec3 direction, Vec3 scatter_point, int depth, float scatter_pdf,
-                                       Rgb throughput) {
+    [[gnu::noinline]] void from_emitter(std::uint8_t index, int depth) {
         const Emitters& emitters = scene_.emitters();
-        return met(emitters.emitted(hit, -direction), depth, scatter_pdf, throughput,
-                   [&] { return emitters.pdf_direct(scatter_point, direction, hit); });
+        const Path& path = paths_[index];
+        meet(index, emitters.emitted(path.hit, -path.ray.direction), depth,
+             [&] { return emitters.pdf_direct(path.scatter_point, path.ray.direction, path.hit); });
     }
 
-    [[gnu::noinline]] Rgb from_infinity(Vec3 direction, int depth, float scatter_pdf, Rgb throughput) {
+    [[gnu::noinline]] void from_infinity(std::uint8_t index, int depth) {
         assert(scene_.effects().environment);
         const Emitters& emitters = scene_.emitters();
-        return met(emitters.environment(direction), depth, scatter_pdf, throughput,
-                   [&] { return emitters.pdf_environment(direction); });
+        const Vec3& direction = paths_[index].ray.direction;
+        meet(index, emitters.environment(direction), depth, [&] { return emitters.pdf_environment(direction); });
     }
 
-    /// What a sampled emitter sends via this surface against the incoming ray, weighted against scattering.
-    Rgb next_event(const PathKey& path, int depth, const Hit& hit, const Surface& surface,
-                   const GuidedSampling<Bsdf, kGuided>& sampling, std::uint32_t region, const Rgb& throughput) {
-        const Draw random = draw(path, vertex_of(depth), Stream::light);
+    /// Samples an emitter; whether it is seen is asked for all paths of a step together.
+    void next_event(std::uint8_t index, int depth, const Surface& surface,
+                    const GuidedSampling<Bsdf, kGuided>& sampling, std::uint32_t region) {
+        const Path& path = paths_[index];
+        const Hit& hit = path.hit;
+        const Draw random = draw(path.key, vertex_of(depth), Stream::light);
         const DirectSample light = settings_.delta_alone ? scene_.emitters().sample_delta(hit.p, random)
                                                          : scene_.emitters().sample_direct(hit.p, random);
-        if (!(light.pdf > 0.0f) || is_black(light.radiance)) return Rgb(0.0f);
+        if (!(light.pdf > 0.0f) || is_black(light.radiance)) return;
         const Vec3 wi = surface.frame().to_local(light.wi);
         const BsdfValue bsdf = surface.bsdf().value(surface.wo(), wi);
-        if (is_black(bsdf.f_cos)) return Rgb(0.0f);
-        if (settings_.strict_normals && dot(surface.ng(), light.wi) * wi.z <= 0.0f) return Rgb(0.0f);
+        if (is_black(bsdf.f_cos)) return;
+        if (settings_.strict_normals && dot(surface.ng(), light.wi) * wi.z <= 0.0f) return;
         ++stats_.shadow_rays;
-        if (shadowed(hit, light)) return Rgb(0.0f);
+        PendingLight& pending = pending_.emplace_back();
+        pending.path = index;
+        pending.vertex = kRecord ? recorders_[index].vertex_count() : 0;
+        pending.region = region;
+        pending.bsdf_fraction = sampling.bsdf_fraction();
+        pending.wi = light.wi;
+        pending.distance = light.distance;
+        pending.pdf = light.pdf;
+        pending.delta = light.delta;
+        pending.bsdf_pdf = bsdf.pdf;
+        pending.mean_radiance = average(light.radiance);
+        pending.reflected = bsdf.f_cos * light.radiance;
+        pending.throughput = path.throughput;
+        pending_.aim(hit, light);
+    }
 
+    /// Traces the step's shadow rays, and adds what is seen, weighted against scattering.
+    void look_at_lights(int depth) {
+        const std::span<const bool> shadowed = pending_.trace(scene_.geometry(), observer_);
+        for (std::size_t i = 0; i < pending_.size(); ++i)
+            if (!shadowed[i]) add_light(pending_[i], depth);
+    }
+
+    void add_light(const PendingLight& light, int depth) {
         // Scattering never meets a light without extent: its samples are weighted alone and teach the guide nothing.
         const bool record = kRecord && settings_.record_light_samples && !light.delta;
         std::uint32_t code = 0;
         if (kGuided || record) code = direction_to_code(light.wi);
-        const float scatter_pdf = light.delta ? 0.0f : sampling.pdf(bsdf.pdf, code);
+        float scatter_pdf = light.delta ? 0.0f : light.bsdf_pdf;
+        if constexpr (kGuided)
+            if (!light.delta)
+                scatter_pdf = mixed_pdf(light.bsdf_fraction, light.bsdf_pdf, guide_.pdf(light.region, code));
         const float weight = mis_weight(settings_.mis, light.pdf, scatter_pdf);
-        const Rgb reflected = bsdf.f_cos * light.radiance * (weight / light.pdf);
-        if (record)
-            recorder_.add_light_sample(record_region(path, depth, hit.p, region, Stream::light_jitter), code,
-                                       average(light.radiance) * weight, light.pdf, vertex_of(depth));
-        observer_.next_event(light, scatter_pdf, weight, throughput * reflected);
-        return reflected;
-    }
-
-    /// Both ends of the segment are moved off their surfaces towards each other.
-    bool shadowed(const Hit& hit, const DirectSample& light) const {
-        Ray shadow = {offset_origin(hit, light.wi), light.wi};
-        if (!light.to_environment()) {
-            shadow.direction = offset_origin(light.on_light, -light.wi) - shadow.origin;
-            if (!(dot(shadow.direction, light.wi) > 0.0f))
-                return false;  // closer than the offsets: nothing fits between
-            shadow.length = 1.0f;
+        const Rgb reflected = light.reflected * (weight / light.pdf);
+        Path& path = paths_[light.path];
+        path.radiance += light.throughput * reflected;
+        if constexpr (kRecord) {
+            recorders_[light.path].add_reflected(light.vertex, reflected);
+            if (record)
+                recorders_[light.path].add_light_sample(
+                    record_region(path.key, depth, path.hit.p, light.region, Stream::light_jitter), code,
+                    light.mean_radiance * weight, light.pdf, vertex_of(depth));
         }
-        return scene_.geometry().occluded(shadow);
+        observer_.next_event(light, scatter_pdf, weight, light.throughput * reflected);
     }
 
     const TraceScene& scene_;
@@ -248,8 +287,12 @@ class PathKernel {
     const PathSettings settings_;
     TraceStats& stats_;
     [[no_unique_address]] typename Surface::Scratch scratch_;
-    PathRecorder recorder_;
-    Observer observer_;
+    std::uint32_t count_ = 0;
+    std::array<Path, kBatch> paths_;
+    std::array<std::uint8_t, kBatch> alive_;
+    PendingLights pending_;
+    std::array<PathRecorder, kRecord ? kBatch : 0> recorders_;
+    [[no_unique_address]] Observer observer_;
 };
 
 }  // namespace treefarm

@@ -43,9 +43,12 @@ class PathRecorder {
         if (!vertices_.empty()) vertices_.back().emission += radiance;
     }
 
-    /// What next event reflects at the end of the last sampled direction.
-    void add_reflected(const Rgb& radiance) {
-        if (!vertices_.empty()) vertices_.back().reflected += radiance;
+    std::uint32_t vertex_count() const { return static_cast<std::uint32_t>(vertices_.size()); }
+
+    /// What next event reflects where the path had so many vertices: at the end of the direction sampled at the last of
+    /// them.
+    void add_reflected(std::uint32_t vertex_count, const Rgb& radiance) {
+        if (vertex_count != 0) vertices_[vertex_count - 1].reflected += radiance;
     }
 
     /// The path survived roulette after the last sampled direction met its surface.

@@ -37,6 +37,7 @@ bool refuse_invalid(Rgb& radiance, const WorkUnit& unit, int x, int y, std::uint
 
 template <class Surface, bool kGuided, bool kRecord>
 void render_with(const TileJob& tile) {
+    static_assert(kBlockSamples % PathKernel<Surface, kGuided, kRecord>::kBatch == 0);
     const auto& [scene, job, pass, guide, unit, pixels, log, stats] = tile;
     PathKernel<Surface, kGuided, kRecord> kernel(scene, guide, PathSettings(scene, job, pass, guide), stats);
     const std::uint32_t first = unit.chunk * pass.blocks_per_unit * kBlockSamples;
@@ -46,15 +47,25 @@ void render_with(const TileJob& tile) {
         for (int x = unit.x0; x < unit.x1; ++x) {
             blocks.clear();
             PathKey path{job.sampler.seed, static_cast<std::uint32_t>(y * std::int64_t(scene.film().width) + x), 0};
-            for (std::uint32_t sample = first; sample < last; ++sample) {
+            for (std::uint32_t sample = first; sample < last;) {
                 if (sample % kBlockSamples == 0) blocks.emplace_back();
-                path.sample = pass.first_sample + sample;
-                Rgb radiance = kernel.trace(path, scene.camera().generate(x, y, path));
-                const bool refused = refuse_invalid(radiance, unit, x, y, sample, stats);
-                if (!is_black(radiance)) ++stats.nonzero_paths;
-                if constexpr (kRecord)
-                    if (!refused) stats.records += kernel.recorder().commit(path, log);
-                blocks.back().add(path.sample, radiance);
+                // Within a block: which paths walk together then depends on nothing but the pass.
+                const std::uint32_t count = std::min(kernel.kBatch, last - sample);
+                kernel.clear();
+                for (std::uint32_t i = 0; i < count; ++i) {
+                    path.sample = pass.first_sample + sample + i;
+                    kernel.add(path, scene.camera().generate(x, y, path));
+                }
+                kernel.trace();
+                for (std::uint32_t i = 0; i < count; ++i, ++sample) {
+                    path.sample = pass.first_sample + sample;
+                    Rgb radiance = kernel.radiance(i);
+                    const bool refused = refuse_invalid(radiance, unit, x, y, sample, stats);
+                    if (!is_black(radiance)) ++stats.nonzero_paths;
+                    if constexpr (kRecord)
+                        if (!refused) stats.records += kernel.recorder(i).commit(path, log);
+                    blocks.back().add(path.sample, radiance);
+                }
             }
             stats.paths += last - std::min(first, last);
             pixels.push_back(reduce_blocks(blocks));

@@ -1,0 +1,271 @@
+// How close whole renders come to Embree: paths of a scene are traced by the renderer, then exactly their rays by a
+// bare loop over Embree, in turns, on one thread. What the renderer does besides is given per vertex.
+#include <embree3/rtcore.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+
+#include "common/base/error.h"
+#include "common/base/timer.h"
+#include "common/config/job_reader.h"
+#include "common/guiding/mixture.h"
+#include "common/guiding/splat.h"
+#include "common/scene/load.h"
+#include "worker/integrator/path_kernel.h"
+#include "worker/integrator/tile_renderer.h"
+
+namespace treefarm {
+namespace {
+
+/// Keeps what rays a path sends.
+struct RayObserver : NoObserver {
+    std::vector<Ray>* rays = nullptr;
+    std::vector<Ray>* shadow_rays = nullptr;
+    void ray(const Ray& r) { rays->push_back(r); }
+    void shadow(const Ray& r) {
+        if (r.length > 0.0f) shadow_rays->push_back(r);
+    }
+};
+
+struct Options {
+    std::string scene;
+    std::vector<std::string> set;
+    std::uint32_t train = 31;
+    std::uint32_t spp = 32;
+    int width = 0, height = 0;
+    int repetitions = 5;
+};
+
+/// A way of rendering; what the renderer took for it, and the bare loop for its rays.
+struct Mode {
+    const char* name;
+    bool guided, next_event, record;
+    std::vector<Ray> rays, shadow_rays;
+    TraceStats stats;
+    std::vector<double> render_seconds{}, bare_seconds{}, splat_seconds{};
+};
+
+class Limit {
+  public:
+    Limit(LoadedScene loaded, const Options& options)
+        : job_(make_job(loaded, options)),
+          bounds_(loaded.scene.bounds()),
+          scale_(loaded.scene.radiance_scale()),
+          scene_(std::move(loaded.scene), job_),
+          spp_(options.spp),
+          guide_(train()),
+          untrained_(initial_tree(bounds_, scale_, job_.guiding.bsdf_fraction)) {}
+
+    const Guide& guide() const { return guide_; }
+
+    void collect(Mode& mode) const {
+        if (scene_.plainly_diffuse())
+            mode.guided ? collect_with<DiffuseSurface, true>(mode) : collect_with<DiffuseSurface, false>(mode);
+        else
+            mode.guided ? collect_with<GeneralSurface, true>(mode) : collect_with<GeneralSurface, false>(mode);
+    }
+
+    void measure(Mode& mode) {
+        mode.stats = {};
+        double start = thread_cpu_seconds();
+        render(pass(mode), job(mode), guide(mode), mode.stats);
+        mode.render_seconds.push_back(thread_cpu_seconds() - start);
+        if (mode.record) {
+            Accumulator sums(9, guide(mode), job_.guiding.directional_filter, true);
+            start = thread_cpu_seconds();
+            sums.commit(log_.records, log_.counts, log_.caps);
+            mode.splat_seconds.push_back(thread_cpu_seconds() - start);
+        }
+        start = thread_cpu_seconds();
+        trace_bare(mode);
+        mode.bare_seconds.push_back(thread_cpu_seconds() - start);
+    }
+
+  private:
+    static Job make_job(const LoadedScene& loaded, const Options& options) {
+        Job job;
+        apply_layer(job, loaded.settings);
+        std::vector<Setting> layer;
+        for (const std::string& argument : options.set)
+            layer.push_back(parse_set_argument(argument));
+        apply_layer(job, layer);
+        job.budget.spp = options.train;
+        return job;
+    }
+
+    Job job(const Mode& mode) const {
+        Job job = job_;
+        if (!mode.guided && !mode.record) job.guiding.type = GuidingType::none;
+        return job;
+    }
+
+    const Guide& guide(const Mode& mode) const { return mode.guided ? guide_ : untrained_; }
+
+    PassPlan pass(const Mode& mode) const {
+        PassPlan pass;
+        pass.index = 9;
+        pass.spp = spp_;
+        pass.blocks_per_unit = 1u << 20;
+        pass.first_sample = 1u << 20;
+        pass.next_event = mode.next_event;
+        pass.record = mode.record;
+        pass.learn_mixture = mode.record;
+        return pass;
+    }
+
+    void render(const PassPlan& pass, const Job& job, const Guide& guide, TraceStats& stats) {
+        const Film& film = scene_.film();
+        const WorkUnit whole{
+            pass.index, 0, 0, static_cast<std::uint16_t>(film.width), static_cast<std::uint16_t>(film.height), 0};
+        render_unit(scene_, job, pass, guide, whole, pixels_, log_, stats);
+    }
+
+    /// The tree after the job's passes.
+    SdTree train() {
+        SdTree tree = initial_tree(bounds_, scale_, job_.guiding.bsdf_fraction);
+        MixtureLearner mixture;
+        const std::vector<PassPlan> plans = plan_passes(job_);
+        for (std::size_t k = 0; k < plans.size(); ++k) {
+            PassPlan plan = plans[k];
+            plan.record = true;
+            plan.chunks = 1;
+            plan.blocks_per_unit = 1u << 20;
+            const Guide guide(tree);
+            Accumulator sums(plan.index, guide, job_.guiding.directional_filter, plan.learn_mixture);
+            TraceStats stats;
+            render(plan, job_, guide, stats);
+            sums.commit(log_.records, log_.counts, log_.caps);
+            RefineSettings settings;
+            settings.spatial_threshold = spatial_split_threshold(job_, plans[std::min(k + 1, plans.size() - 1)]);
+            settings.record_weight = plan.record_weight;
+            settings.target = job_.guiding.target;
+            RefineReport report;
+            const TreeSums taken = sums.take();
+            SdTree next = refine(tree, taken, settings, report);
+            if (plan.learn_mixture) mixture.learn(tree, taken, report.origins, next);
+            next.pass = plan.index + 1;
+            tree = std::move(next);
+        }
+        return tree;
+    }
+
+    template <class Surface, bool kGuided>
+    void collect_with(Mode& mode) const {
+        TraceStats stats;
+        const Job mode_job = job(mode);
+        PathKernel<Surface, kGuided, false, RayObserver> kernel(
+            scene_, guide(mode), PathSettings(scene_, mode_job, pass(mode), guide(mode)), stats);
+        kernel.observer().rays = &mode.rays;
+        kernel.observer().shadow_rays = &mode.shadow_rays;
+        for (int y = 0; y < scene_.film().height; ++y)
+            for (int x = 0; x < scene_.film().width; ++x) {
+                PathKey path{job_.sampler.seed, static_cast<std::uint32_t>(y * scene_.film().width + x), 0};
+                for (std::uint32_t sample = 0; sample < spp_;) {
+                    kernel.clear();
+                    for (std::uint32_t i = 0; i < kernel.kBatch && sample < spp_; ++i, ++sample) {
+                        path.sample = pass(mode).first_sample + sample;
+                        kernel.add(path, scene_.camera().generate(x, y, path));
+                    }
+                    kernel.trace();
+                }
+            }
+    }
+
+    static RTCRay to_embree(const Ray& r) {
+        return {r.origin.x, r.origin.y, r.origin.z, 0.0f, r.direction.x, r.direction.y, r.direction.z, 0.0f,
+                r.length,   ~0u,        0,          0};
+    }
+
+    void trace_bare(const Mode& mode) {
+        RTCIntersectContext context;
+        rtcInitIntersectContext(&context);
+        context.flags = RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+        for (const Ray& ray : mode.rays) {
+            RTCRayHit query;
+            query.ray = to_embree(ray);
+            query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+            query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+            rtcIntersect1(scene_.geometry().handle(), &context, &query);
+        }
+        for (const Ray& ray : mode.shadow_rays) {
+            RTCRay query = to_embree(ray);
+            rtcOccluded1(scene_.geometry().handle(), &context, &query);
+        }
+    }
+
+    Job job_;
+    Box3 bounds_;
+    float scale_;
+    TraceScene scene_;
+    std::uint32_t spp_;
+    std::vector<PixelEstimate> pixels_;
+    RecordLog log_;
+    Guide guide_, untrained_;
+};
+
+double median(std::vector<double> values) {
+    std::sort(values.begin(), values.end());
+    return values[values.size() / 2];
+}
+
+void print(const Mode& mode) {
+    std::vector<double> ratios;
+    for (std::size_t i = 0; i < mode.render_seconds.size(); ++i)
+        ratios.push_back(mode.bare_seconds[i] / mode.render_seconds[i]);
+    const auto rays = static_cast<double>(mode.rays.size() + mode.shadow_rays.size());
+    const double render = median(mode.render_seconds), bare = median(mode.bare_seconds);
+    const auto vertices = static_cast<double>(mode.stats.vertices);
+    std::printf("| %-29s | %5.2f | %7.1f | %7.1f | %.3f | %7.1f |", mode.name, rays / double(mode.stats.paths),
+                1e9 * render / rays, 1e9 * bare / rays, median(ratios), 1e9 * (render - bare) / vertices);
+    if (mode.record)
+        std::printf(" %5.1f |\n", 1e9 * median(mode.splat_seconds) / static_cast<double>(mode.stats.records));
+    else
+        std::printf("       |\n");
+}
+
+void run(const Options& options) {
+    Limit limit(load_scene(options.scene, {}, false, options.width, options.height), options);
+    std::printf("%s, tree of %u regions, %.1f MB\n\n", options.scene.c_str(), limit.guide().region_count(),
+                1e-6 * static_cast<double>(limit.guide().bytes()));
+    std::vector<Mode> modes = {{"path", false, false, false, {}, {}, {}},
+                               {"path, next event", false, true, false, {}, {}, {}},
+                               {"guided", true, false, false, {}, {}, {}},
+                               {"guided, next event", true, true, false, {}, {}, {}},
+                               {"guided, recording", true, false, true, {}, {}, {}},
+                               {"guided, recording, next event", true, true, true, {}, {}, {}}};
+    std::puts(
+        "| mode                          | rays per path | ns per ray | bare | ratio | rest, ns per vertex | splat, ns "
+        "per record |");
+    std::puts("|---|---|---|---|---|---|---|");
+    for (Mode& mode : modes) {
+        limit.collect(mode);
+        for (int i = 0; i < options.repetitions; ++i)
+            limit.measure(mode);
+        print(mode);
+        std::fflush(stdout);
+        mode.rays = mode.shadow_rays = {};
+    }
+}
+
+}  // namespace
+}  // namespace treefarm
+
+int main(int argc, char** argv) {
+    CLI::App app("renders against a bare loop over Embree with the same rays, on one thread");
+    treefarm::Options options;
+    app.add_option("scene", options.scene, "Mitsuba scene")->required();
+    app.add_option("--set", options.set, "key=value of the job")->allow_extra_args(false);
+    app.add_option("--train", options.train, "samples per pixel that the tree learns from")->capture_default_str();
+    app.add_option("--spp", options.spp, "samples per pixel that are measured")->capture_default_str();
+    app.add_option("--width", options.width, "of the image, instead of the scene's");
+    app.add_option("--height", options.height, "of the image, instead of the scene's");
+    app.add_option("--repetitions", options.repetitions, "turns; medians are printed")->capture_default_str();
+    CLI11_PARSE(app, argc, argv);
+    try {
+        treefarm::run(options);
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "embree_limit: %s\n", error.what());
+        return 1;
+    }
+}

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "worker/integrator/guided_sampling.h"
+#include "worker/integrator/pending_light.h"
+
+namespace treefarm {
+
+/// Watches nothing, at no cost. describe_sample() passes one that writes.
+struct NoObserver {
+    void camera(const Ray&) {}
+    void ray(const Ray&) {}
+    void shadow(const Ray&) {}
+    void arrive(int, const Hit*) {}
+    void emission(const Rgb&, float, float, const Rgb&) {}
+    void scatter(const ScatterSample&, const Rgb&) {}
+    void next_event(const PendingLight&, float, float, const Rgb&) {}
+    void roulette(float, bool) {}
+    void end(const char*) {}
+};
+
+}  // namespace treefarm

@@ -1,0 +1,40 @@
+#pragma once
+
+#include "common/config/job.h"
+#include "common/guiding/guide.h"
+#include "common/plan/schedule.h"
+#include "worker/integrator/roulette.h"
+#include "worker/integrator/trace_scene.h"
+
+namespace treefarm {
+
+/// What the walk is told besides the scene: fixed for a pass.
+struct PathSettings {
+    int max_depth;
+    bool next_event;   ///< a flag, not a kernel of its own: one predictable branch per vertex
+    bool delta_alone;  ///< no next event, but for the lights that nothing else finds
+    MisHeuristic mis;
+    bool strict_normals;
+    bool hide_emitters;
+    bool record_light_samples;  ///< kick-start: what next event finds teaches the tree, too
+    bool jitter_records;        ///< stochastic spatial filter
+    GuidingTarget target;
+    Roulette roulette;
+
+    PathSettings(const TraceScene& scene, const Job& job, const PassPlan& pass, const Guide& guide)
+        : max_depth(job.integrator.max_depth),
+          next_event(pass.next_event && scene.emitters().can_sample()),
+          delta_alone(!pass.next_event && scene.emitters().has_delta_lights()),
+          mis(job.integrator.mis),
+          strict_normals(job.integrator.strict_normals),
+          hide_emitters(job.integrator.hide_emitters),
+          record_light_samples(job.integrator.next_event == NextEvent::kickstart && pass.next_event),
+          jitter_records(job.guiding.spatial_filter == SpatialFilter::stochastic),
+          target(job.guiding.target),
+          roulette(job.guiding.type == GuidingType::none ? Roulette::Rule::unguided
+                   : guide.trained()                     ? Roulette::Rule::trained
+                                                         : Roulette::Rule::untrained,
+                   job.integrator.rr_depth) {}
+};
+
+}  // namespace treefarm
