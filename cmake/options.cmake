@@ -41,8 +41,9 @@ set(CMAKE_CXX_FLAGS_DEBUG "-O1 -g -D_GLIBCXX_ASSERTIONS")
 
 add_library(treefarm_flags INTERFACE)
 # -ffp-contract=off: a fused multiply-add rounds once where two operations round twice; whether it is used must not
-# depend on the compiler's mood. Asserts are on in Debug and in sanitizer builds.
-target_compile_options(treefarm_flags INTERFACE -march=${TREEFARM_ARCH} -ffp-contract=off -Wall -Wextra -Wconversion)
+# depend on the compiler's mood. -fno-math-errno and -fno-trapping-math change no result: they say that nobody reads
+# errno or floating-point flags, so that square roots are one instruction and choices need no branch. Asserts are on in Debug and in sanitizer builds.
+target_compile_options(treefarm_flags INTERFACE -march=${TREEFARM_ARCH} -ffp-contract=off -fno-math-errno -fno-trapping-math -Wall -Wextra -Wconversion)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     # GCC 12 warns of overlapping copies inside std::string's operator+ (GCC bug 105651).
     # It also takes the alternatives that a std::variant does not hold for values that may be read (GCC bug 80635).

@@ -42,7 +42,7 @@ inline Draw draw(const PathKey& path, std::uint32_t vertex, Stream stream) {
 
 /// Uniform in [0, 1), never 1: the top 24 bits as a float.
 inline float to_unit(std::uint32_t bits) {
-    return static_cast<float>(bits >> 8) * 0x1p-24f;
+    return static_cast<float>(static_cast<std::int32_t>(bits >> 8)) * 0x1p-24f;  // signed: one instruction
 }
 
 }  // namespace treefarm

@@ -16,16 +16,11 @@ inline Vec2 direction_to_square(const Vec3& d) {
         std::sqrt((ax * ax + ay * ay) / (1.0f + az));  // = sqrt(1 - |z|), without its cancellation at the poles
     const float high = std::max(ax, ay), low = std::min(ax, ay);
     float phi = high > 0.0f ? atan_quadrant(low / high) : 0.0f;  // angle from the x axis, 0..1 for 0..90 degrees
-    if (ay > ax) phi = 1.0f - phi;
-    float v = phi * r;
-    float u = r - v;
-    if (d.z < 0.0f) {
-        const float swap = u;
-        u = 1.0f - v;
-        v = 1.0f - swap;
-    }
-    u = std::copysign(u, d.x);
-    v = std::copysign(v, d.y);
+    phi = select(ay > ax, 1.0f - phi, phi);
+    const float along = phi * r, across = r - along;
+    const bool below = d.z < 0.0f;
+    const float u = std::copysign(select(below, 1.0f - along, across), d.x);
+    const float v = std::copysign(select(below, 1.0f - across, along), d.y);
     constexpr float kBelowOne = 0x1.fffffep-1f;
     return {std::clamp(0.5f * (u + 1.0f), 0.0f, kBelowOne), std::clamp(0.5f * (v + 1.0f), 0.0f, kBelowOne)};
 }

@@ -1,8 +1,21 @@
 #pragma once
 
+#include <bit>
 #include <cmath>
+#include <cstdint>
 
 namespace treefarm {
+
+/// condition ? a : b, without the branch that the compiler likes to make of it: for conditions that nothing predicts.
+inline float select(bool condition, float a, float b) {
+    const std::uint32_t mask = 0u - static_cast<std::uint32_t>(condition);
+    return std::bit_cast<float>((std::bit_cast<std::uint32_t>(a) & mask) | (std::bit_cast<std::uint32_t>(b) & ~mask));
+}
+
+/// -x if the condition holds, x otherwise.
+inline float negate_if(bool condition, float x) {
+    return std::bit_cast<float>(std::bit_cast<std::uint32_t>(x) ^ (static_cast<std::uint32_t>(condition) << 31));
+}
 
 /// Our own elementary functions for whatever decides a path: the C library picks its code by CPU, so the same call may
 /// round differently on two machines (docs/architecture.md, "same bits"). Polynomials in plain float operations do not.
@@ -15,12 +28,12 @@ struct SinCos {
 inline SinCos sincos_quadrant(float x) {
     constexpr float kHalfPi = 1.57079632679489661923f;
     const bool fold = x > 0.5f * kHalfPi;  // evaluate on [0, pi/4] only
-    const float t = fold ? kHalfPi - x : x;
+    const float t = select(fold, kHalfPi - x, x);
     const float t2 = t * t;
     const float s =
         t * (1.0f + t2 * (-1.6666667e-1f + t2 * (8.3333310e-3f + t2 * (-1.9840874e-4f + t2 * 2.7525562e-6f))));
     const float c = 1.0f + t2 * (-0.5f + t2 * (4.1666668e-2f + t2 * (-1.3888887e-3f + t2 * 2.4801587e-5f)));
-    return fold ? SinCos{c, s} : SinCos{s, c};
+    return {select(fold, c, s), select(fold, s, c)};
 }
 
 /// sin and cos of 2 pi u for u in [0, 1].
@@ -28,16 +41,9 @@ inline SinCos sincos_turn(float u) {
     const float quarter = u * 4.0f;
     const int quadrant = static_cast<int>(quarter);
     const SinCos r = sincos_quadrant((quarter - static_cast<float>(quadrant)) * 1.57079632679489661923f);
-    switch (quadrant & 3) {
-        case 0:
-            return {r.sin, r.cos};
-        case 1:
-            return {r.cos, -r.sin};
-        case 2:
-            return {-r.sin, -r.cos};
-        default:
-            return {-r.cos, r.sin};
-    }
+    const bool odd = quadrant & 1;
+    return {negate_if(quadrant & 2, select(odd, r.cos, r.sin)),
+            negate_if((quadrant + 1) & 2, select(odd, r.sin, r.cos))};
 }
 
 /// atan(x) * 2/pi for x in [0, 1], error below 3e-8 (own minimax fit).
@@ -54,12 +60,13 @@ inline float atan_quadrant(float x) {
 /// The angle of (x, y) from the x axis over 2 pi, in [0, 1); 0 for (0, 0). Error below 1e-7.
 inline float azimuth_turn(float x, float y) {
     const float ax = std::abs(x), ay = std::abs(y);
-    const float large = ax > ay ? ax : ay, small = ax > ay ? ay : ax;
+    const bool steep = !(ax > ay);
+    const float large = select(steep, ay, ax), small = select(steep, ax, ay);
     if (!(large > 0.0f)) return 0.0f;
     float turn = 0.25f * atan_quadrant(small / large);
-    if (ay > ax) turn = 0.25f - turn;
-    if (x < 0.0f) turn = 0.5f - turn;
-    if (y < 0.0f) turn = 1.0f - turn;
+    turn = select(ay > ax, 0.25f - turn, turn);
+    turn = select(x < 0.0f, 0.5f - turn, turn);
+    turn = select(y < 0.0f, 1.0f - turn, turn);
     return turn < 1.0f ? turn : 0.0f;
 }
 

@@ -11,13 +11,13 @@ namespace treefarm {
 /// Uniform point of the unit disk (Shirley and Chiu 1997: concentric squares). Density 1/pi.
 inline Vec2 square_to_disk(const Vec2& u) {
     const float a = 2.0f * u.x - 1.0f, b = 2.0f * u.y - 1.0f;
-    if (a == 0.0f && b == 0.0f) return {0.0f, 0.0f};
     const bool wide = std::abs(a) > std::abs(b);
-    const float r = wide ? a : b;
-    const float ratio = wide ? b / a : a / b;  // in [-1, 1]: an angle of at most 45 degrees
+    const float r = select(wide, a, b);
+    // In [-1, 1]: an angle of at most 45 degrees.
+    const float ratio = select(r == 0.0f, 0.0f, select(wide, b, a) / r);
     const SinCos t = sincos_quadrant(std::abs(ratio) * 0.25f * kPi);
     const float s = std::copysign(t.sin, ratio);
-    return wide ? Vec2{r * t.cos, r * s} : Vec2{r * s, r * t.cos};
+    return {r * select(wide, t.cos, s), r * select(wide, s, t.cos)};
 }
 
 /// Cosine-distributed direction about +z. Density cos(theta)/pi.

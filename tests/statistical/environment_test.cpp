@@ -59,7 +59,7 @@ void expect_agreement(const TextureImage& image, const std::string& what) {
         }
     EXPECT_NEAR(integral, 1.0, 2e-3) << what;
     for (std::uint32_t i = 0; i < kSamples; ++i) {
-        const Vec3 d = map.sample(draw({7, i, 0}, 1, Stream::light));
+        const Vec3 d = map.sample(draw({7, i, 0}, 1, Stream::light)).direction;
         ASSERT_NEAR(d.length(), 1.0f, 1e-5f);
         const Vec2 place = place_of(emitter, d);
         const int x = std::min(static_cast<int>(place.x * kColumns), kColumns - 1);
@@ -164,8 +164,8 @@ TEST(EnvironmentMap, LargeImages) {
         ASSERT_GT(map.pdf(direction_at(emitter, (i + 0.5) / 1000, (i % 16 + 0.5) / 16)), 0.0f);
     int near = 0;
     for (std::uint32_t i = 0; i < 1000; ++i)
-        near +=
-            dot(map.sample(draw({7, i, 0}, 1, Stream::light)), direction_at(emitter, 4000.5 / 8192, 7.5 / 16)) > 0.9f;
+        near += dot(map.sample(draw({7, i, 0}, 1, Stream::light)).direction,
+                    direction_at(emitter, 4000.5 / 8192, 7.5 / 16)) > 0.9f;
     EXPECT_EQ(near, 1000);
 }
 

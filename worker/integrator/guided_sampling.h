@@ -40,12 +40,13 @@ class GuidedSampling {
             if (smooth) bsdf_fraction_ = guide.bsdf_fraction(region);
     }
 
-    /// random[0] chooses BSDF or guide, [1] the BSDF's lobe or the guide's cell, [2] and [3] the place. `need_code`
-    /// fills `code`.
-    ScatterSample sample(const Draw& random, bool need_code) const {
+    /// random[0] chooses BSDF or guide, [1] the BSDF's lobe or the guide's cell, [2] and [3] the place; `cosine` is
+    /// that place warped to the cosine hemisphere. `need_code` fills `code`.
+    ScatterSample sample(const Draw& random, const Vec3& cosine, bool need_code) const {
         ScatterSample s;
         if (!kGuided || to_unit(random[0]) < bsdf_fraction_) {
-            const BsdfSample b = bsdf_.sample(wo_, {to_unit(random[1]), Vec2(to_unit(random[2]), to_unit(random[3]))});
+            const BsdfSample b =
+                bsdf_.sample(wo_, {to_unit(random[1]), {to_unit(random[2]), to_unit(random[3])}, cosine});
             if (!(b.pdf > 0.0f)) return s;
             s.local = b.wi;
             s.world = frame_.to_world(b.wi);

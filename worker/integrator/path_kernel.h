@@ -5,6 +5,7 @@
 
 #include "common/film/trace_stats.h"
 #include "common/guiding/mixture.h"
+#include "common/math/warp_batch.h"
 #include "worker/integrator/guided_sampling.h"
 #include "worker/integrator/mis.h"
 #include "worker/integrator/path_observer.h"
@@ -24,7 +25,7 @@ namespace treefarm {
 template <class Surface, bool kGuided, bool kRecord, class Observer = NoObserver>
 class PathKernel {
   public:
-    static constexpr std::uint32_t kBatch = 32;
+    static constexpr std::uint32_t kBatch = kDrawBatch;
 
     PathKernel(const TraceScene& scene, const Guide& guide, const PathSettings& settings, TraceStats& stats)
         : scene_(scene), guide_(guide), settings_(settings), stats_(stats), scratch_(Surface::make_scratch(scene)) {
@@ -96,18 +97,37 @@ class PathKernel {
             Path& path = paths_[alive_[i]];
             if (path.found) scene_.geometry().set_point(path.hit, path.meeting);
         }
+        draw_numbers(alive, depth);
         pending_.clear();
         std::uint32_t left = 0;
         for (std::uint32_t i = 0; i < alive; ++i) {
             const std::uint8_t path = alive_[i];
-            if (visit(path, depth)) alive_[left++] = path;
+            if (visit(path, i, depth)) alive_[left++] = path;
         }
         if (!pending_.empty()) look_at_lights(depth);
         return left;
     }
 
-    /// What happens where a path's ray has arrived, until its next ray is known. False if it ends.
-    bool visit(std::uint8_t index, int depth) {
+    /// The random numbers of a step, for all paths together.
+    void draw_numbers(std::uint32_t alive, int depth) {
+        KeyBatch keys;
+        for (std::uint32_t i = 0; i < alive; ++i) {
+            const PathKey& key = paths_[alive_[i]].key;
+            keys.pixel[i] = key.pixel;
+            keys.sample[i] = key.sample;
+        }
+        const std::uint64_t seed = paths_[alive_[0]].key.seed;
+        draw_batch(seed, keys, alive, vertex_of(depth), Stream::scatter, scatter_draws_);
+        cosine_hemisphere_batch(scatter_draws_, alive, cosines_);
+        if (settings_.next_event || settings_.delta_alone)
+            draw_batch(seed, keys, alive, vertex_of(depth), Stream::light, light_draws_);
+        if (kRecord && settings_.jitter_records)
+            draw_batch(seed, keys, alive, vertex_of(depth), Stream::jitter, jitter_draws_);
+    }
+
+    /// What happens where a path's ray has arrived, until its next ray is known. False if it ends. `lane` is its place
+    /// in what was drawn.
+    bool visit(std::uint8_t index, std::uint32_t lane, int depth) {
         Path& path = paths_[index];
         const Hit& hit = path.hit;
         const Ray& ray = path.ray;
@@ -147,9 +167,9 @@ class PathKernel {
                                                      surface.smooth());
 
         if ((settings_.next_event || settings_.delta_alone) && surface.smooth())
-            next_event(index, depth, surface, sampling, region);
+            next_event(index, light_draws_[lane], surface, sampling, region);
 
-        const ScatterSample s = sampling.sample(draw(path.key, vertex_of(depth), Stream::scatter), kRecord);
+        const ScatterSample s = sampling.sample(scatter_draws_[lane], cosines_[lane], kRecord);
         if (!(s.pdf > 0.0f) || is_black(s.f_cos)) return end("no direction");
         if (settings_.strict_normals && dot(surface.ng(), s.world) * s.local.z <= 0.0f) return end("normals disagree");
         const Rgb weight = s.f_cos * (1.0f / s.pdf);
@@ -169,18 +189,17 @@ class PathKernel {
             path.scatter_pdf = std::numeric_limits<float>::infinity();
         } else {
             if constexpr (kRecord)
-                recorders_[index].add_vertex(record_region(path.key, depth, hit.p, region, Stream::jitter), s.code,
-                                             s.pdf, weight, mixture_bin(s.bsdf_pdf, s.guide_pdf), vertex_of(depth));
+                recorders_[index].add_vertex(record_region(hit.p, region, jitter_draws_, lane), s.code, s.pdf, weight,
+                                             mixture_bin(s.bsdf_pdf, s.guide_pdf), vertex_of(depth));
         }
         path.ray = {offset_origin(hit, s.world), s.world};
         return true;
     }
 
     /// Where what is learned here goes.
-    std::uint32_t record_region(const PathKey& path, int depth, const Vec3& p, std::uint32_t region,
-                                Stream jitter) const {
-        return settings_.jitter_records ? guide_.jittered_region(p, region, draw(path, vertex_of(depth), jitter))
-                                        : region;
+    std::uint32_t record_region(const Vec3& p, std::uint32_t region, const DrawBatch& jitter,
+                                std::uint32_t lane) const {
+        return settings_.jitter_records ? guide_.jittered_region(p, region, jitter[lane]) : region;
     }
 
     bool end(const char* why) {
@@ -217,17 +236,15 @@ class PathKernel {
 
     [[gnu::noinline]] void from_infinity(std::uint8_t index, int depth) {
         assert(scene_.effects().environment);
-        const Emitters& emitters = scene_.emitters();
-        const Vec3& direction = paths_[index].ray.direction;
-        meet(index, emitters.environment(direction), depth, [&] { return emitters.pdf_environment(direction); });
+        const EnvironmentLight light = scene_.emitters().environment(paths_[index].ray.direction);
+        meet(index, light.radiance, depth, [&] { return light.pdf; });
     }
 
     /// Samples an emitter; whether it is seen is asked for all paths of a step together.
-    void next_event(std::uint8_t index, int depth, const Surface& surface,
+    void next_event(std::uint8_t index, const Draw& random, const Surface& surface,
                     const GuidedSampling<Bsdf, kGuided>& sampling, std::uint32_t region) {
         const Path& path = paths_[index];
         const Hit& hit = path.hit;
-        const Draw random = draw(path.key, vertex_of(depth), Stream::light);
         const DirectSample light = settings_.delta_alone ? scene_.emitters().sample_delta(hit.p, random)
                                                          : scene_.emitters().sample_direct(hit.p, random);
         if (!(light.pdf > 0.0f) || is_black(light.radiance)) return;
@@ -274,10 +291,14 @@ class PathKernel {
         path.radiance += light.throughput * reflected;
         if constexpr (kRecord) {
             recorders_[light.path].add_reflected(light.vertex, reflected);
-            if (record)
-                recorders_[light.path].add_light_sample(
-                    record_region(path.key, depth, path.hit.p, light.region, Stream::light_jitter), code,
-                    light.mean_radiance * weight, light.pdf, vertex_of(depth));
+            if (record) {
+                std::uint32_t region = light.region;
+                if (settings_.jitter_records)
+                    region = guide_.jittered_region(path.hit.p, region,
+                                                    draw(path.key, vertex_of(depth), Stream::light_jitter));
+                recorders_[light.path].add_light_sample(region, code, light.mean_radiance * weight, light.pdf,
+                                                        vertex_of(depth));
+            }
         }
         observer_.next_event(light, scatter_pdf, weight, light.throughput * reflected);
     }
@@ -290,6 +311,8 @@ class PathKernel {
     std::uint32_t count_ = 0;
     std::array<Path, kBatch> paths_;
     std::array<std::uint8_t, kBatch> alive_;
+    DrawBatch scatter_draws_, light_draws_, jitter_draws_;
+    DirectionBatch cosines_;
     PendingLights pending_;
     std::array<PathRecorder, kRecord ? kBatch : 0> recorders_;
     [[no_unique_address]] Observer observer_;

@@ -98,11 +98,6 @@ Emitters::Channels Emitters::textured(const AreaLight& light, const Hit& hit) co
     return {c.x, c.y, c.z};
 }
 
-Emitters::Channels Emitters::with_map(const Vec3& direction) const {
-    const Rgb c = constant_ + map_->radiance(direction);
-    return {c.x, c.y, c.z};
-}
-
 DirectSample Emitters::sample_direct(const Vec3& p, const Draw& random) const {
     if (selection_.empty()) return {};
     const std::uint32_t chosen = selection_.pick(random[0]);
@@ -170,10 +165,18 @@ DirectSample Emitters::sample_without_area(std::uint32_t chosen, const Vec3& p, 
     index -= delta_lights_.size();
     DirectSample sample;
     if constexpr (!kHasEnvironment) return sample;
-    sample.wi = index == 0 ? square_to_sphere({to_unit(random[2]), to_unit(random[3])}) : map_->sample(random);
+    EnvironmentLight light;
+    if (index == 0) {
+        sample.wi = square_to_sphere({to_unit(random[2]), to_unit(random[3])});
+        light = environment(sample.wi);
+    } else {
+        const EnvironmentMap::Sample of_map = map_->sample(random);
+        sample.wi = of_map.direction;
+        light = with_constant(of_map.light);
+    }
     sample.distance = std::numeric_limits<float>::infinity();
-    sample.pdf = pdf_environment(sample.wi);
-    sample.radiance = environment(sample.wi);
+    sample.pdf = light.pdf;
+    sample.radiance = light.radiance;
     return sample;
 }
 

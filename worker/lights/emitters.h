@@ -44,12 +44,6 @@ class Emitters {
     /// Density per steradian with which sample_direct(p) finds `hit` along the unit direction wi; 0 if it never does.
     float pdf_direct(const Vec3& p, const Vec3& wi, const Hit& hit) const;
 
-    /// The same for directions in which nothing is hit.
-    float pdf_environment(const Vec3& direction) const {
-        if constexpr (!kHasEnvironment) return 0.0f;
-        return map_ ? constant_pdf_ + map_selection_ * map_->pdf(direction) : constant_pdf_;
-    }
-
     /// Whether emitted() may be other than black on a shape.
     bool emits(std::uint32_t shape) const { return light_of_shape_[shape] != kNone; }
 
@@ -64,12 +58,11 @@ class Emitters {
         return area.radiance;
     }
 
-    /// Radiance that comes from infinity, against the unit `direction`.
-    Rgb environment(const Vec3& direction) const {
-        if constexpr (!kHasEnvironment) return Rgb(0.0f);
-        if (map_) [[unlikely]]
-            return with_map(direction).rgb();
-        return constant_;
+    /// What comes from infinity along the unit `direction`, with the density with which sample_direct() finds it.
+    EnvironmentLight environment(const Vec3& direction) const {
+        if constexpr (!kHasEnvironment) return {};
+        if (!map_) return {constant_, constant_pdf_};
+        return with_constant(map_->look(direction));
     }
 
   private:
@@ -97,7 +90,9 @@ class Emitters {
     double add_area_light(const AreaEmitter& emitter);
     void select(std::vector<double> power);
     Channels textured(const AreaLight& light, const Hit& hit) const;
-    Channels with_map(const Vec3& direction) const;
+    EnvironmentLight with_constant(const EnvironmentLight& of_map) const {
+        return {constant_ + of_map.radiance, constant_pdf_ + map_selection_ * of_map.pdf};
+    }
     /// Kept out of line, so that plain meshes pay nothing for the other kinds.
     [[gnu::noinline]] DirectSample sample_other(std::uint32_t chosen, const Vec3& p, const Draw& random) const;
     DirectSample sample_mesh(const AreaLight& light, const Vec3& p, const Draw& random) const;

@@ -1,6 +1,7 @@
 #include "worker/lights/environment_map.h"
 
 #include <algorithm>
+#include <bit>
 
 #include "common/math/elementary.h"
 
@@ -34,9 +35,12 @@ bool share(const std::vector<double>& weights, std::uint32_t* begin) {
     return total > 0;
 }
 
-/// Index of the share that owns these bits.
+/// Index of the share that owns these bits, without a branch that nothing predicts.
 std::size_t pick(const std::uint32_t* begin, std::size_t count, std::uint32_t bits) {
-    return static_cast<std::size_t>(std::upper_bound(begin, begin + count, bits >> 1) - begin) - 1;
+    const std::uint32_t* at = begin;
+    for (; count > 1; count -= count / 2)
+        at += at[count / 2] <= bits >> 1 ? count / 2 : 0;
+    return static_cast<std::size_t>(at - begin);
 }
 
 /// Draws from [0, 1) with a density that runs linearly from a to b, not both 0.
@@ -63,20 +67,25 @@ EnvironmentMap::EnvironmentMap(const EnvironmentEmitter& emitter, const TextureI
       z_axis_(emitter.z_axis),
       sines_(static_cast<std::size_t>(height_)),
       rows_(static_cast<std::size_t>(height_) + 2),
-      columns_((static_cast<std::size_t>(height_) + 1) * static_cast<std::size_t>(width_)) {
+      columns_((static_cast<std::size_t>(height_) + 1) * static_cast<std::size_t>(width_)),
+      guide_bits_(std::max(0, static_cast<int>(std::bit_width(static_cast<unsigned>(width_))) - 5)),
+      guide_((static_cast<std::size_t>(height_) + 1) * ((std::size_t{1} << guide_bits_) + 1)) {
     const auto width = static_cast<std::size_t>(width_);
     float peak = 0;
     double sum = 0, sines = 0;
+    bool all_clean = true;
     for (int y = 0; y < height_; ++y) {
         const float sine = sincos_turn((static_cast<float>(y) + 0.5f) / (2.0f * static_cast<float>(height_))).sin;
         sines_[static_cast<std::size_t>(y)] = sine;
         sines += double(sine);
         for (int x = 0; x < width_; ++x) {
             const Rgb texel = clean_texel(x, y);
+            all_clean = all_clean && texel == treefarm::texel(image, x, y);
             peak = std::max(peak, luminance(texel));
             sum += double(sine) * double(average(texel));
         }
     }
+    clean_ = all_clean;
     mean_ = double(scale_) * sum / (sines * static_cast<double>(width_));
     inverse_peak_ = peak > 0.0f ? 1.0f / peak : 0.0f;
 
@@ -84,7 +93,7 @@ EnvironmentMap::EnvironmentMap(const EnvironmentEmitter& emitter, const TextureI
     std::vector<float> upper(width), lower(width);
     const auto read_row = [&](int y, std::vector<float>& row) {
         for (int x = 0; x < width_; ++x)
-            row[static_cast<std::size_t>(x)] = weight(x, y);
+            row[static_cast<std::size_t>(x)] = weight(clean_texel(x, y), y);
     };
     read_row(0, lower);
     for (int row = 0; row <= height_; ++row) {
@@ -98,7 +107,14 @@ EnvironmentMap::EnvironmentMap(const EnvironmentEmitter& emitter, const TextureI
             total += weights[x];
         }
         row_weights[static_cast<std::size_t>(row)] = total * double(patch_height(row));
-        share(weights, &columns_[static_cast<std::size_t>(row) * width]);
+        std::uint32_t* const begin = &columns_[static_cast<std::size_t>(row) * width];
+        share(weights, begin);
+        const std::size_t entries = std::size_t{1} << guide_bits_;
+        std::uint32_t* const guide = &guide_[static_cast<std::size_t>(row) * (entries + 1)];
+        for (std::size_t k = 0; k < entries; ++k)
+            guide[k] =
+                static_cast<std::uint32_t>(pick(begin, width, static_cast<std::uint32_t>(k << (32 - guide_bits_))));
+        guide[entries] = static_cast<std::uint32_t>(width - 1);
     }
     if (!share(row_weights, rows_.data())) mean_ = 0;
     rows_.back() = kTotal;
@@ -106,13 +122,14 @@ EnvironmentMap::EnvironmentMap(const EnvironmentEmitter& emitter, const TextureI
 
 Rgb EnvironmentMap::clean_texel(int x, int y) const {
     Rgb c = texel(*image_, x, y);
+    if (clean_) return c;
     for (int i = 0; i < 3; ++i)
         if (!(c[i] > 0.0f && c[i] <= 1e30f)) c[i] = 0.0f;
     return c;
 }
 
-float EnvironmentMap::weight(int x, int y) const {
-    return luminance(clean_texel(x, y)) * inverse_peak_ * sines_[static_cast<std::size_t>(y)];
+float EnvironmentMap::weight(const Rgb& texel, int y) const {
+    return luminance(texel) * inverse_peak_ * sines_[static_cast<std::size_t>(y)];
 }
 
 EnvironmentMap::Place EnvironmentMap::place(const Vec3& d) const {
@@ -135,11 +152,14 @@ EnvironmentMap::Place EnvironmentMap::place(const Vec3& d) const {
     return p;
 }
 
-Rgb EnvironmentMap::radiance(const Vec3& direction) const {
-    const Place p = place(direction);
-    const Rgb upper = clean_texel(p.x0, p.y0) * (1.0f - p.fx) + clean_texel(p.x1, p.y0) * p.fx;
-    const Rgb lower = clean_texel(p.x0, p.y1) * (1.0f - p.fx) + clean_texel(p.x1, p.y1) * p.fx;
-    return (upper * (1.0f - p.fy) + lower * p.fy) * scale_;
+EnvironmentMap::Corners EnvironmentMap::corners(const Place& p) const {
+    const int x[] = {p.x0, p.x1, p.x0, p.x1}, y[] = {p.y0, p.y0, p.y1, p.y1};
+    Corners corners;
+    for (int i = 0; i < 4; ++i) {
+        corners.color[i] = clean_texel(x[i], y[i]);
+        corners.weight[i] = weight(corners.color[i], y[i]);
+    }
+    return corners;
 }
 
 std::uint32_t EnvironmentMap::column_begin(int row, int x) const {
@@ -147,39 +167,60 @@ std::uint32_t EnvironmentMap::column_begin(int row, int x) const {
     return columns_[static_cast<std::size_t>(row) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x)];
 }
 
-float EnvironmentMap::pdf(const Vec3& direction) const {
-    if (black()) return 0.0f;
-    const Place p = place(direction);
+std::size_t EnvironmentMap::pick_column(std::size_t row, std::uint32_t bits) const {
+    const std::uint32_t* const guide = &guide_[row * ((std::size_t{1} << guide_bits_) + 1)];
+    const std::size_t entry = guide_bits_ == 0 ? 0 : bits >> (32 - guide_bits_);
+    const std::size_t low = guide[entry];
+    const std::uint32_t* const begin = &columns_[row * static_cast<std::size_t>(width_)];
+    return low + pick(begin + low, guide[entry + 1] - low + 1, bits);
+}
+
+EnvironmentLight EnvironmentMap::light(const Place& p, const Corners& c) const {
+    const Rgb upper = c.color[0] * (1.0f - p.fx) + c.color[1] * p.fx;
+    const Rgb lower = c.color[2] * (1.0f - p.fx) + c.color[3] * p.fx;
+    EnvironmentLight light;
+    light.radiance = (upper * (1.0f - p.fy) + lower * p.fy) * scale_;
+    if (black()) return light;
     const auto row = static_cast<std::size_t>(p.row);
     const float row_share = static_cast<float>(rows_[row + 1] - rows_[row]);
-    if (!(row_share > 0.0f)) return 0.0f;
     const float column_share = static_cast<float>(column_begin(p.row, p.x0 + 1) - column_begin(p.row, p.x0));
-    const float a = weight(p.x0, p.y0), b = weight(p.x1, p.y0), c = weight(p.x0, p.y1), d = weight(p.x1, p.y1);
-    const float mean = 0.25f * (a + b + c + d);
-    if (!(mean > 0.0f)) return 0.0f;
-    const float here = mix(mix(a, b, p.fx), mix(c, d, p.fx), p.fy);
+    const float mean = 0.25f * (c.weight[0] + c.weight[1] + c.weight[2] + c.weight[3]);
+    if (!(row_share > 0.0f) || !(mean > 0.0f)) return light;
+    const float here = mix(mix(c.weight[0], c.weight[1], p.fx), mix(c.weight[2], c.weight[3], p.fx), p.fy);
     const float patches = static_cast<float>(width_) * static_cast<float>(height_) / patch_height(p.row);
     // d(u) d(v) = d(solid angle) / (2 pi^2 sin(theta)); on the pole itself the density is as large as it likes.
     const float solid_angle = 2.0f * kPi * kPi * std::max(p.sine, 1e-9f);
-    return (row_share * 0x1p-31f) * (column_share * 0x1p-31f) * (here / mean) * patches / solid_angle;
+    light.pdf = (row_share * 0x1p-31f) * (column_share * 0x1p-31f) * (here / mean) * patches / solid_angle;
+    return light;
 }
 
-Vec3 EnvironmentMap::sample(const Draw& random) const {
-    const auto width = static_cast<std::size_t>(width_);
+EnvironmentLight EnvironmentMap::look(const Vec3& direction) const {
+    const Place p = place(direction);
+    return light(p, corners(p));
+}
+
+EnvironmentMap::Sample EnvironmentMap::sample(const Draw& random) const {
+    Place p;
     const std::size_t row = pick(rows_.data(), rows_.size() - 1, random[1]);
-    const std::size_t column = pick(&columns_[row * width], width, random[2]);
-    const int x0 = static_cast<int>(column), x1 = x0 + 1 < width_ ? x0 + 1 : 0;
-    const int y0 = std::max(static_cast<int>(row) - 1, 0), y1 = std::min(static_cast<int>(row), height_ - 1);
-    const float a = weight(x0, y0), b = weight(x1, y0), c = weight(x0, y1), d = weight(x1, y1);
+    p.row = static_cast<int>(row);
+    p.x0 = static_cast<int>(pick_column(row, random[2]));
+    p.x1 = p.x0 + 1 < width_ ? p.x0 + 1 : 0;
+    p.y0 = std::max(p.row - 1, 0);
+    p.y1 = std::min(p.row, height_ - 1);
+    const Corners c = corners(p);
     const auto unit16 = [](std::uint32_t bits) { return (static_cast<float>(bits) + 0.5f) * 0x1p-16f; };
-    const float fy = sample_linear(unit16(random[3] >> 16), a + b, c + d);
-    const float fx = sample_linear(unit16(random[3] & 0xffffu), mix(a, c, fy), mix(b, d, fy));
-    float u = (static_cast<float>(x0) + 0.5f + fx) / static_cast<float>(width_);
+    p.fy = sample_linear(unit16(random[3] >> 16), c.weight[0] + c.weight[1], c.weight[2] + c.weight[3]);
+    p.fx = sample_linear(unit16(random[3] & 0xffffu), mix(c.weight[0], c.weight[2], p.fy),
+                         mix(c.weight[1], c.weight[3], p.fy));
+    float u = (static_cast<float>(p.x0) + 0.5f + p.fx) / static_cast<float>(width_);
     if (u >= 1.0f) u -= 1.0f;
-    const float top = row == 0 ? 0.0f : static_cast<float>(row) - 0.5f;
-    const float v = std::min((top + fy * patch_height(static_cast<int>(row))) / static_cast<float>(height_), 1.0f);
+    // In the outer rows, half as high, the texels above and below are one.
+    const float top = row == 0 ? 0.0f : static_cast<float>(p.row) - 0.5f;
+    const float v = std::min((top + p.fy * patch_height(p.row)) / static_cast<float>(height_), 1.0f);
     const SinCos polar = sincos_turn(0.5f * v), azimuth = sincos_turn(u);
-    return normalize(x_axis_ * (polar.sin * azimuth.sin) + y_axis_ * polar.cos - z_axis_ * (polar.sin * azimuth.cos));
+    p.sine = polar.sin;
+    return {normalize(x_axis_ * (polar.sin * azimuth.sin) + y_axis_ * polar.cos - z_axis_ * (polar.sin * azimuth.cos)),
+            light(p, c)};
 }
 
 }  // namespace treefarm

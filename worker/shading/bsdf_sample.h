@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "common/math/vec.h"
+#include "common/math/warp.h"
 
 namespace treefarm {
 
@@ -24,6 +25,11 @@ struct BsdfSample {
 struct BsdfRandom {
     float lobe = 0;  ///< which lobe
     Vec2 place{0.0f};
+    Vec3 cosine{0.0f};  ///< the place, warped to a cosine-distributed direction: what most BSDFs make of it
+
+    BsdfRandom(float lobe, const Vec2& place) : BsdfRandom(lobe, place, square_to_cosine_hemisphere(place)) {}
+    /// Where the warp is done for many paths together.
+    BsdfRandom(float lobe, const Vec2& place, const Vec3& cosine) : lobe(lobe), place(place), cosine(cosine) {}
 };
 
 /// Which kinds of lobes a BSDF has, as bits.

@@ -15,7 +15,7 @@ struct DiffuseBsdf {
     }
 
     BsdfSample sample(const Vec3& wo, const BsdfRandom& random) const {
-        const Vec3 wi = square_to_cosine_hemisphere(random.place);
+        const Vec3 wi = random.cosine;
         const BsdfValue v = value(wo, wi);
         return {wi, v.pdf, v.f_cos, false};
     }

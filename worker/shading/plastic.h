@@ -22,7 +22,7 @@ struct PlasticBsdf {
         const float f = fresnel_dielectric(wo.z, eta).reflectance;
         const float probability = coated.coat_probability(f);
         if (random.lobe < probability) return {{-wo.x, -wo.y, wo.z}, probability, specular * f, true};
-        const Vec3 wi = square_to_cosine_hemisphere(random.place);
+        const Vec3 wi = random.cosine;
         const BsdfValue v = value(wo, wi);
         return {wi, v.pdf, v.f_cos, false};
     }

@@ -27,8 +27,7 @@ struct RoughPlasticBsdf {
 
     BsdfSample sample(const Vec3& wo, const BsdfRandom& random) const {
         const bool coat_chosen = random.lobe < coated.coat_probability(1.0f - coat->at(wo.z));
-        const Vec3 wi = coat_chosen ? reflected(wo, facets.sample_visible(wo, random.place))
-                                    : square_to_cosine_hemisphere(random.place);
+        const Vec3 wi = coat_chosen ? reflected(wo, facets.sample_visible(wo, random.place)) : random.cosine;
         const BsdfValue v = value(wo, wi);
         return {wi, v.pdf, v.f_cos, false};
     }
