@@ -15,6 +15,15 @@ std::uint32_t axis_step(float position, float origin, float inverse_extent) {
     return steps < kAxisSteps ? static_cast<std::uint32_t>(steps) : (1u << kAxisBits) - 1;
 }
 
+/// The last cell whose `begin` is at or before `key`, without a branch that nothing predicts.
+template <class Range, class Cell>
+const Cell* last_before(const Range& range, std::uint32_t Cell::*begin, std::uint32_t key) {
+    const Cell* at = range.first;
+    for (std::uint32_t count = range.count; count > 1; count -= count / 2)
+        at += at[count / 2].*begin <= key ? count / 2 : 0;
+    return at;
+}
+
 }  // namespace
 
 Guide::Guide(const SdTree& tree)
@@ -22,32 +31,33 @@ Guide::Guide(const SdTree& tree)
       origin_(tree.origin),
       inverse_extent_(1.0f / tree.extent),
       extent_(tree.extent),
-      cell_begin_(tree.cell_begin),
       quantum_exponent_(tree.quantum_exponent),
       bsdf_fraction_(tree.bsdf_fraction),
       region_depth_(tree.region_count()) {
     build_treelet(tree, 0, 0);
 
-    cells_.resize(tree.cell_count());
+    cells_.reserve(tree.cell_count() + region_count());
     mass_guide_.resize(region_count());
     code_guide_.resize(region_count());
     for (std::uint32_t r = 0; r < region_count(); ++r) {
         std::uint64_t code = 0;
         std::uint32_t mass = 0, next_mass_entry = 0, next_code_entry = 0;
-        for (std::uint32_t c = cell_begin_[r]; c < cell_begin_[r + 1]; ++c) {
-            cells_[c] = {static_cast<std::uint32_t>(code), mass};
+        for (std::uint32_t c = tree.cell_begin[r]; c < tree.cell_begin[r + 1]; ++c) {
+            const auto index = static_cast<std::uint32_t>(cells_.size());
+            cells_.push_back({static_cast<std::uint32_t>(code), mass});
             code += std::uint64_t{1} << (2 * (kDirectionBits - tree.cell_depth[c]));
             mass += tree.cell_mass[c];
             // Entry k is the cell that contains k/64; the binary search of a look-up runs between entries k and k+1.
             for (; next_mass_entry < kGuideSize && (next_mass_entry << (kMassBits - kGuideBits)) < mass;
                  ++next_mass_entry)
-                mass_guide_[r][next_mass_entry] = c;
+                mass_guide_[r][next_mass_entry] = index;
             for (; next_code_entry < kGuideSize &&
                    (static_cast<std::uint64_t>(next_code_entry) << (2 * kDirectionBits - kGuideBits)) < code;
                  ++next_code_entry)
-                code_guide_[r][next_code_entry] = c;
+                code_guide_[r][next_code_entry] = index;
         }
-        mass_guide_[r][kGuideSize] = code_guide_[r][kGuideSize] = cell_begin_[r + 1] - 1;
+        mass_guide_[r][kGuideSize] = code_guide_[r][kGuideSize] = static_cast<std::uint32_t>(cells_.size()) - 1;
+        cells_.push_back({static_cast<std::uint32_t>(code), mass});
     }
 }
 
@@ -102,53 +112,37 @@ bool Guide::contains(const Vec3& p) const {
     return q.x >= low && q.y >= low && q.z >= low && q.x <= high && q.y <= high && q.z <= high;
 }
 
-float Guide::density(std::uint32_t region, std::uint32_t cell) const {
-    const bool last = cell + 1 == cell_begin_[region + 1];
-    const std::uint32_t mass = (last ? 1u << kMassBits : cells_[cell + 1].mass_begin) - cells_[cell].mass_begin;
-    const std::uint32_t area = (last ? 0u : cells_[cell + 1].code_begin) - cells_[cell].code_begin;  // modulo 2^32
+float Guide::density(const Cell* cell) {
+    const std::uint32_t mass = cell[1].mass_begin - cell[0].mass_begin;
+    const std::uint32_t area = cell[1].code_begin - cell[0].code_begin;  // a power of two
     constexpr float kScale = kInvFourPi * static_cast<float>(1u << (2 * kDirectionBits - kMassBits));
-    return kScale * static_cast<float>(mass) / static_cast<float>(area);
+    const auto inverse_area = std::bit_cast<float>(static_cast<std::uint32_t>(127 - std::countr_zero(area)) << 23);
+    return kScale * static_cast<float>(static_cast<std::int32_t>(mass)) * inverse_area;
 }
 
 std::uint32_t Guide::cell_side(std::uint32_t region, std::uint32_t cell) const {
-    const bool last = cell + 1 == cell_begin_[region + 1];
-    const std::uint32_t area = (last ? 0u : cells_[cell + 1].code_begin) - cells_[cell].code_begin;  // modulo 2^32
-    return 1u << (std::countr_zero(area) / 2);
+    const Cell* const c = &cells_[cell + region];
+    return 1u << (std::countr_zero(c[1].code_begin - c[0].code_begin) / 2);
+}
+
+const Guide::Cell* Guide::find(std::uint32_t region, std::uint32_t code) const {
+    return last_before(range(code_guide_[region], code >> (2 * kDirectionBits - kGuideBits)), &Cell::code_begin, code);
 }
 
 std::uint32_t Guide::cell(std::uint32_t region, std::uint32_t code) const {
-    const GuideTable& guide = code_guide_[region];
-    const std::uint32_t entry = code >> (2 * kDirectionBits - kGuideBits);
-    std::uint32_t low = guide[entry], high = guide[entry + 1];
-    while (low < high) {  // the last cell that begins at or before the code
-        const std::uint32_t middle = (low + high + 1) / 2;
-        if (cells_[middle].code_begin <= code)
-            low = middle;
-        else
-            high = middle - 1;
-    }
-    return low;
+    return static_cast<std::uint32_t>(find(region, code) - cells_.data()) - region;
 }
 
 float Guide::pdf(std::uint32_t region, std::uint32_t code) const {
-    return density(region, cell(region, code));
+    return density(find(region, code));
 }
 
 Guide::Sample Guide::sample(std::uint32_t region, std::uint32_t pick, std::uint32_t u0, std::uint32_t u1) const {
     const std::uint32_t mass = pick >> (32 - kMassBits);
-    const GuideTable& guide = mass_guide_[region];
-    const std::uint32_t entry = mass >> (kMassBits - kGuideBits);
-    std::uint32_t low = guide[entry], high = guide[entry + 1];
-    while (low < high) {  // the last cell whose probability begins at or before the pick: never an empty one
-        const std::uint32_t middle = (low + high + 1) / 2;
-        if (cells_[middle].mass_begin <= mass)
-            low = middle;
-        else
-            high = middle - 1;
-    }
-    const bool last = low + 1 == cell_begin_[region + 1];
-    const std::uint32_t begin = cells_[low].code_begin;
-    const std::uint32_t area = (last ? 0u : cells_[low + 1].code_begin) - begin;
+    // The last cell whose probability begins at or before the pick is never an empty one.
+    const Cell* const cell =
+        last_before(range(mass_guide_[region], mass >> (kMassBits - kGuideBits)), &Cell::mass_begin, mass);
+    const std::uint32_t begin = cell[0].code_begin, area = cell[1].code_begin - begin;
     // Positions are drawn on a grid of 2^23 steps per axis that nests in the quadtree's cells (steps' centres are exact
     // floats), so the code of the sampled point lies in the sampled cell by construction.
     constexpr int kFineBits = 23 - kDirectionBits;
@@ -156,17 +150,17 @@ Guide::Sample Guide::sample(std::uint32_t region, std::uint32_t pick, std::uint3
     const std::uint32_t x = (compact_bits(begin) << kFineBits) + (u0 >> (32 - shift));
     const std::uint32_t y = (compact_bits(begin >> 1) << kFineBits) + (u1 >> (32 - shift));
     Sample sample;
-    sample.direction =
-        square_to_direction({static_cast<float>(2 * x + 1) * 0x1p-24f, static_cast<float>(2 * y + 1) * 0x1p-24f});
+    sample.direction = square_to_direction({static_cast<float>(static_cast<std::int32_t>(2 * x + 1)) * 0x1p-24f,
+                                            static_cast<float>(static_cast<std::int32_t>(2 * y + 1)) * 0x1p-24f});
     sample.code = spread_bits(x >> kFineBits) | (spread_bits(y >> kFineBits) << 1);
-    sample.pdf = density(region, low);
+    sample.pdf = density(cell);
     return sample;
 }
 
 std::size_t Guide::bytes() const {
     return treelets_.size() * sizeof(treelets_[0]) + cells_.size() * sizeof(Cell) +
-           (mass_guide_.size() + code_guide_.size()) * sizeof(GuideTable) + cell_begin_.size() * 4 +
-           quantum_exponent_.size() * 2 + bsdf_fraction_.size() * 4 + region_depth_.size();
+           (mass_guide_.size() + code_guide_.size()) * sizeof(GuideTable) + quantum_exponent_.size() * 2 +
+           bsdf_fraction_.size() * 4 + region_depth_.size();
 }
 
 }  // namespace treefarm

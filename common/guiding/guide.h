@@ -26,7 +26,7 @@ class Guide {
     /// False in the first pass: nothing was learned yet, sample the BSDF alone.
     bool trained() const { return trained_; }
     std::uint32_t region_count() const { return static_cast<std::uint32_t>(quantum_exponent_.size()); }
-    std::uint32_t cell_count() const { return static_cast<std::uint32_t>(cells_.size()); }
+    std::uint32_t cell_count() const { return static_cast<std::uint32_t>(cells_.size()) - region_count(); }
     std::int16_t quantum_exponent(std::uint32_t region) const { return quantum_exponent_[region]; }
     /// Probability of sampling the BSDF rather than the tree.
     float bsdf_fraction(std::uint32_t region) const { return bsdf_fraction_[region]; }
@@ -39,6 +39,12 @@ class Guide {
     /// The region of a point moved by up to half the size of `region` along each axis: the stochastic spatial filter of
     /// the authors' improved program. Three uniform 32-bit numbers.
     std::uint32_t jittered_region(const Vec3& position, std::uint32_t region, const Draw& random) const;
+
+    /// Fetches what sample() with this `pick` will read first.
+    void prefetch(std::uint32_t region, std::uint32_t pick) const {
+        __builtin_prefetch(&bsdf_fraction_[region]);
+        __builtin_prefetch(&mass_guide_[region][pick >> (32 - kGuideBits)]);
+    }
 
     /// Draws a direction; `pick`, `u0` and `u1` are uniform 32-bit numbers.
     Sample sample(std::uint32_t region, std::uint32_t pick, std::uint32_t u0, std::uint32_t u1) const;
@@ -55,26 +61,34 @@ class Guide {
 
   private:
     struct Cell {
-        std::uint32_t code_begin;  ///< first Z-order code of the cell
+        std::uint32_t code_begin;  ///< first Z-order code of the cell, modulo 2^32
         std::uint32_t mass_begin;  ///< cumulative probability before the cell, of 2^kMassBits
+    };
+    /// The cells among which a look-up has to search.
+    struct Range {
+        const Cell* first;
+        std::uint32_t count;
     };
     static constexpr int kGuideBits = 6;
     static constexpr std::uint32_t kGuideSize = 1u << kGuideBits;
     static constexpr std::uint32_t kLeafFlag = 0x80000000u;
 
     std::uint32_t build_treelet(const SdTree& tree, std::uint32_t node, int depth);
-    float density(std::uint32_t region, std::uint32_t cell) const;
+    static float density(const Cell* cell);
+    const Cell* find(std::uint32_t region, std::uint32_t code) const;
 
     bool trained_ = false;
     Vec3 origin_{0.0f};
     float inverse_extent_ = 1.0f;
     float extent_ = 1.0f;
     std::vector<std::array<std::uint32_t, 8>> treelets_;
-    std::vector<std::uint32_t> cell_begin_;  ///< regions + 1 entries
-    std::vector<Cell> cells_;
+    std::vector<Cell> cells_;  ///< each region's, then one at which the next would begin: cell c of region r is c + r
     using GuideTable = std::array<std::uint32_t, kGuideSize + 1>;
-    std::vector<GuideTable> mass_guide_;  ///< per region: first cell that may hold probability k/64
-    std::vector<GuideTable> code_guide_;  ///< per region: the cell that holds code k/64
+    Range range(const GuideTable& guide, std::uint32_t entry) const {
+        return {&cells_[guide[entry]], guide[entry + 1] - guide[entry] + 1};
+    }
+    std::vector<GuideTable> mass_guide_;  ///< per region: first of cells_ that may hold probability k/64
+    std::vector<GuideTable> code_guide_;  ///< per region: the one that holds code k/64
     std::vector<std::int16_t> quantum_exponent_;
     std::vector<float> bsdf_fraction_;
     std::vector<std::uint8_t> region_depth_;  ///< halvings from the cube to the region

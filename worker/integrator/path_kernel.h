@@ -72,6 +72,7 @@ class PathKernel {
         bool found;
         EmbreeScene::Meeting meeting;
         Hit hit;
+        std::uint32_t region;  ///< of the hit, where the tree is used
 
         void begin(const PathKey& path, const Ray& from_camera) {
             key = path;
@@ -93,11 +94,14 @@ class PathKernel {
             observer_.ray(path.ray);
             path.found = scene_.geometry().meet(path.ray, path.meeting);
         }
+        draw_numbers(alive, depth);
         for (std::uint32_t i = 0; i < alive; ++i) {
             Path& path = paths_[alive_[i]];
-            if (path.found) scene_.geometry().set_point(path.hit, path.meeting);
+            if (!path.found) continue;
+            scene_.geometry().set_point(path.hit, path.meeting);
+            if constexpr (kGuided || kRecord) path.region = guide_.region(path.hit.p);
+            if constexpr (kGuided) guide_.prefetch(path.region, scatter_draws_.word[1][i]);
         }
-        draw_numbers(alive, depth);
         pending_.clear();
         std::uint32_t left = 0;
         for (std::uint32_t i = 0; i < alive; ++i) {
@@ -159,7 +163,7 @@ class PathKernel {
         ++stats_.vertices;
         std::uint32_t region = 0;
         if ((kGuided || kRecord) && surface.smooth()) {
-            region = guide_.region(hit.p);
+            region = path.region;
             if constexpr (kRecord)
                 if (!guide_.contains(hit.p)) recorders_[index].add_outside();
         }
