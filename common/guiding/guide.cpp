@@ -15,6 +15,11 @@ std::uint32_t axis_step(float position, float origin, float inverse_extent) {
     return steps < kAxisSteps ? static_cast<std::uint32_t>(steps) : (1u << kAxisBits) - 1;
 }
 
+/// 2^exponent, above the subnormal ones.
+float power_of_two(int exponent) {
+    return std::bit_cast<float>(static_cast<std::uint32_t>(127 + exponent) << 23);
+}
+
 /// The last cell whose `begin` is at or before `key`, without a branch that nothing predicts.
 template <class Range, class Cell>
 const Cell* last_before(const Range& range, std::uint32_t Cell::*begin, std::uint32_t key) {
@@ -98,10 +103,9 @@ std::uint32_t Guide::region(const Vec3& p) const {
 std::uint32_t Guide::jittered_region(const Vec3& p, std::uint32_t region, const Draw& random) const {
     const int depth = region_depth_[region];
     Vec3 moved = p;
-    for (int axis = 0; axis < 3; ++axis) {
-        const int halvings = (depth + 2 - axis) / 3;
-        moved[axis] += std::ldexp(extent_, -halvings) * (to_unit(random[static_cast<std::size_t>(axis)]) - 0.5f);
-    }
+    for (int axis = 0; axis < 3; ++axis)
+        moved[axis] +=
+            extent_ * power_of_two(-(depth + 2 - axis) / 3) * (to_unit(random[static_cast<std::size_t>(axis)]) - 0.5f);
     return this->region(moved);
 }
 
@@ -116,8 +120,7 @@ float Guide::density(const Cell* cell) {
     const std::uint32_t mass = cell[1].mass_begin - cell[0].mass_begin;
     const std::uint32_t area = cell[1].code_begin - cell[0].code_begin;  // a power of two
     constexpr float kScale = kInvFourPi * static_cast<float>(1u << (2 * kDirectionBits - kMassBits));
-    const auto inverse_area = std::bit_cast<float>(static_cast<std::uint32_t>(127 - std::countr_zero(area)) << 23);
-    return kScale * static_cast<float>(static_cast<std::int32_t>(mass)) * inverse_area;
+    return kScale * static_cast<float>(static_cast<std::int32_t>(mass)) * power_of_two(-std::countr_zero(area));
 }
 
 std::uint32_t Guide::cell_side(std::uint32_t region, std::uint32_t cell) const {
@@ -137,7 +140,7 @@ float Guide::pdf(std::uint32_t region, std::uint32_t code) const {
     return density(find(region, code));
 }
 
-Guide::Sample Guide::sample(std::uint32_t region, std::uint32_t pick, std::uint32_t u0, std::uint32_t u1) const {
+Guide::Place Guide::sample_place(std::uint32_t region, std::uint32_t pick, std::uint32_t u0, std::uint32_t u1) const {
     const std::uint32_t mass = pick >> (32 - kMassBits);
     // The last cell whose probability begins at or before the pick is never an empty one.
     const Cell* const cell =
@@ -149,12 +152,10 @@ Guide::Sample Guide::sample(std::uint32_t region, std::uint32_t pick, std::uint3
     const int shift = kFineBits + std::countr_zero(area) / 2;  // a cell is 2^shift steps wide
     const std::uint32_t x = (compact_bits(begin) << kFineBits) + (u0 >> (32 - shift));
     const std::uint32_t y = (compact_bits(begin >> 1) << kFineBits) + (u1 >> (32 - shift));
-    Sample sample;
-    sample.direction = square_to_direction({static_cast<float>(static_cast<std::int32_t>(2 * x + 1)) * 0x1p-24f,
-                                            static_cast<float>(static_cast<std::int32_t>(2 * y + 1)) * 0x1p-24f});
-    sample.code = spread_bits(x >> kFineBits) | (spread_bits(y >> kFineBits) << 1);
-    sample.pdf = density(cell);
-    return sample;
+    const auto place = [](std::uint32_t steps) {
+        return static_cast<float>(static_cast<std::int32_t>(2 * steps + 1)) * 0x1p-24f;
+    };
+    return {{place(x), place(y)}, spread_bits(x >> kFineBits) | (spread_bits(y >> kFineBits) << 1), density(cell)};
 }
 
 std::size_t Guide::bytes() const {

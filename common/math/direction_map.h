@@ -15,7 +15,8 @@ inline Vec2 direction_to_square(const Vec3& d) {
     const float r =
         std::sqrt((ax * ax + ay * ay) / (1.0f + az));  // = sqrt(1 - |z|), without its cancellation at the poles
     const float high = std::max(ax, ay), low = std::min(ax, ay);
-    float phi = high > 0.0f ? atan_quadrant(low / high) : 0.0f;  // angle from the x axis, 0..1 for 0..90 degrees
+    // Angle from the x axis, 0..1 for 0..90 degrees.
+    float phi = select(high > 0.0f, atan_quadrant(low / high), 0.0f);
     phi = select(ay > ax, 1.0f - phi, phi);
     const float along = phi * r, across = r - along;
     const bool below = d.z < 0.0f;
@@ -32,7 +33,7 @@ inline Vec3 square_to_direction(const Vec2& p) {
     const float signed_distance = 1.0f - (au + av);
     const float distance = std::abs(signed_distance);
     const float r = 1.0f - distance;
-    const float phi = r > 0.0f ? ((av - au) / r + 1.0f) * (0.5f * kPi * 0.5f) : 0.0f;
+    const float phi = select(r > 0.0f, ((av - au) / r + 1.0f) * (0.5f * kPi * 0.5f), 0.0f);
     const float z = std::copysign(1.0f - r * r, signed_distance);
     const SinCos a = sincos_quadrant(std::clamp(phi, 0.0f, 0.5f * kPi));
     const float sin_theta = r * std::sqrt(std::max(0.0f, 2.0f - r * r));
@@ -60,8 +61,8 @@ inline std::uint32_t compact_bits(std::uint32_t v) {
 
 /// Z-order code of a point of the unit square (coordinates in [0, 1)).
 inline std::uint32_t square_to_code(const Vec2& p) {
-    const auto x = static_cast<std::uint32_t>(p.x * 65536.0f), y = static_cast<std::uint32_t>(p.y * 65536.0f);
-    return spread_bits(x) | (spread_bits(y) << 1);
+    const auto step = [](float t) { return static_cast<std::uint32_t>(static_cast<std::int32_t>(t * 65536.0f)); };
+    return spread_bits(step(p.x)) | (spread_bits(step(p.y)) << 1);
 }
 
 inline std::uint32_t direction_to_code(const Vec3& d) {

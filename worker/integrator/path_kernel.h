@@ -2,6 +2,8 @@
 
 #include <array>
 #include <cassert>
+#include <optional>
+#include <vector>
 
 #include "common/film/trace_stats.h"
 #include "common/guiding/mixture.h"
@@ -28,7 +30,11 @@ class PathKernel {
     static constexpr std::uint32_t kBatch = kDrawBatch;
 
     PathKernel(const TraceScene& scene, const Guide& guide, const PathSettings& settings, TraceStats& stats)
-        : scene_(scene), guide_(guide), settings_(settings), stats_(stats), scratch_(Surface::make_scratch(scene)) {
+        : scene_(scene),
+          guide_(guide),
+          settings_(settings),
+          stats_(stats),
+          scratch_(kBatch, Surface::make_scratch(scene)) {
         if constexpr (kRecord) recorders_.fill(PathRecorder(settings.target));
     }
 
@@ -60,7 +66,8 @@ class PathKernel {
     Observer& observer() { return observer_; }
 
   private:
-    using Bsdf = typename Surface::Bsdf;
+    /// Whether directions have to be converted before a path can leave.
+    static constexpr bool kConverts = kGuided || kRecord;
 
     struct Path {
         PathKey key;
@@ -73,6 +80,10 @@ class PathKernel {
         EmbreeScene::Meeting meeting;
         Hit hit;
         std::uint32_t region;  ///< of the hit, where the tree is used
+        float bsdf_fraction;   ///< probability of sampling the BSDF there
+        std::optional<Surface> surface;
+        ScatterSample scatter;
+        Draw jitter;  ///< of what is recorded
 
         void begin(const PathKey& path, const Ray& from_camera) {
             key = path;
@@ -89,27 +100,43 @@ class PathKernel {
     /// One more edge for the first `alive` of alive_; returns how many go on.
     std::uint32_t step(std::uint32_t alive, int depth) {
         stats_.rays += alive;
-        for (std::uint32_t i = 0; i < alive; ++i) {
-            Path& path = paths_[alive_[i]];
+        for (std::uint32_t lane = 0; lane < alive; ++lane) {
+            Path& path = paths_[alive_[lane]];
             observer_.ray(path.ray);
             path.found = scene_.geometry().meet(path.ray, path.meeting);
         }
         draw_numbers(alive, depth);
-        for (std::uint32_t i = 0; i < alive; ++i) {
-            Path& path = paths_[alive_[i]];
-            if (!path.found) continue;
-            scene_.geometry().set_point(path.hit, path.meeting);
-            if constexpr (kGuided || kRecord) path.region = guide_.region(path.hit.p);
-            if constexpr (kGuided) guide_.prefetch(path.region, scatter_draws_.word[1][i]);
-        }
+        for (std::uint32_t lane = 0; lane < alive; ++lane)
+            find_place(lane);
         pending_.clear();
-        std::uint32_t left = 0;
-        for (std::uint32_t i = 0; i < alive; ++i) {
-            const std::uint8_t path = alive_[i];
-            if (visit(path, i, depth)) alive_[left++] = path;
-        }
+        codes_.clear();
+        places_.clear();
+        alive = keep(alive, [&](std::uint8_t path, std::uint32_t lane) {
+            return visit(path, depth, lane) && draw_direction(path, lane) && (kConverts || leave(path, depth));
+        });
         if (!pending_.empty()) look_at_lights(depth);
+        if constexpr (!kConverts) return alive;
+        convert(alive);
+        return keep(alive, [&](std::uint8_t path, std::uint32_t) { return leave(path, depth); });
+    }
+
+    /// Of the first `alive` of alive_ those for which `goes_on`.
+    template <class GoesOn>
+    std::uint32_t keep(std::uint32_t alive, GoesOn goes_on) {
+        std::uint32_t left = 0;
+        for (std::uint32_t lane = 0; lane < alive; ++lane) {
+            const std::uint8_t path = alive_[lane];
+            if (goes_on(path, lane)) alive_[left++] = path;
+        }
         return left;
+    }
+
+    void find_place(std::uint32_t lane) {
+        Path& path = paths_[alive_[lane]];
+        if (!path.found) return;
+        scene_.geometry().set_point(path.hit, path.meeting);
+        if constexpr (kGuided || kRecord) path.region = guide_.region(path.hit.p);
+        if constexpr (kGuided) guide_.prefetch(path.region, scatter_draws_.word[1][lane]);
     }
 
     /// The random numbers of a step, for all paths together.
@@ -129,9 +156,8 @@ class PathKernel {
             draw_batch(seed, keys, alive, vertex_of(depth), Stream::jitter, jitter_draws_);
     }
 
-    /// What happens where a path's ray has arrived, until its next ray is known. False if it ends. `lane` is its place
-    /// in what was drawn.
-    bool visit(std::uint8_t index, std::uint32_t lane, int depth) {
+    /// What happens where a path's ray has arrived. False if it ends. `lane` is its place in what was drawn.
+    bool visit(std::uint8_t index, int depth, std::uint32_t lane) {
         Path& path = paths_[index];
         const Hit& hit = path.hit;
         const Ray& ray = path.ray;
@@ -155,25 +181,88 @@ class PathKernel {
             if constexpr (kRecord) recorders_[index].survive(survival);
         }
 
-        const Surface surface(scene_, hit, -ray.direction, scratch_);
+        const Surface& surface = path.surface.emplace(scene_, hit, -ray.direction, scratch(index));
         if (surface.black()) return end("black surface");
         if (settings_.strict_normals && -dot(surface.ng(), ray.direction) * surface.wo().z < 0.0f)
             return end("normals disagree");
 
         ++stats_.vertices;
-        std::uint32_t region = 0;
-        if ((kGuided || kRecord) && surface.smooth()) {
-            region = path.region;
-            if constexpr (kRecord)
-                if (!guide_.contains(hit.p)) recorders_[index].add_outside();
+        path.bsdf_fraction = kGuided && surface.smooth() ? guide_.bsdf_fraction(path.region) : 1.0f;
+        if constexpr (kRecord)
+            if (surface.smooth() && !guide_.contains(hit.p)) recorders_[index].add_outside();
+        if ((settings_.next_event || settings_.delta_alone) && surface.smooth()) next_event(index, light_draws_[lane]);
+        return true;
+    }
+
+    /// Draws from the BSDF or, with the probability 1 - bsdf_fraction, from the tree. False if there is no direction.
+    bool draw_direction(std::uint8_t index, std::uint32_t lane) {
+        Path& path = paths_[index];
+        const Surface& surface = *path.surface;
+        const Draw random = scatter_draws_[lane];
+        ScatterSample& s = path.scatter;
+        s.guided = kGuided && !(to_unit(random[0]) < path.bsdf_fraction);
+        s.guide_pdf = 0.0f;
+        if constexpr (kRecord) path.jitter = jitter_draws_[lane];
+        if (kGuided && s.guided) {
+            const Guide::Place place = guide_.sample_place(path.region, random[1], random[2], random[3]);
+            s.code = place.code;
+            s.guide_pdf = place.pdf;
+            s.delta = false;
+            s.conversion = places_.add(place.at);
+            return true;
         }
-        const GuidedSampling<Bsdf, kGuided> sampling(surface.bsdf(), surface.frame(), surface.wo(), guide_, region,
-                                                     surface.smooth());
+        const Vec2 place(to_unit(random[2]), to_unit(random[3]));
+        const BsdfSample b = surface.bsdf().sample(surface.wo(), {to_unit(random[1]), place, cosines_[lane]});
+        if (!(b.pdf > 0.0f)) return end("no direction");
+        s.local = b.wi;
+        s.world = surface.frame().to_world(b.wi);
+        s.f_cos = b.f_cos;
+        s.bsdf_pdf = b.pdf;
+        s.delta = b.delta;
+        if ((kGuided || kRecord) && !b.delta) s.conversion = codes_.add(s.world);
+        return true;
+    }
 
-        if ((settings_.next_event || settings_.delta_alone) && surface.smooth())
-            next_event(index, light_draws_[lane], surface, sampling, region);
+    /// Codes of directions from BSDFs, directions of places from the tree.
+    void convert(std::uint32_t alive) {
+        if constexpr (kGuided || kRecord) codes_.convert();
+        if constexpr (kGuided) {
+            places_.convert();
+            for (std::uint32_t lane = 0; lane < alive; ++lane) {
+                Path& path = paths_[alive_[lane]];
+                if (!path.scatter.guided && !path.scatter.delta)
+                    guide_.prefetch_pdf(path.region, codes_[path.scatter.conversion]);
+            }
+        }
+    }
 
-        const ScatterSample s = sampling.sample(scatter_draws_[lane], cosines_[lane], kRecord);
+    /// Density and value of the direction that was drawn. sample_place() and pdf() agree by construction: both read the
+    /// same cells.
+    void complete(Path& path) {
+        const Surface& surface = *path.surface;
+        ScatterSample& s = path.scatter;
+        if (kGuided && s.guided) {
+            s.world = places_[s.conversion];
+            s.local = surface.frame().to_local(s.world);
+            const BsdfValue b = surface.bsdf().value(surface.wo(), s.local);
+            s.f_cos = b.f_cos;
+            s.bsdf_pdf = b.pdf;
+        } else if ((kGuided || kRecord) && !s.delta) {
+            s.code = codes_[s.conversion];
+            if constexpr (kGuided) s.guide_pdf = guide_.pdf(path.region, s.code);
+        }
+        s.pdf = s.bsdf_pdf;
+        if constexpr (kGuided)
+            s.pdf = s.delta ? s.bsdf_pdf * path.bsdf_fraction : mixed_pdf(path.bsdf_fraction, s.bsdf_pdf, s.guide_pdf);
+    }
+
+    /// The path takes the direction that was drawn. False if it carries nothing.
+    bool leave(std::uint8_t index, int depth) {
+        Path& path = paths_[index];
+        complete(path);
+        const Surface& surface = *path.surface;
+        const Hit& hit = path.hit;
+        const ScatterSample& s = path.scatter;
         if (!(s.pdf > 0.0f) || is_black(s.f_cos)) return end("no direction");
         if (settings_.strict_normals && dot(surface.ng(), s.world) * s.local.z <= 0.0f) return end("normals disagree");
         const Rgb weight = s.f_cos * (1.0f / s.pdf);
@@ -188,22 +277,17 @@ class PathKernel {
         assert(path.spread == 1.0f || scene_.effects().transmission);
         if (rare && s.delta) {
             if constexpr (kRecord)
-                recorders_[index].add_delta_vertex(weight, surface.smooth() ? region : PathRecorder::kNotRecorded,
+                recorders_[index].add_delta_vertex(weight, surface.smooth() ? path.region : PathRecorder::kNotRecorded,
                                                    vertex_of(depth));
             path.scatter_pdf = std::numeric_limits<float>::infinity();
-        } else {
-            if constexpr (kRecord)
-                recorders_[index].add_vertex(record_region(hit.p, region, jitter_draws_, lane), s.code, s.pdf, weight,
-                                             mixture_bin(s.bsdf_pdf, s.guide_pdf), vertex_of(depth));
+        } else if constexpr (kRecord) {
+            const std::uint32_t region =
+                settings_.jitter_records ? guide_.jittered_region(hit.p, path.region, path.jitter) : path.region;
+            recorders_[index].add_vertex(region, s.code, s.pdf, weight, mixture_bin(s.bsdf_pdf, s.guide_pdf),
+                                         vertex_of(depth));
         }
         path.ray = {offset_origin(hit, s.world), s.world};
         return true;
-    }
-
-    /// Where what is learned here goes.
-    std::uint32_t record_region(const Vec3& p, std::uint32_t region, const DrawBatch& jitter,
-                                std::uint32_t lane) const {
-        return settings_.jitter_records ? guide_.jittered_region(p, region, jitter[lane]) : region;
     }
 
     bool end(const char* why) {
@@ -245,9 +329,9 @@ class PathKernel {
     }
 
     /// Samples an emitter; whether it is seen is asked for all paths of a step together.
-    void next_event(std::uint8_t index, const Draw& random, const Surface& surface,
-                    const GuidedSampling<Bsdf, kGuided>& sampling, std::uint32_t region) {
+    void next_event(std::uint8_t index, const Draw& random) {
         const Path& path = paths_[index];
+        const Surface& surface = *path.surface;
         const Hit& hit = path.hit;
         const DirectSample light = settings_.delta_alone ? scene_.emitters().sample_delta(hit.p, random)
                                                          : scene_.emitters().sample_direct(hit.p, random);
@@ -260,8 +344,8 @@ class PathKernel {
         PendingLight& pending = pending_.emplace_back();
         pending.path = index;
         pending.vertex = kRecord ? recorders_[index].vertex_count() : 0;
-        pending.region = region;
-        pending.bsdf_fraction = sampling.bsdf_fraction();
+        pending.region = path.region;
+        pending.bsdf_fraction = path.bsdf_fraction;
         pending.wi = light.wi;
         pending.distance = light.distance;
         pending.pdf = light.pdf;
@@ -276,15 +360,19 @@ class PathKernel {
     /// Traces the step's shadow rays, and adds what is seen, weighted against scattering.
     void look_at_lights(int depth) {
         const std::span<const bool> shadowed = pending_.trace(scene_.geometry(), observer_);
-        for (std::size_t i = 0; i < pending_.size(); ++i)
-            if (!shadowed[i]) add_light(pending_[i], depth);
+        light_codes_.clear();
+        std::uint32_t seen = 0;
+        for (std::uint32_t i = 0; i < pending_.size(); ++i) {
+            if (shadowed[i]) continue;
+            seen_[seen++] = static_cast<std::uint8_t>(i);
+            if constexpr (kGuided || kRecord) light_codes_.add(pending_[i].wi);
+        }
+        if constexpr (kGuided || kRecord) light_codes_.convert();
+        for (std::uint32_t i = 0; i < seen; ++i)
+            add_light(pending_[seen_[i]], light_codes_[i], depth);
     }
 
-    void add_light(const PendingLight& light, int depth) {
-        // Scattering never meets a light without extent: its samples are weighted alone and teach the guide nothing.
-        const bool record = kRecord && settings_.record_light_samples && !light.delta;
-        std::uint32_t code = 0;
-        if (kGuided || record) code = direction_to_code(light.wi);
+    void add_light(const PendingLight& light, std::uint32_t code, int depth) {
         float scatter_pdf = light.delta ? 0.0f : light.bsdf_pdf;
         if constexpr (kGuided)
             if (!light.delta)
@@ -293,30 +381,33 @@ class PathKernel {
         const Rgb reflected = light.reflected * (weight / light.pdf);
         Path& path = paths_[light.path];
         path.radiance += light.throughput * reflected;
-        if constexpr (kRecord) {
-            recorders_[light.path].add_reflected(light.vertex, reflected);
-            if (record) {
-                std::uint32_t region = light.region;
-                if (settings_.jitter_records)
-                    region = guide_.jittered_region(path.hit.p, region,
-                                                    draw(path.key, vertex_of(depth), Stream::light_jitter));
-                recorders_[light.path].add_light_sample(region, code, light.mean_radiance * weight, light.pdf,
-                                                        vertex_of(depth));
-            }
-        }
         observer_.next_event(light, scatter_pdf, weight, light.throughput * reflected);
+        if constexpr (!kRecord) return;
+        recorders_[light.path].add_reflected(light.vertex, reflected);
+        // Scattering never meets a light without extent: its samples are weighted alone and teach the guide nothing.
+        if (!settings_.record_light_samples || light.delta) return;
+        std::uint32_t region = light.region;
+        if (settings_.jitter_records)
+            region = guide_.jittered_region(path.hit.p, region, draw(path.key, vertex_of(depth), Stream::light_jitter));
+        recorders_[light.path].add_light_sample(region, code, light.mean_radiance * weight, light.pdf,
+                                                vertex_of(depth));
     }
+
+    typename Surface::Scratch& scratch(std::uint8_t index) { return scratch_[index]; }
 
     const TraceScene& scene_;
     const Guide& guide_;
     const PathSettings settings_;
     TraceStats& stats_;
-    [[no_unique_address]] typename Surface::Scratch scratch_;
+    std::vector<typename Surface::Scratch> scratch_;  ///< a path's surface lasts for a step
     std::uint32_t count_ = 0;
     std::array<Path, kBatch> paths_;
     std::array<std::uint8_t, kBatch> alive_;
     DrawBatch scatter_draws_, light_draws_, jitter_draws_;
     DirectionBatch cosines_;
+    CodeBatch codes_, light_codes_;
+    PlaceBatch places_;
+    std::array<std::uint8_t, kBatch> seen_;
     PendingLights pending_;
     std::array<PathRecorder, kRecord ? kBatch : 0> recorders_;
     [[no_unique_address]] Observer observer_;
