@@ -30,7 +30,7 @@ void expect_light_distribution(const Scene& scene, const Vec3& p, const std::str
     const auto density = [&](const Vec3& d) -> double {
         Hit hit;
         if (!lights.geometry().intersect({p, d}, hit))
-            return is_black(lights.emitters().environment(d).radiance) ? 0.0 : lights.emitters().environment(d).pdf;
+            return is_black(lights.emitters().environment(d)) ? 0.0 : lights.emitters().pdf_environment(d);
         if (-dot(hit.ng, d) < min_cosine) return 0.0;
         return is_black(lights.emitters().emitted(hit, -d)) ? 0.0 : lights.emitters().pdf_direct(p, d, hit);
     };
@@ -62,8 +62,8 @@ Irradiance irradiance(const Scene& scene, const Vec3& p, const Vec3& n, std::uin
             both += double(average(emitters.emitted(hit, -wi))) * M_PI *
                     double(mis_weight(MisHeuristic::power, pdf, emitters.pdf_direct(p, wi, hit)));
         else
-            both += double(average(emitters.environment(wi).radiance)) * M_PI *
-                    double(mis_weight(MisHeuristic::power, pdf, emitters.environment(wi).pdf));
+            both += double(average(emitters.environment(wi))) * M_PI *
+                    double(mis_weight(MisHeuristic::power, pdf, emitters.pdf_environment(wi)));
         sums[0] += light;
         sums[1] += light * light;
         sums[2] += both;

@@ -68,7 +68,7 @@ TEST(Emitters, WithoutLightThereIsNoSample) {
     const Lights lights(scene);
     EXPECT_FALSE(lights.emitters.can_sample());
     EXPECT_EQ(lights.emitters.sample_direct(Vec3(0, 0, 1), random_draw(0)).pdf, 0.0f);
-    EXPECT_EQ(lights.emitters.environment(Vec3(0, 0, 1)).pdf, 0.0f);
+    EXPECT_EQ(lights.emitters.pdf_environment(Vec3(0, 0, 1)), 0.0f);
 }
 
 TEST(Emitters, AreChosenByPower) {
@@ -127,7 +127,7 @@ TEST(Emitters, DensityOfAHitIsThatOfTheSample) {
         ASSERT_GT(s.pdf, 0.0f);
         ASSERT_NEAR(s.wi.length(), 1.0f, 1e-5f);
         if (s.to_environment()) {
-            ASSERT_EQ(s.pdf, lights.emitters.environment(s.wi).pdf);
+            ASSERT_EQ(s.pdf, lights.emitters.pdf_environment(s.wi));
             continue;
         }
         ASSERT_EQ(s.pdf, lights.emitters.pdf_direct(p, s.wi, s.on_light));

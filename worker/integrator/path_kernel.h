@@ -324,8 +324,13 @@ class PathKernel {
 
     [[gnu::noinline]] void from_infinity(std::uint8_t index, int depth) {
         assert(scene_.effects().environment);
-        const EnvironmentLight light = scene_.emitters().environment(paths_[index].ray.direction);
-        meet(index, light.radiance, depth, [&] { return light.pdf; });
+        const Emitters& emitters = scene_.emitters();
+        const Vec3& direction = paths_[index].ray.direction;
+        meet(index, emitters.environment(direction), depth, [&] { return emitters.pdf_environment(direction); });
+    }
+
+    [[gnu::noinline]] void look_at_environment(PendingLight& light) const {
+        light.radiance = scene_.emitters().environment(light.wi);
     }
 
     /// Samples an emitter; whether it is seen is asked for all paths of a step together.
@@ -335,7 +340,7 @@ class PathKernel {
         const Hit& hit = path.hit;
         const DirectSample light = settings_.delta_alone ? scene_.emitters().sample_delta(hit.p, random)
                                                          : scene_.emitters().sample_direct(hit.p, random);
-        if (!(light.pdf > 0.0f) || is_black(light.radiance)) return;
+        if (!(light.pdf > 0.0f) || light.black()) return;
         const Vec3 wi = surface.frame().to_local(light.wi);
         const BsdfValue bsdf = surface.bsdf().value(surface.wo(), wi);
         if (is_black(bsdf.f_cos)) return;
@@ -351,8 +356,9 @@ class PathKernel {
         pending.pdf = light.pdf;
         pending.delta = light.delta;
         pending.bsdf_pdf = bsdf.pdf;
-        pending.mean_radiance = average(light.radiance);
-        pending.reflected = bsdf.f_cos * light.radiance;
+        pending.from_environment = light.from_environment;
+        pending.f_cos = bsdf.f_cos;
+        pending.radiance = light.radiance;
         pending.throughput = path.throughput;
         pending_.aim(hit, light);
     }
@@ -372,13 +378,15 @@ class PathKernel {
             add_light(pending_[seen_[i]], light_codes_[i], depth);
     }
 
-    void add_light(const PendingLight& light, std::uint32_t code, int depth) {
+    void add_light(PendingLight& light, std::uint32_t code, int depth) {
+        if (kHasEnvironment && light.from_environment) [[unlikely]]
+            look_at_environment(light);
         float scatter_pdf = light.delta ? 0.0f : light.bsdf_pdf;
         if constexpr (kGuided)
             if (!light.delta)
                 scatter_pdf = mixed_pdf(light.bsdf_fraction, light.bsdf_pdf, guide_.pdf(light.region, code));
         const float weight = mis_weight(settings_.mis, light.pdf, scatter_pdf);
-        const Rgb reflected = light.reflected * (weight / light.pdf);
+        const Rgb reflected = light.f_cos * light.radiance * (weight / light.pdf);
         Path& path = paths_[light.path];
         path.radiance += light.throughput * reflected;
         observer_.next_event(light, scatter_pdf, weight, light.throughput * reflected);
@@ -389,7 +397,7 @@ class PathKernel {
         std::uint32_t region = light.region;
         if (settings_.jitter_records)
             region = guide_.jittered_region(path.hit.p, region, draw(path.key, vertex_of(depth), Stream::light_jitter));
-        recorders_[light.path].add_light_sample(region, code, light.mean_radiance * weight, light.pdf,
+        recorders_[light.path].add_light_sample(region, code, average(light.radiance) * weight, light.pdf,
                                                 vertex_of(depth));
     }
 

@@ -20,9 +20,10 @@ struct PendingLight {
     float distance;
     float pdf;
     bool delta;
+    bool from_environment;
     float bsdf_pdf;  ///< of scattering along wi
-    float mean_radiance;
-    Rgb reflected;  ///< f |cos| times the emitter's radiance
+    Rgb f_cos;
+    Rgb radiance;  ///< of the emitter, unless it is the environment
     Rgb throughput;
 };
 
@@ -34,7 +35,7 @@ class PendingLights {
     void clear() { count_ = 0; }
     bool empty() const { return count_ == 0; }
     std::uint32_t size() const { return count_; }
-    const PendingLight& operator[](std::size_t i) const { return lights_[i]; }
+    PendingLight& operator[](std::size_t i) { return lights_[i]; }
 
     PendingLight& emplace_back() {
         assert(count_ < kMost);
@@ -45,7 +46,7 @@ class PendingLights {
     void aim(const Hit& hit, const DirectSample& light) {
         Ray& ray = rays_[count_ - 1];
         ray = {offset_origin(hit, light.wi), light.wi};
-        if (light.to_environment()) return;
+        if (light.at_infinity()) return;
         ray.direction = offset_origin(light.on_light, -light.wi) - ray.origin;
         // Closer than the offsets: nothing fits between.
         ray.length = dot(ray.direction, light.wi) > 0.0f ? 1.0f : -1.0f;

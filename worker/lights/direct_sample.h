@@ -14,8 +14,10 @@ struct DirectSample {
     /// Of a point, spot or directional emitter, which scattering never finds: pdf is the probability of its choice, and
     /// radiance the irradiance on a surface that faces it.
     bool delta = false;
+    bool from_environment = false;  ///< radiance is still to be asked for: Emitters::environment()
 
-    bool to_environment() const { return std::isinf(distance); }
+    bool at_infinity() const { return std::isinf(distance); }
+    bool black() const { return !from_environment && is_black(radiance); }
 };
 
 }  // namespace treefarm

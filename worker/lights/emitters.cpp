@@ -165,18 +165,16 @@ DirectSample Emitters::sample_without_area(std::uint32_t chosen, const Vec3& p, 
     index -= delta_lights_.size();
     DirectSample sample;
     if constexpr (!kHasEnvironment) return sample;
-    EnvironmentLight light;
+    sample.from_environment = true;
+    sample.distance = std::numeric_limits<float>::infinity();
     if (index == 0) {
         sample.wi = square_to_sphere({to_unit(random[2]), to_unit(random[3])});
-        light = environment(sample.wi);
+        sample.pdf = pdf_environment(sample.wi);
     } else {
         const EnvironmentMap::Sample of_map = map_->sample(random);
         sample.wi = of_map.direction;
-        light = with_constant(of_map.light);
+        sample.pdf = constant_pdf_ + map_selection_ * of_map.pdf;
     }
-    sample.distance = std::numeric_limits<float>::infinity();
-    sample.pdf = light.pdf;
-    sample.radiance = light.radiance;
     return sample;
 }
 

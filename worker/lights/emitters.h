@@ -33,7 +33,8 @@ class Emitters {
     bool shines_from_infinity() const { return kHasEnvironment && shines_from_infinity_; }
 
     /// Samples a direction from p. random[0] chooses the emitter, [1] the triangle, [2] and [3] the place; for an
-    /// environment's image [1] and [2] the texels, [3] the place between them.
+    /// environment's image [1] and [2] the texel, [3] the place about it. What comes from infinity has no radiance yet:
+    /// environment() is to be asked once it is known to be seen.
     DirectSample sample_direct(const Vec3& p, const Draw& random) const;
 
     /// Point, spot and directional lights, which nothing but sampling them finds.
@@ -58,11 +59,16 @@ class Emitters {
         return area.radiance;
     }
 
-    /// What comes from infinity along the unit `direction`, with the density with which sample_direct() finds it.
-    EnvironmentLight environment(const Vec3& direction) const {
-        if constexpr (!kHasEnvironment) return {};
-        if (!map_) return {constant_, constant_pdf_};
-        return with_constant(map_->look(direction));
+    /// Radiance that comes from infinity, against the unit `direction`.
+    Rgb environment(const Vec3& direction) const {
+        if constexpr (!kHasEnvironment) return Rgb(0.0f);
+        return map_ ? constant_ + map_->radiance(direction) : constant_;
+    }
+
+    /// Density of sample_direct() for directions in which nothing is hit.
+    float pdf_environment(const Vec3& direction) const {
+        if constexpr (!kHasEnvironment) return 0.0f;
+        return map_ ? constant_pdf_ + map_selection_ * map_->pdf(direction) : constant_pdf_;
     }
 
   private:
@@ -90,9 +96,6 @@ class Emitters {
     double add_area_light(const AreaEmitter& emitter);
     void select(std::vector<double> power);
     Channels textured(const AreaLight& light, const Hit& hit) const;
-    EnvironmentLight with_constant(const EnvironmentLight& of_map) const {
-        return {constant_ + of_map.radiance, constant_pdf_ + map_selection_ * of_map.pdf};
-    }
     /// Kept out of line, so that plain meshes pay nothing for the other kinds.
     [[gnu::noinline]] DirectSample sample_other(std::uint32_t chosen, const Vec3& p, const Draw& random) const;
     DirectSample sample_mesh(const AreaLight& light, const Vec3& p, const Draw& random) const;

@@ -9,21 +9,16 @@
 
 namespace treefarm {
 
-/// What comes from infinity along a direction.
-struct EnvironmentLight {
-    Rgb radiance{0.0f};
-    float pdf = 0;  ///< of sampling that direction, per steradian
-};
-
 /// A distant sphere of radiance from an image, and how to sample it.
 ///
-/// Radiance is interpolated between texel centres; u repeats, v ends at the poles. The density over (u, v) interpolates
-/// luminance * sin(theta) of the same texels, so it is continuous, follows the radiance within texels, and vanishes
-/// only where the radiance does. Between texel centres lie patches: a row of them is drawn, then one of its columns,
-/// both from tables, then a place in it. Rows run from pole to pole: one more than texels, the outer two half as high.
+/// Radiance is interpolated between texel centres; u repeats, v ends at the poles. A direction is drawn by picking a
+/// texel in proportion to luminance * sin(theta) and moving from its centre by a tent of one texel to each side (by its
+/// mirror image beyond a pole). So the density over (u, v) interpolates the texels' probabilities just as radiance is
+/// interpolated: it is continuous, follows the radiance within texels, and vanishes only where the radiance does. It is
+/// read from the very table that texels are picked from.
 ///
 /// Tables are searched from guide entries, so that a column costs one line of cache however long the row is. Memory:
-/// 4.25 bytes for each patch besides the image itself, 0.6 MB for 512 x 256, 143 MB for 8192 x 4096.
+/// 4.25 bytes for each texel besides the image itself, 0.6 MB for 512 x 256, 143 MB for 8192 x 4096.
 class EnvironmentMap {
   public:
     /// Texels that are negative or not finite count as black. `image` must outlive it; `emitter.scale` is at least 0.
@@ -31,12 +26,12 @@ class EnvironmentMap {
 
     struct Sample {
         Vec3 direction;  ///< unit
-        EnvironmentLight light;
+        float pdf;       ///< per steradian
     };
 
-    EnvironmentLight look(const Vec3& direction) const;
-    Rgb radiance(const Vec3& direction) const { return look(direction).radiance; }
-    float pdf(const Vec3& direction) const { return look(direction).pdf; }
+    Rgb radiance(const Vec3& direction) const;
+    /// Density of sample(), per steradian.
+    float pdf(const Vec3& direction) const;
     /// random[1] picks the row, [2] the column, [3] the place. black() must be false.
     Sample sample(const Draw& random) const;
 
@@ -48,25 +43,19 @@ class EnvironmentMap {
     /// A place between four texel centres: the texels' columns and rows, and how far it lies from the first ones.
     struct Place {
         int x0, x1, y0, y1;
-        int row;  ///< of patches
         float fx, fy;
-        float sine;  ///< of the angle from the pole
-    };
-    /// The texels there: upper left, upper right, lower left, lower right; radiance and weight of each.
-    struct Corners {
-        Rgb color[4];
-        float weight[4];
     };
 
-    Place place(const Vec3& direction) const;
-    Corners corners(const Place& place) const;
-    EnvironmentLight light(const Place& place, const Corners& corners) const;
+    /// u and v in texels; u at most a texel outside [0, width).
+    Place place(float u, float v) const;
+    /// The same of a direction; `sine` becomes that of its angle from the pole.
+    Place place(const Vec3& direction, float& sine) const;
+    float pdf(const Place& place, float sine) const;
     Rgb clean_texel(int x, int y) const;
-    /// Luminance * sin(theta) of a texel in this row.
-    float weight(const Rgb& texel, int y) const;
-    float patch_height(int row) const { return row == 0 || row == height_ ? 0.5f : 1.0f; }
-    std::uint32_t column_begin(int row, int x) const;
-    std::size_t pick_column(std::size_t row, std::uint32_t bits) const;
+    /// Probabilities, of 2^31.
+    float row_share(int y) const;
+    float column_share(int x, int y) const;
+    int pick_column(int y, std::uint32_t bits) const;
 
     const TextureImage* image_;
     int width_, height_;
@@ -74,11 +63,10 @@ class EnvironmentMap {
     Vec3 x_axis_, y_axis_, z_axis_;
     bool clean_ = false;  ///< no texel is negative, infinite or not a number
     double mean_ = 0;
-    float inverse_peak_ = 0;              ///< keeps products of weights within float
-    std::vector<float> sines_;            ///< per row of texels
+    float density_scale_;                 ///< from a texel's probability, of 2^62, to a density times sin(theta)
     std::vector<std::uint32_t> rows_;     ///< begin of each row's share of 2^31, and their end
-    std::vector<std::uint32_t> columns_;  ///< begin of each patch's share of 2^31 within its row
-    int guide_bits_ = 0;                  ///< a row has 2^guide_bits_ guide entries, and one more
+    std::vector<std::uint32_t> columns_;  ///< per row: begin of each texel's share of 2^31 within it, and their end
+    int guide_bits_;                      ///< a row has 2^guide_bits_ guide entries, and one more
     std::vector<std::uint32_t> guide_;    ///< entry k of a row: the column that owns k 2^-guide_bits_
 };
 
