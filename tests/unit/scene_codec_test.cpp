@@ -52,6 +52,7 @@ TEST(SceneCodec, MaterialsRoundTrip) {
     EXPECT_EQ(std::get<ThinDielectricMaterial>(back.materials[3].bsdf).specular_transmittance, ColorInput(Rgb(0.6f)));
     const auto& plastic = std::get<PlasticMaterial>(back.materials[4].bsdf);
     EXPECT_TRUE(plastic.nonlinear);
+    EXPECT_TRUE(plastic.single_return);
     EXPECT_EQ(plastic.diffuse_reflectance.texture, 0);
     EXPECT_EQ(plastic.roughness.distribution, Microfacets::beckmann);
     EXPECT_EQ(back.materials[4].detail, (NormalDetail{1, 0.25f, 0}));

@@ -82,6 +82,7 @@ class SurfaceReader {
         plastic.specular_reflectance = reflectance("specular_reflectance", 1.0f);
         plastic.nonlinear = properties_.boolean("nonlinear", false);
         if (rough) plastic.roughness = roughness(false);
+        plastic.single_return = rough && properties_.element().version >= 2;
         return plastic;
     }
 
