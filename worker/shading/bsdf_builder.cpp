@@ -119,7 +119,10 @@ const Bsdf* BsdfBuilder::side(std::int32_t index, bool back, const ShadingPoint&
                                       : side(material.back, false, point, nodes);
     // The parts of a blend may be twosided where it is not.
     if (std::holds_alternative<BlendMaterial>(material.bsdf)) return described(index, true, point, nodes);
-    return &nodes.add();
+    // What a scratch hands out still holds the BSDF of an earlier hit.
+    Bsdf& black = nodes.add();
+    black = Bsdf{};
+    return &black;
 }
 
 template <class Nodes>
