@@ -1,5 +1,7 @@
 #include "worker/shading/rough_transmittance.h"
 
+#include "common/math/elementary.h"
+#include "common/math/exponential.h"
 #include "worker/shading/fresnel.h"
 #include "worker/shading/rough_reflection.h"
 
@@ -17,9 +19,13 @@ Graded graded(int i, int count) {
     return {t * t * (3.0f - 2.0f * t), 6.0f * t * (1.0f - t)};
 }
 
-/// Mean of share(m, wo . m) over the normals m visible from `wo`. Good to about 1e-3.
-template <class Share>
-float mean_over_normals(const Microfacet& facets, const Vec3& wo, Share&& share) {
+Vec3 at_cosine(float cos) {
+    return {std::sqrt((1.0f - cos) * (1.0f + cos)), 0.0f, cos};
+}
+
+/// Mean over visible normals of what a facet transmits of light along `wo`, times the masking of where it goes. Good to
+/// about 1e-3.
+float transmitted(const Microfacet& facets, float eta, const Vec3& wo) {
     const int steps = facets.ggx ? 24 : 16;  // GGX has the longer tails, and costs less
     double sum = 0, weights = 0;
     for (int j = 0; j < steps; ++j)
@@ -29,41 +35,62 @@ float mean_over_normals(const Microfacet& facets, const Vec3& wo, Share&& share)
             weights += weight;
             const Vec3 m = facets.sample_visible(wo, {along.value, across.value});
             const float cos_o = std::min(1.0f, dot(wo, m));
-            if (cos_o > 0.0f) sum += weight * double(share(m, cos_o));
+            if (!(cos_o > 0.0f)) continue;
+            const DielectricFresnel f = fresnel_dielectric(cos_o, eta);
+            const Vec3 wi = refract(wo, m, cos_o, f.cos_transmitted, eta);
+            if (f.reflectance < 1.0f && wi.z < 0.0f)
+                sum += weight * double((1.0f - f.reflectance) * facets.masking({wi.x, wi.y, -wi.z}));
         }
     return static_cast<float>(sum / weights);
 }
 
-Vec3 at_cosine(float cos) {
-    return {std::sqrt((1.0f - cos) * (1.0f + cos)), 0.0f, cos};
-}
+/// A facet's normal, and the share of the surface under facets like it.
+struct Facet {
+    Vec3 normal;
+    float share;
+};
 
-/// What the facets transmit of light along `wo`, times the masking of where it goes.
-float transmitted(const Microfacet& facets, float eta, const Vec3& wo) {
-    return mean_over_normals(facets, wo, [&](const Vec3& m, float cos_o) {
-        const DielectricFresnel f = fresnel_dielectric(cos_o, eta);
-        const Vec3 wi = refract(wo, m, cos_o, f.cos_transmitted, eta);
-        return f.reflectance < 1.0f && wi.z < 0.0f ? (1.0f - f.reflectance) * facets.masking({wi.x, wi.y, -wi.z})
-                                                   : 0.0f;
-    });
-}
-
-/// The same of what they reflect.
-float reflected_once(const Microfacet& facets, float eta, const Vec3& wo) {
-    return mean_over_normals(facets, wo, [&](const Vec3& m, float cos_o) {
-        const Vec3 wi = reflected(wo, m);
-        return wi.z > 0.0f ? fresnel_dielectric(cos_o, eta).reflectance * facets.masking(wi) : 0.0f;
-    });
+/// Facets of half a turn, by midpoints in slope and azimuth: the other half mirrors them. Unlike visible normals they
+/// cost next to nothing, so there can be enough of them to resolve the edge of total reflection.
+std::vector<Facet> representative_facets(const Microfacet& facets) {
+    constexpr int kSlopes = 96, kAzimuths = 32;
+    std::vector<Facet> result;
+    float total = 0.0f;
+    for (int i = 0; i < kSlopes; ++i) {
+        const float u = (static_cast<float>(i) + 0.5f) / kSlopes;
+        // Slopes over alpha: GGX's at equal shares, Beckmann's, whose tail is short, at equal distances.
+        const float slope = facets.ggx ? std::sqrt(u / (1.0f - u)) : 4.0f * u;
+        const float share = facets.ggx ? 1.0f : slope * exp_negative(slope * slope);
+        for (int j = 0; j < kAzimuths; ++j) {
+            const SinCos turn = sincos_turn(0.5f * (static_cast<float>(j) + 0.5f) / kAzimuths);
+            const float tilt = slope * facets.alpha_u;
+            result.push_back({normalize(Vec3(tilt * turn.cos, tilt * turn.sin, 1.0f)), share});
+            total += share;
+        }
+    }
+    for (Facet& facet : result)
+        facet.share /= total;
+    return result;
 }
 
 /// Diffuse light that the boundary reflects once, seen from inside. The sum over 64 equidistant cosines is Mitsuba 3's
 /// (roughplastic.cpp); it is up to 1.6 % below the integral.
 float diffuse_reflected_once(const Microfacet& facets, float eta) {
     constexpr int kCosines = 64;
+    const std::vector<Facet> normals = representative_facets(facets);
     double sum = 0;
     for (int i = 1; i < kCosines; ++i) {
-        const float cos = static_cast<float>(i) / (kCosines - 1);
-        sum += 2.0 * double(cos) * double(reflected_once(facets, eta, at_cosine(cos)));
+        const Vec3 wo = at_cosine(static_cast<float>(i) / (kCosines - 1));
+        float reflected_share = 0.0f;
+        for (const auto& [m, share] : normals) {
+            const float cos_o = std::min(1.0f, dot(wo, m));
+            if (!(cos_o > 0.0f)) continue;
+            const Vec3 wi = reflected(wo, m);
+            if (wi.z > 0.0f)
+                reflected_share +=
+                    share * cos_o / m.z * fresnel_dielectric(cos_o, eta).reflectance * facets.masking(wi);
+        }
+        sum += 2.0 * double(wo.z) * double(reflected_share / facets.projected_area(wo));
     }
     return static_cast<float>(sum / kCosines);
 }
