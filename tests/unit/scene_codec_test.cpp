@@ -98,6 +98,7 @@ TEST(SceneCodec, EmittersCameraAndFilmRoundTrip) {
     EXPECT_EQ(spot.beam, 0.25f);
     EXPECT_EQ(std::get<DirectionalEmitter>(back.emitters[4].kind).direction, Vec3(1, 0, 0));
     const auto& environment = std::get<EnvironmentEmitter>(back.emitters[5].kind);
+    EXPECT_TRUE(environment.rows_at_poles);
     EXPECT_EQ(environment.image, 1);
     EXPECT_EQ(environment.scale, 2.0f);
     EXPECT_EQ(environment.z_axis, Vec3(0, 1, 0));

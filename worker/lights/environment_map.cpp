@@ -57,6 +57,8 @@ EnvironmentMap::EnvironmentMap(const EnvironmentEmitter& emitter, const TextureI
     : image_(&image),
       width_(image.width),
       height_(image.height),
+      margin_(emitter.rows_at_poles && image.height > 1 ? 0.0f : 0.5f),
+      half_turn_(static_cast<float>(height_ - 1) + 2.0f * margin_),
       scale_(emitter.scale),
       x_axis_(emitter.x_axis),
       y_axis_(emitter.y_axis),
@@ -68,7 +70,10 @@ EnvironmentMap::EnvironmentMap(const EnvironmentEmitter& emitter, const TextureI
     float peak = 0;
     double sum = 0, sines = 0;
     for (int y = 0; y < height_; ++y) {
-        const float sine = sincos_turn((static_cast<float>(y) + 0.5f) / (2.0f * static_cast<float>(height_))).sin;
+        // On a pole, where the sine is 0, a sixth of a row away: the share of the sphere that the texel shines from.
+        const float from_pole =
+            std::clamp(static_cast<float>(y) + margin_, 1.0f / 6.0f, half_turn_ - 1.0f / 6.0f) / half_turn_;
+        const float sine = sincos_turn(0.5f * from_pole).sin;
         sines_[static_cast<std::size_t>(y)] = sine;
         sines += double(sine);
         for (int x = 0; x < width_; ++x) {
@@ -121,15 +126,16 @@ EnvironmentMap::Place EnvironmentMap::place(const Vec3& d) const {
     p.sine = std::sqrt(x * x + z * z);
     // The angle from the pole by both its sine and cosine: no digits are lost near the poles.
     const float u = azimuth_turn(-z, x) * static_cast<float>(width_) - 0.5f;
-    const float v = 2.0f * azimuth_turn(y, p.sine) * static_cast<float>(height_) - 0.5f;
+    const float v = 2.0f * azimuth_turn(y, p.sine) * half_turn_ - margin_;
     const float left = std::floor(u), top = std::floor(v);
     p.fx = u - left;
-    p.fy = v - top;
     p.x0 = static_cast<int>(left);
     if (p.x0 < 0) p.x0 += width_;
     if (p.x0 >= width_) p.x0 -= width_;
     p.x1 = p.x0 + 1 < width_ ? p.x0 + 1 : 0;
-    p.row = std::clamp(static_cast<int>(top) + 1, 0, height_);
+    const int outer = margin_ > 0.0f ? 0 : 1;
+    p.row = std::clamp(static_cast<int>(top) + 1, outer, height_ - outer);
+    p.fy = v - static_cast<float>(p.row - 1);
     p.y0 = std::max(p.row - 1, 0);
     p.y1 = std::min(p.row, height_ - 1);
     return p;
@@ -158,7 +164,7 @@ float EnvironmentMap::pdf(const Vec3& direction) const {
     const float mean = 0.25f * (a + b + c + d);
     if (!(mean > 0.0f)) return 0.0f;
     const float here = mix(mix(a, b, p.fx), mix(c, d, p.fx), p.fy);
-    const float patches = static_cast<float>(width_) * static_cast<float>(height_) / patch_height(p.row);
+    const float patches = static_cast<float>(width_) * half_turn_ / patch_height(p.row);
     // d(u) d(v) = d(solid angle) / (2 pi^2 sin(theta)); on the pole itself the density is as large as it likes.
     const float solid_angle = 2.0f * kPi * kPi * std::max(p.sine, 1e-9f);
     return (row_share * 0x1p-31f) * (column_share * 0x1p-31f) * (here / mean) * patches / solid_angle;
@@ -176,8 +182,8 @@ Vec3 EnvironmentMap::sample(const Draw& random) const {
     const float fx = sample_linear(unit16(random[3] & 0xffffu), mix(a, c, fy), mix(b, d, fy));
     float u = (static_cast<float>(x0) + 0.5f + fx) / static_cast<float>(width_);
     if (u >= 1.0f) u -= 1.0f;
-    const float top = row == 0 ? 0.0f : static_cast<float>(row) - 0.5f;
-    const float v = std::min((top + fy * patch_height(static_cast<int>(row))) / static_cast<float>(height_), 1.0f);
+    const float top = row == 0 ? 0.0f : static_cast<float>(row - 1) + margin_;
+    const float v = std::min((top + fy * patch_height(static_cast<int>(row))) / half_turn_, 1.0f);
     const SinCos polar = sincos_turn(0.5f * v), azimuth = sincos_turn(u);
     return normalize(x_axis_ * (polar.sin * azimuth.sin) + y_axis_ * polar.cos - z_axis_ * (polar.sin * azimuth.cos));
 }

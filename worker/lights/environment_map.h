@@ -14,7 +14,8 @@ namespace treefarm {
 /// Radiance is interpolated between texel centres; u repeats, v ends at the poles. The density over (u, v) interpolates
 /// luminance * sin(theta) of the same texels, so it is continuous, follows the radiance within texels, and vanishes
 /// only where the radiance does. Between texel centres lie patches: a row of them is drawn, then one of its columns,
-/// both from tables, then a place in it. Rows run from pole to pole: one more than texels, the outer two half as high.
+/// both from tables, then a place in it. Rows run from pole to pole: one more than texels, the outer two half as high,
+/// or without height where texels' centres lie on the poles.
 ///
 /// Memory: 4 bytes for each patch besides the image itself, 0.5 MB for 512 x 256, 134 MB for 8192 x 4096.
 class EnvironmentMap {
@@ -45,11 +46,13 @@ class EnvironmentMap {
     Rgb clean_texel(int x, int y) const;
     /// Luminance * sin(theta) at a texel's centre.
     float weight(int x, int y) const;
-    float patch_height(int row) const { return row == 0 || row == height_ ? 0.5f : 1.0f; }
+    float patch_height(int row) const { return row == 0 || row == height_ ? margin_ : 1.0f; }
     std::uint32_t column_begin(int row, int x) const;
 
     const TextureImage* image_;
     int width_, height_;
+    float margin_;     ///< height of the image beyond the centres of its outer rows, in rows of texels
+    float half_turn_;  ///< rows of texels from pole to pole
     float scale_;
     Vec3 x_axis_, y_axis_, z_axis_;
     double mean_ = 0;

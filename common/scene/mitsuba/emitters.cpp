@@ -84,6 +84,7 @@ EnvironmentEmitter read_envmap(Properties& properties, TextureReader& textures) 
         throw InputError(properties.where("scale"), "a scale of " + number_text(scale), "give 0 or more");
     environment.scale = static_cast<float>(scale);
     environment.image = textures.environment_image(properties);
+    environment.rows_at_poles = properties.element().version >= 2;
     properties.ignore({"cache"});
     return environment;
 }
