@@ -172,6 +172,7 @@ TEST_F(Compare, FlipAndItsMap) {
 TEST_F(Compare, NegativeRadianceIsCountedAndShown) {
     const std::string image = write("image.exr", -1.0f, 0, false), reference = write("reference.exr", 0.0f, 0, false);
     EXPECT_EQ(compare_json(image + " " + reference)["pixels"]["negative_image"], 64 * 64);
+    EXPECT_NE(compare(image + " " + reference).output.find("negative in image       4096"), std::string::npos);
     EXPECT_NE(compare(reference + " " + image).output.find("negative in reference   4096"), std::string::npos);
 }
 

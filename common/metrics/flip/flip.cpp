@@ -9,7 +9,7 @@ namespace treefarm {
 
 namespace {
 
-// Andersson et al. 2020, section 4.
+// Andersson et al. 2020.
 constexpr float kColourExponent = 0.7f;  ///< q_c: compresses large differences of colour
 constexpr float kKnee = 0.4f;            ///< p_c: differences below this share of the greatest ...
 constexpr float kKneeValue = 0.95f;      ///< p_t: ... take the errors up to this one

@@ -16,7 +16,7 @@ struct Sensitivity {
     double a, b;
 };
 
-// Andersson et al. 2020, table 1.
+// Andersson et al. 2020.
 constexpr Sensitivity kAchromatic{1.0, 0.0047}, kRedGreen{1.0, 0.0053};
 constexpr Sensitivity kBlueYellow[2] = {{34.1, 0.04}, {13.5, 0.025}};
 constexpr double kWidestB = 0.04;
