@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -45,10 +46,11 @@ inline float cube_root(float x) {
     return y;
 }
 
-/// CIELAB's cube root, linear near black. Domain: t >= 0.
+/// CIELAB's cube root, linear near black. Domain: t >= 0. Both pieces are computed, so that loops can be vectorised.
 inline float lab_response(float t) {
-    constexpr float kDelta = 6.0f / 29.0f;
-    return t > kDelta * kDelta * kDelta ? cube_root(t) : t / (3.0f * kDelta * kDelta) + 4.0f / 29.0f;
+    constexpr float kDelta = 6.0f / 29.0f, kLinear = kDelta * kDelta * kDelta;
+    const float root = cube_root(std::max(t, kLinear)), line = t / (3.0f * kDelta * kDelta) + 4.0f / 29.0f;
+    return t > kLinear ? root : line;
 }
 
 /// CIELAB of linear colours in [0, 1], its a and b times L / 100: colours differ less in the dark (Hunt effect).
