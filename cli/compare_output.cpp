@@ -43,8 +43,9 @@ void print_errors(const ErrorMetrics& m, std::ostream& out) {
     row(out, "SMAPE", number(m.smape));
     row(out, "outliers", std::to_string(m.outliers),
         ("relative squared error above " + number(m.outlier_limit)).c_str());
-    row(out, "worst pixel", number(m.worst),
-        ("at (" + std::to_string(m.worst_x) + ", " + std::to_string(m.worst_y) + ")").c_str());
+    if (m.compared > 0)
+        row(out, "worst pixel", number(m.worst),
+            ("at (" + std::to_string(m.worst_x) + ", " + std::to_string(m.worst_y) + ")").c_str());
     row(out, "mean luminance", number(m.mean_image), ("reference " + number(m.mean_reference)).c_str());
     row(out, "mean ratio", number(m.mean_ratio), "image / reference");
     row(out, "mean ratio trimmed", number(m.mean_ratio_trimmed), "without the same pixels");
@@ -161,7 +162,8 @@ void print_json(const Comparison& comparison, std::ostream& out) {
     json["mape"] = m.mape;
     json["smape"] = m.smape;
     json["outliers"] = {{"count", m.outliers}, {"limit", m.outlier_limit}};
-    json["worst_pixel"] = {{"x", m.worst_x}, {"y", m.worst_y}, {"relative_squared_error", m.worst}};
+    json["worst_pixel"] = nullptr;
+    if (m.compared > 0) json["worst_pixel"] = {{"x", m.worst_x}, {"y", m.worst_y}, {"relative_squared_error", m.worst}};
     json["mean_luminance"] = {{"image", m.mean_image}, {"reference", m.mean_reference}};
     json["mean_ratio"] = m.mean_ratio;
     json["mean_ratio_trimmed"] = m.mean_ratio_trimmed;

@@ -139,9 +139,28 @@ TEST_F(Compare, CountsInvalidPixelsAndWritesNullForWhatIsUndefined) {
     EXPECT_TRUE(json["mean_ratio"].is_null());
     EXPECT_EQ(json["rmse"], 0.0);
     EXPECT_EQ(json["flip"]["hdr"]["mean"], 0.0);
-    const auto nothing = compare_json(path("nan.exr") + " " + path("nan.exr") + " --error-map " + path("map.exr"));
-    EXPECT_EQ(nothing["pixels"]["compared"], 63);
+    compare_json(path("nan.exr") + " " + path("black.exr") + " --error-map " + path("map.exr"));
     EXPECT_TRUE(std::isnan(read_exr(path("map.exr")).image.channel(0)[3]));
+}
+
+TEST_F(Compare, OnePixelOrNoneToCompare) {
+    const auto write_pixel = [&](const std::string& name, float value) {
+        Image image;
+        add_rgb_layer(image, "", RgbImage(1, 1, Rgb(value)));
+        write_exr(path(name), image);
+        return path(name);
+    };
+    const std::string grey = write_pixel("grey.exr", 0.5f), black = write_pixel("black.exr", 0.0f);
+    const auto one = compare_json(grey + " " + black);
+    EXPECT_EQ(one["worst_pixel"]["x"], 0);
+    EXPECT_NEAR(one["flip"]["hdr"]["mean"].get<double>(), 0.96520, 1e-4) << "a black reference: the image's exposures";
+    const std::string nan = write_pixel("nan.exr", std::numeric_limits<float>::quiet_NaN());
+    const auto none = compare_json(nan + " " + grey);
+    EXPECT_EQ(none["pixels"]["compared"], 0);
+    EXPECT_TRUE(none["worst_pixel"].is_null());
+    EXPECT_TRUE(none["flip"]["hdr"]["mean"].is_null());
+    EXPECT_EQ(compare(nan + " " + grey + " --error-map " + path("map.png")).code, 0);
+    EXPECT_EQ(read_ldr(path("map.png"), Encoding::srgb).channel(1)[0], 0.0f) << "magenta";
 }
 
 TEST_F(Compare, WritesTheDifference) {

@@ -19,12 +19,11 @@ struct Sensitivity {
 // Andersson et al. 2020.
 constexpr Sensitivity kAchromatic{1.0, 0.0047}, kRedGreen{1.0, 0.0053};
 constexpr Sensitivity kBlueYellow[2] = {{34.1, 0.04}, {13.5, 0.025}};
-constexpr double kWidestB = 0.04;
 constexpr double kFeatureWidth = 0.082;  ///< degrees: width of the edges and points that are looked for
 
 /// Out to three standard deviations of the widest term, for all alike.
 int sensitivity_radius(double ppd) {
-    return static_cast<int>(std::ceil(3.0 * std::sqrt(kWidestB / (2.0 * kPi2)) * ppd));
+    return static_cast<int>(std::ceil(3.0 * std::sqrt(kBlueYellow[0].b / (2.0 * kPi2)) * ppd));
 }
 
 /// Square root of the term's weight along one axis: its square is the weight of the two-dimensional term.
