@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/image/png.h"
+#include "common/image/srgb.h"
 
 namespace treefarm {
 
