@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <charconv>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -11,6 +12,7 @@
 #include "common/image/exr.h"
 #include "common/image/png.h"
 #include "common/metrics/difference.h"
+#include "common/metrics/false_colour.h"
 
 namespace treefarm {
 
@@ -19,6 +21,7 @@ namespace {
 constexpr const char* kSppAttribute = "treefarm.spp";
 constexpr double kFloorPerSample = 1e-4;  ///< least variance of one sample, as in Mitsuba 3's render tests
 constexpr std::uint64_t kAssumedSpp = 10000;
+constexpr double kLeastPpd = 1.0, kGreatestPpd = 1000.0;
 
 /// Colour, variance (where the file has it) and what the header says.
 struct Side {
@@ -94,11 +97,36 @@ void run_z_tests(const CompareOptions& options, const Side& image, Side& referen
     result.block_test = block_z_test(input, z);
 }
 
+bool has_extension(const std::string& path, const char* extension) {
+    return std::filesystem::path(path).extension() == extension;
+}
+
+/// What CLI11 does not find: its ranges let NaN through.
+void check_options(const CompareOptions& options) {
+    if (!(options.reference_error >= 0.0 && options.reference_error <= 1.0))
+        throw InputError(Location{"--reference-error"}, "is not a number", "give 0 to 1, e.g. 0.001");
+    if (!(options.flip_ppd >= kLeastPpd && options.flip_ppd <= kGreatestPpd))
+        throw InputError(Location{"--flip-ppd"}, "is not a number", "give 1 to 1000, e.g. 67");
+    if (!options.error_map.empty() && !has_extension(options.error_map, ".png") &&
+        !has_extension(options.error_map, ".exr"))
+        throw InputError(Location{options.error_map}, "--error-map writes PNG and EXR, and the name says neither",
+                         "end it in .png (false colour) or .exr (values)");
+}
+
+void write_error_map(const std::string& path, const Plane& map) {
+    if (has_extension(path, ".png")) return write_png(path, false_colour(map));
+    Image image;
+    image.width = map.width;
+    image.height = map.height;
+    const std::span<float> channel = image.add_channel("Y");
+    std::copy(map.values.begin(), map.values.end(), channel.begin());
+    write_exr(path, image);
+}
+
 }  // namespace
 
 int run_compare(const CompareOptions& options, std::ostream& out) {
-    if (!(options.reference_error >= 0.0 && options.reference_error <= 1.0))  // CLI's range lets NaN through
-        throw InputError(Location{"--reference-error"}, "is not a number", "give 0 to 1, e.g. 0.001");
+    check_options(options);
     const Side image = read_side(options.image);
     Side reference = read_side(options.reference);
     if (image.colour.width != reference.colour.width || image.colour.height != reference.colour.height)
@@ -114,7 +142,9 @@ int run_compare(const CompareOptions& options, std::ostream& out) {
     result.height = image.colour.height;
     result.image_spp = image.spp;
     result.errors = measure_error(image.colour, reference.colour, options.block);
+    result.flip = measure_flip(image.colour, reference.colour, options.flip_ppd);
     run_z_tests(options, image, reference, result);
+    if (!options.error_map.empty()) write_error_map(options.error_map, result.flip.hdr_map);
     if (!options.difference.empty()) write_png(options.difference, difference_image(image.colour, reference.colour));
     options.json ? print_json(result, out) : print_table(result, out);
     return 0;
@@ -128,6 +158,12 @@ void add_compare_command(CLI::App& app, const LaunchEnvironment& launch, int& ex
     command->add_flag("--json", options->json, "print JSON instead of a table");
     command->add_option("--difference", options->difference,
                         "write a PNG of the signed relative difference (blue: too dark, red: too bright)");
+    command->add_option("--error-map", options->error_map,
+                        "write FLIP per pixel, as false colour to a .png, as channel Y to an .exr");
+    command
+        ->add_option("--flip-ppd", options->flip_ppd,
+                     "pixels per degree of visual angle for FLIP (67: a 4K screen 0.7 m wide, 0.7 m away)")
+        ->check(CLI::Range(kLeastPpd, kGreatestPpd));
     command->add_option("--block", options->block, "side of the blocks of the block test, in pixels (16)")
         ->check(CLI::Range(1, 65536));
     command

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "cli/launch.h"
+#include "common/metrics/flip/kernels.h"
 
 namespace CLI {
 class App;
@@ -18,7 +19,9 @@ struct CompareOptions {
     std::string reference;
     bool json = false;
     std::string difference;  ///< where to write the false-colour difference; empty: nowhere
-    int block = 16;          ///< side of a block in pixels
+    std::string error_map;   ///< where to write FLIP per pixel, .png (false colour) or .exr (values); empty: nowhere
+    double flip_ppd = kDefaultPixelsPerDegree;  ///< pixels per degree of visual angle
+    int block = 16;                             ///< side of a block in pixels
     /// Samples per pixel of a reference without variance channels, rendered by an estimator like the image's: its
     /// variance is then the image's times image spp / reference spp. 0: the reference counts as exact (up to rounding
     /// to half).
@@ -27,7 +30,7 @@ struct CompareOptions {
 };
 
 /// Prints the comparison to `out` and returns 0: verdicts are in the output. Throws InputError for images that cannot
-/// be read or compared, RunError if the difference cannot be written.
+/// be read or compared, RunError if a picture cannot be written.
 int run_compare(const CompareOptions& options, std::ostream& out);
 
 /// Registers the subcommand. Its callback calls run_compare with standard output and stores the exit code; InputError

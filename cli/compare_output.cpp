@@ -32,6 +32,8 @@ void print_errors(const ErrorMetrics& m, std::ostream& out) {
     row(out, "compared", std::to_string(m.compared), "finite in both");
     row(out, "NaN/Inf in image", std::to_string(m.invalid_image));
     row(out, "NaN/Inf in reference", std::to_string(m.invalid_reference));
+    if (m.negative_image > 0) row(out, "negative in image", std::to_string(m.negative_image));
+    if (m.negative_reference > 0) row(out, "negative in reference", std::to_string(m.negative_reference));
     row(out, "RMSE", number(m.rmse));
     row(out, "MSE", number(m.mse));
     row(out, "relMSE", number(m.rel_mse));
@@ -39,12 +41,27 @@ void print_errors(const ErrorMetrics& m, std::ostream& out) {
     row(out, "relMSE trimmed", number(m.rel_mse_trimmed), trimmed.c_str());
     row(out, "MAPE", number(m.mape));
     row(out, "SMAPE", number(m.smape));
+    row(out, "outliers", std::to_string(m.outliers),
+        ("relative squared error above " + number(m.outlier_limit)).c_str());
+    if (m.compared > 0)
+        row(out, "worst pixel", number(m.worst),
+            ("at (" + std::to_string(m.worst_x) + ", " + std::to_string(m.worst_y) + ")").c_str());
     row(out, "mean luminance", number(m.mean_image), ("reference " + number(m.mean_reference)).c_str());
     row(out, "mean ratio", number(m.mean_ratio), "image / reference");
     row(out, "mean ratio trimmed", number(m.mean_ratio_trimmed), "without the same pixels");
     row(out, "mean ratio R, G, B",
         number(m.channel_ratio[0]) + ", " + number(m.channel_ratio[1]) + ", " + number(m.channel_ratio[2]));
     row(out, "median block ratio", number(m.block_ratio_median), "of luminance");
+}
+
+void print_flip(const FlipMetrics& m, std::ostream& out) {
+    row(out, "FLIP", number(m.hdr.mean),
+        ("HDR, " + std::to_string(m.exposures.count) + " exposures from " + number(m.exposures.start) + " to " +
+         number(m.exposures.stop) + " stops, " + number(m.ppd) + " pixels per degree")
+            .c_str());
+    row(out, "FLIP weighted median", number(m.hdr.weighted_median));
+    row(out, "FLIP max", number(m.hdr.max));
+    row(out, "FLIP of [0, 1]", number(m.ldr.mean), "without tone curve, clamped");
 }
 
 void print_z_tests(const Comparison& c, std::ostream& out) {
@@ -75,6 +92,18 @@ void print_z_tests(const Comparison& c, std::ostream& out) {
 }
 
 using Json = nlohmann::ordered_json;
+
+Json figures_json(const FlipFigures& f) {
+    return {{"mean", f.mean}, {"weighted_median", f.weighted_median}, {"max", f.max}};
+}
+
+Json flip_json(const FlipMetrics& m) {
+    Json json = {{"pixels_per_degree", m.ppd}, {"hdr", figures_json(m.hdr)}, {"ldr", figures_json(m.ldr)}};
+    json["hdr"]["start_exposure"] = m.exposures.start;
+    json["hdr"]["stop_exposure"] = m.exposures.stop;
+    json["hdr"]["exposures"] = m.exposures.count;
+    return json;
+}
 
 Json z_tests_json(const Comparison& c) {
     if (!c.z_unavailable.empty()) return {{"available", false}, {"reason", c.z_unavailable}};
@@ -108,6 +137,7 @@ void print_table(const Comparison& comparison, std::ostream& out) {
     out << comparison.image << " against " << comparison.reference << " (" << comparison.width << " x "
         << comparison.height << ")\n";
     print_errors(comparison.errors, out);
+    print_flip(comparison.flip, out);
     print_z_tests(comparison, out);
 }
 
@@ -121,7 +151,9 @@ void print_json(const Comparison& comparison, std::ostream& out) {
     json["pixels"] = {{"total", m.pixels},
                       {"compared", m.compared},
                       {"invalid_image", m.invalid_image},
-                      {"invalid_reference", m.invalid_reference}};
+                      {"invalid_reference", m.invalid_reference},
+                      {"negative_image", m.negative_image},
+                      {"negative_reference", m.negative_reference}};
     json["rmse"] = m.rmse;
     json["mse"] = m.mse;
     json["rel_mse"] = m.rel_mse;
@@ -129,11 +161,15 @@ void print_json(const Comparison& comparison, std::ostream& out) {
     json["trimmed_pixels"] = m.trimmed;
     json["mape"] = m.mape;
     json["smape"] = m.smape;
+    json["outliers"] = {{"count", m.outliers}, {"limit", m.outlier_limit}};
+    json["worst_pixel"] = nullptr;
+    if (m.compared > 0) json["worst_pixel"] = {{"x", m.worst_x}, {"y", m.worst_y}, {"relative_squared_error", m.worst}};
     json["mean_luminance"] = {{"image", m.mean_image}, {"reference", m.mean_reference}};
     json["mean_ratio"] = m.mean_ratio;
     json["mean_ratio_trimmed"] = m.mean_ratio_trimmed;
     json["channel_ratio"] = m.channel_ratio;
     json["block_ratio_median"] = m.block_ratio_median;
+    json["flip"] = flip_json(comparison.flip);
     json["z_tests"] = z_tests_json(comparison);
     // Paths need not be UTF-8.
     out << json.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "common/metrics/error_metrics.h"
+#include "common/metrics/flip/measure_flip.h"
 #include "common/metrics/z_test.h"
 
 namespace treefarm {
@@ -16,6 +17,7 @@ struct Comparison {
     int width = 0, height = 0;
     std::optional<std::uint64_t> image_spp;
     ErrorMetrics errors;
+    FlipMetrics flip;
     std::string reference_noise;  ///< where the reference's variance comes from
     std::string z_unavailable;    ///< why there are no z-tests; empty if there are
     ZTestOptions z_options;

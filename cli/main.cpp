@@ -1,13 +1,16 @@
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <iostream>
 #include <string>
+#include <vector>
 
 #include "cli/compare.h"
 #include "cli/launch.h"
 #include "cli/plan.h"
 #include "cli/render.h"
 #include "common/base/error.h"
+#include "common/config/parse_text.h"
 #include "common/protocol/fingerprint.h"
 
 namespace treefarm {
@@ -28,6 +31,17 @@ int fail(const LaunchEnvironment& launch, const std::string& message, int exit_c
     return exit_code;
 }
 
+/// What to say about a first word that is no command; "" if it is one, or an option.
+std::string unknown_command(const CLI::App& app, const std::string& word) {
+    std::vector<std::string> commands;
+    for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+        commands.push_back(command->get_name());
+    if (word.starts_with('-') || std::find(commands.begin(), commands.end(), word) != commands.end()) return "";
+    const std::string nearest = nearest_word(word, commands);
+    return "no command is called " + in_quotes(word) + "; " +
+           (nearest.empty() ? "see treefarm --help" : "did you mean " + in_quotes(nearest) + "?");
+}
+
 int run(int argc, char** argv) {
     const LaunchEnvironment launch = read_launch_environment();
     int exit_code = 0;
@@ -37,6 +51,9 @@ int run(int argc, char** argv) {
     add_render_command(app, launch, joined(argc, argv), exit_code);
     add_plan_command(app, launch, exit_code);
     add_compare_command(app, launch, exit_code);
+    if (argc > 1)
+        if (const std::string message = unknown_command(app, argv[1]); !message.empty())
+            return fail(launch, message, 2);
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& done) {  // --help, --version

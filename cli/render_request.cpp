@@ -1,8 +1,10 @@
 #include <utility>
 
 #include "cli/render.h"
+#include "common/config/check_job.h"
 #include "common/config/job_keys.h"
 #include "common/config/job_reader.h"
+#include "common/plan/schedule.h"
 #include "common/protocol/fingerprint.h"
 #include "common/scene/load.h"
 
@@ -71,10 +73,17 @@ RenderRequest read_request(const RenderOptions& options) {
     apply_layer(request.job, loaded.settings);
     apply_layer(request.job, file_layer);
     apply_layer(request.job, line_layer);
+    check_job(request.job);
     request.scene = std::move(loaded.scene);
     request.plan = plan_effects(request.scene, request.job);
     for (const Warning& warning : loaded.warnings)
         request.warnings.push_back(warning.text());
+    const PassPlan last = plan_passes(request.job).back();
+    if (const std::uint32_t spp = last.first_sample + last.spp;
+        spp != static_cast<std::uint32_t>(request.job.budget.spp))
+        request.warnings.push_back(
+            std::to_string(request.job.budget.spp) + " spp become " + std::to_string(spp) +
+            ": passes take multiples of guiding.spp_unit = " + std::to_string(request.job.guiding.spp_unit));
     request.plan.warnings = request.warnings;  // what the reader had to replace belongs to the plan, too
     request.command = options.command;
     request.debug_command = debug_command(options);

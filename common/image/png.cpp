@@ -6,6 +6,7 @@
 #include "common/base/error.h"
 #include "common/image/atomic_file.h"
 #include "common/image/encoded_image.h"
+#include "common/image/srgb.h"
 #include "common/image/stb.h"
 
 namespace treefarm {
@@ -22,14 +23,6 @@ std::uint8_t to_byte(float linear) {
 }
 
 }  // namespace
-
-float srgb_encode(float linear) {
-    return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1.0f / 2.4f) - 0.055f;
-}
-
-float srgb_decode(float encoded) {
-    return encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f);
-}
 
 void write_png(const std::filesystem::path& path, const RgbImage& image, float exposure) {
     std::vector<std::uint8_t> rgb;

@@ -18,8 +18,4 @@ enum class Encoding { srgb, linear };
 /// damaged, too large.
 Image read_ldr(const std::filesystem::path& path, Encoding encoding);
 
-/// sRGB's transfer function and its inverse, on [0, 1].
-float srgb_encode(float linear);
-float srgb_decode(float encoded);
-
 }  // namespace treefarm

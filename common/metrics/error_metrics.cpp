@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "common/base/error.h"
 
@@ -13,6 +14,8 @@ namespace {
 /// Keeps the relative metrics finite where the reference is black; the value the literature uses with relMSE.
 constexpr double kEpsilon = 0.01;
 constexpr std::size_t kTrimOneIn = 1000;
+constexpr double kOutlierMedians = 100.0;
+constexpr double kLeastOutlier = 1.0;
 
 using Rgb64 = Imath::Color3<double>;
 
@@ -73,10 +76,14 @@ void sum_errors(const std::vector<PixelPair>& pairs, ErrorMetrics& m) {
         m.channel_ratio[c] = ratio(a[c], b[c]);
 }
 
+std::vector<double> relative_errors(const std::vector<PixelPair>& pairs) {
+    std::vector<double> errors(pairs.size());
+    std::transform(pairs.begin(), pairs.end(), errors.begin(), pixel_rel_mse);
+    return errors;
+}
+
 /// Drops the worst pixels (of equal ones the later), then sums the others in pixel order.
-void sum_trimmed(const std::vector<PixelPair>& pairs, ErrorMetrics& m) {
-    std::vector<double> error(pairs.size());
-    std::transform(pairs.begin(), pairs.end(), error.begin(), pixel_rel_mse);
+void sum_trimmed(const std::vector<PixelPair>& pairs, const std::vector<double>& error, ErrorMetrics& m) {
     std::vector<std::size_t> order(pairs.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     const std::size_t kept = pairs.size() - pairs.size() / kTrimOneIn;
@@ -98,11 +105,34 @@ void sum_trimmed(const std::vector<PixelPair>& pairs, ErrorMetrics& m) {
     m.mean_ratio_trimmed = ratio(a, b);
 }
 
-double median(std::vector<double>& values) {
+double median(std::vector<double> values) {
     if (values.empty()) return ErrorMetrics::kUndefined;
     std::sort(values.begin(), values.end());
     const std::size_t middle = values.size() / 2;
     return values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
+}
+
+void count_outliers(const std::vector<PixelPair>& pairs, const std::vector<double>& errors, int width,
+                    ErrorMetrics& m) {
+    m.outlier_limit = std::max(kLeastOutlier, kOutlierMedians * median(errors));
+    m.outliers = static_cast<std::uint64_t>(
+        std::count_if(errors.begin(), errors.end(), [&](double e) { return e > m.outlier_limit; }));
+    const auto worst = std::max_element(errors.begin(), errors.end());
+    const std::size_t pixel = pairs[static_cast<std::size_t>(worst - errors.begin())].index;
+    m.worst = *worst;
+    m.worst_x = static_cast<int>(pixel % static_cast<std::size_t>(width));
+    m.worst_y = static_cast<int>(pixel / static_cast<std::size_t>(width));
+}
+
+bool has_negative(const Rgb64& c) {
+    return c.x < 0.0 || c.y < 0.0 || c.z < 0.0;
+}
+
+void count_negatives(const std::vector<PixelPair>& pairs, ErrorMetrics& m) {
+    for (const PixelPair& p : pairs) {
+        if (has_negative(p.a)) ++m.negative_image;
+        if (has_negative(p.b)) ++m.negative_reference;
+    }
 }
 
 double median_block_ratio(const std::vector<PixelPair>& pairs, int width, int height, int block) {
@@ -117,7 +147,7 @@ double median_block_ratio(const std::vector<PixelPair>& pairs, int width, int he
     std::vector<double> ratios;
     for (std::size_t i = 0; i < a.size(); ++i)
         if (b[i] > 0.0) ratios.push_back(a[i] / b[i]);
-    return median(ratios);
+    return median(std::move(ratios));
 }
 
 }  // namespace
@@ -137,7 +167,10 @@ ErrorMetrics measure_error(const RgbImage& image, const RgbImage& reference, int
     m.compared = pairs.size();
     if (pairs.empty()) return m;
     sum_errors(pairs, m);
-    sum_trimmed(pairs, m);
+    count_negatives(pairs, m);
+    const std::vector<double> errors = relative_errors(pairs);
+    sum_trimmed(pairs, errors, m);
+    count_outliers(pairs, errors, image.width, m);
     m.block_ratio_median = median_block_ratio(pairs, image.width, image.height, std::max(1, block));
     return m;
 }

@@ -13,9 +13,11 @@ struct ErrorMetrics {
     static constexpr double kUndefined = std::numeric_limits<double>::quiet_NaN();
 
     std::uint64_t pixels = 0;
-    std::uint64_t invalid_image = 0;      ///< pixels with a NaN or infinite channel in the image
-    std::uint64_t invalid_reference = 0;  ///< the same in the reference
-    std::uint64_t compared = 0;           ///< pixels that are finite in both: all figures are over these
+    std::uint64_t invalid_image = 0;       ///< pixels with a NaN or infinite channel in the image
+    std::uint64_t invalid_reference = 0;   ///< the same in the reference
+    std::uint64_t compared = 0;            ///< pixels that are finite in both: all figures are over these
+    std::uint64_t negative_image = 0;      ///< compared pixels with a channel below 0 in the image
+    std::uint64_t negative_reference = 0;  ///< the same in the reference
 
     double mse = kUndefined;  ///< mean of (a - b)^2 over channels and pixels
     double rmse = kUndefined;
@@ -24,6 +26,14 @@ struct ErrorMetrics {
     double mape = kUndefined;             ///< mean of |a - b| / (|b| + 0.01)
     double smape = kUndefined;            ///< mean of 2 |a - b| / (|a| + |b| + 0.01)
     std::uint64_t trimmed = 0;            ///< 0.1 % of the compared pixels, rounded down
+
+    /// Compared pixels whose relative squared error, the mean over channels of (a - b)^2 / (b^2 + 0.01), is more than
+    /// `outlier_limit`: 100 times its median over the pixels, and at least 1. So an outlier is off by more than its own
+    /// value, and by ten times what is usual in the image. Unlike the trimmed share, their number is a finding.
+    std::uint64_t outliers = 0;
+    double outlier_limit = kUndefined;
+    double worst = kUndefined;     ///< greatest relative squared error of a pixel ...
+    int worst_x = 0, worst_y = 0;  ///< ... and the first pixel that attains it, from the left and from the top
 
     double mean_image = kUndefined;          ///< mean luminance
     double mean_reference = kUndefined;      ///< mean luminance

@@ -30,7 +30,7 @@ std::vector<EffectDescription> make_table() {
          "see the two kinds"},
         {"constant", "light", "the same radiance from everywhere", "the scene has one", "128 bytes"},
         {"environment_map", "light", "an image around the scene, a sky model's among them", "the scene has one",
-         "its pixels, 8 bytes per pixel to sample it; a lookup per ray that leaves"},
+         "its pixels, 4 bytes per pixel to sample it; a lookup per ray that leaves"},
 
         {"diffuse", "materials", "Lambertian reflection", "a material has such a lobe", no_memory},
         {"delta_reflection", "materials", "mirrors, smooth glass and coats", "a material has such a lobe", no_memory},
@@ -74,7 +74,7 @@ std::vector<EffectDescription> make_table() {
          "`guiding.type` is ppg and there is more than one pass",
          "560 bytes per region and 8 per cell; a lookup per vertex"},
         {"recording", "transport", "paths teach the tree", "with guiding, in all passes but the last",
-         "21 bytes per cell and 22 per region; a record per vertex"},
+         "13 bytes per cell and 22 per region, 150 where the mixture is learned; a record per vertex"},
         {"roulette", "transport", "Russian roulette ends paths that carry little",
          "paths may be longer than `integrator.rr_depth`", no_memory},
         {"depth_limit", "transport", "paths end at a given length: light is lost", "`integrator.max_depth` is set",

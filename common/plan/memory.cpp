@@ -5,6 +5,7 @@
 #include <span>
 
 #include "common/film/pixel_estimate.h"
+#include "common/guiding/tree_update.h"
 #include "common/plan/schedule.h"
 #include "common/plan/texture_mean.h"
 
@@ -75,7 +76,7 @@ std::uint64_t emitter_table_bytes(const Scene& scene, const Emitter& emitter) {
     }
     if (const auto* environment = std::get_if<EnvironmentEmitter>(&emitter.kind)) {
         const TextureImage& image = scene.images[static_cast<std::size_t>(environment->image)];
-        return 8 * static_cast<std::uint64_t>(image.width) * static_cast<std::uint64_t>(image.height);
+        return 4 * static_cast<std::uint64_t>(image.width) * static_cast<std::uint64_t>(image.height + 1);
     }
     return 0;
 }
@@ -85,7 +86,8 @@ std::uint64_t TreeSize::guide_bytes() const {
 }
 
 std::uint64_t TreeSize::sum_bytes() const {
-    return regions * kPlainTreeBytesPerRegion + cells * (kPlainTreeBytesPerCell + kSumBytes);
+    return regions * (kPlainTreeBytesPerRegion + (with_mixture ? kMixtureBins * kSumBytes : 0)) +
+           cells * (kPlainTreeBytesPerCell + kSumBytes);
 }
 
 std::uint64_t MemoryPlan::worker_bytes() const {
@@ -107,7 +109,9 @@ TreeSize expected_tree(const Scene& scene, const Job& job) {
         regions = std::max(regions, vertices / (kRegionFilling * spatial_split_threshold(job, passes[k + 1])));
     }
     const double cells = kCellsPerRegion * regions / static_cast<double>(job.guiding.directional_threshold);
-    return {static_cast<std::uint64_t>(regions), static_cast<std::uint64_t>(cells)};
+    const bool with_mixture =
+        std::any_of(passes.begin(), passes.end(), [](const PassPlan& pass) { return pass.learn_mixture; });
+    return {static_cast<std::uint64_t>(regions), static_cast<std::uint64_t>(cells), with_mixture};
 }
 
 MemoryPlan expected_memory(const Scene& scene, const Job& job) {

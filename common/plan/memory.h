@@ -27,6 +27,7 @@ struct MemoryPlan {
 /// What an SD-tree is expected to have after the last pass that records.
 struct TreeSize {
     std::uint64_t regions = 0, cells = 0;
+    bool with_mixture = false;  ///< a histogram per region from which the BSDF's fraction is learned
 
     std::uint64_t guide_bytes() const;  ///< the form that workers sample from
     std::uint64_t sum_bytes() const;    ///< the plain form and the sums of what is recorded

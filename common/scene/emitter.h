@@ -44,6 +44,8 @@ struct EnvironmentEmitter {
     std::int32_t image = kNone;  ///< index in Scene::images; three linear channels
     float scale = 1.0f;
     Vec3 x_axis{1.0f, 0.0f, 0.0f}, y_axis{0.0f, 1.0f, 0.0f}, z_axis{0.0f, 0.0f, 1.0f};  ///< unit, at right angles
+    /// The centres of the first and the last row of pixels lie on the poles (Mitsuba 2 and 3), not their edges (0.6).
+    bool rows_at_poles = false;
 };
 
 struct Emitter {

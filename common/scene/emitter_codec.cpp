@@ -44,6 +44,7 @@ struct Put {
         put_vector(out, e.x_axis);
         put_vector(out, e.y_axis);
         put_vector(out, e.z_axis);
+        put_flag(out, e.rows_at_poles);
     }
 };
 
@@ -64,6 +65,7 @@ EnvironmentEmitter get_environment(ByteReader& in, std::size_t image_count) {
     e.x_axis = get_vector<Vec3>(in);
     e.y_axis = get_vector<Vec3>(in);
     e.z_axis = get_vector<Vec3>(in);
+    e.rows_at_poles = get_flag(in, "rows_at_poles");
     return e;
 }
 

@@ -11,7 +11,7 @@ namespace treefarm::packed {
 ///     spot     := position axis intensity:rgb cutoff:f32 beam:f32
 ///     directional := direction irradiance:rgb
 ///     constant := radiance:rgb
-///     environment := image:i32 scale:f32 x_axis y_axis z_axis
+///     environment := image:i32 scale:f32 x_axis y_axis z_axis rows_at_poles:u8
 
 inline constexpr std::size_t kMinEmitterBytes = 22;
 

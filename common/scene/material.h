@@ -49,6 +49,9 @@ struct PlasticMaterial {
     ColorInput diffuse_reflectance{Rgb(0.5f)}, specular_reflectance{Rgb(1.0f)};
     bool nonlinear = false;  ///< colour shifts by interreflection inside the coat
     Roughness roughness;     ///< of the coat; isotropic
+    /// A rough coat sends back to the base what its facets reflect once (Mitsuba 2 and 3), and the rest of what it does
+    /// not let out is lost; otherwise it sends back all of that (0.6).
+    bool single_return = false;
 };
 
 /// (1 - weight) * first + weight * second.

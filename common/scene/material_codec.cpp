@@ -49,6 +49,7 @@ struct Put {
         put_color(out, m.specular_reflectance);
         put_flag(out, m.nonlinear);
         put_roughness(out, m.roughness);
+        put_flag(out, m.single_return);
     }
     void operator()(const BlendMaterial& m) const {
         put_number(out, m.weight);
@@ -98,6 +99,7 @@ class MaterialReader {
                 m.specular_reflectance = color();
                 m.nonlinear = get_flag(in_, "nonlinear");
                 m.roughness = roughness();
+                m.single_return = get_flag(in_, "single_return");
                 return m;
             }
             case 5: {

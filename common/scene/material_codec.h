@@ -11,7 +11,7 @@ namespace treefarm::packed {
 ///     conductor := eta:rgb k:rgb color roughness
 ///     dielectric := eta:f32 color color roughness
 ///     thin      := eta:f32 color color
-///     plastic   := eta:f32 color color nonlinear:u8 roughness
+///     plastic   := eta:f32 color color nonlinear:u8 roughness single_return:u8
 ///     blend     := number first:i32 second:i32
 ///     null      :=
 ///     roughness := distribution:u8 number number

@@ -93,24 +93,84 @@ TEST(GuideDistribution, SamplesFollowTheDensity) {
     }
 }
 
+/// What directions are drawn for, without the geometry.
+class TestSurface {
+  public:
+    TestSurface(const PlainDiffuse& bsdf, const Vec3& n, const Vec3& wo)
+        : bsdf_(bsdf), frame_(normalize(n)), wo_(normalize(wo)) {}
+    const PlainDiffuse& bsdf() const { return bsdf_; }
+    const Frame& frame() const { return frame_; }
+    const Vec3& wo() const { return wo_; }
+
+  private:
+    PlainDiffuse bsdf_;
+    Frame frame_;
+    Vec3 wo_;
+};
+
+/// Directions as a batch of paths draws them at one surface; f_cos black: none.
+class MixtureSamples {
+  public:
+    MixtureSamples(const TestSurface& surface, const Guide& guide, std::uint32_t region, float fraction)
+        : surface_(surface), guide_(guide), region_(region), fraction_(fraction) {}
+
+    /// Those of numbers that follow each other come from one batch.
+    const ScatterSample& operator[](std::uint32_t i) {
+        if (i / kDrawBatch != batch_) fill(i / kDrawBatch);
+        return samples_[i % kDrawBatch];
+    }
+
+    float pdf(float bsdf_pdf, std::uint32_t code) const {
+        return mixed_pdf(fraction_, bsdf_pdf, guide_.pdf(region_, code));
+    }
+
+  private:
+    void fill(std::uint32_t batch) {
+        batch_ = batch;
+        KeyBatch keys;
+        for (std::uint32_t k = 0; k < kDrawBatch; ++k) {
+            keys.pixel[k] = batch * kDrawBatch + k;
+            keys.sample[k] = 0;
+        }
+        DrawBatch draws;
+        DirectionBatch cosines;
+        draw_batch(8, keys, kDrawBatch, 0, Stream::scatter, draws);
+        cosine_hemisphere_batch(draws, kDrawBatch, cosines);
+        ScatterBatch<true, true> scatter;
+        scatter.clear();
+        std::array<bool, kDrawBatch> drawn;
+        for (std::uint32_t k = 0; k < kDrawBatch; ++k)
+            drawn[k] = scatter.draw(surface_, guide_, region_, fraction_, draws[k], cosines[k], samples_[k]);
+        scatter.convert(guide_);
+        for (std::uint32_t k = 0; k < kDrawBatch; ++k) {
+            samples_[k].f_cos = drawn[k] ? samples_[k].f_cos : Rgb(0.0f);
+            if (drawn[k]) scatter.complete(surface_, guide_, region_, fraction_, samples_[k]);
+        }
+    }
+
+    const TestSurface& surface_;
+    const Guide& guide_;
+    std::uint32_t region_;
+    float fraction_;
+    std::uint32_t batch_ = ~0u;
+    std::array<ScatterSample, kDrawBatch> samples_;
+};
+
 TEST(GuideDistribution, MixtureFollowsItsDensity) {
-    const PlainDiffuse bsdf = grey(0.5f, false);
-    const Frame frame(normalize(Vec3(0.3f, -0.4f, 0.2f)));
-    const Vec3 wo = normalize(Vec3(0.1f, 0.5f, 0.9f));
+    const TestSurface surface(grey(0.5f, false), {0.3f, -0.4f, 0.2f}, {0.1f, 0.5f, 0.9f});
     for (const float fraction : {0.1f, 0.5f, 1.0f}) {
-        SdTree weighted = trained_tree();
-        weighted.bsdf_fraction.assign(weighted.region_count(), fraction);
-        const Guide guide(weighted);
-        const GuidedSampling<PlainDiffuse, true> sampling(bsdf, frame, wo, guide, guide.region_count() / 3, true);
+        const Guide& guide = trained_guide();
+        MixtureSamples samples(surface, guide, guide.region_count() / 3, fraction);
         const auto sample = [&](std::uint32_t i, Vec3& d) {
-            const ScatterSample s = sampling.sample(draw({8, i, 0}, 0, Stream::scatter), true);
+            const ScatterSample& s = samples[i];
             d = s.world;
-            return s.pdf > 0.0f;
+            return !is_black(s.f_cos);
         };
         // Directions of the guide below the surface are sampled and discarded: the density counts above it only.
         const auto density = [&](const Vec3& d) {
-            const Vec3 local = frame.to_local(d);
-            return local.z > 0.0f ? sampling.pdf(bsdf.value(wo, local).pdf, direction_to_code(d)) : 0.0f;
+            const Vec3 local = surface.frame().to_local(d);
+            return local.z > 0.0f ? samples.pdf(surface.bsdf().value(surface.wo(), local).pdf, direction_to_code(d))
+                                  : 0.0f;
         };
         const auto result = test::test_directions(sample, density, kSamples, 16, 64);
         EXPECT_NEAR(result.integral, result.success, 3e-3);
@@ -120,15 +180,13 @@ TEST(GuideDistribution, MixtureFollowsItsDensity) {
 
 TEST(GuideDistribution, SampleAndDensityOfTheMixtureAgree) {
     const Guide& guide = trained_guide();
-    const PlainDiffuse bsdf = grey(0.5f, true);
-    const Frame frame(normalize(Vec3(-0.3f, 0.4f, -0.8f)));
-    const Vec3 wo = normalize(Vec3(0.1f, 0.5f, -0.9f));
-    const GuidedSampling<PlainDiffuse, true> sampling(bsdf, frame, wo, guide, 1, true);
+    const TestSurface surface(grey(0.5f, true), {-0.3f, 0.4f, -0.8f}, {0.1f, 0.5f, -0.9f});
+    MixtureSamples samples(surface, guide, 1, 0.5f);
     int at_borders = 0;
     for (std::uint32_t i = 0; i < 100000; ++i) {
-        const ScatterSample s = sampling.sample(draw({8, i, 0}, 0, Stream::scatter), true);
-        if (!(s.pdf > 0.0f)) continue;
-        ASSERT_EQ(s.pdf, sampling.pdf(bsdf.value(wo, s.local).pdf, s.code));
+        const ScatterSample& s = samples[i];
+        if (is_black(s.f_cos)) continue;
+        ASSERT_EQ(s.pdf, samples.pdf(surface.bsdf().value(surface.wo(), s.local).pdf, s.code));
         at_borders += s.code != direction_to_code(s.world);
     }
     EXPECT_LT(at_borders, 20000) << "codes differ from those of the rounded directions by a step at most, and seldom";

@@ -43,8 +43,9 @@ Vec2 place_of(const EnvironmentEmitter& e, const Vec3& d) {
 }
 
 /// Samples against the density over (u, v), where poles are no singularities.
-void expect_agreement(const TextureImage& image, const std::string& what) {
-    const EnvironmentEmitter emitter = turned();
+void expect_agreement(const TextureImage& image, const std::string& what, bool rows_at_poles = false) {
+    EnvironmentEmitter emitter = turned();
+    emitter.rows_at_poles = rows_at_poles;
     const EnvironmentMap map(emitter, image);
     constexpr int kColumns = 64, kRows = 32, kSub = 8, kSamples = 400000;
     std::vector<double> counts(kColumns * kRows), expected(kColumns * kRows);
@@ -79,6 +80,7 @@ TEST(EnvironmentMap, OneBrightTexelAnywhere) {
             std::fill(image.floats.begin(), image.floats.end(), background);
             set(image, x, y, Rgb(1.0f, 2.0f, 3.0f));
             expect_agreement(image, std::to_string(x) + ", " + std::to_string(y));
+            expect_agreement(image, std::to_string(x) + ", " + std::to_string(y) + " at poles", true);
         }
 }
 
@@ -99,6 +101,7 @@ TEST(EnvironmentMap, RandomTexels) {
             if (r[3] % 3 != 0) set(image, x, y, Rgb(value * value * value * 5));
         }
     expect_agreement(image, "random");
+    expect_agreement(image, "random at poles", true);
 }
 
 TEST(EnvironmentMap, LooksUpWhatTheInterfaceSays) {
@@ -118,6 +121,27 @@ TEST(EnvironmentMap, LooksUpWhatTheInterfaceSays) {
     EXPECT_NEAR(map.radiance(Vec3(0, 0, -1)).x, 7.0f, 1e-4f) << "halfway between the last column and the first";
     EXPECT_NEAR(map.radiance(Vec3(1, 0, 0)).x, 3.0f, 1e-4f) << "a quarter turn from -z to x";
     EXPECT_NEAR(map.radiance(Vec3(1, 0, 0)).y, 3.0f, 1e-4f) << "the equator";
+}
+
+TEST(EnvironmentMap, OuterRowsLieOnThePolesWhereMitsuba3HasThem) {
+    TextureImage image = black(8, 5);
+    for (int y = 0; y < 5; ++y)
+        for (int x = 0; x < 8; ++x)
+            set(image, x, y, Rgb(static_cast<float>(x), static_cast<float>(y), 1.0f));
+    EnvironmentEmitter emitter;
+    emitter.rows_at_poles = true;
+    const EnvironmentMap map(emitter, image);
+    for (const double v : {0.0, 0.1, 0.25, 0.6, 0.9, 1.0})
+        for (int x = 0; x < 8; ++x) {
+            const Rgb c = map.radiance(direction_at(emitter, (x + 0.5) / 8, v));
+            EXPECT_NEAR(c.y, 4 * v, 1e-5) << v;
+            if (v > 0 && v < 1) {
+                EXPECT_NEAR(c.x, x, 1e-5) << v;
+            }
+        }
+    TextureImage single = black(8, 1);
+    set(single, 3, 0, Rgb(1.0f));
+    expect_agreement(single, "a single row", true);
 }
 
 TEST(EnvironmentMap, DensityIsPositiveWhereRadianceIs) {

@@ -1,7 +1,12 @@
 #include <gtest/gtest.h>
 
+#include <numeric>
+
+#include "common/base/random.h"
+#include "tests/support/chi_square.h"
 #include "tests/support/light_checks.h"
 #include "tests/support/test_scenes.h"
+#include "worker/integrator/trace_scene.h"
 
 namespace treefarm {
 namespace {
@@ -97,6 +102,40 @@ TEST(LightDistribution, ImagesOfOddShapes) {
     for (const auto& [width, height] : {std::pair{1, 1}, {1, 6}, {7, 1}, {2, 2}, {33, 5}})
         expect_light_distribution(environment(width, height, {{width - 1, height - 1}}, 1.0f), Vec3(0.0f),
                                   std::to_string(width) + " x " + std::to_string(height));
+}
+
+TEST(LightChoice, IsByPower) {
+    Scene scene;
+    add_shape(scene, quad({-1, -1, -1}, {2, 0, 0}, {0, 2, 0}), kNone, Rgb(3.0f));
+    add_shape(scene, Sphere{Vec3(0, 0, 0.5f), 0.5f}, kNone, Rgb(1.0f, 2.0f, 3.0f));
+    const Vec3 point(3, 0, 0), spot(0, 3, 0);
+    scene.emitters.push_back({PointEmitter{point, Rgb(1.5f)}, {}});
+    scene.emitters.push_back({SpotEmitter{spot, Vec3(0, -1, 0), Rgb(6.0f), 0.8f, 0.4f}, {}});
+    scene.emitters.push_back({DirectionalEmitter{Vec3(0, 0, -1), Rgb(0.7f)}, {}});
+    scene.emitters.push_back({ConstantEmitter{Rgb(0.2f)}, {}});
+    // W, of the channels' mean; what is infinitely far shines on the disk around the scene, whose radius is sqrt(3).
+    const std::vector<double> power = {M_PI * 4 * 3,   M_PI * M_PI * 2,
+                                       4 * M_PI * 1.5, 2 * M_PI * (1 - std::cos(0.6)) * 6,
+                                       M_PI * 3 * 0.7, M_PI * M_PI * 3 * 0.2};
+    const double total = std::accumulate(power.begin(), power.end(), 0.0);
+    const TraceScene lights(scene, Job());
+    const Vec3 p(0.2f, 0.1f, -0.3f);
+    constexpr std::uint32_t kSamples = 100000;
+    std::vector<double> counts(power.size()), expected;
+    for (const double watts : power)
+        expected.push_back(watts / total * kSamples);
+    for (std::uint32_t i = 0; i < kSamples; ++i) {
+        const DirectSample s = lights.emitters().sample_direct(p, draw({5, i, 0}, 1, Stream::light));
+        if (s.delta && s.to_environment())
+            ++counts[4];
+        else if (s.delta)
+            ++counts[dot(s.wi, normalize(point - p)) > 0.999f ? 2 : 3];
+        else if (s.to_environment())
+            ++counts[5];
+        else
+            ++counts[s.on_light.shape];
+    }
+    EXPECT_GT(test::chi_square_test(counts, expected), 1e-4);
 }
 
 TEST(LightIrradiance, Disk) {

@@ -13,6 +13,11 @@ namespace {
 
 constexpr double kSignificance = 1e-4;
 
+/// What an unoccluded sample brings.
+Rgb arriving(const Emitters& emitters, const DirectSample& s) {
+    return s.from_environment ? emitters.environment(s.wi) : s.radiance;
+}
+
 }  // namespace
 
 void expect_light_distribution(const Scene& scene, const Vec3& p, const std::string& what, float min_cosine) {
@@ -20,8 +25,8 @@ void expect_light_distribution(const Scene& scene, const Vec3& p, const std::str
     const auto sample = [&](std::uint32_t i, Vec3& d) {
         const DirectSample s = lights.emitters().sample_direct(p, draw({3, i, 0}, 1, Stream::light));
         d = s.wi;
-        if (!(s.pdf > 0.0f) || is_black(s.radiance)) return false;
-        if (s.to_environment()) return !lights.geometry().occluded({p, s.wi});
+        if (!(s.pdf > 0.0f) || is_black(arriving(lights.emitters(), s))) return false;
+        if (s.at_infinity()) return !lights.geometry().occluded({p, s.wi});
         if (-dot(s.on_light.ng, s.wi) < min_cosine) return false;
         Hit hit;
         return lights.geometry().intersect({p, s.wi, s.distance * 0.999f}, hit) == false ||
@@ -49,7 +54,7 @@ Irradiance irradiance(const Scene& scene, const Vec3& p, const Vec3& n, std::uin
         const float cosine = dot(n, s.wi);
         double light = 0, both = 0;
         if (s.pdf > 0.0f && cosine > 0.0f) {
-            light = double(average(s.radiance)) * double(cosine) / double(s.pdf);
+            light = double(average(arriving(emitters, s))) * double(cosine) / double(s.pdf);
             const float other = s.delta ? 0.0f : cosine_hemisphere_pdf(cosine);
             both = light * double(mis_weight(MisHeuristic::power, s.pdf, other));
         }

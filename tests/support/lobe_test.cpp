@@ -10,7 +10,7 @@ namespace treefarm::test {
 
 LobeTest test_lobe(const std::function<bool(std::uint32_t, Vec3&)>& sample,
                    const std::function<double(const Vec3&)>& density, const Vec3& center, double across_width,
-                   double along_width, std::uint32_t samples, int resolution, int sub) {
+                   double along_width, std::uint32_t samples, int resolution, int sub, bool logarithmic) {
     // Axes that a horizontal centre shares with the surface: the horizon, where densities end, is then a cell's edge.
     Frame frame(center);
     const Vec3 across = cross(Vec3(0.0f, 0.0f, 1.0f), center);
@@ -21,8 +21,12 @@ LobeTest test_lobe(const std::function<bool(std::uint32_t, Vec3&)>& sample,
     const auto cells = static_cast<std::size_t>(resolution * resolution);
     std::vector<double> counts(cells, 0.0), expected(cells, 0.0);
     LobeTest result;
+    // Places in a line of cells, from -1 to 1, and back.
+    constexpr double kFarthest = 30.0;
+    const auto length = [&](double width) { return std::log1p(kFarthest / width); };
     const auto cell = [&](double x, double width) {
-        const double u = x / (std::abs(x) + width);
+        const double u =
+            logarithmic ? std::copysign(std::log1p(std::abs(x) / width) / length(width), x) : x / (std::abs(x) + width);
         return std::min(resolution - 1, static_cast<int>((u + 1) * 0.5 * resolution));
     };
     for (std::uint32_t i = 0; i < samples; ++i) {
@@ -30,14 +34,20 @@ LobeTest test_lobe(const std::function<bool(std::uint32_t, Vec3&)>& sample,
         if (!sample(i, d)) continue;
         const Vec3 local = frame.to_local(d);
         if (!(local.z > 0.0f)) continue;
+        const double across = double(local.x) / double(local.z), along = double(local.y) / double(local.z);
+        if (logarithmic && !(std::abs(across) < kFarthest && std::abs(along) < kFarthest)) continue;
         result.inside += 1;
-        const int x = cell(double(local.x) / double(local.z), across_width),
-                  y = cell(double(local.y) / double(local.z), along_width);
+        const int x = cell(across, across_width), y = cell(along, along_width);
         counts[static_cast<std::size_t>(y * resolution + x)] += 1;
     }
     const int steps = resolution * sub;
     const auto place = [&](int i, double width, double& jacobian) {
         const double u = 2 * (i + 0.5) / steps - 1, rest = 1 - std::abs(u);
+        if (logarithmic) {
+            const double x = width * std::expm1(std::abs(u) * length(width));
+            jacobian = (x + width) * length(width) * 2 / steps;
+            return std::copysign(x, u);
+        }
         jacobian = width / (rest * rest) * 2 / steps;
         return u * width / rest;
     };

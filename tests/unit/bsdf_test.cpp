@@ -44,6 +44,8 @@ std::vector<Subject> white_materials() {
             all.push_back({"metal" + name, ConductorMaterial{mirror_eta, mirror_k, white, rough(kind, alpha, alpha)}});
             all.push_back({"glass" + name, DielectricMaterial{1.5f, white, white, rough(kind, alpha, alpha)}});
             all.push_back({"plastic" + name, PlasticMaterial{1.5f, white, white, true, rough(kind, alpha, alpha)}});
+            all.push_back({"single return plastic" + name,
+                           PlasticMaterial{1.5f, white, white, true, rough(kind, alpha, alpha), true}});
         }
     return all;
 }

@@ -118,7 +118,8 @@ TEST_F(Compare, TheTableNamesEveryFigure) {
     const std::string image = write("image.exr", 1.0f, 1, true), reference = write("reference.exr", 1.0f, 0, false);
     const Outcome table = compare(image + " " + reference);
     EXPECT_EQ(table.code, 0);
-    for (const char* word : {"RMSE", "relMSE", "relMSE trimmed", "MAPE", "mean ratio", "NaN/Inf in image",
+    for (const char* word : {"RMSE", "relMSE", "relMSE trimmed", "MAPE", "SMAPE", "outliers", "worst pixel", "FLIP",
+                             "FLIP weighted median", "FLIP of [0, 1]", "mean ratio", "NaN/Inf in image",
                              "z-test of pixels", "z-test of blocks", "counts as exact"})
         EXPECT_NE(table.output.find(word), std::string::npos) << word << " in\n" << table.output;
 }
@@ -137,6 +138,29 @@ TEST_F(Compare, CountsInvalidPixelsAndWritesNullForWhatIsUndefined) {
     EXPECT_EQ(json["pixels"]["compared"], 63);
     EXPECT_TRUE(json["mean_ratio"].is_null());
     EXPECT_EQ(json["rmse"], 0.0);
+    EXPECT_EQ(json["flip"]["hdr"]["mean"], 0.0);
+    compare_json(path("nan.exr") + " " + path("black.exr") + " --error-map " + path("map.exr"));
+    EXPECT_TRUE(std::isnan(read_exr(path("map.exr")).image.channel(0)[3]));
+}
+
+TEST_F(Compare, OnePixelOrNoneToCompare) {
+    const auto write_pixel = [&](const std::string& name, float value) {
+        Image image;
+        add_rgb_layer(image, "", RgbImage(1, 1, Rgb(value)));
+        write_exr(path(name), image);
+        return path(name);
+    };
+    const std::string grey = write_pixel("grey.exr", 0.5f), black = write_pixel("black.exr", 0.0f);
+    const auto one = compare_json(grey + " " + black);
+    EXPECT_EQ(one["worst_pixel"]["x"], 0);
+    EXPECT_NEAR(one["flip"]["hdr"]["mean"].get<double>(), 0.96520, 1e-4) << "a black reference: the image's exposures";
+    const std::string nan = write_pixel("nan.exr", std::numeric_limits<float>::quiet_NaN());
+    const auto none = compare_json(nan + " " + grey);
+    EXPECT_EQ(none["pixels"]["compared"], 0);
+    EXPECT_TRUE(none["worst_pixel"].is_null());
+    EXPECT_TRUE(none["flip"]["hdr"]["mean"].is_null());
+    EXPECT_EQ(compare(nan + " " + grey + " --error-map " + path("map.png")).code, 0);
+    EXPECT_EQ(read_ldr(path("map.png"), Encoding::srgb).channel(1)[0], 0.0f) << "magenta";
 }
 
 TEST_F(Compare, WritesTheDifference) {
@@ -146,6 +170,29 @@ TEST_F(Compare, WritesTheDifference) {
     EXPECT_EQ(png.width, 64);
     EXPECT_EQ(png.channel(0)[0], 1.0f);
     EXPECT_EQ(png.channel(2)[0], 0.0f);
+}
+
+TEST_F(Compare, FlipAndItsMap) {
+    const std::string image = write("image.exr", 0.0f, 0, false), reference = write("reference.exr", 1.0f, 0, false);
+    const auto json = compare_json(image + " " + reference + " --flip-ppd 30 --error-map " + path("map.exr"));
+    const auto& flip = json["flip"];
+    EXPECT_EQ(flip["pixels_per_degree"], 30.0);
+    EXPECT_NEAR(flip["ldr"]["mean"].get<double>(), 0.96739, 1e-4) << "black against white";
+    EXPECT_NEAR(flip["hdr"]["mean"].get<double>(), 0.96520, 1e-4) << "black against what 0.85 shows";
+    EXPECT_EQ(flip["hdr"]["exposures"], 2);
+    EXPECT_EQ(flip["hdr"]["start_exposure"], flip["hdr"]["stop_exposure"]);
+    const ExrImage map = read_exr(path("map.exr"));
+    EXPECT_EQ(map.image.channel_names, std::vector<std::string>{"Y"});
+    EXPECT_NEAR(map.image.channel(0)[17], flip["hdr"]["max"].get<double>(), 1e-6);
+    EXPECT_EQ(compare(image + " " + image + " --error-map " + path("map.png")).code, 0);
+    EXPECT_EQ(read_ldr(path("map.png"), Encoding::srgb).channel(1)[0], 0.0f) << "no error is black";
+}
+
+TEST_F(Compare, NegativeRadianceIsCountedAndShown) {
+    const std::string image = write("image.exr", -1.0f, 0, false), reference = write("reference.exr", 0.0f, 0, false);
+    EXPECT_EQ(compare_json(image + " " + reference)["pixels"]["negative_image"], 64 * 64);
+    EXPECT_NE(compare(image + " " + reference).output.find("negative in image       4096"), std::string::npos);
+    EXPECT_NE(compare(reference + " " + image).output.find("negative in reference   4096"), std::string::npos);
 }
 
 TEST_F(Compare, BadInputIsOneLineAndExitCodeTwo) {
@@ -161,7 +208,14 @@ TEST_F(Compare, BadInputIsOneLineAndExitCodeTwo) {
     EXPECT_NE(sizes.output.find("2 x 2"), std::string::npos) << sizes.output;
     EXPECT_EQ(std::count(sizes.output.begin(), sizes.output.end(), '\n'), 1) << sizes.output;
     EXPECT_EQ(compare(image).code, 2);
+    EXPECT_NE(sizes.output.find("64 x 64"), std::string::npos) << sizes.output;
     EXPECT_EQ(compare(image + " " + image + " --block 0").code, 2);
+    for (const char* ppd : {"0", "nan", "1001", "-67"})
+        EXPECT_EQ(compare(image + " " + image + " --flip-ppd " + ppd).code, 2) << ppd;
+    const Outcome map = compare(image + " " + image + " --error-map " + path("map.jpg"));
+    EXPECT_EQ(map.code, 2);
+    EXPECT_NE(map.output.find("map.jpg: --error-map writes PNG and EXR"), std::string::npos) << map.output;
+    EXPECT_EQ(compare(image + " " + image + " --error-map " + path("no/map.png")).code, 1);
     EXPECT_EQ(compare(image + " " + image + " --unknown").code, 2);
     EXPECT_EQ(compare(image + " " + image + " --reference-error nan").code, 2);
     EXPECT_EQ(compare(image + " " + image + " > /dev/full").code, 1);

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "common/config/check_job.h"
 #include "common/config/job_keys.h"
 #include "common/config/job_reader.h"
 #include "common/config/parse_text.h"
@@ -24,6 +25,13 @@ std::string message_of(const std::string& toml) {
         return error.what();
     }
     return "no error";
+}
+
+TEST(Job, PathsMustEnd) {
+    EXPECT_NO_THROW(check_job(Job{}));
+    EXPECT_NO_THROW(check_job(job_of("[integrator]\nmax_depth = -1\nrr_depth = 10000\n")));
+    EXPECT_NO_THROW(check_job(job_of("[integrator]\nmax_depth = 5\nrr_depth = 1000000\n")));
+    EXPECT_THROW(check_job(job_of("[integrator]\nmax_depth = -1\nrr_depth = 10001\n")), InputError);
 }
 
 TEST(Job, ReadsEveryKind) {

@@ -103,7 +103,7 @@ TEST_F(MitsubaEmitters, SpectraFromFilesAndBlackBodies) {
     EXPECT_THROW(intensity("<spectrum name=\"intensity\" filename=\"none.spd\"/>"), InputError);
 
     // The Planckian locus: x, y of 2856 K is illuminant A's (0.44757, 0.40745).
-    const auto rgb = mitsuba::blackbody_color(2856.0);
+    const auto rgb = mitsuba::blackbody_color(2856.0, {});
     const double x = 0.412453 * rgb.x + 0.357580 * rgb.y + 0.180423 * rgb.z;
     const double y = 0.212671 * rgb.x + 0.715160 * rgb.y + 0.072169 * rgb.z;
     const double z = 0.019334 * rgb.x + 0.119193 * rgb.y + 0.950227 * rgb.z;

@@ -135,6 +135,8 @@ TEST_F(MitsubaMaterials, PlasticsInBothDialects) {
         "roughplastic", "<boolean name=\"nonlinear\" value=\"true\"/>" + board("alpha") + board("diffuse_reflectance"),
         "3.0.0");
     EXPECT_TRUE(rough.nonlinear);
+    EXPECT_TRUE(rough.single_return);
+    EXPECT_FALSE(of_type<PlasticMaterial>("roughplastic").single_return);
     EXPECT_TRUE(rough.roughness.alpha_u.varies());
     EXPECT_TRUE(rough.diffuse_reflectance.varies());
     EXPECT_THROW(material(bsdf("roughplastic", number("alphaU", "0.1") + number("alphaV", "0.2"))), InputError);

@@ -82,11 +82,12 @@ TEST(PathRecorder, CarriesRadianceBackwards) {
     RecordLog log;
     log.begin(3);
     recorder.begin_path();
-    recorder.add_reflected(Rgb(100.0f));  // next event at the first surface: no direction carries it
+    recorder.add_reflected(recorder.vertex_count(),
+                           Rgb(100.0f));  // next event at the first surface: no direction carries it
     recorder.add_vertex(0, 11, 0.5f, Rgb(0.5f), 3, 1);
     recorder.add_emission(Rgb(1.0f));
     recorder.survive(0.5f);
-    recorder.add_reflected(Rgb(2.0f));
+    recorder.add_reflected(recorder.vertex_count(), Rgb(2.0f));
     recorder.add_vertex(2, 22, 4.0f, Rgb(0.25f), 4, 2);
     recorder.add_emission(Rgb(8.0f));
     EXPECT_EQ(recorder.commit({}, log), 2u);

@@ -17,8 +17,8 @@ struct Ended {
     std::string output;
 };
 
-Ended plan(const std::string& arguments) {
-    const std::string command = std::string(TREEFARM_PROGRAM) + " plan " + arguments + " 2>&1";
+Ended run(const std::string& arguments) {
+    const std::string command = std::string(TREEFARM_PROGRAM) + " " + arguments + " 2>&1";
     FILE* pipe = popen(command.c_str(), "r");
     Ended ended;
     if (!pipe) return ended;
@@ -28,6 +28,10 @@ Ended plan(const std::string& arguments) {
     const int status = pclose(pipe);
     ended.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
     return ended;
+}
+
+Ended plan(const std::string& arguments) {
+    return run("plan " + arguments);
 }
 
 std::string box() {
@@ -44,6 +48,19 @@ TEST(PlanCommand, TellsWhatASceneAndAJobCallFor) {
     const nlohmann::json json = nlohmann::json::parse(job.output);
     EXPECT_EQ(json["spp"], 508);
     EXPECT_EQ(json["effects"][0]["name"], "next_event");
+}
+
+TEST(Program, NamesTheNearestCommand) {
+    const Ended wrong = run("rander x.xml");
+    EXPECT_EQ(wrong.code, 2);
+    EXPECT_EQ(wrong.output, "treefarm: no command is called \"rander\"; did you mean \"render\"?\n");
+    EXPECT_EQ(run("xyz").output, "treefarm: no command is called \"xyz\"; see treefarm --help\n");
+}
+
+TEST(PlanCommand, SaysWhereSamplesAreRounded) {
+    const nlohmann::json json = nlohmann::json::parse(plan(box() + " --json --spp 1 --set guiding.spp_unit=4").output);
+    EXPECT_EQ(json["warnings"].back(), "1 spp become 4: passes take multiples of guiding.spp_unit = 4");
+    EXPECT_EQ(plan(box() + " --set integrator.max_depth=-1 --set integrator.rr_depth=20000").code, 2);
 }
 
 TEST(PlanCommand, FollowsSettingsAndDefinitions) {

@@ -5,6 +5,7 @@
 
 #include "common/config/effect_switches.h"
 #include "common/config/job_reader.h"
+#include "common/guiding/tree_update.h"
 #include "common/plan/effect_table.h"
 #include "common/plan/plan_text.h"
 #include "common/plan/texture_mean.h"
@@ -235,6 +236,12 @@ TEST(Plan, MemoryFollowsTheFormulas) {
     EXPECT_EQ(expected_tree(scene, unguided).cells, 0u);
     scene.film.width = scene.film.height = 1000;
     EXPECT_GT(expected_tree(scene, Job{}).regions, 1000u);
+    const TreeSize learned{10, 200, true}, fixed{10, 200, false};
+    EXPECT_EQ(learned.sum_bytes() - fixed.sum_bytes(), 10u * kMixtureBins * 8);
+    EXPECT_TRUE(expected_tree(scene, Job{}).with_mixture);
+    Job given;
+    given.guiding.learn_bsdf_fraction = false;
+    EXPECT_FALSE(expected_tree(scene, given).with_mixture);
 }
 
 TEST(Plan, TextAndJsonSayTheSame) {

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "common/base/error.h"
+#include "common/image/srgb.h"
 
 namespace treefarm {
 namespace {

@@ -52,6 +52,7 @@ TEST(SceneCodec, MaterialsRoundTrip) {
     EXPECT_EQ(std::get<ThinDielectricMaterial>(back.materials[3].bsdf).specular_transmittance, ColorInput(Rgb(0.6f)));
     const auto& plastic = std::get<PlasticMaterial>(back.materials[4].bsdf);
     EXPECT_TRUE(plastic.nonlinear);
+    EXPECT_TRUE(plastic.single_return);
     EXPECT_EQ(plastic.diffuse_reflectance.texture, 0);
     EXPECT_EQ(plastic.roughness.distribution, Microfacets::beckmann);
     EXPECT_EQ(back.materials[4].detail, (NormalDetail{1, 0.25f, 0}));
@@ -97,6 +98,7 @@ TEST(SceneCodec, EmittersCameraAndFilmRoundTrip) {
     EXPECT_EQ(spot.beam, 0.25f);
     EXPECT_EQ(std::get<DirectionalEmitter>(back.emitters[4].kind).direction, Vec3(1, 0, 0));
     const auto& environment = std::get<EnvironmentEmitter>(back.emitters[5].kind);
+    EXPECT_TRUE(environment.rows_at_poles);
     EXPECT_EQ(environment.image, 1);
     EXPECT_EQ(environment.scale, 2.0f);
     EXPECT_EQ(environment.z_axis, Vec3(0, 1, 0));

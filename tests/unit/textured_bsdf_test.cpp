@@ -30,6 +30,15 @@ TEST(Textured, ReflectanceIsLookedUp) {
     EXPECT_EQ(prepared.at(point_at(0.6f, 0.1f)).value(kUp, kUp).f_cos, Rgb(0.1f, 0.1f, 0.05f) * kInvPi);
 }
 
+TEST(Textured, BackOfAnOpaqueSurfaceIsBlackWhateverWasBuiltBefore) {
+    Scene scene;
+    const std::int32_t board = test::add_board(scene, Rgb(0.8f), Rgb(0.1f));
+    test::add_material(scene, DiffuseMaterial{ColorInput(Rgb(1.0f), board)});
+    PreparedMaterial prepared(scene);
+    EXPECT_GT(prepared.at(point_at(0.1f, 0.1f)).value(kUp, kUp).f_cos.x, 0.0f);
+    EXPECT_EQ(prepared.at(point_at(0.1f, 0.1f), true).value(kUp, kUp).f_cos, Rgb(0.0f));
+}
+
 TEST(Textured, BlendWeightIsLookedUp) {
     Scene scene;
     const std::int32_t board = test::add_board(scene, Rgb(0.0f), Rgb(1.0f));

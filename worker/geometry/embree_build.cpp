@@ -1,7 +1,5 @@
 #include <embree3/rtcore.h>
 
-#include <algorithm>
-
 #include "common/base/error.h"
 #include "worker/geometry/embree_scene.h"
 #include "worker/geometry/primitive_points.h"
@@ -55,9 +53,6 @@ EmbreeScene::EmbreeScene(std::vector<Shape> shapes, const std::string& isa, cons
         if (shapes_[i].group == kNone) attach(scene_.get(), i, i);
     rtcCommitScene(scene_.get());
     check_errors("building the hierarchy");
-    plain_ = masks_.empty() && std::all_of(shapes_.begin(), shapes_.end(), [](const Shape& shape) {
-                 return std::holds_alternative<Mesh>(shape.geometry);
-             });
 }
 
 EmbreeScene::~EmbreeScene() = default;

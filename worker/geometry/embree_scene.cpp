@@ -3,6 +3,7 @@
 #include <embree3/rtcore.h>
 
 #include <array>
+#include <cassert>
 #include <cmath>
 
 #include "worker/geometry/primitive_points.h"
@@ -27,8 +28,6 @@ RTCRay make_ray(const Ray& ray) {
     r.flags = 0;
     return r;
 }
-
-constexpr std::size_t kMostRays = 64;
 
 RTCIntersectContext incoherent_context() {
     RTCIntersectContext context;
@@ -75,13 +74,9 @@ bool EmbreeScene::occluded(const Ray& ray) const {
 }
 
 void EmbreeScene::occluded(std::span<const Ray> rays, bool* hidden) const {
-    if (!plain_) {  // our callbacks take single rays
-        for (std::size_t i = 0; i < rays.size(); ++i)
-            hidden[i] = rays[i].length > 0.0f && occluded(rays[i]);
-        return;
-    }
+    assert(rays.size() <= kMostTogether);
     RTCIntersectContext context = incoherent_context();
-    std::array<RTCRay, kMostRays> queries;
+    std::array<RTCRay, kMostTogether> queries;
     for (std::size_t i = 0; i < rays.size(); ++i)
         queries[i] = make_ray(rays[i]);
     rtcOccluded1M(scene_.get(), &context, queries.data(), static_cast<unsigned>(rays.size()), sizeof(RTCRay));

@@ -52,7 +52,8 @@ class EmbreeScene {
     bool intersect(const Ray& ray, Hit& hit) const;
     /// Whether anything lies on the segment or half line.
     bool occluded(const Ray& ray) const;
-    /// The same of up to 64 rays, which may be faster together. One of negative length is free.
+    /// The same of up to kMostTogether rays, faster than one by one. A ray of negative length is free.
+    static constexpr std::size_t kMostTogether = 64;
     void occluded(std::span<const Ray> rays, bool* hidden) const;
 
     /// A point of a triangle from its barycentrics: what intersect() reports for a ray through it.
@@ -127,7 +128,6 @@ class EmbreeScene {
     std::unique_ptr<RTCDeviceTy, ReleaseDevice> device_;
     std::vector<Group> groups_;
     std::unique_ptr<RTCSceneTy, ReleaseScene> scene_;
-    bool plain_ = true;  ///< nothing but triangles of the world that every ray meets
 };
 
 }  // namespace treefarm

@@ -27,9 +27,13 @@ float decision(const RTCRay& ray, const RTCHit& hit, std::uint32_t shape) {
 }
 
 void filter(const RTCFilterFunctionNArguments* args) {
-    if (args->N != 1 || args->valid[0] == 0) return;
     const Mask& mask = *static_cast<const Mask*>(args->geometryUserPtr);
-    if (!mask.meets(args->ray, args->hit)) args->valid[0] = 0;
+    for (unsigned i = 0; i < args->N; ++i) {
+        if (args->valid[i] == 0) continue;
+        const RTCRay ray = rtcGetRayFromRayN(args->ray, args->N, i);
+        const RTCHit hit = rtcGetHitFromHitN(args->hit, args->N, i);
+        if (!mask.meets(&ray, &hit)) args->valid[i] = 0;
+    }
 }
 
 }  // namespace

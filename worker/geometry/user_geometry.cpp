@@ -87,6 +87,7 @@ bool find(const Args& args, const RTCRay& ray, RTCHit& hit, double& t) {
     });
 }
 
+/// Nearest hits are asked for ray by ray.
 template <class Geometry, bool kMasked>
 void intersect(const RTCIntersectFunctionNArguments* args) {
     if (args->N != 1 || args->valid[0] == 0) return;
@@ -98,13 +99,16 @@ void intersect(const RTCIntersectFunctionNArguments* args) {
     query.hit = hit;
 }
 
+/// Shadow rays come in any number.
 template <class Geometry, bool kMasked>
 void occluded(const RTCOccludedFunctionNArguments* args) {
-    if (args->N != 1 || args->valid[0] == 0) return;
-    RTCRay& ray = *reinterpret_cast<RTCRay*>(args->ray);
-    RTCHit hit;
-    double t = 0;
-    if (find<Geometry, kMasked>(*args, ray, hit, t)) ray.tfar = -std::numeric_limits<float>::infinity();
+    for (unsigned i = 0; i < args->N; ++i) {
+        if (args->valid[i] == 0) continue;
+        RTCHit hit;
+        double t = 0;
+        if (find<Geometry, kMasked>(*args, rtcGetRayFromRayN(args->ray, args->N, i), hit, t))
+            RTCRayN_tfar(args->ray, args->N, i) = -std::numeric_limits<float>::infinity();
+    }
 }
 
 template <class Geometry, bool kMasked>

@@ -2,17 +2,15 @@
 
 #include <array>
 #include <cassert>
-#include <optional>
 #include <vector>
 
 #include "common/film/trace_stats.h"
 #include "common/guiding/mixture.h"
-#include "common/math/warp_batch.h"
-#include "worker/integrator/guided_sampling.h"
 #include "worker/integrator/mis.h"
 #include "worker/integrator/path_observer.h"
 #include "worker/integrator/path_recorder.h"
 #include "worker/integrator/path_settings.h"
+#include "worker/integrator/path_state.h"
 #include "worker/integrator/pending_light.h"
 #include "worker/integrator/surface.h"
 
@@ -69,31 +67,7 @@ class PathKernel {
     /// Whether directions have to be converted before a path can leave.
     static constexpr bool kConverts = kGuided || kRecord;
 
-    struct Path {
-        PathKey key;
-        Ray ray;
-        Rgb radiance, throughput;
-        float scatter_pdf;  ///< infinite after a delta lobe: next event cannot have found what it meets
-        float spread;       ///< product of eta^2: what refraction took from the throughput and gives back later
-        Vec3 scatter_point;
-        bool found;
-        EmbreeScene::Meeting meeting;
-        Hit hit;
-        std::uint32_t region;  ///< of the hit, where the tree is used
-        float bsdf_fraction;   ///< probability of sampling the BSDF there
-        std::optional<Surface> surface;
-        ScatterSample scatter;
-        Draw jitter;  ///< of what is recorded
-
-        void begin(const PathKey& path, const Ray& from_camera) {
-            key = path;
-            ray = from_camera;
-            radiance = scatter_point = Rgb(0.0f);
-            throughput = Rgb(1.0f);
-            scatter_pdf = 0.0f;
-            spread = 1.0f;
-        }
-    };
+    using Path = PathState<Surface>;
 
     static std::uint32_t vertex_of(int depth) { return static_cast<std::uint32_t>(depth); }
 
@@ -109,14 +83,13 @@ class PathKernel {
         for (std::uint32_t lane = 0; lane < alive; ++lane)
             find_place(lane);
         pending_.clear();
-        codes_.clear();
-        places_.clear();
+        scatter_.clear();
         alive = keep(alive, [&](std::uint8_t path, std::uint32_t lane) {
             return visit(path, depth, lane) && draw_direction(path, lane) && (kConverts || leave(path, depth));
         });
         if (!pending_.empty()) look_at_lights(depth);
         if constexpr (!kConverts) return alive;
-        convert(alive);
+        scatter_.convert(guide_);
         return keep(alive, [&](std::uint8_t path, std::uint32_t) { return leave(path, depth); });
     }
 
@@ -181,7 +154,7 @@ class PathKernel {
             if constexpr (kRecord) recorders_[index].survive(survival);
         }
 
-        const Surface& surface = path.surface.emplace(scene_, hit, -ray.direction, scratch(index));
+        const Surface& surface = path.surface.emplace(scene_, hit, -ray.direction, scratch_[index]);
         if (surface.black()) return end("black surface");
         if (settings_.strict_normals && -dot(surface.ng(), ray.direction) * surface.wo().z < 0.0f)
             return end("normals disagree");
@@ -194,73 +167,19 @@ class PathKernel {
         return true;
     }
 
-    /// Draws from the BSDF or, with the probability 1 - bsdf_fraction, from the tree. False if there is no direction.
     bool draw_direction(std::uint8_t index, std::uint32_t lane) {
         Path& path = paths_[index];
-        const Surface& surface = *path.surface;
-        const Draw random = scatter_draws_[lane];
-        ScatterSample& s = path.scatter;
-        s.guided = kGuided && !(to_unit(random[0]) < path.bsdf_fraction);
-        s.guide_pdf = 0.0f;
         if constexpr (kRecord) path.jitter = jitter_draws_[lane];
-        if (kGuided && s.guided) {
-            const Guide::Place place = guide_.sample_place(path.region, random[1], random[2], random[3]);
-            s.code = place.code;
-            s.guide_pdf = place.pdf;
-            s.delta = false;
-            s.conversion = places_.add(place.at);
-            return true;
-        }
-        const Vec2 place(to_unit(random[2]), to_unit(random[3]));
-        const BsdfSample b = surface.bsdf().sample(surface.wo(), {to_unit(random[1]), place, cosines_[lane]});
-        if (!(b.pdf > 0.0f)) return end("no direction");
-        s.local = b.wi;
-        s.world = surface.frame().to_world(b.wi);
-        s.f_cos = b.f_cos;
-        s.bsdf_pdf = b.pdf;
-        s.delta = b.delta;
-        if ((kGuided || kRecord) && !b.delta) s.conversion = codes_.add(s.world);
-        return true;
-    }
-
-    /// Codes of directions from BSDFs, directions of places from the tree.
-    void convert(std::uint32_t alive) {
-        if constexpr (kGuided || kRecord) codes_.convert();
-        if constexpr (kGuided) {
-            places_.convert();
-            for (std::uint32_t lane = 0; lane < alive; ++lane) {
-                Path& path = paths_[alive_[lane]];
-                if (!path.scatter.guided && !path.scatter.delta)
-                    guide_.prefetch_pdf(path.region, codes_[path.scatter.conversion]);
-            }
-        }
-    }
-
-    /// Density and value of the direction that was drawn. sample_place() and pdf() agree by construction: both read the
-    /// same cells.
-    void complete(Path& path) {
-        const Surface& surface = *path.surface;
-        ScatterSample& s = path.scatter;
-        if (kGuided && s.guided) {
-            s.world = places_[s.conversion];
-            s.local = surface.frame().to_local(s.world);
-            const BsdfValue b = surface.bsdf().value(surface.wo(), s.local);
-            s.f_cos = b.f_cos;
-            s.bsdf_pdf = b.pdf;
-        } else if ((kGuided || kRecord) && !s.delta) {
-            s.code = codes_[s.conversion];
-            if constexpr (kGuided) s.guide_pdf = guide_.pdf(path.region, s.code);
-        }
-        s.pdf = s.bsdf_pdf;
-        if constexpr (kGuided)
-            s.pdf = s.delta ? s.bsdf_pdf * path.bsdf_fraction : mixed_pdf(path.bsdf_fraction, s.bsdf_pdf, s.guide_pdf);
+        return scatter_.draw(*path.surface, guide_, path.region, path.bsdf_fraction, scatter_draws_[lane],
+                             cosines_[lane], path.scatter) ||
+               end("no direction");
     }
 
     /// The path takes the direction that was drawn. False if it carries nothing.
     bool leave(std::uint8_t index, int depth) {
         Path& path = paths_[index];
-        complete(path);
         const Surface& surface = *path.surface;
+        scatter_.complete(surface, guide_, path.region, path.bsdf_fraction, path.scatter);
         const Hit& hit = path.hit;
         const ScatterSample& s = path.scatter;
         if (!(s.pdf > 0.0f) || is_black(s.f_cos)) return end("no direction");
@@ -366,16 +285,18 @@ class PathKernel {
     /// Traces the step's shadow rays, and adds what is seen, weighted against scattering.
     void look_at_lights(int depth) {
         const std::span<const bool> shadowed = pending_.trace(scene_.geometry(), observer_);
+        std::array<std::uint8_t, kBatch> seen;
+        std::uint32_t count = 0;
         light_codes_.clear();
-        std::uint32_t seen = 0;
         for (std::uint32_t i = 0; i < pending_.size(); ++i) {
             if (shadowed[i]) continue;
-            seen_[seen++] = static_cast<std::uint8_t>(i);
-            if constexpr (kGuided || kRecord) light_codes_.add(pending_[i].wi);
+            seen[count++] = static_cast<std::uint8_t>(i);
+            if constexpr (kConverts) light_codes_.add(pending_[i].wi, pending_[i].region);
         }
-        if constexpr (kGuided || kRecord) light_codes_.convert();
-        for (std::uint32_t i = 0; i < seen; ++i)
-            add_light(pending_[seen_[i]], light_codes_[i], depth);
+        if constexpr (kConverts) light_codes_.convert();
+        if constexpr (kGuided) light_codes_.prefetch(guide_);
+        for (std::uint32_t i = 0; i < count; ++i)
+            add_light(pending_[seen[i]], light_codes_[i], depth);
     }
 
     void add_light(PendingLight& light, std::uint32_t code, int depth) {
@@ -401,8 +322,6 @@ class PathKernel {
                                                 vertex_of(depth));
     }
 
-    typename Surface::Scratch& scratch(std::uint8_t index) { return scratch_[index]; }
-
     const TraceScene& scene_;
     const Guide& guide_;
     const PathSettings settings_;
@@ -413,9 +332,8 @@ class PathKernel {
     std::array<std::uint8_t, kBatch> alive_;
     DrawBatch scatter_draws_, light_draws_, jitter_draws_;
     DirectionBatch cosines_;
-    CodeBatch codes_, light_codes_;
-    PlaceBatch places_;
-    std::array<std::uint8_t, kBatch> seen_;
+    ScatterBatch<kGuided, kConverts> scatter_;
+    CodeBatch light_codes_;
     PendingLights pending_;
     std::array<PathRecorder, kRecord ? kBatch : 0> recorders_;
     [[no_unique_address]] Observer observer_;

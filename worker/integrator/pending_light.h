@@ -30,7 +30,7 @@ struct PendingLight {
 /// Those of one step of a batch of paths.
 class PendingLights {
   public:
-    static constexpr std::uint32_t kMost = 64;
+    static constexpr std::uint32_t kMost = EmbreeScene::kMostTogether;
 
     void clear() { count_ = 0; }
     bool empty() const { return count_ == 0; }

@@ -62,12 +62,15 @@ EnvironmentMap::EnvironmentMap(const EnvironmentEmitter& emitter, const TextureI
     : image_(&image),
       width_(image.width),
       height_(image.height),
+      margin_(emitter.rows_at_poles && image.height > 1 ? 0.0f : 0.5f),
+      half_turn_(static_cast<float>(height_ - 1) + 2.0f * margin_),
       scale_(emitter.scale),
       x_axis_(emitter.x_axis),
       y_axis_(emitter.y_axis),
       z_axis_(emitter.z_axis),
       // d(u) d(v) = d(solid angle) / (2 pi^2 sin(theta)).
-      density_scale_(static_cast<float>(double(width_) * height_ * 0x1p-62 / (2 * double(kPi) * double(kPi)))),
+      density_scale_(
+          static_cast<float>(double(width_) * double(half_turn_) * 0x1p-62 / (2 * double(kPi) * double(kPi)))),
       rows_(static_cast<std::size_t>(height_) + 1),
       columns_(static_cast<std::size_t>(height_) * (static_cast<std::size_t>(width_) + 1)),
       guide_bits_(std::max(0, static_cast<int>(std::bit_width(static_cast<unsigned>(width_))) - 5)),
@@ -78,8 +81,10 @@ EnvironmentMap::EnvironmentMap(const EnvironmentEmitter& emitter, const TextureI
     std::vector<double> row_weights(static_cast<std::size_t>(height_)), weights(width);
     for (int y = 0; y < height_; ++y) {
         const auto row = static_cast<std::size_t>(y);
-        const auto sine =
-            double(sincos_turn((static_cast<float>(y) + 0.5f) / (2.0f * static_cast<float>(height_))).sin);
+        // On a pole, where the sine is 0, a sixth of a row away: the share of the sphere that the texel shines from.
+        const float from_pole =
+            std::clamp(static_cast<float>(y) + margin_, 1.0f / 6.0f, half_turn_ - 1.0f / 6.0f) / half_turn_;
+        const auto sine = double(sincos_turn(0.5f * from_pole).sin);
         sines += sine;
         for (int x = 0; x < width_; ++x) {
             const Rgb texel = clean_texel(x, y);
@@ -87,6 +92,7 @@ EnvironmentMap::EnvironmentMap(const EnvironmentEmitter& emitter, const TextureI
             sum += sine * double(average(texel));
             row_weights[row] += weights[static_cast<std::size_t>(x)] = sine * double(luminance(texel));
         }
+        if (on_pole(y)) row_weights[row] *= 0.5;
         std::uint32_t* const begin = &columns_[row * (width + 1)];
         share(weights, begin);
         const std::size_t entries = std::size_t{1} << guide_bits_;
@@ -109,11 +115,11 @@ Rgb EnvironmentMap::clean_texel(int x, int y) const {
 }
 
 EnvironmentMap::Place EnvironmentMap::place(float u, float v) const {
-    const float left = std::floor(u - 0.5f), top = std::floor(v - 0.5f);
+    const float left = std::floor(u), top = std::floor(v);
     const int x = static_cast<int>(left), y = static_cast<int>(top);
     Place p;
-    p.fx = u - 0.5f - left;
-    p.fy = v - 0.5f - top;
+    p.fx = u - left;
+    p.fy = v - top;
     p.x0 = x < 0 ? x + width_ : x >= width_ ? x - width_ : x;
     p.x1 = p.x0 + 1 < width_ ? p.x0 + 1 : 0;
     p.y0 = std::clamp(y, 0, height_ - 1);
@@ -125,8 +131,8 @@ EnvironmentMap::Place EnvironmentMap::place(const Vec3& d, float& sine) const {
     const float x = dot(d, x_axis_), y = dot(d, y_axis_), z = dot(d, z_axis_);
     sine = std::sqrt(x * x + z * z);
     // The angle from the pole by both its sine and cosine: no digits are lost near the poles.
-    return place(azimuth_turn(-z, x) * static_cast<float>(width_),
-                 2.0f * azimuth_turn(y, sine) * static_cast<float>(height_));
+    return place(azimuth_turn(-z, x) * static_cast<float>(width_) - 0.5f,
+                 2.0f * azimuth_turn(y, sine) * half_turn_ - margin_);
 }
 
 Rgb EnvironmentMap::radiance(const Vec3& direction) const {
@@ -137,9 +143,9 @@ Rgb EnvironmentMap::radiance(const Vec3& direction) const {
     return (upper * (1.0f - p.fy) + lower * p.fy) * scale_;
 }
 
-float EnvironmentMap::row_share(int y) const {
+float EnvironmentMap::row_density(int y) const {
     const std::uint32_t* const begin = &rows_[static_cast<std::size_t>(y)];
-    return static_cast<float>(begin[1] - begin[0]);
+    return static_cast<float>(begin[1] - begin[0]) * (on_pole(y) ? 2.0f : 1.0f);
 }
 
 float EnvironmentMap::column_share(int x, int y) const {
@@ -159,8 +165,8 @@ int EnvironmentMap::pick_column(int y, std::uint32_t bits) const {
 }
 
 float EnvironmentMap::pdf(const Place& p, float sine) const {
-    const float upper = row_share(p.y0) * mix(column_share(p.x0, p.y0), column_share(p.x1, p.y0), p.fx);
-    const float lower = row_share(p.y1) * mix(column_share(p.x0, p.y1), column_share(p.x1, p.y1), p.fx);
+    const float upper = row_density(p.y0) * mix(column_share(p.x0, p.y0), column_share(p.x1, p.y0), p.fx);
+    const float lower = row_density(p.y1) * mix(column_share(p.x0, p.y1), column_share(p.x1, p.y1), p.fx);
     // On the pole itself the density is as large as it likes.
     return mix(upper, lower, p.fy) * density_scale_ / std::max(sine, 1e-9f);
 }
@@ -173,17 +179,17 @@ float EnvironmentMap::pdf(const Vec3& direction) const {
 }
 
 EnvironmentMap::Sample EnvironmentMap::sample(const Draw& random) const {
-    const auto width = static_cast<float>(width_), height = static_cast<float>(height_);
     const auto row = static_cast<int>(pick(rows_.data(), rows_.size() - 1, random[1]));
-    const int column = pick_column(row, random[2]);
-    const float u = static_cast<float>(column) + 0.5f + sample_tent(random[3] & 0xffffu);
-    float v = std::abs(static_cast<float>(row) + 0.5f + sample_tent(random[3] >> 16));
-    v = std::min(v, 2.0f * height - v);
-    const SinCos polar = sincos_turn(v / (2.0f * height));
-    const SinCos azimuth = sincos_turn(u / width + (u < 0.0f ? 1.0f : 0.0f));
+    const float u = static_cast<float>(pick_column(row, random[2])) + sample_tent(random[3] & 0xffffu);
+    const float rows = std::abs(static_cast<float>(row) + margin_ + sample_tent(random[3] >> 16));
+    const float from_pole = std::min(rows, 2.0f * half_turn_ - rows);
+    const float turn = (u + 0.5f) / static_cast<float>(width_);
+    const SinCos polar = sincos_turn(0.5f * from_pole / half_turn_);
+    const SinCos azimuth = sincos_turn(turn < 0.0f ? turn + 1.0f : turn);
     const Vec3 direction =
         x_axis_ * (polar.sin * azimuth.sin) + y_axis_ * polar.cos - z_axis_ * (polar.sin * azimuth.cos);
-    return {direction * (1.0f / std::sqrt(dot(direction, direction))), pdf(place(u, v), std::abs(polar.sin))};
+    return {direction * (1.0f / std::sqrt(dot(direction, direction))),
+            pdf(place(u, from_pole - margin_), std::abs(polar.sin))};
 }
 
 }  // namespace treefarm

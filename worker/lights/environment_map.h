@@ -46,19 +46,22 @@ class EnvironmentMap {
         float fx, fy;
     };
 
-    /// u and v in texels; u at most a texel outside [0, width).
+    /// In texels from the centre of the first one; u at most one and a half outside [0, width).
     Place place(float u, float v) const;
     /// The same of a direction; `sine` becomes that of its angle from the pole.
     Place place(const Vec3& direction, float& sine) const;
     float pdf(const Place& place, float sine) const;
     Rgb clean_texel(int x, int y) const;
-    /// Probabilities, of 2^31.
-    float row_share(int y) const;
+    bool on_pole(int y) const { return margin_ == 0.0f && (y == 0 || y == height_ - 1); }
+    /// A row's probability, and a texel's within its row, of 2^31. A tent about a pole is folded in two.
+    float row_density(int y) const;
     float column_share(int x, int y) const;
     int pick_column(int y, std::uint32_t bits) const;
 
     const TextureImage* image_;
     int width_, height_;
+    float margin_;     ///< height of the image beyond the centres of its outer rows, in rows of texels
+    float half_turn_;  ///< rows of texels from pole to pole
     float scale_;
     Vec3 x_axis_, y_axis_, z_axis_;
     bool clean_ = false;  ///< no texel is negative, infinite or not a number

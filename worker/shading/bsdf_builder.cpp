@@ -90,7 +90,8 @@ void BsdfBuilder::note_coat(const PlasticMaterial& plastic, Notes& notes) {
     const Roughness& r = plastic.roughness;
     const bool ggx = r.distribution == Microfacets::ggx;
     if (r.smooth()) {
-        notes.smooth_coat = smooth_diffuse_transmittance(plastic.eta);
+        const float inverse = 1.0f / (plastic.eta * plastic.eta);
+        notes.smooth_escapes = smooth_diffuse_transmittance(plastic.eta) * inverse;
     } else if (r.alpha_u.varies()) {
         notes.coats = &varying_coats_.try_emplace({ggx, plastic.eta}, ggx, plastic.eta).first->second;
     } else {
@@ -118,7 +119,10 @@ const Bsdf* BsdfBuilder::side(std::int32_t index, bool back, const ShadingPoint&
                                       : side(material.back, false, point, nodes);
     // The parts of a blend may be twosided where it is not.
     if (std::holds_alternative<BlendMaterial>(material.bsdf)) return described(index, true, point, nodes);
-    return &nodes.add();
+    // What a scratch hands out still holds the BSDF of an earlier hit.
+    Bsdf& black = nodes.add();
+    black = Bsdf{};
+    return &black;
 }
 
 template <class Nodes>
@@ -172,7 +176,7 @@ Bsdf BsdfBuilder::leaf(std::int32_t index, bool back, const ShadingPoint& point,
             if (!(coat + base > 0.0f)) return {};
             CoatedBase coated{Rgb(0.0f), coat / (coat + base)};
             if (m.roughness.smooth()) {
-                coated.base = coated_base(diffuse, notes.smooth_coat, m.eta, m.nonlinear);
+                coated.base = coated_base(diffuse, notes.smooth_escapes, m.eta, m.nonlinear);
                 return {PlasticBsdf{m.eta, specular, coated}};
             }
             const Microfacet rough = facets(m.roughness, point);
@@ -182,7 +186,7 @@ Bsdf BsdfBuilder::leaf(std::int32_t index, bool back, const ShadingPoint& point,
                 mixed = notes.coats->at(rough.alpha_u);
                 transmittance = &mixed;
             }
-            coated.base = coated_base(diffuse, transmittance->diffuse(), m.eta, m.nonlinear);
+            coated.base = coated_base(diffuse, transmittance->escapes(m.single_return), m.eta, m.nonlinear);
             return {RoughPlasticBsdf{m.eta, specular, coated, rough, transmittance}};
         } else if constexpr (std::is_same_v<Kind, BlendMaterial>) {
             const float weight = clamped(textures_->eval(m.weight, point.uv));

@@ -64,7 +64,7 @@ class BsdfBuilder {
         std::size_t nodes = 0;
         const RoughTransmittance* coat = nullptr;    ///< rough plastic of one roughness
         const RoughTransmittances* coats = nullptr;  ///< rough plastic whose roughness varies
-        float smooth_coat = 1;                       ///< smooth plastic: diffuse light that its coat lets in
+        float smooth_escapes = 1;                    ///< smooth plastic: see coated_base
     };
 
     void note(std::size_t material);

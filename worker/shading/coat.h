@@ -22,10 +22,10 @@ struct CoatedBase {
     Rgb f_cos(const Vec3& wi, float in, float out) const { return base * (wi.z * kInvPi * in * out); }
 };
 
-/// The base of plastic with this albedo, where the coat transmits the share `transmitted` of diffuse light from
-/// outside. By reciprocity it transmits transmitted / eta^2 from inside: that is 1 - fdr.
-inline Rgb coated_base(const Rgb& albedo, float transmitted, float eta, bool nonlinear) {
-    const float inverse = 1.0f / (eta * eta), escapes = transmitted * inverse, fdr = 1.0f - escapes;
+/// The base of plastic with this albedo, where the coat does not send back the share `escapes` of diffuse light from
+/// inside: 1 - fdr.
+inline Rgb coated_base(const Rgb& albedo, float escapes, float eta, bool nonlinear) {
+    const float inverse = 1.0f / (eta * eta), fdr = 1.0f - escapes;
     const auto channel = [&](float a) { return a * inverse / (nonlinear ? 1.0f - a * fdr : escapes); };
     return {channel(albedo.x), channel(albedo.y), channel(albedo.z)};
 }

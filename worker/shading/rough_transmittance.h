@@ -22,8 +22,9 @@ class RoughTransmittance {
         const auto i = std::min(static_cast<std::size_t>(place), kIntervals - 1);
         return values_[i] + (values_[i + 1] - values_[i]) * (place - static_cast<float>(i));
     }
-    /// Of diffuse light: the mean weighted by the cosine.
-    float diffuse() const { return diffuse_; }
+    /// Of diffuse light from the far side, what does not come back: all that is not let through comes back, or what the
+    /// facets reflect once (PlasticMaterial::single_return).
+    float escapes(bool single_return) const { return single_return ? escapes_single_ : escapes_all_; }
 
     /// (1 - t) a + t b.
     static RoughTransmittance between(const RoughTransmittance& a, const RoughTransmittance& b, float t);
@@ -32,7 +33,7 @@ class RoughTransmittance {
     static constexpr std::size_t kIntervals = 64;
 
     std::array<float, kIntervals + 1> values_{};  ///< at cosines (i / kIntervals)^2
-    float diffuse_ = 1;
+    float escapes_all_ = 1, escapes_single_ = 1;
 };
 
 /// The same for roughness that varies over a surface.

@@ -23,22 +23,22 @@ Vec3 z_axis(const Matrix& to_world) {
     return normalize(transform_vector(to_world, Vec3(0.0f, 0.0f, 1.0f)));
 }
 
-PointEmitter read_point(Properties& properties) {
+PointEmitter read_point(Properties& properties, TextureReader& textures) {
     PointEmitter point;
     if (properties.has("position") && properties.has("to_world"))
         throw InputError(properties.where("position"), "both a position and a transformation are given", "keep one");
     point.position = properties.has("position") ? properties.point("position", point.position)
                                                 : transform_point(properties.transform("to_world"), Vec3(0.0f));
-    point.intensity = properties.color("intensity", Rgb(1.0f), ColorUse::radiance);
+    point.intensity = textures.constant(properties, "intensity", Rgb(1.0f), ColorUse::radiance);
     return point;
 }
 
-SpotEmitter read_spot(Properties& properties, Diagnostics& diagnostics) {
+SpotEmitter read_spot(Properties& properties, TextureReader& textures, Diagnostics& diagnostics) {
     SpotEmitter spot;
     const Matrix to_world = properties.transform("to_world");
     spot.position = transform_point(to_world, Vec3(0.0f));
     spot.axis = z_axis(to_world);
-    spot.intensity = properties.color("intensity", Rgb(1.0f), ColorUse::radiance);
+    spot.intensity = textures.constant(properties, "intensity", Rgb(1.0f), ColorUse::radiance);
     const double cutoff = properties.number("cutoff_angle", 20.0);
     const double beam = properties.number("beam_width", cutoff * 0.75);
     if (!(cutoff > 0.0 && cutoff <= 180.0))
@@ -55,7 +55,7 @@ SpotEmitter read_spot(Properties& properties, Diagnostics& diagnostics) {
     return spot;
 }
 
-DirectionalEmitter read_directional(Properties& properties) {
+DirectionalEmitter read_directional(Properties& properties, TextureReader& textures) {
     DirectionalEmitter directional;
     if (properties.has("direction") && properties.has("to_world"))
         throw InputError(properties.where("direction"), "both a direction and a transformation are given", "keep one");
@@ -67,14 +67,14 @@ DirectionalEmitter read_directional(Properties& properties) {
     } else {
         directional.direction = z_axis(properties.transform("to_world"));
     }
-    directional.irradiance = properties.color("irradiance", Rgb(1.0f), ColorUse::radiance);
+    directional.irradiance = textures.constant(properties, "irradiance", Rgb(1.0f), ColorUse::radiance);
     return directional;
 }
 
-ConstantEmitter read_constant(Properties& properties) {
+ConstantEmitter read_constant(Properties& properties, TextureReader& textures) {
     // A constant looks the same from all sides.
     properties.ignore({"to_world"});
-    return {properties.color("radiance", Rgb(1.0f), ColorUse::radiance)};
+    return {textures.constant(properties, "radiance", Rgb(1.0f), ColorUse::radiance)};
 }
 
 EnvironmentEmitter read_envmap(Properties& properties, TextureReader& textures) {
@@ -84,6 +84,7 @@ EnvironmentEmitter read_envmap(Properties& properties, TextureReader& textures) 
         throw InputError(properties.where("scale"), "a scale of " + number_text(scale), "give 0 or more");
     environment.scale = static_cast<float>(scale);
     environment.image = textures.environment_image(properties);
+    environment.rows_at_poles = properties.element().version >= 2;
     properties.ignore({"cache"});
     return environment;
 }
@@ -137,13 +138,13 @@ void read_emitter(const XmlElement& emitter, Scene& scene, TextureReader& textur
     const bool had_environment = scene.environment() != kNone;
     const auto add = [&](auto kind) { scene.emitters.push_back({std::move(kind), emitter.where}); };
     if (type == "point") {
-        add(read_point(properties));
+        add(read_point(properties, textures));
     } else if (type == "spot") {
-        add(read_spot(properties, diagnostics));
+        add(read_spot(properties, textures, diagnostics));
     } else if (type == "directional") {
-        add(read_directional(properties));
+        add(read_directional(properties, textures));
     } else if (type == "constant") {
-        add(read_constant(properties));
+        add(read_constant(properties, textures));
     } else if (type == "envmap") {
         add(read_envmap(properties, textures));
     } else if (type == "sky" || type == "sun" || type == "sunsky") {

@@ -64,6 +64,8 @@ class Expander {
                              "include fewer files");
         element.version = version;
         element.is_0_5 = is_0_5_;
+        // From version 2 on a spectrum that names a plugin is an object, of the same kind as a texture.
+        if (version >= 2 && element.tag == "spectrum" && element.find("type") != nullptr) element.tag = "texture";
         for (XmlAttribute& attribute : element.attributes)
             attribute.value = parameters_.substitute(attribute.value, element.where);
 

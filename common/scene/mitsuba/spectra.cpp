@@ -91,13 +91,6 @@ Rgb64 parse_triple(const XmlElement& element) {
     return {values[0], values[1], values[2]};
 }
 
-/// Colour of a list of wavelengths, as the version of Mitsuba that the file is written for computes it.
-Rgb64 color_of_list(const SpectrumSamples& samples, const XmlElement& element, ColorUse use) {
-    if (element.is_0_5) return spectrum_to_rgb(reverse_segments(extend_to_zero(samples)), false);
-    if (element.version == 0) return spectrum_to_rgb(extend_to_zero(samples), false);
-    return spectrum_to_rgb(samples, element.version >= 3 && use != ColorUse::radiance);
-}
-
 Rgb64 read_spectrum(const XmlElement& element, ColorUse use) {
     const std::string& text = element.require("value");
     const std::vector<std::string_view> tokens = split_list(text);
@@ -162,6 +155,42 @@ Imath::Color3<double> spectrum_to_rgb(const SpectrumSamples& samples, bool under
     return xyz_to_rgb(xyz.x, xyz.y, xyz.z);
 }
 
+Rgb64 color_of_list(const SpectrumSamples& samples, const XmlElement& element, ColorUse use) {
+    if (element.is_0_5) return spectrum_to_rgb(reverse_segments(extend_to_zero(samples)), false);
+    if (element.version == 0) return spectrum_to_rgb(extend_to_zero(samples), false);
+    return spectrum_to_rgb(samples, element.version >= 3 && use != ColorUse::radiance);
+}
+
+Rgb checked_color(Rgb64 color, bool of_list, ColorUse use, const Location& where, Diagnostics& diagnostics) {
+    if (of_list) {
+        for (int i = 0; i < 3; ++i)
+            color[i] = std::max(color[i], 0.0);
+        const double largest = std::max({color.x, color.y, color.z});
+        if (use == ColorUse::reflectance && largest > 1.0) {
+            diagnostics.warn(where, "the spectrum's colour exceeds 1 in a channel and was scaled down to it");
+            color /= largest;
+        }
+    }
+    if (use == ColorUse::metal && std::min({color.x, color.y, color.z}) < 0.0) {
+        // A fit can have it so; Fresnel's equations depend on the squares of eta and k alone.
+        diagnostics.warn(where, "a metal's coefficient is negative: its sign has no influence");
+        for (int i = 0; i < 3; ++i)
+            color[i] = std::abs(color[i]);
+    }
+    const double limit = use == ColorUse::reflectance ? 1.0 : std::numeric_limits<float>::max();
+    for (int i = 0; i < 3; ++i) {
+        if (!(color[i] >= (use == ColorUse::factor ? -limit : 0.0)) || color[i] > limit)
+            throw InputError(
+                where,
+                std::string(use == ColorUse::reflectance ? "a reflectance"
+                            : use == ColorUse::radiance  ? "a radiance"
+                                                         : "a coefficient") +
+                    " of " + number_text(color[i]),
+                use == ColorUse::reflectance ? "give values from 0 to 1" : "give finite values of 0 or more");
+    }
+    return Rgb(static_cast<float>(color.x), static_cast<float>(color.y), static_cast<float>(color.z));
+}
+
 Rgb read_color(const XmlElement& element, ColorUse use, Diagnostics& diagnostics) {
     Rgb64 color;
     bool of_list = false;
@@ -185,33 +214,7 @@ Rgb read_color(const XmlElement& element, ColorUse use, Diagnostics& diagnostics
             for (int i = 0; i < 3; ++i)
                 color[i] = srgb_to_linear(color[i]);
     }
-    if (of_list) {
-        for (int i = 0; i < 3; ++i)
-            color[i] = std::max(color[i], 0.0);
-        const double largest = std::max({color.x, color.y, color.z});
-        if (use == ColorUse::reflectance && largest > 1.0) {
-            diagnostics.warn(element.where, "the spectrum's colour exceeds 1 in a channel and was scaled down to it");
-            color /= largest;
-        }
-    }
-    if (use == ColorUse::metal && std::min({color.x, color.y, color.z}) < 0.0) {
-        // A fit can have it so; Fresnel's equations depend on the squares of eta and k alone.
-        diagnostics.warn(element.where, "a metal's coefficient is negative: its sign has no influence");
-        for (int i = 0; i < 3; ++i)
-            color[i] = std::abs(color[i]);
-    }
-    const double limit = use == ColorUse::reflectance ? 1.0 : std::numeric_limits<float>::max();
-    for (int i = 0; i < 3; ++i) {
-        if (!(color[i] >= (use == ColorUse::factor ? -limit : 0.0)) || color[i] > limit)
-            throw InputError(
-                element.where,
-                std::string(use == ColorUse::reflectance ? "a reflectance"
-                            : use == ColorUse::radiance  ? "a radiance"
-                                                         : "a coefficient") +
-                    " of " + number_text(color[i]),
-                use == ColorUse::reflectance ? "give values from 0 to 1" : "give finite values of 0 or more");
-    }
-    return Rgb(static_cast<float>(color.x), static_cast<float>(color.y), static_cast<float>(color.z));
+    return checked_color(color, of_list, use, element.where, diagnostics);
 }
 
 }  // namespace treefarm::mitsuba

@@ -33,8 +33,16 @@ Imath::Color3<double> xyz_to_rgb(double x, double y, double z);
 /// Linear value of an sRGB channel.
 double srgb_to_linear(double encoded);
 
-/// The colour of an <rgb>, <srgb>, <spectrum> (value or file) or <blackbody> element, not negative. Wavelength lists
-/// become Rgb as the version of Mitsuba that the file is written for does it when it renders in RGB.
+/// Colour of a list of wavelengths, as the version of Mitsuba that the element is written for computes it when it
+/// renders in RGB. Channels can be negative.
+Imath::Color3<double> color_of_list(const SpectrumSamples& samples, const XmlElement& element, ColorUse use);
+
+/// The colour if its use allows it, otherwise InputError. That of a list is bounded first: the eye's response to a few
+/// wavelengths lies outside Rec. 709.
+Rgb checked_color(Imath::Color3<double> color, bool of_list, ColorUse use, const Location& where,
+                  Diagnostics& diagnostics);
+
+/// The colour of an <rgb>, <srgb>, <spectrum> (value or file) or <blackbody> element, not negative.
 Rgb read_color(const XmlElement& element, ColorUse use, Diagnostics& diagnostics);
 
 }  // namespace treefarm::mitsuba

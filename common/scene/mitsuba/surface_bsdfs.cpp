@@ -44,8 +44,8 @@ class SurfaceReader {
             conductor.eta = metal->eta;
             conductor.k = metal->k;
         }
-        conductor.eta = coefficient("eta", conductor.eta);
-        conductor.k = coefficient("k", conductor.k);
+        conductor.eta = textures_.constant(properties_, "eta", conductor.eta, ColorUse::metal);
+        conductor.k = textures_.constant(properties_, "k", conductor.k, ColorUse::metal);
         if (is_old) {
             const auto outside = static_cast<float>(read_refractive_index(properties_, "ext_eta", "air"));
             conductor.eta /= outside;
@@ -82,21 +82,13 @@ class SurfaceReader {
         plastic.specular_reflectance = reflectance("specular_reflectance", 1.0f);
         plastic.nonlinear = properties_.boolean("nonlinear", false);
         if (rough) plastic.roughness = roughness(false);
+        plastic.single_return = rough && properties_.element().version >= 2;
         return plastic;
     }
 
   private:
     ColorInput reflectance(const char* name, float otherwise) {
         return textures_.color(properties_, name, Rgb(otherwise), ColorUse::reflectance);
-    }
-
-    Rgb coefficient(const char* name, const Rgb& otherwise) {
-        const ColorInput input = textures_.color(properties_, name, otherwise, ColorUse::metal);
-        if (input.varies())
-            diagnostics_.unsupported(properties_.where(name),
-                                     std::string("a textured ") + name + " is not available in this version",
-                                     "give a colour", "its factor alone is used");
-        return input.value;
     }
 
     FloatInput alpha(const std::string& name, float otherwise) {

@@ -3,11 +3,13 @@
 #include <cmath>
 
 #include "common/config/parse_text.h"
+#include "common/scene/mitsuba/spectrum_plugins.h"
 
 namespace treefarm::mitsuba {
 namespace {
 
-constexpr std::string_view kTextures[] = {"bitmap", "checkerboard", "scale"};
+constexpr std::string_view kTextures[] = {"bitmap", "checkerboard", "scale",     "uniform", "rawconstant",
+                                          "srgb",   "d65",          "irregular", "regular", "blackbody"};
 
 Wrap read_wrap(const std::string& word, const Location& where) {
     if (word == "repeat") return Wrap::repeat;
@@ -62,6 +64,16 @@ ColorInput TextureReader::color(Properties& properties, const std::string& name,
     return properties.color(name, otherwise, use);
 }
 
+Rgb TextureReader::constant(Properties& properties, const std::string& name, const Rgb& otherwise, ColorUse use) {
+    const ColorInput input = color(properties, name, otherwise, use);
+    if (input.varies())
+        diagnostics_.unsupported(
+            properties.where(name),
+            "a textured " + in_quotes(name) + " of " + properties.title() + " is not available in this version",
+            "give a colour", "its factor alone is used");
+    return input.value;
+}
+
 FloatInput TextureReader::number(Properties& properties, const std::string& name, float otherwise) {
     ColorInput input;
     if (const XmlElement* texture = properties.named_child("texture", name)) {
@@ -108,6 +120,8 @@ ColorInput TextureReader::convert(const XmlElement& texture, const Use& use) {
         input = convert_checkerboard(properties, use);
     } else if (type == "scale") {
         input = convert_scale(properties, use);
+    } else if (const auto constant = read_constant(properties, use)) {
+        input = *constant;
     } else {
         diagnostics_.unsupported(texture.where, "the texture " + in_quotes(type) + " is not available in this version",
                                  did_you_mean(type, kTextures, "use bitmap, checkerboard or scale"), "0.5 is used");
@@ -115,6 +129,19 @@ ColorInput TextureReader::convert(const XmlElement& texture, const Use& use) {
     }
     properties.finish();
     return input;
+}
+
+std::optional<ColorInput> TextureReader::read_constant(Properties& properties, const Use& use) {
+    if (properties.element().version < 2) return std::nullopt;
+    // A texture under D65: in Rec. 709 that is the texture itself.
+    const XmlElement* lit = properties.type() == "d65" ? properties.only_child("texture") : nullptr;
+    if (lit == nullptr) {
+        if (const auto color = read_spectrum_plugin(properties, use.color, diagnostics_)) return ColorInput(*color);
+        return std::nullopt;
+    }
+    ColorInput nested = read(*lit, use);
+    nested.value *= static_cast<float>(properties.number("scale", 1.0));
+    return nested;
 }
 
 std::int32_t TextureReader::add(decltype(Texture::kind) kind, const Properties& properties) {
@@ -162,10 +189,7 @@ ColorInput TextureReader::convert_bitmap(Properties& properties, const Use& use)
 ColorInput TextureReader::convert_checkerboard(Properties& properties, const Use& use) {
     CheckerboardTexture board;
     for (const auto& [name, color] : {std::pair("color0", &board.color0), std::pair("color1", &board.color1)}) {
-        if (const XmlElement* nested = properties.named_child("texture", name))
-            diagnostics_.unsupported(nested->where, "a texture inside a checkerboard is not available in this version",
-                                     "give two colours", "its default colour is used");
-        *color = properties.color(name, *color, use.color);
+        *color = constant(properties, name, *color, use.color);
     }
     board.uv = read_uv_transform(properties);
     // Where Mitsuba 3 asks a board for one number (eval_1 in its checkerboard.cpp), the squares are exchanged.

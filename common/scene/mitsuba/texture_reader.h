@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 
 #include "common/scene/mitsuba/image_requests.h"
 #include "common/scene/mitsuba/properties.h"
@@ -15,6 +16,9 @@ class TextureReader {
 
     /// The property `name`: a colour, or a texture of that name.
     ColorInput color(Properties& properties, const std::string& name, const Rgb& otherwise, ColorUse use);
+
+    /// The same where a texture cannot be looked up: it throws InputError or, when lenient, its factor counts.
+    Rgb constant(Properties& properties, const std::string& name, const Rgb& otherwise, ColorUse use);
 
     /// The property `name`: a number, a colour (its mean), or a texture of that name.
     FloatInput number(Properties& properties, const std::string& name, float otherwise);
@@ -40,6 +44,8 @@ class TextureReader {
     };
     ColorInput read(const XmlElement& texture, const Use& use);
     ColorInput convert(const XmlElement& texture, const Use& use);
+    /// An object that stands for a spectrum; nothing for other types.
+    std::optional<ColorInput> read_constant(Properties& properties, const Use& use);
     ColorInput convert_bitmap(Properties& properties, const Use& use);
     ColorInput convert_checkerboard(Properties& properties, const Use& use);
     ColorInput convert_scale(Properties& properties, const Use& use);

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <vector>
+
+#include "common/metrics/flip/plane.h"
+
+namespace treefarm {
+
+/// Weights at the offsets -r, ..., r: an odd number of them.
+using Kernel = std::vector<float>;
+
+/// Sum over (i, j) of across[i] down[j] plane(x + i, y + j). Beyond the border the nearest pixel counts, so a plane may
+/// be smaller than the kernels; it must not be empty.
+Plane filter_separable(const Plane& plane, const Kernel& across, const Kernel& down);
+
+}  // namespace treefarm

@@ -1,0 +1,11 @@
+#pragma once
+
+#include "common/image/image.h"
+
+namespace treefarm {
+
+/// FLIP of one pixel as Andersson et al. 2020 define it: two-dimensional filters, in double, nothing shared with
+/// common/metrics.
+double direct_flip(const RgbImage& image, const RgbImage& reference, int x, int y, double ppd);
+
+}  // namespace treefarm

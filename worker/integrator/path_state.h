@@ -1,0 +1,41 @@
+#pragma once
+
+#include <optional>
+
+#include "worker/geometry/embree_scene.h"
+#include "worker/integrator/guided_sampling.h"
+
+namespace treefarm {
+
+/// A path on its way, from the camera to where its ray has just arrived.
+template <class Surface>
+struct PathState {
+    PathKey key;
+    Ray ray;
+    Rgb radiance, throughput;
+    float scatter_pdf;  ///< infinite after a delta lobe: next event cannot have found what it meets
+    float spread;       ///< product of eta^2: what refraction took from the throughput and gives back later
+    Vec3 scatter_point;
+
+    // Where the ray has arrived; left over from before where it met nothing.
+    bool found;
+    EmbreeScene::Meeting meeting;
+    Hit hit;
+    std::uint32_t region;  ///< of the tree, where it is used
+    float bsdf_fraction;   ///< probability of sampling the BSDF there
+    std::optional<Surface> surface;
+    ScatterSample scatter;
+    Draw jitter;  ///< of what is recorded
+
+    void begin(const PathKey& path, const Ray& from_camera) {
+        key = path;
+        ray = from_camera;
+        radiance = scatter_point = Rgb(0.0f);
+        throughput = Rgb(1.0f);
+        scatter_pdf = 0.0f;
+        spread = 1.0f;
+        region = 0;
+    }
+};
+
+}  // namespace treefarm
