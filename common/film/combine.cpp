@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace treefarm {
 namespace {
 
 /// Clamps a pixel's variance so that one outlier does not decide about a whole pass (as the authors' program does).
 constexpr double kVarianceClamp = 1e4;
-/// A pass with fewer samples knows too little of its own variance to be weighed by it.
-constexpr std::uint32_t kMinSamplesForVariance = 4;
 
 /// Variance of the pass's image: mean over pixels, clamped, from one half of the samples.
 double image_variance(const PassResult& pass, int half) {
@@ -34,11 +33,8 @@ void normalise(std::vector<double>& weights) {
 
 std::vector<double> fixed_weights(std::span<const PassResult> passes, bool guided) {
     std::vector<double> weights;
-    for (const PassResult& pass : passes) {
-        // What a pass is worth grows with what its tree was learned from; the first pass, untrained, counts a little.
-        const double trained = guided ? std::sqrt(static_cast<double>(std::max(pass.spp_before, 1u))) : 1.0;
-        weights.push_back(pass.spp * trained);
-    }
+    for (const PassResult& pass : passes)
+        weights.push_back(fixed_weight(pass.spp, pass.spp_before, guided));
     normalise(weights);
     return weights;
 }
@@ -58,6 +54,35 @@ std::vector<double> inverse_variance_weights(std::span<const PassResult> passes,
     return weights;
 }
 
+/// The pass nearest to pass `k` that has this many samples, a later one if there is any; or none.
+std::optional<std::size_t> nearest_pass(std::span<const PassResult> passes, std::size_t k, std::uint32_t spp) {
+    const auto enough = [&](std::size_t j) { return passes[j].spp >= spp; };
+    for (std::size_t j = k; j < passes.size(); ++j)
+        if (enough(j)) return j;
+    for (std::size_t j = k; j-- > 0;)
+        if (enough(j)) return j;
+    return std::nullopt;
+}
+
+/// The pass that tells the variance of each pass's samples: itself, or if it is too short the nearest longer one.
+/// Where there is none, itself: the variance is unknown then.
+std::vector<std::size_t> variance_sources(std::span<const PassResult> passes) {
+    std::vector<std::size_t> sources(passes.size());
+    for (std::size_t k = 0; k < passes.size(); ++k) {
+        const auto good = nearest_pass(passes, k, kMinSamplesForVariance);
+        sources[k] = good ? *good : nearest_pass(passes, k, 2).value_or(k);
+    }
+    return sources;
+}
+
+/// Unbiased variance of one sample that knows nothing of the difference between the halves, which is looked at beside
+/// it (error_estimate.cpp); of fewer than four samples, all that there is.
+Rgb64 variance_within_halves(const PixelEstimate& pixel) {
+    const std::uint32_t n = pixel.half[0].n + pixel.half[1].n;
+    if (n < kMinSamplesForVariance) return pixel.whole().sample_variance();
+    return (pixel.half[0].m2 + pixel.half[1].m2) / static_cast<double>(n - 2);
+}
+
 struct HalfImage {
     std::vector<Rgb64> mean, variance;
 };
@@ -65,6 +90,7 @@ struct HalfImage {
 /// The weighted mean of one half of the passes' samples. Passes of which the half holds nothing give up their weight.
 HalfImage combine_half(std::span<const PassResult> passes, const std::vector<double>& weights, int half) {
     const std::size_t count = passes.front().pixels.size();
+    const std::vector<std::size_t> sources = variance_sources(passes);
     HalfImage image{std::vector<Rgb64>(count, Rgb64(0.0)), std::vector<Rgb64>(count, Rgb64(0.0))};
     for (std::size_t p = 0; p < count; ++p) {
         double sum = 0;
@@ -73,7 +99,9 @@ HalfImage combine_half(std::span<const PassResult> passes, const std::vector<dou
             if (m.n == 0) continue;
             sum += weights[k];
             image.mean[p] += m.mean * weights[k];
-            image.variance[p] += m.sample_variance() * (weights[k] * weights[k] / m.n);
+            // A half of one sample has no variance of its own; the weights are set ones where such a pass counts.
+            const Moments source = m.n >= 2 ? m : passes[sources[k]].pixels[p].whole();
+            image.variance[p] += source.sample_variance() * (weights[k] * weights[k] / m.n);
         }
         if (!(sum > 0)) continue;
         image.mean[p] /= sum;
@@ -88,12 +116,13 @@ CombinedImage combine_whole(std::span<const PassResult> passes, const std::vecto
     const std::size_t count = passes.front().pixels.size();
     image.mean.assign(count, Rgb64(0.0));
     image.variance.assign(count, Rgb64(0.0));
+    const std::vector<std::size_t> sources = variance_sources(passes);
     for (std::size_t p = 0; p < count; ++p)
         for (std::size_t k = 0; k < passes.size(); ++k) {
             const Moments m = passes[k].pixels[p].whole();
             if (m.n == 0) continue;
             image.mean[p] += m.mean * weights[k];
-            image.variance[p] += m.sample_variance() * (weights[k] * weights[k] / m.n);
+            image.variance[p] += variance_within_halves(passes[sources[k]].pixels[p]) * (weights[k] * weights[k] / m.n);
         }
     image.half[0] = image.half[1] = image.mean;
     image.weight = weights;
@@ -102,18 +131,26 @@ CombinedImage combine_whole(std::span<const PassResult> passes, const std::vecto
 
 }  // namespace
 
+double fixed_weight(std::uint32_t spp, std::uint32_t spp_before, bool guided) {
+    // What a pass is worth grows with what its tree was learned from; the first pass, untrained, counts a little.
+    return spp * (guided ? std::sqrt(static_cast<double>(std::max(spp_before, 1u))) : 1.0);
+}
+
 CombinedImage combine_passes(std::span<const PassResult> passes, Combination method, bool guided) {
     if (passes.empty()) return {};
     if (!guided) method = Combination::fixed;  // all samples are alike: none is thrown away
     if (method == Combination::last) passes = passes.last(1);
-    const bool halves = std::any_of(passes.begin(), passes.end(), [](const PassResult& p) { return p.spp >= 2; });
-    if (!halves) return combine_whole(passes, fixed_weights(passes, guided));
+    std::uint32_t longest = 0;
+    for (const PassResult& pass : passes)
+        longest = std::max(longest, pass.spp);
+    if (longest < 2) return combine_whole(passes, fixed_weights(passes, guided));
 
     // Set weights apply to all samples of a pass alike. Variances cross over: what half A reports weighs half B, so
     // that a weight never depends on the samples that it multiplies.
     const std::vector<double> fixed = fixed_weights(passes, guided);
     if (method != Combination::inverse_variance) {
         CombinedImage image = combine_whole(passes, fixed);
+        image.longest_pass = longest;
         image.half[0] = combine_half(passes, fixed, 0).mean;
         image.half[1] = combine_half(passes, fixed, 1).mean;
         return image;
@@ -123,6 +160,7 @@ CombinedImage combine_passes(std::span<const PassResult> passes, Combination met
     HalfImage a = combine_half(passes, weights_a, 0);
     HalfImage b = combine_half(passes, weights_b, 1);
     CombinedImage image;
+    image.longest_pass = longest;
     const std::size_t count = a.mean.size();
     image.mean.resize(count);
     image.variance.resize(count);
@@ -144,9 +182,11 @@ PassVariance pass_variance(std::span<const PixelEstimate> pixels) {
     variances.reserve(pixels.size());
     for (const PixelEstimate& pixel : pixels) {
         const Moments m = pixel.whole();
-        const double variance = luminance(m.sample_variance());
+        const Rgb64 per_channel = m.sample_variance();
+        const double variance = luminance(per_channel);
         variances.push_back(variance);
         result.stuv += variance;
+        result.mse_of_sample += (per_channel.x + per_channel.y + per_channel.z) / 3.0;
         if (m.n >= 2) {
             const double n = m.n;
             const Rgb64 second_moment = m.m2 / n + m.mean * m.mean;
@@ -156,6 +196,7 @@ PassVariance pass_variance(std::span<const PixelEstimate> pixels) {
     }
     const auto count = static_cast<double>(pixels.size());
     result.stuv /= count;
+    result.mse_of_sample /= count;
     result.stuv_ppg /= count;
     const std::size_t kept = variances.size() - variances.size() / 1000;
     if (kept < variances.size())
@@ -165,16 +206,6 @@ PassVariance pass_variance(std::span<const PixelEstimate> pixels) {
         result.stuv_trimmed += v;
     result.stuv_trimmed /= static_cast<double>(variances.size());
     return result;
-}
-
-double estimated_rmse(const CombinedImage& image) {
-    double sum = 0;
-    for (const Rgb64& v : image.variance) {
-        // The error of the luminance, as if the channels erred together: they come from the same paths.
-        const double deviation = luminance(Rgb64(std::sqrt(v.x), std::sqrt(v.y), std::sqrt(v.z)));
-        sum += deviation * deviation;
-    }
-    return image.variance.empty() ? 0.0 : std::sqrt(sum / static_cast<double>(image.variance.size()));
 }
 
 }  // namespace treefarm
