@@ -110,6 +110,7 @@ class PassLoop {
         if (report.plan.index == 0) state_.passes.back().overhead_seconds -= loading_seconds_;
         state_.seconds = report.run_seconds = clock_.seconds() - loading_seconds_;
         report.halving = forecast_error(state_, job_, 0.5 * report.error.relative());
+        if (job_.budget.error > 0) report.target = forecast_error(state_, job_, job_.budget.error);
         return choose_(state_);
     }
 

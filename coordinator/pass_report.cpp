@@ -42,6 +42,10 @@ std::string only_if(bool known, double value) {
     return known ? fmt::format("{}", value) : std::string();
 }
 
+bool has_target(const PassReport& report) {
+    return report.error.known && report.target.relative_error > 0;
+}
+
 std::vector<Column> columns() {
     using R = const PassReport&;
     return {
@@ -77,6 +81,8 @@ std::vector<Column> columns() {
         column("efficiency", [](R r) { return only_if(r.error.known, r.efficiency()); }),
         column("halving_spp", [](R r) { return only_if(r.error.known, r.halving.spp); }),
         column("halving_seconds", [](R r) { return only_if(r.error.known, r.halving.seconds); }),
+        column("target_spp", [](R r) { return only_if(has_target(r), r.target.spp); }),
+        column("target_seconds", [](R r) { return only_if(has_target(r), r.target.seconds); }),
         column("paths", [](R r) { return r.stats.paths; }),
         column("nonzero_share", [](R r) { return r.nonzero_share(); }),
         column("rays", [](R r) { return r.stats.rays; }),
@@ -192,7 +198,17 @@ std::string pass_summary(const PassReport& r, std::size_t pass_count) {
     text += fmt::format(", {:.1f} % of paths see light", 100 * r.nonzero_share());
     if (r.tree.regions > 1)
         text += fmt::format("; tree {} nodes, {:.1f} MB", r.tree.nodes, 1e-6 * static_cast<double>(r.tree.memory));
+    if (has_target(r) && r.target.seconds > 0)
+        text += fmt::format("; {:.3g} % in about {}", 100 * r.target.relative_error, duration_text(r.target.seconds));
     return text;
+}
+
+std::string duration_text(double seconds) {
+    if (!(seconds < 1e9)) return "a very long time";
+    const auto whole = static_cast<long>(seconds + 0.5);
+    if (whole < 60) return fmt::format("{} s", whole);
+    if (whole < 3600) return fmt::format("{}:{:02} min", whole / 60, whole % 60);
+    return fmt::format("{}:{:02} h", whole / 3600, whole % 3600 / 60);
 }
 
 std::string error_text(const ErrorEstimate& error) {

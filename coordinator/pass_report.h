@@ -59,6 +59,7 @@ struct PassReport {
     ErrorEstimate error;     ///< of the image with this pass
     double run_seconds = 0;  ///< since the first worker asked for work, with this pass
     ErrorForecast halving;   ///< until the error is half of this
+    ErrorForecast target;    ///< until it is budget.error; its relative_error is 0 where there is none
     TreeFigures tree;        ///< that guided the pass
     std::uint64_t update_bytes = 0, touched_cells = 0;
     UpdateCaps caps;
@@ -85,6 +86,9 @@ std::string pass_csv_line(const PassReport& report);
 
 /// One line for a person. `pass_count`: 0 where it is not known.
 std::string pass_summary(const PassReport& report, std::size_t pass_count);
+
+/// "12 s", "3:05 min", "2:30 h".
+std::string duration_text(double seconds);
 
 /// "error 4.2 % [4.0, 4.4]", or that it is not known.
 std::string error_text(const ErrorEstimate& error);

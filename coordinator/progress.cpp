@@ -13,14 +13,6 @@ constexpr int kBarWidth = 30;
 
 }  // namespace
 
-std::string duration_text(double seconds) {
-    if (!(seconds < 1e9)) return "very long";
-    const auto whole = static_cast<long>(seconds + 0.5);
-    if (whole < 60) return fmt::format("{} s", whole);
-    if (whole < 3600) return fmt::format("{}:{:02} min", whole / 60, whole % 60);
-    return fmt::format("{}:{:02} h", whole / 3600, whole % 3600 / 60);
-}
-
 std::string ProgressBar::text(const RenderProgress& p, double elapsed_seconds) {
     const auto filled = static_cast<std::size_t>(p.fraction * kBarWidth);
     std::string line = "[" + std::string(filled, '=') + std::string(kBarWidth - filled, ' ') + "]";

@@ -6,9 +6,6 @@
 
 namespace treefarm {
 
-/// "12 s", "3:05 min", "2:30 h".
-std::string duration_text(double seconds);
-
 /// A line at the bottom of the terminal: how far, how good, how long still. Redrawn a few times a second.
 class ProgressBar {
   public:

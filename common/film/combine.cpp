@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 namespace treefarm {
 namespace {
@@ -54,33 +53,22 @@ std::vector<double> inverse_variance_weights(std::span<const PassResult> passes,
     return weights;
 }
 
-/// The pass nearest to pass `k` that has this many samples, a later one if there is any; or none.
-std::optional<std::size_t> nearest_pass(std::span<const PassResult> passes, std::size_t k, std::uint32_t spp) {
-    const auto enough = [&](std::size_t j) { return passes[j].spp >= spp; };
-    for (std::size_t j = k; j < passes.size(); ++j)
-        if (enough(j)) return j;
-    for (std::size_t j = k; j-- > 0;)
-        if (enough(j)) return j;
-    return std::nullopt;
-}
-
-/// The pass that tells the variance of each pass's samples: itself, or if it is too short the nearest longer one.
-/// Where there is none, itself: the variance is unknown then.
-std::vector<std::size_t> variance_sources(std::span<const PassResult> passes) {
-    std::vector<std::size_t> sources(passes.size());
-    for (std::size_t k = 0; k < passes.size(); ++k) {
-        const auto good = nearest_pass(passes, k, kMinSamplesForVariance);
-        sources[k] = good ? *good : nearest_pass(passes, k, 2).value_or(k);
-    }
-    return sources;
-}
-
-/// Unbiased variance of one sample that knows nothing of the difference between the halves, which is looked at beside
-/// it (error_estimate.cpp); of fewer than four samples, all that there is.
-Rgb64 variance_within_halves(const PixelEstimate& pixel) {
+/// Estimated variance of one sample of a pass in a pixel; `longest` is the pixel in the longest pass. From four samples
+/// on it knows nothing of the difference between the halves, which is looked at beside it (error_estimate.cpp). A
+/// single sample has but its distance from what the longest pass says.
+Rgb64 sample_variance(const PixelEstimate& pixel, const PixelEstimate& longest) {
     const std::uint32_t n = pixel.half[0].n + pixel.half[1].n;
-    if (n < kMinSamplesForVariance) return pixel.whole().sample_variance();
-    return (pixel.half[0].m2 + pixel.half[1].m2) / static_cast<double>(n - 2);
+    if (n >= kMinSamplesForVariance) return (pixel.half[0].m2 + pixel.half[1].m2) / static_cast<double>(n - 2);
+    if (n >= 2) return pixel.whole().sample_variance();
+    const Moments reference = longest.whole();
+    if (reference.n < 2) return Rgb64(0.0);
+    const Rgb64 distance = pixel.whole().mean - reference.mean;
+    return distance * distance * (static_cast<double>(reference.n) / (reference.n + 1));
+}
+
+const PassResult& longest_pass(std::span<const PassResult> passes) {
+    return *std::max_element(passes.begin(), passes.end(),
+                             [](const PassResult& a, const PassResult& b) { return a.spp < b.spp; });
 }
 
 struct HalfImage {
@@ -90,7 +78,7 @@ struct HalfImage {
 /// The weighted mean of one half of the passes' samples. Passes of which the half holds nothing give up their weight.
 HalfImage combine_half(std::span<const PassResult> passes, const std::vector<double>& weights, int half) {
     const std::size_t count = passes.front().pixels.size();
-    const std::vector<std::size_t> sources = variance_sources(passes);
+    const PassResult& longest = longest_pass(passes);
     HalfImage image{std::vector<Rgb64>(count, Rgb64(0.0)), std::vector<Rgb64>(count, Rgb64(0.0))};
     for (std::size_t p = 0; p < count; ++p) {
         double sum = 0;
@@ -99,9 +87,9 @@ HalfImage combine_half(std::span<const PassResult> passes, const std::vector<dou
             if (m.n == 0) continue;
             sum += weights[k];
             image.mean[p] += m.mean * weights[k];
-            // A half of one sample has no variance of its own; the weights are set ones where such a pass counts.
-            const Moments source = m.n >= 2 ? m : passes[sources[k]].pixels[p].whole();
-            image.variance[p] += source.sample_variance() * (weights[k] * weights[k] / m.n);
+            const Rgb64 variance =
+                m.n >= 2 ? m.sample_variance() : sample_variance(passes[k].pixels[p], longest.pixels[p]);
+            image.variance[p] += variance * (weights[k] * weights[k] / m.n);
         }
         if (!(sum > 0)) continue;
         image.mean[p] /= sum;
@@ -116,13 +104,14 @@ CombinedImage combine_whole(std::span<const PassResult> passes, const std::vecto
     const std::size_t count = passes.front().pixels.size();
     image.mean.assign(count, Rgb64(0.0));
     image.variance.assign(count, Rgb64(0.0));
-    const std::vector<std::size_t> sources = variance_sources(passes);
+    const PassResult& longest = longest_pass(passes);
     for (std::size_t p = 0; p < count; ++p)
         for (std::size_t k = 0; k < passes.size(); ++k) {
             const Moments m = passes[k].pixels[p].whole();
             if (m.n == 0) continue;
             image.mean[p] += m.mean * weights[k];
-            image.variance[p] += variance_within_halves(passes[sources[k]].pixels[p]) * (weights[k] * weights[k] / m.n);
+            image.variance[p] +=
+                sample_variance(passes[k].pixels[p], longest.pixels[p]) * (weights[k] * weights[k] / m.n);
         }
     image.half[0] = image.half[1] = image.mean;
     image.weight = weights;
@@ -140,9 +129,7 @@ CombinedImage combine_passes(std::span<const PassResult> passes, Combination met
     if (passes.empty()) return {};
     if (!guided) method = Combination::fixed;  // all samples are alike: none is thrown away
     if (method == Combination::last) passes = passes.last(1);
-    std::uint32_t longest = 0;
-    for (const PassResult& pass : passes)
-        longest = std::max(longest, pass.spp);
+    const std::uint32_t longest = longest_pass(passes).spp;
     if (longest < 2) return combine_whole(passes, fixed_weights(passes, guided));
 
     // Set weights apply to all samples of a pass alike. Variances cross over: what half A reports weighs half B, so

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 
 #include "common/film/error_estimate.h"
 #include "common/scene/load.h"
@@ -19,6 +20,7 @@ Job small_job(std::uint64_t seed) {
     Job job;
     job.sampler.seed = seed;
     job.integrator.max_depth = 6;
+    job.integrator.hide_emitters = true;   // else a few pixels along the lamp's edge are the whole error
     job.guiding.spatial_threshold = 1000;  // a fine tree for a small image
     return job;
 }
@@ -30,7 +32,7 @@ Scene small_scene(int size) {
 }
 
 /// What is kept of a run.
-struct Run {
+struct SmallRender {
     CombinedImage image;
     std::vector<RenderState> states;
     double true_mse = 0;
@@ -41,13 +43,13 @@ double channel_mean(const Rgb64& v) {
 }
 
 /// Squared distance of each run from the mean of all others, less what that mean errs by itself.
-void measure_truth(std::vector<Run>& runs) {
+void measure_truth(std::vector<SmallRender>& runs) {
     const std::size_t pixels = runs.front().image.mean.size();
     const auto others = static_cast<double>(runs.size() - 1);
     std::vector<double> mse(runs.size(), 0.0);
     for (std::size_t p = 0; p < pixels; ++p) {
         Rgb64 sum(0.0), variance(0.0);
-        for (const Run& run : runs) {
+        for (const SmallRender& run : runs) {
             sum += run.image.mean[p];
             variance += run.image.variance[p];
         }
@@ -61,8 +63,8 @@ void measure_truth(std::vector<Run>& runs) {
         runs[r].true_mse = mse[r];
 }
 
-std::vector<Run> render_runs(const Scene& scene, const std::function<Job(std::uint64_t)>& job, int count) {
-    std::vector<Run> runs;
+std::vector<SmallRender> render_runs(const Scene& scene, const std::function<Job(std::uint64_t)>& job, int count) {
+    std::vector<SmallRender> runs;
     for (int r = 0; r < count; ++r) {
         test::LocalRender render = test::render_locally(scene, job(static_cast<std::uint64_t>(r)));
         runs.push_back({std::move(render.image), std::move(render.states)});
@@ -72,7 +74,7 @@ std::vector<Run> render_runs(const Scene& scene, const std::function<Job(std::ui
 }
 
 /// The ratio and the coverage that the issue asks for.
-void expect_honest(const std::vector<Run>& runs) {
+void expect_honest(const std::vector<SmallRender>& runs) {
     double estimated = 0, truth = 0;
     int covered = 0;
     for (std::size_t r = 0; r < runs.size(); ++r) {
@@ -86,15 +88,13 @@ void expect_honest(const std::vector<Run>& runs) {
     EXPECT_GE(estimated / truth, 0.95);
     EXPECT_LE(estimated / truth, 1.05);
     EXPECT_GE(covered, 90);
-    ::testing::Test::RecordProperty("ratio_percent", static_cast<int>(std::lround(100 * estimated / truth)));
-    ::testing::Test::RecordProperty("covered", covered);
     std::printf("estimated / true MSE %.4f, covered %d of %zu\n", estimated / truth, covered, runs.size());
 }
 
 /// How many samples the state before the last pass forecasts for the error that the run ended with, over those it took.
-void expect_forecast(const std::vector<Run>& runs, const std::function<Job(std::uint64_t)>& job) {
+void expect_forecast(const std::vector<SmallRender>& runs, const std::function<Job(std::uint64_t)>& job) {
     double forecast = 0, taken = 0;
-    for (const Run& run : runs) {
+    for (const SmallRender& run : runs) {
         const RenderState& before = run.states[run.states.size() - 2];
         forecast += spp_to_reach(before, job(0), run.states.back().error.mse());
         taken += run.states.back().passes.back().spp;
@@ -106,10 +106,10 @@ void expect_forecast(const std::vector<Run>& runs, const std::function<Job(std::
 TEST(KnownError, OfGuidedRenders) {
     const auto job = [](std::uint64_t seed) {
         Job j = small_job(seed);
-        j.budget.spp = 31;
+        j.budget.spp = 15;
         return j;
     };
-    const std::vector<Run> runs = render_runs(small_scene(64), job, kRuns);
+    const std::vector<SmallRender> runs = render_runs(small_scene(64), job, kRuns);
     expect_honest(runs);
     expect_forecast(runs, job);
 }
@@ -121,7 +121,7 @@ TEST(KnownError, OfUnguidedRenders) {
         j.guiding.type = GuidingType::none;
         return j;
     };
-    const std::vector<Run> runs = render_runs(small_scene(64), job, kRuns);
+    const std::vector<SmallRender> runs = render_runs(small_scene(64), job, kRuns);
     expect_honest(runs);
     expect_forecast(runs, job);
 }
@@ -132,14 +132,14 @@ struct Bias {
     double image_z = 0;
 };
 
-Bias measure_bias(const std::vector<Run>& runs, const CombinedImage& reference) {
+Bias measure_bias(const std::vector<SmallRender>& runs, const CombinedImage& reference) {
     const std::size_t pixels = reference.mean.size();
     const auto count = static_cast<double>(runs.size());
     Bias bias;
     double difference = 0, variance = 0;
     for (std::size_t p = 0; p < pixels; ++p) {
         double sum = 0, squares = 0;
-        for (const Run& run : runs) {
+        for (const SmallRender& run : runs) {
             const double value = channel_mean(run.image.mean[p]);
             sum += value;
             squares += value * value;
@@ -157,20 +157,20 @@ Bias measure_bias(const std::vector<Run>& runs, const CombinedImage& reference) 
 }
 
 void expect_unbiased(bool strict) {
-    const Scene scene = small_scene(24);
+    const Scene scene = small_scene(16);
     const auto job = [strict](std::uint64_t seed) {
         Job j = small_job(seed);
-        j.budget.error = strict ? 1.2 : 0.8;
+        j.budget.error = 0.4;
         j.budget.strict = strict;
         return j;
     };
-    const std::vector<Run> runs = render_runs(scene, job, 200);
+    const std::vector<SmallRender> runs = render_runs(scene, job, 200);
     Job j = small_job(12345);
     j.guiding.type = GuidingType::none;
     j.budget.spp = 8192;
     const Bias bias = measure_bias(runs, test::render_locally(scene, j).image);
     std::uint32_t fewest = ~0u, most = 0;
-    for (const Run& run : runs) {
+    for (const SmallRender& run : runs) {
         fewest = std::min(fewest, run.states.back().spp());
         most = std::max(most, run.states.back().spp());
     }
