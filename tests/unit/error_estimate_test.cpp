@@ -116,8 +116,10 @@ TEST(ErrorEstimate, ItsIntervalIsAsWideAsTheErrorsSpread) {
         squares += v * v;
     }
     const double deviation = 0.5 * std::sqrt(2 * squares * (1 + 1.0 / 14)) / sum;
-    EXPECT_NEAR(try_hundred({16}, Noise::gaussian, Combination::fixed, false).relative_width, 2 * 1.96 * deviation,
-                0.15 * 2 * 1.96 * deviation);
+    // Somewhat wider, since thirty loud pixels make up most of the spread.
+    const double width = try_hundred({16}, Noise::gaussian, Combination::fixed, false).relative_width;
+    EXPECT_GT(width, 2 * 1.96 * deviation);
+    EXPECT_LT(width, 1.3 * 2 * 1.96 * deviation);
 }
 
 TEST(ErrorEstimate, IsTheSameForTheSameImage) {
