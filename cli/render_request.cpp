@@ -126,8 +126,7 @@ std::string debug_command(const RenderOptions& options) {
     for (const std::string& define : options.defines)
         text += " -D " + shell_quoted(define);
     if (options.spp) text += " --spp " + std::to_string(*options.spp);
-    if (options.seconds) text += " --seconds " + number_text(*options.seconds);
-    if (options.error) text += " --error " + number_text(*options.error);
+    // --seconds and --error are left out: the passes that they led to come as a schedule.
     if (!options.schedule.empty())
         text += " --schedule " + shell_quoted(std::filesystem::absolute(options.schedule).string());
     if (options.lenient) text += " --lenient";

@@ -105,9 +105,9 @@ class PassLoop {
     NextPass look_ahead(PassReport& report) {
         const double before = state_.passes.empty() ? 0.0 : result_.passes.back().seconds.refine;
         const PassSeconds& s = report.seconds;
+        const double loading = report.plan.index == 0 ? loading_seconds_ : 0.0;
         state_.passes.push_back({report.plan.spp, report.plan.first_sample, report.variance.mse_of_sample, s.collect,
-                                 s.broadcast + s.film + s.error + before});
-        if (report.plan.index == 0) state_.passes.back().overhead_seconds -= loading_seconds_;
+                                 std::max(0.0, s.broadcast - loading) + s.film + s.error + before});
         state_.seconds = report.run_seconds = clock_.seconds() - loading_seconds_;
         report.halving = forecast_error(state_, job_, 0.5 * report.error.relative());
         if (job_.budget.error > 0) report.target = forecast_error(state_, job_, job_.budget.error);
