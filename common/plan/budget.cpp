@@ -65,7 +65,8 @@ class OpenBudget {
 
     double hedge(const RenderState& state) const {
         const double uncertain = (1 - kHedge) * (job_.budget.seconds - state.seconds);
-        return one_ending_pass_ || uncertain < 0.5 * tolerance() ? 1.0 : kHedge;
+        const double worthwhile = std::max(0.5 * tolerance(), seconds_of_pass(state, 2 * least_spp()));
+        return one_ending_pass_ || uncertain < worthwhile ? 1.0 : kHedge;
     }
 
     /// Samples that a pass can have which takes this share of the time left.
@@ -73,7 +74,10 @@ class OpenBudget {
         if (job_.budget.seconds == 0) return kUnlimited;
         const double left = job_.budget.seconds - state.seconds;
         if (left < 0.25 * tolerance()) return 0;
-        return std::floor(std::max(0.0, share * left - seconds_of_pass(state, 0)) / seconds_per_spp(state));
+        const double spp = std::floor(std::max(0.0, share * left - seconds_of_pass(state, 0)) / seconds_per_spp(state));
+        // The shortest pass may be a little too long: that may still be nearer to the budget than to stop here.
+        const double too_long = seconds_of_pass(state, least_spp()) - left;
+        return too_long < std::min(left, 0.75 * tolerance()) ? std::max(spp, least_spp()) : spp;
     }
 
     /// Samples that are still needed for the target.

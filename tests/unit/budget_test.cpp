@@ -85,6 +85,11 @@ TEST(Budget, SecondsAreKeptWhenSamplesBecomeDearer) {
         }
 }
 
+TEST(Budget, SecondsAreKeptWhenOnlyAFewSamplesFit) {
+    for (const double per_spp : {0.3, 0.5, 0.7, 0.9})
+        EXPECT_LT(distance(simulate(seconds_job(10), {.seconds_per_spp = per_spp}), 10), 1.0) << per_spp;
+}
+
 TEST(Budget, AStrictRenderHasOneEndingPass) {
     Job job = seconds_job(30);
     job.budget.strict = true;
