@@ -105,8 +105,11 @@ class PassLoop {
     NextPass look_ahead(PassReport& report) {
         const double before = state_.passes.empty() ? 0.0 : result_.passes.back().seconds.refine;
         const PassSeconds& s = report.seconds;
+        // Forecasts are for passes that record nothing: what adding records took falls away.
+        const double work = report.core_seconds();
+        const double tracing = s.collect * (work > 0 ? report.stats.trace_seconds / work : 1.0);
         const double loading = report.plan.index == 0 ? loading_seconds_ : 0.0;
-        state_.passes.push_back({report.plan.spp, report.plan.first_sample, report.variance.mse_of_sample, s.collect,
+        state_.passes.push_back({report.plan.spp, report.plan.first_sample, report.variance.mse_of_sample, tracing,
                                  std::max(0.0, s.broadcast - loading) + s.film + s.error + before});
         state_.seconds = report.run_seconds = clock_.seconds() - loading_seconds_;
         report.halving = forecast_error(state_, job_, 0.5 * report.error.relative());

@@ -12,7 +12,7 @@ struct PassFacts {
     std::uint32_t spp = 0;
     std::uint32_t spp_before = 0;
     double mse_of_sample = 0;     ///< PassVariance::mse_of_sample
-    double trace_seconds = 0;     ///< what grows with spp
+    double trace_seconds = 0;     ///< what grows with spp, without adding records
     double overhead_seconds = 0;  ///< what does not: broadcast, refinement, combination
 };
 
