@@ -18,7 +18,7 @@ namespace {
 const Location kHere{"--debug-sample", 0, 0};
 
 /// The tree that guides a pass, learned by rendering the passes before it.
-SdTree learn_tree(const RenderRequest& request, std::span<const PassPlan> plans, std::uint32_t pass) {
+SdTree learn_tree(const RenderRequest& request, const std::vector<PassPlan>& plans, std::uint32_t pass) {
     SdTree tree = first_tree(request.scene, request.job);
     if (pass == 0 || request.job.guiding.type == GuidingType::none) return tree;
     const Log log = make_log("treefarm", {}, true);
@@ -42,7 +42,8 @@ SdTree learn_tree(const RenderRequest& request, std::span<const PassPlan> plans,
         hooks.on_pass = [&](const PassReport& report) { enough = report.plan.index + 1 == pass; };
         farm.gather({[] { return false; }});
         const Film& film = request.scene.film;
-        tree = run_passes(farm, request.job, plans, std::move(tree), film.width, film.height, hooks).tree;
+        tree =
+            run_passes(farm, request.job, listed_passes(plans), std::move(tree), film.width, film.height, hooks).tree;
     } catch (...) {
         send_away();
         throw;
@@ -69,7 +70,10 @@ SampleName parse_sample_name(const std::string& text) {
 }
 
 int debug_sample(const RenderRequest& request, const SampleName& name) {
-    const std::vector<PassPlan> plans = plan_passes(request.job);
+    if (request.schedule.empty() && has_open_budget(request.job))
+        throw InputError(kHere, "the passes of this job depend on clock or error",
+                         "add --schedule with the schedule.toml of the run");
+    const std::vector<PassPlan> plans = request.schedule.empty() ? plan_passes(request.job) : request.schedule;
     const Film& film = request.scene.film;
     if (name.pass >= plans.size() || name.x >= film.width || name.y >= film.height ||
         name.sample >= plans[name.pass].spp)

@@ -23,10 +23,10 @@ namespace {
 constexpr double kDismissSeconds = 5.0;
 constexpr double kFinalizeSeconds = 10.0;
 
-int exit_code_of(RunState state) {
-    switch (state) {
+int exit_code_of(const RenderOutcome& outcome) {
+    switch (outcome.state) {
         case RunState::done:
-            return 0;
+            return outcome.missed_target ? 4 : 0;
         case RunState::interrupted:
             return 3;
         default:
@@ -71,7 +71,7 @@ int render_here(const RenderOptions& options) {
     try {
         const RenderOutcome outcome = run_render(*channels[0], request, [&] { return watch.interrupted(); });
         send_away();
-        return exit_code_of(outcome.state);
+        return exit_code_of(outcome);
     } catch (...) {
         send_away();
         throw;
@@ -94,7 +94,7 @@ int coordinate(MpiSession& session, const RenderOptions& options, InterruptWatch
         request.progress_bar = !options.quiet && isatty(STDERR_FILENO);
         const RenderOutcome outcome = run_render(session.channel(), request, [&] { return watch.interrupted(); });
         lost = outcome.lost_peers;
-        code = exit_code_of(outcome.state);
+        code = exit_code_of(outcome);
     } catch (const InputError& error) {
         code = complain(error, 2);
     } catch (const std::exception& error) {
@@ -153,13 +153,9 @@ void add_render_command(CLI::App& app, const LaunchEnvironment& launch, const st
     command->add_option("input", options->input, "Mitsuba scene (.xml) or job (.toml)")->required();
     command->add_option("-o,--output", options->output, "also write the image to this EXR file");
     command->add_option("--spp", options->spp, "samples per pixel, rounded up to whole passes' units");
-    for (const char* later : {"--seconds", "--error"})
-        command->add_option_function<std::string>(
-            later,
-            [later](const std::string&) {
-                throw InputError(Location{later, 0, 0}, "not available in this version", "use --spp");
-            },
-            "not available in this version; use --spp");
+    command->add_option("--seconds", options->seconds, "seconds of rendering");
+    command->add_option("--error", options->error, "stop at this RMSE / mean luminance: 0.05 is 5 %");
+    command->add_option("--schedule", options->schedule, "repeat the passes of this schedule.toml");
     command->add_option("--set", options->set, "key=value: sets a key of the job")->allow_extra_args(false);
     command->add_option("-D", options->defines, "name=value: gives $name in the scene a value")
         ->allow_extra_args(false);

@@ -18,6 +18,9 @@ struct RenderOptions {
     std::string input;
     std::string output;                ///< -o
     std::optional<std::uint32_t> spp;  ///< --spp
+    std::optional<double> seconds;     ///< --seconds
+    std::optional<double> error;       ///< --error
+    std::string schedule;              ///< --schedule
     std::vector<std::string> set;      ///< --set key=value
     std::vector<std::string> defines;  ///< -D name=value
     bool lenient = false;

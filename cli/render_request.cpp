@@ -4,7 +4,8 @@
 #include "common/config/check_job.h"
 #include "common/config/job_keys.h"
 #include "common/config/job_reader.h"
-#include "common/plan/schedule.h"
+#include "common/config/parse_text.h"
+#include "common/plan/schedule_file.h"
 #include "common/protocol/fingerprint.h"
 #include "common/scene/load.h"
 
@@ -24,18 +25,39 @@ Setting define_setting(const std::string& define) {
     return option_setting("-D", kDefinesPrefix + define.substr(0, equals), define.substr(equals + 1));
 }
 
+/// One budget on the command line replaces whatever budget the job has; spp leaves no room for another.
+void add_budget(std::vector<Setting>& layer, const RenderOptions& options) {
+    if (!options.spp && !options.seconds && !options.error) return;
+    if (!options.schedule.empty())
+        throw InputError(Location{"--schedule", 0, 0}, "says how long to render, as does another option",
+                         "leave --spp, --seconds and --error away");
+    if (options.spp && (options.seconds || options.error))
+        throw InputError(Location{"--spp", 0, 0}, "cannot stand beside --seconds or --error",
+                         "leave it away; to cap the samples, --set budget.max_spp=N");
+    if (options.spp) layer.push_back(option_setting("--spp", "budget.spp", std::to_string(*options.spp)));
+    layer.push_back(option_setting("--seconds", "budget.seconds", number_text(options.seconds.value_or(0.0))));
+    layer.push_back(option_setting("--error", "budget.error", number_text(options.error.value_or(0.0))));
+}
+
 std::vector<Setting> command_line_layer(const RenderOptions& options) {
     std::vector<Setting> layer;
     for (const std::string& argument : options.set)
         layer.push_back(parse_set_argument(argument));
     for (const std::string& define : options.defines)
         layer.push_back(define_setting(define));
-    if (options.spp) layer.push_back(option_setting("--spp", "budget.spp", std::to_string(*options.spp)));
+    add_budget(layer, options);
     if (options.lenient) layer.push_back(option_setting("--lenient", "scene.lenient", "true"));
     if (!options.run_directory.empty())
         layer.push_back(option_setting("--run-dir", "output.directory", options.run_directory));
     if (!options.output.empty()) layer.push_back(option_setting("-o", "output.file", options.output));
     return layer;
+}
+
+/// The passes of a schedule file instead of the job's budget.
+void replay(const std::string& file, RenderRequest& request) {
+    request.schedule = parse_schedule(read_settings_text(file, "schedule"), file, request.job);
+    request.job.budget.seconds = request.job.budget.error = 0;
+    request.job.budget.spp = request.schedule.back().first_sample + request.schedule.back().spp;
 }
 
 std::string shell_quoted(const std::string& word) {
@@ -75,12 +97,14 @@ RenderRequest read_request(const RenderOptions& options) {
     apply_layer(request.job, line_layer);
     check_job(request.job);
     request.scene = std::move(loaded.scene);
+    if (!options.schedule.empty()) replay(options.schedule, request);
     request.plan = plan_effects(request.scene, request.job);
+    request.plan.passes_guessed |= !request.schedule.empty();
     for (const Warning& warning : loaded.warnings)
         request.warnings.push_back(warning.text());
     const PassPlan last = plan_passes(request.job).back();
     if (const std::uint32_t spp = last.first_sample + last.spp;
-        spp != static_cast<std::uint32_t>(request.job.budget.spp))
+        !request.plan.passes_guessed && spp != static_cast<std::uint32_t>(request.job.budget.spp))
         request.warnings.push_back(
             std::to_string(request.job.budget.spp) + " spp become " + std::to_string(spp) +
             ": passes take multiples of guiding.spp_unit = " + std::to_string(request.job.guiding.spp_unit));
@@ -102,6 +126,9 @@ std::string debug_command(const RenderOptions& options) {
     for (const std::string& define : options.defines)
         text += " -D " + shell_quoted(define);
     if (options.spp) text += " --spp " + std::to_string(*options.spp);
+    // --seconds and --error are left out: the passes that they led to come as a schedule.
+    if (!options.schedule.empty())
+        text += " --schedule " + shell_quoted(std::filesystem::absolute(options.schedule).string());
     if (options.lenient) text += " --lenient";
     return text + " --debug-sample";
 }

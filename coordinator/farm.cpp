@@ -1,6 +1,7 @@
 #include "coordinator/farm.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "common/base/hash.h"
 #include "common/config/job_reader.h"
@@ -48,7 +49,8 @@ void Farm::begin_pass(const PassPlan& plan, const SdTree& tree, Bytes encoded_tr
     ledger_ = std::make_unique<Ledger>(plan, width, height, job_.farm.tile_size);
     collector_ = std::make_unique<Collector>(plan, tree, width, height);
     pass_began_ = clock_.seconds();
-    broadcast_seconds_ = 0;
+    first_request_seconds_ = broadcast_seconds_ = 0;
+    requested_ = false;
     not_ready_.clear();
     for (Member* member : roster_.present()) {
         member->credit = 0;
@@ -188,6 +190,7 @@ void Farm::on(int peer, const Resend& m) {
 void Farm::on(int peer, const Want& m) {
     Member* member = hear(peer, m.incarnation);
     if (!member || !pass_ || m.pass != pass_->plan.index) return;
+    if (!std::exchange(requested_, true)) first_request_seconds_ = clock_.seconds() - pass_began_;
     if (std::erase(not_ready_, peer) > 0 && not_ready_.empty()) broadcast_seconds_ = clock_.seconds() - pass_began_;
     member->credit += m.units;
     serve(*member);

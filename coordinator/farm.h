@@ -49,6 +49,8 @@ class Farm {
     const Ledger& ledger() const { return *ledger_; }
     /// Seconds from begin_pass() until the last of those present asked for work.
     double broadcast_seconds() const { return broadcast_seconds_; }
+    /// Seconds from begin_pass() until the first of them did: before the first pass that takes reading in the scene.
+    double first_request_seconds() const { return first_request_seconds_; }
     const Roster& roster() const { return roster_; }
     /// Peers that were given up and are not back.
     std::set<int> lost_peers() const;
@@ -101,7 +103,8 @@ class Farm {
     std::unique_ptr<Ledger> ledger_;
     std::unique_ptr<Collector> collector_;
     std::vector<int> not_ready_;  ///< peers that have not yet asked for work of this pass
-    double pass_began_ = 0, broadcast_seconds_ = 0, last_beat_ = 0;
+    bool requested_ = false;      ///< somebody has
+    double pass_began_ = 0, first_request_seconds_ = 0, broadcast_seconds_ = 0, last_beat_ = 0;
     double listened_ = 0;  ///< when step() last looked for messages
     std::string last_failure_;
     std::uint64_t reissued_units_ = 0, dropped_results_ = 0;

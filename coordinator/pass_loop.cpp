@@ -20,9 +20,9 @@ std::uint64_t hash_image(const CombinedImage& image) {
 
 class PassLoop {
   public:
-    PassLoop(Farm& farm, const Job& job, std::span<const PassPlan> plans, SdTree tree, int width, int height,
+    PassLoop(Farm& farm, const Job& job, const PassChooser& choose, SdTree tree, int width, int height,
              const PassHooks& hooks)
-        : farm_(farm), job_(job), plans_(plans), hooks_(hooks) {
+        : farm_(farm), job_(job), choose_(choose), hooks_(hooks) {
         result_.width = width;
         result_.height = height;
         result_.tree = std::move(tree);
@@ -42,18 +42,20 @@ class PassLoop {
 
   private:
     void render_passes() {
-        for (const PassPlan& plan : plans_) {
+        for (NextPass next = choose_(state_); next.pass;) {
             const Timer timer;
+            const PassPlan plan = *next.pass;
             PassReport report;
             report.plan = plan;
             broadcast(plan, report);
-            if (!collect(plan)) {
+            if (!collect(plan, next, report)) {
                 result_.interrupted = true;
                 break;
             }
             keep(plan);
             combine(report);
-            learn(plan, report);
+            next = look_ahead(report);
+            learn(plan, next, report);
             finish(report, timer.seconds());
         }
     }
@@ -61,6 +63,7 @@ class PassLoop {
     bool guided() const { return job_.guiding.type != GuidingType::none; }
 
     void broadcast(const PassPlan& plan, PassReport& report) {
+        result_.tree.pass = plan.index;  // also where the pass before taught nothing
         Bytes encoded = encode_tree(result_.tree);
         coming_tree_hash_ = hash_bytes(encoded);
         report.tree = tree_figures(result_.tree, encoded.size());
@@ -68,35 +71,57 @@ class PassLoop {
     }
 
     /// False if the pass was interrupted.
-    bool collect(const PassPlan& plan) {
+    bool collect(const PassPlan& plan, const NextPass& chosen, PassReport& report) {
+        const Timer timer;
         while (!farm_.pass_complete()) {
             if (hooks_.interrupted && hooks_.interrupted()) return false;
             farm_.step();
-            tell_progress(plan);
+            tell_progress(plan, chosen);
         }
+        if (plan.index == 0) loading_seconds_ = farm_.first_request_seconds();
+        report.seconds.broadcast = farm_.broadcast_seconds();
+        report.seconds.collect = std::max(0.0, timer.seconds() - report.seconds.broadcast);
         return true;
     }
 
     void keep(const PassPlan& plan) {
-        if (guided() && job_.guiding.combination == Combination::last) finished_.clear();
+        if (shows_last_pass_only(job_)) finished_.clear();
         finished_.push_back({plan.spp, plan.first_sample, farm_.collector().film().pixels()});
         result_.spp = plan.first_sample + plan.spp;
         result_.tree_hash = coming_tree_hash_;
     }
 
     void combine(PassReport& report) {
-        const Timer timer;
+        Timer timer;
         result_.image = combine_passes(finished_, job_.guiding.combination, guided());
-        estimated_rmse_ = report.estimated_rmse = estimated_rmse(result_.image);
         report.seconds.film = timer.seconds();
+        timer.restart();
+        state_.error = report.error = estimate_error(result_.image, job_.sampler.seed);
+        fill_from_collector(report, farm_.collector());
+        report.seconds.error = timer.seconds();
         farm_.beat();
     }
 
-    void learn(const PassPlan& plan, PassReport& report) {
-        if (!plan.record || plan.index + 1 >= plans_.size()) return;
+    NextPass look_ahead(PassReport& report) {
+        const double before = state_.passes.empty() ? 0.0 : result_.passes.back().seconds.refine;
+        const PassSeconds& s = report.seconds;
+        // Forecasts are for passes that record nothing: what adding records took falls away.
+        const double work = report.core_seconds();
+        const double tracing = s.collect * (work > 0 ? report.stats.trace_seconds / work : 1.0);
+        const double loading = report.plan.index == 0 ? loading_seconds_ : 0.0;
+        state_.passes.push_back({report.plan.spp, report.plan.first_sample, report.variance.mse_of_sample, tracing,
+                                 std::max(0.0, s.broadcast - loading) + s.film + s.error + before});
+        state_.seconds = report.run_seconds = clock_.seconds() - loading_seconds_;
+        report.halving = forecast_error(state_, job_, 0.5 * report.error.relative());
+        if (job_.budget.error > 0) report.target = forecast_error(state_, job_, job_.budget.error);
+        return choose_(state_);
+    }
+
+    void learn(const PassPlan& plan, const NextPass& next_pass, PassReport& report) {
+        if (!plan.record || !next_pass.pass) return;
         const Timer timer;
         RefineSettings settings;
-        settings.spatial_threshold = spatial_split_threshold(job_, plans_[plan.index + 1]);
+        settings.spatial_threshold = spatial_split_threshold(job_, *next_pass.pass);
         settings.directional_divisor =
             static_cast<std::uint32_t>(std::lround(1.0 / static_cast<double>(job_.guiding.directional_threshold)));
         settings.record_weight = plan.record_weight;
@@ -104,7 +129,6 @@ class PassLoop {
         const TreeSums& sums = farm_.collector().sums();
         SdTree next = refine(result_.tree, sums, settings, report.refine);
         if (plan.learn_mixture) mixture_.learn(result_.tree, sums, report.refine.origins, next);
-        next.pass = plan.index + 1;
         result_.tree = std::move(next);
         report.seconds.refine = timer.seconds();
         farm_.beat();
@@ -112,27 +136,26 @@ class PassLoop {
 
     void finish(PassReport& report, double seconds) {
         report.seconds.all = seconds;
-        report.seconds.broadcast = farm_.broadcast_seconds();
         report.spp_done = result_.spp;
         report.workers = farm_.roster().present_count();
         report.threads = farm_.roster().thread_count();
-        fill_from_collector(report, farm_.collector());
+        count_idle(report);
         result_.passes.push_back(report);
         if (hooks_.on_pass) hooks_.on_pass(report);
     }
 
-    void tell_progress(const PassPlan& plan) {
+    void tell_progress(const PassPlan& plan, const NextPass& chosen) {
         if (!hooks_.on_progress) return;
-        const PassPlan& last = plans_.back();
         const Ledger& ledger = farm_.ledger();
         const double of_pass = static_cast<double>(ledger.done()) / static_cast<double>(ledger.total());
         RenderProgress progress;
         progress.pass = plan.index;
-        progress.pass_count = plans_.size();
+        progress.pass_count = chosen.pass_count;
         progress.spp_done = result_.spp;
-        progress.spp_total = last.first_sample + last.spp;
-        progress.fraction = (plan.first_sample + of_pass * plan.spp) / progress.spp_total;
-        progress.estimated_rmse = estimated_rmse_;
+        progress.spp_total = chosen.spp_total;
+        if (chosen.spp_total > 0)
+            progress.fraction = std::min(1.0, (plan.first_sample + of_pass * plan.spp) / chosen.spp_total);
+        progress.error = state_.error;
         progress.workers = farm_.roster().present_count();
         progress.rays = farm_.rays_traced();
         hooks_.on_progress(progress);
@@ -140,13 +163,15 @@ class PassLoop {
 
     Farm& farm_;
     const Job& job_;
-    std::span<const PassPlan> plans_;
+    const PassChooser& choose_;
     const PassHooks& hooks_;
     MixtureLearner mixture_;
     RenderResult result_;
     std::vector<PassResult> finished_;
     std::uint64_t coming_tree_hash_ = 0;
-    double estimated_rmse_ = 0;
+    const Timer clock_;
+    double loading_seconds_ = 0;  ///< until the first worker had scene and tree and asked for work
+    RenderState state_;
 };
 
 }  // namespace
@@ -159,9 +184,9 @@ SdTree first_tree(const Scene& scene, const Job& job) {
                         job.guiding.bsdf_fraction);
 }
 
-RenderResult run_passes(Farm& farm, const Job& job, std::span<const PassPlan> passes, SdTree tree, int width,
-                        int height, const PassHooks& hooks) {
-    return PassLoop(farm, job, passes, std::move(tree), width, height, hooks).run();
+RenderResult run_passes(Farm& farm, const Job& job, const PassChooser& choose, SdTree tree, int width, int height,
+                        const PassHooks& hooks) {
+    return PassLoop(farm, job, choose, std::move(tree), width, height, hooks).run();
 }
 
 }  // namespace treefarm

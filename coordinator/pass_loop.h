@@ -5,6 +5,7 @@
 
 #include "common/film/combine.h"
 #include "common/guiding/sd_tree.h"
+#include "common/plan/budget.h"
 #include "common/scene/scene.h"
 #include "coordinator/farm.h"
 #include "coordinator/pass_report.h"
@@ -14,11 +15,11 @@ namespace treefarm {
 /// How far a render is.
 struct RenderProgress {
     std::uint32_t pass = 0;
-    std::size_t pass_count = 0;
-    std::uint32_t spp_done = 0;  ///< in finished passes
-    std::uint32_t spp_total = 0;
-    double fraction = 0;        ///< of all samples
-    double estimated_rmse = 0;  ///< after the last finished pass; 0 before
+    std::size_t pass_count = 0;   ///< 0: not known yet
+    std::uint32_t spp_done = 0;   ///< in finished passes
+    std::uint32_t spp_total = 0;  ///< expected at the end; 0: not known yet
+    double fraction = 0;          ///< of all samples; 0: not known yet
+    ErrorEstimate error;          ///< after the last finished pass
     std::size_t workers = 0;
     std::uint64_t rays = 0;  ///< so far
 };
@@ -49,8 +50,9 @@ struct RenderResult {
 /// brightest emitter.
 SdTree first_tree(const Scene& scene, const Job& job);
 
-/// Renders `passes` one after the other: broadcast the tree, hand out the work, collect film and sums, refine.
-RenderResult run_passes(Farm& farm, const Job& job, std::span<const PassPlan> passes, SdTree tree, int width,
-                        int height, const PassHooks& hooks);
+/// Renders the passes that `choose` says, one after the other: broadcast the tree, hand out the work, collect film and
+/// sums, refine.
+RenderResult run_passes(Farm& farm, const Job& job, const PassChooser& choose, SdTree tree, int width, int height,
+                        const PassHooks& hooks);
 
 }  // namespace treefarm

@@ -6,6 +6,8 @@
 #include <functional>
 #include <utility>
 
+#include "common/plan/memory.h"
+
 namespace treefarm {
 
 namespace {
@@ -35,6 +37,15 @@ Column column(const char* name, Get get) {
     return {name, [get](const PassReport& r) { return fmt::format("{}", get(r)); }};
 }
 
+/// An empty field where a figure is not known.
+std::string only_if(bool known, double value) {
+    return known ? fmt::format("{}", value) : std::string();
+}
+
+bool has_target(const PassReport& report) {
+    return report.error.known && report.target.relative_error > 0;
+}
+
 std::vector<Column> columns() {
     using R = const PassReport&;
     return {
@@ -56,10 +67,22 @@ std::vector<Column> columns() {
         column("merge_seconds", [](R r) { return r.seconds.merge; }),
         column("refine_seconds", [](R r) { return r.seconds.refine; }),
         column("film_seconds", [](R r) { return r.seconds.film; }),
+        column("error_seconds", [](R r) { return r.seconds.error; }),
+        column("run_seconds", [](R r) { return r.run_seconds; }),
+        column("core_seconds", [](R r) { return r.core_seconds(); }),
         column("stuv", [](R r) { return r.variance.stuv; }),
         column("stuv_trimmed", [](R r) { return r.variance.stuv_trimmed; }),
         column("stuv_ppg", [](R r) { return r.variance.stuv_ppg; }),
-        column("estimated_rmse", [](R r) { return r.estimated_rmse; }),
+        column("ttuv", [](R r) { return r.ttuv(); }),
+        column("error", [](R r) { return only_if(r.error.known, r.error.relative()); }),
+        column("error_low", [](R r) { return only_if(r.error.has_interval, r.error.relative_low()); }),
+        column("error_high", [](R r) { return only_if(r.error.has_interval, r.error.relative_high()); }),
+        column("estimated_rmse", [](R r) { return only_if(r.error.known, r.error.rmse); }),
+        column("efficiency", [](R r) { return only_if(r.error.known, r.efficiency()); }),
+        column("halving_spp", [](R r) { return only_if(r.error.known, r.halving.spp); }),
+        column("halving_seconds", [](R r) { return only_if(r.error.known, r.halving.seconds); }),
+        column("target_spp", [](R r) { return only_if(has_target(r), r.target.spp); }),
+        column("target_seconds", [](R r) { return only_if(has_target(r), r.target.seconds); }),
         column("paths", [](R r) { return r.stats.paths; }),
         column("nonzero_share", [](R r) { return r.nonzero_share(); }),
         column("rays", [](R r) { return r.stats.rays; }),
@@ -74,6 +97,7 @@ std::vector<Column> columns() {
         column("spatial_depth", [](R r) { return r.tree.spatial_depth; }),
         column("directional_depth", [](R r) { return r.tree.directional_depth; }),
         column("tree_bytes", [](R r) { return r.tree.bytes; }),
+        column("tree_memory", [](R r) { return r.tree.memory; }),
         column("update_bytes", [](R r) { return r.update_bytes; }),
         column("touched_cells", [](R r) { return r.touched_cells; }),
         column("capped_records", [](R r) { return r.caps.capped_records; }),
@@ -104,6 +128,8 @@ TreeFigures tree_figures(const SdTree& tree, std::uint64_t encoded_bytes) {
     figures.directional_depth =
         tree.cell_depth.empty() ? 0 : *std::max_element(tree.cell_depth.begin(), tree.cell_depth.end());
     figures.bytes = encoded_bytes;
+    const TreeSize size{figures.regions, figures.cells};
+    figures.memory = size.guide_bytes() + size.sum_bytes();
     return figures;
 }
 
@@ -113,6 +139,19 @@ double PassReport::nonzero_share() const {
 
 double PassReport::rays_per_second() const {
     return seconds.all > 0 ? static_cast<double>(stats.rays + stats.shadow_rays) / seconds.all : 0.0;
+}
+
+double PassReport::core_seconds() const {
+    return stats.trace_seconds + seconds.splat;
+}
+
+double PassReport::ttuv() const {
+    return plan.spp > 0 ? variance.stuv * core_seconds() / plan.spp : 0.0;
+}
+
+double PassReport::efficiency() const {
+    const double product = error.mse() * run_seconds;
+    return product > 0 ? 1 / product : 0.0;
 }
 
 void fill_from_collector(PassReport& report, const Collector& collector) {
@@ -136,7 +175,10 @@ void fill_from_collector(PassReport& report, const Collector& collector) {
         }
         first = false;
     }
-    s.idle = std::max(0.0, s.all * report.threads - report.stats.trace_seconds - s.splat);
+}
+
+void count_idle(PassReport& report) {
+    report.seconds.idle = std::max(0.0, report.seconds.all * report.threads - report.core_seconds());
 }
 
 std::string pass_csv_header() {
@@ -149,9 +191,31 @@ std::string pass_csv_line(const PassReport& report) {
 
 std::string pass_summary(const PassReport& r, std::size_t pass_count) {
     std::string text = fmt::format(
-        "pass {} of {}: {} spp in {:.2f} s, {:.2f} Mrays/s, stuv {:.4g}, estimated rmse {:.4g}", r.plan.index + 1,
-        pass_count, r.plan.spp, r.seconds.all, 1e-6 * r.rays_per_second(), r.variance.stuv, r.estimated_rmse);
-    if (r.tree.regions > 1) text += fmt::format("; tree {} regions, {} cells", r.tree.regions, r.tree.cells);
+        "pass {}{}: {} spp in {:.2f} s ({:.2f} core-s), {:.2f} Mrays/s, stuv {:.4g}, ttuv {:.4g} core-s, {}",
+        r.plan.index + 1, pass_count > 0 ? fmt::format(" of {}", pass_count) : "", r.plan.spp, r.seconds.all,
+        r.core_seconds(), 1e-6 * r.rays_per_second(), r.variance.stuv, r.ttuv(), error_text(r.error));
+    if (r.error.known) text += fmt::format(", efficiency {:.3g}", r.efficiency());
+    text += fmt::format(", {:.1f} % of paths see light", 100 * r.nonzero_share());
+    if (r.tree.regions > 1)
+        text += fmt::format("; tree {} nodes, {:.1f} MB", r.tree.nodes, 1e-6 * static_cast<double>(r.tree.memory));
+    if (has_target(r) && r.target.seconds > 0)
+        text += fmt::format("; {:.3g} % in about {}", 100 * r.target.relative_error, duration_text(r.target.seconds));
+    return text;
+}
+
+std::string duration_text(double seconds) {
+    if (!(seconds < 1e9)) return "a very long time";
+    const auto whole = static_cast<long>(seconds + 0.5);
+    if (whole < 60) return fmt::format("{} s", whole);
+    if (whole < 3600) return fmt::format("{}:{:02} min", whole / 60, whole % 60);
+    return fmt::format("{}:{:02} h", whole / 3600, whole % 3600 / 60);
+}
+
+std::string error_text(const ErrorEstimate& error) {
+    if (!error.known) return "error not known yet";
+    std::string text = fmt::format("error {:.3g} %", 100 * error.relative());
+    if (error.has_interval)
+        text += fmt::format(" [{:.3g}, {:.3g}]", 100 * error.relative_low(), 100 * error.relative_high());
     return text;
 }
 

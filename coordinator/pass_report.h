@@ -5,9 +5,11 @@
 #include <vector>
 
 #include "common/film/combine.h"
+#include "common/film/error_estimate.h"
 #include "common/film/trace_stats.h"
 #include "common/guiding/refine.h"
 #include "common/guiding/sd_tree.h"
+#include "common/plan/forecast.h"
 #include "common/plan/schedule.h"
 #include "coordinator/collector.h"
 
@@ -26,7 +28,8 @@ struct TreeFigures {
     std::uint64_t cells = 0;
     int spatial_depth = 0;
     int directional_depth = 0;
-    std::uint64_t bytes = 0;  ///< encoded
+    std::uint64_t bytes = 0;   ///< encoded
+    std::uint64_t memory = 0;  ///< on a worker: sampling form and sums
 };
 TreeFigures tree_figures(const SdTree& tree, std::uint64_t encoded_bytes);
 
@@ -34,9 +37,11 @@ TreeFigures tree_figures(const SdTree& tree, std::uint64_t encoded_bytes);
 struct PassSeconds {
     double all = 0;
     double broadcast = 0;  ///< until the last worker had the tree, its guide built, and asked for work
+    double collect = 0;    ///< from then on, until the last result was in
     double merge = 0;      ///< decoding and adding results
     double refine = 0;     ///< building the next tree
     double film = 0;       ///< combining the images of the passes
+    double error = 0;      ///< estimating the error, and the figures of the pass
     Spread trace;          ///< thread-seconds tracing, per worker
     double splat = 0;      ///< thread-seconds adding records, all workers
     double idle = 0;       ///< thread-seconds in which threads neither traced nor added, or waited for a processor
@@ -51,24 +56,41 @@ struct PassReport {
     PassSeconds seconds;
     TraceStats stats;
     PassVariance variance;
-    double estimated_rmse = 0;  ///< of the image with this pass
-    TreeFigures tree;           ///< that guided the pass
+    ErrorEstimate error;     ///< of the image with this pass
+    double run_seconds = 0;  ///< since the first worker asked for work, with this pass
+    ErrorForecast halving;   ///< until the error is half of this
+    ErrorForecast target;    ///< until it is budget.error; its relative_error is 0 where there is none
+    TreeFigures tree;        ///< that guided the pass
     std::uint64_t update_bytes = 0, touched_cells = 0;
     UpdateCaps caps;
     RefineReport refine;  ///< of the tree that this pass taught
 
     double nonzero_share() const;
+    double core_seconds() const;  ///< of the workers' threads, tracing and recording
+    /// Core-seconds until the image has unit variance, at this pass's stuv and speed.
+    double ttuv() const;
+    /// 1 / (mean squared error x run_seconds) of the image with this pass; 0 where the error is not known or zero.
+    double efficiency() const;
     double rays_per_second() const;
 };
 
-/// Figures of a pass from what was collected; seconds.trace, splat and idle included once `seconds.all` is set.
+/// Figures of a pass from what was collected.
 void fill_from_collector(PassReport& report, const Collector& collector);
+
+/// seconds.idle, once seconds.all and the figures are there.
+void count_idle(PassReport& report);
 
 /// passes.csv: the header line and the line of a pass, without line ends.
 std::string pass_csv_header();
 std::string pass_csv_line(const PassReport& report);
 
-/// One line for a person.
+/// One line for a person. `pass_count`: 0 where it is not known.
 std::string pass_summary(const PassReport& report, std::size_t pass_count);
+
+/// "12 s", "3:05 min", "2:30 h".
+std::string duration_text(double seconds);
+
+/// "error 4.2 % [4.0, 4.4]", or that it is not known.
+std::string error_text(const ErrorEstimate& error);
 
 }  // namespace treefarm

@@ -11,21 +11,17 @@ namespace {
 constexpr double kRedrawSeconds = 0.2;
 constexpr int kBarWidth = 30;
 
-std::string duration(double seconds) {
-    const auto whole = static_cast<long>(seconds + 0.5);
-    if (whole < 60) return fmt::format("{} s", whole);
-    if (whole < 3600) return fmt::format("{}:{:02} min", whole / 60, whole % 60);
-    return fmt::format("{}:{:02} h", whole / 3600, whole % 3600 / 60);
-}
-
 }  // namespace
 
 std::string ProgressBar::text(const RenderProgress& p, double elapsed_seconds) {
     const auto filled = static_cast<std::size_t>(p.fraction * kBarWidth);
     std::string line = "[" + std::string(filled, '=') + std::string(kBarWidth - filled, ' ') + "]";
-    line += fmt::format(" {:5.1f} % of {} spp, pass {} of {}", 100 * p.fraction, p.spp_total, p.pass + 1, p.pass_count);
-    if (p.estimated_rmse > 0) line += fmt::format(", error {:.3g}", p.estimated_rmse);
-    if (p.fraction > 0.01) line += ", " + duration(elapsed_seconds * (1 - p.fraction) / p.fraction) + " left";
+    const std::string of = p.pass_count > 0 ? fmt::format(" of {}", p.pass_count) : "";
+    line += p.spp_total > 0
+                ? fmt::format(" {:5.1f} % of {} spp, pass {}{}", 100 * p.fraction, p.spp_total, p.pass + 1, of)
+                : fmt::format(" pass {}", p.pass + 1);
+    if (p.error.known) line += fmt::format(", error {:.3g} %", 100 * p.error.relative());
+    if (p.fraction > 0.01) line += ", " + duration_text(elapsed_seconds * (1 - p.fraction) / p.fraction) + " left";
     return line;
 }
 

@@ -1,5 +1,9 @@
 #include "coordinator/render_run.h"
 
+#include <spdlog/fmt/fmt.h>
+
+#include <cmath>
+
 #include "common/base/hash.h"
 #include "common/plan/plan_text.h"
 #include "common/scene/scene_codec.h"
@@ -43,6 +47,7 @@ class RenderRun {
             outcome.state = RunState::failed;
         }
         report(outcome.state, error);
+        outcome.missed_target = outcome.state == RunState::done && missed_target();
         outcome.lost_peers = farm_.lost_peers();
         return outcome;
     }
@@ -62,34 +67,44 @@ class RenderRun {
     }
 
     void render() {
-        const std::vector<PassPlan> plans = plan_passes(request_.job);
+        const std::vector<PassPlan>& replayed = request_.schedule;
+        const PassChooser passes = replayed.empty() ? passes_of(request_.job) : listed_passes(replayed);
         const Film& film = request_.scene.film;
-        log_->info("{} x {} pixels, {} spp in {} passes, {} triangles; results in {}", film.width, film.height,
-                   plans.back().first_sample + plans.back().spp, plans.size(), request_.scene.triangle_count(),
-                   directory_.path().string());
+        log_->info("{} x {} pixels, {}, {} triangles; results in {}", film.width, film.height, budget_text(passes({})),
+                   request_.scene.triangle_count(), directory_.path().string());
         farm_.gather(interrupted_);
         log_->debug("{} workers with {} threads", farm_.roster().present_count(), farm_.roster().thread_count());
         PassHooks hooks;
         hooks.interrupted = interrupted_;
         hooks.on_progress = [this](const RenderProgress& progress) {
             const double elapsed = clock_.seconds();
+            pass_count_ = progress.pass_count;
             bar_.update(progress, elapsed);
             directory_.write_status(progress, elapsed);
         };
         hooks.on_failure = [this](RenderResult finished) { result_ = std::move(finished); };
-        hooks.on_pass = [this, &plans](const PassReport& pass) { tell(pass, plans.size()); };
-        result_ = run_passes(farm_, request_.job, plans, first_tree(request_.scene, request_.job), film.width,
+        hooks.on_pass = [this](const PassReport& pass) { tell(pass); };
+        result_ = run_passes(farm_, request_.job, passes, first_tree(request_.scene, request_.job), film.width,
                              film.height, hooks);
     }
 
-    void tell(const PassReport& pass, std::size_t pass_count) {
+    std::string budget_text(const NextPass& first) const {
+        if (first.pass_count > 0) return fmt::format("{} spp in {} passes", first.spp_total, first.pass_count);
+        const Job::Budget& budget = request_.job.budget;
+        std::string text = fmt::format("at most {} spp", budget.max_spp);
+        if (budget.seconds > 0) text += fmt::format(", {} s", budget.seconds);
+        if (budget.error > 0) text += fmt::format(", until the error is {:.3g} %", 100 * budget.error);
+        return text;
+    }
+
+    void tell(const PassReport& pass) {
         bar_.clear();
         directory_.add_pass(pass);
-        log_->info("{}", pass_summary(pass, pass_count));
+        log_->info("{}", pass_summary(pass, pass_count_));
         for (const InvalidSample& sample : pass.stats.first_invalid)
-            log_->warn("radiance ({}, {}, {}) counts as black; reproduce with: {} {},{},{},{}", sample.rgb[0],
+            log_->warn("radiance ({}, {}, {}) counts as black; reproduce with: {} {},{},{},{}{}", sample.rgb[0],
                        sample.rgb[1], sample.rgb[2], request_.debug_command, sample.pass, sample.x, sample.y,
-                       sample.sample);
+                       sample.sample, replay_option());
         if (pass.stats.invalid_samples > pass.stats.first_invalid.size())
             log_->warn("{} invalid samples in pass {} in all", pass.stats.invalid_samples, pass.plan.index);
         if (pass.caps.capped_records > 0 || pass.caps.saturated_cells > 0 || pass.caps.outside_positions > 0)
@@ -106,11 +121,33 @@ class RenderRun {
             return;
         }
         if (state == RunState::interrupted) log_->warn("interrupted: kept the {} spp of finished passes", result_.spp);
-        const double rmse = result_.passes.back().estimated_rmse;
-        log_->info("{} spp in {:.2f} s, estimated rmse {:.4g}; image {} tree {}", result_.spp, elapsed, rmse,
+        const PassReport& last = result_.passes.back();
+        log_->info("{} spp in {:.2f} s, {}; image {} tree {}", result_.spp, elapsed, error_text(last.error),
                    hash_text(result_.image_hash), hash_text(result_.tree_hash));
-        if (rmse > 0)
-            log_->info("half this error would take about {:.0f} s more", 3 * elapsed);  // error ~ 1 / sqrt(time)
+        if (last.error.rmse > 0 && std::isfinite(last.halving.seconds))
+            log_->info("half this error ({:.3g} %) would take about {} more, {:.0f} spp",
+                       100 * last.halving.relative_error, duration_text(last.halving.seconds), last.halving.spp);
+        if (missed_target())
+            log_->warn("the error is above the {:.3g} % asked for: {}; the image is kept",
+                       100 * request_.job.budget.error, why_missed());
+    }
+
+    bool missed_target() const {
+        return !result_.interrupted && !result_.passes.empty() &&
+               misses_target(request_.job, result_.passes.back().error);
+    }
+
+    std::string why_missed() const {
+        const Job::Budget& budget = request_.job.budget;
+        if (result_.spp >= budget.max_spp) return fmt::format("budget.max_spp = {} is reached", budget.max_spp);
+        if (budget.seconds > 0) return fmt::format("the {} s are over", budget.seconds);
+        return "the last pass was planned too short";
+    }
+
+    /// What makes an open budget's passes known to --debug-sample.
+    std::string replay_option() const {
+        if (!request_.schedule.empty() || !has_open_budget(request_.job)) return "";
+        return " --schedule " + std::filesystem::absolute(directory_.path() / "schedule.toml").string();
     }
 
     const RenderRequest& request_;
@@ -121,6 +158,7 @@ class RenderRun {
     const Log log_;
     ProgressBar bar_;
     Farm farm_;
+    std::size_t pass_count_ = 0;  ///< 0: not known
     RenderResult result_;
 };
 

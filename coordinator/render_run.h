@@ -19,16 +19,19 @@ struct RenderRequest {
     Scene scene;                        ///< without the effects that the job forces off
     EffectPlan plan;                    ///< of both
     std::vector<std::string> warnings;  ///< of the readers, for the log
+    std::vector<PassPlan> schedule;     ///< --schedule: these passes; empty: the job's own
     std::string command;                ///< as it was typed
-    std::string debug_command;          ///< reproduces a sample when " pass,x,y,sample" is appended
-    std::uint64_t fingerprint = 0;      ///< of this process
-    bool quiet = false;                 ///< only errors on the terminal
+    std::string debug_command;  ///< reproduces a sample when " pass,x,y,sample" and, for an open budget, --schedule are
+                                ///< appended
+    std::uint64_t fingerprint = 0;  ///< of this process
+    bool quiet = false;             ///< only errors on the terminal
     bool progress_bar = false;
 };
 
 struct RenderOutcome {
     RunState state = RunState::failed;
-    std::set<int> lost_peers;  ///< workers that were given up
+    bool missed_target = false;  ///< done, but the error is above budget.error
+    std::set<int> lost_peers;    ///< workers that were given up
 };
 
 /// Runs a render to its end on the coordinator's side of `channel`: run directory, workers, passes, files. What goes

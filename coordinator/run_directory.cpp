@@ -9,9 +9,11 @@
 #include "common/base/error.h"
 #include "common/base/hash.h"
 #include "common/config/job_reader.h"
+#include "common/config/parse_text.h"
 #include "common/image/atomic_file.h"
 #include "common/image/png.h"
 #include "common/plan/plan_text.h"
+#include "common/plan/schedule_file.h"
 #include "common/protocol/fingerprint.h"
 #include "coordinator/result_image.h"
 
@@ -52,15 +54,44 @@ void check_output_file(const std::string& file) {
                          "choose another place or change its permissions");
 }
 
+/// Null where something is not known. What is infinite becomes null by itself.
+Json error_json(const ErrorEstimate& error) {
+    if (!error.known) return nullptr;
+    const auto end = [&](double value) { return error.has_interval ? Json(value) : Json(); };
+    return {{"relative", error.relative()},
+            {"low", end(error.relative_low())},
+            {"high", end(error.relative_high())},
+            {"rmse", error.rmse},
+            {"rmse_low", end(error.low)},
+            {"rmse_high", end(error.high)},
+            {"mean", error.mean}};
+}
+
+Json forecast_json(const ErrorForecast& forecast) {
+    return {{"relative_error", forecast.relative_error}, {"spp", forecast.spp}, {"seconds", forecast.seconds}};
+}
+
 Json pass_json(const PassReport& r) {
     return {{"pass", r.plan.index},
             {"spp", r.plan.spp},
             {"spp_done", r.spp_done},
             {"seconds", r.seconds.all},
+            {"phase_seconds",
+             {{"broadcast", r.seconds.broadcast},
+              {"collect", r.seconds.collect},
+              {"merge", r.seconds.merge},
+              {"refine", r.seconds.refine},
+              {"film", r.seconds.film},
+              {"error", r.seconds.error}}},
+            {"run_seconds", r.run_seconds},
+            {"core_seconds", r.core_seconds()},
             {"stuv", r.variance.stuv},
             {"stuv_trimmed", r.variance.stuv_trimmed},
             {"stuv_ppg", r.variance.stuv_ppg},
-            {"estimated_rmse", r.estimated_rmse},
+            {"ttuv", r.ttuv()},
+            {"image_error", error_json(r.error)},
+            {"efficiency", r.efficiency()},
+            {"halving", forecast_json(r.halving)},
             {"rays_per_second", r.rays_per_second()},
             {"nonzero_share", r.nonzero_share()},
             {"invalid_samples", r.stats.invalid_samples},
@@ -68,6 +99,7 @@ Json pass_json(const PassReport& r) {
             {"tree_regions", r.tree.regions},
             {"tree_cells", r.tree.cells},
             {"tree_bytes", r.tree.bytes},
+            {"tree_memory", r.tree.memory},
             {"update_bytes", r.update_bytes},
             {"trace_seconds",
              {{"min", r.seconds.trace.min},
@@ -133,7 +165,8 @@ RunDirectory::RunDirectory(const Job& job, const RunFacts& facts, const EffectPl
     try {
         std::filesystem::create_directories(path_);
         // A run that ends early must not stand beside the image or the log of another.
-        for (const char* stale : {"summary.json", "status.json", "image.exr", "preview.png", "log.txt"})
+        for (const char* stale :
+             {"summary.json", "status.json", "image.exr", "preview.png", "log.txt", "schedule.toml"})
             std::filesystem::remove(path_ / stale);
         write_text("job.toml", write_job(job));
         write_text("plan.txt", plan_text(plan, job.scene.file));
@@ -162,7 +195,7 @@ void RunDirectory::write_status(const RenderProgress& progress, double elapsed_s
                          {"fraction", progress.fraction},
                          {"elapsed_seconds", elapsed_seconds},
                          {"seconds_left", left},
-                         {"estimated_rmse", progress.estimated_rmse},
+                         {"image_error", error_json(progress.error)},
                          {"workers", progress.workers},
                          {"rays", progress.rays},
                          {"time", std::time(nullptr)}};
@@ -172,20 +205,32 @@ void RunDirectory::write_status(const RenderProgress& progress, double elapsed_s
 void RunDirectory::add_pass(const PassReport& report) {
     passes_csv_ += pass_csv_line(report) + "\n";
     write_text("passes.csv", passes_csv_);
+    passes_.push_back(report.plan);
+    write_text("schedule.toml", write_schedule(passes_));
 }
 
 void RunDirectory::write_image(const RenderResult& result) {
     if (result.passes.empty()) return;
     const Image channels = result_channels(result.image, result.width, result.height);
-    const Attributes attributes = {
+    const PassReport& last = result.passes.back();
+    Attributes attributes = {
         {"treefarm.version", kProgramVersion},
         {"treefarm.spp", std::to_string(result.spp)},
         {"treefarm.job", write_job(job_)},
         {"treefarm.scene_hash", hash_text(facts_.scene_hash)},
         {"treefarm.image_hash", hash_text(result.image_hash)},
         {"treefarm.tree_hash", hash_text(result.tree_hash)},
-        {"treefarm.estimated_rmse", std::to_string(result.passes.back().estimated_rmse)},
+        {"treefarm.passes", passes_csv_},
+        {"treefarm.schedule", write_schedule(passes_)},
     };
+    if (last.error.known) {
+        attributes["treefarm.error"] = number_text(last.error.relative());
+        attributes["treefarm.estimated_rmse"] = number_text(last.error.rmse);
+    }
+    if (last.error.has_interval) {
+        attributes["treefarm.error_low"] = number_text(last.error.relative_low());
+        attributes["treefarm.error_high"] = number_text(last.error.relative_high());
+    }
     write_exr(path_ / "image.exr", channels, attributes);
     if (!job_.output.file.empty()) write_exr(job_.output.file, channels, attributes);
     write_png(path_ / "preview.png", result_colours(result.image, result.width, result.height));
@@ -205,8 +250,12 @@ void RunDirectory::write_summary(RunState state, const RenderResult& result, con
                     {"seconds", elapsed_seconds},
                     {"image_hash", result.spp > 0 ? hash_text(result.image_hash) : ""},
                     {"tree_hash", result.spp > 0 ? hash_text(result.tree_hash) : ""},
-                    {"estimated_rmse", result.passes.empty() ? 0.0 : result.passes.back().estimated_rmse},
+                    {"image_error", result.passes.empty() ? Json() : error_json(result.passes.back().error)},
+                    {"halving", result.passes.empty() ? Json() : forecast_json(result.passes.back().halving)},
                     {"pass_weights", result.image.weight}};
+    if (job_.budget.error > 0 && !result.passes.empty())
+        summary["target"] = {{"relative_error", job_.budget.error},
+                             {"reached", !misses_target(job_, result.passes.back().error)}};
     if (!error.empty()) summary["error"] = error;
     summary["approximations"] = Json::array();
     for (const Approximation& approximation : approximations_)

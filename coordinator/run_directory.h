@@ -23,9 +23,9 @@ struct RunFacts {
     std::uint64_t fingerprint = 0;
 };
 
-/// The folder of one run: job.toml, plan.txt, plan.json, log.txt, status.json, passes.csv, image.exr, preview.png,
-/// summary.json. Every file is replaced as a whole or appended to by lines, so that a reader never sees half of one.
-/// Throws RunError where a file cannot be written.
+/// The folder of one run: job.toml, plan.txt, plan.json, log.txt, status.json, passes.csv, schedule.toml, image.exr,
+/// preview.png, summary.json. Every file is replaced as a whole or appended to by lines, so that a reader never sees
+/// half of one. Throws RunError where a file cannot be written.
 class RunDirectory {
   public:
     /// Makes the folder (runs/<scene>-<time> if the job names none) and writes job.toml, plan.txt and plan.json.
@@ -36,7 +36,7 @@ class RunDirectory {
 
     /// status.json, at most once a second.
     void write_status(const RenderProgress& progress, double elapsed_seconds);
-    /// A line of passes.csv.
+    /// A line of passes.csv, a table of schedule.toml.
     void add_pass(const PassReport& report);
     /// image.exr, preview.png, and the job's output.file.
     void write_image(const RenderResult& result);
@@ -52,6 +52,7 @@ class RunDirectory {
     const std::vector<Approximation> approximations_;
     std::filesystem::path path_;
     std::string passes_csv_;
+    std::vector<PassPlan> passes_;  ///< the finished ones
     double last_status_ = -1e9;
 };
 

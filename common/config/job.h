@@ -88,7 +88,11 @@ struct Job {
     } guiding;
 
     struct Budget {
-        std::uint32_t spp = 64;  ///< samples per pixel in all passes
+        std::uint32_t spp = 64;           ///< samples per pixel in all passes, unless seconds or error is set
+        double seconds = 0;               ///< of the clock, from the first worker's readiness on; 0: no such budget
+        double error = 0;                 ///< rmse / mean luminance at which to stop; 0: no such budget
+        std::uint32_t max_spp = 1 << 20;  ///< where seconds and error end at the latest
+        bool strict = false;              ///< the last pass alone, of a length set before it began: exactly unbiased
     } budget;
 
     struct Sampler {

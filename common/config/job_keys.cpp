@@ -248,8 +248,25 @@ std::vector<JobKey> make_job_keys() {
                                                            {"variance", GuidingTarget::variance}}));
 
     add(integer_key(
-        "budget.spp", "1 to 2^30", "samples per pixel in all passes", [](auto& j) -> auto& { return j.budget.spp; }, 1,
-        kMaxSpp));
+        "budget.spp", "1 to 2^30", "samples per pixel in all passes, unless `budget.seconds` or `budget.error` is set",
+        [](auto& j) -> auto& { return j.budget.spp; }, 1, kMaxSpp));
+    add(number_key(
+        "budget.seconds", "0, or more up to 10^8",
+        "seconds of rendering, from when the first worker asks for work until the last pass is whole; 0: no such "
+        "budget",
+        [](auto& j) -> auto& { return j.budget.seconds; }, [](double v) { return v >= 0.0 && v <= 1e8; }));
+    add(number_key(
+        "budget.error", "0, or 10^-6 to 10",
+        "estimated RMSE / mean luminance at which to stop: 0.05 is 5 %; 0: no such budget",
+        [](auto& j) -> auto& { return j.budget.error; },
+        [](double v) { return v == 0.0 || (v >= 1e-6 && v <= 10.0); }));
+    add(integer_key(
+        "budget.max_spp", "1 to 2^30",
+        "samples per pixel at which `budget.seconds` and `budget.error` end at the latest",
+        [](auto& j) -> auto& { return j.budget.max_spp; }, 1, kMaxSpp));
+    add(boolean_key(
+        "budget.strict", "the image is the last pass alone, its length set before it began: exactly unbiased",
+        [](auto& j) -> auto& { return j.budget.strict; }));
 
     add(integer_key(
         "sampler.seed", "0 to 2^63 - 1", "two seeds give independent images",
@@ -295,9 +312,6 @@ const JobKey* find_job_key(const std::string& name) {
 
 std::span<const std::pair<std::string, std::string>> unavailable_job_keys() {
     static const std::vector<std::pair<std::string, std::string>> keys = {
-        {"budget.seconds", "use budget.spp"},
-        {"budget.error", "use budget.spp"},
-        {"budget.strict", "use guiding.combination = \"fixed\" with budget.spp, which is exactly unbiased"},
         {"guiding.view_threshold", "remove it"},
         {"farm.checkpoint_seconds", "remove it"},
     };

@@ -13,7 +13,7 @@
 namespace treefarm {
 namespace {
 
-constexpr std::uintmax_t kMaxJobFileBytes = 16u << 20;
+constexpr std::uintmax_t kMaxFileBytes = 16u << 20;
 
 Location place(const toml::source_region& region, const std::string& file) {
     return {file, static_cast<int>(region.begin.line), static_cast<int>(region.begin.column)};
@@ -197,20 +197,23 @@ std::vector<Setting> parse_job_settings(const std::string& toml, const std::stri
     return settings;
 }
 
-std::vector<Setting> read_job_settings(const std::filesystem::path& path) {
+std::string read_settings_text(const std::filesystem::path& path, const std::string& kind) {
     const Location where{path.string()};
+    const std::string cure = "give a " + kind + " file (.toml)";
     std::error_code error;
-    if (!std::filesystem::exists(path, error)) throw InputError(where, "no such job file", "check the path");
-    if (!std::filesystem::is_regular_file(path, error))
-        throw InputError(where, "not a file", "give a job file (.toml)");
-    if (std::filesystem::file_size(path, error) > kMaxJobFileBytes)
-        throw InputError(where, "more than 16 MiB, which no job file has", "give a job file (.toml)");
+    if (!std::filesystem::exists(path, error)) throw InputError(where, "no such " + kind + " file", "check the path");
+    if (!std::filesystem::is_regular_file(path, error)) throw InputError(where, "not a file", cure);
+    if (std::filesystem::file_size(path, error) > kMaxFileBytes)
+        throw InputError(where, "more than 16 MiB, which no " + kind + " file has", cure);
     std::ifstream in(path, std::ios::binary);
     std::ostringstream text;
     text << in.rdbuf();
     if (!in) throw InputError(where, "cannot be read", "check its permissions");
+    return text.str();
+}
 
-    std::vector<Setting> settings = parse_job_settings(text.str(), path.string());
+std::vector<Setting> read_job_settings(const std::filesystem::path& path) {
+    std::vector<Setting> settings = parse_job_settings(read_settings_text(path, "job"), path.string());
     for (Setting& setting : settings) {
         if (setting.key != "scene.file" || setting.value.empty()) continue;
         const std::filesystem::path file = path.parent_path() / setting.value;

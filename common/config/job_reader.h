@@ -18,6 +18,9 @@ void apply_setting(Job& job, const std::string& key, const std::string& value, c
 /// The layers of a job, each over the one before: defaults, the scene's integrator and sampler, the job file, --set.
 void apply_layer(Job& job, std::span<const Setting> layer);
 
+/// The text of a TOML file that a person names; `kind` is "job" or "schedule", for messages. Throws InputError.
+std::string read_settings_text(const std::filesystem::path& path, const std::string& kind);
+
 /// The settings of a job file, types checked, values not yet applied. scene.file comes back as an absolute path: it is
 /// relative to the job file's folder. Throws InputError with file:line:column.
 std::vector<Setting> read_job_settings(const std::filesystem::path& path);

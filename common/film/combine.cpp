@@ -8,8 +8,6 @@ namespace {
 
 /// Clamps a pixel's variance so that one outlier does not decide about a whole pass (as the authors' program does).
 constexpr double kVarianceClamp = 1e4;
-/// A pass with fewer samples knows too little of its own variance to be weighed by it.
-constexpr std::uint32_t kMinSamplesForVariance = 4;
 
 /// Variance of the pass's image: mean over pixels, clamped, from one half of the samples.
 double image_variance(const PassResult& pass, int half) {
@@ -34,11 +32,8 @@ void normalise(std::vector<double>& weights) {
 
 std::vector<double> fixed_weights(std::span<const PassResult> passes, bool guided) {
     std::vector<double> weights;
-    for (const PassResult& pass : passes) {
-        // What a pass is worth grows with what its tree was learned from; the first pass, untrained, counts a little.
-        const double trained = guided ? std::sqrt(static_cast<double>(std::max(pass.spp_before, 1u))) : 1.0;
-        weights.push_back(pass.spp * trained);
-    }
+    for (const PassResult& pass : passes)
+        weights.push_back(fixed_weight(pass.spp, pass.spp_before, guided));
     normalise(weights);
     return weights;
 }
@@ -58,6 +53,24 @@ std::vector<double> inverse_variance_weights(std::span<const PassResult> passes,
     return weights;
 }
 
+/// Estimated variance of one sample of a pass in a pixel; `longest` is the pixel in the longest pass. From four samples
+/// on it knows nothing of the difference between the halves, which is looked at beside it (error_estimate.cpp). A
+/// single sample has but its distance from what the longest pass says.
+Rgb64 sample_variance(const PixelEstimate& pixel, const PixelEstimate& longest) {
+    const std::uint32_t n = pixel.half[0].n + pixel.half[1].n;
+    if (n >= kMinSamplesForVariance) return (pixel.half[0].m2 + pixel.half[1].m2) / static_cast<double>(n - 2);
+    if (n >= 2) return pixel.whole().sample_variance();
+    const Moments reference = longest.whole();
+    if (reference.n < 2) return Rgb64(0.0);
+    const Rgb64 distance = pixel.whole().mean - reference.mean;
+    return distance * distance * (static_cast<double>(reference.n) / (reference.n + 1));
+}
+
+const PassResult& longest_pass(std::span<const PassResult> passes) {
+    return *std::max_element(passes.begin(), passes.end(),
+                             [](const PassResult& a, const PassResult& b) { return a.spp < b.spp; });
+}
+
 struct HalfImage {
     std::vector<Rgb64> mean, variance;
 };
@@ -65,6 +78,7 @@ struct HalfImage {
 /// The weighted mean of one half of the passes' samples. Passes of which the half holds nothing give up their weight.
 HalfImage combine_half(std::span<const PassResult> passes, const std::vector<double>& weights, int half) {
     const std::size_t count = passes.front().pixels.size();
+    const PassResult& longest = longest_pass(passes);
     HalfImage image{std::vector<Rgb64>(count, Rgb64(0.0)), std::vector<Rgb64>(count, Rgb64(0.0))};
     for (std::size_t p = 0; p < count; ++p) {
         double sum = 0;
@@ -73,7 +87,9 @@ HalfImage combine_half(std::span<const PassResult> passes, const std::vector<dou
             if (m.n == 0) continue;
             sum += weights[k];
             image.mean[p] += m.mean * weights[k];
-            image.variance[p] += m.sample_variance() * (weights[k] * weights[k] / m.n);
+            const Rgb64 variance =
+                m.n >= 2 ? m.sample_variance() : sample_variance(passes[k].pixels[p], longest.pixels[p]);
+            image.variance[p] += variance * (weights[k] * weights[k] / m.n);
         }
         if (!(sum > 0)) continue;
         image.mean[p] /= sum;
@@ -88,12 +104,14 @@ CombinedImage combine_whole(std::span<const PassResult> passes, const std::vecto
     const std::size_t count = passes.front().pixels.size();
     image.mean.assign(count, Rgb64(0.0));
     image.variance.assign(count, Rgb64(0.0));
+    const PassResult& longest = longest_pass(passes);
     for (std::size_t p = 0; p < count; ++p)
         for (std::size_t k = 0; k < passes.size(); ++k) {
             const Moments m = passes[k].pixels[p].whole();
             if (m.n == 0) continue;
             image.mean[p] += m.mean * weights[k];
-            image.variance[p] += m.sample_variance() * (weights[k] * weights[k] / m.n);
+            image.variance[p] +=
+                sample_variance(passes[k].pixels[p], longest.pixels[p]) * (weights[k] * weights[k] / m.n);
         }
     image.half[0] = image.half[1] = image.mean;
     image.weight = weights;
@@ -102,18 +120,24 @@ CombinedImage combine_whole(std::span<const PassResult> passes, const std::vecto
 
 }  // namespace
 
+double fixed_weight(std::uint32_t spp, std::uint32_t spp_before, bool guided) {
+    // What a pass is worth grows with what its tree was learned from; the first pass, untrained, counts a little.
+    return spp * (guided ? std::sqrt(static_cast<double>(std::max(spp_before, 1u))) : 1.0);
+}
+
 CombinedImage combine_passes(std::span<const PassResult> passes, Combination method, bool guided) {
     if (passes.empty()) return {};
     if (!guided) method = Combination::fixed;  // all samples are alike: none is thrown away
     if (method == Combination::last) passes = passes.last(1);
-    const bool halves = std::any_of(passes.begin(), passes.end(), [](const PassResult& p) { return p.spp >= 2; });
-    if (!halves) return combine_whole(passes, fixed_weights(passes, guided));
+    const std::uint32_t longest = longest_pass(passes).spp;
+    if (longest < 2) return combine_whole(passes, fixed_weights(passes, guided));
 
     // Set weights apply to all samples of a pass alike. Variances cross over: what half A reports weighs half B, so
     // that a weight never depends on the samples that it multiplies.
     const std::vector<double> fixed = fixed_weights(passes, guided);
     if (method != Combination::inverse_variance) {
         CombinedImage image = combine_whole(passes, fixed);
+        image.longest_pass = longest;
         image.half[0] = combine_half(passes, fixed, 0).mean;
         image.half[1] = combine_half(passes, fixed, 1).mean;
         return image;
@@ -123,6 +147,7 @@ CombinedImage combine_passes(std::span<const PassResult> passes, Combination met
     HalfImage a = combine_half(passes, weights_a, 0);
     HalfImage b = combine_half(passes, weights_b, 1);
     CombinedImage image;
+    image.longest_pass = longest;
     const std::size_t count = a.mean.size();
     image.mean.resize(count);
     image.variance.resize(count);
@@ -144,9 +169,11 @@ PassVariance pass_variance(std::span<const PixelEstimate> pixels) {
     variances.reserve(pixels.size());
     for (const PixelEstimate& pixel : pixels) {
         const Moments m = pixel.whole();
-        const double variance = luminance(m.sample_variance());
+        const Rgb64 per_channel = m.sample_variance();
+        const double variance = luminance(per_channel);
         variances.push_back(variance);
         result.stuv += variance;
+        result.mse_of_sample += (per_channel.x + per_channel.y + per_channel.z) / 3.0;
         if (m.n >= 2) {
             const double n = m.n;
             const Rgb64 second_moment = m.m2 / n + m.mean * m.mean;
@@ -156,6 +183,7 @@ PassVariance pass_variance(std::span<const PixelEstimate> pixels) {
     }
     const auto count = static_cast<double>(pixels.size());
     result.stuv /= count;
+    result.mse_of_sample /= count;
     result.stuv_ppg /= count;
     const std::size_t kept = variances.size() - variances.size() / 1000;
     if (kept < variances.size())
@@ -165,16 +193,6 @@ PassVariance pass_variance(std::span<const PixelEstimate> pixels) {
         result.stuv_trimmed += v;
     result.stuv_trimmed /= static_cast<double>(variances.size());
     return result;
-}
-
-double estimated_rmse(const CombinedImage& image) {
-    double sum = 0;
-    for (const Rgb64& v : image.variance) {
-        // The error of the luminance, as if the channels erred together: they come from the same paths.
-        const double deviation = luminance(Rgb64(std::sqrt(v.x), std::sqrt(v.y), std::sqrt(v.z)));
-        sum += deviation * deviation;
-    }
-    return image.variance.empty() ? 0.0 : std::sqrt(sum / static_cast<double>(image.variance.size()));
 }
 
 }  // namespace treefarm

@@ -9,6 +9,10 @@
 
 namespace treefarm {
 
+/// A pass with fewer samples knows too little of its own variance to be weighed by it: `inverse_variance` leaves it
+/// out.
+inline constexpr std::uint32_t kMinSamplesForVariance = 4;
+
 /// One finished pass.
 struct PassResult {
     std::uint32_t spp = 0;              ///< n_k
@@ -18,25 +22,27 @@ struct PassResult {
 
 /// The image so far, with its own error.
 struct CombinedImage {
-    std::vector<Rgb64> mean;      ///< per pixel
-    std::vector<Rgb64> variance;  ///< estimated variance of `mean`, per pixel and channel
-    std::vector<Rgb64> half[2];   ///< two independent halves; their average is `mean` where both exist
-    std::vector<double> weight;   ///< of each pass, sums to 1 (halves averaged)
+    std::vector<Rgb64> mean;         ///< per pixel
+    std::vector<Rgb64> variance;     ///< estimated variance of `mean`, per pixel and channel
+    std::uint32_t longest_pass = 0;  ///< samples per pixel: variances are known from two on
+    std::vector<Rgb64> half[2];      ///< two independent halves; their average is `mean` where both exist
+    std::vector<double> weight;      ///< of each pass, sums to 1 (halves averaged)
 };
 
 /// Combines the passes with one scalar weight each (docs/guiding.md, "combining passes"). `guided` says whether the
 /// passes differ in quality: without guiding every sample weighs the same.
 CombinedImage combine_passes(std::span<const PassResult> passes, Combination method, bool guided);
 
+/// Weight of a pass that is set before it begins (`fixed`): spp sqrt(spp_before); without guiding, spp. Not normalised.
+double fixed_weight(std::uint32_t spp, std::uint32_t spp_before, bool guided);
+
 /// Figures of one pass (docs/guiding.md, "stuv").
 struct PassVariance {
-    double stuv = 0;          ///< mean over pixels of the luminance of the unbiased variance of one sample
-    double stuv_trimmed = 0;  ///< the same without the worst 0.1 % of the pixels
-    double stuv_ppg = 0;      ///< what the authors' program calls STUV: a clamped second moment
+    double stuv = 0;           ///< mean over pixels of the luminance of the unbiased variance of one sample
+    double stuv_trimmed = 0;   ///< the same without the worst 0.1 % of the pixels
+    double mse_of_sample = 0;  ///< mean over pixels and channels of the unbiased variance of one sample
+    double stuv_ppg = 0;       ///< what the authors' program calls STUV: a clamped second moment
 };
 PassVariance pass_variance(std::span<const PixelEstimate> pixels);
-
-/// Estimated root of the mean squared error (luminance) of an image: what its own variance says.
-double estimated_rmse(const CombinedImage& image);
 
 }  // namespace treefarm

@@ -55,6 +55,7 @@ EffectPlan plan_effects(Scene& scene, const Job& job) {
     plan.height = scene.film.height;
     plan.spp = passes.back().first_sample + passes.back().spp;
     plan.pass_count = passes.size();
+    plan.passes_guessed = has_open_budget(job);
     plan.triangles = scene.triangle_count();
     plan.kernels = kernels_of(scene, job);
     plan.memory = expected_memory(scene, job);

@@ -35,6 +35,7 @@ struct EffectPlan {
     int width = 0, height = 0;
     std::uint32_t spp = 0;  ///< rounded up to whole passes' units
     std::size_t pass_count = 0;
+    bool passes_guessed = false;  ///< the budget leaves spp and passes open: figures are for these
     std::size_t triangles = 0;
     std::vector<Effect> effects;
     std::vector<Approximation> approximations;

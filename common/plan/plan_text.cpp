@@ -106,9 +106,9 @@ std::string approximation_text(const Approximation& approximation) {
 
 std::string plan_text(const EffectPlan& plan, const std::string& scene) {
     std::string text = "plan of " + scene + ": " + std::to_string(plan.width) + " x " + std::to_string(plan.height) +
-                       " pixels, " + std::to_string(plan.spp) + " spp in " + std::to_string(plan.pass_count) +
-                       (plan.pass_count == 1 ? " pass, " : " passes, ") + std::to_string(plan.triangles) +
-                       " triangles\n";
+                       " pixels, " + (plan.passes_guessed ? "planned as for " : "") + std::to_string(plan.spp) +
+                       " spp in " + std::to_string(plan.pass_count) + (plan.pass_count == 1 ? " pass, " : " passes, ") +
+                       std::to_string(plan.triangles) + " triangles\n";
     text += "\neffects on\n" + effect_section(plan, scene, true);
     text += "\neffects off\n" + effect_section(plan, scene, false);
     text += "\nnever simulated\n  " + never_line(plan) + "\n";
@@ -128,8 +128,13 @@ std::string plan_text(const EffectPlan& plan, const std::string& scene) {
 }
 
 std::string plan_json(const EffectPlan& plan, const std::string& scene) {
-    Json json = {{"scene", scene},  {"width", plan.width},       {"height", plan.height},
-                 {"spp", plan.spp}, {"passes", plan.pass_count}, {"triangles", plan.triangles}};
+    Json json = {{"scene", scene},
+                 {"width", plan.width},
+                 {"height", plan.height},
+                 {"spp", plan.spp},
+                 {"passes", plan.pass_count},
+                 {"passes_guessed", plan.passes_guessed},
+                 {"triangles", plan.triangles}};
     json["effects"] = Json::array();
     for (const Effect& effect : plan.effects)
         json["effects"].push_back({{"name", effect.name},

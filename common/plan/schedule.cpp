@@ -11,6 +11,8 @@ namespace {
 
 /// Kick-start samples emitters directly in passes that begin with fewer samples per pixel than this (PPG's program).
 constexpr std::uint32_t kKickstartSpp = 128;
+/// Samples per pixel by which an open budget is planned.
+constexpr std::uint32_t kGuessedSpp = 64;
 /// A work unit is at most about this many samples of a full tile: around half a second on one core.
 constexpr std::uint32_t kSamplesPerUnit = 1u << 18;
 
@@ -26,30 +28,46 @@ void cut_into_units(PassPlan& pass, int tile_size) {
 
 }  // namespace
 
+void set_next_event(PassPlan& pass, const Job& job, bool next_event) {
+    pass.next_event = next_event;
+    pass.record_weight = next_event && job.integrator.next_event == NextEvent::kickstart ? 0.5 : 1.0;
+}
+
+void set_record(PassPlan& pass, const Job& job, bool record) {
+    pass.record = record;
+    pass.learn_mixture = record && pass.index > 0 && job.guiding.learn_bsdf_fraction;
+}
+
+PassPlan make_pass(const Job& job, std::uint32_t index, std::uint32_t first_sample, std::uint32_t spp, bool last) {
+    PassPlan pass;
+    pass.index = index;
+    pass.spp = spp;
+    pass.first_sample = first_sample;
+    const bool kickstart = job.integrator.next_event == NextEvent::kickstart && first_sample < kKickstartSpp;
+    set_next_event(pass, job, kickstart || job.integrator.next_event == NextEvent::always);
+    set_record(pass, job, job.guiding.type != GuidingType::none && !last);
+    cut_into_units(pass, job.farm.tile_size);
+    return pass;
+}
+
 std::vector<PassPlan> plan_passes(const Job& job) {
     const auto unit = static_cast<std::uint32_t>(job.guiding.spp_unit);
-    std::uint32_t remaining = (job.budget.spp + unit - 1) / unit;  // in units
-    const bool guided = job.guiding.type != GuidingType::none;
+    const std::uint32_t spp = has_open_budget(job) ? std::max(job.budget.spp, kGuessedSpp) : job.budget.spp;
+    std::uint32_t remaining = (spp + unit - 1) / unit;  // in units
     std::vector<PassPlan> passes;
     std::uint32_t done = 0;
     for (std::uint32_t index = 0; remaining > 0; ++index) {
         std::uint32_t units = std::min(remaining, std::uint32_t{1} << std::min(index, 31u));
         if (remaining - units < 2 * units) units = remaining;  // the last pass takes at least half of everything
         remaining -= units;
-        PassPlan pass;
-        pass.index = index;
-        pass.spp = units * unit;
-        pass.first_sample = done;
-        const bool kickstart = job.integrator.next_event == NextEvent::kickstart && done < kKickstartSpp;
-        pass.next_event = kickstart || job.integrator.next_event == NextEvent::always;
-        pass.record = guided && remaining > 0;
-        pass.record_weight = kickstart ? 0.5 : 1.0;
-        pass.learn_mixture = pass.record && index > 0 && job.guiding.learn_bsdf_fraction;
-        cut_into_units(pass, job.farm.tile_size);
-        done += pass.spp;
-        passes.push_back(pass);
+        passes.push_back(make_pass(job, index, done, units * unit, remaining == 0));
+        done += units * unit;
     }
     return passes;
+}
+
+bool has_open_budget(const Job& job) {
+    return job.budget.seconds > 0 || job.budget.error > 0;
 }
 
 double spatial_split_threshold(const Job& job, const PassPlan& coming_pass) {

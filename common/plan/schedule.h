@@ -18,11 +18,25 @@ struct PassPlan {
     bool learn_mixture = false;         ///< teach how often to sample the BSDF (needs a tree that guides)
     std::uint32_t blocks_per_unit = 1;  ///< power of two: sample blocks (of 64) in a work unit
     std::uint32_t chunks = 1;           ///< work units along the samples of a pixel
+
+    bool operator==(const PassPlan&) const = default;
 };
 
+/// A pass as the job makes it at this place of the schedule. `last`: no pass comes after it that could learn from it.
+PassPlan make_pass(const Job& job, std::uint32_t index, std::uint32_t first_sample, std::uint32_t spp, bool last);
+
+/// Sets next_event or record, with what follows from each.
+void set_next_event(PassPlan& pass, const Job& job, bool next_event);
+void set_record(PassPlan& pass, const Job& job, bool record);
+
 /// Passes double from guiding.spp_unit; when what remains after a pass would be less than twice that pass, the pass
-/// takes the rest. The budget is rounded up to whole units. Pure.
+/// takes the rest. The budget is rounded up to whole units. For an open budget (budget.seconds, budget.error), whose
+/// passes are chosen one by one as the render goes (budget.h), a guess to plan by: those of budget.spp, at least 64.
+/// Pure.
 std::vector<PassPlan> plan_passes(const Job& job);
+
+/// Whether clock or estimated error choose the passes.
+bool has_open_budget(const Job& job);
 
 /// c sqrt(n_k / 4): records above which a region splits before pass k. n_k is what doubling gives, spp_unit 2^k, also
 /// where the last pass is longer: as in the authors' program.

@@ -156,7 +156,7 @@ class FarmTest : public ::testing::Test {
         try {
             farm.gather([] { return false; });
             const SdTree tree = initial_tree(Box3(Vec3(0.0f), Vec3(1.0f)), 1.0f);
-            result = run_passes(farm, job_, plan_passes(job_), tree, kWidth, kHeight, {});
+            result = run_passes(farm, job_, passes_of(job_), tree, kWidth, kHeight, {});
         } catch (...) {
             leave(farm.lost_peers(), limits);
             throw;

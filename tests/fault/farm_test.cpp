@@ -115,7 +115,7 @@ TEST_F(FarmTest, ACoordinatorThatWasBusyGivesNobodyUp) {
     const SdTree tree = initial_tree(Box3(Vec3(0.0f), Vec3(1.0f)), 1.0f);
     RenderResult result;
     try {
-        result = run_passes(farm, job_, plan_passes(job_), tree, kWidth, kHeight, hooks);
+        result = run_passes(farm, job_, passes_of(job_), tree, kWidth, kHeight, hooks);
     } catch (const RunError& error) {
         ADD_FAILURE() << error.what();
     }
@@ -306,7 +306,7 @@ TEST_F(FarmTest, AnInterruptionKeepsWholePasses) {
     hooks.on_pass = [&](const PassReport&) { ++passes; };
     hooks.interrupted = [&] { return passes == 2; };
     const SdTree tree = initial_tree(Box3(Vec3(0.0f), Vec3(1.0f)), 1.0f);
-    const RenderResult result = run_passes(farm, job_, plan_passes(job_), tree, kWidth, kHeight, hooks);
+    const RenderResult result = run_passes(farm, job_, passes_of(job_), tree, kWidth, kHeight, hooks);
     leave({}, {.dismiss = 20});
     EXPECT_TRUE(result.interrupted);
     EXPECT_EQ(result.spp, 12u);

@@ -53,8 +53,9 @@ TEST(Ending, BadUsageEndsWithCode2AndOneLine) {
     const std::vector<std::vector<std::string>> wrong = {{"render"},
                                                          {"render", ""},
                                                          {"render", "x.xml", "--no-such-option"},
-                                                         {"render", "x.xml", "--seconds", "5"},
-                                                         {"render", "x.xml", "--error", "0.1"},
+                                                         {"render", "x.xml", "--seconds", "soon"},
+                                                         {"render", "x.xml", "--error", "-1"},
+                                                         {"render", "x.xml", "--spp", "4", "--seconds", "5"},
                                                          {"no-such-command"}};
     for (const auto& arguments : wrong)
         for (const int ranks : {0, 3}) {

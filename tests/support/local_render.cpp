@@ -31,11 +31,15 @@ std::vector<WorkUnit> cut(const Film& film, const PassPlan& pass, int tile) {
 
 LocalRender render_locally(const Scene& scene, const Job& job) {
     LocalRender run;
-    run.plans = plan_passes(job);
+    const PassChooser choose = passes_of(job);
+    const bool guided = job.guiding.type != GuidingType::none;
     const TraceScene trace(scene, job);
     run.tree = initial_tree(guiding_bounds(scene), 1.0f, job.guiding.bsdf_fraction);
     MixtureLearner mixture;
-    for (const PassPlan& pass : run.plans) {
+    RenderState state;
+    for (NextPass next = choose(state); next.pass;) {
+        const PassPlan pass = *next.pass;
+        run.tree.pass = pass.index;
         const Guide guide(run.tree);
         Accumulator accumulator(pass.index, guide, job.guiding.directional_filter, pass.learn_mixture);
         PassFilm film(scene.film.width, scene.film.height, pass.chunks);
@@ -49,11 +53,18 @@ LocalRender render_locally(const Scene& scene, const Job& job) {
         }
         run.stats.push_back(stats);
         run.passes.push_back({pass.spp, pass.first_sample, film.pixels()});
-        if (!pass.record) continue;
+        if (shows_last_pass_only(job)) run.passes.erase(run.passes.begin(), run.passes.end() - 1);
+        run.image = combine_passes(run.passes, job.guiding.combination, guided);
+        const double seconds = 1e-3 * pass.spp;
+        state.passes.push_back({pass.spp, pass.first_sample, pass_variance(film.pixels()).mse_of_sample, seconds, 0});
+        state.seconds += seconds;
+        state.error = estimate_error(run.image, job.sampler.seed);
+        run.states.push_back(state);
+        next = choose(state);
+        if (!pass.record || !next.pass) continue;
         RefineReport report;
-        const PassPlan& next = run.plans[pass.index + 1];
         RefineSettings settings;
-        settings.spatial_threshold = spatial_split_threshold(job, next);
+        settings.spatial_threshold = spatial_split_threshold(job, *next.pass);
         settings.record_weight = pass.record_weight;
         settings.target = job.guiding.target;
         const TreeSums sums = accumulator.take();
@@ -61,7 +72,6 @@ LocalRender render_locally(const Scene& scene, const Job& job) {
         if (pass.learn_mixture) mixture.learn(run.tree, sums, report.origins, refined);
         run.tree = std::move(refined);
     }
-    run.image = combine_passes(run.passes, job.guiding.combination, job.guiding.type != GuidingType::none);
     return run;
 }
 

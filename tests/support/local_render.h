@@ -6,15 +6,15 @@
 #include "common/film/combine.h"
 #include "common/film/trace_stats.h"
 #include "common/guiding/refine.h"
-#include "common/plan/schedule.h"
+#include "common/plan/budget.h"
 #include "common/scene/scene.h"
 
 namespace treefarm::test {
 
 /// All passes of a job in this thread, without a farm: what the farm must reproduce bit by bit.
 struct LocalRender {
-    std::vector<PassPlan> plans;
     std::vector<PassResult> passes;
+    std::vector<RenderState> states;  ///< after each pass; a sample takes a millisecond on this clock
     std::vector<TraceStats> stats;
     CombinedImage image;
     SdTree tree;  ///< that guided the last pass

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <random>
 
+#include "common/film/error_estimate.h"
+
 namespace treefarm {
 namespace {
 
@@ -45,7 +47,7 @@ TEST(Combine, InverseVarianceFavoursTheQuietPass) {
     const CombinedImage image = combine_passes(passes, Combination::inverse_variance, true);
     EXPECT_NEAR(image.weight[1], 100.0 / 101.0, 2e-3);
     // The image reports its own error: true variance of the mean is 1 / (16/1 + 16/0.01).
-    const double rmse = estimated_rmse(image);
+    const double rmse = estimate_error(image, 0).rmse;
     EXPECT_NEAR(rmse, std::sqrt(1.0 / (16.0 + 1600.0)), 0.05 * rmse);
     double squared = 0;
     for (const Rgb64& m : image.mean)

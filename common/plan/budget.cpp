@@ -1,0 +1,127 @@
+#include "common/plan/budget.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace treefarm {
+namespace {
+
+constexpr double kUnlimited = std::numeric_limits<double>::infinity();
+
+/// How far a render may be from budget.seconds: this share of it, or this many seconds if that is more.
+constexpr double kTimeTolerance = 0.05;
+constexpr double kLeastTolerance = 1.0;
+/// The first of the ending passes takes this share of the time left, so that a wrong forecast can be made up for.
+constexpr double kHedge = 0.85;
+
+/// An estimated error may end a render from this many samples per pixel on; an error of zero (nothing found any light,
+/// or there is no noise) only later.
+constexpr std::uint32_t kSppToBelieve = 16;
+constexpr std::uint32_t kSppToBelieveZero = 64;
+/// Ending passes aim a little beyond the target, so that few of them suffice; one that cannot be followed by another,
+/// a little more.
+constexpr double kMargin = 1.02;
+constexpr double kLastPassMargin = 1.10;
+/// A pass that makes up for a missed target renders at least this share of what there is.
+constexpr double kLeastShare = 1.0 / 16;
+
+class OpenBudget {
+  public:
+    explicit OpenBudget(const Job& job) : job_(job), one_ending_pass_(shows_last_pass_only(job)) {}
+
+    NextPass next(const RenderState& state) {
+        if (state.passes.empty()) return {first_pass(), 0, 0};
+        if (ending_ && one_ending_pass_) return {};
+        const auto index = static_cast<std::uint32_t>(state.passes.size());
+        const std::uint32_t done = state.spp();
+        const double others = std::min(by_error(state), static_cast<double>(job_.budget.max_spp) - done);
+        const double wanted = std::min(others, by_time(state, 1.0));
+        if (wanted < least_spp()) return {};
+        const double doubled = std::ldexp(job_.guiding.spp_unit, static_cast<int>(index));
+        const auto total = static_cast<std::uint32_t>(done + wanted);
+        if (!ending_ && wanted >= 3 * doubled)
+            return {make_pass(job_, index, done, static_cast<std::uint32_t>(doubled), false), total, 0};
+        const double hedged = ending_ ? wanted : std::min(others, by_time(state, hedge(state)));
+        ending_ = true;
+        const auto spp = static_cast<std::uint32_t>(std::max(hedged, least_spp()));
+        return {make_pass(job_, index, done, spp, true), total, 0};
+    }
+
+  private:
+    PassPlan first_pass() const {
+        const auto unit = static_cast<std::uint32_t>(job_.guiding.spp_unit);
+        return make_pass(job_, 0, 0, std::min(unit, job_.budget.max_spp), unit >= job_.budget.max_spp);
+    }
+
+    /// Fewer samples than this would not count in the image.
+    double least_spp() const {
+        const bool by_variance = job_.guiding.type != GuidingType::none &&
+                                 job_.guiding.combination == Combination::inverse_variance && !job_.budget.strict;
+        return by_variance ? kMinSamplesForVariance : 1.0;
+    }
+
+    double tolerance() const { return std::max(kTimeTolerance * job_.budget.seconds, kLeastTolerance); }
+
+    double hedge(const RenderState& state) const {
+        const double uncertain = (1 - kHedge) * (job_.budget.seconds - state.seconds);
+        const double worthwhile = std::max(0.5 * tolerance(), seconds_of_pass(state, 2 * least_spp()));
+        return one_ending_pass_ || uncertain < worthwhile ? 1.0 : kHedge;
+    }
+
+    /// Samples that a pass can have which takes this share of the time left.
+    double by_time(const RenderState& state, double share) const {
+        if (job_.budget.seconds == 0) return kUnlimited;
+        const double left = job_.budget.seconds - state.seconds;
+        if (left < 0.25 * tolerance()) return 0;
+        const double spp = std::floor(std::max(0.0, share * left - seconds_of_pass(state, 0)) / seconds_per_spp(state));
+        // The shortest pass may be a little too long: that may still be nearer to the budget than to stop here.
+        const double too_long = seconds_of_pass(state, least_spp()) - left;
+        return too_long < std::min(left, 0.75 * tolerance()) ? std::max(spp, least_spp()) : spp;
+    }
+
+    /// Samples that are still needed for the target.
+    double by_error(const RenderState& state) const {
+        const double target = job_.budget.error;
+        const ErrorEstimate& error = state.error;
+        const std::uint32_t done = state.spp();
+        if (target == 0 || !error.known || done < (error.rmse > 0 ? kSppToBelieve : kSppToBelieveZero))
+            return kUnlimited;
+        if (error.relative() <= target && !job_.budget.strict) return 0;
+        const double rmse = target * error.mean;
+        const double spp =
+            std::ceil(spp_to_reach(state, job_, rmse * rmse) * (one_ending_pass_ ? kLastPassMargin : kMargin));
+        return one_ending_pass_ ? spp : std::max({spp, least_spp(), kLeastShare * done});
+    }
+
+    const Job job_;
+    const bool one_ending_pass_;
+    bool ending_ = false;
+};
+
+}  // namespace
+
+PassChooser listed_passes(std::vector<PassPlan> passes) {
+    return [passes = std::move(passes)](const RenderState& state) -> NextPass {
+        const std::size_t next = state.passes.size();
+        if (next >= passes.size()) return {};
+        return {passes[next], passes.back().first_sample + passes.back().spp, passes.size()};
+    };
+}
+
+PassChooser open_passes(const Job& job) {
+    return [budget = OpenBudget(job)](const RenderState& state) mutable { return budget.next(state); };
+}
+
+PassChooser passes_of(const Job& job) {
+    return has_open_budget(job) ? open_passes(job) : listed_passes(plan_passes(job));
+}
+
+bool misses_target(const Job& job, const ErrorEstimate& error) {
+    if (job.budget.error == 0) return false;
+    // The length of a strict render is a forecast: it misses if its error is above the target beyond doubt.
+    const double reached = job.budget.strict ? error.relative_low() : error.relative();
+    return !error.known || !(reached <= job.budget.error);
+}
+
+}  // namespace treefarm

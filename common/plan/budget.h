@@ -1,0 +1,35 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "common/plan/forecast.h"
+#include "common/plan/schedule.h"
+
+namespace treefarm {
+
+/// What comes next in a render.
+struct NextPass {
+    std::optional<PassPlan> pass;  ///< none: the render is done
+    std::uint32_t spp_total = 0;   ///< expected when all is done; 0: not known yet
+    std::size_t pass_count = 0;    ///< 0: not known yet
+};
+
+/// Asked before each pass, once. The only place where clock and estimated error have a say.
+using PassChooser = std::function<NextPass(const RenderState&)>;
+
+/// These passes, one after the other.
+PassChooser listed_passes(std::vector<PassPlan> passes);
+
+/// Passes that double until budget.seconds, budget.error or budget.max_spp is near, then one that takes the rest, then
+/// as many smaller ones as make up for what the forecast missed (none where the image is its last pass alone).
+PassChooser open_passes(const Job& job);
+
+/// The job's own.
+PassChooser passes_of(const Job& job);
+
+/// Whether the job asked for an error that the image has not come down to.
+bool misses_target(const Job& job, const ErrorEstimate& error);
+
+}  // namespace treefarm
