@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "common/base/random.h"
+#include "common/math/frame.h"
 #include "tests/support/chi_square.h"
 #include "tests/support/random_tree.h"
 #include "worker/integrator/guided_sampling.h"

@@ -126,11 +126,11 @@ TEST(LightChoice, IsByPower) {
         expected.push_back(watts / total * kSamples);
     for (std::uint32_t i = 0; i < kSamples; ++i) {
         const DirectSample s = lights.emitters().sample_direct(p, draw({5, i, 0}, 1, Stream::light));
-        if (s.delta && s.to_environment())
+        if (s.delta && s.at_infinity())
             ++counts[4];
         else if (s.delta)
             ++counts[dot(s.wi, normalize(point - p)) > 0.999f ? 2 : 3];
-        else if (s.to_environment())
+        else if (s.at_infinity())
             ++counts[5];
         else
             ++counts[s.on_light.shape];
