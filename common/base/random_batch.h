@@ -7,7 +7,7 @@
 namespace treefarm {
 
 /// How many paths draw together: a multiple of every vector register's lanes.
-inline constexpr std::uint32_t kDrawBatch = 32;
+inline constexpr std::uint32_t kDrawBatch = 64;
 
 /// Which paths draw.
 struct KeyBatch {

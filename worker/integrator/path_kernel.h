@@ -38,10 +38,12 @@ class PathKernel {
 
     /// Forgets the paths traced so far.
     void clear() { count_ = 0; }
+    std::uint32_t count() const { return count_; }
+    bool full() const { return count_ == kBatch; }
 
-    /// Adds a camera path; at most kBatch of them.
+    /// Adds a camera path. Not when full.
     void add(const PathKey& key, const Ray& ray) {
-        assert(count_ < kBatch);
+        assert(!full());
         paths_[count_].begin(key, ray);
         if constexpr (kRecord) recorders_[count_].begin_path();
         observer_.camera(ray);

@@ -35,41 +35,60 @@ std::span<const TileKernel> general_kernels();
 /// The film's door: what is not a radiance counts as black, is counted, and can be reproduced from what is kept.
 bool refuse_invalid(Rgb& radiance, const WorkUnit& unit, int x, int y, std::uint32_t sample, TraceStats& stats);
 
+/// Walks through the samples of a unit: pixel by pixel, row by row.
+struct UnitCursor {
+    const WorkUnit& unit;
+    std::uint32_t first, last;  ///< samples of a pixel
+    int x = unit.x0, y = unit.y0;
+    std::uint32_t sample = first;
+
+    bool done() const { return y == unit.y1 || first >= last; }
+    /// True if that was the pixel's last sample.
+    bool advance() {
+        if (++sample < last) return false;
+        sample = first;
+        if (++x == unit.x1) {
+            x = unit.x0;
+            ++y;
+        }
+        return true;
+    }
+};
+
 template <class Surface, bool kGuided, bool kRecord>
 void render_with(const TileJob& tile) {
-    static_assert(kBlockSamples % PathKernel<Surface, kGuided, kRecord>::kBatch == 0);
     const auto& [scene, job, pass, guide, unit, pixels, log, stats] = tile;
     PathKernel<Surface, kGuided, kRecord> kernel(scene, guide, PathSettings(scene, job, pass, guide), stats);
     const std::uint32_t first = unit.chunk * pass.blocks_per_unit * kBlockSamples;
     const std::uint32_t last = std::min(first + pass.blocks_per_unit * kBlockSamples, pass.spp);
+    const std::int64_t width = scene.film().width;
+    const auto key = [&](const UnitCursor& at) {
+        return PathKey{job.sampler.seed, static_cast<std::uint32_t>(at.y * width + at.x),
+                       pass.first_sample + at.sample};
+    };
     std::vector<PixelEstimate> blocks;
-    for (int y = unit.y0; y < unit.y1; ++y) {
-        for (int x = unit.x0; x < unit.x1; ++x) {
-            blocks.clear();
-            PathKey path{job.sampler.seed, static_cast<std::uint32_t>(y * std::int64_t(scene.film().width) + x), 0};
-            for (std::uint32_t sample = first; sample < last;) {
-                if (sample % kBlockSamples == 0) blocks.emplace_back();
-                // Within a block: which paths walk together then depends on nothing but the pass.
-                const std::uint32_t count = std::min(kernel.kBatch, last - sample);
-                kernel.clear();
-                for (std::uint32_t i = 0; i < count; ++i) {
-                    path.sample = pass.first_sample + sample + i;
-                    kernel.add(path, scene.camera().generate(x, y, path));
-                }
-                kernel.trace();
-                for (std::uint32_t i = 0; i < count; ++i, ++sample) {
-                    path.sample = pass.first_sample + sample;
-                    Rgb radiance = kernel.radiance(i);
-                    const bool refused = refuse_invalid(radiance, unit, x, y, sample, stats);
-                    if (!is_black(radiance)) ++stats.nonzero_paths;
-                    if constexpr (kRecord)
-                        if (!refused) stats.records += kernel.recorder(i).commit(path, log);
-                    blocks.back().add(path.sample, radiance);
-                }
-            }
-            stats.paths += last - std::min(first, last);
-            pixels.push_back(reduce_blocks(blocks));
+    UnitCursor start{unit, first, last}, end{unit, first, last};
+    while (!start.done()) {
+        kernel.clear();
+        while (!kernel.full() && !start.done()) {
+            kernel.add(key(start), scene.camera().generate(start.x, start.y, key(start)));
+            start.advance();
         }
+        kernel.trace();
+        for (std::uint32_t i = 0; i < kernel.count(); ++i) {
+            if (end.sample % kBlockSamples == 0) blocks.emplace_back();
+            Rgb radiance = kernel.radiance(i);
+            const bool refused = refuse_invalid(radiance, unit, end.x, end.y, end.sample, stats);
+            if (!is_black(radiance)) ++stats.nonzero_paths;
+            if constexpr (kRecord)
+                if (!refused) stats.records += kernel.recorder(i).commit(key(end), log);
+            blocks.back().add(key(end).sample, radiance);
+            if (end.advance()) {
+                pixels.push_back(reduce_blocks(blocks));
+                blocks.clear();
+            }
+        }
+        stats.paths += kernel.count();
     }
 }
 
