@@ -42,6 +42,14 @@ std::string only_if(bool known, double value) {
     return known ? fmt::format("{}", value) : std::string();
 }
 
+/// Thread-seconds, empty where nobody timed them.
+Column phase_column(const char* name, TracePhase phase) {
+    return {name, [phase](const PassReport& r) {
+                const double seconds = r.stats.phase_seconds[static_cast<std::size_t>(phase)];
+                return only_if(r.stats.phase_seconds[0] > 0, seconds);
+            }};
+}
+
 bool has_target(const PassReport& report) {
     return report.error.known && report.target.relative_error > 0;
 }
@@ -62,6 +70,11 @@ std::vector<Column> columns() {
         column("trace_seconds_mean", [](R r) { return r.seconds.trace.mean; }),
         column("trace_seconds_max", [](R r) { return r.seconds.trace.max; }),
         column("trace_max_worker", [](R r) { return r.seconds.trace.max_worker; }),
+        phase_column("profile_intersect", TracePhase::intersect),
+        phase_column("profile_surface", TracePhase::surface),
+        phase_column("profile_direction", TracePhase::direction),
+        phase_column("profile_shadow", TracePhase::shadow),
+        phase_column("profile_record", TracePhase::record),
         column("splat_seconds", [](R r) { return r.seconds.splat; }),
         column("idle_seconds", [](R r) { return r.seconds.idle; }),
         column("merge_seconds", [](R r) { return r.seconds.merge; }),

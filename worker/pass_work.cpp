@@ -13,9 +13,9 @@ PassWork::PassWork(const PassPlan& plan, const SdTree& tree, DirectionalFilter f
 void PassWork::deliver(UnitResult unit, RecordLog& log, TraceStats stats) {
     const std::shared_lock bundle(bundle_);
     if (accumulator_) {
-        const Timer timer;
+        const double start = thread_cpu_seconds();
         accumulator_->commit(log.records, log.counts, log.caps);
-        stats.splat_seconds += timer.seconds();
+        stats.splat_seconds += thread_cpu_seconds() - start;
     }
     const std::scoped_lock lock(units_lock_);
     units_.push_back(std::move(unit));

@@ -101,6 +101,7 @@ struct Job {
 
     struct Farm {
         int tile_size = 32;              ///< pixels
+        bool profile = false;            ///< time the parts of tracing
         double heartbeat_seconds = 1.0;  ///< how often each side says that it lives
         double update_seconds = 1.5;     ///< how often a worker sends what it has finished
         std::string isa =

@@ -275,6 +275,10 @@ std::vector<JobKey> make_job_keys() {
     add(integer_key(
         "farm.tile_size", "1 to 1024", "pixels along the edge of a tile; no influence on the image",
         [](auto& j) -> auto& { return j.farm.tile_size; }, 1, 1024));
+    add(boolean_key(
+        "farm.profile",
+        "time the parts of tracing, for the columns profile_* of passes.csv; costs about 2 % of the time",
+        [](auto& j) -> auto& { return j.farm.profile; }));
     const auto seconds = [](double v) { return v >= 0.001 && v <= 3600.0; };
     add(number_key(
         "farm.heartbeat_seconds", "0.001 to 3600", "how often each side says that it lives",

@@ -14,6 +14,8 @@ void TraceStats::add(const TraceStats& other) {
         if (first_invalid.size() < kMaxReported) first_invalid.push_back(sample);
     trace_seconds += other.trace_seconds;
     splat_seconds += other.splat_seconds;
+    for (std::size_t i = 0; i < kTracePhases; ++i)
+        phase_seconds[i] += other.phase_seconds[i];
 }
 
 }  // namespace treefarm

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -13,6 +14,16 @@ struct InvalidSample {
     float rgb[3] = {0, 0, 0};
 };
 
+/// Parts of tracing, timed where farm.profile asks for it.
+enum class TracePhase : std::uint8_t {
+    intersect,  ///< nearest hits
+    surface,    ///< random numbers, points, materials, emitters met and sampled
+    direction,  ///< the next direction: regions, samples and densities of BSDF and tree
+    shadow,     ///< shadow rays and what they let through
+    record,     ///< what is noted for the tree, and the film
+};
+inline constexpr std::size_t kTracePhases = 5;
+
 /// What tracing some units took: counts are exact sums, seconds are measured (and never enter a result).
 struct TraceStats {
     std::uint64_t paths = 0;
@@ -22,9 +33,10 @@ struct TraceStats {
     std::uint64_t vertices = 0;  ///< surface vertices at which a direction was sampled
     std::uint64_t records = 0;   ///< of them, recorded for the tree
     std::uint64_t invalid_samples = 0;
-    std::vector<InvalidSample> first_invalid;  ///< at most kMaxReported of them, to reproduce
-    double trace_seconds = 0;                  ///< thread-seconds in the tile renderer
-    double splat_seconds = 0;                  ///< thread-seconds adding records to the tree's sums
+    std::vector<InvalidSample> first_invalid;          ///< at most kMaxReported of them, to reproduce
+    double trace_seconds = 0;                          ///< thread-seconds in the tile renderer
+    double splat_seconds = 0;                          ///< thread-seconds adding records to the tree's sums
+    std::array<double, kTracePhases> phase_seconds{};  ///< of trace_seconds; zeros where not timed
 
     static constexpr std::size_t kMaxReported = 16;
     void add(const TraceStats& other);

@@ -56,6 +56,8 @@ void write_stats(ByteWriter& writer, const TraceStats& s) {
         writer.put_varint(count);
     writer.put(s.trace_seconds);
     writer.put(s.splat_seconds);
+    for (const double seconds : s.phase_seconds)
+        writer.put(seconds);
     writer.put_varint(s.first_invalid.size());
     for (const InvalidSample& sample : s.first_invalid) {
         writer.put(sample.pass);
@@ -76,6 +78,8 @@ TraceStats read_stats(ByteReader& reader) {
         *count = reader.get_varint();
     s.trace_seconds = reader.get<double>();
     s.splat_seconds = reader.get<double>();
+    for (double& seconds : s.phase_seconds)
+        seconds = reader.get<double>();
     const std::size_t invalid = reader.get_count(kInvalidSampleBytes);
     for (std::size_t i = 0; i < invalid; ++i) {
         InvalidSample sample;

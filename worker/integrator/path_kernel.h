@@ -12,6 +12,7 @@
 #include "worker/integrator/path_settings.h"
 #include "worker/integrator/path_state.h"
 #include "worker/integrator/pending_light.h"
+#include "worker/integrator/phase_clock.h"
 #include "worker/integrator/surface.h"
 
 namespace treefarm {
@@ -32,6 +33,7 @@ class PathKernel {
           guide_(guide),
           settings_(settings),
           stats_(stats),
+          clock_(settings.profile, stats),
           scratch_(kBatch, Surface::make_scratch(scene)) {
         if constexpr (kRecord) recorders_.fill(PathRecorder(settings.target));
     }
@@ -64,6 +66,7 @@ class PathKernel {
     /// What it learned, until it is committed.
     PathRecorder& recorder(std::uint32_t path) { return recorders_[path]; }
     Observer& observer() { return observer_; }
+    PhaseClock& clock() { return clock_; }
 
   private:
     /// Whether directions have to be converted before a path can leave.
@@ -75,43 +78,66 @@ class PathKernel {
 
     /// One more edge for the first `alive` of alive_; returns how many go on.
     std::uint32_t step(std::uint32_t alive, int depth) {
+        clock_.start();
         stats_.rays += alive;
         for (std::uint32_t lane = 0; lane < alive; ++lane) {
             Path& path = paths_[alive_[lane]];
+            path.lane = static_cast<std::uint8_t>(lane);
             observer_.ray(path.ray);
             path.found = scene_.geometry().meet(path.ray, path.meeting);
         }
+        clock_.lap(TracePhase::intersect);
         draw_numbers(alive, depth);
-        for (std::uint32_t lane = 0; lane < alive; ++lane)
-            find_place(lane);
+        for (std::uint32_t lane = 0; lane < alive; ++lane) {
+            Path& path = paths_[alive_[lane]];
+            if (path.found) scene_.geometry().set_point(path.hit, path.meeting);
+        }
+        clock_.lap(TracePhase::surface);
+        if constexpr (kConverts) find_regions(alive);
         pending_.clear();
-        scatter_.clear();
-        alive = keep(alive, [&](std::uint8_t path, std::uint32_t lane) {
-            return visit(path, depth, lane) && draw_direction(path, lane) && (kConverts || leave(path, depth));
-        });
+        alive = keep(alive, [&](std::uint8_t path) { return visit(path, depth); });
+        clock_.lap(TracePhase::surface);
         if (!pending_.empty()) look_at_lights(depth);
-        if constexpr (!kConverts) return alive;
+        clock_.lap(TracePhase::shadow);
+        alive = go_on(alive);
+        clock_.lap(TracePhase::direction);
+        if constexpr (kRecord) {
+            for (std::uint32_t i = 0; i < alive; ++i)
+                remember(alive_[i], depth);
+            clock_.lap(TracePhase::record);
+        }
+        return alive;
+    }
+
+    /// The next directions.
+    std::uint32_t go_on(std::uint32_t alive) {
+        scatter_.clear();
+        if constexpr (!kConverts)
+            return keep(alive, [&](std::uint8_t path) { return draw_direction(path) && leave(path); });
+        alive = keep(alive, [&](std::uint8_t path) { return draw_direction(path); });
         scatter_.convert(guide_);
-        return keep(alive, [&](std::uint8_t path, std::uint32_t) { return leave(path, depth); });
+        return keep(alive, [&](std::uint8_t path) { return leave(path); });
     }
 
     /// Of the first `alive` of alive_ those for which `goes_on`.
     template <class GoesOn>
     std::uint32_t keep(std::uint32_t alive, GoesOn goes_on) {
         std::uint32_t left = 0;
-        for (std::uint32_t lane = 0; lane < alive; ++lane) {
-            const std::uint8_t path = alive_[lane];
-            if (goes_on(path, lane)) alive_[left++] = path;
+        for (std::uint32_t i = 0; i < alive; ++i) {
+            const std::uint8_t path = alive_[i];
+            if (goes_on(path)) alive_[left++] = path;
         }
         return left;
     }
 
-    void find_place(std::uint32_t lane) {
-        Path& path = paths_[alive_[lane]];
-        if (!path.found) return;
-        scene_.geometry().set_point(path.hit, path.meeting);
-        if constexpr (kGuided || kRecord) path.region = guide_.region(path.hit.p);
-        if constexpr (kGuided) guide_.prefetch(path.region, scatter_draws_.word[1][lane]);
+    void find_regions(std::uint32_t alive) {
+        for (std::uint32_t lane = 0; lane < alive; ++lane) {
+            Path& path = paths_[alive_[lane]];
+            if (!path.found) continue;
+            path.region = guide_.region(path.hit.p);
+            if constexpr (kGuided) guide_.prefetch(path.region, scatter_draws_.word[1][lane]);
+        }
+        clock_.lap(TracePhase::direction);
     }
 
     /// The random numbers of a step, for all paths together.
@@ -131,8 +157,8 @@ class PathKernel {
             draw_batch(seed, keys, alive, vertex_of(depth), Stream::jitter, jitter_draws_);
     }
 
-    /// What happens where a path's ray has arrived. False if it ends. `lane` is its place in what was drawn.
-    bool visit(std::uint8_t index, int depth, std::uint32_t lane) {
+    /// What happens where a path's ray has arrived. False if it ends.
+    bool visit(std::uint8_t index, int depth) {
         Path& path = paths_[index];
         const Hit& hit = path.hit;
         const Ray& ray = path.ray;
@@ -165,20 +191,20 @@ class PathKernel {
         path.bsdf_fraction = kGuided && surface.smooth() ? guide_.bsdf_fraction(path.region) : 1.0f;
         if constexpr (kRecord)
             if (surface.smooth() && !guide_.contains(hit.p)) recorders_[index].add_outside();
-        if ((settings_.next_event || settings_.delta_alone) && surface.smooth()) next_event(index, light_draws_[lane]);
+        if ((settings_.next_event || settings_.delta_alone) && surface.smooth())
+            next_event(index, light_draws_[path.lane]);
         return true;
     }
 
-    bool draw_direction(std::uint8_t index, std::uint32_t lane) {
+    bool draw_direction(std::uint8_t index) {
         Path& path = paths_[index];
-        if constexpr (kRecord) path.jitter = jitter_draws_[lane];
-        return scatter_.draw(*path.surface, guide_, path.region, path.bsdf_fraction, scatter_draws_[lane],
-                             cosines_[lane], path.scatter) ||
+        return scatter_.draw(*path.surface, guide_, path.region, path.bsdf_fraction, scatter_draws_[path.lane],
+                             cosines_[path.lane], path.scatter) ||
                end("no direction");
     }
 
     /// The path takes the direction that was drawn. False if it carries nothing.
-    bool leave(std::uint8_t index, int depth) {
+    bool leave(std::uint8_t index) {
         Path& path = paths_[index];
         const Surface& surface = *path.surface;
         scatter_.complete(surface, guide_, path.region, path.bsdf_fraction, path.scatter);
@@ -186,8 +212,8 @@ class PathKernel {
         const ScatterSample& s = path.scatter;
         if (!(s.pdf > 0.0f) || is_black(s.f_cos)) return end("no direction");
         if (settings_.strict_normals && dot(surface.ng(), s.world) * s.local.z <= 0.0f) return end("normals disagree");
-        const Rgb weight = s.f_cos * (1.0f / s.pdf);
-        path.throughput *= weight;
+        path.weight = s.f_cos * (1.0f / s.pdf);
+        path.throughput *= path.weight;
         observer_.scatter(s, path.throughput);
         path.scatter_pdf = s.pdf;
         path.scatter_point = hit.p;
@@ -196,19 +222,24 @@ class PathKernel {
         if constexpr (Surface::kTransmits)
             if (rare && s.local.z < 0.0f) path.spread *= surface.eta2();
         assert(path.spread == 1.0f || scene_.effects().transmission);
-        if (rare && s.delta) {
-            if constexpr (kRecord)
-                recorders_[index].add_delta_vertex(weight, surface.smooth() ? path.region : PathRecorder::kNotRecorded,
-                                                   vertex_of(depth));
-            path.scatter_pdf = std::numeric_limits<float>::infinity();
-        } else if constexpr (kRecord) {
-            const std::uint32_t region =
-                settings_.jitter_records ? guide_.jittered_region(hit.p, path.region, path.jitter) : path.region;
-            recorders_[index].add_vertex(region, s.code, s.pdf, weight, mixture_bin(s.bsdf_pdf, s.guide_pdf),
-                                         vertex_of(depth));
-        }
+        if (rare && s.delta) path.scatter_pdf = std::numeric_limits<float>::infinity();
         path.ray = {offset_origin(hit, s.world), s.world};
         return true;
+    }
+
+    /// Notes the direction that the path has taken.
+    void remember(std::uint8_t index, int depth) {
+        const Path& path = paths_[index];
+        const ScatterSample& s = path.scatter;
+        if (s.delta) {
+            const std::uint32_t region = path.surface->smooth() ? path.region : PathRecorder::kNotRecorded;
+            recorders_[index].add_delta_vertex(path.weight, region, vertex_of(depth));
+            return;
+        }
+        std::uint32_t region = path.region;
+        if (settings_.jitter_records) region = guide_.jittered_region(path.hit.p, region, jitter_draws_[path.lane]);
+        recorders_[index].add_vertex(region, s.code, s.pdf, path.weight, mixture_bin(s.bsdf_pdf, s.guide_pdf),
+                                     vertex_of(depth));
     }
 
     bool end(const char* why) {
@@ -328,6 +359,7 @@ class PathKernel {
     const Guide& guide_;
     const PathSettings settings_;
     TraceStats& stats_;
+    PhaseClock clock_;
     std::vector<typename Surface::Scratch> scratch_;  ///< a path's surface lasts for a step
     std::uint32_t count_ = 0;
     std::array<Path, kBatch> paths_;

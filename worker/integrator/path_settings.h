@@ -17,7 +17,8 @@ struct PathSettings {
     bool strict_normals;
     bool hide_emitters;
     bool record_light_samples;  ///< kick-start: what next event finds teaches the tree, too
-    bool jitter_records;        ///< stochastic spatial filter
+    bool profile;
+    bool jitter_records;  ///< stochastic spatial filter
     GuidingTarget target;
     Roulette roulette;
 
@@ -29,6 +30,7 @@ struct PathSettings {
           strict_normals(job.integrator.strict_normals),
           hide_emitters(job.integrator.hide_emitters),
           record_light_samples(job.integrator.next_event == NextEvent::kickstart && pass.next_event),
+          profile(job.farm.profile),
           jitter_records(job.guiding.spatial_filter == SpatialFilter::stochastic),
           target(job.guiding.target),
           roulette(job.guiding.type == GuidingType::none ? Roulette::Rule::unguided

@@ -24,8 +24,9 @@ struct PathState {
     std::uint32_t region;  ///< of the tree, where it is used
     float bsdf_fraction;   ///< probability of sampling the BSDF there
     std::optional<Surface> surface;
+    std::uint8_t lane;  ///< its place in what the batch has drawn
     ScatterSample scatter;
-    Draw jitter;  ///< of what is recorded
+    Rgb weight;  ///< f |cos| over the density of the sampled direction
 
     void begin(const PathKey& path, const Ray& from_camera) {
         key = path;

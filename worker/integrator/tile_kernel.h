@@ -75,6 +75,7 @@ void render_with(const TileJob& tile) {
             start.advance();
         }
         kernel.trace();
+        kernel.clock().start();
         for (std::uint32_t i = 0; i < kernel.count(); ++i) {
             if (end.sample % kBlockSamples == 0) blocks.emplace_back();
             Rgb radiance = kernel.radiance(i);
@@ -88,6 +89,7 @@ void render_with(const TileJob& tile) {
                 blocks.clear();
             }
         }
+        kernel.clock().lap(TracePhase::record);
         stats.paths += kernel.count();
     }
 }

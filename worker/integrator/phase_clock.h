@@ -1,0 +1,34 @@
+#pragma once
+
+#include <chrono>
+
+#include "common/film/trace_stats.h"
+
+namespace treefarm {
+
+/// Times the parts of tracing where it is asked to, once per step of a batch of paths; else it costs a branch each
+/// time.
+class PhaseClock {
+  public:
+    PhaseClock(bool on, TraceStats& stats) : on_(on), stats_(stats) {}
+
+    void start() {
+        if (on_) last_ = Clock::now();
+    }
+
+    /// What passed since start() or the last lap belongs to `phase`.
+    void lap(TracePhase phase) {
+        if (!on_) return;
+        const Clock::time_point now = Clock::now();
+        stats_.phase_seconds[static_cast<std::size_t>(phase)] += std::chrono::duration<double>(now - last_).count();
+        last_ = now;
+    }
+
+  private:
+    using Clock = std::chrono::steady_clock;
+    const bool on_;
+    TraceStats& stats_;
+    Clock::time_point last_;
+};
+
+}  // namespace treefarm
