@@ -33,6 +33,11 @@ enum class DirectionalFilter : std::uint8_t {
 };
 
 /// What the cells of a region are sampled in proportion to.
+enum class GuidingRoulette : std::uint8_t {
+    constant,  ///< paths survive with 0.99
+    adjoint,   ///< by what the tree expects of them, against what it expected of their first vertex
+};
+
 enum class GuidingTarget : std::uint8_t {
     radiance,  ///< their mean radiance: sums of L / p
     variance,  ///< the square root of their second moment, from sums of L^2 / p (Rath et al. 2020)
@@ -81,6 +86,7 @@ struct Job {
         SpatialFilter spatial_filter = SpatialFilter::stochastic;
         DirectionalFilter directional_filter = DirectionalFilter::box;
         GuidingTarget target = GuidingTarget::radiance;
+        GuidingRoulette roulette = GuidingRoulette::adjoint;
         int spatial_threshold = 4000;         ///< c of the spatial split rule
         float directional_threshold = 0.01f;  ///< share of a region's energy above which a cell splits
         int spp_unit = 1;                     ///< samples per pixel of the first pass; passes double

@@ -246,6 +246,12 @@ std::vector<JobKey> make_job_keys() {
         [](auto& j) -> auto& { return j.guiding.target; },
         std::vector<std::pair<std::string, GuidingTarget>>{{"radiance", GuidingTarget::radiance},
                                                            {"variance", GuidingTarget::variance}}));
+    add(word_key(
+        "guiding.roulette",
+        "once a tree guides: by the radiance that it expects of a path, or the constant 0.99 of the program of 2017",
+        [](auto& j) -> auto& { return j.guiding.roulette; },
+        std::vector<std::pair<std::string, GuidingRoulette>>{{"adjoint", GuidingRoulette::adjoint},
+                                                             {"constant", GuidingRoulette::constant}}));
 
     add(integer_key(
         "budget.spp", "1 to 2^30", "samples per pixel in all passes, unless `budget.seconds` or `budget.error` is set",
@@ -334,6 +340,7 @@ std::span<const Setting> preset_settings(const std::string& preset) {
         {"guiding.spatial_filter", "nearest", {}},
         {"guiding.directional_filter", "nearest", {}},
         {"guiding.target", "radiance", {}},
+        {"guiding.roulette", "constant", {}},
     };
     if (preset == "paper") return paper;
     return {};

@@ -15,11 +15,6 @@ std::uint32_t axis_step(float position, float origin, float inverse_extent) {
     return steps < kAxisSteps ? static_cast<std::uint32_t>(steps) : (1u << kAxisBits) - 1;
 }
 
-/// 2^exponent, above the subnormal ones.
-float power_of_two(int exponent) {
-    return std::bit_cast<float>(static_cast<std::uint32_t>(127 + exponent) << 23);
-}
-
 /// The last cell whose `begin` is at or before `key`, without a branch that nothing predicts.
 template <class Range, class Cell>
 const Cell* last_before(const Range& range, std::uint32_t Cell::*begin, std::uint32_t key) {

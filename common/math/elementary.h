@@ -20,6 +20,11 @@ inline float negate_if(bool condition, float x) {
 /// Our own elementary functions for whatever decides a path: the C library picks its code by CPU, so the same call may
 /// round differently on two machines (docs/architecture.md, "same bits"). Polynomials in plain float operations do not.
 
+/// 2^exponent for exponents of -126 to 127.
+inline float power_of_two(int exponent) {
+    return std::bit_cast<float>(static_cast<std::uint32_t>(127 + exponent) << 23);
+}
+
 /// sin and cos of x in [0, pi/2], error below 2e-7.
 struct SinCos {
     float sin, cos;

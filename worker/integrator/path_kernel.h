@@ -93,7 +93,7 @@ class PathKernel {
             if (path.found) scene_.geometry().set_point(path.hit, path.meeting);
         }
         clock_.lap(TracePhase::surface);
-        if constexpr (kConverts) find_regions(alive);
+        if constexpr (kConverts) find_regions(alive, depth);
         pending_.clear();
         alive = keep(alive, [&](std::uint8_t path) { return visit(path, depth); });
         clock_.lap(TracePhase::surface);
@@ -130,11 +130,12 @@ class PathKernel {
         return left;
     }
 
-    void find_regions(std::uint32_t alive) {
+    void find_regions(std::uint32_t alive, [[maybe_unused]] int depth) {
         for (std::uint32_t lane = 0; lane < alive; ++lane) {
             Path& path = paths_[alive_[lane]];
             if (!path.found) continue;
             path.region = guide_.region(path.hit.p);
+            if (kGuided && depth == 1) path.first_exponent = guide_.quantum_exponent(path.region);
             if constexpr (kGuided) guide_.prefetch(path.region, scatter_draws_.word[1][lane]);
         }
         clock_.lap(TracePhase::direction);
@@ -173,8 +174,8 @@ class PathKernel {
         if (depth == settings_.max_depth) return end("depth limit");
 
         if (depth > 1 && settings_.roulette.plays(depth - 1)) {
-            const float survival =
-                settings_.roulette.survival(path.throughput, Surface::kTransmits ? path.spread : 1.0f);
+            const float spread = Surface::kTransmits ? path.spread : 1.0f;
+            const float survival = settings_.roulette.survival(path.throughput, spread, brightness(path));
             const bool survives = to_unit(draw(path.key, vertex_of(depth - 1), Stream::roulette)[0]) < survival;
             observer_.roulette(survival, survives);
             if (!survives) return end("roulette");
@@ -240,6 +241,14 @@ class PathKernel {
         if (settings_.jitter_records) region = guide_.jittered_region(path.hit.p, region, jitter_draws_[path.lane]);
         recorders_[index].add_vertex(region, s.code, s.pdf, path.weight, mixture_bin(s.bsdf_pdf, s.guide_pdf),
                                      vertex_of(depth));
+    }
+
+    /// Of the light about the path's end over that about its first vertex, by the mean records of their regions.
+    float brightness(const Path& path) const {
+        if constexpr (!kGuided) return 1.0f;
+        if (!settings_.roulette.needs_brightness()) return 1.0f;
+        const int exponent = guide_.quantum_exponent(path.region) - path.first_exponent;
+        return power_of_two(std::clamp(settings_.target == GuidingTarget::variance ? exponent / 2 : exponent, -60, 60));
     }
 
     bool end(const char* why) {

@@ -33,9 +33,10 @@ struct PathSettings {
           profile(job.farm.profile),
           jitter_records(job.guiding.spatial_filter == SpatialFilter::stochastic),
           target(job.guiding.target),
-          roulette(job.guiding.type == GuidingType::none ? Roulette::Rule::unguided
-                   : guide.trained()                     ? Roulette::Rule::trained
-                                                         : Roulette::Rule::untrained,
+          roulette(job.guiding.type == GuidingType::none              ? Roulette::Rule::unguided
+                   : !guide.trained()                                 ? Roulette::Rule::untrained
+                   : job.guiding.roulette == GuidingRoulette::adjoint ? Roulette::Rule::adjoint
+                                                                      : Roulette::Rule::constant,
                    job.integrator.rr_depth) {}
 };
 

@@ -7,13 +7,14 @@
 
 namespace treefarm {
 
-/// Russian roulette by throughput, as the authors' program plays it (docs/guiding.md, "PPG as its program does it").
+/// Russian roulette (docs/guiding.md, "Roulette").
 class Roulette {
   public:
     enum class Rule : std::uint8_t {
         unguided,   ///< survival min(throughput, 0.95)
         untrained,  ///< a guided render before its first tree: throughput, within [0.1, 0.99]
-        trained,    ///< 0.99: the guide sends paths where they matter
+        constant,   ///< 0.99: the guide sends paths where they matter
+        adjoint,    ///< by what the path is expected to carry, over what its first vertex sends to the camera
     };
 
     Roulette(Rule rule, int first_depth) : rule_(rule), first_depth_(first_depth) {}
@@ -22,19 +23,28 @@ class Roulette {
     bool plays(int depth) const { return depth >= first_depth_; }
 
     /// `scale` (above 0): of the throughput as roulette sees it, without what refraction takes and gives back.
-    float survival(const Rgb& throughput, float scale = 1.0f) const {
+    /// `brightness`: of the light here, over that at the path's first vertex.
+    float survival(const Rgb& throughput, float scale = 1.0f, float brightness = 1.0f) const {
         switch (rule_) {
             case Rule::unguided:
                 return std::min(max_component(throughput) * scale, 0.95f);
             case Rule::untrained:
                 return std::clamp(max_component(throughput) * scale, 0.1f, 0.99f);
-            case Rule::trained:
+            case Rule::adjoint:
+                return std::clamp(max_component(throughput) * scale * brightness * kWindow, kLeast, kMost);
+            case Rule::constant:
                 break;
         }
         return 0.99f;
     }
 
+    bool needs_brightness() const { return rule_ == Rule::adjoint; }
+
   private:
+    /// A path plays when it is expected to carry less than a quarter of what its first vertex does: the estimate is
+    /// rough, and a path too many costs less than one that came through and weighs much.
+    static constexpr float kWindow = 4.0f, kLeast = 0.1f, kMost = 0.95f;
+
     Rule rule_;
     int first_depth_;
 };
