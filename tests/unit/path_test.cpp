@@ -73,10 +73,10 @@ TEST(Roulette, Rules) {
     EXPECT_FLOAT_EQ(Roulette(Rule::untrained, 5).survival(Rgb(0.01f)), 0.1f);
     EXPECT_FLOAT_EQ(Roulette(Rule::untrained, 5).survival(Rgb(2.0f)), 0.99f);
     EXPECT_FLOAT_EQ(Roulette(Rule::constant, 5).survival(Rgb(0.01f)), 0.99f);
-    EXPECT_FLOAT_EQ(Roulette(Rule::adjoint, 5).survival(Rgb(0.1f)), 0.4f);
+    EXPECT_FLOAT_EQ(Roulette(Rule::adjoint, 5).survival(Rgb(0.15f)), 0.6f);
     EXPECT_FLOAT_EQ(Roulette(Rule::adjoint, 5).survival(Rgb(0.1f), 1.0f, 16.0f), 0.95f);
-    EXPECT_FLOAT_EQ(Roulette(Rule::adjoint, 5).survival(Rgb(0.1f), 2.0f, 0.5f), 0.4f);
-    EXPECT_FLOAT_EQ(Roulette(Rule::adjoint, 5).survival(Rgb(0.0f)), 0.1f);
+    EXPECT_FLOAT_EQ(Roulette(Rule::adjoint, 5).survival(Rgb(0.15f), 2.0f, 0.5f), 0.6f);
+    EXPECT_FLOAT_EQ(Roulette(Rule::adjoint, 5).survival(Rgb(0.0f)), 0.5f);
     EXPECT_FALSE(Roulette(Rule::unguided, 5).plays(4));
     EXPECT_TRUE(Roulette(Rule::unguided, 5).plays(5));
 }
@@ -144,7 +144,7 @@ TEST(Path, RouletteIsPlayedByWhatGuides) {
     };
     EXPECT_FLOAT_EQ(survival(unguided(), untrained), 0.01f);
     EXPECT_FLOAT_EQ(survival({}, untrained), 0.1f);
-    EXPECT_FLOAT_EQ(survival({}, trained), 0.1f);
+    EXPECT_FLOAT_EQ(survival({}, trained), 0.5f);
     Job constant;
     constant.guiding.roulette = GuidingRoulette::constant;
     EXPECT_FLOAT_EQ(survival(constant, trained), 0.99f);
