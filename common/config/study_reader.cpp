@@ -237,7 +237,6 @@ class StudyReader {
         if (reference == nullptr) return;
         study_.reference.settings = settings_of(*reference, Part::reference);
         Job job;
-        job.sampler.seed = study_.seeds.front();
         apply_layer(job, study_.reference.settings);
         if (std::find(study_.seeds.begin(), study_.seeds.end(), job.sampler.seed) != study_.seeds.end())
             throw InputError(place(reference->source()),
