@@ -53,6 +53,7 @@ int run(int argc, char** argv) {
     add_plan_command(app, launch, exit_code);
     add_compare_command(app, launch, exit_code);
     add_study_command(app, launch, joined(argc, argv), exit_code);
+    add_report_command(app, launch);
     if (argc > 1)
         if (const std::string message = unknown_command(app, argv[1]); !message.empty())
             return fail(launch, message, 2);

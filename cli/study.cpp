@@ -6,6 +6,7 @@
 
 #include "cli/on_farm.h"
 #include "coordinator/study/study_run.h"
+#include "report/study_page.h"
 
 namespace treefarm {
 
@@ -49,10 +50,21 @@ int study(const LaunchEnvironment& launch, const StudyOptions& options) {
         const StudyOutcome outcome = run_study(channel, study, options.command, log, interrupted);
         return {exit_code_of(outcome.state), outcome.lost_peers};
     };
-    return run_on_farm(launch, options.threads, options.quiet, task);
+    const int code = run_on_farm(launch, options.threads, options.quiet, task);
+    if (code == 0 && launch.rank == 0) log->info("report: {}", write_study_report(study.directory).string());
+    return code;
 }
 
 }  // namespace
+
+void add_report_command(CLI::App& app, const LaunchEnvironment& launch) {
+    const auto folder = std::make_shared<std::string>();
+    CLI::App* command = app.add_subcommand("report", "Writes the report of a study, or of what is done of it");
+    command->add_option("folder", *folder, "folder that treefarm study wrote")->required();
+    command->callback([folder, launch] {
+        if (launch.rank == 0) std::cout << write_study_report(*folder).string() << "\n";
+    });
+}
 
 void add_study_command(CLI::App& app, const LaunchEnvironment& launch, const std::string& command_line,
                        int& exit_code) {

@@ -29,6 +29,9 @@ struct Reference {
     std::string key;  ///< of its pixels or of what renders it
     RgbImage image;   ///< empty until it is needed
     Json about;
+
+    /// One that was rendered is whole when this file stands beside it; an interrupted one has an image, too.
+    fs::path mark() const { return fs::path(file).parent_path() / "reference.json"; }
 };
 
 std::string cell_words(const Study& study, const StudyCell& cell) {
@@ -157,7 +160,7 @@ class StudyRun {
     void prepare_reference(std::size_t scene, Reference& reference, RenderRequest& request) {
         const StudyScene& of = study_.scenes[scene];
         if (of.reference.empty()) {
-            if (!fs::exists(reference.file)) {
+            if (!fs::exists(reference.mark())) {
                 log_->info("{}: rendering the reference", of.name);
                 const fs::path folder = fs::path(reference.file).parent_path();
                 if (render(request, folder).state != RunState::done)
@@ -171,6 +174,7 @@ class StudyRun {
         for (const char* name : {"error", "spp"})
             if (const auto at = image.attributes.find(std::string("treefarm.") + name); at != image.attributes.end())
                 reference.about[name] = std::stod(at->second);
+        if (of.reference.empty()) write_json(reference.mark(), reference.about);
     }
 
     /// A run in a folder of its own. What a killed run left there goes first.
@@ -250,7 +254,8 @@ void list_cells(const Study& study, std::ostream& out) {
         RenderRequest request;
         const std::string key = reference_key(study, study.scenes[scene], loaded, reference, request);
         out << "reference of " << study.scenes[scene].name << ": " << reference.file
-            << (fs::exists(reference.file) ? " (there)\n" : " (to be rendered)\n");
+            << (!study.scenes[scene].reference.empty() || fs::exists(reference.mark()) ? " (there)\n"
+                                                                                       : " (to be rendered)\n");
         for (const StudyCell& cell : cells) {
             if (cell.scene != scene) continue;
             const ReadyCell ready = ready_cell(study, cell, loaded, key);
