@@ -6,6 +6,7 @@
 
 #include "cli/on_farm.h"
 #include "coordinator/study/study_run.h"
+#include "report/price_list.h"
 #include "report/study_page.h"
 
 namespace treefarm {
@@ -58,11 +59,17 @@ int study(const LaunchEnvironment& launch, const StudyOptions& options) {
 }  // namespace
 
 void add_report_command(CLI::App& app, const LaunchEnvironment& launch) {
-    const auto folder = std::make_shared<std::string>();
-    CLI::App* command = app.add_subcommand("report", "Writes the report of a study, or of what is done of it");
-    command->add_option("folder", *folder, "folder that treefarm study wrote")->required();
-    command->callback([folder, launch] {
-        if (launch.rank == 0) std::cout << write_study_report(*folder).string() << "\n";
+    const auto folders = std::make_shared<std::vector<std::string>>();
+    const auto prices = std::make_shared<std::string>();
+    CLI::App* command = app.add_subcommand("report", "Writes the reports of studies, or of what is done of them");
+    command->add_option("folder", *folders, "folders that treefarm study wrote")->required();
+    command->add_option("--price-list", *prices,
+                        "also write what each method costs and buys, as Markdown, to this file");
+    command->callback([folders, prices, launch] {
+        if (launch.rank != 0) return;
+        for (const std::string& folder : *folders)
+            std::cout << write_study_report(folder).string() << "\n";
+        if (!prices->empty()) write_price_list({folders->begin(), folders->end()}, *prices);
     });
 }
 

@@ -272,10 +272,10 @@ class StudyReader {
 
     /// Names become names of folders.
     void check_name(const std::string& name, const toml::node& node) const {
-        constexpr std::string_view allowed = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_- +=";
+        constexpr std::string_view allowed = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_- +=.";
         if (name.empty() || name.size() > 60 || name.find_first_not_of(allowed) != std::string::npos)
             throw InputError(place(node.source()), in_quotes(name) + " cannot be a name",
-                             "use up to 60 letters, digits, blanks and _ - + =");
+                             "use up to 60 letters, digits, blanks and _ - + = .");
     }
 
     /// The table's entries as they stand in the file: TOML's tables are sorted.
