@@ -11,6 +11,7 @@
 #include "common/config/job_reader.h"
 #include "common/protocol/fingerprint.h"
 #include "common/protocol/messages.h"
+#include "worker/silence_watch.h"
 #include "worker/tracer_pool.h"
 
 namespace treefarm {
@@ -23,11 +24,7 @@ constexpr std::size_t kUnitsPerThread = 3;
 /// A tree or scene of which nothing was heard for so many heartbeats is asked for again.
 constexpr double kPatienceHeartbeats = 5.0;
 
-/// Before it speaks for the first time the coordinator reads the scene, in silence.
-constexpr double kFirstContactFactor = 20.0;
-
 constexpr double kRestSeconds = 2e-3;
-constexpr double kLongestTurnSeconds = 0.5;
 
 template <class T>
 bool ready(const std::future<T>& task) {
@@ -42,14 +39,18 @@ std::uint64_t draw_incarnation() {
 class WorkerLoop {
   public:
     WorkerLoop(Channel& channel, const WorkerSettings& settings, const MakeRenderer& make_renderer, const Log& log)
-        : channel_(channel), settings_(settings), make_renderer_(make_renderer), log_(log), chain_(channel) {}
+        : channel_(channel),
+          settings_(settings),
+          make_renderer_(make_renderer),
+          log_(log),
+          chain_(channel),
+          silence_(settings.silence_seconds) {}
 
     WorkerEnd run() {
         say_hello();
         while (!end_) {
             while (const auto message = channel_.poll()) {
-                heard_ = true;
-                silence_ = 0;
+                silence_.broken();
                 take(*message);
                 if (end_) return *end_;
             }
@@ -59,8 +60,8 @@ class WorkerLoop {
                 fail(error.what());
             }
             beat();
-            if (grown_too_silent()) {
-                log_->error("the coordinator has been silent for {:.0f} s: leaving", silence_);
+            if (silence_.too_long(clock_.seconds())) {
+                log_->error("the coordinator has been silent for {:.0f} s: leaving", silence_.seconds());
                 return WorkerEnd::orphaned;
             }
             channel_.rest(kRestSeconds);
@@ -69,14 +70,6 @@ class WorkerLoop {
     }
 
   private:
-    /// While this process was stopped, or starved, nobody could be heard: long turns count as short ones.
-    bool grown_too_silent() {
-        const double now = clock_.seconds();
-        silence_ += std::min(now - turned_, kLongestTurnSeconds);
-        turned_ = now;
-        return silence_ > settings_.silence_seconds * (heard_ ? 1.0 : kFirstContactFactor);
-    }
-
     template <class M>
     void tell(const M& message) {
         channel_.send(0, std::make_shared<const Bytes>(encode(message)));
@@ -137,18 +130,14 @@ class WorkerLoop {
             job_number_ = m.job;
             chain_.begin_job(m.job);
             coming_scene_hash_ = 0;
-            if (failed_) forget_failure();
+            if (failed_) {  // what was wrong may have been the job
+                retire_pool();
+                job_text_.clear();
+                scene_hash_ = 0;
+                failed_ = false;
+            }
         }
         say_hello();
-    }
-
-    /// What was wrong may have been the job.
-    void forget_failure() {
-        failed_ = false;
-        retire_pool();
-        job_text_.clear();
-        scene_.reset();
-        scene_hash_ = 0;
     }
 
     /// Its threads end when they have traced what they began.
@@ -279,8 +268,7 @@ class WorkerLoop {
     std::uint64_t incarnation_ = 0;
     Job job_;
     double heartbeat_seconds_ = 1.0;
-    bool heard_ = false;               ///< of the coordinator, ever
-    double silence_ = 0, turned_ = 0;  ///< since it spoke; end of the last turn of run()
+    SilenceWatch silence_;
     double last_beat_ = 0, last_update_ = 0;
     bool quitting_ = false, said_bye_ = false, failed_ = false;
     std::optional<WorkerEnd> end_;

@@ -4,6 +4,7 @@
 #include "common/config/job_reader.h"
 #include "common/config/parse_text.h"
 #include "common/config/study.h"
+#include "common/config/study_rules.h"
 #include "common/config/toml_settings.h"
 
 namespace treefarm {
@@ -13,21 +14,6 @@ constexpr std::string_view kKeys[] = {"scene",  "method", "vary",     "job",    
                                       "budget", "warmup", "baseline", "directory", "reference"};
 constexpr std::int64_t kMostSeeds = 10'000;
 constexpr std::size_t kMostMethods = 1'000;
-
-/// Keys that a part of the study may not set, by their beginning, and what to do instead.
-struct Reserved {
-    std::string_view beginning;
-    const char* cure;
-};
-constexpr Reserved kEverywhere[] = {{"output.", "results go into the study's directory"},
-                                    {"scene.file", "write it as file in [scene.NAME]"}};
-constexpr Reserved kOfSeeds = {"sampler.seed", "write seeds = [...] at the top of the study"};
-constexpr Reserved kOfBudget[] = {{"budget.spp", "it stands in [budget], the same for all cells"},
-                                  {"budget.seconds", "it stands in [budget], the same for all cells"},
-                                  {"budget.error", "it stands in [budget], the same for all cells"}};
-constexpr Reserved kOfScenes[] = {
-    {"scene.", "a scene is read once for all methods: write it in [scene.NAME] or [job]"},
-    {"image.", "images of one scene must have one size: write it in [scene.NAME] or [job]"}};
 
 class StudyReader {
   public:
@@ -40,7 +26,7 @@ class StudyReader {
                                  did_you_mean(key.str(), kKeys, "see docs/studies.md for the keys"));
         study_.file = file_;
         read_directory(table);
-        if (const toml::table* job = section(table, "job")) study_.job = settings_of(*job, Part::job);
+        if (const toml::table* job = section(table, "job")) study_.job = settings_of(*job, StudyPart::job);
         read_scenes(table);
         read_methods(table);
         read_variations(table);
@@ -55,8 +41,6 @@ class StudyReader {
     Location place(const toml::source_region& region) const { return toml_place(region, file_); }
 
   private:
-    enum class Part { job, scene, method, reference };
-
     const toml::table* section(const toml::table& table, std::string_view key) const {
         const toml::node* node = table.get(key);
         if (node == nullptr) return nullptr;
@@ -66,31 +50,13 @@ class StudyReader {
         return node->as_table();
     }
 
-    static void refuse(const Setting& setting, const Reserved& reserved) {
-        if (setting.key.starts_with(reserved.beginning))
-            throw InputError(setting.where, setting.key + " has another place in a study", reserved.cure);
-    }
-
-    static void check_part(const Setting& setting, Part part) {
-        for (const Reserved& reserved : kEverywhere)
-            refuse(setting, reserved);
-        if (part != Part::reference) {
-            refuse(setting, kOfSeeds);
-            for (const Reserved& reserved : kOfBudget)
-                refuse(setting, reserved);
-        }
-        if (part == Part::method || part == Part::reference)
-            for (const Reserved& reserved : kOfScenes)
-                refuse(setting, reserved);
-    }
-
     /// Job keys of a part, values tried out on a job.
-    std::vector<Setting> settings_of(const toml::table& table, Part part) const {
+    std::vector<Setting> settings_of(const toml::table& table, StudyPart part) const {
         std::vector<Setting> settings;
         for_each_job_key(table, file_, [&](const std::string& key, const Location& where, const toml::node& value) {
-            if (part == Part::scene && (key == "file" || key == "reference")) return;  // the study's own
+            if (part == StudyPart::scene && (key == "file" || key == "reference")) return;  // the study's own
             settings.push_back(read_setting(key, where, value, file_));
-            check_part(settings.back(), part);
+            check_study_key(settings.back(), part);
         });
         Job job;
         apply_layer(job, settings);
@@ -126,7 +92,7 @@ class StudyReader {
     }
 
     StudyScene read_scene(const std::string& name, const toml::node& node) const {
-        check_name(name, node);
+        check_study_name(name, place(node.source()));
         const toml::table& keys = *require_table(node, "scene", name);
         StudyScene scene;
         scene.name = name;
@@ -139,15 +105,15 @@ class StudyReader {
             scene.reference = existing_file(*reference, "reference");
             scene.reference_place = place(reference->source());
         }
-        scene.settings = settings_of(keys, Part::scene);
+        scene.settings = settings_of(keys, StudyPart::scene);
         return scene;
     }
 
     void read_methods(const toml::table& table) {
         if (const toml::table* methods = section(table, "method"))
             for (const auto& [name, node] : in_order(*methods)) {
-                check_name(name, *node);
-                study_.methods.push_back({name, settings_of(*require_table(*node, "method", name), Part::method)});
+                check_study_name(name, place(node->source()));
+                study_.methods.push_back({name, settings_of(*require_table(*node, "method", name), StudyPart::method)});
             }
         if (study_.methods.empty()) study_.methods.push_back({"default", {}});
     }
@@ -172,7 +138,7 @@ class StudyReader {
     }
 
     static StudyMethod varied_method(StudyMethod method, const Setting& setting) {
-        check_part(setting, Part::method);
+        check_study_key(setting, StudyPart::method);
         Job job;
         apply_setting(job, setting.key, setting.value, setting.where);
         const std::string what = setting.key.substr(setting.key.find('.') + 1) + "=" + setting.value;
@@ -235,7 +201,7 @@ class StudyReader {
             throw InputError(needs_one->where, "scene." + needs_one->name + " has no reference",
                              "add reference = \"image.exr\" to it, or [reference] with the job keys to render one by");
         if (reference == nullptr) return;
-        study_.reference.settings = settings_of(*reference, Part::reference);
+        study_.reference.settings = settings_of(*reference, StudyPart::reference);
         Job job;
         apply_layer(job, study_.reference.settings);
         if (std::find(study_.seeds.begin(), study_.seeds.end(), job.sampler.seed) != study_.seeds.end())
@@ -268,14 +234,6 @@ class StudyReader {
             throw InputError(place(node.source()), std::string(kind) + "." + name + " is " + toml_type_name(node),
                              std::string("write [") + kind + "." + name + "] and keys below it");
         return node.as_table();
-    }
-
-    /// Names become names of folders.
-    void check_name(const std::string& name, const toml::node& node) const {
-        constexpr std::string_view allowed = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_- +=.";
-        if (name.empty() || name.size() > 60 || name.find_first_not_of(allowed) != std::string::npos)
-            throw InputError(place(node.source()), in_quotes(name) + " cannot be a name",
-                             "use up to 60 letters, digits, blanks and _ - + = .");
     }
 
     /// The table's entries as they stand in the file: TOML's tables are sorted.
