@@ -42,12 +42,12 @@ Interval ratio(const std::vector<const CellResult*>& own, const std::vector<cons
     return geometric_ratio(a, b);
 }
 
-/// Bold where the interval does not hold 1.
+/// Bold where the interval, as it is printed, does not hold 1.
 std::string cell_text(const Interval& interval) {
     if (!std::isfinite(interval.mean)) return "";
     std::string text = fmt::format("{:.2f}", interval.mean);
     if (!std::isfinite(interval.low)) return text;
-    const bool certain = interval.low > 1 || interval.high < 1;
+    const bool certain = std::round(100 * interval.low) > 100 || std::round(100 * interval.high) < 100;
     if (certain) text = "**" + text + "**";
     return text + fmt::format(" [{:.2f}, {:.2f}]", interval.low, interval.high);
 }
