@@ -148,7 +148,7 @@ std::string method_table(const StudyResults& results) {
         rows.push_back({html_text(method.name) + (method.name == results.baseline ? " (baseline)" : ""),
                         keys.empty() ? "defaults" : keys});
     }
-    return html_table(rows);
+    return "<div class=\"keys\">" + html_table(rows) + "</div>\n";
 }
 
 /// Cells that were rendered by different numbers of threads cannot be compared by time.
