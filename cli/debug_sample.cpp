@@ -39,7 +39,7 @@ SdTree learn_tree(const RenderRequest& request, const std::vector<PassPlan>& pla
         bool enough = false;
         PassHooks hooks;
         hooks.interrupted = [&] { return enough; };
-        hooks.on_pass = [&](const PassReport& report) { enough = report.plan.index + 1 == pass; };
+        hooks.on_pass = [&](const PassReport& report, const CombinedImage&) { enough = report.plan.index + 1 == pass; };
         farm.gather({[] { return false; }});
         const Film& film = request.scene.film;
         tree =

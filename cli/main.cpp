@@ -9,6 +9,7 @@
 #include "cli/launch.h"
 #include "cli/plan.h"
 #include "cli/render.h"
+#include "cli/study.h"
 #include "common/base/error.h"
 #include "common/config/parse_text.h"
 #include "common/protocol/fingerprint.h"
@@ -51,6 +52,8 @@ int run(int argc, char** argv) {
     add_render_command(app, launch, joined(argc, argv), exit_code);
     add_plan_command(app, launch, exit_code);
     add_compare_command(app, launch, exit_code);
+    add_study_command(app, launch, joined(argc, argv), exit_code);
+    add_report_command(app, launch);
     if (argc > 1)
         if (const std::string message = unknown_command(app, argv[1]); !message.empty())
             return fail(launch, message, 2);

@@ -19,18 +19,24 @@ constexpr std::size_t kShrinkUnitsPerThread = 2;
 }  // namespace
 
 Farm::Farm(Channel& channel, const Job& job, Bytes scene, std::uint64_t fingerprint, const Log& log,
-           const FarmLimits& limits)
+           const FarmLimits& limits, const JobTurn& turn)
     : channel_(channel),
       job_(job),
       job_text_(write_job(job)),
       scene_(std::move(scene)),
+      scene_hash_(hash_bytes(scene_)),
       fingerprint_(fingerprint),
       log_(log),
       limits_(limits),
+      turn_(turn),
       roster_(std::max(limits.lost, kLostHeartbeats * job.farm.heartbeat_seconds)) {}
 
 void Farm::gather(const std::function<bool()>& interrupted) {
-    const auto expected = static_cast<std::size_t>(channel_.peer_count() - 1);
+    const auto workers = static_cast<std::size_t>(channel_.peer_count() - 1);
+    const std::size_t expected = std::max<std::size_t>(1, workers - turn_.absent.size());
+    if (turn_.number > 0)
+        for (int peer = 1; peer < channel_.peer_count(); ++peer)
+            tell(peer, Rejoin{turn_.number});
     const Timer timer;
     while (roster_.members().size() < expected && timer.seconds() < limits_.gather && !interrupted())
         step();
@@ -39,8 +45,11 @@ void Farm::gather(const std::function<bool()>& interrupted) {
         throw RunError(last_failure_.empty() ? "no worker said hello" : "no worker can be used: " + last_failure_);
     if (roster_.present_count() < expected)
         log_->warn("going on with {} of {} workers; the others may join later", roster_.present_count(), expected);
+    if (turn_.number > 0)  // nor need later jobs wait for those that did not come
+        for (int peer = 1; peer < channel_.peer_count(); ++peer)
+            if (!roster_.find(peer)) turn_.absent.insert(peer);
     gathered_ = true;
-    send_blob(Blob::scene, 0, chain_of_present());
+    send_blob(Blob::scene, 0, chain_without_scene());
 }
 
 void Farm::begin_pass(const PassPlan& plan, const SdTree& tree, Bytes encoded_tree, int width, int height) {
@@ -65,7 +74,7 @@ void Farm::announce(int peer) {
 }
 
 void Farm::send_blob(Blob blob, std::uint64_t offset, std::span<const std::uint32_t> chain) {
-    const BlobName name{blob, blob == Blob::tree ? pass_->plan.index : 0};
+    const BlobName name{blob, turn_.number, blob == Blob::tree ? pass_->plan.index : 0};
     send_along_chain(channel_, name, blob == Blob::tree ? pass_->tree : scene_, offset, chain);
 }
 
@@ -73,6 +82,13 @@ std::vector<std::uint32_t> Farm::chain_of_present() {
     std::vector<std::uint32_t> chain;
     for (const Member* member : roster_.present())
         chain.push_back(static_cast<std::uint32_t>(member->peer));
+    return chain;
+}
+
+std::vector<std::uint32_t> Farm::chain_without_scene() {
+    std::vector<std::uint32_t> chain;
+    for (const Member* member : roster_.present())
+        if (member->hello.scene_hash != scene_hash_) chain.push_back(static_cast<std::uint32_t>(member->peer));
     return chain;
 }
 
@@ -142,12 +158,13 @@ Member* Farm::hear(int peer, std::uint64_t incarnation) {
         !member->asked_back) {
         log_->info("worker {} is back: it may join again", peer);
         member->asked_back = true;
-        tell(peer, Rejoin{});
+        tell(peer, Rejoin{turn_.number});
     }
     return nullptr;
 }
 
 void Farm::on(int peer, const Hello& m) {
+    if (m.job != turn_.number) return;  // of an earlier job; the answer to this one's rejoin is on its way
     if (Member* earlier = roster_.find(peer); earlier && earlier->state == MemberState::present)
         give_up(*earlier, "started anew");
     if (m.fingerprint != fingerprint_) {
@@ -162,10 +179,11 @@ void Farm::on(int peer, const Hello& m) {
     }
     roster_.admit(peer, m, clock_.seconds());
     log_->debug("worker {} on {} with {} threads", peer, m.host, m.threads);
-    tell(peer, Welcome{static_cast<std::uint32_t>(peer), job_.farm.heartbeat_seconds, job_text_});
+    tell(peer, Welcome{static_cast<std::uint32_t>(peer), job_.farm.heartbeat_seconds, job_text_, scene_hash_,
+                       turn_.number > 0});
     if (!gathered_) return;
     const std::uint32_t only[] = {static_cast<std::uint32_t>(peer)};
-    if (!m.has_scene) send_blob(Blob::scene, 0, only);
+    if (m.scene_hash != scene_hash_) send_blob(Blob::scene, 0, only);
     if (!pass_) return;
     announce(peer);
     send_blob(Blob::tree, 0, only);
@@ -181,6 +199,7 @@ void Farm::refuse(int peer, const Hello& m, const std::string& reason) {
 void Farm::on(int peer, const Resend& m) {
     const Member* member = roster_.find(peer);
     if (!member || member->state != MemberState::present || !gathered_) return;
+    if (m.job != turn_.number) return;
     if (m.blob == Blob::tree && (!pass_ || m.epoch != pass_->plan.index)) return;
     log_->debug("worker {} asks again for a {} from byte {}", peer, m.blob == Blob::tree ? "tree" : "scene", m.offset);
     const std::uint32_t only[] = {static_cast<std::uint32_t>(peer)};
@@ -239,9 +258,13 @@ void Farm::give_up(Member& member, const std::string& why) {
 }
 
 std::set<int> Farm::lost_peers() const {
-    std::set<int> lost;
-    for (const auto& [peer, member] : roster_.members())
-        if (member.state == MemberState::lost) lost.insert(peer);
+    std::set<int> lost = turn_.absent;
+    for (const auto& [peer, member] : roster_.members()) {
+        if (member.state == MemberState::lost)
+            lost.insert(peer);
+        else
+            lost.erase(peer);
+    }
     return lost;
 }
 
@@ -250,37 +273,6 @@ std::uint64_t Farm::rays_traced() const {
     for (const auto& [peer, member] : roster_.members())
         rays += member.progress.rays;
     return rays;
-}
-
-bool dismiss_workers(Channel& channel, const std::set<int>& lost, double patience) {
-    const auto tell_all = [&](const Bytes& bytes) {
-        const auto payload = std::make_shared<const Bytes>(bytes);
-        for (int peer = 1; peer < channel.peer_count(); ++peer)
-            channel.send(peer, payload);
-    };
-    tell_all(encode(Quit{}));
-    std::set<int> gone;
-    const auto count_gone = [&](bool lost_ones) {
-        int count = 0;
-        for (int peer = 1; peer < channel.peer_count(); ++peer)
-            count += gone.contains(peer) || (lost_ones && lost.contains(peer));
-        return count;
-    };
-    const int workers = channel.peer_count() - 1;
-    const Timer timer;
-    while (count_gone(true) < workers && timer.seconds() < patience) {
-        if (const auto message = channel.poll()) {
-            try {
-                if (std::holds_alternative<Bye>(decode(message->bytes))) gone.insert(message->peer);
-            } catch (const FormatError&) {  // whatever it was, nobody needs it any more
-            }
-        } else {
-            channel.rest(kRestSeconds);
-        }
-    }
-    const bool orderly = count_gone(false) == workers;
-    tell_all(encode(Leave{orderly}));
-    return orderly;
 }
 
 }  // namespace treefarm

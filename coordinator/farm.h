@@ -25,13 +25,19 @@ struct FarmLimits {
     double dismiss = 5.0;  ///< how long the end waits for good-byes
 };
 
+/// A job's place among those of one allocation.
+struct JobTurn {
+    std::uint32_t number = 0;  ///< 0: the only one; from 1 on: workers stay, and are told to join this one
+    std::set<int> absent;      ///< peers that an earlier job lost: nobody waits for them
+};
+
 /// The workers, as the coordinator talks to them: who is there, who has what, what came back. One step() at a time,
 /// never blocking on anybody.
 class Farm {
   public:
     /// `scene`: encoded. `fingerprint`: this program's own; a worker that differs is refused.
     Farm(Channel& channel, const Job& job, Bytes scene, std::uint64_t fingerprint, const Log& log,
-         const FarmLimits& limits = {});
+         const FarmLimits& limits = {}, const JobTurn& turn = {});
 
     /// Waits for the workers' hellos and sends them the scene. Throws RunError if none can be used. `interrupted` is
     /// asked now and then; true ends the wait.
@@ -52,7 +58,7 @@ class Farm {
     /// Seconds from begin_pass() until the first of them did: before the first pass that takes reading in the scene.
     double first_request_seconds() const { return first_request_seconds_; }
     const Roster& roster() const { return roster_; }
-    /// Peers that were given up and are not back.
+    /// Peers that were given up, in this job or an earlier one, and are not back.
     std::set<int> lost_peers() const;
     /// Sends heartbeats that are due: call it between long computations.
     void beat();
@@ -83,6 +89,7 @@ class Farm {
     void serve(Member& member);
     void send_blob(Blob blob, std::uint64_t offset, std::span<const std::uint32_t> chain);
     std::vector<std::uint32_t> chain_of_present();
+    std::vector<std::uint32_t> chain_without_scene();
 
     template <class M>
     void tell(int peer, const M& message) {
@@ -93,9 +100,11 @@ class Farm {
     const Job job_;
     const std::string job_text_;
     const Bytes scene_;
+    const std::uint64_t scene_hash_;
     const std::uint64_t fingerprint_;
     const Log log_;
     const FarmLimits limits_;
+    JobTurn turn_;
     const Timer clock_;
     Roster roster_;
     bool gathered_ = false;

@@ -141,7 +141,7 @@ class PassLoop {
         report.threads = farm_.roster().thread_count();
         count_idle(report);
         result_.passes.push_back(report);
-        if (hooks_.on_pass) hooks_.on_pass(report);
+        if (hooks_.on_pass) hooks_.on_pass(report, result_.image);
     }
 
     void tell_progress(const PassPlan& plan, const NextPass& chosen) {

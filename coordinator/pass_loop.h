@@ -30,8 +30,9 @@ struct RenderResult;
 struct PassHooks {
     std::function<bool()> interrupted;  ///< asked often; true ends the render after the last whole pass
     std::function<void(const RenderProgress&)> on_progress;  ///< called often
-    std::function<void(const PassReport&)> on_pass;          ///< after each pass
-    std::function<void(RenderResult)> on_failure;            ///< the finished passes, before the error leaves
+    /// After each pass, with the image so far.
+    std::function<void(const PassReport&, const CombinedImage&)> on_pass;
+    std::function<void(RenderResult)> on_failure;  ///< the finished passes, before the error leaves
 };
 
 /// What came out. After an interruption: of the passes that were whole by then, possibly none.

@@ -180,6 +180,7 @@ void fill_from_collector(PassReport& report, const Collector& collector) {
     bool first = true;
     for (const auto& [worker, share] : collector.shares()) {
         const double trace = share.stats.trace_seconds;
+        s.worker[worker] = trace + share.stats.splat_seconds;
         s.trace.mean += trace / static_cast<double>(collector.shares().size());
         if (first || trace < s.trace.min) s.trace.min = trace;
         if (first || trace > s.trace.max) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -36,15 +37,16 @@ TreeFigures tree_figures(const SdTree& tree, std::uint64_t encoded_bytes);
 /// Where the time of a pass went: seconds of the wall clock on the coordinator, unless said otherwise.
 struct PassSeconds {
     double all = 0;
-    double broadcast = 0;  ///< until the last worker had the tree, its guide built, and asked for work
-    double collect = 0;    ///< from then on, until the last result was in
-    double merge = 0;      ///< decoding and adding results
-    double refine = 0;     ///< building the next tree
-    double film = 0;       ///< combining the images of the passes
-    double error = 0;      ///< estimating the error, and the figures of the pass
-    Spread trace;          ///< thread-seconds tracing, per worker
-    double splat = 0;      ///< thread-seconds adding records, all workers
-    double idle = 0;       ///< thread-seconds in which threads neither traced nor added, or waited for a processor
+    double broadcast = 0;          ///< until the last worker had the tree, its guide built, and asked for work
+    double collect = 0;            ///< from then on, until the last result was in
+    double merge = 0;              ///< decoding and adding results
+    double refine = 0;             ///< building the next tree
+    double film = 0;               ///< combining the images of the passes
+    double error = 0;              ///< estimating the error, and the figures of the pass
+    Spread trace;                  ///< thread-seconds tracing, per worker
+    double splat = 0;              ///< thread-seconds adding records, all workers
+    std::map<int, double> worker;  ///< thread-seconds tracing and adding records, per worker
+    double idle = 0;  ///< thread-seconds in which threads neither traced nor added, or waited for a processor
 };
 
 /// Everything worth knowing of one finished pass.

@@ -22,7 +22,7 @@ class RenderRun {
           directory_(request.job, {request.command, hash_bytes(scene_), request.fingerprint}, request.plan),
           log_(make_log("treefarm", directory_.log_file(), request.quiet)),
           bar_(request.progress_bar),
-          farm_(channel, request.job, std::move(scene_), request.fingerprint, log_) {}
+          farm_(channel, request.job, std::move(scene_), request.fingerprint, log_, {}, request.turn) {}
 
     RenderOutcome run() {
         log_->debug("{}", request_.command);
@@ -83,7 +83,10 @@ class RenderRun {
             directory_.write_status(progress, elapsed);
         };
         hooks.on_failure = [this](RenderResult finished) { result_ = std::move(finished); };
-        hooks.on_pass = [this](const PassReport& pass) { tell(pass); };
+        hooks.on_pass = [this](const PassReport& pass, const CombinedImage& image) {
+            tell(pass);
+            if (request_.on_pass) request_.on_pass(pass, image);
+        };
         result_ = run_passes(farm_, request_.job, passes, first_tree(request_.scene, request_.job), film.width,
                              film.height, hooks);
     }

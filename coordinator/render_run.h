@@ -26,12 +26,15 @@ struct RenderRequest {
     std::uint64_t fingerprint = 0;  ///< of this process
     bool quiet = false;             ///< only errors on the terminal
     bool progress_bar = false;
+    JobTurn turn;  ///< among the jobs of a study
+    /// After each pass, with the image so far; what it takes counts as the render's time. May be empty.
+    std::function<void(const PassReport&, const CombinedImage&)> on_pass;
 };
 
 struct RenderOutcome {
     RunState state = RunState::failed;
     bool missed_target = false;  ///< done, but the error is above budget.error
-    std::set<int> lost_peers;    ///< workers that were given up
+    std::set<int> lost_peers;    ///< workers that were given up, now or in an earlier job, and are not back
 };
 
 /// Runs a render to its end on the coordinator's side of `channel`: run directory, workers, passes, files. What goes

@@ -11,6 +11,7 @@
 #include "common/config/job_reader.h"
 #include "common/protocol/fingerprint.h"
 #include "common/protocol/messages.h"
+#include "worker/silence_watch.h"
 #include "worker/tracer_pool.h"
 
 namespace treefarm {
@@ -23,11 +24,7 @@ constexpr std::size_t kUnitsPerThread = 3;
 /// A tree or scene of which nothing was heard for so many heartbeats is asked for again.
 constexpr double kPatienceHeartbeats = 5.0;
 
-/// Before it speaks for the first time the coordinator reads the scene, in silence.
-constexpr double kFirstContactFactor = 20.0;
-
 constexpr double kRestSeconds = 2e-3;
-constexpr double kLongestTurnSeconds = 0.5;
 
 template <class T>
 bool ready(const std::future<T>& task) {
@@ -42,14 +39,18 @@ std::uint64_t draw_incarnation() {
 class WorkerLoop {
   public:
     WorkerLoop(Channel& channel, const WorkerSettings& settings, const MakeRenderer& make_renderer, const Log& log)
-        : channel_(channel), settings_(settings), make_renderer_(make_renderer), log_(log), chain_(channel) {}
+        : channel_(channel),
+          settings_(settings),
+          make_renderer_(make_renderer),
+          log_(log),
+          chain_(channel),
+          silence_(settings.silence_seconds) {}
 
     WorkerEnd run() {
         say_hello();
         while (!end_) {
             while (const auto message = channel_.poll()) {
-                heard_ = true;
-                silence_ = 0;
+                silence_.broken();
                 take(*message);
                 if (end_) return *end_;
             }
@@ -59,8 +60,8 @@ class WorkerLoop {
                 fail(error.what());
             }
             beat();
-            if (grown_too_silent()) {
-                log_->error("the coordinator has been silent for {:.0f} s: leaving", silence_);
+            if (silence_.too_long(clock_.seconds())) {
+                log_->error("the coordinator has been silent for {:.0f} s: leaving", silence_.seconds());
                 return WorkerEnd::orphaned;
             }
             channel_.rest(kRestSeconds);
@@ -69,14 +70,6 @@ class WorkerLoop {
     }
 
   private:
-    /// While this process was stopped, or starved, nobody could be heard: long turns count as short ones.
-    bool grown_too_silent() {
-        const double now = clock_.seconds();
-        silence_ += std::min(now - turned_, kLongestTurnSeconds);
-        turned_ = now;
-        return silence_ > settings_.silence_seconds * (heard_ ? 1.0 : kFirstContactFactor);
-    }
-
     template <class M>
     void tell(const M& message) {
         channel_.send(0, std::make_shared<const Bytes>(encode(message)));
@@ -84,7 +77,7 @@ class WorkerLoop {
 
     void say_hello() {
         incarnation_ = draw_incarnation();
-        tell(Hello{incarnation_, settings_.fingerprint, settings_.threads, scene_arrived_, settings_.host,
+        tell(Hello{incarnation_, settings_.fingerprint, settings_.threads, job_number_, scene_hash_, settings_.host,
                    kProgramVersion});
     }
 
@@ -94,7 +87,7 @@ class WorkerLoop {
                 Overloads{[&](const Welcome& m) { on(m); },
                           [&](const Refuse& m) { log_->error("refused by the coordinator: {}", m.reason); },
                           [&](const Chunk& m) { chain_.take(m, clock_.seconds()); }, [&](const PassBegin& m) { on(m); },
-                          [&](const Work& m) { on(m); }, [&](const Heartbeat&) {}, [&](const Rejoin&) { on_rejoin(); },
+                          [&](const Work& m) { on(m); }, [&](const Heartbeat&) {}, [&](const Rejoin& m) { on(m); },
                           [&](const Quit&) { on_quit(); },
                           [&](const Leave& m) { end_ = m.finalize ? WorkerEnd::orderly : WorkerEnd::disorderly; },
                           [&](const auto&) { throw FormatError("a message that workers send, not receive"); }},
@@ -105,14 +98,20 @@ class WorkerLoop {
     }
 
     void on(const Welcome& m) {
+        heartbeat_seconds_ = m.heartbeat_seconds;
+        keep_scene_ = m.keep_scene;
+        coming_scene_hash_ = m.scene_hash;
+        if (m.job == job_text_ && m.scene_hash == scene_hash_) return;  // what traces is there, or being built
         job_ = Job{};
         apply_layer(job_, parse_job_settings(m.job, "job from the coordinator"));
-        heartbeat_seconds_ = m.heartbeat_seconds;
+        job_text_ = m.job;
+        retire_pool();
+        build_renderer_ = scene_ && m.scene_hash == scene_hash_;
     }
 
     void on(const PassBegin& m) {
         coming_ = m;
-        chain_.expect({Blob::tree, m.plan.index}, m.tree_bytes, clock_.seconds());
+        chain_.expect({Blob::tree, job_number_, m.plan.index}, m.tree_bytes, clock_.seconds());
     }
 
     void on(const Work& m) {
@@ -121,12 +120,31 @@ class WorkerLoop {
         pool_->add(m.units);
     }
 
-    /// The coordinator has issued again what this worker had: none of it may be sent any more.
-    void on_rejoin() {
-        log_->warn("the coordinator thought this worker lost: joining again");
+    /// The coordinator has issued again what this worker had, or is done with it: none of it may be sent any more.
+    void on(const Rejoin& m) {
         drop_work();
-        chain_.restart(Blob::tree);
+        if (m.job == job_number_) {
+            log_->warn("the coordinator thought this worker lost: joining again");
+            chain_.restart(Blob::tree);
+        } else {
+            job_number_ = m.job;
+            chain_.begin_job(m.job);
+            coming_scene_hash_ = 0;
+            if (failed_) {  // what was wrong may have been the job
+                retire_pool();
+                job_text_.clear();
+                scene_hash_ = 0;
+                failed_ = false;
+            }
+        }
         say_hello();
+    }
+
+    /// Its threads end when they have traced what they began.
+    void retire_pool() {
+        if (!pool_) return;
+        pool_->cancel();
+        retired_ = std::move(pool_);
     }
 
     void on_quit() {
@@ -144,12 +162,7 @@ class WorkerLoop {
     /// Everything that becomes possible without a message.
     void advance() {
         chain_.complain(clock_.seconds(), kPatienceHeartbeats * heartbeat_seconds_);
-        if (auto scene = chain_.collect({Blob::scene, 0})) {
-            scene_arrived_ = true;
-            renderer_task_ = std::async(std::launch::async, [make = make_renderer_, bytes = std::move(*scene),
-                                                             job = job_] { return make(bytes, job); });
-        }
-        if (ready(renderer_task_)) pool_.emplace(settings_.threads, renderer_task_.get());
+        prepare_renderer();
         if (quitting_) {
             if (!said_bye_ && (!pool_ || pool_->idle())) {
                 tell(Bye{incarnation_});
@@ -166,11 +179,35 @@ class WorkerLoop {
         ask_for_work();
     }
 
+    /// Scene and job there: build what traces, aside, once the one before is out of the way; built: start the threads.
+    void prepare_renderer() {
+        if (coming_scene_hash_ != 0) {  // 0: not welcomed yet
+            if (auto scene = chain_.collect({Blob::scene, job_number_, 0})) {
+                scene_ = std::make_shared<const Bytes>(std::move(*scene));
+                scene_hash_ = coming_scene_hash_;
+                build_renderer_ = true;
+            }
+        }
+        if (retired_ && retired_->idle()) retired_.reset();
+        if (ready(renderer_task_)) {
+            if (build_renderer_)
+                renderer_task_ = {};  // of an earlier job
+            else
+                pool_ = std::make_unique<TracerPool>(settings_.threads, renderer_task_.get());
+        }
+        if (!build_renderer_ || renderer_task_.valid() || retired_) return;
+        build_renderer_ = false;
+        renderer_task_ = std::async(std::launch::async,
+                                    [make = make_renderer_, bytes = scene_, job = job_] { return make(*bytes, job); });
+        if (!keep_scene_) scene_.reset();
+    }
+
     /// Tree arrived: build the guide, aside; guide built: start the pass.
     void prepare_pass() {
         if (coming_ && !pass_task_.valid()) {
-            if (auto tree = chain_.collect({Blob::tree, coming_->plan.index})) {
+            if (auto tree = chain_.collect({Blob::tree, job_number_, coming_->plan.index})) {
                 if (hash_bytes(*tree) != coming_->tree_hash) throw FormatError("the tree arrived with a wrong hash");
+                pass_task_job_ = job_number_;
                 pass_task_ = std::async(std::launch::async, [plan = coming_->plan, bytes = std::move(*tree),
                                                              filter = job_.guiding.directional_filter] {
                     return std::make_shared<PassWork>(plan, decode_tree(bytes), filter);
@@ -179,7 +216,7 @@ class WorkerLoop {
         }
         if (!pool_ || !ready(pass_task_)) return;
         std::shared_ptr<PassWork> built = pass_task_.get();
-        if (!coming_ || built->plan().index != coming_->plan.index) return;
+        if (!coming_ || pass_task_job_ != job_number_ || built->plan().index != coming_->plan.index) return;
         coming_.reset();
         pass_ = std::move(built);
         credit_ = 0;
@@ -231,17 +268,23 @@ class WorkerLoop {
     std::uint64_t incarnation_ = 0;
     Job job_;
     double heartbeat_seconds_ = 1.0;
-    bool heard_ = false;               ///< of the coordinator, ever
-    double silence_ = 0, turned_ = 0;  ///< since it spoke; end of the last turn of run()
+    SilenceWatch silence_;
     double last_beat_ = 0, last_update_ = 0;
-    bool scene_arrived_ = false, quitting_ = false, said_bye_ = false, failed_ = false;
+    bool quitting_ = false, said_bye_ = false, failed_ = false;
     std::optional<WorkerEnd> end_;
 
+    std::uint32_t job_number_ = 0;
+    std::string job_text_;  ///< of job_; empty: none yet
+    std::shared_ptr<const Bytes> scene_;
+    std::uint64_t scene_hash_ = 0, coming_scene_hash_ = 0;
+    bool keep_scene_ = false;
+    bool build_renderer_ = false;  ///< scene and job are there, and nothing was made of them yet
     std::future<RenderUnit> renderer_task_;
+    std::unique_ptr<TracerPool> pool_, retired_;
     std::optional<PassBegin> coming_;  ///< announced, its guide not yet built
     std::future<std::shared_ptr<PassWork>> pass_task_;
+    std::uint32_t pass_task_job_ = 0;
     std::shared_ptr<PassWork> pass_;
-    std::optional<TracerPool> pool_;
     std::size_t credit_ = 0;  ///< units asked for that have not come
 };
 

@@ -15,7 +15,7 @@ Payload share(Bytes bytes) {
 void send_along_chain(Channel& channel, const BlobName& name, std::span<const std::uint8_t> bytes, std::uint64_t offset,
                       std::span<const std::uint32_t> chain, std::size_t chunk_bytes) {
     if (chain.empty() || offset > bytes.size()) return;
-    Chunk chunk{name.blob, name.epoch, bytes.size(), offset, {chain.begin() + 1, chain.end()}, {}};
+    Chunk chunk{name.blob, name.job, name.epoch, bytes.size(), offset, {chain.begin() + 1, chain.end()}, {}};
     do {  // an empty blob is one empty chunk
         const std::size_t count = std::min<std::size_t>(chunk_bytes, bytes.size() - chunk.offset);
         const auto piece = bytes.subspan(chunk.offset, count);
@@ -23,6 +23,12 @@ void send_along_chain(Channel& channel, const BlobName& name, std::span<const st
         channel.send(static_cast<int>(chain.front()), share(encode(chunk)));
         chunk.offset += count;
     } while (chunk.offset < bytes.size());
+}
+
+void ChainReceiver::begin_job(std::uint32_t job) {
+    job_ = job;
+    assemblies_.clear();
+    latest_collected_.clear();
 }
 
 std::optional<BlobName> ChainReceiver::take(const Chunk& chunk, double now) {
@@ -34,7 +40,8 @@ std::optional<BlobName> ChainReceiver::take(const Chunk& chunk, double now) {
             throw FormatError("a broadcast chain with a peer that is not there");
         channel_.send(next, share(encode(onward)));
     }
-    const BlobName name{chunk.blob, chunk.epoch};
+    if (chunk.job != job_) return std::nullopt;
+    const BlobName name{chunk.blob, chunk.job, chunk.epoch};
     const auto latest = latest_collected_.find(name.blob);
     if (latest != latest_collected_.end() && name.epoch <= latest->second) return std::nullopt;
 
@@ -83,7 +90,7 @@ void ChainReceiver::complain(double now, double patience) {
 void ChainReceiver::ask(const BlobName& name, Assembly& assembly, double now) {
     assembly.asked = true;
     assembly.last_heard = now;
-    channel_.send(0, share(encode(Resend{name.blob, name.epoch, assembly.bytes.size()})));
+    channel_.send(0, share(encode(Resend{name.blob, name.job, name.epoch, assembly.bytes.size()})));
 }
 
 }  // namespace treefarm

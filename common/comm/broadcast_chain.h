@@ -14,9 +14,10 @@ namespace treefarm {
 /// many workers there are; a star costs one per worker.
 inline constexpr std::size_t kChunkBytes = std::size_t{1} << 20;
 
-/// What a blob is called: which one, and of which pass.
+/// What a blob is called: which one, of which job and pass.
 struct BlobName {
     Blob blob = Blob::scene;
+    std::uint32_t job = 0;
     std::uint32_t epoch = 0;
     auto operator<=>(const BlobName&) const = default;
 };
@@ -30,6 +31,9 @@ void send_along_chain(Channel& channel, const BlobName& name, std::span<const st
 class ChainReceiver {
   public:
     explicit ChainReceiver(Channel& channel) : channel_(channel) {}
+
+    /// From now on only pieces of this job are kept; those of others, still on their way, are passed on.
+    void begin_job(std::uint32_t job);
 
     /// Takes a piece at time `now` (seconds of any clock); returns the blob's name when that completed it.
     std::optional<BlobName> take(const Chunk& chunk, double now);
@@ -58,7 +62,8 @@ class ChainReceiver {
 
     Channel& channel_;
     std::map<BlobName, Assembly> assemblies_;
-    std::map<Blob, std::uint32_t> latest_collected_;  ///< late pieces of these are passed on, not kept
+    std::uint32_t job_ = 0;
+    std::map<Blob, std::uint32_t> latest_collected_;  ///< epochs; late pieces of these are passed on, not kept
 };
 
 }  // namespace treefarm

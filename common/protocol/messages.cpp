@@ -9,12 +9,12 @@ namespace treefarm {
 
 template <class Archive>
 void serialize(Archive& a, Hello& m) {
-    a(m.incarnation, m.fingerprint, m.threads, m.has_scene, m.host, m.version);
+    a(m.incarnation, m.fingerprint, m.threads, m.job, m.scene_hash, m.host, m.version);
 }
 
 template <class Archive>
 void serialize(Archive& a, Welcome& m) {
-    a(m.worker, m.heartbeat_seconds, m.job);
+    a(m.worker, m.heartbeat_seconds, m.job, m.scene_hash, m.keep_scene);
 }
 
 template <class Archive>
@@ -24,7 +24,7 @@ void serialize(Archive& a, Refuse& m) {
 
 template <class Archive>
 void serialize(Archive& a, Resend& m) {
-    a(m.blob, m.epoch, m.offset);
+    a(m.blob, m.job, m.epoch, m.offset);
 }
 
 template <class Archive>
@@ -54,7 +54,9 @@ void serialize(Archive& a, Failure& m) {
 }
 
 template <class Archive>
-void serialize(Archive&, Rejoin&) {}
+void serialize(Archive& a, Rejoin& m) {
+    a(m.job);
+}
 
 template <class Archive>
 void serialize(Archive&, Quit&) {}
@@ -96,6 +98,7 @@ void write_body(ByteWriter& writer, const M& message) {
 
 void write_body(ByteWriter& writer, const Chunk& m) {
     writer.put(static_cast<std::uint8_t>(m.blob));
+    writer.put(m.job);
     writer.put(m.epoch);
     writer.put(m.total);
     writer.put(m.offset);
@@ -121,6 +124,7 @@ M read_body(ByteReader& reader) {
         const auto blob = reader.get<std::uint8_t>();
         if (blob > static_cast<std::uint8_t>(Blob::tree)) throw FormatError("a blob of unknown kind");
         message.blob = static_cast<Blob>(blob);
+        message.job = reader.get<std::uint32_t>();
         message.epoch = reader.get<std::uint32_t>();
         message.total = reader.get<std::uint64_t>();
         message.offset = reader.get<std::uint64_t>();

@@ -24,7 +24,8 @@ struct Hello {
     std::uint64_t incarnation = 0;
     std::uint64_t fingerprint = 0;  ///< equal fingerprints promise equal bits (fingerprint.h)
     std::uint32_t threads = 0;      ///< that trace
-    bool has_scene = false;         ///< from an earlier life that was given up too soon
+    std::uint32_t job = 0;          ///< which one it speaks of: that of the last rejoin, 0 before any
+    std::uint64_t scene_hash = 0;   ///< of the scene it holds, from an earlier life or job; 0: none
     std::string host;
     std::string version;  ///< of the program
 
@@ -36,6 +37,8 @@ struct Welcome {
     std::uint32_t worker = 0;        ///< its peer number
     double heartbeat_seconds = 1.0;  ///< how often each side says that it lives
     std::string job;                 ///< TOML text of the resolved job
+    std::uint64_t scene_hash = 0;    ///< of the encoded scene; it is sent unless the worker holds it
+    bool keep_scene = false;         ///< other jobs may follow
 
     bool operator==(const Welcome&) const = default;
 };
@@ -54,6 +57,7 @@ enum class Blob : std::uint8_t { scene, tree };
 struct Chunk {
     static constexpr Kind kKind = Kind::chunk;
     Blob blob = Blob::scene;
+    std::uint32_t job = 0;
     std::uint32_t epoch = 0;   ///< of a tree: the pass that it guides; 0 for the scene
     std::uint64_t total = 0;   ///< bytes of the whole
     std::uint64_t offset = 0;  ///< of this piece
@@ -67,6 +71,7 @@ struct Chunk {
 struct Resend {
     static constexpr Kind kKind = Kind::resend;
     Blob blob = Blob::scene;
+    std::uint32_t job = 0;
     std::uint32_t epoch = 0;
     std::uint64_t offset = 0;
 
@@ -134,9 +139,12 @@ struct Failure {
     bool operator==(const Failure&) const = default;
 };
 
-/// You were given up for lost, what you had was issued again: draw a new incarnation and say hello.
+/// Drop what you have, draw a new incarnation and say hello to this job: another one begins, or you were given up for
+/// lost and what you had was issued again.
 struct Rejoin {
     static constexpr Kind kKind = Kind::rejoin;
+    std::uint32_t job = 0;
+
     bool operator==(const Rejoin&) const = default;
 };
 

@@ -146,25 +146,25 @@ class FarmTest : public ::testing::Test {
             [this, w] { ends_[w] = run_worker(*faulty_[w], settings_[w], renderers_[w], quiet_log()); });
     }
 
-    /// Starts all workers, renders, sends them away.
+    /// Starts all workers unless they stayed, renders, sends them away unless they shall stay.
     RenderResult render(const FarmLimits& limits = {.gather = 20, .lost = 20, .dismiss = 20}) {
         if (threads_.empty())
             for (std::size_t w = 0; w < faulty_.size(); ++w)
                 start_worker(w);
-        Farm farm(*channels_[0], job_, kScene, kFingerprint, quiet_log(), limits);
+        Farm farm(*channels_[0], job_, kScene, kFingerprint, quiet_log(), limits, turn_);
         RenderResult result;
         try {
             farm.gather([] { return false; });
             const SdTree tree = initial_tree(Box3(Vec3(0.0f), Vec3(1.0f)), 1.0f);
             result = run_passes(farm, job_, passes_of(job_), tree, kWidth, kHeight, {});
         } catch (...) {
-            leave(farm.lost_peers(), limits);
+            if (!stay_) leave(farm.lost_peers(), limits);
             throw;
         }
         reissued_ = farm.reissued_units();
         dropped_ = farm.dropped_results();
         lost_ = farm.lost_peers();
-        leave(lost_, limits);
+        if (!stay_) leave(lost_, limits);
         return result;
     }
 
@@ -204,6 +204,8 @@ class FarmTest : public ::testing::Test {
     }
 
     Job job_ = test_job();
+    JobTurn turn_;
+    bool stay_ = false;  ///< workers, for another render()
     std::vector<std::unique_ptr<Channel>> channels_;
     std::vector<std::unique_ptr<FaultyChannel>> faulty_;
     std::vector<WorkerSettings> settings_;

@@ -107,7 +107,7 @@ TEST_F(FarmTest, ACoordinatorThatWasBusyGivesNobodyUp) {
     Farm farm(channel, job_, kScene, kFingerprint, quiet_log(), kShort);
     farm.gather([] { return false; });
     PassHooks hooks;
-    hooks.on_pass = [&](const PassReport& pass) {
+    hooks.on_pass = [&](const PassReport& pass, const CombinedImage&) {
         if (pass.plan.index > 0) return;
         std::this_thread::sleep_for(std::chrono::milliseconds(500));  // longer than the limit
         channel.asleep = true;
@@ -303,7 +303,7 @@ TEST_F(FarmTest, AnInterruptionKeepsWholePasses) {
     farm.gather([] { return false; });
     int passes = 0;
     PassHooks hooks;
-    hooks.on_pass = [&](const PassReport&) { ++passes; };
+    hooks.on_pass = [&](const PassReport&, const CombinedImage&) { ++passes; };
     hooks.interrupted = [&] { return passes == 2; };
     const SdTree tree = initial_tree(Box3(Vec3(0.0f), Vec3(1.0f)), 1.0f);
     const RenderResult result = run_passes(farm, job_, passes_of(job_), tree, kWidth, kHeight, hooks);

@@ -49,18 +49,18 @@ std::vector<std::string> fuzz::seeds() {
     PassBegin begin;
     begin.plan.spp = 4;
     begin.plan.chunks = begin.plan.blocks_per_unit = 1;
-    const std::vector<Message> messages = {Hello{1, 2, 3, true, "host", "0.1"},
-                                           Welcome{4, 0.5, "[budget]\nspp = 4\n"},
+    const std::vector<Message> messages = {Hello{1, 2, 3, 4, 5, "host", "0.1"},
+                                           Welcome{4, 0.5, "[budget]\nspp = 4\n", 5, true},
                                            Refuse{"fingerprints differ"},
-                                           Chunk{Blob::tree, 5, 100, 10, {2, 3}, {9, 8, 7}},
-                                           Resend{Blob::scene, 0, 42},
+                                           Chunk{Blob::tree, 1, 5, 100, 10, {2, 3}, {9, 8, 7}},
+                                           Resend{Blob::scene, 1, 0, 42},
                                            begin,
                                            Want{1, 2, 30},
                                            Work{2, {{2, 0, 0, 8, 8, 0}, {2, 8, 0, 16, 8, 1}}},
                                            result,
                                            Heartbeat{1, 2, 3},
                                            Failure{1, "no memory"},
-                                           Rejoin{},
+                                           Rejoin{3},
                                            Bye{5},
                                            Leave{true}};
     std::vector<std::string> seeds;

@@ -54,7 +54,7 @@ struct Farm {
     std::vector<std::uint32_t> chain;
 };
 
-constexpr BlobName kTree{Blob::tree, 3};
+constexpr BlobName kTree{Blob::tree, 0, 3};
 
 class BroadcastChain : public ::testing::TestWithParam<int> {};
 
@@ -81,7 +81,7 @@ TEST_P(BroadcastChain, AMissingPieceIsAskedForAndThenAllIsWhole) {
     ASSERT_FALSE(complaints.empty());
     for (const auto& [peer, resend] : complaints) {
         EXPECT_GE(peer, deaf);
-        EXPECT_EQ(resend, (Resend{Blob::tree, 3, 2000}));
+        EXPECT_EQ(resend, (Resend{Blob::tree, 0, 3, 2000}));
         const std::uint32_t only[] = {static_cast<std::uint32_t>(peer)};
         send_along_chain(*farm.channels[0], kTree, tree, resend.offset, only, 1000);
     }
@@ -136,10 +136,11 @@ TEST(ChainReceiver, LatePiecesOfACollectedBlobAreDropped) {
 TEST(ChainReceiver, ALyingChunkIsRefused) {
     Farm farm(2);
     ChainReceiver& receiver = *farm.receivers[0];
-    receiver.take({Blob::tree, 3, 100, 0, {}, Bytes(10)}, 0);
-    EXPECT_THROW(receiver.take({Blob::tree, 3, 99, 10, {}, Bytes(10)}, 0), FormatError) << "length changes";
-    EXPECT_THROW(receiver.take({Blob::tree, 3, 100, 10, {7}, Bytes(10)}, 0), FormatError) << "no such peer";
-    EXPECT_THROW(receiver.take({Blob::tree, 3, 100, 10, {0}, Bytes(10)}, 0), FormatError) << "back to the coordinator";
+    receiver.take({Blob::tree, 0, 3, 100, 0, {}, Bytes(10)}, 0);
+    EXPECT_THROW(receiver.take({Blob::tree, 0, 3, 99, 10, {}, Bytes(10)}, 0), FormatError) << "length changes";
+    EXPECT_THROW(receiver.take({Blob::tree, 0, 3, 100, 10, {7}, Bytes(10)}, 0), FormatError) << "no such peer";
+    EXPECT_THROW(receiver.take({Blob::tree, 0, 3, 100, 10, {0}, Bytes(10)}, 0), FormatError)
+        << "back to the coordinator";
 }
 
 TEST(ChainReceiver, AnEmptyBlobArrives) {

@@ -46,18 +46,18 @@ PassBegin sample_pass() {
 }
 
 std::vector<Message> samples() {
-    return {Hello{1, 2, 3, true, "host", "0.1"},
-            Welcome{4, 0.5, "scene.file = 'x'"},
+    return {Hello{1, 2, 3, 4, 5, "host", "0.1"},
+            Welcome{4, 0.5, "scene.file = 'x'", 5, true},
             Refuse{"fingerprints differ"},
-            Chunk{Blob::tree, 5, 100, 10, {2, 3}, {9, 8, 7}},
-            Resend{Blob::scene, 0, 42},
+            Chunk{Blob::tree, 1, 5, 100, 10, {2, 3}, {9, 8, 7}},
+            Resend{Blob::scene, 1, 0, 42},
             sample_pass(),
             Want{1, 2, 30},
             Work{2, {{2, 0, 0, 8, 8, 0}, {2, 8, 0, 16, 8, 1}}},
             sample_result(),
             Heartbeat{1, 2, 3},
             Failure{1, "no memory"},
-            Rejoin{},
+            Rejoin{3},
             Quit{},
             Bye{5},
             Leave{true}};
@@ -82,8 +82,8 @@ TEST(Protocol, EveryMessageRoundTrips) {
 }
 
 TEST(Protocol, FieldsArriveAsTheyWereSent) {
-    EXPECT_EQ(std::get<Hello>(decode(encode(Hello{1, 2, 3, true, "host", "0.1"}))),
-              (Hello{1, 2, 3, true, "host", "0.1"}));
+    EXPECT_EQ(std::get<Hello>(decode(encode(Hello{1, 2, 3, 4, 5, "host", "0.1"}))),
+              (Hello{1, 2, 3, 4, 5, "host", "0.1"}));
     const auto chunk = std::get<Chunk>(samples()[3]);
     EXPECT_EQ(std::get<Chunk>(decode(encode(chunk))), chunk);
     const auto begin = std::get<PassBegin>(decode(encode(sample_pass())));
@@ -195,7 +195,7 @@ TEST(Protocol, AnotherVersionIsNamedInTheMessage) {
         decode(bytes);
         FAIL() << "accepted";
     } catch (const FormatError& error) {
-        EXPECT_NE(std::string(error.what()).find("protocol version 2"), std::string::npos) << error.what();
+        EXPECT_NE(std::string(error.what()).find("protocol version 3"), std::string::npos) << error.what();
     }
 }
 

@@ -1,0 +1,90 @@
+#include "cli/study.h"
+
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <memory>
+
+#include "cli/on_farm.h"
+#include "coordinator/study/study_run.h"
+#include "report/price_list.h"
+#include "report/study_page.h"
+
+namespace treefarm {
+
+namespace {
+
+struct StudyOptions {
+    std::string input;
+    std::string directory;
+    unsigned threads = 0;
+    bool dry_run = false;
+    bool quiet = false;
+    std::string command;
+};
+
+Study read_study_for(const StudyOptions& options) {
+    Study study = read_study(options.input);
+    if (!options.directory.empty()) study.directory = options.directory;
+    return study;
+}
+
+int exit_code_of(RunState state) {
+    return state == RunState::done ? 0 : state == RunState::interrupted ? 3 : 1;
+}
+
+int study(const LaunchEnvironment& launch, const StudyOptions& options) {
+    if (options.dry_run) {
+        if (launch.rank == 0) list_cells(read_study_for(options), std::cout);
+        return 0;
+    }
+    Study study;
+    FarmTask task;
+    const Log log = make_log("study", {}, options.quiet);
+    task.prepare = [&] {
+        study = read_study_for(options);
+        std::vector<std::string> warnings;
+        warn_if_crowded(options.threads, warnings);
+        for (const std::string& warning : warnings)
+            log->warn("{}", warning);
+    };
+    task.coordinate = [&](Channel& channel, const std::function<bool()>& interrupted) -> CoordinatorEnd {
+        const StudyOutcome outcome = run_study(channel, study, options.command, log, interrupted);
+        return {exit_code_of(outcome.state), outcome.lost_peers};
+    };
+    const int code = run_on_farm(launch, options.threads, options.quiet, task);
+    if (code == 0 && launch.rank == 0) log->info("report: {}", write_study_report(study.directory).string());
+    return code;
+}
+
+}  // namespace
+
+void add_report_command(CLI::App& app, const LaunchEnvironment& launch) {
+    const auto folders = std::make_shared<std::vector<std::string>>();
+    const auto prices = std::make_shared<std::string>();
+    CLI::App* command = app.add_subcommand("report", "Writes the reports of studies, or of what is done of them");
+    command->add_option("folder", *folders, "folders that treefarm study wrote")->required();
+    command->add_option("--price-list", *prices,
+                        "also write what each method costs and buys, as Markdown, to this file");
+    command->callback([folders, prices, launch] {
+        if (launch.rank != 0) return;
+        for (const std::string& folder : *folders)
+            std::cout << write_study_report(folder).string() << "\n";
+        if (!prices->empty()) write_price_list({folders->begin(), folders->end()}, *prices);
+    });
+}
+
+void add_study_command(CLI::App& app, const LaunchEnvironment& launch, const std::string& command_line,
+                       int& exit_code) {
+    const auto options = std::make_shared<StudyOptions>();
+    options->command = command_line;
+    CLI::App* command = app.add_subcommand("study", "Renders a matrix of methods, scenes and seeds, and compares them");
+    command->add_option("input", options->input, "study file (.toml)")->required();
+    command->add_option("--dir", options->directory, "where results go (default: directory in the file)");
+    command->add_option("--threads", options->threads, "tracing threads of each process (default: its processors)")
+        ->check(CLI::Range(1u, 4096u));
+    command->add_flag("--dry-run", options->dry_run, "list the cells, and which are done; render nothing");
+    command->add_flag("--quiet", options->quiet, "only errors on the terminal");
+    command->callback([options, launch, &exit_code] { exit_code = study(launch, *options); });
+}
+
+}  // namespace treefarm

@@ -1,0 +1,43 @@
+#include "common/protocol/messages.h"
+#include "coordinator/farm.h"
+
+namespace treefarm {
+
+namespace {
+
+constexpr double kRestSeconds = 2e-3;
+
+}  // namespace
+
+bool dismiss_workers(Channel& channel, const std::set<int>& lost, double patience) {
+    const auto tell_all = [&](const Bytes& bytes) {
+        const auto payload = std::make_shared<const Bytes>(bytes);
+        for (int peer = 1; peer < channel.peer_count(); ++peer)
+            channel.send(peer, payload);
+    };
+    tell_all(encode(Quit{}));
+    std::set<int> gone;
+    const auto count_gone = [&](bool lost_ones) {
+        int count = 0;
+        for (int peer = 1; peer < channel.peer_count(); ++peer)
+            count += gone.contains(peer) || (lost_ones && lost.contains(peer));
+        return count;
+    };
+    const int workers = channel.peer_count() - 1;
+    const Timer timer;
+    while (count_gone(true) < workers && timer.seconds() < patience) {
+        if (const auto message = channel.poll()) {
+            try {
+                if (std::holds_alternative<Bye>(decode(message->bytes))) gone.insert(message->peer);
+            } catch (const FormatError&) {  // whatever it was, nobody needs it any more
+            }
+        } else {
+            channel.rest(kRestSeconds);
+        }
+    }
+    const bool orderly = count_gone(false) == workers;
+    tell_all(encode(Leave{orderly}));
+    return orderly;
+}
+
+}  // namespace treefarm

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <vector>
+
+#include "common/image/image.h"
+#include "coordinator/pass_loop.h"
+
+namespace treefarm {
+
+/// A pass of a cell, with the image as it was after it.
+struct MeasuredPass {
+    PassReport report;
+    RgbImage image;
+};
+
+/// What a cell's cell.json says of its render: every pass with its figures and its true errors against the reference,
+/// and FLIP of the last (docs/studies.md).
+nlohmann::ordered_json render_record(const std::vector<MeasuredPass>& passes, const RgbImage& reference);
+
+}  // namespace treefarm

@@ -1,0 +1,71 @@
+#include "coordinator/study/cell_request.h"
+
+#include "common/base/hash.h"
+#include "common/config/check_job.h"
+#include "common/config/job_reader.h"
+#include "common/protocol/fingerprint.h"
+#include "common/scene/scene_codec.h"
+
+namespace treefarm {
+
+namespace {
+
+/// The job as far as it stands before the scene is read.
+Job scene_job(const Study& study, const StudyScene& scene) {
+    Job job;
+    apply_layer(job, study.job);
+    apply_layer(job, scene.settings);
+    job.scene.file = scene.file;
+    return job;
+}
+
+}  // namespace
+
+LoadedScene load_study_scene(const Study& study, const StudyScene& scene) {
+    const Job job = scene_job(study, scene);
+    return load_scene(scene.file, job.scene.defines, job.scene.lenient, job.image.width, job.image.height);
+}
+
+RenderRequest study_request(const Study& study, const StudyScene& scene, const LoadedScene& loaded,
+                            std::span<const Setting> method, std::span<const Setting> more) {
+    RenderRequest request;
+    apply_layer(request.job, loaded.settings);
+    apply_layer(request.job, study.job);
+    apply_layer(request.job, scene.settings);
+    apply_layer(request.job, method);
+    apply_layer(request.job, more);
+    request.job.scene.file = scene.file;
+    check_job(request.job);
+    request.scene = loaded.scene;
+    request.plan = plan_effects(request.scene, request.job);
+    for (const Warning& warning : loaded.warnings)
+        request.warnings.push_back(warning.text());
+    request.plan.warnings = request.warnings;
+    request.fingerprint = own_fingerprint().hash();
+    request.quiet = true;
+    return request;
+}
+
+std::vector<Setting> cell_settings(const Study& study, const StudyCell& cell) {
+    std::vector<Setting> settings = study.budget;
+    settings.push_back({"sampler.seed", std::to_string(cell.seed), Location{study.file}});
+    return settings;
+}
+
+std::uint64_t request_key(const RenderRequest& request, const std::string& more) {
+    Job job = request.job;
+    job.output = {};
+    const std::string text = write_job(job) + hash_text(hash_bytes(encode_scene(request.scene))) +
+                             hash_text(request.fingerprint) + kProgramVersion + more;
+    return hash_bytes({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+}
+
+std::string folder_name(const std::string& words, std::uint64_t key) {
+    constexpr std::string_view plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=.";
+    std::string name = words.substr(0, 100);
+    for (char& c : name)
+        if (plain.find(c) == std::string_view::npos) c = '_';
+    return name + "-" + hash_text(key);
+}
+
+}  // namespace treefarm

@@ -1,0 +1,116 @@
+#include "report/price_list.h"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <cmath>
+
+#include "common/image/atomic_file.h"
+
+namespace treefarm {
+
+namespace {
+
+using Figure = double (*)(const PassRow&);
+
+double square(double x) {
+    return x * x;
+}
+
+struct Column {
+    const char* name;
+    Figure figure;
+};
+
+const Column kColumns[] = {
+    {"core-seconds", [](const PassRow& r) { return r.core_seconds; }},
+    {"seconds", [](const PassRow& r) { return r.run_seconds; }},
+    {"relMSE", [](const PassRow& r) { return square(measures()[1].value(r)); }},
+    {"relMSE trimmed", [](const PassRow& r) { return square(measures()[2].value(r)); }},
+    {"relMSE x core-seconds", [](const PassRow& r) { return square(measures()[1].value(r)) * r.core_seconds; }},
+    {"trimmed x core-seconds", [](const PassRow& r) { return square(measures()[2].value(r)) * r.core_seconds; }},
+};
+
+/// Of a method over the baseline, by pairs of seeds.
+Interval ratio(const std::vector<const CellResult*>& own, const std::vector<const CellResult*>& base, Figure figure) {
+    std::vector<double> a, b;
+    for (const CellResult* cell : own)
+        for (const CellResult* other : base)
+            if (cell->repetition == other->repetition) {
+                a.push_back(figure(cell->passes.back()));
+                b.push_back(figure(other->passes.back()));
+            }
+    return geometric_ratio(a, b);
+}
+
+/// Bold where the interval, as it is printed, does not hold 1.
+std::string cell_text(const Interval& interval) {
+    if (!std::isfinite(interval.mean)) return "";
+    std::string text = fmt::format("{:.2f}", interval.mean);
+    if (!std::isfinite(interval.low)) return text;
+    const bool certain = std::round(100 * interval.low) > 100 || std::round(100 * interval.high) < 100;
+    if (certain) text = "**" + text + "**";
+    return text + fmt::format(" [{:.2f}, {:.2f}]", interval.low, interval.high);
+}
+
+std::string scene_table(const StudyResults& study, const SceneResult& scene) {
+    const auto base = study.of(scene.name, study.baseline);
+    if (base.empty()) return "";
+    const PassRow& last = base.front()->passes.back();
+    std::string text = fmt::format(
+        "## {}\n\n{} x {} pixels, {} spp, {} seeds, {} threads; `{}`: {:.3g} core-seconds, root of relMSE {:.3g} %, "
+        "trimmed {:.3g} %; "
+        "the reference's own error is {:.2g} % of the mean.\n\n| choice |",
+        scene.name, base.front()->width, base.front()->height, last.spp_done, base.size(), last.threads, study.baseline,
+        last.core_seconds, 100 * measures()[1].value(last), 100 * measures()[2].value(last),
+        100 * scene.reference_error);
+    std::string rule = "|---|";
+    for (const Column& column : kColumns) {
+        text += fmt::format(" {} |", column.name);
+        rule += "---|";
+    }
+    text += "\n" + rule + "\n";
+    for (const MethodResult& method : study.methods) {
+        if (method.name == study.baseline) continue;
+        text += "| " + method.name + " |";
+        for (const Column& column : kColumns)
+            text += " " + cell_text(ratio(study.of(scene.name, method.name), base, column.figure)) + " |";
+        text += "\n";
+    }
+    return text + "\n";
+}
+
+}  // namespace
+
+std::string price_list(const std::vector<StudyResults>& studies) {
+    std::string text =
+        "# The cost of accuracy\n\n"
+        "Written by `deploy/cost-of-accuracy`; do not edit. What each choice costs and buys on our own scenes: ratios "
+        "over the baseline at\n"
+        "equal samples, geometric means over pairs of seeds with 95 % intervals of Student's t. Below 1 is better in "
+        "every column; bold: the\n"
+        "interval does not hold 1. The last two columns are the price of accuracy: how many times the core-seconds an "
+        "image of equal\n"
+        "error takes. A claim needs both, untrimmed and without the worst 0.1 % of the pixels "
+        "([metrics.md](metrics.md)).\n\n"
+        "Core-seconds are the workers' own processor time, so a busy machine moves them little; seconds are the "
+        "clock's, and it moves them a lot.\n"
+        "With so few seeds, one in twenty intervals that hold no 1 is an accident. Effects that are off make the image "
+        "wrong: their rows\n"
+        "show the time that an effect takes, and their relMSE what the image loses.\n\n";
+    for (const StudyResults& study : studies)
+        for (const SceneResult& scene : study.scenes)
+            text += scene_table(study, scene);
+    while (text.ends_with("\n\n"))
+        text.pop_back();
+    return text;
+}
+
+void write_price_list(const std::vector<std::filesystem::path>& folders, const std::filesystem::path& file) {
+    std::vector<StudyResults> studies;
+    for (const std::filesystem::path& folder : folders)
+        studies.push_back(read_study_results(folder));
+    const std::string text = price_list(studies);
+    write_file_atomically(file, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+}
+
+}  // namespace treefarm

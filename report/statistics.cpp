@@ -1,0 +1,74 @@
+#include "report/statistics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace treefarm {
+
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+/// 97.5 % quantile of Student's t with `freedom` degrees of freedom.
+double t_quantile(std::size_t freedom) {
+    constexpr double table[] = {12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262, 2.228,
+                                2.201,  2.179, 2.160, 2.145, 2.131, 2.120, 2.110, 2.101, 2.093, 2.086};
+    if (freedom <= std::size(table)) return table[freedom - 1];
+    const double n = static_cast<double>(freedom), z = 1.959964;  // first terms of the expansion in 1 / n
+    return z + (z * z * z + z) / (4 * n) + (5 * std::pow(z, 5) + 16 * z * z * z + 3 * z) / (96 * n * n);
+}
+
+double log_interpolate(const CurvePoint& a, const CurvePoint& b, double share) {
+    return std::exp(std::log(a.error) + share * (std::log(b.error) - std::log(a.error)));
+}
+
+}  // namespace
+
+Interval geometric_mean(std::span<const double> values) {
+    const auto n = static_cast<double>(values.size());
+    if (values.empty()) return {kNan, kNan, kNan};
+    double sum = 0, squares = 0;
+    for (const double value : values)
+        sum += std::log(value);
+    const double mean = sum / n;
+    for (const double value : values)
+        squares += (std::log(value) - mean) * (std::log(value) - mean);
+    if (values.size() < 2) return {std::exp(mean), kNan, kNan};
+    const double half = t_quantile(values.size() - 1) * std::sqrt(squares / (n - 1) / n);
+    return {std::exp(mean), std::exp(mean - half), std::exp(mean + half)};
+}
+
+Interval geometric_ratio(std::span<const double> a, std::span<const double> b) {
+    std::vector<double> ratios;
+    for (std::size_t k = 0; k < std::min(a.size(), b.size()); ++k)
+        ratios.push_back(a[k] / b[k]);
+    return geometric_mean(ratios);
+}
+
+Crossing time_to(std::span<const CurvePoint> curve, double target) {
+    if (curve.empty()) return {kNan, true};
+    if (curve.front().error <= target) return {curve.front().seconds, false};
+    for (std::size_t k = 1; k < curve.size(); ++k) {
+        const CurvePoint &a = curve[k - 1], &b = curve[k];
+        if (b.error > target) continue;
+        const double share = (std::log(a.error) - std::log(target)) / (std::log(a.error) - std::log(b.error));
+        return {std::exp(std::log(a.seconds) + share * (std::log(b.seconds) - std::log(a.seconds))), false};
+    }
+    const double ratio = curve.back().error / target;
+    return {curve.back().seconds * ratio * ratio, true};
+}
+
+double error_at(std::span<const CurvePoint> curve, double seconds) {
+    if (curve.empty()) return kNan;
+    for (std::size_t k = 1; k < curve.size(); ++k) {
+        const CurvePoint &a = curve[k - 1], &b = curve[k];
+        if (seconds > b.seconds && k + 1 < curve.size()) continue;
+        const double length = std::log(b.seconds) - std::log(a.seconds);
+        const double share = length > 0 ? (std::log(seconds) - std::log(a.seconds)) / length : 1.0;
+        return log_interpolate(a, b, std::clamp(share, 0.0, 1.0));
+    }
+    return curve.front().error;
+}
+
+}  // namespace treefarm

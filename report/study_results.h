@@ -1,0 +1,75 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "report/statistics.h"
+
+namespace treefarm {
+
+/// One pass of a cell, as cell.json has it.
+struct PassRow {
+    int pass = 0, spp = 0, spp_done = 0, threads = 0;
+    double run_seconds = 0, core_seconds = 0;  ///< both since the render began
+    std::map<std::string, double> measured;    ///< rmse_over_mean, rel_mse, ...
+    double estimate = 0;                       ///< relative error that the render claimed; NaN: none
+    double halving_seconds = 0;                ///< that it forecast; NaN: none
+    double stuv = 0, ttuv = 0, nonzero_share = 0, tree_nodes = 0, tree_memory = 0;
+    std::map<std::string, double> phases;  ///< seconds of the coordinator's clock
+    std::map<std::string, double> worker_seconds;
+    double idle_seconds = 0;
+};
+
+struct CellResult {
+    std::string scene, method;
+    std::uint64_t seed = 0;
+    std::size_t repetition = 0;
+    std::filesystem::path folder;
+    int width = 0, height = 0;
+    double flip = 0;
+    std::vector<PassRow> passes;
+};
+
+struct SceneResult {
+    std::string name, file, reference_file;
+    double reference_error = 0;  ///< that it claims of itself; NaN: not known
+    bool reference_rendered = false;
+};
+
+struct MethodResult {
+    std::string name;
+    std::map<std::string, std::string> settings;
+};
+
+/// A study as far as it has come.
+struct StudyResults {
+    std::filesystem::path folder;
+    std::string study, baseline, budget, version_note;
+    std::vector<SceneResult> scenes;
+    std::vector<MethodResult> methods;
+    std::size_t planned = 0;        ///< cells
+    std::vector<CellResult> cells;  ///< those that are done, in order
+
+    /// Cells of a scene and method, by repetition.
+    std::vector<const CellResult*> of(const std::string& scene, const std::string& method) const;
+};
+
+/// Reads the folder that `treefarm study` left. Throws InputError where it is none, or damaged.
+StudyResults read_study_results(const std::filesystem::path& folder);
+
+/// How errors are measured in tables and plots.
+struct Measure {
+    const char* key;
+    const char* name;  ///< for people
+    double (*value)(const PassRow&);
+};
+/// RMSE / mean; the root of relMSE; the same without the worst 0.1 % of the pixels. A claim needs both of the latter.
+const std::vector<Measure>& measures();
+
+std::vector<CurvePoint> curve_of(const CellResult& cell, const Measure& measure);
+
+}  // namespace treefarm

@@ -1,0 +1,116 @@
+// A study that is killed goes on where it was, and reports the same numbers.
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <fstream>
+#include <map>
+
+#include "tests/mpi/program.h"
+#include "tests/support/support.h"
+
+namespace treefarm::test {
+namespace {
+
+namespace fs = std::filesystem;
+constexpr double kPatience = 240;
+constexpr std::size_t kCells = 3 * 2 * 4;
+
+fs::path write_study(const fs::path& folder) {
+    const fs::path file = folder / "small.toml";
+    std::ofstream(file) << "seeds = 4\n[budget]\nspp = 6\n[job]\nimage.width = 20\nimage.height = 16\n"
+                        << "farm.heartbeat_seconds = 0.2\n"
+                        << "[scene.box]\nfile = \"" << own_scene("cornell-box.xml") << "\"\n"
+                        << "[scene.caustic]\nfile = \"" << own_scene("caustic.xml") << "\"\n"
+                        << "[method.unguided]\nguiding.type = \"none\"\n[method.paper]\nguiding.preset = \"paper\"\n"
+                        << "[method.own]\nguiding.spatial_threshold = 200\n"
+                        << "[reference]\nguiding.type = \"none\"\nbudget.spp = 32\nsampler.seed = 99\n";
+    return file;
+}
+
+std::vector<std::string> study(const fs::path& file, const fs::path& directory) {
+    return {TREEFARM_PROGRAM, "study", file.string(), "--dir", directory.string(), "--threads", "1"};
+}
+
+nlohmann::json read_json(const fs::path& path) {
+    std::ifstream file(path);
+    return nlohmann::json::parse(file);
+}
+
+/// cell.json of every cell that is whole, by its folder.
+std::map<std::string, nlohmann::json> whole_cells(const fs::path& directory) {
+    std::map<std::string, nlohmann::json> cells;
+    if (!fs::exists(directory / "cells")) return cells;
+    for (const auto& entry : fs::directory_iterator(directory / "cells"))
+        if (fs::exists(entry.path() / "cell.json"))
+            cells[entry.path().filename()] = read_json(entry.path() / "cell.json");
+    return cells;
+}
+
+void expect_same_numbers(const std::map<std::string, nlohmann::json>& a,
+                         const std::map<std::string, nlohmann::json>& b) {
+    ASSERT_EQ(a.size(), kCells);
+    ASSERT_EQ(b.size(), kCells);
+    for (const auto& [name, cell] : a) {
+        ASSERT_TRUE(b.contains(name)) << name;
+        const nlohmann::json& other = b.at(name);
+        EXPECT_EQ(cell["flip"], other["flip"]) << name;
+        ASSERT_EQ(cell["passes"].size(), other["passes"].size()) << name;
+        for (std::size_t k = 0; k < cell["passes"].size(); ++k)
+            for (const char* figure : {"measured", "spp_done", "stuv", "nonzero_share", "tree_memory", "estimate"})
+                EXPECT_EQ(cell["passes"][k][figure], other["passes"][k][figure]) << name << ", " << figure;
+    }
+}
+
+class StudyTest : public ::testing::TestWithParam<int> {};
+
+TEST_P(StudyTest, KilledHalfWayGoesOn) {
+    const auto launcher = GetParam() == 0 ? std::vector<std::string>() : mpirun(GetParam());
+    const fs::path folder = fresh_folder("study"), broken = folder / "broken", whole = folder / "whole";
+    const fs::path file = write_study(folder);
+    {
+        Program program(launcher + study(file, broken));
+        ASSERT_TRUE(program.wait_until([&] { return whole_cells(broken).size() >= kCells / 2; }, kPatience));
+        program.signal(SIGKILL);
+        program.wait(10);
+    }
+    const auto before = whole_cells(broken);
+    ASSERT_LT(before.size(), kCells) << "the kill came too late to test anything";
+
+    const Ending again = Program(launcher + study(file, broken)).wait(kPatience);
+    EXPECT_EQ(again.code, 0) << again.output;
+    const auto after = whole_cells(broken);
+    for (const auto& [name, cell] : before)
+        EXPECT_EQ(after.at(name), cell) << "a finished cell was rendered again: its seconds would differ";
+
+    const Ending ending = Program(launcher + study(file, whole)).wait(kPatience);
+    EXPECT_EQ(ending.code, 0) << ending.output;
+    expect_same_numbers(after, whole_cells(whole));
+    EXPECT_EQ(read_json(broken / "study.json")["cells"], read_json(whole / "study.json")["cells"]);
+
+    const Ending dry = Program(study(file, whole) + std::vector<std::string>{"--dry-run"}).wait(kPatience);
+    EXPECT_NE(dry.output.find("24 of 24 cells are done"), std::string::npos) << dry.output;
+}
+
+INSTANTIATE_TEST_SUITE_P(Ranks, StudyTest, ::testing::Values(0, 3));
+
+TEST(StudyProgram, AnInterruptIsResumable) {
+    const fs::path folder = fresh_folder("study");
+    const fs::path file = write_study(folder);
+    Program program(study(file, folder / "results"));
+    ASSERT_TRUE(program.wait_until([&] { return !whole_cells(folder / "results").empty(); }, kPatience));
+    program.signal(SIGINT);
+    const Ending ending = program.wait(kPatience);
+    EXPECT_EQ(ending.code, 3) << ending.output;
+    EXPECT_NE(ending.output.find("goes on from here"), std::string::npos) << ending.output;
+}
+
+TEST(StudyProgram, BadInputSaysWhere) {
+    const fs::path folder = fresh_folder("study");
+    std::ofstream(folder / "bad.toml") << "[scene.box]\nfile = \"none.xml\"\n";
+    const Ending ending = Program(study(folder / "bad.toml", folder / "results")).wait(kPatience);
+    EXPECT_EQ(ending.code, 2);
+    EXPECT_NE(ending.output.find("bad.toml:2:8: there is no file"), std::string::npos) << ending.output;
+}
+
+}  // namespace
+}  // namespace treefarm::test
