@@ -13,7 +13,8 @@ struct RoughReflection {
 };
 
 /// wo.z > 0 and wi.z > 0. G1(wo) / cos(wo) is 1 / projected_area(wo): no cosine is divided by.
-inline RoughReflection rough_reflection(const Microfacet& facets, const Vec3& wo, const Vec3& wi) {
+[[gnu::always_inline]] inline RoughReflection rough_reflection(const Microfacet& facets, const Vec3& wo,
+                                                               const Vec3& wi) {
     const Vec3 h = wo + wi;
     const float pdf = facets.density(h) / (4.0f * facets.projected_area(wo));
     // wo . h / |h| of unit vectors, without the cancellation of 1 + wo . wi.
