@@ -11,7 +11,7 @@ struct DielectricFresnel {
 };
 
 /// Fresnel's equations. `cos_i` in [0, 1]; `eta` is the index of refraction of the far side over that of the near side.
-inline DielectricFresnel fresnel_dielectric(float cos_i, float eta) {
+[[gnu::always_inline]] inline DielectricFresnel fresnel_dielectric(float cos_i, float eta) {
     const float sin2_t = (1.0f - cos_i) * (1.0f + cos_i) / (eta * eta);
     if (!(sin2_t < 1.0f)) return {};
     const float cos_t = std::sqrt(1.0f - sin2_t);
