@@ -9,8 +9,9 @@
 #include "common/base/error.h"
 #include "common/base/timer.h"
 #include "common/config/job_reader.h"
-#include "common/guiding/mixture.h"
 #include "common/guiding/splat.h"
+#include "common/guiding/tree_learner.h"
+#include "common/plan/learning.h"
 #include "common/scene/load.h"
 #include "worker/integrator/path_kernel.h"
 #include "worker/integrator/tile_renderer.h"
@@ -51,11 +52,11 @@ class Limit {
     Limit(LoadedScene loaded, const Options& options)
         : job_(make_job(loaded, options)),
           bounds_(loaded.scene.bounds()),
-          scale_(loaded.scene.radiance_scale()),
+          first_(first_tree(loaded.scene, job_, bounds_, loaded.scene.radiance_scale())),
           scene_(std::move(loaded.scene), job_),
           spp_(options.spp),
           guide_(train()),
-          untrained_(initial_tree(bounds_, scale_, job_.guiding.bsdf_fraction)) {}
+          untrained_(first_) {}
 
     const Guide& guide() const { return guide_; }
 
@@ -63,7 +64,9 @@ class Limit {
         if (scene_.plainly_diffuse())
             mode.guided ? collect_with<DiffuseSurface, true>(mode) : collect_with<DiffuseSurface, false>(mode);
         else
-            mode.guided ? collect_with<GeneralSurface, true>(mode) : collect_with<GeneralSurface, false>(mode);
+            guide(mode).view_count() != 0 && mode.guided ? collect_with<ViewedSurface, true>(mode)
+            : mode.guided                                ? collect_with<GeneralSurface, true>(mode)
+                                                         : collect_with<GeneralSurface, false>(mode);
     }
 
     void measure(Mode& mode) {
@@ -123,8 +126,8 @@ class Limit {
 
     /// The tree after the job's passes.
     SdTree train() {
-        SdTree tree = initial_tree(bounds_, scale_, job_.guiding.bsdf_fraction);
-        MixtureLearner mixture;
+        SdTree tree = first_;
+        TreeLearner learner;
         const std::vector<PassPlan> plans = plan_passes(job_);
         for (std::size_t k = 0; k < plans.size(); ++k) {
             PassPlan plan = plans[k];
@@ -136,16 +139,10 @@ class Limit {
             TraceStats stats;
             render(plan, job_, guide, stats);
             sums.commit(log_.records, log_.counts, log_.caps);
-            RefineSettings settings;
-            settings.spatial_threshold = spatial_split_threshold(job_, plans[std::min(k + 1, plans.size() - 1)]);
-            settings.record_weight = plan.record_weight;
-            settings.target = job_.guiding.target;
             RefineReport report;
-            const TreeSums taken = sums.take();
-            SdTree next = refine(tree, taken, settings, report);
-            if (plan.learn_mixture) mixture.learn(tree, taken, report.origins, next);
-            next.pass = plan.index + 1;
-            tree = std::move(next);
+            tree =
+                learner.learn(tree, sums.take(), refine_settings(job_, plan, plans[std::min(k + 1, plans.size() - 1)]),
+                              plan.learn_mixture, report);
         }
         return tree;
     }
@@ -196,7 +193,7 @@ class Limit {
 
     Job job_;
     Box3 bounds_;
-    float scale_;
+    SdTree first_;
     TraceScene scene_;
     std::uint32_t spp_;
     std::vector<PixelEstimate> pixels_;

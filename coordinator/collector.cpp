@@ -3,14 +3,14 @@
 #include <algorithm>
 
 #include "common/base/timer.h"
+#include "common/plan/learning.h"
 
 namespace treefarm {
 
 Collector::Collector(const PassPlan& plan, const SdTree& tree, int width, int height)
     : plan_(plan),
       film_(width, height, plan.chunks),
-      sums_(plan.record ? TreeSums(plan.index, tree.region_count(), tree.cell_count(), plan.learn_mixture)
-                        : TreeSums()) {}
+      sums_(plan.record ? TreeSums(plan.index, sums_shape(plan, tree)) : TreeSums()) {}
 
 void Collector::check_samples(const UnitResult& result) const {
     const std::uint64_t per_unit = std::uint64_t{kBlockSamples} * plan_.blocks_per_unit;

@@ -1,10 +1,10 @@
 #include "coordinator/pass_loop.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "common/base/hash.h"
-#include "common/guiding/mixture.h"
+#include "common/guiding/tree_learner.h"
+#include "common/plan/learning.h"
 
 namespace treefarm {
 
@@ -120,16 +120,8 @@ class PassLoop {
     void learn(const PassPlan& plan, const NextPass& next_pass, PassReport& report) {
         if (!plan.record || !next_pass.pass) return;
         const Timer timer;
-        RefineSettings settings;
-        settings.spatial_threshold = spatial_split_threshold(job_, *next_pass.pass);
-        settings.directional_divisor =
-            static_cast<std::uint32_t>(std::lround(1.0 / static_cast<double>(job_.guiding.directional_threshold)));
-        settings.record_weight = plan.record_weight;
-        settings.target = job_.guiding.target;
-        const TreeSums& sums = farm_.collector().sums();
-        SdTree next = refine(result_.tree, sums, settings, report.refine);
-        if (plan.learn_mixture) mixture_.learn(result_.tree, sums, report.refine.origins, next);
-        result_.tree = std::move(next);
+        result_.tree = learner_.learn(result_.tree, farm_.collector().sums(),
+                                      refine_settings(job_, plan, *next_pass.pass), plan.learn_mixture, report.refine);
         report.seconds.refine = timer.seconds();
         farm_.beat();
     }
@@ -165,7 +157,7 @@ class PassLoop {
     const Job& job_;
     const PassChooser& choose_;
     const PassHooks& hooks_;
-    MixtureLearner mixture_;
+    TreeLearner learner_;
     RenderResult result_;
     std::vector<PassResult> finished_;
     std::uint64_t coming_tree_hash_ = 0;
@@ -179,9 +171,7 @@ class PassLoop {
 SdTree first_tree(const Scene& scene, const Job& job) {
     Box3 bounds = scene.bounds();
     bounds.extendBy(scene.camera.origin);
-    const float scale = scene.radiance_scale();
-    return initial_tree(bounds, job.guiding.target == GuidingTarget::variance ? scale * scale : scale,
-                        job.guiding.bsdf_fraction);
+    return first_tree(scene, job, bounds, scene.radiance_scale());
 }
 
 RenderResult run_passes(Farm& farm, const Job& job, const PassChooser& choose, SdTree tree, int width, int height,

@@ -106,6 +106,7 @@ std::vector<Column> columns() {
         column("invalid_samples", [](R r) { return r.stats.invalid_samples; }),
         column("tree_nodes", [](R r) { return r.tree.nodes; }),
         column("tree_regions", [](R r) { return r.tree.regions; }),
+        column("tree_views", [](R r) { return r.tree.views; }),
         column("tree_cells", [](R r) { return r.tree.cells; }),
         column("spatial_depth", [](R r) { return r.tree.spatial_depth; }),
         column("directional_depth", [](R r) { return r.tree.directional_depth; }),
@@ -141,7 +142,8 @@ TreeFigures tree_figures(const SdTree& tree, std::uint64_t encoded_bytes) {
     figures.directional_depth =
         tree.cell_depth.empty() ? 0 : *std::max_element(tree.cell_depth.begin(), tree.cell_depth.end());
     figures.bytes = encoded_bytes;
-    const TreeSize size{figures.regions, figures.cells};
+    figures.views = tree.view_count();
+    const TreeSize size{figures.regions, figures.cells, false, figures.views};
     figures.memory = size.guide_bytes() + size.sum_bytes();
     return figures;
 }

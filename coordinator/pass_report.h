@@ -26,6 +26,7 @@ struct Spread {
 struct TreeFigures {
     std::uint64_t nodes = 0;  ///< of the spatial tree, leaves included
     std::uint64_t regions = 0;
+    std::uint64_t views = 0;  ///< of T2
     std::uint64_t cells = 0;
     int spatial_depth = 0;
     int directional_depth = 0;

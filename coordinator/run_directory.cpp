@@ -97,6 +97,7 @@ Json pass_json(const PassReport& r) {
             {"invalid_samples", r.stats.invalid_samples},
             {"tree_nodes", r.tree.nodes},
             {"tree_regions", r.tree.regions},
+            {"tree_views", r.tree.views},
             {"tree_cells", r.tree.cells},
             {"tree_bytes", r.tree.bytes},
             {"tree_memory", r.tree.memory},

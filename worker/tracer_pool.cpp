@@ -91,7 +91,7 @@ void TracerPool::run() {
 void TracerPool::trace(PassWork& pass, const WorkUnit& unit, RecordLog& log) {
     UnitResult result{unit, {}};
     TraceStats stats;
-    log.begin(pass.guide().region_count());
+    log.begin(pass.guide().distribution_count());
     render_(pass.plan(), pass.guide(), unit, result.pixels, log, stats);
     samples_ += stats.paths;
     rays_ += stats.rays + stats.shadow_rays;

@@ -18,7 +18,18 @@ enum class NextEvent : std::uint8_t {
 /// Weights of multiple importance sampling between next event and scattering (Veach 1997).
 enum class MisHeuristic : std::uint8_t { balance, power };
 
-enum class GuidingType : std::uint8_t { none, ppg };
+/// What guides: nothing, the SD-tree (Mueller et al. 2017), or the SD-tree with a view-dependent part (Cavus 2020).
+enum class GuidingType : std::uint8_t { none, ppg, view };
+
+inline bool uses_views(GuidingType type) {
+    return type == GuidingType::view;
+}
+
+/// What view-dependent vertices teach.
+enum class ViewRecords : std::uint8_t {
+    radiance,  ///< their view the radiance that arrives, their region nothing: as published
+    product,   ///< their view what it reflects of that, their region the radiance
+};
 
 /// Into which region of the tree a record goes.
 enum class SpatialFilter : std::uint8_t {
@@ -87,6 +98,8 @@ struct Job {
         DirectionalFilter directional_filter = DirectionalFilter::box;
         GuidingTarget target = GuidingTarget::radiance;
         GuidingRoulette roulette = GuidingRoulette::adjoint;
+        ViewRecords view_records = ViewRecords::product;
+        int view_threshold = 4000;            ///< c of the split rule of views
         int spatial_threshold = 4000;         ///< c of the spatial split rule
         float directional_threshold = 0.01f;  ///< share of a region's energy above which a cell splits
         int spp_unit = 1;                     ///< samples per pixel of the first pass; passes double

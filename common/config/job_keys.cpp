@@ -198,16 +198,27 @@ std::vector<JobKey> make_job_keys() {
     for (const EffectSwitch& effect : effect_switches())
         add(effect_key(effect));
 
+    add(word_key("guiding.type", "what guides paths; ppg: a tree learned from the passes before (Mueller et al. 2017)",
+                 [](auto& j) -> auto& { return j.guiding.type; },
+                 std::vector<std::pair<std::string, GuidingType>>{
+                     {"none", GuidingType::none}, {"ppg", GuidingType::ppg}, {"view", GuidingType::view}},
+                 {{"auto", "use \"view\""}}));
     add(word_key(
-        "guiding.type", "what guides paths; ppg: a tree learned from the passes before (Mueller et al. 2017)",
-        [](auto& j) -> auto& { return j.guiding.type; },
-        std::vector<std::pair<std::string, GuidingType>>{{"none", GuidingType::none}, {"ppg", GuidingType::ppg}},
-        {{"view", "use \"ppg\""}, {"auto", "use \"ppg\""}}));
-    add(word_key("guiding.preset",
-                 "a publication's settings, applied before all other keys; paper: Mueller et al. 2017",
-                 [](auto& j) -> auto& { return j.guiding.preset; },
-                 std::vector<std::pair<std::string, std::string>>{{"", ""}, {"paper", "paper"}},
-                 {{"thesis", "use \"paper\", or set the keys one by one"}}));
+        "guiding.preset",
+        "a publication's settings, applied before all other keys; paper: Mueller et al. 2017, thesis: Cavus 2020",
+        [](auto& j) -> auto& { return j.guiding.preset; },
+        std::vector<std::pair<std::string, std::string>>{{"", ""}, {"paper", "paper"}, {"thesis", "thesis"}}));
+    add(word_key(
+        "guiding.view_records",
+        "what a view-dependent vertex teaches: its view the radiance that arrives and its region nothing (Cavus 2020), "
+        "or its view what it reflects and its region the radiance",
+        [](auto& j) -> auto& { return j.guiding.view_records; },
+        std::vector<std::pair<std::string, ViewRecords>>{{"radiance", ViewRecords::radiance},
+                                                         {"product", ViewRecords::product}}));
+    add(integer_key(
+        "guiding.view_threshold", "1 and more",
+        "c of the split rule of views: one splits into four above c sqrt(spp / 4) records",
+        [](auto& j) -> auto& { return j.guiding.view_threshold; }, 1, kMaxInt));
     add(bsdf_fraction_key());
     add(integer_key(
         "guiding.spatial_threshold", "1 and more",
@@ -322,7 +333,6 @@ const JobKey* find_job_key(const std::string& name) {
 
 std::span<const std::pair<std::string, std::string>> unavailable_job_keys() {
     static const std::vector<std::pair<std::string, std::string>> keys = {
-        {"guiding.view_threshold", "remove it"},
         {"farm.checkpoint_seconds", "remove it"},
     };
     return keys;
@@ -342,7 +352,23 @@ std::span<const Setting> preset_settings(const std::string& preset) {
         {"guiding.target", "radiance", {}},
         {"guiding.roulette", "constant", {}},
     };
+    static const std::vector<Setting> thesis = {
+        {"guiding.type", "view", {}},
+        {"integrator.next_event", "kickstart", {}},
+        {"guiding.view_records", "radiance", {}},
+        {"guiding.view_threshold", "4000", {}},
+        {"guiding.spatial_threshold", "12000", {}},
+        {"guiding.directional_threshold", "0.01", {}},
+        {"guiding.bsdf_fraction", "0.5", {}},
+        {"guiding.spp_unit", "4", {}},
+        {"guiding.combination", "last", {}},
+        {"guiding.spatial_filter", "nearest", {}},
+        {"guiding.directional_filter", "nearest", {}},
+        {"guiding.target", "radiance", {}},
+        {"guiding.roulette", "constant", {}},
+    };
     if (preset == "paper") return paper;
+    if (preset == "thesis") return thesis;
     return {};
 }
 

@@ -31,34 +31,63 @@ Guide::Guide(const SdTree& tree)
       origin_(tree.origin),
       inverse_extent_(1.0f / tree.extent),
       extent_(tree.extent),
+      view_set_(tree.view_set),
+      view_begin_(tree.view_begin),
+      view_fraction_(tree.view_fraction),
       quantum_exponent_(tree.quantum_exponent),
       bsdf_fraction_(tree.bsdf_fraction),
       region_depth_(tree.region_count()) {
     build_treelet(tree, 0, 0);
 
-    cells_.reserve(tree.cell_count() + region_count());
+    cells_.reserve(tree.cell_count() + distribution_count());
     mass_guide_.resize(region_count());
     code_guide_.resize(region_count());
     for (std::uint32_t r = 0; r < region_count(); ++r) {
-        std::uint64_t code = 0;
-        std::uint32_t mass = 0, next_mass_entry = 0, next_code_entry = 0;
-        for (std::uint32_t c = tree.cell_begin[r]; c < tree.cell_begin[r + 1]; ++c) {
-            const auto index = static_cast<std::uint32_t>(cells_.size());
-            cells_.push_back({static_cast<std::uint32_t>(code), mass});
-            code += std::uint64_t{1} << (2 * (kDirectionBits - tree.cell_depth[c]));
-            mass += tree.cell_mass[c];
-            // Entry k is the cell that contains k/64; the binary search of a look-up runs between entries k and k+1.
-            for (; next_mass_entry < kGuideSize && (next_mass_entry << (kMassBits - kGuideBits)) < mass;
-                 ++next_mass_entry)
-                mass_guide_[r][next_mass_entry] = index;
-            for (; next_code_entry < kGuideSize &&
-                   (static_cast<std::uint64_t>(next_code_entry) << (2 * kDirectionBits - kGuideBits)) < code;
-                 ++next_code_entry)
-                code_guide_[r][next_code_entry] = index;
-        }
-        mass_guide_[r][kGuideSize] = code_guide_[r][kGuideSize] = static_cast<std::uint32_t>(cells_.size()) - 1;
-        cells_.push_back({static_cast<std::uint32_t>(code), mass});
+        const std::size_t first = cells_.size();
+        add_distribution(tree, r);
+        fill_guides(r, first);
     }
+    for (std::uint32_t v = 0; v < tree.view_count(); ++v) {
+        view_cells_.push_back(static_cast<std::uint32_t>(cells_.size()));
+        add_distribution(tree, region_count() + v);
+    }
+    view_cells_.push_back(static_cast<std::uint32_t>(cells_.size()));
+    for (std::uint32_t t = 0; t < tree.view_set_count(); ++t) {
+        std::uint64_t code = 0;
+        for (std::uint32_t v = view_begin_[t]; v < view_begin_[t + 1]; ++v) {
+            view_code_.push_back(static_cast<std::uint32_t>(code));
+            code += std::uint64_t{1} << (2 * (kDirectionBits - tree.view_depth[v]));
+        }
+    }
+}
+
+void Guide::add_distribution(const SdTree& tree, std::uint32_t distribution) {
+    std::uint64_t code = 0;
+    std::uint32_t mass = 0;
+    for (std::uint32_t c = tree.cell_begin[distribution]; c < tree.cell_begin[distribution + 1]; ++c) {
+        cells_.push_back({static_cast<std::uint32_t>(code), mass});
+        code += std::uint64_t{1} << (2 * (kDirectionBits - tree.cell_depth[c]));
+        mass += tree.cell_mass[c];
+    }
+    cells_.push_back({static_cast<std::uint32_t>(code), mass});
+}
+
+/// Entry k is the cell that contains k/64; the binary search of a look-up runs between entries k and k+1.
+void Guide::fill_guides(std::uint32_t region, std::size_t first) {
+    const std::size_t end = cells_.size() - 1;
+    std::uint32_t next_mass = 0, next_code = 0;
+    for (std::size_t i = first; i < end; ++i) {
+        const auto index = static_cast<std::uint32_t>(i);
+        for (; next_mass < kGuideSize && (next_mass << (kMassBits - kGuideBits)) < cells_[i + 1].mass_begin;
+             ++next_mass)
+            mass_guide_[region][next_mass] = index;
+        // The last cell ends at 2^32, which its code does not show.
+        for (; next_code < kGuideSize &&
+               (i + 1 == end || (next_code << (2 * kDirectionBits - kGuideBits)) < cells_[i + 1].code_begin);
+             ++next_code)
+            code_guide_[region][next_code] = index;
+    }
+    mass_guide_[region][kGuideSize] = code_guide_[region][kGuideSize] = static_cast<std::uint32_t>(end - 1);
 }
 
 /// Three levels of the binary tree (x, y, z) become one line of eight entries; a leaf above the third level fills all
@@ -118,28 +147,42 @@ float Guide::density(const Cell* cell) {
     return kScale * static_cast<float>(static_cast<std::int32_t>(mass)) * power_of_two(-std::countr_zero(area));
 }
 
-std::uint32_t Guide::cell_side(std::uint32_t region, std::uint32_t cell) const {
-    const Cell* const c = &cells_[cell + region];
+std::uint32_t Guide::cell_side(std::uint32_t distribution, std::uint32_t cell) const {
+    const Cell* const c = &cells_[cell + distribution];
     return 1u << (std::countr_zero(c[1].code_begin - c[0].code_begin) / 2);
 }
 
-const Guide::Cell* Guide::find(std::uint32_t region, std::uint32_t code) const {
-    return last_before(range(code_guide_[region], code >> (2 * kDirectionBits - kGuideBits)), &Cell::code_begin, code);
+std::uint32_t Guide::view(std::uint32_t region, std::uint32_t outgoing_code) const {
+    if (view_set_.empty() || view_set_[region] == SdTree::kNoViews) return kNoView;
+    std::uint32_t at = view_begin_[view_set_[region]], count = view_begin_[view_set_[region] + 1] - at;
+    for (; count > 1; count -= count / 2)
+        at += view_code_[at + count / 2] <= outgoing_code ? count / 2 : 0;
+    return region_count() + at;
 }
 
-std::uint32_t Guide::cell(std::uint32_t region, std::uint32_t code) const {
-    return static_cast<std::uint32_t>(find(region, code) - cells_.data()) - region;
+const Guide::Cell* Guide::find(std::uint32_t distribution, std::uint32_t code) const {
+    const Range among = distribution < region_count()
+                            ? range(code_guide_[distribution], code >> (2 * kDirectionBits - kGuideBits))
+                            : view_range(distribution);
+    return last_before(among, &Cell::code_begin, code);
 }
 
-float Guide::pdf(std::uint32_t region, std::uint32_t code) const {
-    return density(find(region, code));
+std::uint32_t Guide::cell(std::uint32_t distribution, std::uint32_t code) const {
+    return static_cast<std::uint32_t>(find(distribution, code) - cells_.data()) - distribution;
 }
 
-Guide::Place Guide::sample_place(std::uint32_t region, std::uint32_t pick, std::uint32_t u0, std::uint32_t u1) const {
+float Guide::pdf(std::uint32_t distribution, std::uint32_t code) const {
+    return density(find(distribution, code));
+}
+
+Guide::Place Guide::sample_place(std::uint32_t distribution, std::uint32_t pick, std::uint32_t u0,
+                                 std::uint32_t u1) const {
     const std::uint32_t mass = pick >> (32 - kMassBits);
+    const Range among = distribution < region_count()
+                            ? range(mass_guide_[distribution], mass >> (kMassBits - kGuideBits))
+                            : view_range(distribution);
     // The last cell whose probability begins at or before the pick is never an empty one.
-    const Cell* const cell =
-        last_before(range(mass_guide_[region], mass >> (kMassBits - kGuideBits)), &Cell::mass_begin, mass);
+    const Cell* const cell = last_before(among, &Cell::mass_begin, mass);
     const std::uint32_t begin = cell[0].code_begin, area = cell[1].code_begin - begin;
     // Positions are drawn on a grid of 2^23 steps per axis that nests in the quadtree's cells (steps' centres are exact
     // floats), so the code of the sampled point lies in the sampled cell by construction.
@@ -156,7 +199,8 @@ Guide::Place Guide::sample_place(std::uint32_t region, std::uint32_t pick, std::
 std::size_t Guide::bytes() const {
     return treelets_.size() * sizeof(treelets_[0]) + cells_.size() * sizeof(Cell) +
            (mass_guide_.size() + code_guide_.size()) * sizeof(GuideTable) + quantum_exponent_.size() * 2 +
-           bsdf_fraction_.size() * 4 + region_depth_.size();
+           bsdf_fraction_.size() * 4 + region_depth_.size() + view_count() * 12 +
+           (view_set_.size() + view_begin_.size()) * 4;
 }
 
 }  // namespace treefarm

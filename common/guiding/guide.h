@@ -33,11 +33,15 @@ class Guide {
 
     /// False in the first pass: nothing was learned yet, sample the BSDF alone.
     bool trained() const { return trained_; }
-    std::uint32_t region_count() const { return static_cast<std::uint32_t>(quantum_exponent_.size()); }
-    std::uint32_t cell_count() const { return static_cast<std::uint32_t>(cells_.size()) - region_count(); }
-    std::int16_t quantum_exponent(std::uint32_t region) const { return quantum_exponent_[region]; }
-    /// Probability of sampling the BSDF rather than the tree.
-    float bsdf_fraction(std::uint32_t region) const { return bsdf_fraction_[region]; }
+    std::uint32_t distribution_count() const { return static_cast<std::uint32_t>(quantum_exponent_.size()); }
+    std::uint32_t region_count() const { return static_cast<std::uint32_t>(region_depth_.size()); }
+    std::uint32_t view_count() const { return distribution_count() - region_count(); }
+    std::uint32_t cell_count() const { return static_cast<std::uint32_t>(cells_.size()) - distribution_count(); }
+    std::int16_t quantum_exponent(std::uint32_t distribution) const { return quantum_exponent_[distribution]; }
+    /// Probability of sampling the BSDF rather than a tree where `distribution` is the finest that there is.
+    float bsdf_fraction(std::uint32_t distribution) const { return bsdf_fraction_[distribution]; }
+    /// Probability of sampling the view that is this distribution.
+    float view_fraction(std::uint32_t distribution) const { return view_fraction_[distribution - region_count()]; }
 
     /// The region of a point. Points outside the cube belong to the nearest region (the caller may count them with
     /// contains()).
@@ -48,6 +52,11 @@ class Guide {
     /// the authors' improved program. Three uniform 32-bit numbers.
     std::uint32_t jittered_region(const Vec3& position, std::uint32_t region, const Draw& random) const;
 
+    /// The distribution (region_count() or more) of light leaving `region` in the direction with this code, or kNoView
+    /// where the region has no T2.
+    static constexpr std::uint32_t kNoView = 0xffffffffu;
+    std::uint32_t view(std::uint32_t region, std::uint32_t outgoing_code) const;
+
     /// Fetches what sample() with this `pick` will read first.
     void prefetch(std::uint32_t region, std::uint32_t pick) const {
         __builtin_prefetch(&bsdf_fraction_[region]);
@@ -55,12 +64,12 @@ class Guide {
     }
 
     /// Draws a direction; `pick`, `u0` and `u1` are uniform 32-bit numbers.
-    Sample sample(std::uint32_t region, std::uint32_t pick, std::uint32_t u0, std::uint32_t u1) const {
-        const Place place = sample_place(region, pick, u0, u1);
+    Sample sample(std::uint32_t distribution, std::uint32_t pick, std::uint32_t u0, std::uint32_t u1) const {
+        const Place place = sample_place(distribution, pick, u0, u1);
         return {square_to_direction(place.at), place.code, place.pdf};
     }
     /// The same without its direction, which is quicker found for many places together.
-    Place sample_place(std::uint32_t region, std::uint32_t pick, std::uint32_t u0, std::uint32_t u1) const;
+    Place sample_place(std::uint32_t distribution, std::uint32_t pick, std::uint32_t u0, std::uint32_t u1) const;
 
     /// Fetches what pdf() with this code will read first.
     void prefetch_pdf(std::uint32_t region, std::uint32_t code) const {
@@ -68,12 +77,12 @@ class Guide {
     }
 
     /// Density per steradian of the direction with this code; 0 where the tree has seen nothing.
-    float pdf(std::uint32_t region, std::uint32_t code) const;
+    float pdf(std::uint32_t distribution, std::uint32_t code) const;
 
     /// Index (over the whole tree) of the cell of a direction: where a record goes.
-    std::uint32_t cell(std::uint32_t region, std::uint32_t code) const;
+    std::uint32_t cell(std::uint32_t distribution, std::uint32_t code) const;
     /// A cell's side, in steps of the direction square: 2^(kDirectionBits - depth).
-    std::uint32_t cell_side(std::uint32_t region, std::uint32_t cell) const;
+    std::uint32_t cell_side(std::uint32_t distribution, std::uint32_t cell) const;
 
     std::size_t bytes() const;
 
@@ -93,20 +102,33 @@ class Guide {
 
     std::uint32_t build_treelet(const SdTree& tree, std::uint32_t node, int depth);
     static float density(const Cell* cell);
-    const Cell* find(std::uint32_t region, std::uint32_t code) const;
+    const Cell* find(std::uint32_t distribution, std::uint32_t code) const;
+    void add_distribution(const SdTree& tree, std::uint32_t distribution);
+    void fill_guides(std::uint32_t region, std::size_t first);
+    /// All cells of a view: it is small, and tables would outweigh it.
+    Range view_range(std::uint32_t distribution) const {
+        const std::uint32_t first = view_cells_[distribution - region_count()];
+        return {&cells_[first], view_cells_[distribution - region_count() + 1] - first - 1};
+    }
 
     bool trained_ = false;
     Vec3 origin_{0.0f};
     float inverse_extent_ = 1.0f;
     float extent_ = 1.0f;
     std::vector<std::array<std::uint32_t, 8>> treelets_;
-    std::vector<Cell> cells_;  ///< each region's, then one at which the next would begin: cell c of region r is c + r
+    std::vector<Cell> cells_;  ///< each distribution's, then one at which the next would begin: cell c of distribution
+                               ///< d is c + d
     using GuideTable = std::array<std::uint32_t, kGuideSize + 1>;
     Range range(const GuideTable& guide, std::uint32_t entry) const {
         return {&cells_[guide[entry]], guide[entry + 1] - guide[entry] + 1};
     }
-    std::vector<GuideTable> mass_guide_;  ///< per region: first of cells_ that may hold probability k/64
-    std::vector<GuideTable> code_guide_;  ///< per region: the one that holds code k/64
+    std::vector<GuideTable> mass_guide_;     ///< per region: first of cells_ that may hold probability k/64
+    std::vector<GuideTable> code_guide_;     ///< per region: the one that holds code k/64
+    std::vector<std::uint32_t> view_set_;    ///< as in SdTree
+    std::vector<std::uint32_t> view_begin_;  ///< as in SdTree
+    std::vector<std::uint32_t> view_code_;   ///< per view: its first Z-order code
+    std::vector<std::uint32_t> view_cells_;  ///< per view and one more: its first of cells_
+    std::vector<float> view_fraction_;
     std::vector<std::int16_t> quantum_exponent_;
     std::vector<float> bsdf_fraction_;
     std::vector<std::uint8_t> region_depth_;  ///< halvings from the cube to the region

@@ -7,9 +7,6 @@
 namespace treefarm {
 namespace {
 
-/// The prior counts as much as so many average records: a young region keeps its parent's fraction.
-constexpr double kPriorRecords = 64.0;
-
 double centre(int bin) {
     return (bin + 0.5) / kMixtureBins;
 }
@@ -43,16 +40,16 @@ double best_bsdf_fraction(const MixtureHistogram& histogram, double prior, doubl
 void MixtureLearner::learn(const SdTree& tree, const TreeSums& sums, std::span<const RegionOrigin> origins,
                            SdTree& next) {
     const std::size_t regions = tree.region_count();
-    if (sums.mixture().size() != regions * kMixtureBins)
+    if (sums.shape() != SumsShape(tree.region_count(), tree.cell_count(), true, tree.view_count()))
         throw RunError("the sums to learn the mixture from belong to another tree");
     histograms_.resize(regions);
     std::vector<float> fraction(regions);
     for (std::size_t r = 0; r < regions; ++r) {
         MixtureHistogram& histogram = histograms_[r];
+        const auto bins = sums.mixture(static_cast<std::uint32_t>(r));
         double fresh = 0;
         for (std::size_t b = 0; b < kMixtureBins; ++b) {
-            const double h =
-                std::ldexp(static_cast<double>(sums.mixture()[r * kMixtureBins + b]), tree.quantum_exponent[r]);
+            const double h = std::ldexp(static_cast<double>(bins[b]), tree.quantum_exponent[r]);
             histogram[b] = 0.5 * histogram[b] + h;
             fresh += h;
         }
@@ -65,9 +62,8 @@ void MixtureLearner::learn(const SdTree& tree, const TreeSums& sums, std::span<c
     }
     std::vector<MixtureHistogram> inherited;
     inherited.reserve(origins.size());
-    next.bsdf_fraction.clear();
     for (const RegionOrigin& origin : origins) {
-        next.bsdf_fraction.push_back(fraction[origin.region]);
+        next.bsdf_fraction[inherited.size()] = fraction[origin.region];
         inherited.push_back(histograms_[origin.region]);
         for (double& h : inherited.back())
             h = std::ldexp(h, -origin.halvings);

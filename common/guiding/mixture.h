@@ -29,6 +29,9 @@ using MixtureHistogram = std::array<double, kMixtureBins>;
 /// Never 0: where the tree has seen nothing the BSDF alone reaches everything.
 inline constexpr double kLeastBsdfFraction = 0.05;
 
+/// The prior counts as much as so many average records: a young region keeps its parent's fraction.
+inline constexpr double kPriorRecords = 64.0;
+
 /// Fraction a in [kLeastBsdfFraction, 1] that brings the mixture closest to f |cos| L in Kullback-Leibler divergence:
 /// it maximises sum_b H_b log(a r_b + (1 - a)(1 - r_b)) + prior_weight (prior log a + (1 - prior) log(1 - a)), which is
 /// concave. `prior_weight` is in the units of the histogram.

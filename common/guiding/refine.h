@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
+#include <span>
 #include <vector>
 
 #include "common/config/job.h"
@@ -15,11 +17,28 @@ struct RefineSettings {
     std::uint32_t directional_divisor = 100;  ///< a cell splits while divisor * sum > total
     double record_weight = 1.0;               ///< of each record of the pass: 0.5 in kick-start passes
     GuidingTarget target = GuidingTarget::radiance;
+    double view_threshold = 0;        ///< records (weighted) above which a view splits, once
+    double view_set_threshold = 0;    ///< records (weighted) above which a T2 of several regions is cut in space
+    bool views_record_alone = false;  ///< what views recorded is missing in their regions' counts
+    double view_cells = std::numeric_limits<double>::infinity();  ///< at most so many of T2 for each of T1,
+    double least_view_cells = 0;                                  ///< unless they are fewer than this
+};
+
+/// What is known of a view besides its sums.
+struct ViewAdvice {
+    double gain = 0;    ///< what it is good for: the more, the sooner it is kept and split
+    bool keep = false;  ///< a T2 of which no view is worth keeping is released
 };
 
 /// Where a region of the refined tree comes from: the region of the old tree, halved so many times.
 struct RegionOrigin {
     std::uint32_t region = 0;
+    int halvings = 0;
+};
+
+/// Where a view of the refined tree comes from: the view of the old tree, its evidence halved so many times.
+struct ViewOrigin {
+    std::uint32_t view = 0;
     int halvings = 0;
 };
 
@@ -29,13 +48,18 @@ struct RefineReport {
     std::uint64_t memory_capped = 0;             ///< regions that would have split beyond 2^31 cells
     int spatial_depth = 0;
     int directional_depth = 0;
-    double mean_cells = 0;              ///< per region
-    std::vector<RegionOrigin> origins;  ///< per region of the refined tree
+    double mean_cells = 0;           ///< per region
+    std::uint64_t views_capped = 0;  ///< views that would have split beyond kMaxViewDepth or RefineSettings::view_cells
+    std::vector<RegionOrigin> origins;     ///< per region of the refined tree
+    std::vector<ViewOrigin> view_origins;  ///< per view of the refined tree
 };
 
 /// The next tree: spatial splits by record count, directional splits and prunings by energy, densities re-expressed on
 /// the new topology (a split cell gives a quarter to each child, pruned cells are summed). Pure and deterministic.
-/// Source: Mueller et al. 2017, section 3.3, with the thresholds as their program has them.
-SdTree refine(const SdTree& tree, const TreeSums& sums, const RefineSettings& settings, RefineReport& report);
+/// Source: Mueller et al. 2017, section 3.3, with the thresholds as their program has them; views as in Cavus 2020,
+/// 2.5.5.2: a T2 goes to all parts of a split region, and away where nothing was recorded. `advice` per view of `tree`;
+/// without it all are kept.
+SdTree refine(const SdTree& tree, const TreeSums& sums, const RefineSettings& settings, RefineReport& report,
+              std::span<const ViewAdvice> advice = {});
 
 }  // namespace treefarm

@@ -18,7 +18,7 @@ int exponent_of(float value) {
 
 }  // namespace
 
-SdTree initial_tree(const Box3& bounds, float radiance_scale, float bsdf_fraction) {
+SdTree initial_tree(const Box3& bounds, const InitialTree& settings) {
     SdTree tree;
     if (!bounds.isEmpty()) {
         tree.origin = bounds.min;
@@ -29,11 +29,20 @@ SdTree initial_tree(const Box3& bounds, float radiance_scale, float bsdf_fractio
     if (!(tree.extent > 0.0f)) tree.extent = 1.0f;
     tree.nodes.push_back({{0, 0}});
     const std::uint32_t cells = 1u << (2 * kInitialDepth);
-    tree.cell_begin = {0, cells};
-    tree.cell_depth.assign(cells, kInitialDepth);
-    tree.cell_mass.assign(cells, 1u << (kMassBits - 2 * kInitialDepth));
-    tree.quantum_exponent = {quantum_exponent_for(radiance_scale)};
-    tree.bsdf_fraction = {bsdf_fraction};
+    tree.cell_begin = {0};
+    for (int distribution = 0; distribution < (settings.with_views ? 2 : 1); ++distribution) {
+        tree.cell_depth.insert(tree.cell_depth.end(), cells, kInitialDepth);
+        tree.cell_mass.insert(tree.cell_mass.end(), cells, 1u << (kMassBits - 2 * kInitialDepth));
+        tree.cell_begin.push_back(tree.cell_count());
+        tree.quantum_exponent.push_back(quantum_exponent_for(settings.radiance_scale));
+        tree.bsdf_fraction.push_back(settings.bsdf_fraction);
+    }
+    if (settings.with_views) {
+        tree.view_set = {0};
+        tree.view_begin = {0, 1};
+        tree.view_depth = {0};
+        tree.view_fraction = {settings.view_fraction};
+    }
     return tree;
 }
 

@@ -5,16 +5,16 @@
 namespace treefarm {
 namespace {
 
-/// Counting sort: a unit has many records for few regions.
-std::vector<Record> sort_by_region(std::span<const Record> records, std::size_t regions) {
-    std::vector<std::uint32_t> next(regions + 1);
+/// Counting sort: a unit has many records for few distributions.
+std::vector<Record> sort_by_distribution(std::span<const Record> records, std::size_t distributions) {
+    std::vector<std::uint32_t> next(distributions + 1);
     for (const Record& record : records)
-        ++next[record.region + 1];
-    for (std::size_t r = 0; r < regions; ++r)
-        next[r + 1] += next[r];
+        ++next[record.distribution + 1];
+    for (std::size_t d = 0; d < distributions; ++d)
+        next[d + 1] += next[d];
     std::vector<Record> sorted(records.size());
     for (const Record& record : records)
-        sorted[next[record.region]++] = record;
+        sorted[next[record.distribution]++] = record;
     return sorted;
 }
 
@@ -44,24 +44,21 @@ std::uint32_t folded_code(std::int32_t x, std::int32_t y) {
 }  // namespace
 
 Accumulator::Accumulator(std::uint32_t pass, const Guide& guide, DirectionalFilter filter, bool with_mixture)
-    : guide_(guide),
-      filter_(filter),
-      with_mixture_(with_mixture),
-      sums_(pass, guide.region_count(), guide.cell_count(), with_mixture) {}
+    : guide_(guide), filter_(filter), with_mixture_(with_mixture), sums_(pass, shape()) {}
 
 void Accumulator::add_quanta(const Record& record, std::uint32_t code, float value, std::uint32_t random,
                              UpdateCaps& met) {
     bool capped = false;
-    const std::uint64_t quanta = quantise(value, guide_.quantum_exponent(record.region), random, capped);
+    const std::uint64_t quanta = quantise(value, guide_.quantum_exponent(record.distribution), random, capped);
     met.capped_records += capped;
-    if (quanta != 0 && !sums_.add_quanta(guide_.cell(record.region, code), quanta)) ++met.saturated_cells;
+    if (quanta != 0 && !sums_.add_quanta(guide_.cell(record.distribution, code), quanta)) ++met.saturated_cells;
 }
 
 /// A square of the cell's size around the record overlaps two by two squares of the grid of that size. Each gets its
 /// share; where it is cut finer, at a point drawn from the overlap, so that the expectation is that of the box.
 void Accumulator::add_box(const Record& record, UpdateCaps& met) {
     const auto side =
-        static_cast<std::int32_t>(guide_.cell_side(record.region, guide_.cell(record.region, record.code)));
+        static_cast<std::int32_t>(guide_.cell_side(record.distribution, guide_.cell(record.distribution, record.code)));
     if (side == 1) return add_quanta(record, record.code, record.value, record.rounding, met);
     const std::int32_t left = static_cast<std::int32_t>(compact_bits(record.code)) - side / 2;
     const std::int32_t top = static_cast<std::int32_t>(compact_bits(record.code >> 1)) - side / 2;
@@ -90,27 +87,27 @@ void Accumulator::add_record(const Record& record, UpdateCaps& met) {
     if (!with_mixture_ || !(record.reflected > 0.0f)) return;
     bool capped = false;
     const std::uint64_t quanta =
-        quantise(record.reflected, guide_.quantum_exponent(record.region), scrambled(record.rounding, 0), capped);
+        quantise(record.reflected, guide_.quantum_exponent(record.distribution), scrambled(record.rounding, 0), capped);
     met.capped_records += capped;
-    if (quanta != 0 && !sums_.add_mixture(record.region, record.bin, quanta)) ++met.saturated_cells;
+    if (quanta != 0 && !sums_.add_mixture(record.distribution, record.bin, quanta)) ++met.saturated_cells;
 }
 
 void Accumulator::commit(std::span<const Record> records, std::span<const std::uint32_t> counts,
                          const UpdateCaps& caps) {
-    const std::vector<Record> sorted = sort_by_region(records, counts.size());
+    const std::vector<Record> sorted = sort_by_distribution(records, counts.size());
 
-    // Consecutive regions share a stripe: sorted records walk through the stripes once.
-    const std::size_t regions = counts.size();
-    const std::size_t stripe_size = (regions + kStripes - 1) / kStripes;
+    // Consecutive distributions share a stripe: sorted records walk through the stripes once.
+    const std::size_t distributions = counts.size();
+    const std::size_t stripe_size = (distributions + kStripes - 1) / kStripes;
     UpdateCaps met = caps;
     const Record* record = sorted.data();
     const Record* const end = record + sorted.size();
-    for (std::size_t begin = 0, stripe = 0; begin < regions; begin += stripe_size, ++stripe) {
-        const std::size_t stop = std::min(begin + stripe_size, regions);
+    for (std::size_t begin = 0, stripe = 0; begin < distributions; begin += stripe_size, ++stripe) {
+        const std::size_t stop = std::min(begin + stripe_size, distributions);
         const std::lock_guard lock(stripe_locks_[stripe]);
-        for (std::size_t r = begin; r < stop; ++r)
-            if (counts[r] != 0) sums_.add_count(static_cast<std::uint32_t>(r), counts[r]);
-        for (; record != end && record->region < stop; ++record)
+        for (std::size_t d = begin; d < stop; ++d)
+            if (counts[d] != 0) sums_.add_count(static_cast<std::uint32_t>(d), counts[d]);
+        for (; record != end && record->distribution < stop; ++record)
             add_record(*record, met);
     }
     const std::lock_guard lock(caps_lock_);
@@ -118,7 +115,7 @@ void Accumulator::commit(std::span<const Record> records, std::span<const std::u
 }
 
 TreeSums Accumulator::take() {
-    TreeSums taken(sums_.pass(), guide_.region_count(), guide_.cell_count(), with_mixture_);
+    TreeSums taken(sums_.pass(), shape());
     std::swap(taken, sums_);
     return taken;
 }

@@ -12,7 +12,7 @@
 namespace treefarm {
 
 /// Adds the records of finished work to a worker's sums. Threads keep a log each while they trace and commit it once
-/// per unit: sorted by region, so that a stripe of regions is locked once for many records and cells are found in
+/// per unit: sorted by distribution, so that a stripe of them is locked once for many records and cells are found in
 /// cache.
 class Accumulator {
   public:
@@ -20,7 +20,7 @@ class Accumulator {
     Accumulator(std::uint32_t pass, const Guide& guide, DirectionalFilter filter = DirectionalFilter::nearest,
                 bool with_mixture = false);
 
-    /// Adds a unit's records and the vertex counts per region. Thread-safe.
+    /// Adds a unit's records and the vertex counts per distribution. Thread-safe.
     void commit(std::span<const Record> records, std::span<const std::uint32_t> counts, const UpdateCaps& caps);
 
     /// Hands out the sums and starts again from zero. No commit may be in flight.
@@ -32,6 +32,8 @@ class Accumulator {
     void add_record(const Record& record, UpdateCaps& met);
     void add_quanta(const Record& record, std::uint32_t code, float value, std::uint32_t random, UpdateCaps& met);
     void add_box(const Record& record, UpdateCaps& met);
+
+    SumsShape shape() const { return {guide_.region_count(), guide_.cell_count(), with_mixture_, guide_.view_count()}; }
 
     const Guide& guide_;
     const DirectionalFilter filter_;

@@ -8,7 +8,7 @@ namespace treefarm {
 namespace {
 
 constexpr std::uint32_t kMagic = 0x52544654;  // "TFTR"
-constexpr std::uint8_t kVersion = 2;
+constexpr std::uint8_t kVersion = 3;
 /// No tree of 2^31 cells needs more; a claim above it is a broken or hostile message.
 constexpr std::uint64_t kMaxRawBytes = std::uint64_t{1} << 34;
 constexpr int kCompressionLevel = 1;  // fast: a broadcast waits for it
@@ -50,8 +50,37 @@ struct NodeReader {
     }
 };
 
-/// Cuts the list of cell depths into regions: a region is complete when its cells cover the square.
-void find_regions(SdTree& tree, std::uint32_t regions) {
+/// Cuts the list of view depths into T2s: one is complete when its views cover the square.
+void find_views(SdTree& tree, std::uint32_t regions) {
+    constexpr std::uint64_t kSquare = std::uint64_t{1} << (2 * kMaxViewDepth);
+    if (tree.view_fraction.size() != tree.view_depth.size())
+        throw FormatError("a tree's views do not match its mixtures");
+    tree.view_begin.push_back(0);
+    std::uint64_t covered = 0;
+    for (std::uint32_t v = 0; v < tree.view_count(); ++v) {
+        const int depth = tree.view_depth[v];
+        const float a = tree.view_fraction[v], bsdf = tree.bsdf_fraction[regions + v];
+        if (depth > kMaxViewDepth) throw FormatError("a view's depth is out of range");
+        if (!(a >= 0.0f && a <= 1.0f - bsdf)) throw FormatError("a view's mixture is out of range");
+        const std::uint64_t size = std::uint64_t{1} << (2 * (kMaxViewDepth - depth));
+        if (covered % size != 0) throw FormatError("views overlap");
+        covered += size;
+        if (covered < kSquare) continue;
+        covered = 0;
+        tree.view_begin.push_back(v + 1);
+    }
+    std::uint32_t next = 0;  // T2s are numbered as they come
+    for (std::uint32_t r = 0; r < tree.view_set.size(); ++r) {
+        const std::uint32_t set = tree.view_set[r];
+        const bool known = r != 0 && set == tree.view_set[r - 1];
+        if (set != SdTree::kNoViews && !known && set != next++) throw FormatError("a region's views are out of order");
+    }
+    if (covered != 0 || tree.view_set.size() != regions || next != tree.view_set_count())
+        throw FormatError("a tree's views do not match its regions");
+}
+
+/// Cuts the list of cell depths into distributions: one is complete when its cells cover the square.
+void find_distributions(SdTree& tree) {
     constexpr std::uint64_t kSquare = std::uint64_t{1} << (2 * kMaxDirectionDepth);
     std::uint64_t covered = 0, mass = 0;
     tree.cell_begin = {0};
@@ -63,12 +92,20 @@ void find_regions(SdTree& tree, std::uint32_t regions) {
         covered += size;
         mass += tree.cell_mass[c];
         if (covered < kSquare) continue;
-        if (mass != std::uint64_t{1} << kMassBits) throw FormatError("a region's probabilities do not sum to one");
+        if (mass != std::uint64_t{1} << kMassBits) throw FormatError("a quadtree's probabilities do not sum to one");
         covered = mass = 0;
         tree.cell_begin.push_back(c + 1);
     }
-    if (covered != 0 || tree.cell_begin.size() != std::size_t{regions} + 1)
+    if (covered != 0 || tree.cell_begin.size() != std::size_t{tree.distribution_count()} + 1)
         throw FormatError("the quadtrees do not match the spatial tree");
+}
+
+void write_views(ByteWriter& out, const SdTree& tree) {
+    out.put_array(std::span<const std::uint8_t>(tree.view_depth));
+    if (tree.view_count() == 0) return;
+    out.put_array(std::span<const float>(tree.view_fraction));
+    for (const std::uint32_t set : tree.view_set)
+        out.put_varint(set == SdTree::kNoViews ? 0 : std::uint64_t{set} + 1);
 }
 
 }  // namespace
@@ -83,6 +120,7 @@ Bytes encode_tree(const SdTree& tree) {
     write_nodes(out, tree);
     out.put_array(std::span<const std::int16_t>(tree.quantum_exponent));
     out.put_array(std::span<const float>(tree.bsdf_fraction));
+    write_views(out, tree);
     out.put_array(std::span<const std::uint8_t>(tree.cell_depth));
     for (const std::uint32_t mass : tree.cell_mass)
         out.put_varint(mass);
@@ -133,11 +171,20 @@ SdTree decode_tree(std::span<const std::uint8_t> bytes) {
     nodes.read(0);
     if (tree.nodes.size() != node_count) throw FormatError("the spatial tree is malformed");
     tree.quantum_exponent = in.get_array<std::int16_t>();
-    if (tree.quantum_exponent.size() != nodes.regions) throw FormatError("a tree's regions do not match its nodes");
     tree.bsdf_fraction = in.get_array<float>();
-    if (tree.bsdf_fraction.size() != nodes.regions) throw FormatError("a tree's mixtures do not match its regions");
+    if (tree.bsdf_fraction.size() != tree.quantum_exponent.size())
+        throw FormatError("a tree's mixtures do not match its regions");
     for (const float fraction : tree.bsdf_fraction)
         if (!(fraction > 0.0f && fraction <= 1.0f)) throw FormatError("a region's mixture is out of range");
+    tree.view_depth = in.get_array<std::uint8_t>();
+    if (tree.quantum_exponent.size() != nodes.regions + tree.view_depth.size())
+        throw FormatError("a tree's regions do not match its nodes");
+    if (tree.view_count() != 0) {
+        tree.view_fraction = in.get_array<float>();
+        for (std::uint32_t r = 0; r < nodes.regions; ++r)
+            tree.view_set.push_back(static_cast<std::uint32_t>(in.get_varint()) - 1);
+        find_views(tree, nodes.regions);
+    }
     tree.cell_depth = in.get_array<std::uint8_t>();
     if (tree.cell_depth.size() > in.remaining()) throw FormatError("a tree's cells are cut short");
     tree.cell_mass.reserve(tree.cell_depth.size());
@@ -147,7 +194,7 @@ SdTree decode_tree(std::span<const std::uint8_t> bytes) {
         tree.cell_mass.push_back(static_cast<std::uint32_t>(mass));
     }
     in.expect_end();
-    find_regions(tree, nodes.regions);
+    find_distributions(tree);
     return tree;
 }
 

@@ -60,21 +60,23 @@ void UpdateCaps::add(const UpdateCaps& other) {
     outside_positions += other.outside_positions;
 }
 
-TreeSums::TreeSums(std::uint32_t pass, std::uint32_t regions, std::uint32_t cells, bool with_mixture)
-    : pass_(pass), cells_(cells), counts_(regions), mixture_(with_mixture ? std::size_t{regions} * kMixtureBins : 0) {}
+TreeSums::TreeSums(std::uint32_t pass, const SumsShape& shape)
+    : pass_(pass),
+      shape_(shape),
+      cells_(shape.cells),
+      counts_(shape.regions + shape.views),
+      mixture_(shape.mixture_begin(shape.regions + shape.views)) {}
 
 bool TreeSums::add_quanta(std::uint32_t cell, std::uint64_t quanta) {
     return add_saturating(cells_[cell], quanta);
 }
 
-bool TreeSums::add_mixture(std::uint32_t region, std::uint8_t bin, std::uint64_t quanta) {
-    return add_saturating(mixture_[std::size_t{region} * kMixtureBins + bin], quanta);
+bool TreeSums::add_mixture(std::uint32_t distribution, std::uint8_t bin, std::uint64_t quanta) {
+    return add_saturating(mixture_[shape_.mixture_begin(distribution) + bin], quanta);
 }
 
 void TreeSums::add(const TreeSums& other) {
-    if (other.pass_ != pass_ || other.cells_.size() != cells_.size() || other.counts_.size() != counts_.size() ||
-        other.mixture_.size() != mixture_.size())
-        throw RunError("sums of different trees cannot be added");
+    if (other.pass_ != pass_ || other.shape_ != shape_) throw RunError("sums of different trees cannot be added");
     for (std::size_t c = 0; c < cells_.size(); ++c)
         if (!add_quanta(static_cast<std::uint32_t>(c), other.cells_[c])) ++caps_.saturated_cells;
     for (std::size_t r = 0; r < counts_.size(); ++r)
@@ -110,8 +112,9 @@ std::uint64_t TreeSums::merge_encoded(std::span<const std::uint8_t> update) {
     // Two readings: the first only checks, so that a bad message changes nothing.
     const auto read = [&](auto&& on_count, auto&& on_cell, auto&& on_mixture) {
         ByteReader in(update);
-        const std::uint64_t pass = in.get_varint(), cells = in.get_varint(), regions = in.get_varint();
-        if (in.get_varint() != mixture_.size() || pass != pass_ || cells != cells_.size() || regions != counts_.size())
+        const std::uint64_t pass = in.get_varint(), cells = in.get_varint(), distributions = in.get_varint();
+        if (in.get_varint() != mixture_.size() || pass != pass_ || cells != cells_.size() ||
+            distributions != counts_.size())
             throw FormatError("a tree update of pass " + std::to_string(pass) + " with " + std::to_string(cells) +
                               " cells does not fit the tree of pass " + std::to_string(pass_) + " with " +
                               std::to_string(cells_.size()));
@@ -119,7 +122,7 @@ std::uint64_t TreeSums::merge_encoded(std::span<const std::uint8_t> update) {
         caps.capped_records = in.get_varint();
         caps.saturated_cells = in.get_varint();
         caps.outside_positions = in.get_varint();
-        read_sparse(in, counts_.size(), "region", on_count);
+        read_sparse(in, counts_.size(), "distribution", on_count);
         read_sparse(in, cells_.size(), "cell", on_cell);
         read_sparse(in, mixture_.size(), "mixture bin", on_mixture);
         in.expect_end();
@@ -128,14 +131,15 @@ std::uint64_t TreeSums::merge_encoded(std::span<const std::uint8_t> update) {
     const auto ignore = [](std::uint64_t, std::uint64_t) {};
     read(ignore, ignore, ignore);
     std::uint64_t touched = 0;
-    const UpdateCaps caps = read([&](std::uint64_t region, std::uint64_t count) { counts_[region] += count; },
-                                 [&](std::uint64_t cell, std::uint64_t sum) {
-                                     if (!add_quanta(static_cast<std::uint32_t>(cell), sum)) ++caps_.saturated_cells;
-                                     ++touched;
-                                 },
-                                 [&](std::uint64_t bin, std::uint64_t sum) {
-                                     if (!add_saturating(mixture_[bin], sum)) ++caps_.saturated_cells;
-                                 });
+    const UpdateCaps caps =
+        read([&](std::uint64_t distribution, std::uint64_t count) { counts_[distribution] += count; },
+             [&](std::uint64_t cell, std::uint64_t sum) {
+                 if (!add_quanta(static_cast<std::uint32_t>(cell), sum)) ++caps_.saturated_cells;
+                 ++touched;
+             },
+             [&](std::uint64_t bin, std::uint64_t sum) {
+                 if (!add_saturating(mixture_[bin], sum)) ++caps_.saturated_cells;
+             });
     caps_.add(caps);
     return touched;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -8,17 +9,18 @@
 
 namespace treefarm {
 
-/// Bins of a region's mixture histogram (mixture.h).
+/// Bins of the mixture histogram of a region (mixture.h) and of a view (view_mixture.h).
 inline constexpr int kMixtureBins = 16;
+inline constexpr int kViewMixtureBins = 32;
 
-/// What a path vertex taught: `value` of radiance arrived from the direction `code`.
+/// What a path vertex taught a distribution: `value` of radiance arrived from the direction `code`.
 struct Record {
-    std::uint32_t region;
+    std::uint32_t distribution;
     std::uint32_t code;      ///< Z-order code of the direction
     std::uint32_t rounding;  ///< uniform bits of the keyed generator, for stochastic rounding
     float value;             ///< L / p (or what else the tree's target is), >= 0 and finite
     float reflected = 0.0f;  ///< f |cos| L / p, >= 0 and finite: what the mixture learns from
-    std::uint8_t bin = 0;    ///< of the mixture histogram, below kMixtureBins
+    std::uint8_t bin = 0;    ///< of the mixture histogram
 };
 
 /// Caps that were met. Nothing is dropped silently: they travel with the update and are reported.
@@ -31,25 +33,49 @@ struct UpdateCaps {
     bool operator==(const UpdateCaps&) const = default;
 };
 
-/// Dense sums over the cells and regions of one tree, exact integers: adding is order-free and split == whole.
+/// What there are sums for.
+struct SumsShape {
+    std::uint32_t regions = 0;
+    std::uint32_t views = 0;
+    std::uint32_t cells = 0;
+    bool with_mixture = false;  ///< mixture histograms: kMixtureBins more sums per region, kViewMixtureBins per view
+
+    SumsShape() = default;
+    SumsShape(std::uint32_t region_count, std::uint32_t cell_count, bool mixture = false, std::uint32_t view_count = 0)
+        : regions(region_count), views(view_count), cells(cell_count), with_mixture(mixture) {}
+    bool operator==(const SumsShape&) const = default;
+    /// Where the bins of a distribution begin; that of the distribution after the last: how many there are.
+    std::size_t mixture_begin(std::uint32_t distribution) const {
+        if (!with_mixture) return 0;
+        const std::size_t of_regions = std::min(distribution, regions), of_views = distribution - of_regions;
+        return of_regions * kMixtureBins + of_views * kViewMixtureBins;
+    }
+};
+
+/// Dense sums over the cells and distributions of one tree, exact integers: adding is order-free and split == whole.
 class TreeSums {
   public:
     TreeSums() = default;
-    /// Mixture histograms only `with_mixture`: they take kMixtureBins more sums per region.
-    TreeSums(std::uint32_t pass, std::uint32_t regions, std::uint32_t cells, bool with_mixture = false);
+    TreeSums(std::uint32_t pass, const SumsShape& shape);
+    TreeSums(std::uint32_t pass, std::uint32_t regions, std::uint32_t cells, bool with_mixture = false)
+        : TreeSums(pass, SumsShape(regions, cells, with_mixture)) {}
 
     std::uint32_t pass() const { return pass_; }
     const std::vector<std::uint64_t>& cells() const { return cells_; }
-    /// Recorded vertices per region, those without radiance included.
+    /// Recorded vertices per distribution, those without radiance included.
     const std::vector<std::uint64_t>& counts() const { return counts_; }
-    /// Bin b of region r is at r * kMixtureBins + b; empty where no mixture is learned.
-    const std::vector<std::uint64_t>& mixture() const { return mixture_; }
+    /// The mixture histogram of a distribution; empty where no mixture is learned.
+    std::span<const std::uint64_t> mixture(std::uint32_t distribution) const {
+        const std::size_t begin = shape_.mixture_begin(distribution);
+        return {mixture_.data() + begin, shape_.mixture_begin(distribution + 1) - begin};
+    }
+    const SumsShape& shape() const { return shape_; }
     const UpdateCaps& caps() const { return caps_; }
 
-    void add_count(std::uint32_t region, std::uint64_t count) { counts_[region] += count; }
+    void add_count(std::uint32_t distribution, std::uint64_t count) { counts_[distribution] += count; }
     /// Adds to one cell; false where the sum would pass 2^64 - 1 and stays there (the caller counts it).
     bool add_quanta(std::uint32_t cell, std::uint64_t quanta);
-    bool add_mixture(std::uint32_t region, std::uint8_t bin, std::uint64_t quanta);
+    bool add_mixture(std::uint32_t distribution, std::uint8_t bin, std::uint64_t quanta);
     void add_caps(const UpdateCaps& caps) { caps_.add(caps); }
     void add(const TreeSums& other);
     void clear();
@@ -64,6 +90,7 @@ class TreeSums {
 
   private:
     std::uint32_t pass_ = 0;
+    SumsShape shape_;
     std::vector<std::uint64_t> cells_;
     std::vector<std::uint64_t> counts_;
     std::vector<std::uint64_t> mixture_;

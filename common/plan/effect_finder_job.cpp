@@ -1,4 +1,7 @@
+#include "common/config/job_keys.h"
 #include "common/plan/effect_finder.h"
+#include "common/plan/kernel.h"
+#include "common/plan/memory.h"
 #include "common/plan/schedule.h"
 
 namespace treefarm {
@@ -79,9 +82,15 @@ void EffectFinder::add_transport() {
         if (job_.guiding.type == GuidingType::none) return effect_off("guiding.type = \"none\"");
         const std::size_t passes = plan_passes(job_).size();
         if (passes < 2) return effect_off("a single pass has nothing to learn from");
-        return effect_on(
-            "guiding.type = \"ppg\", " + std::to_string(passes - 1) + " of " + std::to_string(passes) + " passes",
-            expected_tree(scene_, job_).guide_bytes());
+        return effect_on("guiding.type = \"" + find_job_key("guiding.type")->print(job_) + "\", " +
+                             std::to_string(passes - 1) + " of " + std::to_string(passes) + " passes",
+                         expected_tree(scene_, job_).guide_bytes());
+    };
+    finders_["views"] = [this] {
+        if (!uses_views(job_.guiding.type)) return effect_off("guiding.type is not \"view\"");
+        if (!learns_views(scene_, job_)) return effect_off("no surface prefers other directions from another side");
+        if (plan_passes(job_).size() < 2) return effect_off("a single pass has nothing to learn from");
+        return effect_on("rough materials, " + std::to_string(expected_tree(scene_, job_).views) + " views expected");
     };
     finders_["recording"] = [this] {
         std::size_t count = 0;

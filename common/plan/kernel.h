@@ -15,6 +15,7 @@ struct KernelChoice {
     bool plain_diffuse = false;  ///< surfaces without textures, lobes or tilted normals; otherwise all of them
     bool guided = false;
     bool record = false;
+    bool views = false;  ///< with the tree's view-dependent part
 
     bool operator==(const KernelChoice&) const = default;
     /// "diffuse, guided, recording".
@@ -22,10 +23,13 @@ struct KernelChoice {
 };
 
 /// Kernels in the program.
-inline constexpr int kKernelCount = 8;
+inline constexpr int kKernelCount = 11;
 
-/// The kernel of one pass.
-KernelChoice kernel_of(const Job& job, const PassPlan& pass, bool plain_diffuse);
+/// The kernel of one pass. `views`: the tree has views.
+KernelChoice kernel_of(const Job& job, const PassPlan& pass, bool plain_diffuse, bool views);
+
+/// Whether the tree begins with views: the job asks for them, and a surface of the scene depends on them.
+bool learns_views(const Scene& scene, const Job& job);
 
 /// A kernel with the passes that it traces.
 struct KernelUse {

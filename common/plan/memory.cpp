@@ -6,6 +6,7 @@
 
 #include "common/film/pixel_estimate.h"
 #include "common/guiding/tree_update.h"
+#include "common/plan/kernel.h"
 #include "common/plan/schedule.h"
 #include "common/plan/texture_mean.h"
 
@@ -22,6 +23,9 @@ constexpr double kCellsPerRegion = 2.4;
 /// Sampling form of a cell, and its two sums (docs/guiding.md).
 constexpr std::uint64_t kGuideBytesPerCell = 8;
 constexpr std::uint64_t kGuideBytesPerRegion = 2 * 65 * 4 + 40;
+constexpr std::uint64_t kGuideBytesPerView = 32;
+/// Of a scene that learns views, for each region.
+constexpr double kViewsPerRegion = 0.5;
 constexpr std::uint64_t kSumBytes = 8;
 constexpr std::uint64_t kPlainTreeBytesPerCell = 5;
 constexpr std::uint64_t kPlainTreeBytesPerRegion = 2 * 8 + 6;
@@ -82,11 +86,12 @@ std::uint64_t emitter_table_bytes(const Scene& scene, const Emitter& emitter) {
 }
 
 std::uint64_t TreeSize::guide_bytes() const {
-    return regions * kGuideBytesPerRegion + cells * kGuideBytesPerCell;
+    return regions * kGuideBytesPerRegion + views * kGuideBytesPerView + cells * kGuideBytesPerCell;
 }
 
 std::uint64_t TreeSize::sum_bytes() const {
-    return regions * (kPlainTreeBytesPerRegion + (with_mixture ? kMixtureBins * kSumBytes : 0)) +
+    return (regions + views) * kPlainTreeBytesPerRegion +
+           (with_mixture ? (regions * kMixtureBins + views * kViewMixtureBins) * kSumBytes : 0) +
            cells * (kPlainTreeBytesPerCell + kSumBytes);
 }
 
@@ -108,10 +113,12 @@ TreeSize expected_tree(const Scene& scene, const Job& job) {
         const double vertices = length * static_cast<double>(pixel_count(scene)) * passes[k].spp;
         regions = std::max(regions, vertices / (kRegionFilling * spatial_split_threshold(job, passes[k + 1])));
     }
-    const double cells = kCellsPerRegion * regions / static_cast<double>(job.guiding.directional_threshold);
+    const double views = learns_views(scene, job) ? kViewsPerRegion * regions : 0.0;
+    const double cells = kCellsPerRegion * (regions + views) / static_cast<double>(job.guiding.directional_threshold);
     const bool with_mixture =
         std::any_of(passes.begin(), passes.end(), [](const PassPlan& pass) { return pass.learn_mixture; });
-    return {static_cast<std::uint64_t>(regions), static_cast<std::uint64_t>(cells), with_mixture};
+    return {static_cast<std::uint64_t>(regions), static_cast<std::uint64_t>(cells), with_mixture,
+            static_cast<std::uint64_t>(views)};
 }
 
 MemoryPlan expected_memory(const Scene& scene, const Job& job) {
@@ -121,7 +128,9 @@ MemoryPlan expected_memory(const Scene& scene, const Job& job) {
     for (const Shape& shape : scene.shapes)
         objects += std::holds_alternative<Mesh>(shape.geometry) ? 0 : 1;
     const TreeSize tree = expected_tree(scene, job);
-    const std::string tree_text = count_text(tree.regions, "regions, ") + count_text(tree.cells, "cells");
+    const std::string tree_text = count_text(tree.regions, "regions, ") +
+                                  (tree.views > 0 ? count_text(tree.views, "views, ") : "") +
+                                  count_text(tree.cells, "cells");
 
     MemoryPlan plan;
     plan.worker.push_back({"geometry", geometry_bytes(scene), count_text(triangles, "triangles, as arrays")});

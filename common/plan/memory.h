@@ -27,7 +27,8 @@ struct MemoryPlan {
 /// What an SD-tree is expected to have after the last pass that records.
 struct TreeSize {
     std::uint64_t regions = 0, cells = 0;
-    bool with_mixture = false;  ///< a histogram per region from which the BSDF's fraction is learned
+    bool with_mixture = false;  ///< histograms from which the fractions of BSDF and tree are learned
+    std::uint64_t views = 0;    ///< of T2; their cells are among `cells`
 
     std::uint64_t guide_bytes() const;  ///< the form that workers sample from
     std::uint64_t sum_bytes() const;    ///< the plain form and the sums of what is recorded
@@ -47,7 +48,8 @@ std::uint64_t mesh_bytes(const Mesh& mesh);
 std::uint64_t emitter_table_bytes(const Scene& scene, const Emitter& emitter);
 
 /// Expected size of the tree: a region holds about as many vertices as its splitting threshold asks for. A path is
-/// counted as eight vertices, a region's quadtree as 2.4 / directional_threshold cells. 0 without guiding.
+/// counted as eight vertices, a region's quadtree as 2.4 / directional_threshold cells, views as what they are bounded
+/// by (one for two regions). 0 without guiding.
 TreeSize expected_tree(const Scene& scene, const Job& job);
 
 /// Memory of the data of a render as formulas of scene and job. Program, libraries, MPI's buffers and the peak while

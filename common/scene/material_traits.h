@@ -21,6 +21,8 @@ struct Lobes {
     bool delta() const { return delta_reflection || delta_transmission || null; }
     /// A lobe with a density: what next event can use and a guide can learn from.
     bool smooth() const { return diffuse || glossy_reflection || glossy_transmission; }
+    /// A smooth lobe whose directions depend on where light goes.
+    bool view_dependent() const { return glossy_reflection || glossy_transmission; }
 };
 
 /// What a description asks of the surface that it describes. It goes by kinds, not by values: a black diffuse surface

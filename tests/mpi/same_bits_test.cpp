@@ -46,20 +46,22 @@ const Hashes& one_thread() {
 }
 
 /// A scene on a tiny film in one process, and under mpirun with each of these numbers of ranks.
-void expect_same_bits(const std::string& scene, const std::vector<int>& ranks) {
-    const std::vector<std::string> options = {scene,
-                                              "--set",
-                                              "image.width=36",
-                                              "--set",
-                                              "image.height=24",
-                                              "--spp",
-                                              "60",
-                                              "--set",
-                                              "guiding.spatial_threshold=200",
-                                              "--set",
-                                              "farm.tile_size=8",
-                                              "--threads",
-                                              "1"};
+void expect_same_bits(const std::string& scene, const std::vector<int>& ranks,
+                      const std::vector<std::string>& more = {}) {
+    std::vector<std::string> options = {scene,
+                                        "--set",
+                                        "image.width=36",
+                                        "--set",
+                                        "image.height=24",
+                                        "--spp",
+                                        "60",
+                                        "--set",
+                                        "guiding.spatial_threshold=200",
+                                        "--set",
+                                        "farm.tile_size=8",
+                                        "--threads",
+                                        "1"};
+    options.insert(options.end(), more.begin(), more.end());
     const Hashes alone = render_scene({}, options);
     EXPECT_FALSE(alone.image.empty());
     for (const int count : ranks)
@@ -107,6 +109,15 @@ TEST(SameBits, Ranks3OverTcp) {
 
 TEST(SameBitsOfScenes, GlossyRoom) {
     expect_same_bits(own_scene("glossy-room.xml"), {3});
+}
+
+TEST(SameBitsOfScenes, GlossyRoomByView) {
+    expect_same_bits(own_scene("glossy-room.xml"), {2, 3, 5}, {"--set", "guiding.type=\"view\""});
+}
+
+TEST(SameBitsOfScenes, GlossyRoomAsInTheThesis) {
+    expect_same_bits(own_scene("glossy-room.xml"), {3},
+                     {"--set", "guiding.preset=\"thesis\"", "--set", "guiding.view_threshold=50"});
 }
 
 TEST(SameBitsOfScenes, MixedRoom) {

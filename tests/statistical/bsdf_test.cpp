@@ -113,7 +113,9 @@ class TestSurface {
 class MixtureSamples {
   public:
     MixtureSamples(const TestSurface& surface, const Guide& guide, std::uint32_t region, float fraction)
-        : surface_(surface), guide_(guide), region_(region), fraction_(fraction) {}
+        : MixtureSamples(surface, guide, Guidance{region, Guide::kNoView, fraction, 0.0f}) {}
+    MixtureSamples(const TestSurface& surface, const Guide& guide, const Guidance& guidance)
+        : surface_(surface), guide_(guide), guidance_(guidance) {}
 
     /// Those of numbers that follow each other come from one batch.
     const ScatterSample& operator[](std::uint32_t i) {
@@ -122,7 +124,9 @@ class MixtureSamples {
     }
 
     float pdf(float bsdf_pdf, std::uint32_t code) const {
-        return mixed_pdf(fraction_, bsdf_pdf, guide_.pdf(region_, code));
+        const float guide_pdf = guide_.pdf(guidance_.region, code);
+        if (guidance_.has_view()) return mixed_pdf(guidance_, bsdf_pdf, guide_pdf, guide_.pdf(guidance_.view, code));
+        return mixed_pdf(guidance_.bsdf_fraction, bsdf_pdf, guide_pdf);
     }
 
   private:
@@ -137,22 +141,21 @@ class MixtureSamples {
         DirectionBatch cosines;
         draw_batch(8, keys, kDrawBatch, 0, Stream::scatter, draws);
         cosine_hemisphere_batch(draws, kDrawBatch, cosines);
-        ScatterBatch<true, true> scatter;
+        ScatterBatch<true, true, true> scatter;
         scatter.clear();
         std::array<bool, kDrawBatch> drawn;
         for (std::uint32_t k = 0; k < kDrawBatch; ++k)
-            drawn[k] = scatter.draw(surface_, guide_, region_, fraction_, draws[k], cosines[k], samples_[k]);
+            drawn[k] = scatter.draw(surface_, guide_, guidance_, draws[k], cosines[k], samples_[k]);
         scatter.convert(guide_);
         for (std::uint32_t k = 0; k < kDrawBatch; ++k) {
             samples_[k].f_cos = drawn[k] ? samples_[k].f_cos : Rgb(0.0f);
-            if (drawn[k]) scatter.complete(surface_, guide_, region_, fraction_, samples_[k]);
+            if (drawn[k]) scatter.complete(surface_, guide_, guidance_, samples_[k]);
         }
     }
 
     const TestSurface& surface_;
     const Guide& guide_;
-    std::uint32_t region_;
-    float fraction_;
+    Guidance guidance_;
     std::uint32_t batch_ = ~0u;
     std::array<ScatterSample, kDrawBatch> samples_;
 };
@@ -176,6 +179,34 @@ TEST(GuideDistribution, MixtureFollowsItsDensity) {
         const auto result = test::test_directions(sample, density, kSamples, 16, 64);
         EXPECT_NEAR(result.integral, result.success, 3e-3);
         EXPECT_GT(result.p_value, kSignificance) << "fraction " << fraction;
+    }
+}
+
+TEST(GuideDistribution, MixtureWithAViewFollowsItsDensity) {
+    static const Guide guide(test::random_view_tree(5, 60000, 1500, 4000, 2));
+    const TestSurface surface(grey(0.5f, false), {0.3f, -0.4f, 0.2f}, {0.1f, 0.5f, 0.9f});
+    std::uint32_t region = guide.region_count() / 2;
+    while (guide.view(region, 0) == Guide::kNoView)
+        ++region;
+    for (const Guidance& guidance : {Guidance{region, guide.view(region, 77), 0.2f, 0.5f},
+                                     Guidance{region, guide.view(region, 0xc0000000u), 0.05f, 0.95f},
+                                     Guidance{region, guide.view(region, 0x80000000u), 0.5f, 0.0f}}) {
+        MixtureSamples samples(surface, guide, guidance);
+        const auto sample = [&](std::uint32_t i, Vec3& d) {
+            const ScatterSample& s = samples[i];
+            d = s.world;
+            if (is_black(s.f_cos)) return false;
+            EXPECT_EQ(s.pdf, samples.pdf(surface.bsdf().value(surface.wo(), s.local).pdf, s.code));
+            return true;
+        };
+        const auto density = [&](const Vec3& d) {
+            const Vec3 local = surface.frame().to_local(d);
+            return local.z > 0.0f ? samples.pdf(surface.bsdf().value(surface.wo(), local).pdf, direction_to_code(d))
+                                  : 0.0f;
+        };
+        const auto result = test::test_directions(sample, density, kSamples, 16, 64);
+        EXPECT_NEAR(result.integral, result.success, 3e-3);
+        EXPECT_GT(result.p_value, kSignificance) << guidance.bsdf_fraction << ' ' << guidance.view_fraction;
     }
 }
 

@@ -36,16 +36,31 @@ Job short_job(std::uint64_t seed, int spp) {
     return job;
 }
 
-class GuidedMaterials : public ::testing::TestWithParam<NextEvent> {};
+struct Guiding {
+    NextEvent next_event = NextEvent::always;
+    GuidingType type = GuidingType::ppg;
+    ViewRecords records = ViewRecords::product;
+    bool learned = true;
+};
+
+void PrintTo(const Guiding& g, std::ostream* out) {
+    *out << "next event " << static_cast<int>(g.next_event) << ", type " << static_cast<int>(g.type) << ", records "
+         << static_cast<int>(g.records) << (g.learned ? ", learned" : "");
+}
+
+class GuidedMaterials : public ::testing::TestWithParam<Guiding> {};
 
 TEST_P(GuidedMaterials, AgreeWithUnguided) {
     const Scene scene = test::glossy_room();
     const Estimate unguided = render(scene, short_job(1, 512));
     Job job = short_job(2, 508);
-    job.guiding.type = GuidingType::ppg;
+    job.guiding.type = GetParam().type;
+    job.guiding.view_records = GetParam().records;
+    job.guiding.view_threshold = 300;
+    job.guiding.learn_bsdf_fraction = GetParam().learned;
     job.guiding.combination = Combination::fixed;
     job.guiding.spatial_threshold = 1000;
-    job.integrator.next_event = GetParam();
+    job.integrator.next_event = GetParam().next_event;
     const Estimate guided = render(scene, job);
     const BlockZTest blocks = block_z_test({guided.mean, unguided.mean, &guided.variance, &unguided.variance});
     EXPECT_TRUE(blocks.pass) << "worst block z " << blocks.max_abs_z << " at " << blocks.worst_x << ", "
@@ -55,7 +70,15 @@ TEST_P(GuidedMaterials, AgreeWithUnguided) {
 }
 
 INSTANTIATE_TEST_SUITE_P(NextEvent, GuidedMaterials,
-                         ::testing::Values(NextEvent::always, NextEvent::never, NextEvent::kickstart));
+                         ::testing::Values(Guiding{}, Guiding{NextEvent::never}, Guiding{NextEvent::kickstart}));
+
+INSTANTIATE_TEST_SUITE_P(
+    ByView, GuidedMaterials,
+    ::testing::Values(Guiding{NextEvent::always, GuidingType::view}, Guiding{NextEvent::never, GuidingType::view},
+                      Guiding{NextEvent::kickstart, GuidingType::view},
+                      Guiding{NextEvent::always, GuidingType::view, ViewRecords::product, false},
+                      Guiding{NextEvent::kickstart, GuidingType::view, ViewRecords::radiance, false},
+                      Guiding{NextEvent::always, GuidingType::view, ViewRecords::radiance, true}));
 
 /// Next event finds what scattering finds, and no more, on every material.
 TEST(Materials, NextEventAgreesWithScattering) {

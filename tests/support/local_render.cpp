@@ -3,8 +3,9 @@
 #include <algorithm>
 
 #include "common/film/pass_film.h"
-#include "common/guiding/mixture.h"
 #include "common/guiding/splat.h"
+#include "common/guiding/tree_learner.h"
+#include "common/plan/learning.h"
 #include "worker/integrator/tile_renderer.h"
 
 namespace treefarm::test {
@@ -34,8 +35,8 @@ LocalRender render_locally(const Scene& scene, const Job& job) {
     const PassChooser choose = passes_of(job);
     const bool guided = job.guiding.type != GuidingType::none;
     const TraceScene trace(scene, job);
-    run.tree = initial_tree(guiding_bounds(scene), 1.0f, job.guiding.bsdf_fraction);
-    MixtureLearner mixture;
+    run.tree = first_tree(scene, job, guiding_bounds(scene), 1.0f);
+    TreeLearner learner;
     RenderState state;
     for (NextPass next = choose(state); next.pass;) {
         const PassPlan pass = *next.pass;
@@ -63,14 +64,8 @@ LocalRender render_locally(const Scene& scene, const Job& job) {
         next = choose(state);
         if (!pass.record || !next.pass) continue;
         RefineReport report;
-        RefineSettings settings;
-        settings.spatial_threshold = spatial_split_threshold(job, *next.pass);
-        settings.record_weight = pass.record_weight;
-        settings.target = job.guiding.target;
-        const TreeSums sums = accumulator.take();
-        SdTree refined = refine(run.tree, sums, settings, report);
-        if (pass.learn_mixture) mixture.learn(run.tree, sums, report.origins, refined);
-        run.tree = std::move(refined);
+        run.tree = learner.learn(run.tree, accumulator.take(), refine_settings(job, pass, *next.pass),
+                                 pass.learn_mixture, report);
     }
     return run;
 }

@@ -33,10 +33,48 @@ SdTree random_tree(int passes, std::size_t records_per_pass, double spatial_thre
         std::vector<Record> records = random_records(guide, records_per_pass, seed + static_cast<unsigned>(pass));
         std::vector<std::uint32_t> counts(guide.region_count());
         for (const Record& record : records)
-            ++counts[record.region];
+            ++counts[record.distribution];
         accumulator.commit(records, counts, {});
         RefineReport report;
         tree = refine(tree, accumulator.take(), {.spatial_threshold = spatial_threshold}, report);
+    }
+    return tree;
+}
+
+std::vector<Record> random_view_records(const Guide& guide, std::size_t count, unsigned seed) {
+    std::vector<Record> records = random_records(guide, count, seed);
+    std::mt19937 engine(seed + 1000);
+    for (std::size_t i = 0; i + 1 < count; i += 2) {
+        const std::uint32_t view = guide.view(records[i].distribution, static_cast<std::uint32_t>(engine()));
+        if (view == Guide::kNoView) continue;
+        records[i + 1] = records[i];
+        records[i + 1].distribution = view;
+    }
+    return records;
+}
+
+TreeSums sums_of(const Guide& guide, std::span<const Record> records) {
+    Accumulator accumulator(0, guide);
+    std::vector<std::uint32_t> counts(guide.distribution_count());
+    for (const Record& record : records)
+        ++counts[record.distribution];
+    accumulator.commit(records, counts, {});
+    return accumulator.take();
+}
+
+SdTree random_view_tree(int passes, std::size_t records_per_pass, double spatial_threshold, double view_set_threshold,
+                        unsigned seed) {
+    SdTree tree = initial_tree(Box3(Vec3(0.0f), Vec3(1.0f)), {1.0f, 0.5f, true, 0.25f});
+    for (int pass = 0; pass < passes; ++pass) {
+        const Guide guide(tree);
+        const auto records = random_view_records(guide, records_per_pass, seed + static_cast<unsigned>(pass));
+        RefineReport report;
+        tree = refine(tree, sums_of(guide, records),
+                      {.spatial_threshold = spatial_threshold,
+                       .view_threshold = view_set_threshold / 4,
+                       .view_set_threshold = view_set_threshold},
+                      report);
+        tree.pass = 0;
     }
     return tree;
 }

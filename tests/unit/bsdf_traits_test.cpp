@@ -59,6 +59,7 @@ void expect_agreement(Scene scene, const char* what) {
         }
         EXPECT_EQ((lobes_of(*bsdf) & kSmoothLobe) != 0, traits.lobes.smooth()) << what;
         EXPECT_EQ((lobes_of(*bsdf) & kDeltaLobe) != 0, traits.lobes.delta()) << what;
+        EXPECT_EQ((lobes_of(*bsdf) & kViewLobe) != 0, traits.lobes.view_dependent()) << what;
         EXPECT_TRUE(refraction_of(*bsdf) == 1.0f || (lobes_of(*bsdf) & kTransmittingLobe)) << what;
         EXPECT_EQ(sampled(*bsdf), promised(traits.lobes)) << what << (back ? ", back" : ", front");
     }

@@ -20,6 +20,9 @@ TEST(Kernels, AreThoseThatThePlanNamesAndAtMostTwelve) {
             for (const bool record : {false, true}) {
                 const KernelChoice choice{diffuse, guided, record};
                 EXPECT_EQ(std::count(compiled.begin(), compiled.end(), choice), 1) << choice.name();
+                const KernelChoice by_view{diffuse, guided, record, true};
+                EXPECT_EQ(std::count(compiled.begin(), compiled.end(), by_view), !diffuse && (guided || record))
+                    << by_view.name();
             }
 }
 

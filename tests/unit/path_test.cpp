@@ -88,11 +88,11 @@ TEST(PathRecorder, CarriesRadianceBackwards) {
     recorder.begin_path();
     recorder.add_reflected(recorder.vertex_count(),
                            Rgb(100.0f));  // next event at the first surface: no direction carries it
-    recorder.add_vertex(0, 11, 0.5f, Rgb(0.5f), 3, 1);
+    recorder.add_vertex({0}, 11, 0.5f, Rgb(0.5f), 3, 1);
     recorder.add_emission(Rgb(1.0f));
     recorder.survive(0.5f);
     recorder.add_reflected(recorder.vertex_count(), Rgb(2.0f));
-    recorder.add_vertex(2, 22, 4.0f, Rgb(0.25f), 4, 2);
+    recorder.add_vertex({2}, 22, 4.0f, Rgb(0.25f), 4, 2);
     recorder.add_emission(Rgb(8.0f));
     EXPECT_EQ(recorder.commit({}, log), 2u);
     ASSERT_EQ(log.records.size(), 2u);
@@ -108,8 +108,8 @@ TEST(PathRecorder, CountsVerticesWithoutRadiance) {
     RecordLog log;
     log.begin(1);
     recorder.begin_path();
-    recorder.add_vertex(0, 1, 1.0f, Rgb(1.0f), 0, 1);
-    recorder.add_vertex(0, 2, 1.0f, Rgb(1.0f), 0, 2);
+    recorder.add_vertex({0}, 1, 1.0f, Rgb(1.0f), 0, 1);
+    recorder.add_vertex({0}, 2, 1.0f, Rgb(1.0f), 0, 2);
     EXPECT_EQ(recorder.commit({}, log), 2u);
     EXPECT_TRUE(log.records.empty());
     EXPECT_EQ(log.counts[0], 2u);
@@ -253,7 +253,7 @@ TEST(Path, RecordsTeachTheDirectionsOfTheLight) {
         EXPECT_GT(r.log.records.size(), 100u);
         EXPECT_LT(r.log.records.size(), r.log.counts[0]);
         for (const Record& record : r.log.records) {
-            ASSERT_EQ(record.region, 0u);
+            ASSERT_EQ(record.distribution, 0u);
             ASSERT_TRUE(record.value > 0.0f && std::isfinite(record.value));
         }
     }

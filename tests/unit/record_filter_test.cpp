@@ -59,7 +59,7 @@ TEST(BoxFilter, KeepsTheSumOnAnyTree) {
     const std::vector<Record> records = test::random_records(guide, 20000, 5);
     std::vector<double> expected(tree.region_count()), got(tree.region_count());
     for (const Record& r : records)
-        expected[r.region] += std::ldexp(static_cast<double>(r.value), -guide.quantum_exponent(r.region));
+        expected[r.distribution] += std::ldexp(static_cast<double>(r.value), -guide.quantum_exponent(r.distribution));
     const TreeSums sums = splat(tree, records);
     for (std::uint32_t r = 0; r < tree.region_count(); ++r) {
         for (std::uint32_t c = tree.cell_begin[r]; c < tree.cell_begin[r + 1]; ++c)

@@ -21,7 +21,7 @@ class TreeUpdate : public ::testing::Test {
         Accumulator accumulator(tree.pass, guide);
         std::vector<std::uint32_t> counts(guide.region_count());
         for (const Record& record : records)
-            ++counts[record.region];
+            ++counts[record.distribution];
         accumulator.commit(records, counts, caps);
         return accumulator.take();
     }
@@ -59,7 +59,7 @@ TEST_F(TreeUpdate, ThreadsCommitToTheSameSums) {
                 std::vector<Record> own(records.begin() + begin, records.begin() + begin + 1000);
                 std::vector<std::uint32_t> counts(guide.region_count());
                 for (const Record& record : own)
-                    ++counts[record.region];
+                    ++counts[record.distribution];
                 accumulator.commit(own, counts, {});
             }
         });

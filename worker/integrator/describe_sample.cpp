@@ -70,6 +70,7 @@ std::string describe_sample(const TraceScene& scene, const Job& job, const PassP
     if (scene.plainly_diffuse())
         return guided ? described<DiffuseSurface, true>(scene, job, pass, guide, x, y, path)
                       : described<DiffuseSurface, false>(scene, job, pass, guide, x, y, path);
+    if (guided && guide.view_count() != 0) return described<ViewedSurface, true>(scene, job, pass, guide, x, y, path);
     return guided ? described<GeneralSurface, true>(scene, job, pass, guide, x, y, path)
                   : described<GeneralSurface, false>(scene, job, pass, guide, x, y, path);
 }

@@ -8,6 +8,16 @@
 
 namespace treefarm {
 
+/// What guides at a place.
+struct Guidance {
+    std::uint32_t region;  ///< of the tree
+    std::uint32_t view;    ///< the distribution of the view there, or Guide::kNoView
+    float bsdf_fraction;   ///< probability of sampling the BSDF
+    float view_fraction;   ///< probability of sampling the view; the rest goes to the region's own distribution
+
+    bool has_view() const { return view != Guide::kNoView; }
+};
+
 /// A sampled direction at a surface.
 struct ScatterSample {
     Vec3 local;  ///< in the shading frame
@@ -15,10 +25,12 @@ struct ScatterSample {
     Rgb f_cos;                 ///< f |cos|
     float pdf;                 ///< per steradian, of the whole mixture; delta: the probability of the lobe
     float bsdf_pdf;            ///< of the BSDF alone
-    float guide_pdf;           ///< of the tree alone, where it guides
+    float guide_pdf;           ///< of the region's distribution alone, where it guides
+    float view_pdf;            ///< of the view's alone, where it guides
     std::uint32_t code;        ///< Z-order code of the direction, where the tree is used
     std::uint32_t conversion;  ///< its number in the batch's conversions
     bool guided;               ///< drawn from the tree
+    bool by_view;              ///< drawn from the view
     bool delta;                ///< of a lobe without density, which the guide cannot find
 };
 
@@ -27,6 +39,12 @@ struct ScatterSample {
 /// times their probability (Mueller et al. 2017, as their program does it).
 inline float mixed_pdf(float bsdf_fraction, float bsdf_pdf, float guide_pdf) {
     return bsdf_fraction * bsdf_pdf + (1.0f - bsdf_fraction) * guide_pdf;
+}
+
+/// The same where there is a view.
+inline float mixed_pdf(const Guidance& guidance, float bsdf_pdf, float guide_pdf, float view_pdf) {
+    const float trees = (1.0f - guidance.bsdf_fraction - guidance.view_fraction) * guide_pdf;
+    return guidance.bsdf_fraction * bsdf_pdf + (trees + guidance.view_fraction * view_pdf);
 }
 
 /// Directions whose codes are wanted, converted together by vector code.
@@ -61,8 +79,9 @@ class CodeBatch {
 /// The directions that a batch of paths takes at its surfaces, drawn from the BSDF's density or from
 /// bsdf_fraction * p_BSDF + (1 - bsdf_fraction) * p_guide: first draw() for each path, then convert(), then complete()
 /// for each. draw() and complete() agree by construction: the guide's part of a guided sample is the density of the
-/// very cell it was drawn from. `kCoded` fills codes also where nothing guides. A surface has bsdf(), frame() and wo().
-template <bool kGuided, bool kCoded>
+/// very cell it was drawn from. `kCoded` fills codes also where nothing guides, `kViews` allows for views. A surface
+/// has bsdf(), frame() and wo().
+template <bool kGuided, bool kCoded, bool kViews = false>
 class ScatterBatch {
   public:
     void clear() {
@@ -73,14 +92,17 @@ class ScatterBatch {
     /// random[0] chooses BSDF or guide, [1] the BSDF's lobe or the guide's cell, [2] and [3] the place; `cosine` is
     /// that place warped to the cosine hemisphere. False if there is no direction.
     template <class Surface>
-    bool draw(const Surface& surface, const Guide& guide, std::uint32_t region, float bsdf_fraction, const Draw& random,
+    bool draw(const Surface& surface, const Guide& guide, const Guidance& guidance, const Draw& random,
               const Vec3& cosine, ScatterSample& s) {
-        s.guided = kGuided && !(to_unit(random[0]) < bsdf_fraction);
-        s.guide_pdf = 0.0f;
+        const float technique = to_unit(random[0]);
+        s.guided = kGuided && !(technique < guidance.bsdf_fraction);
+        s.guide_pdf = s.view_pdf = 0.0f;
         if (kGuided && s.guided) {
-            const Guide::Place place = guide.sample_place(region, random[1], random[2], random[3]);
+            s.by_view = kViews && technique < guidance.bsdf_fraction + guidance.view_fraction;
+            const Guide::Place place = guide.sample_place(kViews && s.by_view ? guidance.view : guidance.region,
+                                                          random[1], random[2], random[3]);
             s.code = place.code;
-            s.guide_pdf = place.pdf;
+            (kViews && s.by_view ? s.view_pdf : s.guide_pdf) = place.pdf;
             s.delta = false;
             s.conversion = place_count_;
             places_x_[place_count_] = place.at.x;
@@ -95,7 +117,7 @@ class ScatterBatch {
         s.f_cos = b.f_cos;
         s.bsdf_pdf = b.pdf;
         s.delta = b.delta;
-        if (kCoded && !b.delta) s.conversion = codes_.add(s.world, region);
+        if (kCoded && !b.delta) s.conversion = codes_.add(s.world, guidance.region);
         return true;
     }
 
@@ -110,24 +132,35 @@ class ScatterBatch {
 
     /// Value and density of what was drawn; pdf or f_cos may be 0.
     template <class Surface>
-    void complete(const Surface& surface, const Guide& guide, std::uint32_t region, float bsdf_fraction,
-                  ScatterSample& s) const {
+    void complete(const Surface& surface, const Guide& guide, const Guidance& guidance, ScatterSample& s) const {
         if (kGuided && s.guided) {
             s.world = directions_[s.conversion];
             s.local = surface.frame().to_local(s.world);
             const BsdfValue b = surface.bsdf().value(surface.wo(), s.local);
             s.f_cos = b.f_cos;
             s.bsdf_pdf = b.pdf;
+            if (kViews && s.by_view) s.guide_pdf = guide.pdf(guidance.region, s.code);
         } else if (kCoded && !s.delta) {
             s.code = codes_[s.conversion];
-            if constexpr (kGuided) s.guide_pdf = guide.pdf(region, s.code);
+            if constexpr (kGuided) s.guide_pdf = guide.pdf(guidance.region, s.code);
         }
         s.pdf = s.bsdf_pdf;
-        if constexpr (kGuided)
-            s.pdf = s.delta ? s.bsdf_pdf * bsdf_fraction : mixed_pdf(bsdf_fraction, s.bsdf_pdf, s.guide_pdf);
+        if constexpr (kGuided) {
+            if (s.delta)
+                s.pdf = s.bsdf_pdf * guidance.bsdf_fraction;
+            else if (kViews && guidance.has_view())
+                s.pdf = viewed_pdf(guide, guidance, s);
+            else
+                s.pdf = mixed_pdf(guidance.bsdf_fraction, s.bsdf_pdf, s.guide_pdf);
+        }
     }
 
   private:
+    static float viewed_pdf(const Guide& guide, const Guidance& guidance, ScatterSample& s) {
+        if (!s.guided || !s.by_view) s.view_pdf = guide.pdf(guidance.view, s.code);
+        return mixed_pdf(guidance, s.bsdf_pdf, s.guide_pdf, s.view_pdf);
+    }
+
     CodeBatch codes_;
     std::uint32_t place_count_ = 0;
     alignas(64) std::array<float, kDrawBatch> places_x_, places_y_;

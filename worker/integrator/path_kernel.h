@@ -6,6 +6,7 @@
 
 #include "common/film/trace_stats.h"
 #include "common/guiding/mixture.h"
+#include "common/guiding/view_mixture.h"
 #include "worker/integrator/mis.h"
 #include "worker/integrator/path_observer.h"
 #include "worker/integrator/path_recorder.h"
@@ -35,7 +36,7 @@ class PathKernel {
           stats_(stats),
           clock_(settings.profile, stats),
           scratch_(kBatch, Surface::make_scratch(scene)) {
-        if constexpr (kRecord) recorders_.fill(PathRecorder(settings.target));
+        if constexpr (kRecord) recorders_.fill(PathRecorder(settings.target, settings.view_records));
     }
 
     /// Forgets the paths traced so far.
@@ -71,6 +72,7 @@ class PathKernel {
   private:
     /// Whether directions have to be converted before a path can leave.
     static constexpr bool kConverts = kGuided || kRecord;
+    static constexpr bool kViews = kConverts && Surface::kViews;
 
     using Path = PathState<Surface>;
 
@@ -134,9 +136,9 @@ class PathKernel {
         for (std::uint32_t lane = 0; lane < alive; ++lane) {
             Path& path = paths_[alive_[lane]];
             if (!path.found) continue;
-            path.region = guide_.region(path.hit.p);
-            if (kGuided && depth == 1) path.first_exponent = guide_.quantum_exponent(path.region);
-            if constexpr (kGuided) guide_.prefetch(path.region, scatter_draws_.word[1][lane]);
+            const std::uint32_t region = path.guidance.region = guide_.region(path.hit.p);
+            if (kGuided && depth == 1) path.first_exponent = guide_.quantum_exponent(region);
+            if constexpr (kGuided) guide_.prefetch(region, scatter_draws_.word[1][lane]);
         }
         clock_.lap(TracePhase::direction);
     }
@@ -189,7 +191,8 @@ class PathKernel {
             return end("normals disagree");
 
         ++stats_.vertices;
-        path.bsdf_fraction = kGuided && surface.smooth() ? guide_.bsdf_fraction(path.region) : 1.0f;
+        path.guidance.bsdf_fraction = kGuided && surface.smooth() ? guide_.bsdf_fraction(path.guidance.region) : 1.0f;
+        if constexpr (kViews) find_view(path);
         if constexpr (kRecord)
             if (surface.smooth() && !guide_.contains(hit.p)) recorders_[index].add_outside();
         if ((settings_.next_event || settings_.delta_alone) && surface.smooth())
@@ -199,8 +202,8 @@ class PathKernel {
 
     bool draw_direction(std::uint8_t index) {
         Path& path = paths_[index];
-        return scatter_.draw(*path.surface, guide_, path.region, path.bsdf_fraction, scatter_draws_[path.lane],
-                             cosines_[path.lane], path.scatter) ||
+        return scatter_.draw(*path.surface, guide_, path.guidance, scatter_draws_[path.lane], cosines_[path.lane],
+                             path.scatter) ||
                end("no direction");
     }
 
@@ -208,7 +211,7 @@ class PathKernel {
     bool leave(std::uint8_t index) {
         Path& path = paths_[index];
         const Surface& surface = *path.surface;
-        scatter_.complete(surface, guide_, path.region, path.bsdf_fraction, path.scatter);
+        scatter_.complete(surface, guide_, path.guidance, path.scatter);
         const Hit& hit = path.hit;
         const ScatterSample& s = path.scatter;
         if (!(s.pdf > 0.0f) || is_black(s.f_cos)) return end("no direction");
@@ -232,22 +235,46 @@ class PathKernel {
     void remember(std::uint8_t index, int depth) {
         const Path& path = paths_[index];
         const ScatterSample& s = path.scatter;
+        RecordTarget target{path.guidance.region, path.guidance.view};
         if (s.delta) {
-            const std::uint32_t region = path.surface->smooth() ? path.region : PathRecorder::kNotRecorded;
-            recorders_[index].add_delta_vertex(path.weight, region, vertex_of(depth));
+            if (!path.surface->smooth()) target = {};
+            recorders_[index].add_delta_vertex(path.weight, target, vertex_of(depth));
             return;
         }
-        std::uint32_t region = path.region;
-        if (settings_.jitter_records) region = guide_.jittered_region(path.hit.p, region, jitter_draws_[path.lane]);
-        recorders_[index].add_vertex(region, s.code, s.pdf, path.weight, mixture_bin(s.bsdf_pdf, s.guide_pdf),
-                                     vertex_of(depth));
+        if (settings_.jitter_records) move(target, path, jitter_draws_[path.lane]);
+        const std::uint8_t bin = kViews && path.guidance.has_view()
+                                     ? view_mixture_bin(s.bsdf_pdf, s.guide_pdf, s.view_pdf)
+                                     : mixture_bin(s.bsdf_pdf, s.guide_pdf);
+        recorders_[index].add_vertex(target, s.code, s.pdf, path.weight, bin, vertex_of(depth));
+    }
+
+    /// The stochastic spatial filter. A record for a view goes to that of the same direction there, if there is one.
+    void move(RecordTarget& target, const Path& path, const Draw& random) const {
+        target.region = guide_.jittered_region(path.hit.p, target.region, random);
+        if constexpr (!kViews) return;
+        if (!path.guidance.has_view()) return;
+        const std::uint32_t view = guide_.view(target.region, path.outgoing_code);
+        if (view != Guide::kNoView) target.view = view;
+    }
+
+    void find_view(Path& path) const {
+        path.guidance.view = Guide::kNoView;
+        path.guidance.view_fraction = 0.0f;
+        if (!path.surface->view_dependent()) return;
+        path.outgoing_code = direction_to_code(-path.ray.direction);
+        const std::uint32_t view = guide_.view(path.guidance.region, path.outgoing_code);
+        if (view == Guide::kNoView) return;
+        path.guidance.view = view;
+        if constexpr (!kGuided) return;
+        path.guidance.bsdf_fraction = guide_.bsdf_fraction(view);
+        path.guidance.view_fraction = guide_.view_fraction(view);
     }
 
     /// Of the light about the path's end over that about its first vertex, by the mean records of their regions.
     float brightness(const Path& path) const {
         if constexpr (!kGuided) return 1.0f;
         if (!settings_.roulette.needs_brightness()) return 1.0f;
-        const int exponent = guide_.quantum_exponent(path.region) - path.first_exponent;
+        const int exponent = guide_.quantum_exponent(path.guidance.region) - path.first_exponent;
         return power_of_two(std::clamp(settings_.target == GuidingTarget::variance ? exponent / 2 : exponent, -60, 60));
     }
 
@@ -310,8 +337,7 @@ class PathKernel {
         PendingLight& pending = pending_.emplace_back();
         pending.path = index;
         pending.vertex = kRecord ? recorders_[index].vertex_count() : 0;
-        pending.region = path.region;
-        pending.bsdf_fraction = path.bsdf_fraction;
+        pending.guidance = path.guidance;
         pending.wi = light.wi;
         pending.distance = light.distance;
         pending.pdf = light.pdf;
@@ -333,7 +359,7 @@ class PathKernel {
         for (std::uint32_t i = 0; i < pending_.size(); ++i) {
             if (shadowed[i]) continue;
             seen[count++] = static_cast<std::uint8_t>(i);
-            if constexpr (kConverts) light_codes_.add(pending_[i].wi, pending_[i].region);
+            if constexpr (kConverts) light_codes_.add(pending_[i].wi, pending_[i].guidance.region);
         }
         if constexpr (kConverts) light_codes_.convert();
         if constexpr (kGuided) light_codes_.prefetch(guide_);
@@ -346,8 +372,7 @@ class PathKernel {
             look_at_environment(light);
         float scatter_pdf = light.delta ? 0.0f : light.bsdf_pdf;
         if constexpr (kGuided)
-            if (!light.delta)
-                scatter_pdf = mixed_pdf(light.bsdf_fraction, light.bsdf_pdf, guide_.pdf(light.region, code));
+            if (!light.delta) scatter_pdf = density(light.guidance, light.bsdf_pdf, code);
         const float weight = mis_weight(settings_.mis, light.pdf, scatter_pdf);
         const Rgb reflected = light.f_cos * light.radiance * (weight / light.pdf);
         Path& path = paths_[light.path];
@@ -357,11 +382,18 @@ class PathKernel {
         recorders_[light.path].add_reflected(light.vertex, reflected);
         // Scattering never meets a light without extent: its samples are weighted alone and teach the guide nothing.
         if (!settings_.record_light_samples || light.delta) return;
-        std::uint32_t region = light.region;
-        if (settings_.jitter_records)
-            region = guide_.jittered_region(path.hit.p, region, draw(path.key, vertex_of(depth), Stream::light_jitter));
-        recorders_[light.path].add_light_sample(region, code, average(light.radiance) * weight, light.pdf,
+        RecordTarget target{light.guidance.region, light.guidance.view};
+        if (settings_.jitter_records) move(target, path, draw(path.key, vertex_of(depth), Stream::light_jitter));
+        recorders_[light.path].add_light_sample(target, code, light.radiance * weight, average(reflected), light.pdf,
                                                 vertex_of(depth));
+    }
+
+    /// Of the scattering that this guidance makes of a BSDF's.
+    float density(const Guidance& guidance, float bsdf_pdf, std::uint32_t code) const {
+        const float guide_pdf = guide_.pdf(guidance.region, code);
+        if (kViews && guidance.has_view())
+            return mixed_pdf(guidance, bsdf_pdf, guide_pdf, guide_.pdf(guidance.view, code));
+        return mixed_pdf(guidance.bsdf_fraction, bsdf_pdf, guide_pdf);
     }
 
     const TraceScene& scene_;
@@ -375,7 +407,7 @@ class PathKernel {
     std::array<std::uint8_t, kBatch> alive_;
     DrawBatch scatter_draws_, light_draws_, jitter_draws_;
     DirectionBatch cosines_;
-    ScatterBatch<kGuided, kConverts> scatter_;
+    ScatterBatch<kGuided, kConverts, kViews> scatter_;
     CodeBatch light_codes_;
     PendingLights pending_;
     std::array<PathRecorder, kRecord ? kBatch : 0> recorders_;

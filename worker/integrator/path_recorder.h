@@ -15,7 +15,9 @@ namespace treefarm {
 /// Its memory grows to the longest path and stays.
 class PathRecorder {
   public:
-    explicit PathRecorder(GuidingTarget target = GuidingTarget::radiance) : target_(target) {}
+    explicit PathRecorder(GuidingTarget target = GuidingTarget::radiance,
+                          ViewRecords view_records = ViewRecords::product)
+        : target_(target), view_records_(view_records) {}
 
     void begin_path() {
         vertices_.clear();
@@ -23,19 +25,19 @@ class PathRecorder {
         outside_ = 0;
     }
 
-    /// A direction was sampled: region and code of the record, its density, f |cos| / density, and the bin of the
-    /// mixture histogram.
-    void add_vertex(std::uint32_t region, std::uint32_t code, float pdf, const Rgb& weight, std::uint8_t bin,
+    /// A direction was sampled: its code and density, f |cos| / density, and the bin of the mixture histogram (of the
+    /// view, where there is one).
+    void add_vertex(const RecordTarget& target, std::uint32_t code, float pdf, const Rgb& weight, std::uint8_t bin,
                     std::uint32_t vertex) {
-        vertices_.push_back({weight, Rgb(0.0f), Rgb(0.0f), 1.0f, pdf, region, code, vertex, bin});
+        vertices_.push_back({weight, Rgb(0.0f), Rgb(0.0f), 1.0f, pdf, target, code, vertex, bin});
     }
 
-    static constexpr std::uint32_t kNotRecorded = 0xffffffffu;
-
     /// The same of a delta lobe: its direction is no record, but what it carried belongs to the vertices before it, and
-    /// to the mixture of the region where the BSDF has lobes besides; kNotRecorded where it has not.
-    void add_delta_vertex(const Rgb& weight, std::uint32_t region, std::uint32_t vertex) {
-        vertices_.push_back({weight, Rgb(0.0f), Rgb(0.0f), 1.0f, 0.0f, region, 0, vertex, kMixtureBins - 1});
+    /// to the mixture where the BSDF has lobes besides; the target is empty where it has not.
+    void add_delta_vertex(const Rgb& weight, const RecordTarget& target, std::uint32_t vertex) {
+        const int bins = target.has_view() ? kViewMixtureBins : kMixtureBins;
+        vertices_.push_back(
+            {weight, Rgb(0.0f), Rgb(0.0f), 1.0f, 0.0f, target, 0, vertex, static_cast<std::uint8_t>(bins - 1)});
     }
 
     /// Emission that the last sampled direction met, weighted against next event.
@@ -56,9 +58,11 @@ class PathRecorder {
         if (!vertices_.empty()) vertices_.back().survival = probability;
     }
 
-    /// A next-event sample that is a record itself (kick-start passes): weighted radiance and density.
-    void add_light_sample(std::uint32_t region, std::uint32_t code, float radiance, float pdf, std::uint32_t vertex) {
-        light_samples_.push_back({region, code, vertex, radiance, pdf});
+    /// A next-event sample that is a record itself (kick-start passes): weighted radiance, what of it is reflected over
+    /// the density, and the density.
+    void add_light_sample(const RecordTarget& target, std::uint32_t code, const Rgb& radiance, float reflected,
+                          float pdf, std::uint32_t vertex) {
+        light_samples_.push_back({target, vertex, {code, pdf, average(radiance), finite(reflected), 0, false}});
     }
 
     void add_outside() { ++outside_; }
@@ -72,22 +76,13 @@ class PathRecorder {
             carried = v.emission + (v.reflected + carried) * (1.0f / v.survival);
             const Rgb arriving = carried;
             carried *= v.weight;
-            if (v.region == kNotRecorded) continue;
-            const float reflected = finite(average(carried));
-            if (v.pdf > 0.0f) {
-                ++recorded;
-                ++log.counts[v.region];
-                const float value = target_value(average(arriving), v.pdf);
-                append(path, v.vertex, Stream::rounding, {v.region, v.code, 0, value, reflected, v.bin}, log);
-            } else {  // a delta lobe of a BSDF that has others: it only teaches how often to sample the BSDF
-                append(path, v.vertex, Stream::rounding, {v.region, 0, 0, 0.0f, reflected, v.bin}, log);
-            }
+            if (v.target.empty()) continue;
+            const Lesson lesson{v.code, v.pdf, average(arriving), finite(average(carried)), v.bin};
+            recorded += v.pdf > 0.0f;
+            teach(path, v.vertex, Stream::rounding, v.target, lesson, log);
         }
-        for (const LightSample& s : light_samples_) {
-            ++log.counts[s.region];
-            append(path, s.vertex, Stream::light_rounding,
-                   {s.region, s.code, 0, target_value(s.radiance, s.pdf), 0.0f, 0}, log);
-        }
+        for (const LightSample& s : light_samples_)
+            teach(path, s.vertex, Stream::light_rounding, s.target, s.lesson, log);
         log.caps.outside_positions += outside_;
         return recorded;
     }
@@ -96,13 +91,46 @@ class PathRecorder {
     struct Vertex {
         Rgb weight, emission, reflected;
         float survival, pdf;
-        std::uint32_t region, code, vertex;
+        RecordTarget target;
+        std::uint32_t code, vertex;
         std::uint8_t bin;
     };
-    struct LightSample {
-        std::uint32_t region, code, vertex;
-        float radiance, pdf;
+    /// What a direction carried.
+    struct Lesson {
+        std::uint32_t code;
+        float pdf;        ///< 0: of a delta lobe beside others, which teaches how often to sample the BSDF
+        float radiance;   ///< that arrived
+        float reflected;  ///< of that, over the density
+        std::uint8_t bin = 0;
+        bool of_mixture = true;  ///< whether it was drawn from what the mixture mixes
     };
+    struct LightSample {
+        RecordTarget target;
+        std::uint32_t vertex;
+        Lesson lesson;
+    };
+
+    /// Where there is a view it alone learns the mixture. As published it alone learns the radiance, too; otherwise the
+    /// region learns that, and the view what is reflected.
+    void teach(const PathKey& path, std::uint32_t vertex, Stream rounding, const RecordTarget& target, const Lesson& l,
+               RecordLog& log) const {
+        const bool smooth = l.pdf > 0.0f;
+        const float value = smooth ? target_value(l.radiance, l.pdf) : 0.0f;
+        const float mixture = l.of_mixture ? l.reflected : 0.0f;
+        if (!target.has_view()) {
+            log.counts[target.region] += smooth;
+            append(path, vertex, rounding, 0, {target.region, l.code, 0, value, mixture, l.bin}, log);
+            return;
+        }
+        const bool product = view_records_ == ViewRecords::product;
+        if (product && smooth) {
+            ++log.counts[target.region];
+            append(path, vertex, rounding, 0, {target.region, l.code, 0, value, 0.0f, 0}, log);
+        }
+        log.counts[target.view] += smooth;
+        const float of_view = product && smooth ? target_value(l.reflected * l.pdf, l.pdf) : value;
+        append(path, vertex, rounding, 1, {target.view, l.code, 0, of_view, mixture, l.bin}, log);
+    }
 
     /// A value beyond float becomes the largest one: the sums cap it, and count that.
     static float finite(float value) { return std::min(value, std::numeric_limits<float>::max()); }
@@ -112,15 +140,17 @@ class PathRecorder {
         return finite(target_ == GuidingTarget::variance ? radiance * (radiance / pdf) : radiance / pdf);
     }
 
-    static void append(const PathKey& path, std::uint32_t vertex, Stream rounding, Record record, RecordLog& log) {
+    static void append(const PathKey& path, std::uint32_t vertex, Stream rounding, std::size_t word, Record record,
+                       RecordLog& log) {
         if (!(record.value > 0.0f)) record.value = 0.0f;  // also NaN
         if (!(record.reflected > 0.0f)) record.reflected = 0.0f;
         if (record.value == 0.0f && record.reflected == 0.0f) return;
-        record.rounding = draw(path, vertex, rounding)[0];
+        record.rounding = draw(path, vertex, rounding)[word];
         log.records.push_back(record);
     }
 
     GuidingTarget target_;
+    ViewRecords view_records_;
     std::vector<Vertex> vertices_;
     std::vector<LightSample> light_samples_;
     std::uint64_t outside_ = 0;

@@ -20,6 +20,7 @@ struct PathSettings {
     bool profile;
     bool jitter_records;  ///< stochastic spatial filter
     GuidingTarget target;
+    ViewRecords view_records;
     Roulette roulette;
 
     PathSettings(const TraceScene& scene, const Job& job, const PassPlan& pass, const Guide& guide)
@@ -33,6 +34,7 @@ struct PathSettings {
           profile(job.farm.profile),
           jitter_records(job.guiding.spatial_filter == SpatialFilter::stochastic),
           target(job.guiding.target),
+          view_records(job.guiding.view_records),
           roulette(job.guiding.type == GuidingType::none              ? Roulette::Rule::unguided
                    : !guide.trained()                                 ? Roulette::Rule::untrained
                    : job.guiding.roulette == GuidingRoulette::adjoint ? Roulette::Rule::adjoint

@@ -22,8 +22,8 @@ struct PathState {
     bool found;
     EmbreeScene::Meeting meeting;
     Hit hit;
-    std::uint32_t region;  ///< of the tree, where it is used
-    float bsdf_fraction;   ///< probability of sampling the BSDF there
+    Guidance guidance;            ///< where the tree is used
+    std::uint32_t outgoing_code;  ///< of the direction that light leaves in; where the tree has views
     std::optional<Surface> surface;
     std::uint8_t lane;  ///< its place in what the batch has drawn
     ScatterSample scatter;
@@ -36,7 +36,7 @@ struct PathState {
         throughput = Rgb(1.0f);
         scatter_pdf = 0.0f;
         spread = 1.0f;
-        region = 0;
+        guidance = {0, Guide::kNoView, 1.0f, 0.0f};
     }
 };
 

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "worker/geometry/embree_scene.h"
+#include "worker/integrator/guided_sampling.h"
 #include "worker/lights/direct_sample.h"
 
 namespace treefarm {
@@ -14,8 +15,7 @@ namespace treefarm {
 struct PendingLight {
     std::uint32_t path;    ///< of the batch
     std::uint32_t vertex;  ///< vertices that the path has recorded before this one
-    std::uint32_t region;
-    float bsdf_fraction;
+    Guidance guidance;
     Vec3 wi;  ///< as in DirectSample, like distance, pdf and delta
     float distance;
     float pdf;

@@ -3,20 +3,30 @@
 #include <cstdint>
 #include <vector>
 
+#include "common/guiding/guide.h"
 #include "common/guiding/tree_update.h"
 
 namespace treefarm {
 
+/// Which distributions learn from a vertex.
+struct RecordTarget {
+    std::uint32_t region = Guide::kNoView;  ///< kNoView: none learns
+    std::uint32_t view = Guide::kNoView;    ///< the distribution of the view, where there is one
+
+    bool empty() const { return region == Guide::kNoView; }
+    bool has_view() const { return view != Guide::kNoView; }
+};
+
 /// What one work unit taught, appended in path order: added to the tree's sums afterwards, away from the path walk.
 struct RecordLog {
     std::vector<Record> records;        ///< those with radiance
-    std::vector<std::uint32_t> counts;  ///< recorded vertices per region, those without radiance included
+    std::vector<std::uint32_t> counts;  ///< recorded vertices per distribution, those without radiance included
     UpdateCaps caps;
 
     /// Empties the log, keeping its memory.
-    void begin(std::uint32_t regions) {
+    void begin(std::uint32_t distributions) {
         records.clear();
-        counts.assign(regions, 0);
+        counts.assign(distributions, 0);
         caps = {};
     }
 };

@@ -6,14 +6,14 @@
 
 namespace treefarm {
 
-/// What the walk needs of the surface it stands on. Two kinds, a template argument of the path kernel, so that plainly
-/// diffuse scenes pay for no other material.
+/// What the walk needs of the surface it stands on. Three kinds, a template argument of the path kernel, so that
+/// plainly diffuse scenes pay for no other material, and only trees with views for views.
 
 /// A surface of a plainly diffuse scene (is_plainly_diffuse()): no delta lobes, no transmission, no textures.
 class DiffuseSurface {
   public:
     using Bsdf = PlainDiffuse;
-    static constexpr bool kGeneral = false, kTransmits = false;
+    static constexpr bool kGeneral = false, kTransmits = false, kViews = false;
     struct Scratch {};
     static Scratch make_scratch(const TraceScene&) { return {}; }
 
@@ -41,7 +41,7 @@ class DiffuseSurface {
 class GeneralSurface {
   public:
     using Bsdf = treefarm::Bsdf;
-    static constexpr bool kGeneral = true, kTransmits = kHasTransmission;
+    static constexpr bool kGeneral = true, kTransmits = kHasTransmission, kViews = false;
     using Scratch = BsdfScratch;
     static Scratch make_scratch(const TraceScene& scene) { return scene.materials().make_scratch(); }
 
@@ -67,6 +67,8 @@ class GeneralSurface {
     const Vec3& ng() const { return ng_; }
     /// Whether any lobe has a density: next event and guides are of no use without.
     bool smooth() const { return lobes_ & kSmoothLobe; }
+    /// Whether the directions that it prefers depend on wo.
+    bool view_dependent() const { return lobes_ & kViewLobe; }
     bool delta_or_transmitting() const { return lobes_ & (kDeltaLobe | kTransmittingLobe); }
 
     /// What radiance is scaled by, over what it was, for a ray that goes on to the far side.
@@ -82,6 +84,13 @@ class GeneralSurface {
     Frame frame_;
     Vec3 wo_, ng_;
     LobeBits lobes_;
+};
+
+/// The same where the tree has views.
+class ViewedSurface : public GeneralSurface {
+  public:
+    static constexpr bool kViews = true;
+    using GeneralSurface::GeneralSurface;
 };
 
 }  // namespace treefarm

@@ -31,6 +31,7 @@ struct TileKernel {
 /// The kernels of a kind of surface. Each kind is compiled by itself: the compiler inlines less where there are more.
 std::span<const TileKernel> diffuse_kernels();
 std::span<const TileKernel> general_kernels();
+std::span<const TileKernel> viewed_kernels();
 
 /// The film's door: what is not a radiance counts as black, is counted, and can be reproduced from what is kept.
 bool refuse_invalid(Rgb& radiance, const WorkUnit& unit, int x, int y, std::uint32_t sample, TraceStats& stats);
@@ -94,12 +95,21 @@ void render_with(const TileJob& tile) {
     }
 }
 
+/// Those that use a tree.
+template <class Surface>
+inline constexpr TileKernel kTreeKernelsOf[] = {
+    {{!Surface::kGeneral, false, true, Surface::kViews}, render_with<Surface, false, true>},
+    {{!Surface::kGeneral, true, false, Surface::kViews}, render_with<Surface, true, false>},
+    {{!Surface::kGeneral, true, true, Surface::kViews}, render_with<Surface, true, true>},
+};
+
+/// All of a kind of surface that does without, too.
 template <class Surface>
 inline constexpr TileKernel kKernelsOf[] = {
     {{!Surface::kGeneral, false, false}, render_with<Surface, false, false>},
-    {{!Surface::kGeneral, false, true}, render_with<Surface, false, true>},
-    {{!Surface::kGeneral, true, false}, render_with<Surface, true, false>},
-    {{!Surface::kGeneral, true, true}, render_with<Surface, true, true>},
+    kTreeKernelsOf<Surface>[0],
+    kTreeKernelsOf<Surface>[1],
+    kTreeKernelsOf<Surface>[2],
 };
 
 }  // namespace treefarm

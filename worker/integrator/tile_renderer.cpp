@@ -10,7 +10,7 @@ bool is_valid(const Rgb& c) {
 }
 
 const TileKernel& kernel(const KernelChoice& choice) {
-    for (const auto& kernels : {diffuse_kernels(), general_kernels()})
+    for (const auto& kernels : {diffuse_kernels(), general_kernels(), viewed_kernels()})
         for (const TileKernel& kernel : kernels)
             if (kernel.choice == choice) return kernel;
     throw RunError("the program has no kernel \"" + choice.name() + "\"");
@@ -20,7 +20,7 @@ const TileKernel& kernel(const KernelChoice& choice) {
 
 std::vector<KernelChoice> compiled_kernels() {
     std::vector<KernelChoice> choices;
-    for (const auto& kernels : {diffuse_kernels(), general_kernels()})
+    for (const auto& kernels : {diffuse_kernels(), general_kernels(), viewed_kernels()})
         for (const TileKernel& kernel : kernels)
             choices.push_back(kernel.choice);
     return choices;
@@ -44,10 +44,11 @@ void render_unit(const TraceScene& scene, const Job& job, const PassPlan& pass, 
     const double start = thread_cpu_seconds();
     pixels.clear();
     pixels.reserve(unit.pixel_count());
-    log.begin(pass.record ? guide.region_count() : 0);
+    log.begin(pass.record ? guide.distribution_count() : 0);
     const bool guided = job.guiding.type != GuidingType::none && guide.trained();
     const TileJob tile{scene, job, pass, guide, unit, pixels, log, stats};
-    kernel(KernelChoice{scene.plainly_diffuse(), guided, pass.record}).render(tile);
+    const bool views = guide.view_count() != 0 && (guided || pass.record);
+    kernel(KernelChoice{scene.plainly_diffuse(), guided, pass.record, views && !scene.plainly_diffuse()}).render(tile);
     stats.trace_seconds += thread_cpu_seconds() - start;
 }
 

@@ -14,13 +14,15 @@ LobeBits lobes_of(const Bsdf& bsdf) {
         else if constexpr (std::is_same_v<Kind, OrientedBsdf>)
             return lobes_of(*b.inner);
         else if constexpr (std::is_same_v<Kind, RoughDielectricBsdf>)
-            return kSmoothLobe | kTransmittingLobe;
+            return kSmoothLobe | kTransmittingLobe | kViewLobe;
         else if constexpr (std::is_same_v<Kind, DielectricBsdf> || std::is_same_v<Kind, ThinDielectricBsdf>)
             return kDeltaLobe | kTransmittingLobe;
         else if constexpr (std::is_same_v<Kind, PlasticBsdf>)
             return kSmoothLobe | kDeltaLobe;
-        else if constexpr (std::is_same_v<Kind, DiffuseBsdf> || requires { b.facets; })
+        else if constexpr (std::is_same_v<Kind, DiffuseBsdf>)
             return kSmoothLobe;
+        else if constexpr (requires { b.facets; })
+            return kSmoothLobe | kViewLobe;
         else
             return kDeltaLobe;
     });

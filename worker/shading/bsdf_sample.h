@@ -37,6 +37,8 @@ using LobeBits = std::uint8_t;
 inline constexpr LobeBits kSmoothLobe = 1;  ///< has a density: next event and guides can use it
 inline constexpr LobeBits kDeltaLobe = 2;
 inline constexpr LobeBits kTransmittingLobe = 4;  ///< of a dielectric; beside one of the others
+inline constexpr LobeBits kViewLobe =
+    8;  ///< smooth, and what it sends where depends on wo: neither delta nor Lambertian
 
 /// All directions of a BSDF are unit vectors in the shading frame, pointing away from the surface: `wo` to where light
 /// goes, `wi` to where it comes from. wo is on the side of +z: the other side has a BSDF of its own (MaterialSet).

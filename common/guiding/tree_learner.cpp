@@ -1,0 +1,16 @@
+#include "common/guiding/tree_learner.h"
+
+namespace treefarm {
+
+SdTree TreeLearner::learn(const SdTree& tree, const TreeSums& sums, const RefineSettings& settings, bool learn_mixture,
+                          RefineReport& report) {
+    std::vector<ViewAdvice> advice;
+    if (learn_mixture && tree.view_count() != 0) advice = views_.judge(tree, sums);
+    SdTree next = refine(tree, sums, settings, report, advice);
+    if (!learn_mixture) return next;
+    mixture_.learn(tree, sums, report.origins, next);
+    views_.hand_down(report.view_origins, next);
+    return next;
+}
+
+}  // namespace treefarm

@@ -1,0 +1,45 @@
+#include "common/plan/learning.h"
+
+#include <cmath>
+
+#include "common/plan/kernel.h"
+
+namespace treefarm {
+namespace {
+
+/// Cells of views that learn products, over those of all regions.
+constexpr double kProductCells = 0.5;
+/// As many are never too many: half a megabyte.
+constexpr double kFreeCells = 1 << 16;
+
+}  // namespace
+
+SdTree first_tree(const Scene& scene, const Job& job, const Box3& bounds, float radiance_scale) {
+    const float a = job.guiding.bsdf_fraction;
+    return initial_tree(
+        bounds, {job.guiding.target == GuidingTarget::variance ? radiance_scale * radiance_scale : radiance_scale, a,
+                 learns_views(scene, job), job.guiding.learn_bsdf_fraction ? 0.0f : 1.0f - a});
+}
+
+RefineSettings refine_settings(const Job& job, const PassPlan& pass, const PassPlan& coming) {
+    RefineSettings settings;
+    settings.spatial_threshold = spatial_split_threshold(job, coming);
+    settings.directional_divisor =
+        static_cast<std::uint32_t>(std::lround(1.0 / static_cast<double>(job.guiding.directional_threshold)));
+    settings.record_weight = pass.record_weight;
+    settings.target = job.guiding.target;
+    settings.view_threshold = settings.spatial_threshold / job.guiding.spatial_threshold * job.guiding.view_threshold;
+    settings.views_record_alone = job.guiding.view_records == ViewRecords::radiance;
+    if (job.guiding.view_records == ViewRecords::product) {
+        settings.view_set_threshold = settings.view_threshold;
+        settings.least_view_cells = kFreeCells;
+        settings.view_cells = kProductCells;
+    }
+    return settings;
+}
+
+SumsShape sums_shape(const PassPlan& pass, const SdTree& tree) {
+    return {tree.region_count(), tree.cell_count(), pass.learn_mixture, tree.view_count()};
+}
+
+}  // namespace treefarm

@@ -1,0 +1,19 @@
+#pragma once
+
+#include "common/guiding/refine.h"
+#include "common/guiding/sd_tree.h"
+#include "common/plan/schedule.h"
+#include "common/scene/scene.h"
+
+namespace treefarm {
+
+/// The tree before the first pass over `bounds`; a record of average value is about `radiance_scale`.
+SdTree first_tree(const Scene& scene, const Job& job, const Box3& bounds, float radiance_scale);
+
+/// How the job refines the tree after `pass` for the `coming` one.
+RefineSettings refine_settings(const Job& job, const PassPlan& pass, const PassPlan& coming);
+
+/// What a pass over `tree` sums up.
+SumsShape sums_shape(const PassPlan& pass, const SdTree& tree);
+
+}  // namespace treefarm

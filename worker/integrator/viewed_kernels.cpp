@@ -1,0 +1,9 @@
+#include "worker/integrator/tile_kernel.h"
+
+namespace treefarm {
+
+std::span<const TileKernel> viewed_kernels() {
+    return kTreeKernelsOf<ViewedSurface>;
+}
+
+}  // namespace treefarm
