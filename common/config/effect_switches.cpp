@@ -44,6 +44,7 @@ std::span<const std::pair<std::string, std::string>> effects_without_switch() {
         {"triangles", "change the scene's shapes"},
         {"smooth_normals", "set faceNormals in the scene's shapes"},
         {"guiding", "set guiding.type = \"none\""},
+        {"views", "set guiding.type = \"ppg\""},
         {"recording", "set guiding.type = \"none\""},
         {"kickstart", "set integrator.next_event = \"always\" or \"never\""},
         {"roulette", "set integrator.rr_depth above integrator.max_depth"},

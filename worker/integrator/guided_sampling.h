@@ -47,6 +47,25 @@ inline float mixed_pdf(const Guidance& guidance, float bsdf_pdf, float guide_pdf
     return guidance.bsdf_fraction * bsdf_pdf + (trees + guidance.view_fraction * view_pdf);
 }
 
+/// The density of whatever guides, for a direction that was not drawn from it.
+template <bool kViews>
+float mixed_pdf_at(const Guide& guide, const Guidance& guidance, float bsdf_pdf, std::uint32_t code) {
+    const float guide_pdf = guide.pdf(guidance.region, code);
+    if (kViews && guidance.has_view()) return mixed_pdf(guidance, bsdf_pdf, guide_pdf, guide.pdf(guidance.view, code));
+    return mixed_pdf(guidance.bsdf_fraction, bsdf_pdf, guide_pdf);
+}
+
+/// Completes what is known of the region by its view of the direction that light leaves in, if the surface depends on
+/// it and there is one. Without kGuided the fractions stay.
+template <bool kGuided>
+void find_view(const Guide& guide, bool view_dependent, std::uint32_t outgoing_code, Guidance& guidance) {
+    guidance.view = view_dependent ? guide.view(guidance.region, outgoing_code) : Guide::kNoView;
+    guidance.view_fraction = 0.0f;
+    if (!kGuided || !guidance.has_view()) return;
+    guidance.bsdf_fraction = guide.bsdf_fraction(guidance.view);
+    guidance.view_fraction = guide.view_fraction(guidance.view);
+}
+
 /// Directions whose codes are wanted, converted together by vector code.
 class CodeBatch {
   public:

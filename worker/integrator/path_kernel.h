@@ -192,7 +192,10 @@ class PathKernel {
 
         ++stats_.vertices;
         path.guidance.bsdf_fraction = kGuided && surface.smooth() ? guide_.bsdf_fraction(path.guidance.region) : 1.0f;
-        if constexpr (kViews) find_view(path);
+        if constexpr (kViews) {
+            path.outgoing_code = direction_to_code(-ray.direction);
+            find_view<kGuided>(guide_, surface.view_dependent(), path.outgoing_code, path.guidance);
+        }
         if constexpr (kRecord)
             if (surface.smooth() && !guide_.contains(hit.p)) recorders_[index].add_outside();
         if ((settings_.next_event || settings_.delta_alone) && surface.smooth())
@@ -241,33 +244,12 @@ class PathKernel {
             recorders_[index].add_delta_vertex(path.weight, target, vertex_of(depth));
             return;
         }
-        if (settings_.jitter_records) move(target, path, jitter_draws_[path.lane]);
+        if (settings_.jitter_records)
+            target = moved<kViews>(guide_, path.hit.p, path.outgoing_code, target, jitter_draws_[path.lane]);
         const std::uint8_t bin = kViews && path.guidance.has_view()
                                      ? view_mixture_bin(s.bsdf_pdf, s.guide_pdf, s.view_pdf)
                                      : mixture_bin(s.bsdf_pdf, s.guide_pdf);
         recorders_[index].add_vertex(target, s.code, s.pdf, path.weight, bin, vertex_of(depth));
-    }
-
-    /// The stochastic spatial filter. A record for a view goes to that of the same direction there, if there is one.
-    void move(RecordTarget& target, const Path& path, const Draw& random) const {
-        target.region = guide_.jittered_region(path.hit.p, target.region, random);
-        if constexpr (!kViews) return;
-        if (!path.guidance.has_view()) return;
-        const std::uint32_t view = guide_.view(target.region, path.outgoing_code);
-        if (view != Guide::kNoView) target.view = view;
-    }
-
-    void find_view(Path& path) const {
-        path.guidance.view = Guide::kNoView;
-        path.guidance.view_fraction = 0.0f;
-        if (!path.surface->view_dependent()) return;
-        path.outgoing_code = direction_to_code(-path.ray.direction);
-        const std::uint32_t view = guide_.view(path.guidance.region, path.outgoing_code);
-        if (view == Guide::kNoView) return;
-        path.guidance.view = view;
-        if constexpr (!kGuided) return;
-        path.guidance.bsdf_fraction = guide_.bsdf_fraction(view);
-        path.guidance.view_fraction = guide_.view_fraction(view);
     }
 
     /// Of the light about the path's end over that about its first vertex, by the mean records of their regions.
@@ -372,7 +354,7 @@ class PathKernel {
             look_at_environment(light);
         float scatter_pdf = light.delta ? 0.0f : light.bsdf_pdf;
         if constexpr (kGuided)
-            if (!light.delta) scatter_pdf = density(light.guidance, light.bsdf_pdf, code);
+            if (!light.delta) scatter_pdf = mixed_pdf_at<kViews>(guide_, light.guidance, light.bsdf_pdf, code);
         const float weight = mis_weight(settings_.mis, light.pdf, scatter_pdf);
         const Rgb reflected = light.f_cos * light.radiance * (weight / light.pdf);
         Path& path = paths_[light.path];
@@ -383,17 +365,11 @@ class PathKernel {
         // Scattering never meets a light without extent: its samples are weighted alone and teach the guide nothing.
         if (!settings_.record_light_samples || light.delta) return;
         RecordTarget target{light.guidance.region, light.guidance.view};
-        if (settings_.jitter_records) move(target, path, draw(path.key, vertex_of(depth), Stream::light_jitter));
+        if (settings_.jitter_records)
+            target = moved<kViews>(guide_, path.hit.p, path.outgoing_code, target,
+                                   draw(path.key, vertex_of(depth), Stream::light_jitter));
         recorders_[light.path].add_light_sample(target, code, light.radiance * weight, average(reflected), light.pdf,
                                                 vertex_of(depth));
-    }
-
-    /// Of the scattering that this guidance makes of a BSDF's.
-    float density(const Guidance& guidance, float bsdf_pdf, std::uint32_t code) const {
-        const float guide_pdf = guide_.pdf(guidance.region, code);
-        if (kViews && guidance.has_view())
-            return mixed_pdf(guidance, bsdf_pdf, guide_pdf, guide_.pdf(guidance.view, code));
-        return mixed_pdf(guidance.bsdf_fraction, bsdf_pdf, guide_pdf);
     }
 
     const TraceScene& scene_;

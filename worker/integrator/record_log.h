@@ -17,6 +17,19 @@ struct RecordTarget {
     bool has_view() const { return view != Guide::kNoView; }
 };
 
+/// The stochastic spatial filter: where a record at `position` goes. One for a view goes to that of the same direction
+/// there, if there is one.
+template <bool kViews>
+RecordTarget moved(const Guide& guide, const Vec3& position, std::uint32_t outgoing_code, RecordTarget target,
+                   const Draw& random) {
+    target.region = guide.jittered_region(position, target.region, random);
+    if (kViews && target.has_view()) {
+        const std::uint32_t view = guide.view(target.region, outgoing_code);
+        if (view != Guide::kNoView) target.view = view;
+    }
+    return target;
+}
+
 /// What one work unit taught, appended in path order: added to the tree's sums afterwards, away from the path walk.
 struct RecordLog {
     std::vector<Record> records;        ///< those with radiance
