@@ -184,10 +184,10 @@ std::vector<JobKey> make_job_keys() {
         std::vector<std::pair<std::string, NextEvent>>{
             {"always", NextEvent::always}, {"never", NextEvent::never}, {"kickstart", NextEvent::kickstart}}));
     add(word_key(
-        "integrator.mis", "heuristic that weighs next event against scattering (Veach 1997)",
+        "integrator.mis", "heuristic that weighs next event against scattering (Veach 1997); equal: half and half",
         [](auto& j) -> auto& { return j.integrator.mis; },
-        std::vector<std::pair<std::string, MisHeuristic>>{{"power", MisHeuristic::power},
-                                                          {"balance", MisHeuristic::balance}}));
+        std::vector<std::pair<std::string, MisHeuristic>>{
+            {"power", MisHeuristic::power}, {"balance", MisHeuristic::balance}, {"equal", MisHeuristic::equal}}));
     add(boolean_key(
         "integrator.strict_normals", "drop light that geometric and shading normal disagree about",
         [](auto& j) -> auto& { return j.integrator.strict_normals; }));
@@ -297,6 +297,9 @@ std::vector<JobKey> make_job_keys() {
     add(word_key(
         "farm.isa", "instruction set that Embree uses, the same on every worker",
         [](auto& j) -> auto& { return j.farm.isa; }, isas));
+    add(boolean_key(
+        "farm.robust", "Embree tests watertight: no ray slips through an edge that two triangles share; slower",
+        [](auto& j) -> auto& { return j.farm.robust; }));
 
     add(text_key(
         "output.directory", "the run directory; empty: runs/<scene>-<time>",

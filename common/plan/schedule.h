@@ -35,6 +35,9 @@ void set_record(PassPlan& pass, const Job& job, bool record);
 /// Pure.
 std::vector<PassPlan> plan_passes(const Job& job);
 
+/// Under an open budget a pass teaches while what is still to be rendered is at least so many times its samples.
+inline constexpr double kTeachingShare = 3;
+
 /// Whether clock or estimated error choose the passes.
 bool has_open_budget(const Job& job);
 
