@@ -147,8 +147,9 @@ class Table {
         for (std::uint32_t c = tree.cell_begin[region], k = 0; c < tree.cell_begin[region + 1]; ++c, ++k) {
             const double exact = std::ldexp(static_cast<double>(tree.cell_mass[c]), -kMassBits);
             if (!(exact > 0)) continue;
-            const double here = (static_cast<double>(cells_[k + 1].mass_begin) -
-                                 static_cast<double>(cells_[k].mass_begin)) / static_cast<double>(whole_);
+            const double here =
+                (static_cast<double>(cells_[k + 1].mass_begin) - static_cast<double>(cells_[k].mass_begin)) /
+                static_cast<double>(whole_);
             worst = std::max(worst, std::abs(here / exact - 1));
             lost += !(here > 0);
             ++all;

@@ -210,7 +210,7 @@ std::string pass_summary(const PassReport& r, std::size_t pass_count) {
         "pass {}{}: {} spp in {:.2f} s ({:.2f} core-s), {:.2f} Mrays/s, stuv {:.4g}, ttuv {:.4g} core-s, {}",
         r.plan.index + 1, pass_count > 0 ? fmt::format(" of {}", pass_count) : "", r.plan.spp, r.seconds.all,
         r.core_seconds(), 1e-6 * r.rays_per_second(), r.variance.stuv, r.ttuv(), error_text(r.error));
-    if (r.error.known) text += fmt::format(", efficiency {:.3g}", r.efficiency());
+    if (r.efficiency() > 0) text += fmt::format(", efficiency {:.3g}", r.efficiency());
     text += fmt::format(", {:.1f} % of paths see light", 100 * r.nonzero_share());
     if (r.tree.regions > 1)
         text += fmt::format("; tree {} nodes, {:.1f} MB", r.tree.nodes, 1e-6 * static_cast<double>(r.tree.memory));
@@ -259,6 +259,7 @@ std::string duration_text(double seconds) {
 
 std::string error_text(const ErrorEstimate& error) {
     if (!error.known) return "error not known yet";
+    if (error.rmse == 0) return error.mean > 0 ? "no noise seen" : "no light found yet";
     std::string text = fmt::format("error {:.3g} %", 100 * error.relative());
     if (error.has_interval)
         text += fmt::format(" [{:.3g}, {:.3g}]", 100 * error.relative_low(), 100 * error.relative_high());

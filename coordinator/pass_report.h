@@ -98,7 +98,7 @@ const char* trust_name(Trust trust);
 /// "about 12 s", "at most 12 s (still learning)".
 std::string forecast_text(const ErrorForecast& forecast);
 
-/// "error 4.2 % [4.0, 4.4]", or that it is not known.
+/// "error 4.2 % [4.0, 4.4]", or that it is not known, or that there is none to be seen.
 std::string error_text(const ErrorEstimate& error);
 
 }  // namespace treefarm

@@ -83,7 +83,8 @@ std::vector<EffectCost> effect_costs(const StudyResults& results, const SceneRes
         for (const MethodResult& off : results.methods) {
             const std::string effect = only_effect_off(with, off);
             if (effect.empty()) continue;
-            const Interval ratio = ratio_of_core_seconds(results.of(scene.name, with.name), results.of(scene.name, off.name));
+            const Interval ratio =
+                ratio_of_core_seconds(results.of(scene.name, with.name), results.of(scene.name, off.name));
             if (std::isfinite(ratio.mean)) costs.push_back({effect, with.name, off.name, ratio});
         }
     return costs;

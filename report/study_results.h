@@ -20,9 +20,9 @@ struct Prediction {
 /// One pass of a cell, as cell.json has it.
 struct PassRow {
     int pass = 0, spp = 0, spp_done = 0, threads = 0;
-    double run_seconds = 0, core_seconds = 0;  ///< both since the render began
-    std::map<std::string, double> measured;    ///< rmse_over_mean, rel_mse, ...
-    double estimate = 0;                       ///< relative error that the render claimed; NaN: none
+    double run_seconds = 0, core_seconds = 0;    ///< both since the render began
+    std::map<std::string, double> measured;      ///< rmse_over_mean, rel_mse, ...
+    double estimate = 0;                         ///< relative error that the render claimed; NaN: none
     double estimate_low = 0, estimate_high = 0;  ///< its 95 % interval; NaN: none
     Prediction halving;                          ///< until half of that error
     Prediction target;                           ///< until budget.error

@@ -115,7 +115,7 @@ struct Job {
         double heartbeat_seconds = 1.0;  ///< how often each side says that it lives
         double update_seconds = 1.5;     ///< how often a worker sends what it has finished
         std::string isa =
-            "avx2";  ///< Embree's instruction set, the same on every worker: sse2, sse4.2, avx, avx2, avx512
+            "avx2";           ///< Embree's instruction set, the same on every worker: sse2, sse4.2, avx, avx2, avx512
         bool robust = false;  ///< Embree's rays do not slip through shared edges
     } farm;
 

@@ -223,7 +223,7 @@ std::vector<JobKey> make_job_keys() {
         [](auto& j) -> auto& { return j.guiding.spp_unit; }, 1, 65536));
     add(word_key(
         "guiding.combination",
-        "how the passes become one image; fixed is exactly unbiased, last keeps the last pass only",
+        "how the passes become one image; fixed is exactly unbiased, last keeps the passes of the last tree",
         [](auto& j) -> auto& { return j.guiding.combination; },
         std::vector<std::pair<std::string, Combination>>{{"inverse_variance", Combination::inverse_variance},
                                                          {"fixed", Combination::fixed},

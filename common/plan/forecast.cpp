@@ -90,8 +90,7 @@ double spp_to_reach(const RenderState& state, const Job& job, double mse, double
     }
     if (now <= mse) return 0;
     if (!(mse > 0)) return kUnknown;
-    if (weighs_by_variance(job))
-        return std::max<double>(variance * (1 / mse - 1 / now), kMinSamplesForVariance);
+    if (weighs_by_variance(job)) return std::max<double>(variance * (1 / mse - 1 / now), kMinSamplesForVariance);
     const std::uint32_t done = state.spp();
     if (!is_guided(job)) return done * (now / mse - 1);  // all samples are alike: the image knows their variance best
     return solve_fixed(sum_of_fixed_weights(state, true), now, fixed_weight(1, done, true), variance, mse);

@@ -82,8 +82,8 @@ void Outlook::look_at_variance(const RenderState& state) {
             const Level last = levels.back();
             levels.pop_back();
             Level& before = levels.back();
-            before.variance = (before.variance * before.weight + last.variance * last.weight) /
-                              (before.weight + last.weight);
+            before.variance =
+                (before.variance * before.weight + last.variance * last.weight) / (before.weight + last.weight);
             before.weight += last.weight;
             before.trees += last.trees;
         }

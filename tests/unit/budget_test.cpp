@@ -222,6 +222,25 @@ TEST(Budget, WhicheverComesFirst) {
     EXPECT_LT(simulate(job, {}).state.seconds, 9);
 }
 
+TEST(Budget, OnlyWhatTheJobShowsIsKept) {
+    const auto shown = [](const Job& job) {
+        std::vector<PassResult> passes;
+        for (const bool same_tree : {false, false, true})
+            show({4, 0, {}, same_tree}, job, passes);
+        return passes.size();
+    };
+    Job job;
+    EXPECT_EQ(shown(job), 3u);
+    job.guiding.combination = Combination::last;
+    EXPECT_EQ(shown(job), 2u);
+    job.budget.strict = true;
+    EXPECT_EQ(shown(job), 1u);
+    job = {};
+    job.guiding.type = GuidingType::none;
+    job.guiding.combination = Combination::last;
+    EXPECT_EQ(shown(job), 3u);
+}
+
 TEST(Budget, AListIsPlayedAsItIs) {
     Job job;
     job.budget.spp = 100;

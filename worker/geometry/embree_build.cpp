@@ -38,10 +38,7 @@ void EmbreeScene::ReleaseScene::operator()(RTCScene scene) const {
 }
 
 EmbreeScene::EmbreeScene(std::vector<Shape> shapes, const std::string& isa, const ShapeMasks& masks, bool robust)
-    : robust_(robust),
-      shapes_(std::move(shapes)),
-      surfaces_(shapes_.size()),
-      error_(std::make_unique<std::string>()) {
+    : robust_(robust), shapes_(std::move(shapes)), surfaces_(shapes_.size()), error_(std::make_unique<std::string>()) {
     require_isa(isa);
     const std::string config = "threads=1,set_affinity=0,hugepages=0,isa=" + isa;
     device_.reset(rtcNewDevice(config.c_str()));
