@@ -22,9 +22,7 @@ constexpr double kProbe = 0.07;
 /// or there is no noise) only later.
 constexpr std::uint32_t kSppToBelieve = 16;
 constexpr std::uint32_t kSppToBelieveZero = 64;
-/// Ending passes aim a little beyond the target, so that few of them suffice; one that cannot be followed by another,
-/// a little more.
-constexpr double kMargin = 1.02;
+/// What kEndingMargin is for an ending pass that no other can follow.
 constexpr double kLastPassMargin = 1.10;
 /// A pass that makes up for a missed target renders at least this share of what there is.
 constexpr double kLeastShare = 1.0 / 16;
@@ -115,7 +113,7 @@ class OpenBudget {
         const double rmse = target * error.mean;
         const double needed = spp_to_reach(state, job_, rmse * rmse, outlook_->variance());
         if (job_.budget.strict) return std::ceil(needed * kLastPassMargin);
-        return std::max({std::ceil(needed * kMargin), least_spp(), kLeastShare * done});
+        return std::max({std::ceil(needed * kEndingMargin), least_spp(), kLeastShare * done});
     }
 
     const Job job_;

@@ -12,10 +12,12 @@ namespace {
 
 constexpr double kUnknown = std::numeric_limits<double>::infinity();
 
-/// A tree that brought less than this still learns visibly: the forecast is a bound.
+/// After a tree that brought the variance below this share, or with fewer trees seen, the next ones may bring as much
+/// again: the forecast is a bound.
 constexpr double kLearned = 0.75;
+constexpr int kTreesToBelieve = 3;
 /// Half the width of the error's own interval, relative, from which on it is too noisy to forecast by.
-constexpr double kNoisy = 0.06;
+constexpr double kNoisy = 0.1;
 /// A forecast is no further ahead than so many doublings.
 constexpr int kMostTrees = 40;
 
@@ -71,9 +73,10 @@ void add_teaching_pass(RenderState& state, const Job& job, std::uint32_t spp, do
 }
 
 Trust trust_in(const RenderState& state, const Outlook& outlook) {
-    if (outlook.learning() && outlook.progress() < kLearned) return Trust::learning;
     const ErrorEstimate& error = state.error;
-    return error.has_interval && error.high - error.low < 2 * kNoisy * error.rmse ? Trust::firm : Trust::noisy;
+    if (!error.has_interval || error.high - error.low > 2 * kNoisy * error.rmse) return Trust::noisy;
+    const bool settled = outlook.trees_seen() >= kTreesToBelieve && outlook.progress() >= kLearned;
+    return settled || !outlook.learning() ? Trust::firm : Trust::learning;
 }
 
 }  // namespace
@@ -116,8 +119,9 @@ ErrorForecast forecast_error(const RenderState& state, const Job& job, double re
         const double doubled = std::ldexp(job.guiding.spp_unit, static_cast<int>(future.passes.size()));
         seconds += outlook.overhead_seconds();
         if (!outlook.learning() || wanted < kTeachingShare * doubled || trees >= kMostTrees) {
-            forecast.spp = future.spp() - state.spp() + wanted;
-            forecast.seconds = seconds + wanted * outlook.seconds_per_spp(trees, false);
+            const double ending = wanted * (relative_error == job.budget.error ? kEndingMargin : 1.0);
+            forecast.spp = future.spp() - state.spp() + ending;
+            forecast.seconds = seconds + ending * outlook.seconds_per_spp(trees, false);
             return forecast;
         }
         seconds += doubled * outlook.seconds_per_spp(trees, true);

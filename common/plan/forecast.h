@@ -15,8 +15,8 @@ double spp_to_reach(const RenderState& state, const Job& job, double mse, double
 /// How far a forecast can be trusted.
 enum class Trust : std::uint8_t {
     none,      ///< nothing is known yet
-    learning,  ///< the tree still makes samples less noisy: it takes this at most
     noisy,     ///< the error itself is not known well enough
+    learning,  ///< the tree still makes samples less noisy: it takes this at most
     firm,
 };
 

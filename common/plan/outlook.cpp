@@ -11,6 +11,8 @@ constexpr double kFading = 0.5;
 /// No tree is trusted to do better than this, or to change a sample's cost by more.
 constexpr double kLeastProgress = 0.25;
 constexpr double kMostCostRatio = 1.6;
+/// So many trees that are no better than each other have learned all that there is.
+constexpr int kTreesAtRest = 3;
 /// What keeping a log of records takes of tracing itself: 2 to 14 % measured on nine scenes.
 constexpr double kRecordingShare = 0.1;
 /// Of a clock that did not move, seconds.
@@ -75,6 +77,7 @@ void Outlook::look_at_variance(const RenderState& state) {
     for (const TreeFacts& tree : trees) {
         if (tree.known_spp == 0 || (tree.first && trees.size() > 1)) continue;
         if (tree.next_event != trees.back().next_event) continue;
+        ++trees_seen_;
         levels.push_back({tree.known_spp, tree.variance(), 1});
         // More noise than with the tree before: both are as good, and the noise is in the measurement (isotonic
         // regression by pooling adjacent violators).
@@ -91,10 +94,13 @@ void Outlook::look_at_variance(const RenderState& state) {
     if (levels.empty()) return;
     variance_ = levels.back().variance;
     quiet_ = !(variance_ > 0);
-    if (levels.back().trees > 1)
+    if (levels.back().trees >= kTreesAtRest)
         progress_ = 1;
     else if (levels.size() > 1)
         progress_ = std::max(kLeastProgress, variance_ / levels[levels.size() - 2].variance);
+    else if (levels.back().trees > 1)
+        progress_ = 1;
+    trees_since_ = levels.back().trees - 1;
 }
 
 void Outlook::look_at_cost(const RenderState& state) {
@@ -134,7 +140,8 @@ double fading_steps(double step, int trees) {
 }  // namespace
 
 double Outlook::variance_after(int trees) const {
-    return progress_ > 0 ? variance_ * fading_steps(progress_, trees) : variance_;
+    if (!(progress_ > 0)) return variance_;
+    return variance_ * fading_steps(std::pow(progress_, std::pow(kFading, trees_since_)), trees);
 }
 
 double Outlook::seconds_per_spp(int trees, bool record) const {

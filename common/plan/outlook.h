@@ -44,8 +44,11 @@ class Outlook {
     double variance() const { return variance_; }
     /// Of one sample once `trees` more trees were learned; the same where nothing is learned any more.
     double variance_after(int trees) const;
-    /// What the last tree brought: variance over that before it, at most 1. 0: not known yet.
+    /// What the last tree that brought anything brought: variance over that before it, at most 1. 1 as well where none
+    /// of the last three did. 0: not known yet.
     double progress() const { return progress_; }
+    /// Trees that the progress is seen by: those that guided and whose samples' variance is known.
+    int trees_seen() const { return trees_seen_; }
     /// Whether the next pass has another tree than the last.
     bool learning() const { return learning_; }
 
@@ -60,6 +63,7 @@ class Outlook {
     bool learning_ = false;
     bool quiet_ = false;  ///< passes with a variance of zero
     double variance_ = 0, progress_ = 0;
+    int trees_seen_ = 0, trees_since_ = 0;      ///< the latter without progress
     double core_per_spp_ = 0, cost_ratio_ = 1;  ///< without recording; of the last tree over that before it
     double recording_ = 1;                      ///< core-seconds with it over those without
     double clock_per_core_ = 1;

@@ -97,7 +97,8 @@ TEST(Forecast, IsABoundWhileLittleIsLearned) {
 }
 
 TEST(Forecast, ASingleTreeTellsNothingOfTheNext) {
-    EXPECT_EQ(halving(rendered({}, 3)).trust, Trust::learning);
+    EXPECT_EQ(halving(rendered({.progress = 1.0}, 3)).trust, Trust::learning);
+    EXPECT_EQ(halving(rendered({.progress = 1.0}, 4)).trust, Trust::firm);
 }
 
 TEST(Forecast, IsNotTrustedWhereTheErrorIsNot) {
@@ -132,6 +133,14 @@ TEST(Forecast, OfADoneRenderGoesOnWithItsTree) {
     EXPECT_NEAR(forecast.seconds, forecast.spp * world.seconds_at(5) + 0.02, 1e-6);
 }
 
+TEST(Forecast, OfTheErrorAskedForKnowsThatRendersEndALittleBeyondIt) {
+    const RenderState state = rendered({.progress = 1.0, .growth = 1.0}, 6);
+    Job job;
+    job.budget.error = 0.9 * state.error.relative();
+    EXPECT_NEAR(forecast_error(state, job, job.budget.error).spp / forecast_error(state, {}, job.budget.error).spp,
+                1.02, 1e-9);
+}
+
 TEST(Forecast, IsNothingWhereTheErrorIsReached) {
     const RenderState state = rendered({}, 5);
     EXPECT_EQ(forecast_error(state, {}, 2 * state.error.relative()).seconds, 0);
@@ -153,11 +162,13 @@ TEST(Forecast, OfTheLastTreeKeepsWhatItHas) {
 TEST(Outlook, NoiseInMeasuredVariancesIsNoProgress) {
     RenderState state = rendered({.progress = 1, .growth = 1}, 6);
     state.passes[4].mse_of_sample = 4;
-    state.passes[5].mse_of_sample = 7;  // more than with the tree before: they are alike
+    state.passes[5].mse_of_sample = 6;  // more than with the tree before: they are alike
     const Outlook outlook(state);
-    EXPECT_DOUBLE_EQ(outlook.variance(), (16 * 4.0 + 32 * 7.0) / 48);
-    EXPECT_EQ(outlook.progress(), 1);
-    EXPECT_EQ(outlook.variance_after(5), outlook.variance());
+    EXPECT_DOUBLE_EQ(outlook.variance(), (16 * 4.0 + 32 * 6.0) / 48);
+    EXPECT_LT(outlook.progress(), 0.75) << "what was learned two trees before may go on";
+    state.passes[3].mse_of_sample = 4;
+    EXPECT_EQ(Outlook(state).progress(), 1) << "three trees, none better than that before";
+    EXPECT_EQ(Outlook(state).variance_after(5), Outlook(state).variance());
 }
 
 TEST(Outlook, TheClockIsTheMeanOfAllPasses) {
