@@ -251,6 +251,7 @@ std::string forecast_text(const ErrorForecast& forecast) {
 
 std::string duration_text(double seconds) {
     if (!(seconds < 1e9)) return "a very long time";
+    if (seconds < 9.5) return fmt::format("{:.2g} s", seconds);
     const auto whole = static_cast<long>(seconds + 0.5);
     if (whole < 60) return fmt::format("{} s", whole);
     if (whole < 3600) return fmt::format("{}:{:02} min", whole / 60, whole % 60);

@@ -89,7 +89,7 @@ std::string pass_csv_line(const PassReport& report);
 /// One line for a person. `pass_count`: 0 where it is not known.
 std::string pass_summary(const PassReport& report, std::size_t pass_count);
 
-/// "12 s", "3:05 min", "2:30 h".
+/// "1.2 s", "12 s", "3:05 min", "2:30 h".
 std::string duration_text(double seconds);
 
 /// "firm", "noisy", "learning", or empty.
