@@ -47,6 +47,16 @@ void add_measurement(const Json& json, std::vector<BenchChoice>& choices) {
         if (value.is_number() && !kOfEveryBenchmark.contains(key)) variant.counters[key] = value;
 }
 
+/// The file's text. Google Benchmark writes NaN where JSON has no word for it: spreads of counters that are zero.
+std::string read_text(const std::filesystem::path& file) {
+    std::ifstream stream(file);
+    std::string text{std::istreambuf_iterator<char>(stream), {}};
+    for (const std::string word : {": -NaN", ": NaN", ": -Infinity", ": Infinity"})
+        for (std::size_t at = 0; (at = text.find(word, at)) != std::string::npos;)
+            text.replace(at, word.size(), ": null");
+    return text;
+}
+
 std::string counters_text(const std::map<std::string, double>& counters) {
     std::string text;
     for (const auto& [key, value] : counters) {
@@ -69,10 +79,9 @@ std::string ratio_text(const BenchVariant& own, const BenchVariant& base) {
 }  // namespace
 
 std::vector<BenchChoice> read_bench(const std::filesystem::path& file) {
-    std::ifstream stream(file);
     std::vector<BenchChoice> choices;
     try {
-        const Json json = Json::parse(stream);
+        const Json json = Json::parse(read_text(file));
         for (const Json& benchmark : json.at("benchmarks"))
             add_measurement(benchmark, choices);
     } catch (const Json::exception& error) {

@@ -122,7 +122,7 @@ const char* const kBench = R"({"context": {}, "benchmarks": [
     {"run_name": "sums/exact", "family_index": 0, "run_type": "iteration", "items_per_second": 1e9, "order_changes": 0},
     {"run_name": "sums/exact", "family_index": 0, "run_type": "iteration", "items_per_second": 5e8, "order_changes": 0},
     {"run_name": "sums/floats", "family_index": 1, "run_type": "iteration", "items_per_second": 1e9, "order_changes": 0.5},
-    {"run_name": "sums/exact", "run_type": "aggregate", "aggregate_name": "mean", "items_per_second": 7e8}]})";
+    {"run_name": "sums/exact", "run_type": "aggregate", "aggregate_name": "cv", "items_per_second": 7e8, "order_changes": NaN}]})";
 
 TEST(BenchTable, PairsRepetitions) {
     const auto file = fresh_folder("bench") / "out.json";
