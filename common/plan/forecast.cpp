@@ -12,10 +12,9 @@ namespace {
 
 constexpr double kUnknown = std::numeric_limits<double>::infinity();
 
-/// After a tree that brought the variance below this share, or with fewer trees seen, the next ones may bring as much
-/// again: the forecast is a bound.
-constexpr double kLearned = 0.75;
-constexpr int kTreesToBelieve = 3;
+/// After two trees that brought the variance below this share, the next ones may bring as much again: the forecast is a
+/// bound.
+constexpr double kLearned = 0.55;
 /// Half the width of the error's own interval, relative, from which on it is too noisy to forecast by.
 constexpr double kNoisy = 0.1;
 /// A forecast is no further ahead than so many doublings.
@@ -75,7 +74,7 @@ void add_teaching_pass(RenderState& state, const Job& job, std::uint32_t spp, do
 Trust trust_in(const RenderState& state, const Outlook& outlook) {
     const ErrorEstimate& error = state.error;
     if (!error.has_interval || error.high - error.low > 2 * kNoisy * error.rmse) return Trust::noisy;
-    const bool settled = outlook.trees_seen() >= kTreesToBelieve && outlook.progress() >= kLearned;
+    const bool settled = outlook.recent_progress() >= kLearned;
     return settled || !outlook.learning() ? Trust::firm : Trust::learning;
 }
 

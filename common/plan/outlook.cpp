@@ -77,7 +77,6 @@ void Outlook::look_at_variance(const RenderState& state) {
     for (const TreeFacts& tree : trees) {
         if (tree.known_spp == 0 || (tree.first && trees.size() > 1)) continue;
         if (tree.next_event != trees.back().next_event) continue;
-        ++trees_seen_;
         levels.push_back({tree.known_spp, tree.variance(), 1});
         // More noise than with the tree before: both are as good, and the noise is in the measurement (isotonic
         // regression by pooling adjacent violators).
@@ -101,6 +100,9 @@ void Outlook::look_at_variance(const RenderState& state) {
     else if (levels.back().trees > 1)
         progress_ = 1;
     trees_since_ = levels.back().trees - 1;
+    int back = 0;
+    for (auto level = levels.rbegin(); level != levels.rend() && recent_progress_ == 0; ++level)
+        if ((back += level->trees) >= 3) recent_progress_ = quiet_ ? 1.0 : variance_ / level->variance;
 }
 
 void Outlook::look_at_cost(const RenderState& state) {

@@ -47,8 +47,8 @@ class Outlook {
     /// What the last tree that brought anything brought: variance over that before it, at most 1. 1 as well where none
     /// of the last three did. 0: not known yet.
     double progress() const { return progress_; }
-    /// Trees that the progress is seen by: those that guided and whose samples' variance is known.
-    int trees_seen() const { return trees_seen_; }
+    /// What the last two trees brought together. 0: fewer than three were seen.
+    double recent_progress() const { return recent_progress_; }
     /// Whether the next pass has another tree than the last.
     bool learning() const { return learning_; }
 
@@ -62,8 +62,8 @@ class Outlook {
 
     bool learning_ = false;
     bool quiet_ = false;  ///< passes with a variance of zero
-    double variance_ = 0, progress_ = 0;
-    int trees_seen_ = 0, trees_since_ = 0;      ///< the latter without progress
+    double variance_ = 0, progress_ = 0, recent_progress_ = 0;
+    int trees_since_ = 0;                       ///< without progress
     double core_per_spp_ = 0, cost_ratio_ = 1;  ///< without recording; of the last tree over that before it
     double recording_ = 1;                      ///< core-seconds with it over those without
     double clock_per_core_ = 1;

@@ -159,6 +159,16 @@ TEST(Forecast, OfTheLastTreeKeepsWhatItHas) {
     EXPECT_DOUBLE_EQ(halving(state, job).spp, 4 * 40) << "what a strict render has, it will not show";
 }
 
+TEST(Outlook, ATreeThatBringsNothingAfterOneThatBroughtMuchIsNotBelieved) {
+    RenderState state = rendered({.progress = 1, .growth = 1}, 6);
+    state.passes[5].mse_of_sample = state.passes[4].mse_of_sample = 3;
+    state.passes[3].mse_of_sample = 6;
+    EXPECT_EQ(Outlook(state).recent_progress(), 0.5);
+    EXPECT_EQ(halving(state).trust, Trust::learning);
+    state.passes[3].mse_of_sample = 4;
+    EXPECT_EQ(halving(state).trust, Trust::firm);
+}
+
 TEST(Outlook, NoiseInMeasuredVariancesIsNoProgress) {
     RenderState state = rendered({.progress = 1, .growth = 1}, 6);
     state.passes[4].mse_of_sample = 4;
