@@ -13,7 +13,7 @@ constexpr double kLeastProgress = 0.25;
 constexpr double kMostCostRatio = 1.6;
 /// So many trees that are no better than each other have learned all that there is.
 constexpr int kTreesAtRest = 3;
-/// What keeping a log of records takes of tracing itself: 2 to 14 % measured on nine scenes.
+/// What keeping a log of records takes of tracing itself: 2 to 16 % measured on seven scenes.
 constexpr double kRecordingShare = 0.1;
 /// Of a clock that did not move, seconds.
 constexpr double kShortestSample = 1e-9;
