@@ -61,15 +61,19 @@ int study(const LaunchEnvironment& launch, const StudyOptions& options) {
 void add_report_command(CLI::App& app, const LaunchEnvironment& launch) {
     const auto folders = std::make_shared<std::vector<std::string>>();
     const auto prices = std::make_shared<std::string>();
+    const auto benches = std::make_shared<std::vector<std::string>>();
     CLI::App* command = app.add_subcommand("report", "Writes the reports of studies, or of what is done of them");
     command->add_option("folder", *folders, "folders that treefarm study wrote")->required();
     command->add_option("--price-list", *prices,
                         "also write what each method costs and buys, as Markdown, to this file");
-    command->callback([folders, prices, launch] {
+    command->add_option("--bench", *benches, "in that file, also what this JSON file of a benchmark says")
+        ->needs("--price-list");
+    command->callback([folders, benches, prices, launch] {
         if (launch.rank != 0) return;
         for (const std::string& folder : *folders)
             std::cout << write_study_report(folder).string() << "\n";
-        if (!prices->empty()) write_price_list({folders->begin(), folders->end()}, *prices);
+        if (!prices->empty())
+            write_price_list({folders->begin(), folders->end()}, {benches->begin(), benches->end()}, *prices);
     });
 }
 

@@ -85,8 +85,8 @@ class PassLoop {
     }
 
     void keep(const PassPlan& plan) {
-        if (shows_last_pass_only(job_)) finished_.clear();
-        finished_.push_back({plan.spp, plan.first_sample, farm_.collector().film().pixels()});
+        const bool same_tree = !state_.passes.empty() && !state_.passes.back().record;
+        show({plan.spp, plan.first_sample, farm_.collector().film().pixels(), same_tree}, job_, finished_);
         result_.spp = plan.first_sample + plan.spp;
         result_.tree_hash = coming_tree_hash_;
     }
@@ -105,12 +105,18 @@ class PassLoop {
     NextPass look_ahead(PassReport& report) {
         const double before = state_.passes.empty() ? 0.0 : result_.passes.back().seconds.refine;
         const PassSeconds& s = report.seconds;
-        // Forecasts are for passes that record nothing: what adding records took falls away.
-        const double work = report.core_seconds();
-        const double tracing = s.collect * (work > 0 ? report.stats.trace_seconds / work : 1.0);
         const double loading = report.plan.index == 0 ? loading_seconds_ : 0.0;
-        state_.passes.push_back({report.plan.spp, report.plan.first_sample, report.variance.mse_of_sample, tracing,
-                                 std::max(0.0, s.broadcast - loading) + s.film + s.error + before});
+        PassFacts facts;
+        facts.spp = report.plan.spp;
+        facts.spp_before = report.plan.first_sample;
+        facts.mse_of_sample = report.variance.mse_of_sample;
+        facts.collect_seconds = s.collect;
+        facts.overhead_seconds = std::max(0.0, s.broadcast - loading) + s.film + s.error + before;
+        facts.trace_core_seconds = report.stats.trace_seconds;
+        facts.record_core_seconds = s.splat;
+        facts.record = report.plan.record;
+        facts.next_event = report.plan.next_event;
+        state_.passes.push_back(facts);
         state_.seconds = report.run_seconds = clock_.seconds() - loading_seconds_;
         report.halving = forecast_error(state_, job_, 0.5 * report.error.relative());
         if (job_.budget.error > 0) report.target = forecast_error(state_, job_, job_.budget.error);

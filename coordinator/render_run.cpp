@@ -128,8 +128,8 @@ class RenderRun {
         log_->info("{} spp in {:.2f} s, {}; image {} tree {}", result_.spp, elapsed, error_text(last.error),
                    hash_text(result_.image_hash), hash_text(result_.tree_hash));
         if (last.error.rmse > 0 && std::isfinite(last.halving.seconds))
-            log_->info("half this error ({:.3g} %) would take about {} more, {:.0f} spp",
-                       100 * last.halving.relative_error, duration_text(last.halving.seconds), last.halving.spp);
+            log_->info("half this error ({:.3g} %) would take {} more, {:.0f} spp", 100 * last.halving.relative_error,
+                       forecast_text(last.halving), last.halving.spp);
         if (missed_target())
             log_->warn("the error is above the {:.3g} % asked for: {}; the image is kept",
                        100 * request_.job.budget.error, why_missed());

@@ -68,7 +68,10 @@ Json error_json(const ErrorEstimate& error) {
 }
 
 Json forecast_json(const ErrorForecast& forecast) {
-    return {{"relative_error", forecast.relative_error}, {"spp", forecast.spp}, {"seconds", forecast.seconds}};
+    return {{"relative_error", forecast.relative_error},
+            {"spp", forecast.spp},
+            {"seconds", forecast.seconds},
+            {"trust", trust_name(forecast.trust)}};
 }
 
 Json pass_json(const PassReport& r) {

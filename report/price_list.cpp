@@ -81,7 +81,7 @@ std::string scene_table(const StudyResults& study, const SceneResult& scene) {
 
 }  // namespace
 
-std::string price_list(const std::vector<StudyResults>& studies) {
+std::string price_list(const std::vector<StudyResults>& studies, const std::vector<BenchChoice>& benches) {
     std::string text =
         "# The cost of accuracy\n\n"
         "Written by `deploy/cost-of-accuracy`; do not edit. What each choice costs and buys on our own scenes: ratios "
@@ -100,16 +100,29 @@ std::string price_list(const std::vector<StudyResults>& studies) {
     for (const StudyResults& study : studies)
         for (const SceneResult& scene : study.scenes)
             text += scene_table(study, scene);
+    if (!benches.empty())
+        text +=
+            "## Exactness\n\nChoices that no job key makes, measured by `bench/precision_bench` alone on one thread: "
+            "what "
+            "the renderer does comes\nfirst. Sums that depend on the order of their records would give other images "
+            "with "
+            "other numbers of workers.\n\n" +
+            bench_table(benches);
     while (text.ends_with("\n\n"))
         text.pop_back();
     return text;
 }
 
-void write_price_list(const std::vector<std::filesystem::path>& folders, const std::filesystem::path& file) {
+void write_price_list(const std::vector<std::filesystem::path>& folders,
+                      const std::vector<std::filesystem::path>& benches, const std::filesystem::path& file) {
     std::vector<StudyResults> studies;
     for (const std::filesystem::path& folder : folders)
         studies.push_back(read_study_results(folder));
-    const std::string text = price_list(studies);
+    std::vector<BenchChoice> choices;
+    for (const std::filesystem::path& bench : benches)
+        for (BenchChoice& choice : read_bench(bench))
+            choices.push_back(std::move(choice));
+    const std::string text = price_list(studies, choices);
     write_file_atomically(file, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
 }
 

@@ -4,15 +4,19 @@
 #include <string>
 #include <vector>
 
+#include "report/bench_table.h"
 #include "report/study_results.h"
 
 namespace treefarm {
 
 /// What each method of the studies costs and buys, against its study's baseline, as a Markdown page: a table per scene,
-/// ratios over pairs of seeds with 95 % intervals. For studies at equal samples.
-std::string price_list(const std::vector<StudyResults>& studies);
+/// ratios over pairs of seeds with 95 % intervals. For studies at equal samples. `benches`: choices that no job key
+/// makes.
+std::string price_list(const std::vector<StudyResults>& studies, const std::vector<BenchChoice>& benches);
 
-/// Writes the list of these folders' studies. Throws InputError where one is none, RunError where it cannot be written.
-void write_price_list(const std::vector<std::filesystem::path>& folders, const std::filesystem::path& file);
+/// Writes the list of these folders' studies, and of what benchmarks wrote to files. Throws InputError where one is
+/// none, RunError where it cannot be written.
+void write_price_list(const std::vector<std::filesystem::path>& folders,
+                      const std::vector<std::filesystem::path>& benches, const std::filesystem::path& file);
 
 }  // namespace treefarm

@@ -139,8 +139,9 @@ std::string forecast_chart(const StudyResults& results, const SceneResult& scene
             const std::vector<CurvePoint> curve = curve_of(*cell, measure);
             for (const PassRow& row : cell->passes) {
                 const Crossing actual = time_to(curve, 0.5 * measure.value(row));
-                if (std::isfinite(row.halving_seconds) && !actual.extrapolated)
-                    lines[m] += fmt::format("{} {}\n", row.run_seconds + row.halving_seconds, actual.seconds);
+                const bool trusted = row.halving.trust == "firm" || row.halving.trust == "noisy";
+                if (trusted && std::isfinite(row.halving.seconds) && !actual.extrapolated)
+                    lines[m] += fmt::format("{} {}\n", row.run_seconds + row.halving.seconds, actual.seconds);
             }
         }
     return agreement_chart(results, lines,

@@ -34,7 +34,7 @@ std::string names(const CellResult& cell) {
 
 std::string figures(const PassRow& row) {
     std::string line = fmt::format("{},{},{},{},{},{},{},{},{},{},{}", row.spp_done, row.threads, row.run_seconds,
-                                   row.core_seconds, field(row.estimate), field(row.halving_seconds), row.stuv,
+                                   row.core_seconds, field(row.estimate), field(row.halving.seconds), row.stuv,
                                    row.ttuv, row.nonzero_share, row.tree_nodes, row.tree_memory);
     for (const char* error : kErrors)
         line += "," + field(row.measured.at(error));

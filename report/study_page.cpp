@@ -4,15 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
-#include <sstream>
 
 #include "common/image/atomic_file.h"
 #include "common/image/exr.h"
+#include "report/effect_costs.h"
 #include "report/html.h"
 #include "report/page_assets.h"
+#include "report/prediction_table.h"
 #include "report/study_charts.h"
 #include "report/study_csv.h"
 #include "report/study_tables.h"
@@ -26,13 +26,6 @@ constexpr int kLongestSide = 640;
 
 /// A reference is good for errors of so many times its own.
 constexpr double kReferenceMargin = 3;
-
-std::string read_text(const std::filesystem::path& path) {
-    std::ifstream file(path);
-    std::stringstream text;
-    text << file.rdbuf();
-    return text.str();
-}
 
 std::string section(const std::string& title, const std::string& note, const std::string& content) {
     if (content.empty()) return "";
@@ -67,25 +60,6 @@ std::string viewer(const StudyResults& results, const SceneResult& scene) {
     for (std::size_t at = 0; (at = json.find("</", at)) != std::string::npos; at += 3)
         json.replace(at, 2, "<\\/");
     return "<div class=\"viewer\"><script type=\"application/json\">" + json + "</script></div>\n";
-}
-
-/// The plan of each method, those that are alike once.
-std::string plans(const StudyResults& results, const SceneResult& scene) {
-    std::vector<std::pair<std::string, std::string>> texts;  // plan, methods
-    for (const MethodResult& method : results.methods) {
-        const auto cells = results.of(scene.name, method.name);
-        if (cells.empty()) continue;
-        const std::string text = read_text(cells.front()->folder / "plan.txt");
-        const auto same = std::find_if(texts.begin(), texts.end(), [&](const auto& t) { return t.first == text; });
-        if (same == texts.end())
-            texts.emplace_back(text, method.name);
-        else
-            same->second += ", " + method.name;
-    }
-    std::string html;
-    for (const auto& [text, names] : texts)
-        html += "<details><summary>" + html_text(names) + "</summary><pre>" + html_text(text) + "</pre></details>\n";
-    return html;
 }
 
 std::string reference_note(const StudyResults& results, const SceneResult& scene) {
@@ -134,9 +108,16 @@ std::string scene_part(const StudyResults& results, const SceneResult& scene) {
     html += section("Where the time went", "Seconds of the coordinator's clock, mean over seeds; collect: tracing.",
                     phase_chart(results, scene));
     html += section("Workers", "Thread-seconds tracing and recording, mean over seeds.", worker_table(results, scene));
-    html += "<h3>Predicted against actual</h3>\n<div class=\"pair\">" + estimate_chart(results, scene) +
-            forecast_chart(results, scene) + "</div>\n";
-    return html + section("Effect plans", "", plans(results, scene));
+    html += section("Predicted against actual",
+                    "Every pass of every cell: the error that it claimed, and when it said that half of it (or the "
+                    "error asked for) would be reached. \"At most\" is said while the tree still learns fast, "
+                    "\"roughly\" where the error itself is not known well; the pictures leave out the bounds.",
+                    prediction_table(results, scene) + "<div class=\"pair\">" + estimate_chart(results, scene) +
+                        forecast_chart(results, scene) + "</div>\n");
+    return html + section("Effect plans",
+                          "What was simulated. Core-seconds with the effect over those without, where the study has "
+                          "methods that differ only by that switch: 95 % interval over pairs of seeds.",
+                          plan_tables(results, scene));
 }
 
 std::string method_table(const StudyResults& results) {

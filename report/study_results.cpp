@@ -34,6 +34,15 @@ std::map<std::string, double> numbers(const Json& object) {
     return values;
 }
 
+/// Folders of earlier versions do not know how far a forecast was trusted, and have none of the target.
+Prediction read_prediction(const Json& json, const std::string& of) {
+    const std::string seconds = of + "_seconds", trust = of + "_trust";
+    Prediction prediction{std::numeric_limits<double>::quiet_NaN(), ""};
+    if (json.contains(seconds)) prediction.seconds = number(json[seconds]);
+    if (json.contains(trust)) prediction.trust = json[trust];
+    return prediction;
+}
+
 PassRow read_pass(const Json& json) {
     PassRow row;
     row.pass = json.at("pass");
@@ -45,7 +54,10 @@ PassRow read_pass(const Json& json) {
     row.measured = numbers(json.at("measured"));
     const Json& estimate = json.at("estimate");
     row.estimate = number(estimate.is_null() ? Json() : estimate.at("relative"));
-    row.halving_seconds = number(json.at("halving_seconds"));
+    row.estimate_low = number(estimate.is_null() ? Json() : estimate.at("low"));
+    row.estimate_high = number(estimate.is_null() ? Json() : estimate.at("high"));
+    row.halving = read_prediction(json, "halving");
+    row.target = read_prediction(json, "target");
     row.stuv = json.at("stuv");
     row.ttuv = json.at("ttuv");
     row.nonzero_share = json.at("nonzero_share");

@@ -11,13 +11,21 @@
 
 namespace treefarm {
 
+/// How long a render said that it would take from a pass on.
+struct Prediction {
+    double seconds = 0;  ///< NaN: none
+    std::string trust;   ///< "firm", "noisy", "learning" (a bound); empty: none
+};
+
 /// One pass of a cell, as cell.json has it.
 struct PassRow {
     int pass = 0, spp = 0, spp_done = 0, threads = 0;
-    double run_seconds = 0, core_seconds = 0;  ///< both since the render began
-    std::map<std::string, double> measured;    ///< rmse_over_mean, rel_mse, ...
-    double estimate = 0;                       ///< relative error that the render claimed; NaN: none
-    double halving_seconds = 0;                ///< that it forecast; NaN: none
+    double run_seconds = 0, core_seconds = 0;    ///< both since the render began
+    std::map<std::string, double> measured;      ///< rmse_over_mean, rel_mse, ...
+    double estimate = 0;                         ///< relative error that the render claimed; NaN: none
+    double estimate_low = 0, estimate_high = 0;  ///< its 95 % interval; NaN: none
+    Prediction halving;                          ///< until half of that error
+    Prediction target;                           ///< until budget.error
     double stuv = 0, ttuv = 0, nonzero_share = 0, tree_nodes = 0, tree_memory = 0;
     std::map<std::string, double> phases;  ///< seconds of the coordinator's clock
     std::map<std::string, double> worker_seconds;

@@ -16,7 +16,11 @@ enum class NextEvent : std::uint8_t {
 };
 
 /// Weights of multiple importance sampling between next event and scattering (Veach 1997).
-enum class MisHeuristic : std::uint8_t { balance, power };
+enum class MisHeuristic : std::uint8_t {
+    balance,
+    power,
+    equal,  ///< one half each wherever both techniques can draw a sample: no heuristic at all, to measure by
+};
 
 /// What guides: nothing, the SD-tree (Mueller et al. 2017), or the SD-tree with a view-dependent part (Cavus 2020).
 enum class GuidingType : std::uint8_t { none, ppg, view };
@@ -58,7 +62,7 @@ enum class GuidingTarget : std::uint8_t {
 enum class Combination : std::uint8_t {
     inverse_variance,  ///< one scalar per pass, cross-fitted over two halves
     fixed,             ///< weights set beforehand: exactly unbiased, what z-tests use
-    last,              ///< the last pass alone (PPG 2017)
+    last,              ///< the passes of the last tree alone (PPG 2017)
 };
 
 /// Everything that a render depends on besides the scene. Keys, documentation, defaults and ranges stand in one table
@@ -124,7 +128,8 @@ struct Job {
         double heartbeat_seconds = 1.0;  ///< how often each side says that it lives
         double update_seconds = 1.5;     ///< how often a worker sends what it has finished
         std::string isa =
-            "avx2";  ///< Embree's instruction set, the same on every worker: sse2, sse4.2, avx, avx2, avx512
+            "avx2";           ///< Embree's instruction set, the same on every worker: sse2, sse4.2, avx, avx2, avx512
+        bool robust = false;  ///< Embree's rays do not slip through shared edges
     } farm;
 
     struct Output {

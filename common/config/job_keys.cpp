@@ -184,10 +184,10 @@ std::vector<JobKey> make_job_keys() {
         std::vector<std::pair<std::string, NextEvent>>{
             {"always", NextEvent::always}, {"never", NextEvent::never}, {"kickstart", NextEvent::kickstart}}));
     add(word_key(
-        "integrator.mis", "heuristic that weighs next event against scattering (Veach 1997)",
+        "integrator.mis", "heuristic that weighs next event against scattering (Veach 1997); equal: half and half",
         [](auto& j) -> auto& { return j.integrator.mis; },
-        std::vector<std::pair<std::string, MisHeuristic>>{{"power", MisHeuristic::power},
-                                                          {"balance", MisHeuristic::balance}}));
+        std::vector<std::pair<std::string, MisHeuristic>>{
+            {"power", MisHeuristic::power}, {"balance", MisHeuristic::balance}, {"equal", MisHeuristic::equal}}));
     add(boolean_key(
         "integrator.strict_normals", "drop light that geometric and shading normal disagree about",
         [](auto& j) -> auto& { return j.integrator.strict_normals; }));
@@ -234,7 +234,7 @@ std::vector<JobKey> make_job_keys() {
         [](auto& j) -> auto& { return j.guiding.spp_unit; }, 1, 65536));
     add(word_key(
         "guiding.combination",
-        "how the passes become one image; fixed is exactly unbiased, last keeps the last pass only",
+        "how the passes become one image; fixed is exactly unbiased, last keeps the passes of the last tree",
         [](auto& j) -> auto& { return j.guiding.combination; },
         std::vector<std::pair<std::string, Combination>>{{"inverse_variance", Combination::inverse_variance},
                                                          {"fixed", Combination::fixed},
@@ -308,6 +308,9 @@ std::vector<JobKey> make_job_keys() {
     add(word_key(
         "farm.isa", "instruction set that Embree uses, the same on every worker",
         [](auto& j) -> auto& { return j.farm.isa; }, isas));
+    add(boolean_key(
+        "farm.robust", "Embree tests watertight: no ray slips through an edge that two triangles share; slower",
+        [](auto& j) -> auto& { return j.farm.robust; }));
 
     add(text_key(
         "output.directory", "the run directory; empty: runs/<scene>-<time>",

@@ -66,6 +66,14 @@ Rgb64 sample_variance(const PixelEstimate& pixel, const PixelEstimate& longest) 
     return distance * distance * (static_cast<double>(reference.n) / (reference.n + 1));
 }
 
+/// Those at the end that had one tree.
+std::span<const PassResult> passes_of_last_tree(std::span<const PassResult> passes) {
+    std::size_t first = passes.size() - 1;
+    while (first > 0 && passes[first].same_tree)
+        --first;
+    return passes.subspan(first);
+}
+
 const PassResult& longest_pass(std::span<const PassResult> passes) {
     return *std::max_element(passes.begin(), passes.end(),
                              [](const PassResult& a, const PassResult& b) { return a.spp < b.spp; });
@@ -127,8 +135,11 @@ double fixed_weight(std::uint32_t spp, std::uint32_t spp_before, bool guided) {
 
 CombinedImage combine_passes(std::span<const PassResult> passes, Combination method, bool guided) {
     if (passes.empty()) return {};
+    if (method == Combination::last && guided) {
+        passes = passes_of_last_tree(passes);
+        guided = false;
+    }
     if (!guided) method = Combination::fixed;  // all samples are alike: none is thrown away
-    if (method == Combination::last) passes = passes.last(1);
     const std::uint32_t longest = longest_pass(passes).spp;
     if (longest < 2) return combine_whole(passes, fixed_weights(passes, guided));
 

@@ -18,6 +18,7 @@ struct PassResult {
     std::uint32_t spp = 0;              ///< n_k
     std::uint32_t spp_before = 0;       ///< N_k: what had been rendered when the pass began
     std::vector<PixelEstimate> pixels;  ///< row by row
+    bool same_tree = false;             ///< as the pass before it: their samples are alike
 };
 
 /// The image so far, with its own error.
@@ -30,7 +31,7 @@ struct CombinedImage {
 };
 
 /// Combines the passes with one scalar weight each (docs/guiding.md, "combining passes"). `guided` says whether the
-/// passes differ in quality: without guiding every sample weighs the same.
+/// passes differ in quality: without guiding every sample weighs the same. `last` keeps the passes of the last tree.
 CombinedImage combine_passes(std::span<const PassResult> passes, Combination method, bool guided);
 
 /// Weight of a pass that is set before it begins (`fixed`): spp sqrt(spp_before); without guiding, spp. Not normalised.

@@ -12,6 +12,7 @@ namespace {
 constexpr std::size_t kResamples = 1000;
 constexpr double kTail = 0.025;            ///< on each side of a 95 % interval
 constexpr std::size_t kMostBlocks = 1024;  ///< so that the cost does not grow with the image
+constexpr double kFewPixels = 100;
 
 /// Two estimates of the summed squared error of a block of pixels. The pixels of a block are scattered over the image:
 /// their errors are independent wherever they lie, but loud pixels lie together, and one loud block among quiet ones
@@ -88,6 +89,29 @@ double small_sample_factor(const std::vector<BlockError>& blocks, double centre)
     return 1 + (1.21 + 1.44 / freedom) / freedom;
 }
 
+/// As many pixels of equal noise would make up an error that is known as badly.
+double noisy_pixels(const CombinedImage& image) {
+    double sum = 0, squares = 0;
+    for (const Rgb64& variance : image.variance) {
+        sum += channel_sum(variance);
+        squares += channel_sum(variance) * channel_sum(variance);
+    }
+    return squares > 0 ? sum * sum / squares : 0;
+}
+
+/// Where a few rare samples are the whole error, the halves cannot show its spread: each of them is alone in its pixel,
+/// and the difference of the halves is then as large as the estimate, whatever others were missed. The interval is at
+/// least that of a variance by so many normal numbers (chi-square by Wilson and Hilferty).
+void widen_for_few(ErrorEstimate& estimate, double pixels) {
+    if (pixels >= kFewPixels) return;
+    const auto quantile = [&](double z) {
+        const double root = std::max(0.1, 1 - 2 / (9 * pixels) + z * std::sqrt(2 / (9 * pixels)));
+        return root * root * root;  // over its expectation; at least that of one normal number, 1e-3
+    };
+    estimate.low = std::min(estimate.low, estimate.rmse / std::sqrt(quantile(1.96)));
+    estimate.high = std::max(estimate.high, estimate.rmse / std::sqrt(quantile(-1.96)));
+}
+
 }  // namespace
 
 double ErrorEstimate::relative(double error) const {
@@ -119,6 +143,7 @@ ErrorEstimate estimate_error(const CombinedImage& image, std::uint64_t seed) {
     };
     estimate.low *= at(kTail);
     estimate.high *= at(1 - kTail);
+    widen_for_few(estimate, noisy_pixels(image));
     return estimate;
 }
 

@@ -12,27 +12,29 @@ constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 /// How far a render may be from budget.seconds: this share of it, or this many seconds if that is more.
 constexpr double kTimeTolerance = 0.05;
 constexpr double kLeastTolerance = 1.0;
-/// The first of the ending passes takes this share of the time left, so that a wrong forecast can be made up for.
-constexpr double kHedge = 0.85;
+/// An ending pass takes this share of the time left, so that a wrong forecast can be made up for.
+constexpr double kHedge = 0.7;
+/// Where one pass must end the render, one with the same tree comes before it, to learn what its samples cost: this
+/// share of the time left, thrown away.
+constexpr double kProbe = 0.07;
 
 /// An estimated error may end a render from this many samples per pixel on; an error of zero (nothing found any light,
 /// or there is no noise) only later.
 constexpr std::uint32_t kSppToBelieve = 16;
 constexpr std::uint32_t kSppToBelieveZero = 64;
-/// Ending passes aim a little beyond the target, so that few of them suffice; one that cannot be followed by another,
-/// a little more.
-constexpr double kMargin = 1.02;
+/// What kEndingMargin is for an ending pass that no other can follow.
 constexpr double kLastPassMargin = 1.10;
 /// A pass that makes up for a missed target renders at least this share of what there is.
 constexpr double kLeastShare = 1.0 / 16;
 
 class OpenBudget {
   public:
-    explicit OpenBudget(const Job& job) : job_(job), one_ending_pass_(shows_last_pass_only(job)) {}
+    explicit OpenBudget(const Job& job) : job_(job) {}
 
     NextPass next(const RenderState& state) {
         if (state.passes.empty()) return {first_pass(), 0, 0};
-        if (ending_ && one_ending_pass_) return {};
+        if (ending_ && job_.budget.strict) return {};
+        outlook_.emplace(state);
         const auto index = static_cast<std::uint32_t>(state.passes.size());
         const std::uint32_t done = state.spp();
         const double others = std::min(by_error(state), static_cast<double>(job_.budget.max_spp) - done);
@@ -40,9 +42,14 @@ class OpenBudget {
         if (wanted < least_spp()) return {};
         const double doubled = std::ldexp(job_.guiding.spp_unit, static_cast<int>(index));
         const auto total = static_cast<std::uint32_t>(done + wanted);
-        if (!ending_ && wanted >= 3 * doubled)
+        if (!ending_ && !probed_ && wanted >= kTeachingShare * doubled)
             return {make_pass(job_, index, done, static_cast<std::uint32_t>(doubled), false), total, 0};
-        const double hedged = ending_ ? wanted : std::min(others, by_time(state, hedge(state)));
+        if (needs_probe(state)) {
+            probed_ = true;
+            const auto spp = static_cast<std::uint32_t>(std::max(1.0, kProbe * by_time(state, 1.0)));
+            return {make_pass(job_, index, done, spp, true), total, 0};
+        }
+        const double hedged = std::min(others, by_time(state, hedge(state)));
         ending_ = true;
         const auto spp = static_cast<std::uint32_t>(std::max(hedged, least_spp()));
         return {make_pass(job_, index, done, spp, true), total, 0};
@@ -63,10 +70,23 @@ class OpenBudget {
 
     double tolerance() const { return std::max(kTimeTolerance * job_.budget.seconds, kLeastTolerance); }
 
+    /// Of an ending pass.
+    double seconds_of_pass(double spp) const {
+        const int trees = outlook_->learning() ? 1 : 0;
+        return outlook_->overhead_seconds() + spp * outlook_->seconds_per_spp(trees, false);
+    }
+
+    /// The clock ends a strict render whose last tree nobody has tried yet, and there is time to try it.
+    bool needs_probe(const RenderState& state) const {
+        const double left = job_.budget.seconds - state.seconds;
+        return job_.budget.strict && job_.budget.seconds > 0 && !probed_ && outlook_->learning() &&
+               seconds_of_pass(1) < 2 * kProbe * left;
+    }
+
     double hedge(const RenderState& state) const {
         const double uncertain = (1 - kHedge) * (job_.budget.seconds - state.seconds);
-        const double worthwhile = std::max(0.5 * tolerance(), seconds_of_pass(state, 2 * least_spp()));
-        return one_ending_pass_ || uncertain < worthwhile ? 1.0 : kHedge;
+        const double worthwhile = std::max(0.5 * tolerance(), seconds_of_pass(2 * least_spp()));
+        return job_.budget.strict || uncertain < worthwhile ? 1.0 : kHedge;
     }
 
     /// Samples that a pass can have which takes this share of the time left.
@@ -74,9 +94,10 @@ class OpenBudget {
         if (job_.budget.seconds == 0) return kUnlimited;
         const double left = job_.budget.seconds - state.seconds;
         if (left < 0.25 * tolerance()) return 0;
-        const double spp = std::floor(std::max(0.0, share * left - seconds_of_pass(state, 0)) / seconds_per_spp(state));
+        const double of_one = seconds_of_pass(1) - seconds_of_pass(0);
+        const double spp = std::floor(std::max(0.0, share * left - seconds_of_pass(0)) / of_one);
         // The shortest pass may be a little too long: that may still be nearer to the budget than to stop here.
-        const double too_long = seconds_of_pass(state, least_spp()) - left;
+        const double too_long = seconds_of_pass(least_spp()) - left;
         return too_long < std::min(left, 0.75 * tolerance()) ? std::max(spp, least_spp()) : spp;
     }
 
@@ -88,15 +109,16 @@ class OpenBudget {
         if (target == 0 || !error.known || done < (error.rmse > 0 ? kSppToBelieve : kSppToBelieveZero))
             return kUnlimited;
         if (error.relative() <= target && !job_.budget.strict) return 0;
+        if (!outlook_->knows_variance()) return kUnlimited;
         const double rmse = target * error.mean;
-        const double spp =
-            std::ceil(spp_to_reach(state, job_, rmse * rmse) * (one_ending_pass_ ? kLastPassMargin : kMargin));
-        return one_ending_pass_ ? spp : std::max({spp, least_spp(), kLeastShare * done});
+        const double needed = spp_to_reach(state, job_, rmse * rmse, outlook_->variance());
+        if (job_.budget.strict) return std::ceil(needed * kLastPassMargin);
+        return std::max({std::ceil(needed * kEndingMargin), least_spp(), kLeastShare * done});
     }
 
     const Job job_;
-    const bool one_ending_pass_;
-    bool ending_ = false;
+    std::optional<Outlook> outlook_;  ///< of the state that next() was given
+    bool probed_ = false, ending_ = false;
 };
 
 }  // namespace
@@ -111,6 +133,11 @@ PassChooser listed_passes(std::vector<PassPlan> passes) {
 
 PassChooser open_passes(const Job& job) {
     return [budget = OpenBudget(job)](const RenderState& state) mutable { return budget.next(state); };
+}
+
+void show(PassResult pass, const Job& job, std::vector<PassResult>& shown) {
+    if (job.budget.strict || (shows_last_tree_only(job) && !pass.same_tree)) shown.clear();
+    shown.push_back(std::move(pass));
 }
 
 PassChooser passes_of(const Job& job) {

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "common/film/combine.h"
 #include "common/plan/forecast.h"
 #include "common/plan/schedule.h"
 
@@ -28,6 +29,9 @@ PassChooser open_passes(const Job& job);
 
 /// The job's own.
 PassChooser passes_of(const Job& job);
+
+/// Adds a finished pass to those that make the image. Those that it replaces leave.
+void show(PassResult pass, const Job& job, std::vector<PassResult>& shown);
 
 /// Whether the job asked for an error that the image has not come down to.
 bool misses_target(const Job& job, const ErrorEstimate& error);

@@ -129,8 +129,10 @@ void EffectFinder::add_light() {
     finders_["next_event"] = sampled;
     finders_["mis"] = [this, sampled] {
         if (!sampled().on) return effect_off("there is no next event to weigh");
-        return effect_on(job_.integrator.mis == MisHeuristic::power ? "integrator.mis = \"power\""
-                                                                    : "integrator.mis = \"balance\"");
+        const MisHeuristic mis = job_.integrator.mis;
+        return effect_on(mis == MisHeuristic::power     ? "integrator.mis = \"power\""
+                         : mis == MisHeuristic::balance ? "integrator.mis = \"balance\""
+                                                        : "integrator.mis = \"equal\"");
     };
     finders_["kickstart"] = [this] {
         if (job_.integrator.next_event == NextEvent::kickstart)

@@ -4,16 +4,40 @@
 #include <cmath>
 #include <limits>
 
+#include "common/film/combine.h"
+#include "common/plan/schedule.h"
+
 namespace treefarm {
 namespace {
 
 constexpr double kUnknown = std::numeric_limits<double>::infinity();
 
-/// Of a clock that did not move, seconds.
-constexpr double kShortestSample = 1e-9;
+/// After two trees that brought the variance below this share, the next ones may bring as much again: the forecast is a
+/// bound.
+constexpr double kLearned = 0.55;
+/// Half the width of the error's own interval, relative, from which on it is too noisy to forecast by.
+constexpr double kNoisy = 0.1;
+/// A forecast is no further ahead than so many doublings.
+constexpr int kMostTrees = 40;
 
 bool is_guided(const Job& job) {
     return job.guiding.type != GuidingType::none;
+}
+
+bool weighs_by_variance(const Job& job) {
+    return is_guided(job) && job.guiding.combination == Combination::inverse_variance && !job.budget.strict;
+}
+
+/// Samples that a pass of the last tree adds to.
+double spp_shown(const RenderState& state, const Job& job) {
+    return job.budget.strict || state.passes.back().record ? 0.0 : state.spp_of_last_tree();
+}
+
+double sum_of_fixed_weights(const RenderState& state, bool guided) {
+    double sum = 0;
+    for (const PassFacts& pass : state.passes)
+        sum += fixed_weight(pass.spp, pass.spp_before, guided);
+    return sum;
 }
 
 /// Positive n of ((sum of weights)^2 mse + weight^2 n variance) / (sum of weights + weight n)^2 = wanted: how `fixed`
@@ -25,52 +49,83 @@ double solve_fixed(double sum, double mse, double weight, double variance, doubl
     return (std::sqrt(half_b * half_b - a * c) - half_b) / a;
 }
 
+/// The mean squared error after one more pass of so many samples: what spp_to_reach() inverts.
+double mse_after(const RenderState& state, const Job& job, double spp, double variance) {
+    const double now = state.error.mse();
+    if (shows_last_tree_only(job)) return variance / (spp_shown(state, job) + spp);
+    if (weighs_by_variance(job)) return 1 / (1 / now + spp / variance);
+    if (!is_guided(job)) return now * state.spp() / (state.spp() + spp);
+    const double sum = sum_of_fixed_weights(state, true);
+    const double weight = spp * fixed_weight(1, state.spp(), true);
+    return (sum * sum * now + weight * weight * variance / spp) / ((sum + weight) * (sum + weight));
+}
+
+/// The render as it will be after one more pass that teaches.
+void add_teaching_pass(RenderState& state, const Job& job, std::uint32_t spp, double variance) {
+    const double mse = mse_after(state, job, spp, variance);
+    PassFacts pass;
+    pass.spp = spp;
+    pass.spp_before = state.spp();
+    pass.record = true;
+    state.passes.push_back(pass);
+    state.error.rmse = std::sqrt(mse);
+}
+
+Trust trust_in(const RenderState& state, const Outlook& outlook) {
+    const ErrorEstimate& error = state.error;
+    if (!error.has_interval || error.high - error.low > 2 * kNoisy * error.rmse) return Trust::noisy;
+    const bool settled = outlook.recent_progress() >= kLearned;
+    return settled || !outlook.learning() ? Trust::firm : Trust::learning;
+}
+
 }  // namespace
 
-bool shows_last_pass_only(const Job& job) {
+bool shows_last_tree_only(const Job& job) {
     return job.budget.strict || (is_guided(job) && job.guiding.combination == Combination::last);
 }
 
-double spp_to_reach(const RenderState& state, const Job& job, double mse) {
-    const auto known =
-        std::find_if(state.passes.rbegin(), state.passes.rend(), [](const PassFacts& pass) { return pass.spp >= 2; });
-    if (!state.error.known || known == state.passes.rend()) return kUnknown;
-    const double variance = known->mse_of_sample, now = state.error.mse();
-    if (shows_last_pass_only(job)) return mse > 0 ? variance / mse : variance > 0 ? kUnknown : 0.0;
+double spp_to_reach(const RenderState& state, const Job& job, double mse, double variance) {
+    const double now = state.error.mse();
+    if (shows_last_tree_only(job)) {
+        if (!(mse > 0)) return variance > 0 ? kUnknown : 0.0;
+        return std::max(0.0, variance / mse - spp_shown(state, job));
+    }
     if (now <= mse) return 0;
     if (!(mse > 0)) return kUnknown;
-    const bool guided = is_guided(job);
-    if (guided && job.guiding.combination == Combination::inverse_variance)
-        return std::max<double>(variance * (1 / mse - 1 / now), kMinSamplesForVariance);
+    if (weighs_by_variance(job)) return std::max<double>(variance * (1 / mse - 1 / now), kMinSamplesForVariance);
     const std::uint32_t done = state.spp();
-    if (!guided) return done * (now / mse - 1);  // all samples are alike: the image knows their variance best
-    double sum = 0;
-    for (const PassFacts& pass : state.passes)
-        sum += fixed_weight(pass.spp, pass.spp_before, guided);
-    return solve_fixed(sum, now, fixed_weight(1, done, guided), variance, mse);
-}
-
-double seconds_per_spp(const RenderState& state) {
-    std::uint32_t largest = 0;
-    for (const PassFacts& pass : state.passes)
-        largest = std::max(largest, pass.spp);
-    // The last pass; where that was a small one, which tells little, those before it, too.
-    double seconds = 0, spp = 0;
-    for (auto pass = state.passes.rbegin(); pass != state.passes.rend() && 2 * spp < largest; ++pass) {
-        seconds += pass->trace_seconds;
-        spp += pass->spp;
-    }
-    return std::max(seconds / spp, kShortestSample);
-}
-
-double seconds_of_pass(const RenderState& state, double spp) {
-    return state.passes.back().overhead_seconds + spp * seconds_per_spp(state);
+    if (!is_guided(job)) return done * (now / mse - 1);  // all samples are alike: the image knows their variance best
+    return solve_fixed(sum_of_fixed_weights(state, true), now, fixed_weight(1, done, true), variance, mse);
 }
 
 ErrorForecast forecast_error(const RenderState& state, const Job& job, double relative_error) {
-    const double rmse = relative_error * state.error.mean;
-    const double spp = std::ceil(spp_to_reach(state, job, rmse * rmse));
-    return {relative_error, spp, spp > 0 ? seconds_of_pass(state, spp) : 0.0};
+    ErrorForecast forecast{relative_error, kUnknown, kUnknown, Trust::none};
+    if (!state.error.known || state.passes.empty()) return forecast;
+    const double rmse = relative_error * state.error.mean, mse = rmse * rmse;
+    if (!job.budget.strict && state.error.mse() <= mse) return {relative_error, 0, 0, Trust::firm};
+    const Outlook outlook(state);
+    const auto next = static_cast<std::uint32_t>(state.passes.size());
+    // Sampling emitters begins or ends with the next pass: nothing tells how noisy that will be.
+    const bool like_the_last = make_pass(job, next, state.spp(), 1, true).next_event == state.passes.back().next_event;
+    if (!outlook.knows_variance() || !like_the_last) return forecast;
+    forecast.trust = trust_in(state, outlook);
+
+    RenderState future = state;
+    double seconds = 0;
+    for (int trees = outlook.learning() ? 1 : 0;; ++trees) {
+        const double variance = forecast.trust == Trust::learning ? outlook.variance() : outlook.variance_after(trees);
+        const double wanted = std::ceil(spp_to_reach(future, job, mse, variance));
+        const double doubled = std::ldexp(job.guiding.spp_unit, static_cast<int>(future.passes.size()));
+        seconds += outlook.overhead_seconds();
+        if (!outlook.learning() || wanted < kTeachingShare * doubled || trees >= kMostTrees) {
+            const double ending = wanted * (relative_error == job.budget.error ? kEndingMargin : 1.0);
+            forecast.spp = future.spp() - state.spp() + ending;
+            forecast.seconds = seconds + ending * outlook.seconds_per_spp(trees, false);
+            return forecast;
+        }
+        seconds += doubled * outlook.seconds_per_spp(trees, true);
+        add_teaching_pass(future, job, static_cast<std::uint32_t>(std::min(doubled, 1e9)), variance);
+    }
 }
 
 }  // namespace treefarm

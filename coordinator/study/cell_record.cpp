@@ -36,6 +36,9 @@ Json pass_record(const PassReport& r, double core_seconds) {
                                               {"high", r.error.has_interval ? Json(r.error.relative_high()) : Json()}}
                                        : Json()},
             {"halving_seconds", r.halving.seconds},
+            {"halving_trust", trust_name(r.halving.trust)},
+            {"target_seconds", r.target.relative_error > 0 ? Json(r.target.seconds) : Json()},
+            {"target_trust", r.target.relative_error > 0 ? trust_name(r.target.trust) : ""},
             {"stuv", r.variance.stuv},
             {"stuv_trimmed", r.variance.stuv_trimmed},
             {"ttuv", r.ttuv()},

@@ -2,9 +2,12 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "common/base/hash.h"
+#include "common/config/parse_text.h"
 #include "common/image/atomic_file.h"
 #include "common/image/exr.h"
 #include "coordinator/result_image.h"
@@ -55,17 +58,27 @@ ReadyCell ready_cell(const Study& study, const StudyCell& cell, const LoadedScen
     return ready;
 }
 
+/// Throws InputError unless cells of this film can be measured against it.
+void check_given(const RgbImage& image, const Film& film, const Location& place) {
+    if (image.width != film.width || image.height != film.height)
+        throw InputError(place,
+                         fmt::format("the reference has {} x {} pixels, the scene {} x {}", image.width, image.height,
+                                     film.width, film.height),
+                         "set image.width and image.height, or render another reference");
+    const auto finite = [](const Rgb& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); };
+    const auto bad =
+        image.pixels.size() - static_cast<std::size_t>(std::count_if(image.pixels.begin(), image.pixels.end(), finite));
+    if (bad > 0)
+        throw InputError(place, fmt::format("the reference has {} pixels that are no finite numbers", bad),
+                         "render another reference");
+}
+
 /// A reference that is given, or the request that renders one.
 std::string reference_key(const Study& study, const StudyScene& scene, const LoadedScene& loaded, Reference& reference,
                           RenderRequest& request) {
     if (!scene.reference.empty()) {
         const ExrRgb given = read_exr_rgb(scene.reference);
-        const Film& film = loaded.scene.film;
-        if (given.image.width != film.width || given.image.height != film.height)
-            throw InputError(scene.reference_place,
-                             fmt::format("the reference has {} x {} pixels, the scene {} x {}", given.image.width,
-                                         given.image.height, film.width, film.height),
-                             "set image.width and image.height, or render another reference");
+        check_given(given.image, loaded.scene.film, scene.reference_place);
         reference.file = scene.reference;
         reference.image = given.image;
         const auto* bytes = reinterpret_cast<const std::uint8_t*>(given.image.pixels.data());
@@ -173,7 +186,7 @@ class StudyRun {
         reference.about = {{"file", reference.file}, {"rendered", of.reference.empty()}};
         for (const char* name : {"error", "spp"})
             if (const auto at = image.attributes.find(std::string("treefarm.") + name); at != image.attributes.end())
-                reference.about[name] = std::stod(at->second);
+                if (const auto value = parse_number(at->second)) reference.about[name] = *value;
         if (of.reference.empty()) write_json(reference.mark(), reference.about);
     }
 

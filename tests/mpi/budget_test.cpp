@@ -55,6 +55,11 @@ TEST(Schedule, OfSecondsReplays) {
     expect_replays(run(mpirun(3), {"--seconds", "2"}), {});
 }
 
+TEST(Schedule, OfPassesOfOneTreeReplays) {
+    const std::vector<std::string> last = {"--set", "guiding.combination=last"};
+    expect_replays(run({}, std::vector<std::string>{"--seconds", "2"} + last), last);
+}
+
 TEST(Schedule, OfAnErrorReplays) {
     const std::vector<std::string> strict = {"--set", "budget.strict=true"};
     expect_replays(run({}, {"--error", "0.5"}), {});

@@ -2,9 +2,11 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 
+#include <cmath>
 #include <fstream>
 #include <map>
 
+#include "common/image/exr.h"
 #include "tests/mpi/program.h"
 #include "tests/support/support.h"
 
@@ -102,6 +104,79 @@ TEST(StudyProgram, AnInterruptIsResumable) {
     const Ending ending = program.wait(kPatience);
     EXPECT_EQ(ending.code, 3) << ending.output;
     EXPECT_NE(ending.output.find("goes on from here"), std::string::npos) << ending.output;
+}
+
+/// A study against a given image: one method, one seed, 20 x 16 pixels, 4 spp.
+fs::path write_study_with(const std::string& reference, const fs::path& folder) {
+    const fs::path file = folder / "given.toml";
+    std::ofstream(file) << "seeds = 2\nwarmup = 0\n[budget]\nspp = 7\n[job]\nimage.width = 20\nimage.height = 16\n"
+                        << "[scene.box]\nfile = \"" << own_scene("cornell-box.xml") << "\"\n"
+                        << "reference = \"" << reference << "\"\n[method.unguided]\nguiding.type = \"none\"\n";
+    return file;
+}
+
+TEST(StudyProgram, MeasuresAgainstAGivenImage) {
+    const fs::path folder = fresh_folder("study");
+    const std::vector<std::string> render = {TREEFARM_PROGRAM,
+                                             "render",
+                                             own_scene("cornell-box.xml"),
+                                             "--spp",
+                                             "256",
+                                             "--set",
+                                             "image.width=20",
+                                             "--set",
+                                             "image.height=16",
+                                             "--set",
+                                             "guiding.type=none",
+                                             "--set",
+                                             "sampler.seed=99",
+                                             "--quiet",
+                                             "--run-dir",
+                                             (folder / "run").string(),
+                                             "-o",
+                                             (folder / "mine.exr").string()};
+    ASSERT_EQ(Program(render).wait(kPatience).code, 0);
+    for (const int ranks : {0, 2}) {
+        const auto launcher = ranks == 0 ? std::vector<std::string>() : mpirun(ranks);
+        const fs::path results = folder / ("results" + std::to_string(ranks));
+        const Ending ending = Program(launcher + study(write_study_with("mine.exr", folder), results)).wait(kPatience);
+        ASSERT_EQ(ending.code, 0) << ending.output;
+        const nlohmann::json reference = read_json(results / "study.json")["scenes"][0]["reference"];
+        EXPECT_EQ(reference["rendered"], false);
+        EXPECT_EQ(fs::path(reference["file"].get<std::string>()), folder / "mine.exr") << "relative to the study file";
+        EXPECT_GT(reference["error"].get<double>(), 0) << "one of ours says how far it can be trusted";
+        const auto cells = whole_cells(results);
+        ASSERT_EQ(cells.size(), 2u);
+        for (const auto& [name, cell] : cells) {
+            // 7 against 256 samples: the error is that of the cell, which knows it.
+            const nlohmann::json& last = cell["passes"].back();
+            EXPECT_NEAR(
+                std::log(last["measured"]["rmse_over_mean"].get<double>() / last["estimate"]["relative"].get<double>()),
+                0.0, 0.7)
+                << name;
+        }
+        EXPECT_TRUE(fs::exists(results / "report.html"));
+        EXPECT_FALSE(fs::exists(results / "references"));
+    }
+}
+
+TEST(StudyProgram, RefusesAReferenceThatDoesNotFit) {
+    const fs::path folder = fresh_folder("study");
+    const auto refusal = [&](int height, float value) {
+        Image image{20, height, {"R", "G", "B"}, std::vector<float>(static_cast<std::size_t>(3 * 20 * height), 1.0f)};
+        image.data[7] = value;
+        write_exr(folder / "bad.exr", image);
+        return Program(study(write_study_with("bad.exr", folder), folder / "results")).wait(kPatience);
+    };
+    const Ending small = refusal(15, 1.0f);
+    EXPECT_EQ(small.code, 2);
+    EXPECT_NE(small.output.find("given.toml:10:13: the reference has 20 x 15 pixels, the scene 20 x 16"),
+              std::string::npos)
+        << small.output;
+    const Ending nan = refusal(16, NAN);
+    EXPECT_EQ(nan.code, 2);
+    EXPECT_NE(nan.output.find("1 pixels that are no finite numbers"), std::string::npos) << nan.output;
+    EXPECT_FALSE(fs::exists(folder / "results" / "cells")) << "nothing was rendered";
 }
 
 TEST(StudyProgram, BadInputSaysWhere) {

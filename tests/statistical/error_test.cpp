@@ -9,6 +9,7 @@
 #include "common/scene/load.h"
 #include "tests/support/local_render.h"
 #include "tests/support/support.h"
+#include "tests/support/test_scenes.h"
 
 namespace treefarm {
 namespace {
@@ -96,7 +97,7 @@ void expect_forecast(const std::vector<SmallRender>& runs, const std::function<J
     double forecast = 0, taken = 0;
     for (const SmallRender& run : runs) {
         const RenderState& before = run.states[run.states.size() - 2];
-        forecast += spp_to_reach(before, job(0), run.states.back().error.mse());
+        forecast += spp_to_reach(before, job(0), run.states.back().error.mse(), Outlook(before).variance());
         taken += run.states.back().passes.back().spp;
     }
     EXPECT_NEAR(forecast / taken, 1.0, 0.15);
@@ -124,6 +125,61 @@ TEST(KnownError, OfUnguidedRenders) {
     const std::vector<SmallRender> runs = render_runs(small_scene(64), job, kRuns);
     expect_honest(runs);
     expect_forecast(runs, job);
+}
+
+/// Renders of a closed white room, where every pixel is 1 / (1 - albedo), with the truth known.
+std::vector<SmallRender> render_furnaces(float albedo, const std::function<Job(std::uint64_t)>& job, double truth) {
+    Scene scene = test::furnace(albedo, 1.0f, 2.0f, Vec3(0.3f, -0.2f, 0.1f));
+    test::set_film(scene, 16, 16);
+    std::vector<SmallRender> runs;
+    for (int r = 0; r < kRuns; ++r) {
+        test::LocalRender render = test::render_locally(scene, job(static_cast<std::uint64_t>(r)));
+        runs.push_back({std::move(render.image), std::move(render.states)});
+        for (const Rgb64& mean : runs.back().image.mean)
+            runs.back().true_mse +=
+                channel_mean((mean - Rgb64(truth)) * (mean - Rgb64(truth))) / static_cast<double>(16 * 16);
+    }
+    return runs;
+}
+
+Job furnace_job(std::uint64_t seed, NextEvent next_event) {
+    Job job;
+    job.sampler.seed = seed;
+    job.guiding.type = GuidingType::none;
+    job.integrator.next_event = next_event;
+    job.budget.spp = 16;
+    return job;
+}
+
+TEST(KnownError, OfAFurnaceWithoutNoiseIsNothing) {
+    const auto job = [](std::uint64_t seed) {
+        Job j = furnace_job(seed, NextEvent::never);
+        j.integrator.max_depth = 4;  // 1 + 0.5 + 0.25 + 0.125 on every path, before roulette
+        return j;
+    };
+    for (const SmallRender& run : render_furnaces(0.5f, job, 1.875)) {
+        const ErrorEstimate& error = run.states.back().error;
+        EXPECT_LT(error.relative(), 1e-6);
+        EXPECT_LE(error.low, error.rmse);
+        EXPECT_GE(error.high, error.rmse);
+        EXPECT_LT(error.relative_high(), 1e-5);
+        EXPECT_LT(run.true_mse, 1e-10);
+    }
+}
+
+TEST(KnownError, OfAFurnaceWithRoulette) {
+    const auto job = [](std::uint64_t seed) { return furnace_job(seed, NextEvent::never); };
+    expect_honest(render_furnaces(0.8f, job, 5.0));
+}
+
+TEST(KnownError, OfAFurnaceWithRareLongPaths) {
+    // Roulette ends one path of twenty at each step, from depth 60 on only: most paths are alike.
+    const auto job = [](std::uint64_t seed) {
+        Job j = furnace_job(seed, NextEvent::never);
+        j.integrator.rr_depth = 60;
+        return j;
+    };
+    expect_honest(render_furnaces(0.9f, job, 10.0));
 }
 
 /// Mean over pixels and channels of z^2 between the mean of runs and a reference, and z of the whole image.

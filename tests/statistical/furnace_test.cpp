@@ -32,6 +32,9 @@ std::vector<Method> methods() {
                                        std::to_string(int(albedo * 10.01f)),
                                    guiding, next_event, mis, albedo});
                 }
+    for (const GuidingType guiding : {GuidingType::none, GuidingType::ppg})
+        all.push_back({guiding == GuidingType::none ? "UnguidedAlwaysEqual8" : "GuidedAlwaysEqual8", guiding,
+                       NextEvent::always, MisHeuristic::equal, 0.8f});
     for (const float albedo : {0.5f, 0.8f})
         all.push_back({"LearnedNever" + std::to_string(int(albedo * 10.01f)), GuidingType::ppg, NextEvent::never,
                        MisHeuristic::balance, albedo, true});

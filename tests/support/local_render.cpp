@@ -53,11 +53,18 @@ LocalRender render_locally(const Scene& scene, const Job& job) {
             if (pass.record) accumulator.commit(log.records, log.counts, log.caps);
         }
         run.stats.push_back(stats);
-        run.passes.push_back({pass.spp, pass.first_sample, film.pixels()});
-        if (shows_last_pass_only(job)) run.passes.erase(run.passes.begin(), run.passes.end() - 1);
+        const bool same_tree = !state.passes.empty() && !state.passes.back().record;
+        show({pass.spp, pass.first_sample, film.pixels(), same_tree}, job, run.passes);
         run.image = combine_passes(run.passes, job.guiding.combination, guided);
         const double seconds = 1e-3 * pass.spp;
-        state.passes.push_back({pass.spp, pass.first_sample, pass_variance(film.pixels()).mse_of_sample, seconds, 0});
+        PassFacts facts;
+        facts.spp = pass.spp;
+        facts.spp_before = pass.first_sample;
+        facts.mse_of_sample = pass_variance(film.pixels()).mse_of_sample;
+        facts.collect_seconds = seconds;
+        facts.record = pass.record;
+        facts.next_event = pass.next_event;
+        state.passes.push_back(facts);
         state.seconds += seconds;
         state.error = estimate_error(run.image, job.sampler.seed);
         run.states.push_back(state);

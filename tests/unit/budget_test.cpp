@@ -17,7 +17,29 @@ struct World {
     double variance = 4.0;             ///< of one sample
     double learning = 1.0;             ///< variance falls by this factor with each pass
     double slow_from = 1e9, slow = 1;  ///< from this second on a sample takes so much longer
+    double growth = 1.0;               ///< by which a sample's cost changes with the first tree, then ever less
+    double threads = 2;
 };
+
+/// Core-seconds of a sample with a tree that was learned in so many passes.
+double core_per_spp(const World& world, std::uint32_t trees) {
+    return world.threads * world.seconds_per_spp * std::pow(world.growth, 2 - std::pow(0.5, trees));
+}
+
+/// What a simulated pass leaves; adding records takes a tenth of the time.
+PassFacts facts_of(const PassPlan& pass, const World& world, std::uint32_t trees, double speed) {
+    PassFacts facts;
+    facts.spp = pass.spp;
+    facts.spp_before = pass.first_sample;
+    facts.mse_of_sample = world.variance * std::pow(world.learning, trees);
+    facts.trace_core_seconds = pass.spp * core_per_spp(world, trees);
+    facts.record_core_seconds = pass.record ? 0.1 * facts.trace_core_seconds : 0.0;
+    facts.collect_seconds = speed * (facts.trace_core_seconds + facts.record_core_seconds) / world.threads;
+    facts.overhead_seconds = world.overhead;
+    facts.record = pass.record;
+    facts.next_event = pass.next_event;
+    return facts;
+}
 
 struct Simulated {
     std::vector<PassPlan> passes;
@@ -28,18 +50,20 @@ Simulated simulate(const Job& job, const World& world) {
     Simulated run;
     const PassChooser choose = passes_of(job);
     double precision = 0;
+    std::uint32_t trees = 0;
     while (const auto pass = choose(run.state).pass) {
         EXPECT_LT(run.passes.size(), 100u) << "the budget does not end";
         if (run.passes.size() >= 100) break;
         RenderState& state = run.state;
-        const double v = world.variance * std::pow(world.learning, pass->index);
         const double speed = state.seconds >= world.slow_from ? world.slow : 1.0;
-        const double trace = world.seconds_per_spp * speed * pass->spp;
-        state.passes.push_back({pass->spp, state.spp(), v, trace, world.overhead});
-        state.seconds += trace + world.overhead;
+        const bool same_tree = !state.passes.empty() && !state.passes.back().record;
+        trees += !state.passes.empty() && !same_tree;
+        const PassFacts facts = facts_of(*pass, world, trees, speed);
+        state.passes.push_back(facts);
+        state.seconds += facts.collect_seconds + world.overhead;
         const bool counts = job.guiding.type == GuidingType::none || pass->spp >= kMinSamplesForVariance;
-        if (shows_last_pass_only(job)) precision = 0;
-        if (counts) precision += pass->spp / v;
+        if (job.budget.strict || (shows_last_tree_only(job) && !same_tree)) precision = 0;
+        if (counts) precision += pass->spp / facts.mse_of_sample;
         state.error.known = precision > 0;
         state.error.rmse = precision > 0 ? std::sqrt(1 / precision) : 0;
         state.error.low = 0.9 * state.error.rmse;
@@ -78,7 +102,7 @@ TEST(Budget, SecondsAreKept) {
 }
 
 TEST(Budget, SecondsAreKeptWhenSamplesBecomeDearer) {
-    for (const double slow : {0.8, 1.25})
+    for (const double slow : {0.7, 1.35})
         for (const double from : {2.0, 8.0, 14.0}) {
             const Simulated run = simulate(seconds_job(30), {.slow_from = from, .slow = slow});
             EXPECT_LT(distance(run, 30), 1.0) << "from second " << from << " on, " << slow;
@@ -95,6 +119,32 @@ TEST(Budget, AStrictRenderHasOneEndingPass) {
     job.budget.strict = true;
     const Simulated run = simulate(job, {});
     EXPECT_LT(distance(run, 30), 1.0);
+    for (const PassPlan& pass : run.passes)
+        EXPECT_EQ(pass.record, pass.index + 2 < run.passes.size()) << "one with the last tree to learn what it costs";
+    const double thrown_away = run.passes[run.passes.size() - 2].spp;
+    EXPECT_LT(thrown_away, 0.1 * run.passes.back().spp);
+}
+
+TEST(Budget, AStrictRenderKeepsItsTimeWhereTreesMakeSamplesDearer) {
+    for (const double growth : {0.6, 0.8, 1.3, 1.6}) {
+        Job job = seconds_job(10);
+        job.budget.strict = true;
+        EXPECT_LT(distance(simulate(job, {.seconds_per_spp = 0.02, .growth = growth}), 10), 1.0) << growth;
+    }
+}
+
+TEST(Budget, PassesOfTheLastTreeMakeUpForAWrongForecast) {
+    Job job = seconds_job(10);
+    job.guiding.combination = Combination::last;
+    const Simulated run = simulate(job, {.seconds_per_spp = 0.02, .slow_from = 4, .slow = 0.8});
+    EXPECT_LT(distance(run, 10), 1.0);
+    EXPECT_GT(run.state.spp_of_last_tree(), run.passes.back().spp);
+}
+
+TEST(Budget, AStrictRenderOfAnErrorThrowsNothingAway) {
+    Job job = error_job(0.1);
+    job.budget.strict = true;
+    const Simulated run = simulate(job, {});
     for (const PassPlan& pass : run.passes)
         EXPECT_EQ(pass.record, pass.index + 1 < run.passes.size());
 }
@@ -172,58 +222,30 @@ TEST(Budget, WhicheverComesFirst) {
     EXPECT_LT(simulate(job, {}).state.seconds, 9);
 }
 
+TEST(Budget, OnlyWhatTheJobShowsIsKept) {
+    const auto shown = [](const Job& job) {
+        std::vector<PassResult> passes;
+        for (const bool same_tree : {false, false, true})
+            show({4, 0, {}, same_tree}, job, passes);
+        return passes.size();
+    };
+    Job job;
+    EXPECT_EQ(shown(job), 3u);
+    job.guiding.combination = Combination::last;
+    EXPECT_EQ(shown(job), 2u);
+    job.budget.strict = true;
+    EXPECT_EQ(shown(job), 1u);
+    job = {};
+    job.guiding.type = GuidingType::none;
+    job.guiding.combination = Combination::last;
+    EXPECT_EQ(shown(job), 3u);
+}
+
 TEST(Budget, AListIsPlayedAsItIs) {
     Job job;
     job.budget.spp = 100;
     const std::vector<PassPlan> passes = plan_passes(job);
     EXPECT_EQ(simulate(job, {}).passes, passes);
-}
-
-/// The error that a render is in after one more pass, weighed as combine_passes does.
-double error_after(const RenderState& state, const Job& job, double spp, double variance) {
-    const double now = state.error.mse();
-    if (job.budget.strict) return std::sqrt(variance / spp);
-    if (job.guiding.combination == Combination::inverse_variance && job.guiding.type != GuidingType::none)
-        return std::sqrt(1 / (1 / now + spp / variance));
-    const bool guided = job.guiding.type != GuidingType::none;
-    double sum = 0;
-    for (const PassFacts& pass : state.passes)
-        sum += fixed_weight(pass.spp, pass.spp_before, guided);
-    const double weight = spp * fixed_weight(1, state.spp(), guided);
-    return std::sqrt((sum * sum * now + weight * weight * variance / spp) / ((sum + weight) * (sum + weight)));
-}
-
-TEST(Forecast, LeadsToTheErrorAskedFor) {
-    RenderState state;
-    state.passes = {{1, 0, 0, 0.1, 0.1}, {8, 1, 5.0, 0.8, 0.1}, {16, 9, 4.0, 1.6, 0.1}};
-    state.error.known = true;
-    state.error.mean = 2;
-    for (const bool strict : {false, true})
-        for (const GuidingType type : {GuidingType::none, GuidingType::ppg})
-            for (const Combination combination : {Combination::fixed, Combination::inverse_variance}) {
-                Job job;
-                job.guiding.type = type;
-                job.guiding.combination = combination;
-                job.budget.strict = strict;
-                // Without guiding, all samples are alike: the error says what one of them is worth.
-                state.error.rmse = type == GuidingType::none ? std::sqrt(4.0 / 25) : 0.35;
-                const double spp = spp_to_reach(state, job, 0.1 * 0.1);
-                EXPECT_NEAR(error_after(state, job, spp, 4.0), 0.1, 1e-9);
-            }
-}
-
-TEST(Forecast, OfTimeIsThatOfTheLastPasses) {
-    RenderState state;
-    state.passes = {{64, 0, 1, 1.0, 0.5}, {128, 64, 1, 4.0, 0.25}};
-    EXPECT_DOUBLE_EQ(seconds_of_pass(state, 256), 0.25 + 8.0);
-    state.passes.push_back({4, 192, 1, 1.0, 0.25});  // too small a pass to go by alone
-    EXPECT_DOUBLE_EQ(seconds_per_spp(state), 5.0 / 132);
-}
-
-TEST(Forecast, IsUnknownBeforeThereAreVariances) {
-    RenderState state;
-    state.passes = {{1, 0, 0, 1.0, 0.1}};
-    EXPECT_TRUE(std::isinf(spp_to_reach(state, {}, 1)));
 }
 
 }  // namespace

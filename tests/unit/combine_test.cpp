@@ -29,6 +29,15 @@ TEST(Combine, LastIsTheLastPass) {
         EXPECT_DOUBLE_EQ(m.x, 2.0);
 }
 
+TEST(Combine, LastTakesAllPassesOfTheLastTree) {
+    std::vector<PassResult> passes{make_pass(4, 0, 1.0f, 0.0f, 3, 1), make_pass(6, 4, 2.0f, 0.0f, 3, 2),
+                                   make_pass(2, 10, 4.0f, 0.0f, 3, 3)};
+    passes.back().same_tree = true;
+    const CombinedImage image = combine_passes(passes, Combination::last, true);
+    for (const Rgb64& m : image.mean)
+        EXPECT_DOUBLE_EQ(m.x, (6 * 2.0 + 2 * 4.0) / 8) << "every sample weighs the same";
+}
+
 TEST(Combine, FixedWeightsGrowWithSamplesAndTraining) {
     const std::vector<PassResult> passes{make_pass(4, 0, 1.0f, 0.0f, 2, 1), make_pass(8, 4, 2.0f, 0.0f, 2, 2)};
     const CombinedImage image = combine_passes(passes, Combination::fixed, true);

@@ -122,6 +122,55 @@ TEST(ErrorEstimate, ItsIntervalIsAsWideAsTheErrorsSpread) {
     EXPECT_LT(width, 1.3 * 2 * 1.96 * deviation);
 }
 
+/// An image of ones in which so many samples (of 16 a pixel) are much brighter, by amounts of their own.
+PassResult rare_light(double events, unsigned seed) {
+    std::mt19937 engine(seed);
+    std::uniform_real_distribution<double> uniform;
+    std::lognormal_distribution<double> light(0, 1);
+    PassResult pass{16, 0, std::vector<PixelEstimate>(kSize * kSize)};
+    for (PixelEstimate& pixel : pass.pixels)
+        for (std::uint32_t s = 0; s < 16; ++s) {
+            const bool event = uniform(engine) * 16 * kSize * kSize < events;
+            pixel.add(s, Rgb(static_cast<float>(kMean + (event ? 30 * light(engine) : 0.0))));
+        }
+    return pass;
+}
+
+TEST(ErrorEstimate, IsHonestWhereFewSamplesAreTheWholeError) {
+    for (const double events : {2.0, 30.0, 300.0, 3000.0}) {
+        const double truth = kMean + 30 * std::exp(0.5) * events / (16 * kSize * kSize);
+        int covered = 0, known = 0, narrow = 0;
+        for (unsigned seed = 0; seed < 100; ++seed) {
+            const std::vector<PassResult> passes = {rare_light(events, seed)};
+            const CombinedImage image = combine_passes(passes, Combination::fixed, false);
+            const ErrorEstimate error = estimate_error(image, seed);
+            if (error.rmse == 0) continue;  // nothing rare was met
+            double squares = 0;
+            for (const Rgb64& m : image.mean)
+                squares += (m.x - truth) * (m.x - truth) / (kSize * kSize);
+            ++known;
+            covered += error.low <= std::sqrt(squares) && std::sqrt(squares) <= error.high;
+            narrow += error.high < 1.2 * error.low;
+        }
+        EXPECT_GE(covered, 0.9 * known) << events << " bright samples";
+        if (events < 50) {
+            EXPECT_EQ(narrow, 0) << "another such sample may come";
+        }
+    }
+}
+
+TEST(ErrorEstimate, OfAnImageWithoutNoiseIsZero) {
+    PassResult pass{16, 0, std::vector<PixelEstimate>(9)};
+    for (PixelEstimate& pixel : pass.pixels)
+        for (std::uint32_t s = 0; s < 16; ++s)
+            pixel.add(s, Rgb(2.0f));
+    const ErrorEstimate error = estimate_error(combine_passes(std::vector{pass}, Combination::fixed, false), 1);
+    EXPECT_TRUE(error.known);
+    EXPECT_EQ(error.relative(), 0);
+    EXPECT_EQ(error.relative_low(), 0);
+    EXPECT_EQ(error.relative_high(), 0);
+}
+
 TEST(ErrorEstimate, IsTheSameForTheSameImage) {
     const CombinedImage image = combine_passes(synthetic_passes({8}, Noise::gaussian, 1), Combination::fixed, false);
     const ErrorEstimate a = estimate_error(image, 5), b = estimate_error(image, 5);

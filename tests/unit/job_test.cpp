@@ -77,7 +77,7 @@ TEST(Job, WrittenJobReadsBackTheSame) {
     job.guiding.combination = Combination::fixed;
     job.budget = {1u << 30, 12.5, 0.03, 1u << 20, true};
     job.sampler.seed = 123456789012345678u;
-    job.farm = {17, true, 0.1, 2.25, "sse4.2"};
+    job.farm = {17, true, 0.1, 2.25, "sse4.2", true};
     job.output = {"runs/x", "y.exr"};
     const std::string text = write_job(job);
     const Job back = job_of(text);

@@ -64,6 +64,13 @@ TEST(Mis, EdgesOfTheRange) {
     }
     EXPECT_FLOAT_EQ(mis_weight(MisHeuristic::balance, 1.0f, 3.0f), 0.25f);
     EXPECT_FLOAT_EQ(mis_weight(MisHeuristic::power, 1.0f, 3.0f), 0.1f);
+    EXPECT_EQ(mis_weight(MisHeuristic::equal, 1.0f, 3.0f), 0.5f);
+    EXPECT_EQ(mis_weight(MisHeuristic::equal, 1e30f, 1e-30f) + mis_weight(MisHeuristic::equal, 1e-30f, 1e30f), 1.0f);
+    for (const float own : {0.0f, 2.0f, kInfinity})
+        for (const float other : {0.0f, 2.0f, kInfinity})
+            if (own != other) {
+                EXPECT_EQ(mis_weight(MisHeuristic::equal, own, other), own > other ? 1.0f : 0.0f);
+            }
 }
 
 TEST(Roulette, Rules) {

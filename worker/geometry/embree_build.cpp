@@ -37,8 +37,8 @@ void EmbreeScene::ReleaseScene::operator()(RTCScene scene) const {
     rtcReleaseScene(scene);
 }
 
-EmbreeScene::EmbreeScene(std::vector<Shape> shapes, const std::string& isa, const ShapeMasks& masks)
-    : shapes_(std::move(shapes)), surfaces_(shapes_.size()), error_(std::make_unique<std::string>()) {
+EmbreeScene::EmbreeScene(std::vector<Shape> shapes, const std::string& isa, const ShapeMasks& masks, bool robust)
+    : robust_(robust), shapes_(std::move(shapes)), surfaces_(shapes_.size()), error_(std::make_unique<std::string>()) {
     require_isa(isa);
     const std::string config = "threads=1,set_affinity=0,hugepages=0,isa=" + isa;
     device_.reset(rtcNewDevice(config.c_str()));
@@ -64,7 +64,7 @@ void EmbreeScene::check_errors(const std::string& doing) const {
 std::unique_ptr<RTCSceneTy, EmbreeScene::ReleaseScene> EmbreeScene::make_scene() const {
     std::unique_ptr<RTCSceneTy, ReleaseScene> scene(rtcNewScene(device_.get()));
     check_errors("making a scene");
-    rtcSetSceneFlags(scene.get(), RTC_SCENE_FLAG_NONE);
+    rtcSetSceneFlags(scene.get(), robust_ ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE);
     rtcSetSceneBuildQuality(scene.get(), RTC_BUILD_QUALITY_MEDIUM);
     return scene;
 }

@@ -31,9 +31,10 @@ class EmbreeScene {
   public:
     /// Takes the shapes over. `isa` as in Job::Farm: the same on every worker, since it decides roundings. Built by one
     /// thread, so that the hierarchy, and with it the winner among equally near hits, is the same everywhere.
+    /// `robust`: no ray slips through an edge that two triangles share.
     /// Masks, instances and analytic shapes cost nothing where there are none.
     /// Throws RunError when Embree reports an error, the processor lacks the isa, or an index is out of range.
-    EmbreeScene(std::vector<Shape> shapes, const std::string& isa, const ShapeMasks& masks = {});
+    EmbreeScene(std::vector<Shape> shapes, const std::string& isa, const ShapeMasks& masks = {}, bool robust = false);
     ~EmbreeScene();
     EmbreeScene(const EmbreeScene&) = delete;
     EmbreeScene& operator=(const EmbreeScene&) = delete;
@@ -120,6 +121,7 @@ class EmbreeScene {
     Vec3 outward(const Hit& hit) const;
     void check_errors(const std::string& doing) const;
 
+    const bool robust_;
     std::vector<Shape> shapes_;
     std::vector<Surface> surfaces_;
     std::vector<Mask> masks_;  ///< of the masked shapes, in their order

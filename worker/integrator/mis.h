@@ -9,6 +9,7 @@ namespace treefarm {
 inline float mis_weight(MisHeuristic heuristic, float own, float other) {
     if (!(own > 0.0f)) return 0.0f;
     if (std::isinf(own)) return 1.0f;
+    if (heuristic == MisHeuristic::equal) return other > 0.0f ? (std::isinf(other) ? 0.0f : 0.5f) : 1.0f;
     const float ratio = other / own;
     return heuristic == MisHeuristic::power ? 1.0f / (1.0f + ratio * ratio) : 1.0f / (1.0f + ratio);
 }

@@ -1,0 +1,154 @@
+#include "common/plan/outlook.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace treefarm {
+namespace {
+
+/// Progress from one tree to the next is the progress before to this power.
+constexpr double kFading = 0.5;
+/// No tree is trusted to do better than this, or to change a sample's cost by more.
+constexpr double kLeastProgress = 0.25;
+constexpr double kMostCostRatio = 1.6;
+/// So many trees that are no better than each other have learned all that there is.
+constexpr int kTreesAtRest = 3;
+/// What keeping a log of records takes of tracing itself: 2 to 16 % measured on seven scenes.
+constexpr double kRecordingShare = 0.1;
+/// Of a clock that did not move, seconds.
+constexpr double kShortestSample = 1e-9;
+
+/// Passes that had one tree.
+struct TreeFacts {
+    double spp = 0;
+    double samples_times_variance = 0, known_spp = 0;
+    double trace_core_seconds = 0;  ///< without the log of records
+    bool first = false;             ///< before anything was learned
+    bool next_event = false;
+
+    double variance() const { return samples_times_variance / known_spp; }
+    double core_per_spp() const { return trace_core_seconds / spp; }
+};
+
+std::vector<TreeFacts> trees_of(const RenderState& state) {
+    std::vector<TreeFacts> trees;
+    bool fresh = true;
+    for (const PassFacts& pass : state.passes) {
+        if (fresh) {
+            trees.emplace_back();
+            trees.back().first = trees.size() == 1;
+        }
+        TreeFacts& tree = trees.back();
+        tree.spp += pass.spp;
+        tree.next_event = pass.next_event;
+        if (pass.spp >= 2) {
+            tree.known_spp += pass.spp;
+            tree.samples_times_variance += pass.spp * pass.mse_of_sample;
+        }
+        tree.trace_core_seconds += pass.trace_core_seconds * (pass.record ? 1 - kRecordingShare : 1.0);
+        fresh = pass.record;
+    }
+    return trees;
+}
+
+}  // namespace
+
+std::uint32_t RenderState::spp_of_last_tree() const {
+    std::uint32_t spp = 0;
+    for (auto pass = passes.rbegin(); pass != passes.rend(); ++pass) {
+        if (pass != passes.rbegin() && pass->record) break;
+        spp += pass->spp;
+    }
+    return spp;
+}
+
+Outlook::Outlook(const RenderState& state) : learning_(state.passes.back().record) {
+    look_at_variance(state);
+    look_at_cost(state);
+}
+
+void Outlook::look_at_variance(const RenderState& state) {
+    struct Level {
+        double weight, variance;
+        int trees;
+    };
+    std::vector<Level> levels;
+    const std::vector<TreeFacts> trees = trees_of(state);
+    for (const TreeFacts& tree : trees) {
+        if (tree.known_spp == 0 || (tree.first && trees.size() > 1)) continue;
+        if (tree.next_event != trees.back().next_event) continue;
+        levels.push_back({tree.known_spp, tree.variance(), 1});
+        // More noise than with the tree before: both are as good, and the noise is in the measurement (isotonic
+        // regression by pooling adjacent violators).
+        while (levels.size() > 1 && levels.back().variance >= levels[levels.size() - 2].variance) {
+            const Level last = levels.back();
+            levels.pop_back();
+            Level& before = levels.back();
+            before.variance =
+                (before.variance * before.weight + last.variance * last.weight) / (before.weight + last.weight);
+            before.weight += last.weight;
+            before.trees += last.trees;
+        }
+    }
+    if (levels.empty()) return;
+    variance_ = levels.back().variance;
+    quiet_ = !(variance_ > 0);
+    if (levels.back().trees >= kTreesAtRest)
+        progress_ = 1;
+    else if (levels.size() > 1)
+        progress_ = std::max(kLeastProgress, variance_ / levels[levels.size() - 2].variance);
+    else if (levels.back().trees > 1)
+        progress_ = 1;
+    trees_since_ = levels.back().trees - 1;
+    int back = 0;
+    for (auto level = levels.rbegin(); level != levels.rend() && recent_progress_ == 0; ++level)
+        if ((back += level->trees) >= 3) recent_progress_ = quiet_ ? 1.0 : variance_ / level->variance;
+}
+
+void Outlook::look_at_cost(const RenderState& state) {
+    // What a core-second takes of the clock is a matter of the machine and its neighbours: the mean over all passes, of
+    // which the last ones are the longest.
+    double clock = 0, core = 0, spp = 0;
+    for (const PassFacts& pass : state.passes) {
+        clock += pass.collect_seconds;
+        core += pass.trace_core_seconds + pass.record_core_seconds;
+        spp += pass.spp;
+    }
+    const PassFacts& last = state.passes.back();
+    overhead_ = last.overhead_seconds;
+    const std::vector<TreeFacts> trees = trees_of(state);
+    const double traced = trees.back().core_per_spp();
+    if (!(core > 0 && traced > 0)) {  // a farm that does not tell what its threads did
+        core_per_spp_ = clock / spp;
+        return;
+    }
+    clock_per_core_ = clock / core;
+    core_per_spp_ = traced;
+    if (last.record) recording_ = (last.trace_core_seconds + last.record_core_seconds) / (last.spp * traced);
+    if (trees.size() < 3) return;
+    const TreeFacts& before = trees[trees.size() - 2];
+    if (before.core_per_spp() > 0 && before.next_event == trees.back().next_event)
+        cost_ratio_ = std::clamp(traced / before.core_per_spp(), 1 / kMostCostRatio, kMostCostRatio);
+}
+
+namespace {
+
+/// Product of `trees` steps, each the root of the one before, that follow a step of this size.
+double fading_steps(double step, int trees) {
+    const double power = kFading * (1 - std::pow(kFading, trees)) / (1 - kFading);
+    return std::pow(step, power);
+}
+
+}  // namespace
+
+double Outlook::variance_after(int trees) const {
+    if (!(progress_ > 0)) return variance_;
+    return variance_ * fading_steps(std::pow(progress_, std::pow(kFading, trees_since_)), trees);
+}
+
+double Outlook::seconds_per_spp(int trees, bool record) const {
+    const double core = core_per_spp_ * fading_steps(cost_ratio_, trees) * (record ? recording_ : 1.0);
+    return std::max(core * clock_per_core_, kShortestSample);
+}
+
+}  // namespace treefarm

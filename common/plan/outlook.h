@@ -1,0 +1,73 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "common/film/error_estimate.h"
+
+namespace treefarm {
+
+/// What a finished pass tells about those to come. Seconds of the clock are the coordinator's.
+struct PassFacts {
+    std::uint32_t spp = 0;
+    std::uint32_t spp_before = 0;
+    double mse_of_sample = 0;        ///< PassVariance::mse_of_sample
+    double collect_seconds = 0;      ///< of the clock: what grows with spp
+    double overhead_seconds = 0;     ///< of the clock: what does not (broadcast, refinement, combination)
+    double trace_core_seconds = 0;   ///< of the workers' threads, tracing
+    double record_core_seconds = 0;  ///< of the workers' threads, adding records to the sums
+    bool record = false;             ///< taught the tree of the next pass; if not, the next has the same tree
+    bool next_event = false;
+};
+
+/// A render between two passes.
+struct RenderState {
+    std::vector<PassFacts> passes;  ///< the finished ones
+    double seconds = 0;             ///< spent since the first worker asked for work
+    ErrorEstimate error;            ///< of the image so far
+
+    std::uint32_t spp() const { return passes.empty() ? 0 : passes.back().spp_before + passes.back().spp; }
+    /// Of those passes that had the last one's tree.
+    std::uint32_t spp_of_last_tree() const;
+};
+
+/// What coming passes will be like, by those that are done (docs/guiding.md, "error"). A tree that learns more makes
+/// samples less noisy and changes what they cost, each time by the root of what the time before did: half of the way
+/// that is left, on a logarithmic scale. Needs a finished pass.
+class Outlook {
+  public:
+    explicit Outlook(const RenderState& state);
+
+    /// Whether any pass tells the variance of its samples.
+    bool knows_variance() const { return variance_ > 0 || quiet_; }
+    /// Of one sample, as they are now: what the last trees measured together, as far as they show no progress.
+    double variance() const { return variance_; }
+    /// Of one sample once `trees` more trees were learned; the same where nothing is learned any more.
+    double variance_after(int trees) const;
+    /// What the last tree that brought anything brought: variance over that before it, at most 1. 1 as well where none
+    /// of the last three did. 0: not known yet.
+    double progress() const { return progress_; }
+    /// What the last two trees brought together. 0: fewer than three were seen.
+    double recent_progress() const { return recent_progress_; }
+    /// Whether the next pass has another tree than the last.
+    bool learning() const { return learning_; }
+
+    /// Of the clock, once `trees` more trees were learned.
+    double seconds_per_spp(int trees, bool record) const;
+    double overhead_seconds() const { return overhead_; }
+
+  private:
+    void look_at_variance(const RenderState& state);
+    void look_at_cost(const RenderState& state);
+
+    bool learning_ = false;
+    bool quiet_ = false;  ///< passes with a variance of zero
+    double variance_ = 0, progress_ = 0, recent_progress_ = 0;
+    int trees_since_ = 0;                       ///< without progress
+    double core_per_spp_ = 0, cost_ratio_ = 1;  ///< without recording; of the last tree over that before it
+    double recording_ = 1;                      ///< core-seconds with it over those without
+    double clock_per_core_ = 1;
+    double overhead_ = 0;
+};
+
+}  // namespace treefarm
