@@ -38,12 +38,12 @@ class FloatSums {
     void commit(std::span<const Record> records, std::span<const std::uint32_t> counts) {
         std::vector<std::uint32_t> next(counts.size() + 1);
         for (const Record& record : records)
-            ++next[record.region + 1];
+            ++next[record.distribution + 1];
         for (std::size_t r = 0; r < counts.size(); ++r)
             next[r + 1] += next[r];
         std::vector<Record> sorted(records.size());
         for (const Record& record : records)
-            sorted[next[record.region]++] = record;
+            sorted[next[record.distribution]++] = record;
         const std::size_t stripe_size = (counts.size() + kStripes - 1) / kStripes;
         const Record* record = sorted.data();
         const Record* const end = record + sorted.size();
@@ -52,8 +52,8 @@ class FloatSums {
             const std::lock_guard lock(locks_[stripe]);
             for (std::size_t r = begin; r < stop; ++r)
                 counts_[r] += static_cast<float>(counts[r]);
-            for (; record != end && record->region < stop; ++record)
-                cells_[guide_.cell(record->region, record->code)] += record->value;
+            for (; record != end && record->distribution < stop; ++record)
+                cells_[guide_.cell(record->distribution, record->code)] += record->value;
         }
     }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "common/base/hash.h"
+#include "common/film/guiding_probe.h"
 #include "common/guiding/tree_learner.h"
 #include "common/plan/learning.h"
 
@@ -102,7 +103,20 @@ class PassLoop {
         farm_.beat();
     }
 
+    /// In the image-wide number of a probe pass: a decision, not a weight, so no pixel is biased by its own samples.
+    void judge_guiding(PassReport& report) {
+        if (report.plan.probe) {
+            const TraceStats& s = report.stats;
+            const ProbeCounts unguided{s.probe_paths, s.probe_rays},
+                guided{s.paths - s.probe_paths, s.rays - s.probe_rays};
+            report.guiding_gain = guiding_gain(farm_.collector().film().pixels(), result_.image.mean, guided, unguided);
+            state_.guiding_pays = state_.guiding_pays && guiding_pays(report.plan, report.guiding_gain);
+        }
+        report.guiding_pays = state_.guiding_pays;
+    }
+
     NextPass look_ahead(PassReport& report) {
+        judge_guiding(report);
         const double before = state_.passes.empty() ? 0.0 : result_.passes.back().seconds.refine;
         const PassSeconds& s = report.seconds;
         const double loading = report.plan.index == 0 ? loading_seconds_ : 0.0;

@@ -100,6 +100,8 @@ Json pass_json(const PassReport& r) {
             {"invalid_samples", r.stats.invalid_samples},
             {"tree_nodes", r.tree.nodes},
             {"tree_regions", r.tree.regions},
+            {"guided", r.plan.guided},
+            {"guiding_gain", r.guiding_gain},
             {"tree_views", r.tree.views},
             {"tree_cells", r.tree.cells},
             {"tree_bytes", r.tree.bytes},

@@ -22,11 +22,17 @@ enum class MisHeuristic : std::uint8_t {
     equal,  ///< one half each wherever both techniques can draw a sample: no heuristic at all, to measure by
 };
 
-/// What guides: nothing, the SD-tree (Mueller et al. 2017), or the SD-tree with a view-dependent part (Cavus 2020).
-enum class GuidingType : std::uint8_t { none, ppg, view };
+/// What guides: nothing, the SD-tree (Mueller et al. 2017), the SD-tree with a view-dependent part (Cavus 2020), or the
+/// last as long as it pays.
+enum class GuidingType : std::uint8_t {
+    none,
+    ppg,
+    view,
+    automatic,  ///< view, as long as guiding pays
+};
 
 inline bool uses_views(GuidingType type) {
-    return type == GuidingType::view;
+    return type == GuidingType::view || type == GuidingType::automatic;
 }
 
 /// What view-dependent vertices teach.
@@ -94,7 +100,7 @@ struct Job {
     } effects;
 
     struct Guiding {
-        GuidingType type = GuidingType::ppg;
+        GuidingType type = GuidingType::automatic;
         std::string preset;               ///< "" or "paper": recorded so that the result says what was asked
         float bsdf_fraction = 0.5f;       ///< probability of sampling the BSDF rather than the tree, (0, 1]
         bool learn_bsdf_fraction = true;  ///< per region, from bsdf_fraction on

@@ -198,11 +198,16 @@ std::vector<JobKey> make_job_keys() {
     for (const EffectSwitch& effect : effect_switches())
         add(effect_key(effect));
 
-    add(word_key("guiding.type", "what guides paths; ppg: a tree learned from the passes before (Mueller et al. 2017)",
-                 [](auto& j) -> auto& { return j.guiding.type; },
-                 std::vector<std::pair<std::string, GuidingType>>{
-                     {"none", GuidingType::none}, {"ppg", GuidingType::ppg}, {"view", GuidingType::view}},
-                 {{"auto", "use \"view\""}}));
+    add(word_key(
+        "guiding.type",
+        "what guides paths; ppg: a tree learned from the passes before (Mueller et al. 2017); view: with a "
+        "view-dependent "
+        "part (Cavus 2020); auto: that, as long as it pays",
+        [](auto& j) -> auto& { return j.guiding.type; },
+        std::vector<std::pair<std::string, GuidingType>>{{"none", GuidingType::none},
+                                                         {"ppg", GuidingType::ppg},
+                                                         {"view", GuidingType::view},
+                                                         {"auto", GuidingType::automatic}}));
     add(word_key(
         "guiding.preset",
         "a publication's settings, applied before all other keys; paper: Mueller et al. 2017, thesis: Cavus 2020",

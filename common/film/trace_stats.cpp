@@ -9,6 +9,8 @@ void TraceStats::add(const TraceStats& other) {
     shadow_rays += other.shadow_rays;
     vertices += other.vertices;
     records += other.records;
+    probe_paths += other.probe_paths;
+    probe_rays += other.probe_rays;
     invalid_samples += other.invalid_samples;
     for (const InvalidSample& sample : other.first_invalid)
         if (first_invalid.size() < kMaxReported) first_invalid.push_back(sample);

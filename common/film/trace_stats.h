@@ -30,8 +30,9 @@ struct TraceStats {
     std::uint64_t nonzero_paths = 0;  ///< that carried any radiance
     std::uint64_t rays = 0;           ///< closest-hit rays
     std::uint64_t shadow_rays = 0;
-    std::uint64_t vertices = 0;  ///< surface vertices at which a direction was sampled
-    std::uint64_t records = 0;   ///< of them, recorded for the tree
+    std::uint64_t vertices = 0;                     ///< surface vertices at which a direction was sampled
+    std::uint64_t records = 0;                      ///< of them, recorded for the tree
+    std::uint64_t probe_paths = 0, probe_rays = 0;  ///< of them, of unguided paths in a probe pass
     std::uint64_t invalid_samples = 0;
     std::vector<InvalidSample> first_invalid;          ///< at most kMaxReported of them, to reproduce
     double trace_seconds = 0;                          ///< thread-seconds in the tile renderer

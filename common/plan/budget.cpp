@@ -141,7 +141,12 @@ void show(PassResult pass, const Job& job, std::vector<PassResult>& shown) {
 }
 
 PassChooser passes_of(const Job& job) {
-    return has_open_budget(job) ? open_passes(job) : listed_passes(plan_passes(job));
+    PassChooser chooser = has_open_budget(job) ? open_passes(job) : listed_passes(plan_passes(job));
+    return [chooser = std::move(chooser), job](const RenderState& state) {
+        NextPass next = chooser(state);
+        if (next.pass) set_guiding(*next.pass, job, state.guiding_pays);
+        return next;
+    };
 }
 
 bool misses_target(const Job& job, const ErrorEstimate& error) {

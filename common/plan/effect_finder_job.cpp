@@ -87,7 +87,7 @@ void EffectFinder::add_transport() {
                          expected_tree(scene_, job_).guide_bytes());
     };
     finders_["views"] = [this] {
-        if (!uses_views(job_.guiding.type)) return effect_off("guiding.type is not \"view\"");
+        if (!uses_views(job_.guiding.type)) return effect_off("guiding.type is neither \"view\" nor \"auto\"");
         if (!learns_views(scene_, job_)) return effect_off("no surface prefers other directions from another side");
         if (plan_passes(job_).size() < 2) return effect_off("a single pass has nothing to learn from");
         return effect_on("rough materials, " + std::to_string(expected_tree(scene_, job_).views) + " views expected");

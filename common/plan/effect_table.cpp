@@ -71,10 +71,10 @@ std::vector<EffectDescription> make_table() {
          no_memory},
 
         {"guiding", "transport", "directions drawn from what earlier passes learned (Mueller et al. 2017)",
-         "`guiding.type` is ppg or view and there is more than one pass",
+         "`guiding.type` is not none and there is more than one pass",
          "560 bytes per region and 8 per cell; a lookup per vertex"},
         {"views", "transport", "where rough surfaces were met, directions by where light goes, too (Cavus 2020)",
-         "`guiding.type` is view, a material is rough, and there is more than one pass",
+         "`guiding.type` is view or auto, a material is rough, and there is more than one pass",
          "32 bytes per view and 8 per cell, at most half of the regions' cells; a lookup more per vertex there"},
         {"recording", "transport", "paths teach the tree", "with guiding, in all passes but the last",
          "13 bytes per cell and 22 per region, 150 where the mixture is learned; a record per vertex"},

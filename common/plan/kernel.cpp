@@ -17,7 +17,7 @@ std::string KernelChoice::name() const {
 KernelChoice kernel_of(const Job& job, const PassPlan& pass, bool plain_diffuse, bool views) {
     KernelChoice kernel;
     kernel.plain_diffuse = plain_diffuse;
-    kernel.guided = job.guiding.type != GuidingType::none && pass.index > 0;
+    kernel.guided = job.guiding.type != GuidingType::none && pass.guided && pass.index > 0;
     kernel.record = pass.record;
     kernel.views = views && (kernel.guided || kernel.record);
     return kernel;

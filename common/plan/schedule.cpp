@@ -11,6 +11,8 @@ namespace {
 
 /// Kick-start samples emitters directly in passes that begin with fewer samples per pixel than this (PPG's program).
 constexpr std::uint32_t kKickstartSpp = 128;
+/// Passes with fewer samples per pixel do not probe whether guiding pays.
+constexpr std::uint32_t kProbeSpp = 8;
 /// Samples per pixel by which an open budget is planned.
 constexpr std::uint32_t kGuessedSpp = 64;
 /// A work unit is at most about this many samples of a full tile: around half a second on one core.
@@ -36,6 +38,19 @@ void set_next_event(PassPlan& pass, const Job& job, bool next_event) {
 void set_record(PassPlan& pass, const Job& job, bool record) {
     pass.record = record;
     pass.learn_mixture = record && pass.index > 0 && job.guiding.learn_bsdf_fraction;
+}
+
+void set_guiding(PassPlan& pass, const Job& job, bool guiding_pays) {
+    if (job.guiding.type != GuidingType::automatic) return;
+    if (!guiding_pays) {
+        pass.guided = false;
+        set_record(pass, job, false);
+    }
+    pass.probe = pass.guided && pass.record && pass.index > 0 && pass.spp >= kProbeSpp;
+}
+
+bool guiding_pays(const PassPlan& probe, double gain) {
+    return gain == 0 || gain * (1.0 + kProbeSpp / static_cast<double>(probe.spp)) >= 1.0;
 }
 
 PassPlan make_pass(const Job& job, std::uint32_t index, std::uint32_t first_sample, std::uint32_t spp, bool last) {

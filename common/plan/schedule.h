@@ -13,6 +13,8 @@ struct PassPlan {
     std::uint32_t spp = 0;              ///< samples per pixel
     std::uint32_t first_sample = 0;     ///< spp done before it
     bool next_event = false;            ///< sample emitters directly
+    bool guided = true;                 ///< by the tree, where there is one
+    bool probe = false;                 ///< but for an eighth of the pixels, to see whether it pays (guiding_probe.h)
     bool record = false;                ///< teach the tree (the last pass does not)
     double record_weight = 1.0;         ///< 0.5 in kick-start passes
     bool learn_mixture = false;         ///< teach how often to sample the BSDF (needs a tree that guides)
@@ -28,6 +30,14 @@ PassPlan make_pass(const Job& job, std::uint32_t index, std::uint32_t first_samp
 /// Sets next_event or record, with what follows from each.
 void set_next_event(PassPlan& pass, const Job& job, bool next_event);
 void set_record(PassPlan& pass, const Job& job, bool record);
+
+/// guiding.type "auto": a pass that probes whether guiding pays, where it can, or one without guiding, once it was
+/// found not to pay.
+void set_guiding(PassPlan& pass, const Job& job, bool guiding_pays);
+
+/// Whether guiding goes on after a probe pass with this gain (guiding_gain(); 0: not known). Short passes have to say
+/// it loudly: guiding gets better with each.
+bool guiding_pays(const PassPlan& probe, double gain);
 
 /// Passes double from guiding.spp_unit; when what remains after a pass would be less than twice that pass, the pass
 /// takes the rest. The budget is rounded up to whole units. For an open budget (budget.seconds, budget.error), whose

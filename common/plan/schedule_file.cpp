@@ -15,8 +15,8 @@ constexpr std::int64_t kMostSpp = std::int64_t{1} << 30;
 constexpr std::size_t kMostPasses = 10000;
 
 /// What one [[pass]] may hold.
-constexpr std::string_view kKeys[] = {"spp", "next_event", "record"};
-constexpr const char* kKeyAdvice = "a pass has spp, next_event and record";
+constexpr std::string_view kKeys[] = {"spp", "next_event", "record", "guided", "probe"};
+constexpr const char* kKeyAdvice = "a pass has spp, next_event and record, and may have guided and probe";
 
 class ScheduleReader {
   public:
@@ -64,6 +64,8 @@ class ScheduleReader {
             throw InputError(place((*pass)["record"].node()->source()), "record = true, but guiding.type = \"none\"",
                              "render with the job that the schedule was made by");
         set_record(plan, job_, record);
+        plan.guided = !pass->contains("guided") || flag(*pass, "guided");
+        plan.probe = pass->contains("probe") && flag(*pass, "probe");
         done_ += *samples;
         passes_.push_back(plan);
     }
@@ -100,7 +102,8 @@ std::string write_schedule(std::span<const PassPlan> passes) {
         "# The passes of a render: treefarm render job.toml --schedule schedule.toml repeats its bits.\n";
     for (const PassPlan& pass : passes)
         text += "\n[[pass]]\nspp = " + std::to_string(pass.spp) + "\nnext_event = " + word(pass.next_event) +
-                "\nrecord = " + word(pass.record) + "\n";
+                "\nrecord = " + word(pass.record) + (pass.guided ? "" : "\nguided = false") +
+                (pass.probe ? "\nprobe = true" : "") + "\n";
     return text;
 }
 

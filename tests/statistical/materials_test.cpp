@@ -78,7 +78,9 @@ INSTANTIATE_TEST_SUITE_P(
                       Guiding{NextEvent::kickstart, GuidingType::view},
                       Guiding{NextEvent::always, GuidingType::view, ViewRecords::product, false},
                       Guiding{NextEvent::kickstart, GuidingType::view, ViewRecords::radiance, false},
-                      Guiding{NextEvent::always, GuidingType::view, ViewRecords::radiance, true}));
+                      Guiding{NextEvent::always, GuidingType::view, ViewRecords::radiance, true},
+                      Guiding{NextEvent::always, GuidingType::automatic},
+                      Guiding{NextEvent::kickstart, GuidingType::automatic}));
 
 /// Next event finds what scattering finds, and no more, on every material.
 TEST(Materials, NextEventAgreesWithScattering) {

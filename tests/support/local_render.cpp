@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "common/film/guiding_probe.h"
 #include "common/film/pass_film.h"
 #include "common/guiding/splat.h"
 #include "common/guiding/tree_learner.h"
@@ -68,6 +69,12 @@ LocalRender render_locally(const Scene& scene, const Job& job) {
         state.seconds += seconds;
         state.error = estimate_error(run.image, job.sampler.seed);
         run.states.push_back(state);
+        if (pass.probe) {
+            const ProbeCounts unguided{stats.probe_paths, stats.probe_rays};
+            const ProbeCounts guided{stats.paths - stats.probe_paths, stats.rays - stats.probe_rays};
+            run.guiding_gains.push_back(guiding_gain(film.pixels(), run.image.mean, guided, unguided));
+            state.guiding_pays = state.guiding_pays && guiding_pays(pass, run.guiding_gains.back());
+        }
         next = choose(state);
         if (!pass.record || !next.pass) continue;
         RefineReport report;

@@ -16,6 +16,7 @@ struct LocalRender {
     std::vector<PassResult> passes;
     std::vector<RenderState> states;  ///< after each pass; a sample takes a millisecond on this clock
     std::vector<TraceStats> stats;
+    std::vector<double> guiding_gains;  ///< of probe passes
     CombinedImage image;
     SdTree tree;  ///< that guided the last pass
 };

@@ -243,6 +243,7 @@ TEST(Budget, OnlyWhatTheJobShowsIsKept) {
 
 TEST(Budget, AListIsPlayedAsItIs) {
     Job job;
+    job.guiding.type = GuidingType::ppg;
     job.budget.spp = 100;
     const std::vector<PassPlan> passes = plan_passes(job);
     EXPECT_EQ(simulate(job, {}).passes, passes);

@@ -219,6 +219,8 @@ TEST(Plan, NamesTheKernelOfEachPass) {
     EXPECT_EQ(kernels[2].kernel.name(), "diffuse, guided");
     EXPECT_EQ(kernels[2].passes, (std::vector<std::uint32_t>{2}));
     EXPECT_EQ(kernels[1].kernel.name(), "diffuse, guided, recording");
+    EXPECT_EQ(kernels_of(full_scene(), job)[1].kernel.name(), "general, guided, by view, recording");
+    job.guiding.type = GuidingType::ppg;
     EXPECT_EQ(kernels_of(full_scene(), job)[1].kernel.name(), "general, guided, recording");
 }
 

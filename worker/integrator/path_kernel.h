@@ -4,6 +4,7 @@
 #include <cassert>
 #include <vector>
 
+#include "common/film/guiding_probe.h"
 #include "common/film/trace_stats.h"
 #include "common/guiding/mixture.h"
 #include "common/guiding/view_mixture.h"
@@ -48,6 +49,8 @@ class PathKernel {
     void add(const PathKey& key, const Ray& ray) {
         assert(!full());
         paths_[count_].begin(key, ray);
+        paths_[count_].probe = kGuided && settings_.probe && is_probe_pixel(key.pixel);
+        stats_.probe_paths += paths_[count_].probe;
         if constexpr (kRecord) recorders_[count_].begin_path();
         observer_.camera(ray);
         ++count_;
@@ -85,6 +88,7 @@ class PathKernel {
         for (std::uint32_t lane = 0; lane < alive; ++lane) {
             Path& path = paths_[alive_[lane]];
             path.lane = static_cast<std::uint8_t>(lane);
+            if constexpr (kGuided) stats_.probe_rays += path.probe;
             observer_.ray(path.ray);
             path.found = scene_.geometry().meet(path.ray, path.meeting);
         }
@@ -177,7 +181,8 @@ class PathKernel {
 
         if (depth > 1 && settings_.roulette.plays(depth - 1)) {
             const float spread = Surface::kTransmits ? path.spread : 1.0f;
-            const float survival = settings_.roulette.survival(path.throughput, spread, brightness(path));
+            const Roulette& roulette = kGuided && path.probe ? settings_.unguided_roulette : settings_.roulette;
+            const float survival = roulette.survival(path.throughput, spread, brightness(path));
             const bool survives = to_unit(draw(path.key, vertex_of(depth - 1), Stream::roulette)[0]) < survival;
             observer_.roulette(survival, survives);
             if (!survives) return end("roulette");
@@ -196,6 +201,7 @@ class PathKernel {
             path.outgoing_code = direction_to_code(-ray.direction);
             find_view<kGuided>(guide_, surface.view_dependent(), path.outgoing_code, path.guidance);
         }
+        if (kGuided && path.probe) path.guidance.bsdf_fraction = 1.0f, path.guidance.view_fraction = 0.0f;
         if constexpr (kRecord)
             if (surface.smooth() && !guide_.contains(hit.p)) recorders_[index].add_outside();
         if ((settings_.next_event || settings_.delta_alone) && surface.smooth())

@@ -18,10 +18,11 @@ struct PathSettings {
     bool hide_emitters;
     bool record_light_samples;  ///< kick-start: what next event finds teaches the tree, too
     bool profile;
+    bool probe;           ///< pixels of guiding_probe.h are unguided
     bool jitter_records;  ///< stochastic spatial filter
     GuidingTarget target;
     ViewRecords view_records;
-    Roulette roulette;
+    Roulette roulette, unguided_roulette;
 
     PathSettings(const TraceScene& scene, const Job& job, const PassPlan& pass, const Guide& guide)
         : max_depth(job.integrator.max_depth),
@@ -32,14 +33,16 @@ struct PathSettings {
           hide_emitters(job.integrator.hide_emitters),
           record_light_samples(job.integrator.next_event == NextEvent::kickstart && pass.next_event),
           profile(job.farm.profile),
+          probe(pass.probe),
           jitter_records(job.guiding.spatial_filter == SpatialFilter::stochastic),
           target(job.guiding.target),
           view_records(job.guiding.view_records),
-          roulette(job.guiding.type == GuidingType::none              ? Roulette::Rule::unguided
-                   : !guide.trained()                                 ? Roulette::Rule::untrained
-                   : job.guiding.roulette == GuidingRoulette::adjoint ? Roulette::Rule::adjoint
-                                                                      : Roulette::Rule::constant,
-                   job.integrator.rr_depth) {}
+          roulette(job.guiding.type == GuidingType::none || !pass.guided ? Roulette::Rule::unguided
+                   : !guide.trained()                                    ? Roulette::Rule::untrained
+                   : job.guiding.roulette == GuidingRoulette::adjoint    ? Roulette::Rule::adjoint
+                                                                         : Roulette::Rule::constant,
+                   job.integrator.rr_depth),
+          unguided_roulette(Roulette::Rule::unguided, job.integrator.rr_depth) {}
 };
 
 }  // namespace treefarm

@@ -16,6 +16,7 @@ struct PathState {
     float scatter_pdf;  ///< infinite after a delta lobe: next event cannot have found what it meets
     float spread;       ///< product of eta^2: what refraction took from the throughput and gives back later
     Vec3 scatter_point;
+    bool probe;          ///< unguided in a pass that probes whether guiding pays
     int first_exponent;  ///< of the quanta where the camera's ray arrived: how bright it is there
 
     // Where the ray has arrived; left over from before where it met nothing.
