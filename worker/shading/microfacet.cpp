@@ -71,6 +71,7 @@ float Microfacet::density(const Vec3& h) const {
     const float x = h.x / alpha_u, y = h.y / alpha_v;
     const float area = kPi * alpha_u * alpha_v;
     const float length2 = dot(h, h), z2 = h.z * h.z;
+    if (!(length2 > 0.0f)) return 0.0f;  // opposite directions along the surface
     if (ggx) {
         const float ratio = length2 / (x * x + y * y + z2);
         return ratio * ratio / area;
