@@ -12,11 +12,11 @@ namespace treefarm {
 namespace {
 
 /// 11 | The orthonormal frame towards -z
-/// Others: Frisvad's construction loses all digits there (Duff et al. 2017); summaries of the cure carry wrong code.
+/// Others: Frisvad's construction loses all digits there (Duff et al. 2017); summaries of the cure carry wrong
+/// code.
 /// Here: Duff's construction, with the sign of z copied so that -0 counts as negative.
 /// Holds: for normals within 2000 steps of float around both poles, and -0, the axes are unit and at right angles
 /// within 1e-6 and the determinant is 1 within 1e-6.
-/// Guard: common/math/frame.h: `const float sign = std::copysign(1.0f, n.z);` -> `const float sign = 1.0f;`
 TEST(Directions, FramesTowardsThePoles) {
     test::Worst worst;
     const auto look = [&](const Vec3& n) {
@@ -57,13 +57,11 @@ std::vector<Vec3> seam_directions() {
 }
 
 /// 30 | Directions on the map's seams and poles
-/// Others: an azimuth of 2 pi, a cosine of 1 and -0 fell outside the square or into a loop, NaN became a valid corner
-/// (practical-path-guiding, dirToCanonical).
+/// Others: an azimuth of 2 pi, a cosine of 1 and -0 fell outside the square or into a loop, NaN became a valid
+/// corner (practical-path-guiding, dirToCanonical).
 /// Here: the octahedral map ends below 1, has no loop, and one function serves single directions and batches.
 /// Holds: on all seams the square's coordinates are in [0, 1), mapping there and back moves a direction by at most
 /// 2e-6, batches give the same codes, and a direction that is no number gets some cell without leaving the tree.
-/// Guard: common/math/direction_map.h: `constexpr float kBelowOne = 0x1.fffffep-1f;` -> `constexpr float kBelowOne
-/// = 1.0f;`
 TEST(Directions, OnSeamsAndPoles) {
     test::Worst worst;
     for (const Vec3& d : seam_directions()) {
@@ -100,13 +98,10 @@ SdTree deep_tree(std::uint32_t code, int passes, RefineReport& report) {
 
 /// 31 | Quadtrees at their depth limit
 /// Others: a coordinate doubled 20 times in float, so that sampling and density disagreed (practical-path-guiding).
-/// Here: cells are ranges of an integer code, probabilities integers that sum to 2^30; sampling and density read one
-/// table. Cells end at 4^-16 of the sphere, and what would split further is counted.
-/// Holds: with all energy at one direction (poles, corners, random), densities times areas sum to 1 within 1e-6, the
-/// limit is reached and counted, and 20,000 samples have exactly the density of the cell that they lie in.
-/// Guard: common/guiding/refine.cpp: `if (depth < kMaxDirectionDepth) return true;` -> `if (depth < kMaxDirectionDepth
-/// - 2) return true;` Guard: common/guiding/refine.cpp: `result_.mass[largest] =
-/// static_cast<std::uint32_t>(result_.mass[largest] + left);`
+/// Here: cells are ranges of an integer code, probabilities integers that sum to 2^30; sampling and density read
+/// one table. Cells end at 4^-16 of the sphere, and what would split further is counted.
+/// Holds: with all energy at one direction (poles, corners, random), densities times areas sum to 1 within 1e-6,
+/// the limit is reached and counted, and 20,000 samples have exactly the density of the cell that they lie in.
 TEST(Directions, QuadtreesAtTheirDepthLimit) {
     std::mt19937 random(1);
     test::Worst worst;
@@ -148,10 +143,10 @@ TEST(Directions, QuadtreesAtTheirDepthLimit) {
 
 /// 29 | Regions and cells without energy
 /// Others: a leaf of zero weight divided 0 by 0; a mean of 0 had to become the uniform density.
-/// Here: a region without energy spreads evenly; a cell without energy has density 0, which the BSDF's share covers.
-/// Holds: without energy all 256 cells have 1/(4 pi) exactly; with energy in one cell all samples lie in it and other
-/// cells have density 0; a mixture's density stays above 0 wherever the BSDF's is.
-/// Guard: common/guiding/refine.cpp: `if (total_ == 0) return (Wide{1} << (2 * depth)) < divisor_;`
+/// Here: a region without energy spreads evenly; a cell without energy has density 0, which the BSDF's share
+/// covers.
+/// Holds: without energy all 256 cells have 1/(4 pi) exactly; with energy in one cell all samples lie in it and
+/// other cells have density 0; a mixture's density stays above 0 wherever the BSDF's is.
 TEST(Directions, CellsWithoutEnergy) {
     const SdTree first = initial_tree(Box3(Vec3(0.0f), Vec3(1.0f)), 1.0f);
     TreeSums sums(0, 1, 256);

@@ -21,6 +21,12 @@ test::PreparedMaterial prepared(decltype(Material::bsdf) bsdf) {
     return test::PreparedMaterial(std::move(scene.materials[0].bsdf));
 }
 
+/// The front, at a point whose tangents are x and y.
+const Bsdf& front(test::PreparedMaterial& material) {
+    if (!material.varies()) return material.front();
+    return material.at({Vec2(0.0f), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1), false});
+}
+
 /// Mean weight of samples for light leaving at this cosine, and the mean distance of their directions from the
 /// mirror's.
 struct Reflection {
@@ -42,21 +48,20 @@ Reflection reflect(const Bsdf& bsdf, float cos, std::uint32_t samples = 2000) {
 }
 
 /// 3 | GGX and Beckmann of a roughness towards 0
-/// Others: D was 0/0 (pbrt 44739874), and changed abruptly where a renderer cut off (Cycles #125750, #108125, #114940).
+/// Others: D was 0/0 (pbrt 44739874), and changed abruptly where a renderer cut off (Cycles #125750, #108125,
+/// #114940).
 /// Here: alpha is raised to 1e-4 with a warning; the formulas add positive terms and divide by no cosine.
 /// Holds: for alpha 1e-30 to 1e-2 all is finite, the reflected power differs from the mirror's by at most 2 alpha +
 /// 1e-3, and directions from the mirror's by at most 30 alpha on average.
-/// Guard: common/scene/validate_materials.cpp: `alpha->value = kLeastAlpha;`; worker/shading/bsdf_builder.cpp:
-/// `Microfacet::kMinAlpha` -> `0.0f`
 TEST(Facets, TinyRoughnessIsAMirror) {
     test::Worst worst;
     for (const Microfacets kind : {Microfacets::ggx, Microfacets::beckmann})
         for (const float alpha : {1e-30f, 1e-8f, 1e-6f, 1e-5f, 1e-4f, 1e-3f, 1e-2f}) {
-            const auto metal = prepared(ConductorMaterial{Rgb(0.2f), Rgb(3.0f), kWhite, rough(kind, alpha, alpha)});
+            auto metal = prepared(ConductorMaterial{Rgb(0.2f), Rgb(3.0f), kWhite, rough(kind, alpha, alpha)});
             const auto mirror = prepared(ConductorMaterial{Rgb(0.2f), Rgb(3.0f), kWhite, {}});
             const double used = std::max(double(alpha), 1e-4);
             for (const float cos : {1.0f, 0.7f, 0.2f}) {
-                const Reflection r = reflect(metal.front(), cos);
+                const Reflection r = reflect(front(metal), cos);
                 const double exact = reflect(mirror.front(), cos).power;
                 worst.see(std::abs(r.power / exact - 1.0) / (2.0 * used + 1e-3), alpha, cos);
                 EXPECT_LT(r.spread, 30.0 * used) << alpha << " " << cos;
@@ -74,9 +79,9 @@ TEST(Facets, HugeRoughnessKeepsItsEnergy) {
     double most = 0;
     for (const Microfacets kind : {Microfacets::ggx, Microfacets::beckmann})
         for (const auto& [u, v] : {std::pair{1.0f, 1.0f}, {1e3f, 1e3f}, {1e6f, 1e6f}, {1e6f, 1e-4f}, {1e-4f, 1e6f}}) {
-            const auto metal = prepared(ConductorMaterial{Rgb(0.0f), Rgb(1.0f), kWhite, rough(kind, u, v)});
+            auto metal = prepared(ConductorMaterial{Rgb(0.0f), Rgb(1.0f), kWhite, rough(kind, u, v)});
             for (const float cos : {1.0f, 0.5f, 1e-3f, 1e-8f})
-                most = std::max(most, reflect(metal.front(), cos).power);
+                most = std::max(most, reflect(front(metal), cos).power);
         }
     EXPECT_LT(most, 1.01);
     test::figure("largest reflected power", most);
@@ -85,19 +90,17 @@ TEST(Facets, HugeRoughnessKeepsItsEnergy) {
 /// 4 | Anisotropic surfaces smooth along one axis
 /// Others: one alpha of 0 gave NaN (pbrt 8e128c18, pbrt-v3 #273).
 /// Here: each of the two is raised to 1e-4.
-/// Holds: with alpha 1e-8 along one axis all is finite, the spread stays in the plane of the other axis within 1e-3.
-/// Guard: common/scene/validate_materials.cpp: `alpha->value = kLeastAlpha;`; worker/shading/bsdf_builder.cpp:
-/// `Microfacet::kMinAlpha` -> `0.0f`
+/// Holds: with alpha 1e-8 along one axis all is finite, the spread stays in the plane of the other axis within
+/// 1e-3.
 TEST(Facets, OneSmoothAxis) {
     test::Worst worst;
     for (const Microfacets kind : {Microfacets::ggx, Microfacets::beckmann})
         for (const bool along_u : {true, false}) {
-            const auto metal = prepared(ConductorMaterial{
-                Rgb(0.0f), Rgb(1.0f), kWhite, rough(kind, along_u ? 1e-40f : 0.3f, along_u ? 0.3f : 1e-40f)});
+            auto metal = prepared(ConductorMaterial{Rgb(0.0f), Rgb(1.0f), kWhite,
+                                                    rough(kind, along_u ? 1e-40f : 0.3f, along_u ? 0.3f : 1e-40f)});
             for (std::uint32_t i = 0; i < 2000; ++i) {
                 const Draw r = draw({5, i, 0}, 0, Stream::scatter);
-                // The frame of an anisotropic surface without texture coordinates has x along its tangent.
-                const BsdfSample s = metal.front().sample({0, 0, 1}, {0.5f, {to_unit(r[2]), to_unit(r[3])}});
+                const BsdfSample s = front(metal).sample({0, 0, 1}, {0.5f, {to_unit(r[2]), to_unit(r[3])}});
                 if (!(s.pdf > 0.0f)) continue;
                 ASSERT_TRUE(is_finite(s.f_cos) && std::isfinite(s.pdf) && is_finite(s.wi));
                 if (s.wi.z > 0.1f) worst.see(std::min(std::abs(s.wi.x), std::abs(s.wi.y)), s.wi);
@@ -129,12 +132,11 @@ void expect_finite(const BsdfValue& v, const Vec3& wo, const Vec3& wi) {
 }
 
 /// 7, 8, 9 | Grazing, opposite, equal and slightly too long directions
-/// Others: wi = wo broke the frame of the half vector (Mitsuba 3 #957), cos = 0 and a cosine slightly above 1 gave NaN
-/// (Mitsuba 2 #32, Q2RTX #23).
+/// Others: wi = wo broke the frame of the half vector (Mitsuba 3 #957), cos = 0 and a cosine slightly above 1 gave
+/// NaN (Mitsuba 2 #32, Q2RTX #23).
 /// Here: no cosine is divided by; the cosine with the facet comes from the half vector's length and is at most 1.
-/// Holds: value and density are finite and not negative for all pairs of directions at cosines 1 + ulp, 1, 1e-4, 1e-8,
-/// 1e-20, 1e-30, 0, -0 and their opposites.
-/// Guard: worker/shading/microfacet.cpp: `if (!(length2 > 0.0f)) return 0.0f;`
+/// Holds: value and density are finite and not negative for all pairs of directions at cosines 1 + ulp, 1, 1e-4,
+/// 1e-8, 1e-20, 1e-30, 0, -0 and their opposites.
 TEST(Facets, GrazingAndOppositeDirections) {
     std::vector<Vec3> directions;
     for (const float cos : {0x1.000002p0f, 1.0f, 0.5f, 1e-4f, 1e-8f, 1e-20f, 1e-30f, 0.0f}) {
@@ -161,11 +163,10 @@ TEST(Facets, GrazingAndOppositeDirections) {
 
 /// 10 | Reflectances of 0 and 1
 /// Others: with nothing specular or nothing diffuse, sampling weights were 0/0 (Mitsuba 2 #369, pbrt fe1d2fe4,
-/// ca0eaff5). Here: a share of nothing is 0, and a material without any reflectance is black. Holds: for all kinds and
-/// all pairs of 0, 1e-30 and 1, values, densities and samples are finite; what is reflected and transmitted is at
-/// most 1.01 times what arrives. Guard: worker/shading/coat.h: `return coat + rest > 0.0f ? coat / (coat + rest) :
-/// 0.0f;` -> `return coat / (coat + rest);` Guard: worker/shading/bsdf_builder.cpp: `if (!(coat + base > 0.0f)) return
-/// {};`
+/// ca0eaff5).
+/// Here: a share of nothing is 0, and a material without any reflectance is black.
+/// Holds: for all kinds and all pairs of 0, 1e-30 and 1, values, densities and samples are finite; what is
+/// reflected and transmitted is at most 1.01 times what arrives.
 TEST(Facets, ReflectancesOfNothingAndEverything) {
     double most = 0;
     for (const float specular : {0.0f, 1e-30f, 1.0f})

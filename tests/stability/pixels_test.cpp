@@ -16,10 +16,8 @@ namespace {
 /// 9 | One bad sample in a pixel
 /// Others: a NaN stayed in the accumulation buffer for ever (Q2RTX #23).
 /// Here: the film's door counts what is negative, infinite or NaN as black, and keeps where it was.
-/// Holds: of NaN, both infinities and a negative value in any channel all are refused, and counted; a pixel of 63 ones
-/// and one bad sample has the mean 63/64 exactly.
-/// Guard: worker/integrator/tile_renderer.cpp: `return is_finite(c) && c.x >= 0.0f && c.y >= 0.0f && c.z >= 0.0f;` ->
-/// `return c.x >= -1.0f;`
+/// Holds: of NaN, both infinities and a negative value in any channel all are refused, and counted; a pixel of 63
+/// ones and one bad sample has the mean 63/64 exactly.
 TEST(Pixels, OneBadSampleDoesNotPoison) {
     const WorkUnit unit{3, 0, 0, 1, 1, 0};
     for (const float bad : {test::kNan, test::kInfinity, -test::kInfinity, -1e-30f})
@@ -44,8 +42,7 @@ TEST(Pixels, OneBadSampleDoesNotPoison) {
 /// Others: accumulation in float drifted (Mitsuba 3 afeefedc8), or stood still.
 /// Here: double, in blocks of 64 samples that are merged along a fixed tree.
 /// Holds: 2^31 samples of 1 + 1e-7 (as float) have that mean within 1e-13 and a variance below 1e-12; a mean of 1e6
-/// with a deviation of 1 keeps its variance within 1 %. Guard: common/film/pixel_estimate.h: `Rgb64 mean{0.0};` -> `Rgb
-/// mean{0.0f};`
+/// with a deviation of 1 keeps its variance within 1 %.
 TEST(Pixels, MeansOfVeryManySamples) {
     const float value = 1.0f + 1e-7f;
     PixelEstimate block;
@@ -70,10 +67,11 @@ TEST(Pixels, MeansOfVeryManySamples) {
 }
 
 /// 25 | Counts beyond 31 bits
-/// Others: pixels times passes times samples overflowed an int (pbrt 6aa009b7, Cycles 103301030, Mitsuba 3 575b6c466).
+/// Others: pixels times passes times samples overflowed an int (pbrt 6aa009b7, Cycles 103301030, Mitsuba 3
+/// 575b6c466).
 /// Here: sample numbers have 32 bits, everything that multiplies them 64.
-/// Holds: a schedule of 2^31 - 1 samples per pixel adds up, its units cover every block once, and the largest film's
-/// last pixel and sample have a path of their own.
+/// Holds: a schedule of 2^31 - 1 samples per pixel adds up, its units cover every block once, and the largest
+/// film's last pixel and sample have a path of their own.
 TEST(Pixels, CountsBeyond31Bits) {
     Job job;
     job.budget.spp = 0x7fffffffu;
@@ -95,8 +93,8 @@ TEST(Pixels, CountsBeyond31Bits) {
 /// 22 | Samples on the edges of pixels
 /// Others: a sample at a whole coordinate went to two pixels or to none (Mitsuba 3 2d8976266).
 /// Here: the filter is sampled: an offset belongs to its pixel whatever it is.
-/// Holds: for the first and last random numbers rays of neighbouring pixels meet at their common edge within 1e-6 of a
-/// pixel, without gap or overlap.
+/// Holds: for the first and last random numbers rays of neighbouring pixels meet at their common edge within 1e-6
+/// of a pixel, without gap or overlap.
 TEST(Pixels, SamplesOnTheirEdges) {
     Scene scene;
     scene.camera = test::look_at({0, 0, 0}, {0, 0, 1}, {0, 1, 0}, 0.5f);
@@ -145,11 +143,9 @@ PassResult pass_of(std::uint32_t spp, std::uint32_t before, float value, unsigne
 /// 28 | Combining passes of one sample
 /// Others: the variance of one sample is 0/0: "Var: 1.#INF00" (practical-path-guiding's published log).
 /// Here: fewer than two samples have no variance, and passes of fewer than four get no weight by it.
-/// Holds: for every method, passes of 1, 1 + 1, 1 + 2 and 1 + 2 + 4 samples, noisy, black or as bright as 1e30, have
-/// finite means, variances and weights; the weights sum to 1 within 1e-12; errors are known only where they can be.
-/// Guard: common/film/pixel_estimate.cpp: `return n < 2 ? Rgb64(0.0) : m2 / static_cast<double>(n - 1);` -> `return m2
-/// / static_cast<double>(n - 1);` Guard: common/film/combine.cpp: `if (!(variance > 0)) return fixed_weights(passes,
-/// guided);  // a pass without noise: nothing to weigh by`
+/// Holds: for every method, passes of 1, 1 + 1, 1 + 2 and 1 + 2 + 4 samples, noisy, black or as bright as 1e30,
+/// have finite means, variances and weights; the weights sum to 1 within 1e-12; errors are known only where they
+/// can be.
 TEST(Pixels, PassesOfOneSample) {
     for (const Combination method : {Combination::inverse_variance, Combination::fixed, Combination::last})
         for (const bool guided : {false, true})

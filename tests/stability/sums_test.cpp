@@ -20,9 +20,6 @@ SdTree one_region(float radiance_scale) {
 /// Others: sums and statistical weights in float stood still at 2^24 (practical-path-guiding, measured).
 /// Here: sums are integers of 64 bits.
 /// Holds: 2^25 counts and 2^25 records of one quantum, then 2^31 more counts, give exactly that many.
-/// Guard: common/guiding/tree_update.h: `void add_count(std::uint32_t region, std::uint64_t count) { counts_[region] +=
-/// count; }` -> `void add_count(std::uint32_t region, std::uint64_t count) { counts_[region] =
-/// static_cast<std::uint64_t>(float(counts_[region]) + float(count)); }`
 TEST(Sums, CountBeyondFloats) {
     TreeSums sums(0, 1, 256);
     constexpr std::uint64_t kMany = std::uint64_t{1} << 25;
@@ -41,7 +38,6 @@ TEST(Sums, CountBeyondFloats) {
 /// Here: a contribution ends at 2^40 quanta, a cell at 2^64 - 1; both are counted and travel with the update.
 /// Holds: values up to the largest float and infinity add exactly 2^40; cells saturate and never wrap, whether by
 /// records, by adding sums or by merging updates; every cap is counted.
-/// Guard: common/guiding/tree_update.cpp: `sum = fits ? sum + quanta : kMaxSum;` -> `sum = sum + quanta;`
 TEST(Sums, CapsAreMetAndCounted) {
     for (const float huge : {1e30f, 3e38f, test::kInfinity}) {
         bool capped = false;
@@ -62,12 +58,11 @@ TEST(Sums, CapsAreMetAndCounted) {
 
 /// ours | Records 2^40 apart within a region, regions 1e60 apart
 /// Others: a sum in float forgets what is 2^24 times smaller than itself.
-/// Here: quanta are whole; below one quantum a record is rounded up with the probability of its fraction. Each region
-/// has a unit of its own.
-/// Holds: within a region a record of 2^40 quanta and 1000 of one add exactly; 200,000 records of 2^-10 quanta add up
-/// to their sum within 4.5 standard errors; units of regions reach from 1e-30 to 1e30 with the same relative steps.
-/// Guard: common/guiding/tree_update.cpp: `+ (static_cast<double>(random) * 0x1p-32 < fraction ? 1 : 0)` -> `+
-/// (fraction < 0 ? 1 : 0)`
+/// Here: quanta are whole; below one quantum a record is rounded up with the probability of its fraction. Each
+/// region has a unit of its own.
+/// Holds: within a region a record of 2^40 quanta and 1000 of one add exactly; 200,000 records of 2^-10 quanta add
+/// up to their sum within 4.5 standard errors; units of regions reach from 1e-30 to 1e30 with the same relative
+/// steps.
 TEST(Sums, RangesWithinAndBetweenRegions) {
     TreeSums sums(0, 1, 256);
     bool capped = false;
@@ -100,10 +95,8 @@ TEST(Sums, RangesWithinAndBetweenRegions) {
 /// ours | Thousands of updates in random order
 /// Others: atomic float sums, and optimiser steps per record, depend on the order of arrival.
 /// Here: integers, merged in any order.
-/// Holds: 3,000 updates of 40 records, merged in three random orders, or by trees of sums, give the same sums, bytes,
-/// refined tree and mixture, bit for bit.
-/// Guard: common/guiding/tree_update.cpp: `counts_[region] += count; }` -> `counts_[region] = 3 * counts_[region] / 2 +
-/// count; }`
+/// Holds: 3,000 updates of 40 records, merged in three random orders, or by trees of sums, give the same sums,
+/// bytes, refined tree and mixture, bit for bit.
 TEST(Sums, ThousandsOfUpdatesInAnyOrder) {
     const SdTree tree = test::random_tree(3, 20000, 500, 1);
     const Guide guide(tree);
@@ -156,11 +149,10 @@ TEST(Sums, ThousandsOfUpdatesInAnyOrder) {
 
 /// 40 | NaN and infinity from one worker
 /// Others: [inferred] one NaN contaminates every sum that it is merged into.
-/// Here: what is sent are integers, so no sum can hold NaN; an update that does not fit, or lies about itself, changes
-/// nothing and is refused by name.
-/// Holds: after each of 2,000 damaged updates (cut, flipped bits) the sums are either unchanged with an error, or those
-/// of a well-formed update: refining them gives probabilities that sum to 2^30.
-/// Guard: common/guiding/tree_update.cpp: `read(ignore, ignore, ignore);`
+/// Here: what is sent are integers, so no sum can hold NaN; an update that does not fit, or lies about itself,
+/// changes nothing and is refused by name.
+/// Holds: after each of 2,000 damaged updates (cut, flipped bits) the sums are either unchanged with an error, or
+/// those of a well-formed update: refining them gives probabilities that sum to 2^30.
 TEST(Sums, DamagedUpdatesChangeNothing) {
     const SdTree tree = one_region(1.0f);
     TreeSums update(tree.pass, 1, tree.cell_count());

@@ -18,13 +18,11 @@ std::uint64_t mass_of(const SdTree& tree, std::uint32_t region) {
 }
 
 /// 35 | 10^7 records at one point
-/// Others: the spatial tree has no depth limit, so that each refinement adds levels around the point until regions are
-/// smaller than a step of float (practical-path-guiding).
+/// Others: the spatial tree has no depth limit, so that each refinement adds levels around the point until regions
+/// are smaller than a step of float (practical-path-guiding).
 /// Here: at most 60 halvings, 20 of each axis; what would split further is counted.
-/// Holds: ten passes of 10^7 records at one point (inside, at a corner, outside the cube) leave at most 61 x 8 regions
-/// that tile the cube, the limit is reached and counted, and the point is found in a region 2^-20 wide.
-/// Guard: common/guiding/refine.cpp: `if (depth < kMaxSpatialDepth && room) {` -> `if (depth < 2 * kMaxSpatialDepth &&
-/// room) {`
+/// Holds: ten passes of 10^7 records at one point (inside, at a corner, outside the cube) leave at most 61 x 8
+/// regions that tile the cube, the limit is reached and counted, and the point is found in a region 2^-20 wide.
 TEST(Trees, TenMillionRecordsAtOnePoint) {
     std::size_t most = 0;
     for (const Vec3& point : {Vec3(0.3f, 0.6f, 0.7f), Vec3(0.0f), Vec3(1.0f), Vec3(0.5f), Vec3(5.0f, -3.0f, 0.5f)}) {
@@ -67,10 +65,9 @@ TEST(Trees, TenMillionRecordsAtOnePoint) {
 /// 35 | Scenes of no extent: points, lines, planes
 /// Others: a box of no size was divided by (practical-path-guiding, dTreeWrapper).
 /// Here: the tree's cube has the longest edge of the scene's box; 1 where there is none.
-/// Holds: for boxes that are empty, a point, a line, a plane, at 1e-30, 1 and 1e17 from the origin, the cube's edge is
-/// above 0 and finite, every point of the box is in the tree, and guided renders of one triangle and of one
-/// axis-aligned quad have no invalid sample and the right mean within 4.5 standard errors. Guard:
-/// common/guiding/sd_tree.cpp: `if (!(tree.extent > 0.0f)) tree.extent = 1.0f;`
+/// Holds: for boxes that are empty, a point, a line, a plane, at 1e-30, 1 and 1e17 from the origin, the cube's edge
+/// is above 0 and finite, every point of the box is in the tree, and guided renders of one triangle and of one
+/// axis-aligned quad have no invalid sample and the right mean within 4.5 standard errors.
 TEST(Trees, ScenesWithoutExtent) {
     for (const float at : {0.0f, 1e-30f, 1.0f, 1e17f})
         for (const float size : {0.0f, 1e-30f, 1.0f, 1e17f})
@@ -104,11 +101,8 @@ TEST(Trees, ScenesWithoutExtent) {
 /// 36 | Positions outside the tree's cube
 /// Others: points outside the box of the scene read beyond the tree (Cycles #158755).
 /// Here: they belong to the nearest region, and are counted.
-/// Holds: for points up to infinity and NaN the region exists, is that of the nearest point of the cube, and contains()
-/// is false; jittered by any random numbers too.
-/// Guard: common/guiding/guide.cpp: `if (!(steps > 0.0f)) return 0;  // also NaN`
-/// Guard: common/guiding/guide.cpp: `return steps < kAxisSteps ? static_cast<std::uint32_t>(steps) : (1u << kAxisBits)
-/// - 1;` -> `return static_cast<std::uint32_t>(steps);`
+/// Holds: for points up to infinity and NaN the region exists, is that of the nearest point of the cube, and
+/// contains() is false; jittered by any random numbers too.
 TEST(Trees, PositionsOutsideTheCube) {
     SdTree tree = initial_tree(Box3(Vec3(0.0f), Vec3(1.0f)), 1.0f);
     TreeSums sums(0, 1, 256);
@@ -138,7 +132,8 @@ TEST(Trees, PositionsOutsideTheCube) {
 
 /// 18, 35 | One texel of 1e6
 /// Others: one hot texel ruled every region, or was never found.
-/// Here: the environment is sampled by its luminance, records are capped in quanta of the region, never in radiance.
+/// Here: the environment is sampled by its luminance, records are capped in quanta of the region, never in
+/// radiance.
 /// Holds: guided with next event, a floor under a map that is black but for one texel of 1e6 is as bright as the
 /// unguided one within 4.5 standard errors, each of them within 2 % of the integral over the map.
 TEST(Trees, OneTexelOfAMillion) {
@@ -171,14 +166,12 @@ TEST(Trees, OneTexelOfAMillion) {
 }
 
 /// 34 | Mixture histograms of one bin, and of densities 0 and infinite
-/// Others: Adam's fraction ran into its limits, and gradients were NaN where a density was 0 (practical-path-guiding).
+/// Others: Adam's fraction ran into its limits, and gradients were NaN where a density was 0
+/// (practical-path-guiding).
 /// Here: histograms that merge, a concave objective with a prior, bisection within [0.05, 1].
-/// Holds: all energy in any one bin, at scales 1e-300 to 1e300, with priors 0.05 to 1 and weights 0 to 1e300, gives a
-/// fraction in [0.05, 1]; above 1/2 in the upper bins, below in the lower; pairs of densities 0, tiny, huge and
+/// Holds: all energy in any one bin, at scales 1e-300 to 1e300, with priors 0.05 to 1 and weights 0 to 1e300, gives
+/// a fraction in [0.05, 1]; above 1/2 in the upper bins, below in the lower; pairs of densities 0, tiny, huge and
 /// infinite all have a bin.
-/// Guard: common/guiding/mixture.h: `if (!(place > 0.0f)) return 0;  // also NaN`
-/// Guard: common/guiding/mixture.cpp: `double low = kLeastBsdfFraction, high = 1.0;` -> `double low = -0.5, high
-/// = 1.0;`
 TEST(Trees, MixturesOfOneBin) {
     for (int bin = 0; bin < kMixtureBins; ++bin)
         for (const double scale : {1e-300, 1e-30, 1.0, 1e30, 1e300})

