@@ -17,6 +17,9 @@ namespace treefarm {
 
 namespace {
 
+/// 1 to 4 have a meaning for every command.
+constexpr int kFoundSomething = 5;
+
 struct CheckOptions {
     std::string scene;
     std::vector<std::string> defines;
@@ -80,7 +83,7 @@ int run_check(const CheckOptions& options, std::ostream& out) {
             out << finding.text() << "\n";
         out << options.scene << ": " << (risky == 0 ? "nothing risky" : std::to_string(risky) + " risky") << "\n";
     }
-    return risky == 0 ? 0 : 1;
+    return risky == 0 ? 0 : kFoundSomething;
 }
 
 }  // namespace

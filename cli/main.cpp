@@ -82,6 +82,7 @@ int run(int argc, char** argv) {
 }  // namespace treefarm
 
 int main(int argc, char** argv) {
+    treefarm::flush_denormals_if_asked();
     const treefarm::TrapFloats traps;  // threads inherit them
     return treefarm::run(argc, argv);
 }

@@ -2,6 +2,8 @@
 
 #include <xmmintrin.h>
 
+#include <cstdlib>
+
 namespace treefarm {
 
 /// Floating-point exceptions (invalid, division by zero, overflow) that end the process where they happen. Only in
@@ -32,6 +34,12 @@ class FloatTraps {
     static constexpr unsigned kExceptions = _MM_MASK_INVALID | _MM_MASK_DIV_ZERO | _MM_MASK_OVERFLOW;
     unsigned before_ = 0;
 };
+
+/// In such a build, flushes denormals to zero if TREEFARM_FLUSH_DENORMALS stands in the environment.
+inline void flush_denormals_if_asked() {
+    if constexpr (kTrapsFloats)
+        if (std::getenv("TREEFARM_FLUSH_DENORMALS")) _mm_setcsr(_mm_getcsr() | 0x8040u);
+}
 
 /// Around our own code.
 using TrapFloats = FloatTraps<true>;

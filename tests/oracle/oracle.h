@@ -22,7 +22,7 @@ struct Row {
     double bound;         ///< that the worst error keeps
     std::uint64_t inputs = 0;
     double worst = 0;
-    std::string worst_input;
+    std::string worst_input{};
 
     template <class... Parts>
     void see(double error, const Parts&... parts) {

@@ -7,7 +7,9 @@
 namespace treefarm::oracle {
 
 void quadtrees(std::uint64_t count, std::vector<Row>& rows) {
-    Row density{"quadtree: density of a cell", "relative to energy / area, of cells with 1e-4 of the energy", 2e-5};
+    Row density{"quadtree: density of a cell",
+                "relative to energy / area, of cells with 1e-4 of the energy (the largest takes what rounding leaves)",
+                2e-4};
     Row table{"quadtree: density against its integer table", "relative", 1.2e-7};
     Row whole{"quadtree: densities times areas over all cells, minus 1", "absolute", 1e-6};
     Row sums{"sum of rounded records, 2^-20 to 2^20 of the mean", "in standard errors of the rounding", 5.0};

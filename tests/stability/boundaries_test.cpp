@@ -100,7 +100,7 @@ TEST(Boundaries, IndicesOfMetalsAreBounded) {
 /// Others: an index of 1 gave NaN or black in rough glass (Cycles #117611).
 /// Here: within 1e-4 of 1 nothing refracts: the boundary lets all pass straight on.
 /// Holds: smooth, thin and rough glass (alpha 0.01 to 1) with an index of 1, one float beside it, and up to 1 +-
-/// 2e-3, pass on all power within 2 %, rough ones what their facets do not mask; smooth and thin ones bend by at
+/// 2e-3, pass on all power within 3 %, rough ones what their facets do not mask; smooth and thin ones bend by at
 /// most 6 times the distance from 1; from both sides.
 TEST(Boundaries, EqualIndicesAreInvisible) {
     test::Worst bent, lost;
@@ -136,7 +136,7 @@ TEST(Boundaries, EqualIndicesAreInvisible) {
                 }
         }
     EXPECT_LT(bent.value, 6.0) << bent.where;
-    EXPECT_LT(lost.value, 0.02) << lost.where;
+    EXPECT_LT(lost.value, 0.03) << lost.where;
     test::figure("largest relative error of the power", lost.value);
 }
 

@@ -1,5 +1,9 @@
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
+
+#include "common/scene/load.h"
 #include "tests/support/hard_case.h"
 #include "tests/support/material_scenes.h"
 #include "tests/support/scaled_scene.h"
@@ -142,11 +146,27 @@ struct Guided {
 Guided render_passes(const Scene& scene, bool guided) {
     Guided result;
     Job job = guided ? test::guided_job(255, 8) : test::plain_job(255, 8);
+    job.integrator.hide_emitters = true;  // the lamp's edge is noise that no guide removes
     job.sampler.seed = guided ? 5 : 6;
     result.run = test::render_locally(scene, job);
     EXPECT_EQ(test::invalid_samples(result.run), 0u);
     result.variance = pass_variance(result.run.passes.back().pixels).stuv;
     return result;
+}
+
+/// The largest difference of two images of 16 x 16 pixels over blocks of 4 x 4, in standard errors.
+double worst_block(const Guided& a, const Guided& b) {
+    double worst = 0;
+    for (std::size_t block = 0; block < 16; ++block) {
+        double difference = 0, variance = 0;
+        for (std::size_t i = 0; i < 16; ++i) {
+            const std::size_t p = (block / 4 * 4 + i / 4) * 16 + block % 4 * 4 + i % 4;
+            difference += a.run.image.mean[p].x - b.run.image.mean[p].x;
+            variance += a.run.image.variance[p].x + b.run.image.variance[p].x;
+        }
+        worst = std::max(worst, std::abs(difference) / std::sqrt(variance));
+    }
+    return worst;
 }
 
 /// 12, 36 | Scenes ten thousand times larger or smaller
@@ -161,25 +181,60 @@ TEST(ScaleByTenThousand, LooksTheSameAndGuidingGains) {
     scene.shapes.back().geometry = test::quad({0.46f, 0.99f, 0.46f}, {0.08f, 0, 0}, {0, 0, 0.08f});
     const double gain = render_passes(scene, false).variance / render_passes(scene, true).variance;
     EXPECT_GT(gain, 1.3) << "where next event is off, guiding has something to gain";
-    test::Worst z;
+    double worst = 0;
+    const Guided here = render_passes(scene, false);
     for (const float factor : {1e4f, 1e-4f}) {
         const Scene other = test::scaled(scene, factor);
         const Guided plain = render_passes(other, false), guided = render_passes(other, true);
         EXPECT_NEAR(plain.variance / guided.variance / gain, 1.0, 0.25) << factor;
-        const Guided here = render_passes(scene, false);
-        for (const Guided* there : {&guided})
-            for (std::size_t block = 0; block < 16; ++block) {
-                double difference = 0, variance = 0;
-                for (std::size_t i = 0; i < 16; ++i) {
-                    const std::size_t p = (block / 4 * 4 + i / 4) * 16 + block % 4 * 4 + i % 4;
-                    difference += there->run.image.mean[p].x - here.run.image.mean[p].x;
-                    variance += there->run.image.variance[p].x + here.run.image.variance[p].x;
-                }
-                z.see(std::abs(difference) / std::sqrt(variance), factor, block);
-            }
+        worst = std::max(worst, worst_block(here, guided));
     }
-    EXPECT_LT(z.value, 4.5) << z.where;
-    test::figure("largest z of a block", z.value);
+    EXPECT_LT(worst, 4.5);
+    test::figure("largest z of a block", worst);
+}
+
+/// A room of a lamp, a ball and a box, moved by its transformations.
+Scene room_at(const std::string& place) {
+    const auto shape = [&](const std::string& type, const std::string& transform, const std::string& inside) {
+        return "<shape type=\"" + type + "\"><transform name=\"toWorld\">" + transform + place + "</transform>" +
+               inside + "</shape>\n";
+    };
+    const std::string white = "<bsdf type=\"twosided\"><bsdf type=\"diffuse\"/></bsdf>";
+    const std::string text =
+        "<scene version=\"0.6.0\"><sensor type=\"perspective\"><transform name=\"toWorld\"><lookat "
+        "origin=\"0.1,0.2,2.9\" "
+        "target=\"0,0,0\" up=\"0,1,0\"/>" +
+        place +
+        "</transform><film type=\"hdrfilm\"><integer name=\"width\" value=\"16\"/><integer name=\"height\" "
+        "value=\"16\"/></film></sensor>\n" +
+        shape("cube", "<scale x=\"1\" y=\"1\" z=\"3\"/>", "<boolean name=\"flipNormals\" value=\"true\"/>" + white) +
+        shape("sphere", "<scale value=\"0.37\"/><translate x=\"0.3\" y=\"-0.6\" z=\"0.2\"/>", white) +
+        shape("cube",
+              "<scale value=\"0.21\"/><rotate y=\"1\" angle=\"31\"/><translate x=\"-0.5\" y=\"-0.7\" z=\"0.1\"/>",
+              white) +
+        shape("rectangle", "<scale value=\"0.13\"/><rotate x=\"1\" angle=\"90\"/><translate y=\"0.98\"/>",
+              white + "<emitter type=\"area\"><rgb name=\"radiance\" value=\"30\"/></emitter>") +
+        "</scene>";
+    const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "room_at.xml";
+    std::ofstream(file) << text;
+    return load_scene(file).scene;
+}
+
+/// 12, 13 | Scenes a hundred thousand of their sizes away
+/// Others: far from the origin shadows detached and surfaces leaked (three-gpu #812, huira #46).
+/// Here: a scene that its transformations put more than 64 sizes away is read again and moved to the origin, in double,
+/// before a position becomes a float: the image does not depend on where a scene stands.
+/// Holds: a room of 6 units moved by 600,000 along three axes: every 4 x 4 block agrees with the unmoved one within 4.5
+/// standard errors, guided or not, and guiding gains as much within 25 %.
+TEST(FarAway, AHundredThousandSizesLookTheSame) {
+    const Scene here = room_at(""), there = room_at("<translate x=\"600000\" y=\"-420000\" z=\"777777\"/>");
+    EXPECT_LT(there.bounds().max.length(), 10.0f);
+    const Guided plain = render_passes(here, false), guided = render_passes(here, true);
+    const Guided far_plain = render_passes(there, false), far_guided = render_passes(there, true);
+    EXPECT_NEAR(far_plain.variance / far_guided.variance / (plain.variance / guided.variance), 1.0, 0.25);
+    const double z = std::max(worst_block(plain, far_guided), worst_block(guided, far_plain));
+    EXPECT_LT(z, 4.5);
+    test::figure("largest z of a block", z);
 }
 
 }  // namespace

@@ -1,7 +1,6 @@
 // Linked into every test program of the preset `trap`.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <memory>
 
 #include "common/base/float_traps.h"
@@ -13,7 +12,7 @@ namespace {
 class TrapEnvironment : public testing::Environment {
   public:
     void SetUp() override {
-        if (std::getenv("TREEFARM_FLUSH_DENORMALS")) _mm_setcsr(_mm_getcsr() | 0x8040u);
+        flush_denormals_if_asked();
         traps_ = std::make_unique<TrapFloats>();
     }
     void TearDown() override { traps_.reset(); }
