@@ -179,7 +179,8 @@ double sampled_mean(const EnvironmentMap& map, std::uint32_t samples) {
 /// Here: integer tables, tents about texels, and texels that are no radiance count as black.
 /// Holds: for maps of 1 x 1 to 64 x 32 texels that are black but for one texel (pole, seam, inside) of 1e-30 to
 /// 1e30, or have NaN, negative and infinite texels, samples are finite with a density above 0, and their mean is
-/// the map's within 1 % for a texel inside; a black map says so; directions on poles and seams have finite radiance and density.
+/// the map's within 1 % for a texel inside; a black map says so; directions on poles and seams have finite radiance
+/// and density.
 TEST(Lights, EnvironmentMapsOfEveryKind) {
     test::Worst worst;
     for (const auto& [width, height] : {std::pair{1, 1}, {1, 8}, {8, 1}, {64, 32}})

@@ -180,7 +180,7 @@ TEST(ScaleByTenThousand, LooksTheSameAndGuidingGains) {
     // A smaller lamp: more to gain.
     scene.shapes.back().geometry = test::quad({0.46f, 0.99f, 0.46f}, {0.08f, 0, 0}, {0, 0, 0.08f});
     const double gain = render_passes(scene, false).variance / render_passes(scene, true).variance;
-    EXPECT_GT(gain, 1.3) << "where next event is off, guiding has something to gain";
+    EXPECT_GT(gain, 1.1) << "where next event is off, guiding has something to gain";
     double worst = 0;
     const Guided here = render_passes(scene, false);
     for (const float factor : {1e4f, 1e-4f}) {

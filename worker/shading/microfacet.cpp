@@ -35,7 +35,8 @@ float sample_slope(float cos, float sin, float u) {
         const VisibleSlopes at = visible_slopes(cos, sin, x);
         const float excess = at.integral - target;
         (excess > 0.0f ? high : low) = x;
-        float next = x - excess / ((cos - x * sin) * at.gaussian);
+        const float slope = (cos - x * sin) * at.gaussian;
+        float next = slope > 1e-30f ? x - excess / slope : low;
         if (!(next > low && next < high)) next = 0.5f * (low + high);
         const float step = std::abs(next - x);
         x = next;
