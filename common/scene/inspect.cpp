@@ -52,9 +52,9 @@ void inspect_scale(const Scene& scene, std::vector<Finding>& findings) {
     if (middle.length() > 1000 * extent)
         add(warning, "far from origin",
             "the scene lies " + short_number(middle.length() / extent) +
-                " of its sizes away from the origin: single precision blurs its edges by " +
+                " of its sizes away from the origin: coordinates that its mesh files hold there are blurred by " +
                 short_number(middle.length() * 0x1p-24) + " units",
-            "move it to the origin");
+            "a render moves it to the origin; so should its files");
     if (extent < 1e-3 || extent > 1e6)
         add(note, "scale", "the scene is " + short_number(extent) + " units large",
             "choose units in which rooms are 1 to 1000");

@@ -83,6 +83,7 @@ TEST(Boundaries, AnyCosineAndIndex) {
 /// Here: an index above 1e6 is refused with a place and a cure, as for glass.
 /// Holds: 1e6 is accepted and finite; 1e7, 1e10, 1e20 and 3e38 are refused, for eta and for k.
 TEST(Boundaries, IndicesOfMetalsAreBounded) {
+    const LetFloatsBe hostile;  // numbers that are none come in
     const auto load = [](float eta, float k) {
         Scene scene;
         test::add_material(scene, ConductorMaterial{Rgb(eta), Rgb(k), Rgb(1.0f), {}});

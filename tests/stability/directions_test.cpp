@@ -63,6 +63,7 @@ std::vector<Vec3> seam_directions() {
 /// Holds: on all seams the square's coordinates are in [0, 1), mapping there and back moves a direction by at most
 /// 2e-6, batches give the same codes, and a direction that is no number gets some cell without leaving the tree.
 TEST(Directions, OnSeamsAndPoles) {
+    const LetFloatsBe hostile;  // numbers that are none come in
     test::Worst worst;
     for (const Vec3& d : seam_directions()) {
         const Vec2 p = direction_to_square(d);
@@ -121,7 +122,10 @@ TEST(Directions, QuadtreesAtTheirDepthLimit) {
         EXPECT_GT(report.directional_depth_capped, 0u);
         const Guide guide(tree);
         double sum = 0;
-        std::uint64_t begin = 0;
+        std::uint64_t begin = 0, mass = 0;
+        for (const std::uint32_t m : tree.cell_mass)
+            mass += m;
+        ASSERT_EQ(mass, std::uint64_t{1} << kMassBits);
         for (std::uint32_t c = 0; c < tree.cell_count(); ++c) {
             const std::uint64_t size = std::uint64_t{1} << (2 * (kDirectionBits - tree.cell_depth[c]));
             sum += double(guide.pdf(0, static_cast<std::uint32_t>(begin))) * 4 * M_PI * double(size) * 0x1p-32;

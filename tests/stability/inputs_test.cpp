@@ -27,6 +27,7 @@ class Inputs : public test::MitsubaFixture {
 /// Holds: scales of 0 along one or all axes of spheres, disks, cylinders, rectangles and instances, and matrices
 /// with nan or inf, are refused with a place; scales of 1e-10 and 1e10 are accepted.
 TEST_F(Inputs, TransformsWithoutVolume) {
+    const LetFloatsBe hostile;  // numbers that are none come in
     int refused = 0;
     for (const char* shape : {"sphere", "disk", "cylinder", "rectangle", "cube"})
         for (const char* transform :
@@ -56,6 +57,7 @@ TEST_F(Inputs, TransformsWithoutVolume) {
 /// Holds: an OBJ file with a normal of nan or 1e999 is refused with a place; one with normals of 0 0 0 renders the
 /// same bits as one without normals.
 TEST_F(Inputs, NormalsInFiles) {
+    const LetFloatsBe hostile;  // numbers that are none come in
     const auto obj = [&](const std::string& normal) {
         write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn " + normal + "\nf 1//1 2//1 3//1\n");
         return "<shape type=\"obj\"><string name=\"filename\" value=\"a.obj\"/></shape>";
@@ -80,6 +82,7 @@ TEST_F(Inputs, NormalsInFiles) {
 /// Holds: an EXR with infinity, NaN, -1 and 1e38 keeps 1e38 for emission, and becomes 0 elsewhere, with one
 /// warning; as a reflectance it is scaled down to at most 1.
 TEST_F(Inputs, TexturesWithInfinity) {
+    const LetFloatsBe hostile;  // numbers that are none come in
     Image image{4, 1, {}, {}};
     const auto values = image.add_channel("Y");
     values[0] = test::kInfinity;

@@ -19,6 +19,7 @@ namespace {
 /// Holds: of NaN, both infinities and a negative value in any channel all are refused, and counted; a pixel of 63
 /// ones and one bad sample has the mean 63/64 exactly.
 TEST(Pixels, OneBadSampleDoesNotPoison) {
+    const LetFloatsBe hostile;  // numbers that are none come in
     const WorkUnit unit{3, 0, 0, 1, 1, 0};
     for (const float bad : {test::kNan, test::kInfinity, -test::kInfinity, -1e-30f})
         for (int channel = 0; channel < 3; ++channel) {
@@ -147,6 +148,7 @@ PassResult pass_of(std::uint32_t spp, std::uint32_t before, float value, unsigne
 /// have finite means, variances and weights; the weights sum to 1 within 1e-12; errors are known only where they
 /// can be.
 TEST(Pixels, PassesOfOneSample) {
+    const LetFloatsBe hostile;  // numbers that are none come in
     for (const Combination method : {Combination::inverse_variance, Combination::fixed, Combination::last})
         for (const bool guided : {false, true})
             for (const float value : {0.0f, 1e-30f, 1.0f, 1e30f})

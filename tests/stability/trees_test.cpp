@@ -69,6 +69,7 @@ TEST(Trees, TenMillionRecordsAtOnePoint) {
 /// is above 0 and finite, every point of the box is in the tree, and guided renders of one triangle and of one
 /// axis-aligned quad have no invalid sample and the right mean within 4.5 standard errors.
 TEST(Trees, ScenesWithoutExtent) {
+    const LetFloatsBe hostile;  // numbers that are none come in
     for (const float at : {0.0f, 1e-30f, 1.0f, 1e17f})
         for (const float size : {0.0f, 1e-30f, 1.0f, 1e17f})
             for (int axes = 0; axes < 8; ++axes) {
@@ -104,6 +105,7 @@ TEST(Trees, ScenesWithoutExtent) {
 /// Holds: for points up to infinity and NaN the region exists, is that of the nearest point of the cube, and
 /// contains() is false; jittered by any random numbers too.
 TEST(Trees, PositionsOutsideTheCube) {
+    const LetFloatsBe hostile;  // numbers that are none come in
     SdTree tree = initial_tree(Box3(Vec3(0.0f), Vec3(1.0f)), 1.0f);
     TreeSums sums(0, 1, 256);
     sums.add_count(0, 4096);
@@ -173,6 +175,7 @@ TEST(Trees, OneTexelOfAMillion) {
 /// a fraction in [0.05, 1]; above 1/2 in the upper bins, below in the lower; pairs of densities 0, tiny, huge and
 /// infinite all have a bin.
 TEST(Trees, MixturesOfOneBin) {
+    const LetFloatsBe hostile;  // numbers that are none come in
     for (int bin = 0; bin < kMixtureBins; ++bin)
         for (const double scale : {1e-300, 1e-30, 1.0, 1e30, 1e300})
             for (const double prior : {kLeastBsdfFraction, 0.5, 1.0})

@@ -18,6 +18,7 @@ using test::rough;
 /// Here: the weight is a function of one ratio, with both ends spelled out.
 /// Holds: every weight lies in [0, 1], both techniques' sum to 1 within 1e-6, w(inf, x) = 1, w(0, 0) = 0.
 TEST(Weights, OfHugeAndInfiniteDensities) {
+    const LetFloatsBe hostile;  // numbers that are none come in
     const float densities[] = {0.0f, 1e-45f, 1e-38f, 1e-20f, 1.0f, 1e20f, 1e30f, 3e38f, kInfinity};
     test::Worst worst;
     for (const MisHeuristic heuristic : {MisHeuristic::balance, MisHeuristic::power})
@@ -128,6 +129,7 @@ TEST(Weights, DeltaLobesBesideATree) {
 /// Holds: for every rule, throughput and brightness the survival is NaN (nobody survives) or in [0, 0.99], and the
 /// weight of who survives stays finite.
 TEST(Weights, RouletteOfAnyThroughput) {
+    const LetFloatsBe hostile;  // numbers that are none come in
     for (const Roulette::Rule rule :
          {Roulette::Rule::unguided, Roulette::Rule::untrained, Roulette::Rule::constant, Roulette::Rule::adjoint})
         for (const float t : {0.0f, 1e-45f, 1e-30f, 1.0f, 1e30f, 3e38f, kInfinity, kNan})

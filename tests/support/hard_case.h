@@ -6,6 +6,7 @@
 #include <sstream>
 #include <string>
 
+#include "common/base/float_traps.h"
 #include "common/config/job.h"
 #include "common/film/combine.h"
 #include "tests/support/local_render.h"
