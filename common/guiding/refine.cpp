@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <span>
 
 namespace treefarm {
@@ -182,8 +183,9 @@ class TreeRefiner {
                       static_cast<double>(sums_.counts()[r]) * settings_.record_weight};
         if (total > 0 && sums_.counts()[r] > 0) {
             const double mean_quanta = static_cast<double>(total) / static_cast<double>(sums_.counts()[r]);
-            region.quantum_exponent =
-                quantum_exponent_for(static_cast<float>(std::ldexp(mean_quanta, old_.quantum_exponent[r])));
+            const double mean_record = std::ldexp(mean_quanta, old_.quantum_exponent[r]);
+            constexpr double kMost = std::numeric_limits<float>::max();
+            region.quantum_exponent = quantum_exponent_for(static_cast<float>(std::min(mean_record, kMost)));
         }
         return region;
     }

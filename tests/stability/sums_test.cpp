@@ -89,6 +89,15 @@ TEST(Sums, RangesWithinAndBetweenRegions) {
         worst = std::max(worst, std::abs(back / double(mean) - 1.0));
     }
     EXPECT_LT(worst, 0x1p-15);
+
+    // A region whose mean record is beyond the largest float keeps the largest unit, not that of 1.
+    const SdTree bright = one_region(1e30f);
+    TreeSums huge(bright.pass, 1, bright.cell_count());
+    huge.add_quanta(5, std::uint64_t{1} << 60);
+    huge.add_count(0, 1);
+    RefineReport report;
+    EXPECT_EQ(refine(bright, huge, {.spatial_threshold = 1e18}, report).quantum_exponent[0],
+              quantum_exponent_for(3e38f));
     EXPECT_FALSE(capped);
     test::figure("largest rounding of a record, of its value", worst);
 }

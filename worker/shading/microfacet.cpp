@@ -77,8 +77,9 @@ float Microfacet::density(const Vec3& h) const {
         const float ratio = length2 / (x * x + y * y + z2);
         return ratio * ratio / area;
     }
-    const float exponential = z2 > 0.0f ? exp_negative((x * x + y * y) / z2) : 0.0f;
-    if (exponential == 0.0f) return 0.0f;
+    const float slope2 = x * x + y * y;  // times z2
+    if (!(slope2 < 87.0f * z2)) return 0.0f;
+    const float exponential = exp_negative(slope2 / z2);
     const float ratio = length2 / z2;
     return exponential * ratio * ratio / area;
 }
