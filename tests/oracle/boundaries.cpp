@@ -32,7 +32,7 @@ void boundaries(std::uint64_t count, std::vector<Row>& rows) {
     Row glass{"Fresnel, dielectric, 3 % of sin^2 and more from total reflection", "absolute", 3e-6};
     Row direction{"the same: cosine of the refracted ray", "relative", 3e-6};
     Row edge{"Fresnel, dielectric, up to the edge", "of reflectances for sines that differ by 4e-7", 2e-6};
-    Row metal{"Fresnel, conductor, eta and k from 1e-3 to 1e3", "absolute", 3e-6};
+    Row metal{"Fresnel, conductor, eta and k from 1e-3 to 1e3", "absolute", 3e-5};
     Inputs in(4);
     for (std::uint64_t i = 0; i < count; ++i) {
         const float eta =
