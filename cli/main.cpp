@@ -5,12 +5,14 @@
 #include <string>
 #include <vector>
 
+#include "cli/check.h"
 #include "cli/compare.h"
 #include "cli/launch.h"
 #include "cli/plan.h"
 #include "cli/render.h"
 #include "cli/study.h"
 #include "common/base/error.h"
+#include "common/base/float_traps.h"
 #include "common/config/parse_text.h"
 #include "common/protocol/fingerprint.h"
 
@@ -51,6 +53,7 @@ int run(int argc, char** argv) {
     app.require_subcommand(1);
     add_render_command(app, launch, joined(argc, argv), exit_code);
     add_plan_command(app, launch, exit_code);
+    add_check_command(app, launch, exit_code);
     add_compare_command(app, launch, exit_code);
     add_study_command(app, launch, joined(argc, argv), exit_code);
     add_report_command(app, launch);
@@ -79,5 +82,7 @@ int run(int argc, char** argv) {
 }  // namespace treefarm
 
 int main(int argc, char** argv) {
+    treefarm::flush_denormals_if_asked();
+    const treefarm::TrapFloats traps;  // threads inherit them
     return treefarm::run(argc, argv);
 }

@@ -15,14 +15,10 @@ set(TREEFARM_ARCH "x86-64-v3" CACHE STRING "value of -march: x86-64-v3 is portab
 set(TREEFARM_SANITIZE "" CACHE STRING "address, undefined or thread: build with that sanitizer")
 set(TREEFARM_WITHOUT "" CACHE STRING
     "effects to leave out (common/base/build_options.h): a list of textures, masks, bump, transmission, environment, lens")
+option(TREEFARM_TRAP "end the process at invalid operations, divisions by zero and overflows of floats" OFF)
 option(TREEFARM_FUZZ "build the fuzz targets with libFuzzer too; needs clang" OFF)
 
-foreach(flag IN ITEMS -ffast-math -Ofast -funsafe-math-optimizations -fassociative-math)
-    if("${CMAKE_CXX_FLAGS} ${CMAKE_CXX_FLAGS_RELEASE} ${CMAKE_CXX_FLAGS_DEBUG}" MATCHES "${flag}")
-        message(FATAL_ERROR "${flag} is refused: it reorders sums, so results would no longer be the same bits "
-                            "on every worker. Remove it from CMAKE_CXX_FLAGS.")
-    endif()
-endforeach()
+include(cmake/refuse_fast_math.cmake)
 
 set(removable_effects textures masks bump transmission environment lens)
 foreach(effect IN LISTS TREEFARM_WITHOUT)
@@ -44,6 +40,15 @@ add_library(treefarm_flags INTERFACE)
 # depend on the compiler's mood. -fno-math-errno and -fno-trapping-math change no result: they say that nobody reads
 # errno or floating-point flags, so that square roots are one instruction and choices need no branch. Asserts are on in Debug and in sanitizer builds.
 target_compile_options(treefarm_flags INTERFACE -march=${TREEFARM_ARCH} -ffp-contract=off -fno-math-errno -fno-trapping-math -Wall -Wextra -Wconversion)
+if(TREEFARM_TRAP)
+    if(NOT CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+        message(FATAL_ERROR "TREEFARM_TRAP needs g++: clang 14 divides in vector lanes that nothing asks for")
+    endif()
+    # Nothing may be computed that the program does not ask for: no division before its condition is known.
+    add_compile_options(-ftrapping-math -fno-tree-vectorize)
+    target_compile_options(treefarm_flags INTERFACE -ftrapping-math -fno-tree-vectorize -g1)
+    target_compile_definitions(treefarm_flags INTERFACE TREEFARM_TRAPS)
+endif()
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     # GCC 12 warns of overlapping copies inside std::string's operator+ (GCC bug 105651).
     # It also takes the alternatives that a std::variant does not hold for values that may be read (GCC bug 80635).

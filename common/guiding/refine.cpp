@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "common/guiding/refine_directions.h"
@@ -110,9 +111,11 @@ RefinedDistribution refine_distribution(const SdTree& tree, const TreeSums& sums
     report.directional_depth_capped += refined.directions.depth_capped;
     report.directional_depth = std::max(report.directional_depth, refined.directions.max_depth);
     const std::uint64_t records = sums.counts()[distribution];
-    if (total > 0 && records > 0)
-        refined.quantum_exponent = quantum_exponent_for(
-            static_cast<float>(std::ldexp(total / static_cast<double>(records), refined.quantum_exponent)));
+    if (total > 0 && records > 0) {
+        const double mean_record = std::ldexp(total / static_cast<double>(records), refined.quantum_exponent);
+        constexpr double kMost = std::numeric_limits<float>::max();
+        refined.quantum_exponent = quantum_exponent_for(static_cast<float>(std::min(mean_record, kMost)));
+    }
     return refined;
 }
 

@@ -16,7 +16,7 @@ inline Vec2 direction_to_square(const Vec3& d) {
         std::sqrt((ax * ax + ay * ay) / (1.0f + az));  // = sqrt(1 - |z|), without its cancellation at the poles
     const float high = std::max(ax, ay), low = std::min(ax, ay);
     // Angle from the x axis, 0..1 for 0..90 degrees.
-    float phi = select(high > 0.0f, atan_quadrant(low / high), 0.0f);
+    float phi = atan_quadrant(low / std::max(high, kLeastNormal));
     phi = select(ay > ax, 1.0f - phi, phi);
     const float along = phi * r, across = r - along;
     const bool below = d.z < 0.0f;
@@ -33,7 +33,7 @@ inline Vec3 square_to_direction(const Vec2& p) {
     const float signed_distance = 1.0f - (au + av);
     const float distance = std::abs(signed_distance);
     const float r = 1.0f - distance;
-    const float phi = select(r > 0.0f, ((av - au) / r + 1.0f) * (0.5f * kPi * 0.5f), 0.0f);
+    const float phi = ((av - au) / std::max(r, kLeastNormal) + 1.0f) * (0.5f * kPi * 0.5f);  // of no matter at the pole
     const float z = std::copysign(1.0f - r * r, signed_distance);
     const SinCos a = sincos_quadrant(std::clamp(phi, 0.0f, 0.5f * kPi));
     const float sin_theta = r * std::sqrt(std::max(0.0f, 2.0f - r * r));

@@ -8,6 +8,10 @@
 #include <algorithm>
 #include <cmath>
 
+#ifdef __FAST_MATH__
+#error "-ffast-math is refused: it reorders sums, so results would no longer be the same bits on every worker"
+#endif
+
 namespace treefarm {
 
 using Vec2 = Imath::V2f;

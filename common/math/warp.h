@@ -14,7 +14,7 @@ inline Vec2 square_to_disk(const Vec2& u) {
     const bool wide = std::abs(a) > std::abs(b);
     const float r = select(wide, a, b);
     // In [-1, 1]: an angle of at most 45 degrees.
-    const float ratio = select(r == 0.0f, 0.0f, select(wide, b, a) / r);
+    const float ratio = select(wide, b, a) / select(r == 0.0f, 1.0f, r);
     const SinCos t = sincos_quadrant(std::abs(ratio) * 0.25f * kPi);
     const float s = std::copysign(t.sin, ratio);
     return {r * select(wide, t.cos, s), r * select(wide, s, t.cos)};

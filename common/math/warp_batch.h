@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "common/base/float_traps.h"
 #include "common/base/random_batch.h"
 #include "common/math/direction_map.h"
 #include "common/math/warp.h"
@@ -20,8 +21,9 @@ struct DirectionBatch {
     }
 };
 
-/// How many of a batch are worked on where the first `count` are asked for.
+/// How many of a batch are worked on where the first `count` are asked for. What the others hold is anything.
 inline std::uint32_t whole_lanes(std::uint32_t count) {
+    if constexpr (kTrapsFloats) return count;
     constexpr std::uint32_t kLanes = 8;
     return (count + kLanes - 1) / kLanes * kLanes;
 }

@@ -5,17 +5,33 @@
 
 namespace treefarm {
 
+namespace {
+
+void require_xml(const std::filesystem::path& path) {
+    if (path.extension() == ".xml") return;
+    const std::string extension = path.extension().string();
+    throw InputError({path.string()},
+                     extension.empty() ? "the scene file has no extension"
+                                       : "scenes of kind " + in_quotes(extension) + " cannot be read",
+                     "give a Mitsuba scene (.xml)");
+}
+
+LoadedScene loaded(SceneReading&& reading) {
+    return {std::move(reading.scene), std::move(reading.settings), std::move(reading.warnings)};
+}
+
+}  // namespace
+
 LoadedScene load_scene(const std::filesystem::path& path, const std::map<std::string, std::string>& defines,
                        bool lenient, int width, int height) {
-    if (path.extension() != ".xml") {
-        const std::string extension = path.extension().string();
-        throw InputError({path.string()},
-                         extension.empty() ? "the scene file has no extension"
-                                           : "scenes of kind " + in_quotes(extension) + " cannot be read",
-                         "give a Mitsuba scene (.xml)");
-    }
-    SceneReading reading = read_mitsuba(path, defines, lenient, {width, height});
-    return {std::move(reading.scene), std::move(reading.settings), std::move(reading.warnings)};
+    require_xml(path);
+    return loaded(read_mitsuba(path, defines, lenient, {width, height}));
+}
+
+LoadedScene load_scene_unchecked(const std::filesystem::path& path, const std::map<std::string, std::string>& defines,
+                                 bool lenient) {
+    require_xml(path);
+    return loaded(read_mitsuba_unchecked(path, defines, lenient));
 }
 
 }  // namespace treefarm

@@ -23,4 +23,8 @@ struct LoadedScene {
 LoadedScene load_scene(const std::filesystem::path& path, const std::map<std::string, std::string>& defines = {},
                        bool lenient = false, int width = 0, int height = 0);
 
+/// The same for inspect(): as the file has it, before anything is checked, repaired or left out.
+LoadedScene load_scene_unchecked(const std::filesystem::path& path,
+                                 const std::map<std::string, std::string>& defines = {}, bool lenient = false);
+
 }  // namespace treefarm

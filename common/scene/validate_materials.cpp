@@ -39,9 +39,10 @@ class MaterialCheck {
         return false;
     }
     bool operator()(ConductorMaterial& m) {
-        for (int i = 0; i < 3; ++i)
-            if (!(m.eta[i] >= 0.0f && m.k[i] >= 0.0f && std::isfinite(m.eta[i]) && std::isfinite(m.k[i])))
-                refuse("the index of refraction is negative or not finite", "give an eta and a k of 0 or more");
+        for (int i = 0; i < 3; ++i)  // Fresnel's equations square their squares
+            if (!(m.eta[i] >= 0.0f && m.k[i] >= 0.0f && m.eta[i] <= 1e6f && m.k[i] <= 1e6f))
+                refuse("the index of refraction is negative, above 1e6 or not finite",
+                       "give an eta and a k from 0 to 1e6");
         check_fraction(m.specular_reflectance, "the specular reflectance");
         check_roughness(m.roughness);
         return false;

@@ -4,6 +4,7 @@
 #include <fstream>
 
 #include "common/image/exr.h"
+#include "common/scene/inspect.h"
 #include "common/scene/mitsuba/read_mitsuba.h"
 #include "common/scene/scene_codec.h"
 #include "tests/fuzz/fuzz.h"
@@ -67,6 +68,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         } catch (const InputError&) {
             if (lenient) break;  // what is malformed is so either way
         }
+    }
+    try {
+        for (const Finding& finding : inspect(read_mitsuba_unchecked(file, {}, true).scene))
+            if (finding.text().empty()) std::abort();
+    } catch (const InputError&) {
     }
     return 0;
 }

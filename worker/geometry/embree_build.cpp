@@ -1,6 +1,7 @@
 #include <embree3/rtcore.h>
 
 #include "common/base/error.h"
+#include "common/base/float_traps.h"
 #include "worker/geometry/embree_scene.h"
 #include "worker/geometry/primitive_points.h"
 #include "worker/geometry/user_geometry.h"
@@ -40,6 +41,7 @@ void EmbreeScene::ReleaseScene::operator()(RTCScene scene) const {
 EmbreeScene::EmbreeScene(std::vector<Shape> shapes, const std::string& isa, const ShapeMasks& masks, bool robust)
     : robust_(robust), shapes_(std::move(shapes)), surfaces_(shapes_.size()), error_(std::make_unique<std::string>()) {
     require_isa(isa);
+    const LetFloatsBe embree;
     const std::string config = "threads=1,set_affinity=0,hugepages=0,isa=" + isa;
     device_.reset(rtcNewDevice(config.c_str()));
     if (!device_)

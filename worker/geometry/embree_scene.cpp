@@ -6,6 +6,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "common/base/float_traps.h"
 #include "worker/geometry/primitive_points.h"
 #include "worker/geometry/user_geometry.h"
 
@@ -43,6 +44,7 @@ bool EmbreeScene::meet(const Ray& ray, Meeting& meeting) const {
     RTCRayHit query;
     query.ray = make_ray(ray);
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    const LetFloatsBe embree;
     rtcIntersect1(scene_.get(), &context, &query);
     const RTCHit& hit = query.hit;
     if (hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
@@ -69,6 +71,7 @@ bool EmbreeScene::intersect(const Ray& ray, Hit& hit) const {
 bool EmbreeScene::occluded(const Ray& ray) const {
     RTCIntersectContext context = incoherent_context();
     RTCRay query = make_ray(ray);
+    const LetFloatsBe embree;
     rtcOccluded1(scene_.get(), &context, &query);
     return query.tfar < 0.0f;
 }
@@ -79,6 +82,7 @@ void EmbreeScene::occluded(std::span<const Ray> rays, bool* hidden) const {
     std::array<RTCRay, kMostTogether> queries;
     for (std::size_t i = 0; i < rays.size(); ++i)
         queries[i] = make_ray(rays[i]);
+    const LetFloatsBe embree;
     rtcOccluded1M(scene_.get(), &context, queries.data(), static_cast<unsigned>(rays.size()), sizeof(RTCRay));
     for (std::size_t i = 0; i < rays.size(); ++i)
         hidden[i] = queries[i].tfar == -std::numeric_limits<float>::infinity();

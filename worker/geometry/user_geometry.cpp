@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "common/base/float_traps.h"
 #include "worker/geometry/mask.h"
 #include "worker/geometry/meetings.h"
 
@@ -79,6 +80,7 @@ RTCHit to_hit(const Meeting& m, std::uint32_t shape, std::uint32_t primitive, st
 
 template <class Geometry, bool kMasked, class Args>
 bool find(const Args& args, const RTCRay& ray, RTCHit& hit, double& t) {
+    const TrapFloats ours;
     return meet(geometry_of<Geometry, kMasked>(args.geometryUserPtr), ray, [&](const Meeting& m) {
         hit = to_hit(m, args.geomID, args.primID, args.context->instID[0]);
         t = m.t;

@@ -28,7 +28,7 @@ OrientedBsdf oriented(const Bsdf* inner, const Vec3& n, const Vec3& along) {
     const Vec3 across = cross(n, along);
     const float length2 = dot(across, across);
     OrientedBsdf bsdf{inner, {}, {}, n};
-    if (length2 > 1e-12f * dot(along, along)) {
+    if (length2 > 1e-12f * dot(along, along) && length2 > 1e-30f) {  // below, its root has lost digits
         bsdf.t = across * (1.0f / std::sqrt(length2));
         bsdf.s = cross(bsdf.t, n);
     } else {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "common/math/elementary.h"
 #include "common/math/vec.h"
 
 namespace treefarm {
@@ -27,7 +28,11 @@ struct DielectricFresnel {
     const float cos2 = cos_i * cos_i, sin2 = (1.0f - cos_i) * (1.0f + cos_i);
     const float re = eta * eta - k * k - sin2;
     const float a2_plus_b2 = std::sqrt(re * re + 4.0f * eta * eta * k * k);
-    const float a = std::sqrt(std::max(0.0f, 0.5f * (a2_plus_b2 + re)));
+    // a^2 = (a2_plus_b2 + re) / 2, by its conjugate where that cancels (docs/hard-cases.md: 113-bit arithmetic).
+    const float product = eta * k;
+    const float a2 =
+        re > 0.0f ? 0.5f * (a2_plus_b2 + re) : 2.0f * product * (product / std::max(a2_plus_b2 - re, kLeastNormal));
+    const float a = std::sqrt(a2);
     const float s_even = a2_plus_b2 + cos2, s_odd = 2.0f * a * cos_i;
     if (!(s_even + s_odd > 0.0f)) return 1.0f;
     const float s = (s_even - s_odd) / (s_even + s_odd);

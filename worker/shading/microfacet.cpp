@@ -35,7 +35,8 @@ float sample_slope(float cos, float sin, float u) {
         const VisibleSlopes at = visible_slopes(cos, sin, x);
         const float excess = at.integral - target;
         (excess > 0.0f ? high : low) = x;
-        float next = x - excess / ((cos - x * sin) * at.gaussian);
+        const float slope = (cos - x * sin) * at.gaussian;
+        float next = slope > 1e-30f ? x - excess / slope : low;
         if (!(next > low && next < high)) next = 0.5f * (low + high);
         const float step = std::abs(next - x);
         x = next;
@@ -71,12 +72,14 @@ float Microfacet::density(const Vec3& h) const {
     const float x = h.x / alpha_u, y = h.y / alpha_v;
     const float area = kPi * alpha_u * alpha_v;
     const float length2 = dot(h, h), z2 = h.z * h.z;
+    if (!(length2 > 0.0f)) return 0.0f;  // opposite directions along the surface
     if (ggx) {
         const float ratio = length2 / (x * x + y * y + z2);
         return ratio * ratio / area;
     }
-    const float exponential = z2 > 0.0f ? exp_negative((x * x + y * y) / z2) : 0.0f;
-    if (exponential == 0.0f) return 0.0f;
+    const float slope2 = x * x + y * y;  // times z2
+    if (!(slope2 < 87.0f * z2)) return 0.0f;
+    const float exponential = exp_negative(slope2 / z2);
     const float ratio = length2 / z2;
     return exponential * ratio * ratio / area;
 }

@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/math/vec.h"
 #include "common/scene/warning.h"
 
 namespace treefarm::mitsuba {
@@ -23,6 +24,10 @@ class Diagnostics {
     void warn(const Location& where, const std::string& what) { warnings_.push_back({where, what}); }
 
     std::vector<Warning>& warnings() { return warnings_; }
+
+    /// Added to every position in the world, in double, before it becomes a float (read_mitsuba.cpp). 0 within groups,
+    /// which have a space of their own.
+    Imath::V3d world_shift{0.0};
 
   private:
     bool lenient_;

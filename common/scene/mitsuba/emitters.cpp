@@ -23,12 +23,13 @@ Vec3 z_axis(const Matrix& to_world) {
     return normalize(transform_vector(to_world, Vec3(0.0f, 0.0f, 1.0f)));
 }
 
-PointEmitter read_point(Properties& properties, TextureReader& textures) {
+PointEmitter read_point(Properties& properties, TextureReader& textures, const Diagnostics& diagnostics) {
     PointEmitter point;
     if (properties.has("position") && properties.has("to_world"))
         throw InputError(properties.where("position"), "both a position and a transformation are given", "keep one");
-    point.position = properties.has("position") ? properties.point("position", point.position)
-                                                : transform_point(properties.transform("to_world"), Vec3(0.0f));
+    point.position = properties.has("position")
+                         ? Vec3(Imath::V3d(properties.point("position", point.position)) + diagnostics.world_shift)
+                         : transform_point(properties.transform("to_world"), Vec3(0.0f));
     point.intensity = textures.constant(properties, "intensity", Rgb(1.0f), ColorUse::radiance);
     return point;
 }
@@ -138,7 +139,7 @@ void read_emitter(const XmlElement& emitter, Scene& scene, TextureReader& textur
     const bool had_environment = scene.environment() != kNone;
     const auto add = [&](auto kind) { scene.emitters.push_back({std::move(kind), emitter.where}); };
     if (type == "point") {
-        add(read_point(properties, textures));
+        add(read_point(properties, textures, diagnostics));
     } else if (type == "spot") {
         add(read_spot(properties, textures, diagnostics));
     } else if (type == "directional") {

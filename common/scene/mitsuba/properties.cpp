@@ -185,9 +185,15 @@ Rgb Properties::color(const std::string& name, const Rgb& otherwise, ColorUse us
 
 Matrix Properties::transform(const std::string& name) {
     const XmlElement* element = find(name, {"transform", "animation"}, "<transform>");
-    if (!element) return Matrix();
-    const XmlElement& first = element->tag == "animation" ? element->children[0] : *element;
-    return read_transform(first, title() + (id().empty() ? "" : " " + in_quotes(id())));
+    Matrix matrix;
+    if (element) {
+        const XmlElement& first = element->tag == "animation" ? element->children[0] : *element;
+        matrix = read_transform(first, title() + (id().empty() ? "" : " " + in_quotes(id())));
+    }
+    if (name == "to_world")
+        for (int i = 0; i < 3; ++i)
+            matrix[3][i] += diagnostics_.world_shift[i];
+    return matrix;
 }
 
 std::string Properties::tag_of(const std::string& name) const {

@@ -8,11 +8,14 @@
 #include "common/scene/validate.h"
 
 namespace treefarm {
-SceneReading read_mitsuba(const std::filesystem::path& path, const std::map<std::string, std::string>& defines,
-                          bool lenient, const mitsuba::FilmSize& film_size) {
-    using namespace mitsuba;
-    const SceneDocument document(path, defines);
+
+namespace {
+
+using namespace mitsuba;
+
+SceneReading read(const SceneDocument& document, bool lenient, const FilmSize& film_size, const Imath::V3d& shift) {
     Diagnostics diagnostics(lenient);
+    diagnostics.world_shift = shift;
     SceneReading reading;
     Scene& scene = reading.scene;
 
@@ -43,8 +46,40 @@ SceneReading read_mitsuba(const std::filesystem::path& path, const std::map<std:
     materials.textures().images().read(remove_unused(scene), scene, diagnostics);
 
     reading.warnings = std::move(diagnostics.warnings());
+    return reading;
+}
+
+/// So many of its own sizes from the origin, a scene loses 6 of the 24 bits of its floats.
+constexpr double kFarSizes = 64.0;
+
+/// What moves a far scene to the origin; 0 for one that is near, or is not finite.
+Imath::V3d shift_of(const Scene& scene) {
+    Box3 box;
+    for (const Shape& shape : scene.shapes)
+        if (shape.group == kNone) box.extendBy(own_box(shape));
+    if (box.isEmpty() || !is_finite(box.min) || !is_finite(box.max)) return Imath::V3d(0.0);
+    const Imath::V3d low(box.min), high(box.max), middle = (low + high) * 0.5, size = high - low;
+    const double largest = std::max(size.x, std::max(size.y, size.z));
+    return middle.length() > kFarSizes * largest && largest > 0 ? -middle : Imath::V3d(0.0);
+}
+
+}  // namespace
+
+SceneReading read_mitsuba_unchecked(const std::filesystem::path& path,
+                                    const std::map<std::string, std::string>& defines, bool lenient,
+                                    const mitsuba::FilmSize& film_size) {
+    return read(SceneDocument(path, defines), lenient, film_size, Imath::V3d(0.0));
+}
+
+SceneReading read_mitsuba(const std::filesystem::path& path, const std::map<std::string, std::string>& defines,
+                          bool lenient, const mitsuba::FilmSize& film_size) {
+    const SceneDocument document(path, defines);
+    SceneReading reading = read(document, lenient, film_size, Imath::V3d(0.0));
+    // The image does not depend on where a scene stands, but its digits do: far from the origin it is read again.
+    if (const Imath::V3d shift = shift_of(reading.scene); shift != Imath::V3d(0.0))
+        reading = read(document, lenient, film_size, shift);
     std::vector<Warning> found;
-    validate_scene(scene, found);
+    validate_scene(reading.scene, found);
     for (Warning& warning : found) {
         if (warning.where.file.empty()) warning.where.file = path.string();
         reading.warnings.push_back(std::move(warning));

@@ -25,4 +25,9 @@ struct SceneReading {
 SceneReading read_mitsuba(const std::filesystem::path& path, const std::map<std::string, std::string>& defines,
                           bool lenient, const mitsuba::FilmSize& film_size = {});
 
+/// The same without validate_scene(): nothing is repaired, and values outside their domains are left as they are.
+SceneReading read_mitsuba_unchecked(const std::filesystem::path& path,
+                                    const std::map<std::string, std::string>& defines, bool lenient,
+                                    const mitsuba::FilmSize& film_size = {});
+
 }  // namespace treefarm

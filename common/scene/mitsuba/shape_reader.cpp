@@ -1,5 +1,7 @@
 #include "common/scene/mitsuba/shape_reader.h"
 
+#include <utility>
+
 #include "common/scene/mitsuba/emitters.h"
 #include "common/scene/mitsuba/shapes.h"
 #include "common/scene/validation.h"
@@ -74,6 +76,7 @@ std::int32_t ShapeReader::group_of(const XmlElement& element) {
     Properties properties(element, document_, diagnostics_);
     properties.type();
     const std::size_t before = scene_.shapes.size();
+    const Imath::V3d world_shift = std::exchange(diagnostics_.world_shift, Imath::V3d(0.0));
     for (const Child& child : properties.children("shape")) {
         if (is_type(*child.object, "instance") || is_type(*child.object, "shapegroup"))
             diagnostics_.unsupported(child.where, "instances and shapegroups within a shapegroup are not available",
@@ -83,6 +86,7 @@ std::int32_t ShapeReader::group_of(const XmlElement& element) {
         else
             read_shape(*child.object, scene_.group_count);
     }
+    diagnostics_.world_shift = world_shift;
     properties.finish();
     const bool is_empty = scene_.shapes.size() == before;
     if (is_empty) diagnostics_.unsupported(element.where, "the shapegroup has no shapes", "give it one");

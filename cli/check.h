@@ -1,0 +1,15 @@
+#pragma once
+
+#include "cli/launch.h"
+
+namespace CLI {
+class App;
+}
+
+namespace treefarm {
+
+/// treefarm check SCENE.xml: says what in a scene is risky, with places. Registers the subcommand. Exit code: 0 nothing
+/// but notes, 5 something was found, 2 (by InputError) the scene cannot be read.
+void add_check_command(CLI::App& app, const LaunchEnvironment& launch, int& exit_code);
+
+}  // namespace treefarm

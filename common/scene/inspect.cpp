@@ -1,0 +1,107 @@
+#include "common/scene/inspect.h"
+
+#include <cstdio>
+
+namespace treefarm {
+namespace inspection {
+
+std::string named(const std::string& kind, const std::string& name) {
+    return name.empty() ? "the " + kind : kind + " \"" + name + "\"";
+}
+
+std::string short_number(double value) {
+    char text[32];
+    std::snprintf(text, sizeof(text), "%.4g", value);
+    return text;
+}
+
+namespace {
+
+using enum Finding::Severity;
+
+/// The box of what is finite.
+Box3 finite_bounds(const Scene& scene) {
+    Box3 box;
+    for (const Shape& shape : scene.shapes)
+        if (const auto* mesh = std::get_if<Mesh>(&shape.geometry)) {
+            for (const Vec3& p : mesh->positions)
+                if (is_finite(p)) box.extendBy(p);
+        } else if (const Box3 own = own_box(shape); !own.isEmpty() && is_finite(own.min) && is_finite(own.max)) {
+            box.extendBy(own);
+        }
+    return box;
+}
+
+}  // namespace
+
+/// Floats have 24 bits: what lies so many sizes away keeps that many digits fewer.
+void inspect_scale(const Scene& scene, std::vector<Finding>& findings) {
+    const auto add = [&](Finding::Severity severity, const char* kind, const std::string& what,
+                         const std::string& cure) {
+        findings.push_back({severity, kind, {}, what, cure});
+    };
+    if (scene.shapes.empty()) add(warning, "no shapes", "the scene has no shapes", "");
+    if (scene.emitters.empty()) add(warning, "no emitters", "the scene has no emitters: it renders black", "");
+    const Box3 box = finite_bounds(scene);
+    if (box.isEmpty()) return;
+    const Imath::V3d size = Imath::V3d(box.max) - Imath::V3d(box.min);
+    const Imath::V3d middle = (Imath::V3d(box.max) + Imath::V3d(box.min)) * 0.5;
+    const double extent = std::max(size.x, std::max(size.y, size.z));
+    if (!(extent > 0))
+        return add(warning, "no extent", "all of the scene lies at one point", "check its transformations");
+    if (middle.length() > 1000 * extent)
+        add(warning, "far from origin",
+            "the scene lies " + short_number(middle.length() / extent) +
+                " of its sizes away from the origin: coordinates that its mesh files hold there are blurred by " +
+                short_number(middle.length() * 0x1p-24) + " units",
+            "a render moves it to the origin; so should its files");
+    if (extent < 1e-3 || extent > 1e6)
+        add(note, "scale", "the scene is " + short_number(extent) + " units large",
+            "choose units in which rooms are 1 to 1000");
+    const Imath::V3d camera(scene.camera.origin);
+    if ((camera - middle).length() > 1e4 * extent)
+        add(warning, "distant camera",
+            "the camera is " + short_number((camera - middle).length() / extent) + " scene sizes away",
+            "move it closer, with a wider field of view");
+    for (const Shape& shape : scene.shapes) {
+        const Box3 own = own_box(shape);
+        if (own.isEmpty() || !is_finite(own.min) || !is_finite(own.max)) continue;
+        const Vec3 edges = own.max - own.min;
+        const double largest = double(std::max(edges.x, std::max(edges.y, edges.z)));
+        if (largest > 0 && largest < 1e-6 * extent && shape.group == kNone)
+            findings.push_back(
+                {note, "tiny shape", shape.where,
+                 named("shape", shape.name) + " is " + short_number(largest / extent) + " of the scene's size",
+                 "check its scale"});
+    }
+}
+
+}  // namespace inspection
+
+const char* name_of(Finding::Severity severity) {
+    switch (severity) {
+        case Finding::Severity::error:
+            return "error";
+        case Finding::Severity::warning:
+            return "warning";
+        case Finding::Severity::note:
+            break;
+    }
+    return "note";
+}
+
+std::string Finding::text() const {
+    const std::string place = where.text();
+    return (place.empty() ? "" : place + ": ") + name_of(severity) + ": " + what + (cure.empty() ? "" : "; " + cure);
+}
+
+std::vector<Finding> inspect(const Scene& scene) {
+    std::vector<Finding> findings;
+    inspection::inspect_shapes(scene, findings);
+    inspection::inspect_materials(scene, findings);
+    inspection::inspect_emitters(scene, findings);
+    inspection::inspect_scale(scene, findings);
+    return findings;
+}
+
+}  // namespace treefarm

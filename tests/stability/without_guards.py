@@ -1,0 +1,88 @@
+#!/usr/bin/env python3
+"""Shows that the tests of tests/stability can fail: removes each guard of guards.json in turn and runs its test.
+
+usage: tests/stability/without_guards.py [BUILD] [TEST...]     e.g. build/release Weights.OfHugeAndInfiniteDensities
+
+BUILD (default build/release, a Ninja build) must be up to date. No source is touched: changed copies stand before the
+sources on the include path, and only the test itself and the units that a guard names are compiled with them.
+"""
+import json
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+
+
+class Build:
+    def __init__(self, folder):
+        self.folder = folder
+        self.units = {}
+        for unit in json.loads((folder / "compile_commands.json").read_text()):
+            self.units[str(pathlib.Path(unit["file"]).resolve().relative_to(ROOT))] = unit["command"]
+
+    def compile(self, unit, overlay, output):
+        """A unit of the project, its changed copy if there is one; headers come from the overlay first."""
+        source = overlay / unit if (overlay / unit).exists() else ROOT / unit
+        command = re.sub(r" -o \S+ -c \S+$", "", self.units[unit]).replace("-Werror", "-w")
+        first, rest = re.match(r"(.*?c\+\+(?:-\d+)?|.*?g\+\+(?:-\d+)?) (.*)", command).groups()
+        return subprocess.run(f"{first} -I{overlay} {rest} -o {output} -c {source}", shell=True, cwd=self.folder,
+                              capture_output=True, text=True)
+
+    def link(self, program, objects, output):
+        commands = subprocess.run(["ninja", "-t", "commands", "-s", f"tests/{program}"], cwd=self.folder,
+                                  capture_output=True, text=True).stdout
+        command = re.sub(r"^: && | && :$", "", commands.strip().splitlines()[-1])
+        command = re.sub(r"\S+/" + program.removeprefix("stability_") + r"\.cpp\.o", " ".join(map(str, objects)), command)
+        command = re.sub(rf"-o tests/{program}\b", f"-o {output}", command)
+        return subprocess.run(command, shell=True, cwd=self.folder, capture_output=True, text=True)
+
+
+def outcome_of(build, guard, overlay):
+    for edit in guard["edits"]:
+        copy = overlay / edit["file"]
+        text = (copy if copy.exists() else ROOT / edit["file"]).read_text()
+        if edit["text"] not in text:
+            return f"IS STALE: {edit['file']} has no such text"
+        copy.parent.mkdir(parents=True, exist_ok=True)
+        copy.write_text(text.replace(edit["text"], edit["instead"]))
+    if all(edit["file"].endswith(".cmake") for edit in guard["edits"]):
+        return "is not run here"
+    program = "stability_" + guard["program"]
+    test_unit = f"tests/stability/{guard['program']}.cpp"
+    changed = [edit["file"] for edit in guard["edits"] if edit["file"].endswith(".cpp")]
+    objects = []
+    for unit in [test_unit, *dict.fromkeys(changed + guard.get("also", []))]:
+        objects.append(overlay / (unit.replace("/", "_") + ".o"))
+        compiled = build.compile(unit, overlay, objects[-1])
+        if compiled.returncode != 0:
+            return "DOES NOT COMPILE: " + compiled.stderr[:300]
+    linked = build.link(program, objects, overlay / "test")
+    if linked.returncode != 0:
+        return "DOES NOT LINK: " + linked.stderr[-300:]
+    test = guard["test"]
+    try:
+        ran = subprocess.run([overlay / "test", f"--gtest_filter={test}:*/{test}/*"], capture_output=True, timeout=300)
+    except subprocess.TimeoutExpired:
+        return "fails (it does not end)"
+    return "PASSES" if ran.returncode == 0 else "fails" if ran.returncode > 0 else f"fails (signal {-ran.returncode})"
+
+
+def main():
+    arguments = sys.argv[1:]
+    folder = pathlib.Path(arguments.pop(0) if arguments and "/" in arguments[0] else ROOT / "build/release").resolve()
+    build = Build(folder)
+    wrong = 0
+    for guard in json.loads((ROOT / "tests/stability/guards.json").read_text()):
+        if arguments and guard["test"] not in arguments:
+            continue
+        with tempfile.TemporaryDirectory() as overlay:
+            outcome = outcome_of(build, guard, pathlib.Path(overlay))
+        wrong += not outcome.startswith(("fails", "is not"))
+        print(f"{guard['test']}: {outcome} without {guard['edits'][0]['text']}", flush=True)
+    sys.exit(1 if wrong else 0)
+
+
+main()
