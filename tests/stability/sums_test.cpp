@@ -120,7 +120,7 @@ TEST(Sums, ThousandsOfUpdatesInAnyOrder) {
         Accumulator part(tree.pass, guide, DirectionalFilter::box, true);
         std::vector<std::uint32_t> counts(guide.region_count());
         for (std::size_t i = first; i < first + 40; ++i)
-            ++counts[records[i].region];
+            ++counts[records[i].distribution];
         part.commit({&records[first], 40}, counts, {});
         updates.push_back(part.take().encode());
     }
