@@ -75,21 +75,21 @@ TEST(GoldenPlan, DiffuseRoom) {
 
 TEST(GoldenPlan, GlossyRoom) {
     expect_plan(test::own_scene("glossy-room.xml"),
-                with(kDiffuseMeshes, {"analytic_shapes", "smooth_normals", "microfacets", "coats"}), "general, guided");
+                with(kDiffuseMeshes, {"analytic_shapes", "smooth_normals", "microfacets", "coats"}), "general, guided, by view");
 }
 
 TEST(GoldenPlan, MixedRoom) {
     expect_plan(test::own_scene("mixed-room.xml"),
                 with(kDiffuseMeshes, {"analytic_shapes", "smooth_normals", "environment", "constant", "microfacets",
                                       "coats", "delta_reflection", "transmission", "twosided"}),
-                "general, guided");
+                "general, guided, by view");
 }
 
 TEST(GoldenPlan, Caustic) {
     expect_plan(test::own_scene("caustic.xml"),
                 with(kDiffuseMeshes, {"analytic_shapes", "smooth_normals", "microfacets", "delta_reflection",
                                       "transmission", "twosided"}),
-                "general, guided");
+                "general, guided, by view");
 }
 
 TEST(GoldenPlan, Features) {
@@ -99,7 +99,7 @@ TEST(GoldenPlan, Features) {
                                       "coats",           "blends",    "null",        "twosided",    "textured_area",
                                       "delta_lights",    "point",     "spot",        "directional", "environment",
                                       "environment_map", "lens"}),
-                "general, guided");
+                "general, guided, by view");
 }
 
 TEST(GoldenPlan, WithoutWhatItForcesOffAFeatureIsNotSimulated) {
