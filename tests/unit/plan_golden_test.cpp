@@ -75,7 +75,8 @@ TEST(GoldenPlan, DiffuseRoom) {
 
 TEST(GoldenPlan, GlossyRoom) {
     expect_plan(test::own_scene("glossy-room.xml"),
-                with(kDiffuseMeshes, {"analytic_shapes", "smooth_normals", "microfacets", "coats"}), "general, guided, by view");
+                with(kDiffuseMeshes, {"analytic_shapes", "smooth_normals", "microfacets", "coats"}),
+                "general, guided, by view");
 }
 
 TEST(GoldenPlan, MixedRoom) {
