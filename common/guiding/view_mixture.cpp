@@ -13,6 +13,8 @@ constexpr int kSteps = 40;
 /// A T2 that deserves less in all its views, so many passes in a row, is released.
 constexpr double kIdleFraction = 0.05;
 constexpr int kIdlePasses = 2;
+/// So does one that gains less, nats per record: a look-up in it costs about as much.
+constexpr double kLeastGain = 0.03;
 
 /// r_j at the centre of a bin.
 ViewFractions centre(int bin) {
@@ -111,9 +113,10 @@ std::vector<ViewAdvice> ViewLearner::judge(const SdTree& tree, const TreeSums& s
         const auto view = static_cast<double>(tree.view_fraction[v]);
         evidence.fractions =
             best_view_fractions(evidence.histogram, {bsdf, 1.0 - bsdf - view, view}, kPriorRecords * mean_record);
-        evidence.idle_passes = evidence.fractions.view < kIdleFraction ? evidence.idle_passes + 1 : 0;
-        advice[v] = {records * std::max(0.0, view_gain(evidence.histogram, evidence.fractions)),
-                     evidence.idle_passes < kIdlePasses};
+        const double gain = std::max(0.0, view_gain(evidence.histogram, evidence.fractions));
+        const bool idle = evidence.fractions.view < kIdleFraction || gain < kLeastGain;
+        evidence.idle_passes = idle ? evidence.idle_passes + 1 : 0;
+        advice[v] = {records * gain, evidence.idle_passes < kIdlePasses};
     }
     return advice;
 }

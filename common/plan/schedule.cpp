@@ -11,8 +11,10 @@ namespace {
 
 /// Kick-start samples emitters directly in passes that begin with fewer samples per pixel than this (PPG's program).
 constexpr std::uint32_t kKickstartSpp = 128;
+/// What few samples miss of rare light makes unguided variance look small: a probe pass of so many would have no say.
+constexpr double kDoubtSpp = 16.0;
 /// Passes with fewer samples per pixel do not probe whether guiding pays.
-constexpr std::uint32_t kProbeSpp = 8;
+constexpr std::uint32_t kProbeSpp = 32;
 /// Samples per pixel by which an open budget is planned.
 constexpr std::uint32_t kGuessedSpp = 64;
 /// A work unit is at most about this many samples of a full tile: around half a second on one core.
@@ -50,7 +52,7 @@ void set_guiding(PassPlan& pass, const Job& job, bool guiding_pays) {
 }
 
 bool guiding_pays(const PassPlan& probe, double gain) {
-    return gain == 0 || gain * (1.0 + kProbeSpp / static_cast<double>(probe.spp)) >= 1.0;
+    return gain == 0 || gain >= 1.0 - kDoubtSpp / static_cast<double>(probe.spp);
 }
 
 PassPlan make_pass(const Job& job, std::uint32_t index, std::uint32_t first_sample, std::uint32_t spp, bool last) {

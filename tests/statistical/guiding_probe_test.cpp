@@ -60,7 +60,7 @@ TEST(GuidingProbe, GuidingEndsWhereItDoesNotPay) {
 TEST(GuidingProbe, ProbePixelsAreUnguided) {
     Scene scene = load_scene(test::own_scene("cornell-box.xml"), {}, false).scene;
     scene.film.width = scene.film.height = 64;
-    Job job = automatic_job(60);
+    Job job = automatic_job(127);
     const test::LocalRender run = test::render_locally(scene, job);
     std::uint64_t expected = 0;
     for (std::uint32_t p = 0; p < 64 * 64; ++p)

@@ -50,11 +50,11 @@ TEST(GuidingProbe, SaysWhenItKnowsNothing) {
 
 TEST(GuidingProbe, LongPassesAreBelievedSooner) {
     PassPlan pass;
-    pass.spp = 8;
+    pass.spp = 32;
     EXPECT_TRUE(guiding_pays(pass, 0.6));
     EXPECT_FALSE(guiding_pays(pass, 0.4));
-    pass.spp = 64;
-    EXPECT_FALSE(guiding_pays(pass, 0.6));
+    pass.spp = 128;
+    EXPECT_FALSE(guiding_pays(pass, 0.8));
     EXPECT_TRUE(guiding_pays(pass, 0.95));
     EXPECT_TRUE(guiding_pays(pass, 0)) << "not known";
 }
@@ -63,7 +63,7 @@ TEST(GuidingProbe, OnlyAutoProbesAndOnlyWhatTeaches) {
     Job job;
     for (const auto& [type, probes] : {std::pair{GuidingType::automatic, true}, {GuidingType::view, false}}) {
         job.guiding.type = type;
-        PassPlan pass = make_pass(job, 4, 15, 16, false);
+        PassPlan pass = make_pass(job, 5, 31, 32, false);
         set_guiding(pass, job, true);
         EXPECT_EQ(pass.probe, probes);
         set_guiding(pass, job, false);

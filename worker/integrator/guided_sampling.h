@@ -56,11 +56,15 @@ float mixed_pdf_at(const Guide& guide, const Guidance& guidance, float bsdf_pdf,
 }
 
 /// Completes what is known of the region by its view of the direction that light leaves in, if the surface depends on
-/// it and there is one. Without kGuided the fractions stay.
+/// it and there is one. Without kGuided the fractions stay. `outgoing_code` is set where the surface depends on it.
 template <bool kGuided>
-void find_view(const Guide& guide, bool view_dependent, std::uint32_t outgoing_code, Guidance& guidance) {
-    guidance.view = view_dependent ? guide.view(guidance.region, outgoing_code) : Guide::kNoView;
+void find_view(const Guide& guide, bool view_dependent, const Vec3& outgoing, std::uint32_t& outgoing_code,
+               Guidance& guidance) {
+    guidance.view = Guide::kNoView;
     guidance.view_fraction = 0.0f;
+    if (!view_dependent) return;
+    outgoing_code = direction_to_code(outgoing);
+    guidance.view = guide.view(guidance.region, outgoing_code);
     if (!kGuided || !guidance.has_view()) return;
     guidance.bsdf_fraction = guide.bsdf_fraction(guidance.view);
     guidance.view_fraction = guide.view_fraction(guidance.view);

@@ -197,10 +197,8 @@ class PathKernel {
 
         ++stats_.vertices;
         path.guidance.bsdf_fraction = kGuided && surface.smooth() ? guide_.bsdf_fraction(path.guidance.region) : 1.0f;
-        if constexpr (kViews) {
-            path.outgoing_code = direction_to_code(-ray.direction);
-            find_view<kGuided>(guide_, surface.view_dependent(), path.outgoing_code, path.guidance);
-        }
+        if constexpr (kViews)
+            find_view<kGuided>(guide_, surface.view_dependent(), -ray.direction, path.outgoing_code, path.guidance);
         if (kGuided && path.probe) path.guidance.bsdf_fraction = 1.0f, path.guidance.view_fraction = 0.0f;
         if constexpr (kRecord)
             if (surface.smooth() && !guide_.contains(hit.p)) recorders_[index].add_outside();
