@@ -4,8 +4,10 @@
 #include <cmath>
 #include <iostream>
 #include <memory>
+#include <sstream>
 
 #include "cli/inspect_output.h"
+#include "common/image/atomic_file.h"
 #include "common/image/png.h"
 #include "common/metrics/false_colour.h"
 #include "worker/integrator/inspect_film.h"
@@ -88,6 +90,11 @@ void look(const InspectOptions& options, const InspectedRun& run, InspectReport&
     for (const NamedPlace& place : places)
         report.places.push_back(look_at_place(place, run, scene, guide, settings, folder));
     if (options.maps) report.maps = write_maps(scene, run.tree, guide, folder);
+    std::ostringstream json;  // so that a study's page can show the pictures
+    print_json(report, json);
+    const std::string text = json.str();
+    write_file_atomically(folder / "inspect.json",
+                          {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
 }
 
 void inspect_run(const InspectOptions& options, std::ostream& out) {

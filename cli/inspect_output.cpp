@@ -67,8 +67,9 @@ void print_place(const PlaceReport& place, std::ostream& out) {
     out << fmt::format("{}: at ({:.6g}, {:.6g}, {:.6g}), region {}", place.text, place.position.x, place.position.y,
                        place.position.z, g.region);
     if (g.has_view()) out << fmt::format(", distribution {} of its views", g.view);
-    out << fmt::format("; a_BSDF {:.3g}, a_T1 {:.3g}, a_T2 {:.3g}\n", g.bsdf_fraction,
+    out << fmt::format("; a_BSDF {:.3g}, a_T1 {:.3g}, a_T2 {:.3g}", g.bsdf_fraction,
                        1.0f - g.bsdf_fraction - g.view_fraction, g.view_fraction);
+    out << (place.reflected > 0 ? fmt::format("; reflects {:.4g}\n", place.reflected) : std::string("\n"));
     for (const Comparison& c : place.comparisons) {
         std::string panels;
         for (const std::string& panel : c.panels)
@@ -116,7 +117,8 @@ Json place_json(const PlaceReport& place) {
     Json json = {{"place", place.text},       {"position", {place.position.x, place.position.y, place.position.z}},
                  {"region", g.region},        {"view", g.has_view() ? Json(g.view) : Json()},
                  {"a_bsdf", g.bsdf_fraction}, {"a_t1", 1.0f - g.bsdf_fraction - g.view_fraction},
-                 {"a_t2", g.view_fraction},   {"pictures", Json::array()}};
+                 {"a_t2", g.view_fraction},   {"reflected", place.reflected},
+                 {"pictures", Json::array()}};
     for (const Comparison& c : place.comparisons)
         json["pictures"].push_back(
             Json{{"kind", c.kind}, {"file", c.file}, {"panels", c.panels}, {"overlap", c.overlap}, {"white", c.white}});

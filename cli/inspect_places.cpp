@@ -40,11 +40,16 @@ struct Panel {
     std::vector<float> density;  ///< per steradian; integrates to one unless all is 0
 };
 
-std::vector<float> normalized(std::vector<float> values) {
+/// Over the sphere of directions.
+double integral_of(const std::vector<float>& values) {
     double sum = 0;
     for (const float value : values)
         sum += static_cast<double>(value);
-    const double integral = sum * kSphere / static_cast<double>(values.size());
+    return values.empty() ? 0.0 : sum * kSphere / static_cast<double>(values.size());
+}
+
+std::vector<float> normalized(std::vector<float> values) {
+    const double integral = integral_of(values);
     if (integral > 0)
         for (float& value : values)
             value = static_cast<float>(static_cast<double>(value) / integral);
@@ -154,9 +159,10 @@ NamedPlace point_place(const std::string& text, const Guide& guide) {
 
 PlaceReport look_at_place(const NamedPlace& named, const InspectedRun& run, const TraceScene& scene, const Guide& guide,
                           const BruteForce& settings, const std::filesystem::path& folder) {
-    PlaceReport report{named.text, named.place.hit.p, place_facts(scene, guide, named.place), {}};
+    PlaceReport report{named.text, named.place.hit.p, place_facts(scene, guide, named.place), 0.0, {}};
     const Guidance& guidance = report.facts.guidance;
     const PlaceTruth truth = trace_place(scene, run.request.job, guide, named.place, settings);
+    report.reflected = integral_of(truth.reflected);
     const auto add = [&](const std::string& kind, const std::vector<Panel>& panels) {
         report.comparisons.push_back(compare(kind, panels, settings.bits, folder / (named.name + "-" + kind + ".png")));
     };

@@ -35,6 +35,7 @@ struct PlaceReport {
     std::string text;
     Vec3 position{0.0f};
     PlaceFacts facts;
+    double reflected = 0;  ///< radiance (mean of the channels) that the surface sends to the pixel, by brute force
     std::vector<Comparison> comparisons;
 };
 
