@@ -93,8 +93,7 @@ void look(const InspectOptions& options, const InspectedRun& run, InspectReport&
     std::ostringstream json;  // so that a study's page can show the pictures
     print_json(report, json);
     const std::string text = json.str();
-    write_file_atomically(folder / "inspect.json",
-                          {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+    write_file_atomically(folder / "inspect.json", {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
 }
 
 void inspect_run(const InspectOptions& options, std::ostream& out) {
