@@ -11,6 +11,7 @@
 #include <sstream>
 #include <string>
 
+#include "common/image/exr.h"
 #include "common/image/png.h"
 #include "tests/support/support.h"
 
@@ -105,6 +106,24 @@ TEST_F(InspectCommand, ShowsWhatNextEventLeaves) {
     const auto& panels = found["places"][0]["pictures"][0]["panels"];
     ASSERT_EQ(panels.size(), 3u);
     EXPECT_EQ(panels[1], "incident radiance left by next event");
+}
+
+TEST_F(InspectCommand, TheTruthIsWhatThePixelShows) {
+    struct Case {
+        const char* scene;
+        int x, y;  ///< sees a plain wall
+    };
+    for (const Case& c :
+         {Case{"cornell-box.xml -D size=32", 4, 12}, Case{"glossy-room.xml -D width=96 -D height=64", 70, 30}}) {
+        render(test::own_scene("") + c.scene + " --spp 255 --set guiding.type=ppg");
+        const RgbImage image = read_exr_rgb(run_ + "/image.exr").image;
+        const nlohmann::json found = inspect("--spp 16 --pixel " + std::to_string(c.x) + "," + std::to_string(c.y));
+        double shown = 0;  // of the neighbours, too: the image is noisy
+        for (int y = c.y - 1; y <= c.y + 1; ++y)
+            for (int x = c.x - 1; x <= c.x + 1; ++x)
+                shown += static_cast<double>(average(image.pixels[static_cast<std::size_t>(y * image.width + x)])) / 9;
+        EXPECT_NEAR(found["places"][0]["reflected"].get<double>(), shown, 0.1 * shown) << c.scene;
+    }
 }
 
 TEST_F(InspectCommand, ShowsViewsAndTheFilmWithTheSameBitsForAnyThreads) {
