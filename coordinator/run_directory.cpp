@@ -148,6 +148,14 @@ void check_run_directory(const std::filesystem::path& path) {
                      "name an empty or a new one with --run-dir");
 }
 
+/// What `treefarm inspect` drew of the tree of an earlier run.
+void remove_pictures(const std::filesystem::path& folder) {
+    if (!std::filesystem::is_directory(folder)) return;
+    for (const auto& entry : std::filesystem::directory_iterator(folder))
+        if (entry.path().extension() == ".png" || entry.path().filename() == "inspect.json")
+            std::filesystem::remove(entry.path());
+}
+
 }  // namespace
 
 const char* run_state_name(RunState state) {
@@ -172,8 +180,9 @@ RunDirectory::RunDirectory(const Job& job, const RunFacts& facts, const EffectPl
         std::filesystem::create_directories(path_);
         // A run that ends early must not stand beside the image or the log of another.
         for (const char* stale :
-             {"summary.json", "status.json", "image.exr", "preview.png", "log.txt", "schedule.toml"})
+             {"summary.json", "status.json", "image.exr", "preview.png", "log.txt", "schedule.toml", "tree.bin"})
             std::filesystem::remove(path_ / stale);
+        remove_pictures(path_ / "inspect");
         write_text("job.toml", write_job(job));
         write_text("plan.txt", plan_text(plan, job.scene.file));
         write_text("plan.json", plan_json(plan, job.scene.file));
@@ -217,6 +226,11 @@ void RunDirectory::add_pass(const PassReport& report) {
 
 void RunDirectory::write_image(const RenderResult& result) {
     if (result.passes.empty()) return;
+    if (job_.guiding.type != GuidingType::none && result.tree.trained) {
+        const Bytes tree = encode_tree(result.tree);
+        write_file_atomically(path_ / "tree.bin", tree);
+        tree_file_hash_ = hash_text(hash_bytes(tree));
+    }
     const Image channels = result_channels(result.image, result.width, result.height);
     const PassReport& last = result.passes.back();
     Attributes attributes = {
@@ -256,6 +270,7 @@ void RunDirectory::write_summary(RunState state, const RenderResult& result, con
                     {"seconds", elapsed_seconds},
                     {"image_hash", result.spp > 0 ? hash_text(result.image_hash) : ""},
                     {"tree_hash", result.spp > 0 ? hash_text(result.tree_hash) : ""},
+                    {"tree_file_hash", tree_file_hash_},
                     {"image_error", result.passes.empty() ? Json() : error_json(result.passes.back().error)},
                     {"halving", result.passes.empty() ? Json() : forecast_json(result.passes.back().halving)},
                     {"pass_weights", result.image.weight}};

@@ -24,8 +24,8 @@ struct RunFacts {
 };
 
 /// The folder of one run: job.toml, plan.txt, plan.json, log.txt, status.json, passes.csv, schedule.toml, image.exr,
-/// preview.png, summary.json. Every file is replaced as a whole or appended to by lines, so that a reader never sees
-/// half of one. Throws RunError where a file cannot be written.
+/// preview.png, tree.bin, summary.json. Every file is replaced as a whole or appended to by lines, so that a reader
+/// never sees half of one. Throws RunError where a file cannot be written.
 class RunDirectory {
   public:
     /// Makes the folder (runs/<scene>-<time> if the job names none) and writes job.toml, plan.txt and plan.json.
@@ -38,7 +38,8 @@ class RunDirectory {
     void write_status(const RenderProgress& progress, double elapsed_seconds);
     /// A line of passes.csv, a table of schedule.toml.
     void add_pass(const PassReport& report);
-    /// image.exr, preview.png, and the job's output.file.
+    /// image.exr, preview.png, and the job's output.file; tree.bin (encode_tree() of the result's tree) if there is one
+    /// that learned.
     void write_image(const RenderResult& result);
     /// summary.json and the last status.json.
     void write_summary(RunState state, const RenderResult& result, const Farm* farm, double elapsed_seconds,
@@ -52,6 +53,7 @@ class RunDirectory {
     const std::vector<Approximation> approximations_;
     std::filesystem::path path_;
     std::string passes_csv_;
+    std::string tree_file_hash_;    ///< of tree.bin; "" without one
     std::vector<PassPlan> passes_;  ///< the finished ones
     double last_status_ = -1e9;
 };

@@ -50,13 +50,8 @@ std::string html_table(const std::vector<std::vector<std::string>>& rows) {
     return html + "</table></div>\n";
 }
 
-std::string base64_rgbe(const RgbImage& image) {
+std::string base64(std::vector<std::uint8_t> bytes) {
     constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::vector<std::uint8_t> bytes;
-    bytes.reserve(4 * image.pixels.size() + 2);
-    for (const Rgb& pixel : image.pixels)
-        for (const std::uint8_t byte : rgbe(pixel))
-            bytes.push_back(byte);
     const std::size_t missing = (3 - bytes.size() % 3) % 3;
     bytes.resize(bytes.size() + missing);
     std::string text;
@@ -67,6 +62,15 @@ std::string base64_rgbe(const RgbImage& image) {
     }
     std::fill(text.end() - static_cast<std::ptrdiff_t>(missing), text.end(), '=');
     return text;
+}
+
+std::string base64_rgbe(const RgbImage& image) {
+    std::vector<std::uint8_t> bytes;
+    bytes.reserve(4 * image.pixels.size() + 2);
+    for (const Rgb& pixel : image.pixels)
+        for (const std::uint8_t byte : rgbe(pixel))
+            bytes.push_back(byte);
+    return base64(std::move(bytes));
 }
 
 RgbImage reduced(const RgbImage& image, int longest) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,9 @@ std::string html_text(const std::string& text);
 
 /// A table: the first row is its head, cells are HTML.
 std::string html_table(const std::vector<std::vector<std::string>>& rows);
+
+/// RFC 4648, with padding.
+std::string base64(std::vector<std::uint8_t> bytes);
 
 /// An image as the viewer reads it: base64 of red, green, blue and a common exponent, a byte each; values below zero
 /// and those that are no numbers become black. Width and height are those of `image`.

@@ -16,6 +16,7 @@
 #include "report/study_charts.h"
 #include "report/study_csv.h"
 #include "report/study_tables.h"
+#include "report/tree_pictures.h"
 
 namespace treefarm {
 
@@ -105,6 +106,10 @@ std::string scene_part(const StudyResults& results, const SceneResult& scene) {
     html += section("Nonzero paths and memory per pass",
                     "Share of camera paths that carried radiance; the tree on a worker, sampling form and sums.",
                     pass_table(results, scene));
+    html += section("Trees",
+                    "What treefarm inspect drew: learned distributions beside the true ones on the direction square "
+                    "(logarithmic, three decades below white), and over the film.",
+                    tree_pictures(results, scene));
     html += section("Where the time went", "Seconds of the coordinator's clock, mean over seeds; collect: tracing.",
                     phase_chart(results, scene));
     html += section("Workers", "Thread-seconds tracing and recording, mean over seeds.", worker_table(results, scene));

@@ -9,8 +9,10 @@
 #include "common/base/error.h"
 #include "report/bench_table.h"
 #include "report/effect_costs.h"
+#include "report/html.h"
 #include "report/prediction_table.h"
 #include "report/price_list.h"
+#include "report/tree_pictures.h"
 
 namespace treefarm {
 namespace {
@@ -123,6 +125,31 @@ const char* const kBench = R"({"context": {}, "benchmarks": [
     {"run_name": "sums/exact", "family_index": 0, "run_type": "iteration", "items_per_second": 5e8, "order_changes": 0},
     {"run_name": "sums/floats", "family_index": 1, "run_type": "iteration", "items_per_second": 1e9, "order_changes": 0.5},
     {"run_name": "sums/exact", "run_type": "aggregate", "aggregate_name": "cv", "items_per_second": 7e8, "order_changes": NaN}]})";
+
+TEST(TreePictures, OfTheFirstCellThatWasInspectedStandInThePage) {
+    StudyResults results =
+        study_of({{"ppg", {}}, {"none", {}}}, {cell("ppg", 0, {}), cell("ppg", 1, {}), cell("none", 0, {})});
+    for (CellResult& one : results.cells)
+        one.folder = fresh_folder("trees");
+    EXPECT_EQ(tree_pictures(results, results.scenes[0]), "") << "nothing was inspected";
+    const std::filesystem::path folder = results.cells[1].folder / "inspect";
+    std::filesystem::create_directories(folder);
+    std::ofstream(folder / "a.png") << "Man";
+    std::ofstream(folder / "inspect.json")
+        << R"({"tree": {"regions": 12, "t1_cells": 345, "t2_share": 0.5, "t2_cells": 6},
+               "places": [{"place": "pixel 1,2", "pictures": [{"file": "elsewhere/a.png", "panels": ["T1", "L & E"],
+                                                               "overlap": 0.75, "white": 2.5}]}],
+               "maps": [{"kind": "regions", "file": "a.png"}]})";
+    const std::string html = tree_pictures(results, results.scenes[0]);
+    for (const char* part : {"<h4>ppg</h4>", "12 regions, 345 cells", "50.0 %", "data:image/png;base64,TWFu\"",
+                             "pixel 1,2: T1 | L &amp; E; overlap 75 %", "regions</figcaption>"})
+        EXPECT_NE(html.find(part), std::string::npos) << part << " in " << html;
+    std::ofstream(folder / "inspect.json") << "{}";
+    EXPECT_THROW(tree_pictures(results, results.scenes[0]), InputError);
+    std::filesystem::remove(folder / "a.png");
+    EXPECT_EQ(base64({'M', 'a'}), "TWE=");
+    EXPECT_EQ(base64({}), "");
+}
 
 TEST(BenchTable, PairsRepetitions) {
     const auto file = fresh_folder("bench") / "out.json";

@@ -1,0 +1,135 @@
+#include "cli/inspect.h"
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <iostream>
+#include <memory>
+#include <sstream>
+
+#include "cli/inspect_output.h"
+#include "common/image/atomic_file.h"
+#include "common/image/png.h"
+#include "common/metrics/false_colour.h"
+#include "worker/integrator/inspect_film.h"
+
+namespace treefarm {
+
+namespace {
+
+struct InspectOptions {
+    std::string directory;
+    std::vector<std::string> pixels, points;
+    bool maps = false, json = false;
+    int size = 64;
+    std::uint32_t spp = 256;
+    unsigned threads = 0;
+    std::string output;
+};
+
+int bits_of(int size) {
+    int bits = 0;
+    while (1 << bits < size)
+        ++bits;
+    if (1 << bits != size)
+        throw InputError(Location{"--size", 0, 0}, std::to_string(size) + " is no power of two",
+                         "give 16, 32, 64, 128 or 256");
+    return bits;
+}
+
+/// A map of values from 0 to `white`.
+MapReport write_map(const std::string& kind, Plane map, double white, const std::filesystem::path& folder) {
+    MapReport report{kind, (folder / ("map-" + kind + ".png")).string(), white, 0};
+    std::size_t count = 0;
+    for (float& value : map.values) {
+        if (std::isnan(value)) continue;
+        report.mean += static_cast<double>(value);
+        ++count;
+        value = static_cast<float>(static_cast<double>(value) / white);
+    }
+    if (count > 0) report.mean /= static_cast<double>(count);
+    write_png(report.file, false_colour(map));
+    return report;
+}
+
+std::vector<MapReport> write_maps(const TraceScene& scene, const SdTree& tree, const Guide& guide,
+                                  const std::filesystem::path& folder) {
+    FilmMaps maps = film_maps(scene, tree, guide);
+    float most = 1.0f;
+    for (const float cells : maps.cells.values)
+        if (cells > most) most = cells;
+    const std::filesystem::path regions = folder / "map-regions.png";
+    write_png(regions, maps.regions);
+    return {{"regions", regions.string(), 0, 0},
+            write_map("bsdf-fraction", std::move(maps.bsdf_fraction), 1.0, folder),
+            write_map("view-fraction", std::move(maps.view_fraction), 1.0, folder),
+            write_map("cells", std::move(maps.cells), static_cast<double>(most), folder)};
+}
+
+std::filesystem::path picture_folder(const InspectOptions& options) {
+    const std::filesystem::path folder = options.output.empty() ? std::filesystem::path(options.directory) / "inspect"
+                                                                : std::filesystem::path(options.output);
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error)
+        throw InputError(Location{folder.string(), 0, 0}, "cannot hold pictures: " + error.message(),
+                         "name another folder with -o");
+    return folder;
+}
+
+void look(const InspectOptions& options, const InspectedRun& run, InspectReport& report) {
+    const Guide guide(run.tree);
+    const TraceScene scene(run.request.scene, run.request.job);
+    std::vector<NamedPlace> places;  // all of them are understood before any is traced
+    for (const std::string& pixel : options.pixels)
+        places.push_back(pixel_place(pixel, scene, guide));
+    for (const std::string& point : options.points)
+        places.push_back(point_place(point, guide));
+    const std::filesystem::path folder = picture_folder(options);
+    const BruteForce settings{bits_of(options.size), options.spp,
+                              options.threads == 0 ? affinity_threads() : options.threads, run.taught_by_next_event};
+    for (const NamedPlace& place : places)
+        report.places.push_back(look_at_place(place, run, scene, guide, settings, folder));
+    if (options.maps) report.maps = write_maps(scene, run.tree, guide, folder);
+    std::ostringstream json;  // so that a study's page can show the pictures
+    print_json(report, json);
+    const std::string text = json.str();
+    write_file_atomically(folder / "inspect.json", {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+}
+
+void inspect_run(const InspectOptions& options, std::ostream& out) {
+    bits_of(options.size);
+    const InspectedRun run = read_inspected_run(options.directory);
+    InspectReport report;
+    report.directory = options.directory;
+    report.statistics = tree_statistics(run.tree, run.tree_bytes);
+    if (options.maps || !options.pixels.empty() || !options.points.empty()) look(options, run, report);
+    options.json ? print_json(report, out) : print_text(report, out);
+}
+
+}  // namespace
+
+void add_inspect_command(CLI::App& app, const LaunchEnvironment& launch, int& exit_code) {
+    const auto options = std::make_shared<InspectOptions>();
+    CLI::App* command = app.add_subcommand("inspect", "Shows the tree that a run learned");
+    command->add_option("run", options->directory, "run directory of a guided render")->required();
+    command->add_flag("--json", options->json, "print JSON instead of text");
+    command->add_option("--pixel", options->pixels, "X,Y: pictures of what is learned where this pixel sees a surface")
+        ->allow_extra_args(false);
+    command->add_option("--point", options->points, "x,y,z or x,y,z:nx,ny,nz: the same at a point of the scene")
+        ->allow_extra_args(false);
+    command->add_flag("--maps", options->maps, "pictures over the film: regions, mixtures, memory");
+    command->add_option("--size", options->size, "squares along a side of the direction square (default: 64)")
+        ->check(CLI::Range(16, 256));
+    command->add_option("--spp", options->spp, "paths that find the truth, per square (default: 256)")
+        ->check(CLI::Range(1u, 1u << 20));
+    command->add_option("--threads", options->threads, "tracing threads (default: the processors)")
+        ->check(CLI::Range(1u, 4096u));
+    command->add_option("-o,--output", options->output, "folder of the pictures (default: inspect in the run's)");
+    command->callback([options, launch, &exit_code] {
+        if (launch.rank != 0) return;  // under mpirun one process is enough
+        inspect_run(*options, std::cout);
+        exit_code = 0;
+    });
+}
+
+}  // namespace treefarm

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+#include "cli/inspect_places.h"
+#include "common/guiding/tree_statistics.h"
+
+namespace treefarm {
+
+/// A picture over the film.
+struct MapReport {
+    std::string kind;  ///< "regions", "bsdf-fraction", "view-fraction", "cells"
+    std::string file;  ///< of the picture
+    double white = 0;  ///< what is shown white; 0: colours are no numbers
+    double mean = 0;   ///< over the pixels that have a value
+};
+
+/// All that `treefarm inspect` found.
+struct InspectReport {
+    std::string directory;
+    TreeStatistics statistics;
+    std::vector<PlaceReport> places;
+    std::vector<MapReport> maps;
+};
+
+void print_text(const InspectReport& report, std::ostream& out);
+void print_json(const InspectReport& report, std::ostream& out);
+
+}  // namespace treefarm

@@ -1,0 +1,93 @@
+#include "cli/inspected_run.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "common/base/hash.h"
+#include "common/config/job_reader.h"
+#include "common/image/read_bytes.h"
+#include "common/plan/schedule_file.h"
+#include "common/scene/scene_codec.h"
+
+namespace treefarm {
+
+namespace {
+
+[[noreturn]] void refuse(const std::filesystem::path& file, const std::string& what, const std::string& cure) {
+    throw InputError(Location{file.string(), 0, 0}, what, cure);
+}
+
+void check_directory(const std::filesystem::path& directory) {
+    if (!std::filesystem::is_directory(directory))
+        refuse(directory, "is no run directory", "name the folder that a render wrote its files to");
+    if (!std::filesystem::exists(directory / "job.toml"))
+        refuse(directory / "job.toml", "is missing, so this is no run directory",
+               "name the folder that a render wrote its files to");
+    if (!std::filesystem::exists(directory / "summary.json"))
+        refuse(directory / "summary.json", "is missing, so the run has not come to its end",
+               "wait for it, or render again");
+}
+
+/// What summary.json says of a key that holds text.
+std::string summary_text(const nlohmann::json& summary, const std::filesystem::path& file, const char* key) {
+    const auto found = summary.find(key);
+    if (found == summary.end() || !found->is_string())
+        refuse(file, std::string("says nothing of ") + key + ", so another version wrote it", "render again");
+    return found->get<std::string>();
+}
+
+nlohmann::json read_summary(const std::filesystem::path& file) {
+    const auto bytes = read_bytes(file, "render again");
+    nlohmann::json summary = nlohmann::json::parse(bytes.begin(), bytes.end(), nullptr, false);
+    if (!summary.is_object()) refuse(file, "is not what a render writes", "render again");
+    return summary;
+}
+
+SdTree read_tree(const std::filesystem::path& file, const std::string& expected_hash, const Job& job,
+                 std::uint64_t& size) {
+    if (!std::filesystem::exists(file)) {
+        if (job.guiding.type == GuidingType::none)
+            refuse(file, "is missing, since guiding.type is \"none\": the run has no tree",
+                   "render with --set guiding.type=auto");
+        if (expected_hash.empty())
+            refuse(file, "is missing, since no pass had taught the tree when the run ended",
+                   "render more samples, so that there are at least two passes");
+        refuse(file, "is missing, though the run wrote it", "render again");
+    }
+    const std::vector<std::uint8_t> bytes = read_bytes(file, "render again");
+    size = bytes.size();
+    if (hash_text(hash_bytes(bytes)) != expected_hash)
+        refuse(file, "is not the tree that summary.json stands beside: it is of another run, or damaged",
+               "render again");
+    try {
+        return decode_tree(bytes);
+    } catch (const FormatError& error) {
+        refuse(file, error.what(), "render again");
+    }
+}
+
+}  // namespace
+
+InspectedRun read_inspected_run(const std::filesystem::path& directory) {
+    check_directory(directory);
+    const std::filesystem::path job = directory / "job.toml", summary_file = directory / "summary.json";
+    const nlohmann::json summary = read_summary(summary_file);
+    InspectedRun run;
+    run.directory = directory;
+    RenderOptions options;
+    options.input = job.string();
+    run.tree = read_tree(directory / "tree.bin", summary_text(summary, summary_file, "tree_file_hash"),
+                         read_job_file(job), run.tree_bytes);
+    run.request = read_request(options);
+    if (hash_text(hash_bytes(encode_scene(run.request.scene))) != summary_text(summary, summary_file, "scene_hash"))
+        refuse(run.request.job.scene.file, "is not the scene that " + job.string() + " rendered: it has changed since",
+               "render again");
+    const std::filesystem::path schedule = directory / "schedule.toml";
+    const std::vector<PassPlan> passes =
+        parse_schedule(read_settings_text(schedule, "schedule"), schedule.string(), run.request.job);
+    const auto teacher = std::find_if(passes.rbegin(), passes.rend(), [](const PassPlan& pass) { return pass.record; });
+    run.taught_by_next_event = teacher != passes.rend() && teacher->next_event;
+    return run;
+}
+
+}  // namespace treefarm

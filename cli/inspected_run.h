@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+#include "cli/render.h"
+#include "common/guiding/sd_tree.h"
+
+namespace treefarm {
+
+/// A finished run as its directory holds it.
+struct InspectedRun {
+    std::filesystem::path directory;
+    RenderRequest request;  ///< job and scene, read again
+    SdTree tree;
+    std::uint64_t tree_bytes = 0;       ///< of tree.bin
+    bool taught_by_next_event = false;  ///< whether the last pass that taught the tree sampled emitters
+};
+
+/// Reads job.toml, summary.json, schedule.toml and tree.bin of a run directory, and the scene again. Throws InputError
+/// for what is missing, and for a tree or a scene that is not the run's.
+InspectedRun read_inspected_run(const std::filesystem::path& directory);
+
+}  // namespace treefarm
