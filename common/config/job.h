@@ -90,7 +90,7 @@ struct Job {
         int max_depth = -1;  ///< path edges from the camera; 1 sees emitters only; -1: no limit
         int rr_depth = 5;    ///< roulette from this depth on
         NextEvent next_event = NextEvent::always;
-        MisHeuristic mis = MisHeuristic::power;
+        MisHeuristic mis = MisHeuristic::balance;
         bool strict_normals = false;  ///< drop light that geometric and shading normal disagree about
         bool hide_emitters = false;   ///< the camera does not see emitters directly
     } integrator;

@@ -226,7 +226,8 @@ PlaceFacts place_facts(const TraceScene& scene, const Guide& guide, const Inspec
     Guidance& guidance = facts.guidance;
     guidance = {guide.region(place.hit.p), Guide::kNoView, 1.0f, 0.0f};
     if (facts.smooth) guidance.bsdf_fraction = guide.bsdf_fraction(guidance.region);
-    find_view<true>(guide, facts.smooth && facts.view_dependent, place.surface ? direction_to_code(place.outgoing) : 0,
+    std::uint32_t outgoing_code = 0;
+    find_view<true>(guide, place.surface && facts.smooth && facts.view_dependent, place.outgoing, outgoing_code,
                     guidance);
     return facts;
 }

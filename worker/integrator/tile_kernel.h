@@ -83,7 +83,8 @@ void render_with(const TileJob& tile) {
             const bool refused = refuse_invalid(radiance, unit, end.x, end.y, end.sample, stats);
             if (!is_black(radiance)) ++stats.nonzero_paths;
             if constexpr (kRecord)
-                if (!refused) stats.records += kernel.recorder(i).commit(key(end), log);
+                if (!refused && !(kGuided && pass.probe && is_probe_pixel(key(end).pixel)))
+                    stats.records += kernel.recorder(i).commit(key(end), log);
             blocks.back().add(key(end).sample, radiance);
             if (end.advance()) {
                 pixels.push_back(reduce_blocks(blocks));
