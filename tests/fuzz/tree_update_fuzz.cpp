@@ -9,12 +9,13 @@ using namespace treefarm;
 namespace {
 
 const SdTree& small_tree() {
-    static const SdTree tree = test::random_tree(2, 2000, 500, 1);
+    static const SdTree tree = test::random_view_tree(2, 2000, 500, 500, 1);
     return tree;
 }
 
 TreeSums empty_sums() {
-    return {small_tree().pass, small_tree().region_count(), small_tree().cell_count()};
+    const SdTree& tree = small_tree();
+    return {tree.pass, SumsShape(tree.region_count(), tree.cell_count(), false, tree.view_count())};
 }
 
 void merge(std::span<const std::uint8_t> bytes) {
@@ -38,6 +39,12 @@ void decode(std::span<const std::uint8_t> bytes) {
         const Guide guide(tree);
         for (const float at : {0.0f, 0.3f, 1.0f})
             if (guide.region(tree.origin + Vec3(at * tree.extent)) >= tree.region_count()) std::abort();
+        for (const std::uint32_t code : {0u, 0x77777777u, 0xffffffffu}) {
+            const std::uint32_t view = guide.view(guide.region(tree.origin), code);
+            if (view == Guide::kNoView) continue;
+            if (view < tree.region_count() || view >= tree.distribution_count()) std::abort();
+            if (!(guide.pdf(view, code) >= 0.0f)) std::abort();
+        }
     } catch (const FormatError&) {
     }
 }
@@ -59,8 +66,8 @@ std::vector<std::string> fuzz::seeds() {
         return std::string(1, kind) + std::string(bytes.begin(), bytes.end());
     };
     const auto update = [&](std::size_t count) {
-        std::vector<Record> records = test::random_records(guide, count, 5);
-        std::vector<std::uint32_t> counts(guide.region_count(), 1);
+        std::vector<Record> records = test::random_view_records(guide, count, 5);
+        std::vector<std::uint32_t> counts(guide.distribution_count(), 1);
         Accumulator accumulator(small_tree().pass, guide);
         accumulator.commit(records, counts, {1, 2, 3});
         return accumulator.take().encode();
