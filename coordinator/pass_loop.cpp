@@ -106,10 +106,7 @@ class PassLoop {
     /// In the image-wide number of a probe pass: a decision, not a weight, so no pixel is biased by its own samples.
     void judge_guiding(PassReport& report) {
         if (report.plan.probe) {
-            const TraceStats& s = report.stats;
-            const ProbeCounts unguided{s.probe_paths, s.probe_rays},
-                guided{s.paths - s.probe_paths, s.rays - s.probe_rays};
-            report.guiding_gain = guiding_gain(farm_.collector().film().pixels(), result_.image.mean, guided, unguided);
+            report.guiding_gain = guiding_gain(farm_.collector().film().pixels(), result_.image.mean, report.stats);
             state_.guiding_pays = state_.guiding_pays && guiding_pays(report.plan, report.guiding_gain);
         }
         report.guiding_pays = state_.guiding_pays;

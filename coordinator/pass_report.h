@@ -48,6 +48,12 @@ struct PassSeconds {
     double splat = 0;              ///< thread-seconds adding records, all workers
     std::map<int, double> worker;  ///< thread-seconds tracing and adding records, per worker
     double idle = 0;  ///< thread-seconds in which threads neither traced nor added, or waited for a processor
+
+    /// What the coordinator's clock saw, by name.
+    std::map<std::string, double> phases() const {
+        return {{"broadcast", broadcast}, {"collect", collect}, {"merge", merge},
+                {"refine", refine},       {"film", film},       {"error", error}};
+    }
 };
 
 /// Everything worth knowing of one finished pass.

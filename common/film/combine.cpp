@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include "common/film/trimmed_mean.h"
 
 namespace treefarm {
 namespace {
@@ -196,13 +199,7 @@ PassVariance pass_variance(std::span<const PixelEstimate> pixels) {
     result.stuv /= count;
     result.mse_of_sample /= count;
     result.stuv_ppg /= count;
-    const std::size_t kept = variances.size() - variances.size() / 1000;
-    if (kept < variances.size())
-        std::nth_element(variances.begin(), variances.begin() + static_cast<std::ptrdiff_t>(kept), variances.end());
-    variances.resize(kept);
-    for (const double v : variances)
-        result.stuv_trimmed += v;
-    result.stuv_trimmed /= static_cast<double>(variances.size());
+    result.stuv_trimmed = trimmed_mean(std::move(variances));
     return result;
 }
 

@@ -47,13 +47,7 @@ Json pass_record(const PassReport& r, double core_seconds) {
             {"tree_memory", r.tree.memory},
             {"rays", r.stats.rays + r.stats.shadow_rays},
             {"threads", r.threads},
-            {"phases",
-             {{"broadcast", r.seconds.broadcast},
-              {"collect", r.seconds.collect},
-              {"merge", r.seconds.merge},
-              {"refine", r.seconds.refine},
-              {"film", r.seconds.film},
-              {"error", r.seconds.error}}},
+            {"phases", r.seconds.phases()},
             {"worker_seconds", workers},
             {"idle_seconds", r.seconds.idle}};
 }

@@ -70,9 +70,7 @@ LocalRender render_locally(const Scene& scene, const Job& job) {
         state.error = estimate_error(run.image, job.sampler.seed);
         run.states.push_back(state);
         if (pass.probe) {
-            const ProbeCounts unguided{stats.probe_paths, stats.probe_rays};
-            const ProbeCounts guided{stats.paths - stats.probe_paths, stats.rays - stats.probe_rays};
-            run.guiding_gains.push_back(guiding_gain(film.pixels(), run.image.mean, guided, unguided));
+            run.guiding_gains.push_back(guiding_gain(film.pixels(), run.image.mean, stats));
             state.guiding_pays = state.guiding_pays && guiding_pays(pass, run.guiding_gains.back());
         }
         next = choose(state);

@@ -66,7 +66,7 @@ std::string describe_sample(const TraceScene& scene, const Job& job, const PassP
                             int y, std::uint32_t sample) {
     const PathKey path{job.sampler.seed, static_cast<std::uint32_t>(y * std::int64_t(scene.film().width) + x),
                        pass.first_sample + sample};
-    const bool guided = job.guiding.type != GuidingType::none && pass.guided && guide.trained();
+    const bool guided = is_guided(job, pass, guide);
     if (scene.plainly_diffuse())
         return guided ? described<DiffuseSurface, true>(scene, job, pass, guide, x, y, path)
                       : described<DiffuseSurface, false>(scene, job, pass, guide, x, y, path);

@@ -199,7 +199,10 @@ class PathKernel {
         path.guidance.bsdf_fraction = kGuided && surface.smooth() ? guide_.bsdf_fraction(path.guidance.region) : 1.0f;
         if constexpr (kViews)
             find_view<kGuided>(guide_, surface.view_dependent(), -ray.direction, path.outgoing_code, path.guidance);
-        if (kGuided && path.probe) path.guidance.bsdf_fraction = 1.0f, path.guidance.view_fraction = 0.0f;
+        if (kGuided && path.probe) {
+            path.guidance.bsdf_fraction = 1.0f;
+            path.guidance.view_fraction = 0.0f;
+        }
         if constexpr (kRecord)
             if (surface.smooth() && !guide_.contains(hit.p)) recorders_[index].add_outside();
         if ((settings_.next_event || settings_.delta_alone) && surface.smooth())

@@ -115,21 +115,22 @@ class PathRecorder {
     void teach(const PathKey& path, std::uint32_t vertex, Stream rounding, const RecordTarget& target, const Lesson& l,
                RecordLog& log) const {
         const bool smooth = l.pdf > 0.0f;
+        const Draw bits = l.radiance > 0.0f || l.reflected > 0.0f ? draw(path, vertex, rounding) : Draw{};
         const float value = smooth ? target_value(l.radiance, l.pdf) : 0.0f;
         const float mixture = l.of_mixture ? l.reflected : 0.0f;
         if (!target.has_view()) {
             log.counts[target.region] += smooth;
-            append(path, vertex, rounding, 0, {target.region, l.code, 0, value, mixture, l.bin}, log);
+            append(bits[0], {target.region, l.code, 0, value, mixture, l.bin}, log);
             return;
         }
         const bool product = view_records_ == ViewRecords::product;
         if (product && smooth) {
             ++log.counts[target.region];
-            append(path, vertex, rounding, 0, {target.region, l.code, 0, value, 0.0f, 0}, log);
+            append(bits[0], {target.region, l.code, 0, value, 0.0f, 0}, log);
         }
         log.counts[target.view] += smooth;
         const float of_view = product && smooth ? target_value(l.reflected * l.pdf, l.pdf) : value;
-        append(path, vertex, rounding, 1, {target.view, l.code, 0, of_view, mixture, l.bin}, log);
+        append(bits[1], {target.view, l.code, 0, of_view, mixture, l.bin}, log);
     }
 
     /// A value beyond float becomes the largest one: the sums cap it, and count that.
@@ -140,12 +141,11 @@ class PathRecorder {
         return finite(target_ == GuidingTarget::variance ? radiance * (radiance / pdf) : radiance / pdf);
     }
 
-    static void append(const PathKey& path, std::uint32_t vertex, Stream rounding, std::size_t word, Record record,
-                       RecordLog& log) {
+    static void append(std::uint32_t rounding, Record record, RecordLog& log) {
         if (!(record.value > 0.0f)) record.value = 0.0f;  // also NaN
         if (!(record.reflected > 0.0f)) record.reflected = 0.0f;
         if (record.value == 0.0f && record.reflected == 0.0f) return;
-        record.rounding = draw(path, vertex, rounding)[word];
+        record.rounding = rounding;
         log.records.push_back(record);
     }
 

@@ -8,6 +8,11 @@
 
 namespace treefarm {
 
+/// Whether this tree guides this pass.
+inline bool is_guided(const Job& job, const PassPlan& pass, const Guide& guide) {
+    return job.guiding.type != GuidingType::none && pass.guided && guide.trained();
+}
+
 /// What the walk is told besides the scene: fixed for a pass.
 struct PathSettings {
     int max_depth;

@@ -45,7 +45,7 @@ void render_unit(const TraceScene& scene, const Job& job, const PassPlan& pass, 
     pixels.clear();
     pixels.reserve(unit.pixel_count());
     log.begin(pass.record ? guide.distribution_count() : 0);
-    const bool guided = job.guiding.type != GuidingType::none && pass.guided && guide.trained();
+    const bool guided = is_guided(job, pass, guide);
     const TileJob tile{scene, job, pass, guide, unit, pixels, log, stats};
     const bool views = guide.view_count() != 0 && (guided || pass.record);
     kernel(KernelChoice{scene.plainly_diffuse(), guided, pass.record, views && !scene.plainly_diffuse()}).render(tile);
