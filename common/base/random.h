@@ -20,6 +20,7 @@ enum class Stream : std::uint32_t {
     jitter,          ///< spatial filter of what scattered directions taught the tree
     light_jitter,    ///< the same for next event's records
     bootstrap,       ///< the interval of the estimated error; keyed by block and resample instead of pixel and sample
+    candidate,       ///< further directions to choose among, and which is taken; keyed by vertex and candidate
 };
 
 /// Names one camera path: the same key gives the same path on any machine, thread or rank.

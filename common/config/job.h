@@ -35,6 +35,11 @@ inline bool uses_views(GuidingType type) {
     return type == GuidingType::view || type == GuidingType::automatic;
 }
 
+/// Of how many directions a guided vertex takes one, unless the job says it.
+inline int usual_candidates(GuidingType type) {
+    return uses_views(type) ? 2 : 1;
+}
+
 /// What view-dependent vertices teach.
 enum class ViewRecords : std::uint8_t {
     radiance,  ///< their view the radiance that arrives, their region nothing: as published
@@ -108,6 +113,8 @@ struct Job {
         DirectionalFilter directional_filter = DirectionalFilter::box;
         GuidingTarget target = GuidingTarget::radiance;
         GuidingRoulette roulette = GuidingRoulette::adjoint;
+        int candidates = 0;       ///< directions drawn at a guided vertex, of which one is taken; 0: as the type says
+        int candidate_depth = 1;  ///< up to which depth
         ViewRecords view_records = ViewRecords::product;
         int view_threshold = 4000;            ///< c of the split rule of views
         int spatial_threshold = 4000;         ///< c of the spatial split rule

@@ -244,6 +244,14 @@ std::vector<JobKey> make_job_keys() {
         std::vector<std::pair<std::string, Combination>>{{"inverse_variance", Combination::inverse_variance},
                                                          {"fixed", Combination::fixed},
                                                          {"last", Combination::last}}));
+    add(integer_key(
+        "guiding.candidates", "0 to 4",
+        "directions drawn at a guided vertex, of which one is taken by the product of BSDF and learned light; 0: 2 "
+        "where guiding.type is view or auto, else 1",
+        [](auto& j) -> auto& { return j.guiding.candidates; }, 0, 4));
+    add(integer_key(
+        "guiding.candidate_depth", "1 and more", "vertices from the camera that draw so many; deeper ones draw one",
+        [](auto& j) -> auto& { return j.guiding.candidate_depth; }, 1, 1 << 20));
     add(word_key("guiding.spatial_filter",
                  "which region a record goes to; stochastic: that of its position moved by up to half a region",
                  [](auto& j) -> auto& { return j.guiding.spatial_filter; },
@@ -359,6 +367,7 @@ std::span<const Setting> preset_settings(const std::string& preset) {
         {"guiding.directional_filter", "nearest", {}},
         {"guiding.target", "radiance", {}},
         {"guiding.roulette", "constant", {}},
+        {"guiding.candidates", "1", {}},
     };
     // The thesis' program is that of paper but for these: they come later and win.
     static const std::vector<Setting> thesis = [] {

@@ -145,7 +145,8 @@ class MixtureSamples {
         scatter.clear();
         std::array<bool, kDrawBatch> drawn;
         for (std::uint32_t k = 0; k < kDrawBatch; ++k)
-            drawn[k] = scatter.draw(surface_, guide_, guidance_, draws[k], cosines[k], samples_[k]);
+            drawn[k] =
+                scatter.draw(surface_, guide_, guidance_, to_unit(draws[k][0]), draws[k], cosines[k], samples_[k]);
         scatter.convert(guide_);
         for (std::uint32_t k = 0; k < kDrawBatch; ++k) {
             samples_[k].f_cos = drawn[k] ? samples_[k].f_cos : Rgb(0.0f);

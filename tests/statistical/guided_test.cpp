@@ -16,10 +16,13 @@ struct Case {
     NextEvent next_event;
     MisHeuristic mis = MisHeuristic::power;
     int spp_unit = 4;
+    int candidates = 1, candidate_depth = 1;
+    std::uint32_t reference_spp = 512;  ///< more where unguided paths seldom find what is bright
 };
 
 void PrintTo(const Case& c, std::ostream* out) {
-    *out << c.scene << ", next event " << static_cast<int>(c.next_event) << ", MIS " << static_cast<int>(c.mis);
+    *out << c.scene << ", next event " << static_cast<int>(c.next_event) << ", MIS " << static_cast<int>(c.mis)
+         << ", candidates " << c.candidates << " to depth " << c.candidate_depth;
 }
 
 struct Estimate {
@@ -45,7 +48,7 @@ TEST_P(GuidedAgainstUnguided, AgreesInEveryBlock) {
     job.integrator.max_depth = 8;
     job.integrator.mis = GetParam().mis;
     job.sampler.seed = 1;
-    job.budget.spp = 512;
+    job.budget.spp = GetParam().reference_spp;
     job.guiding.type = GuidingType::none;
     job.integrator.next_event = NextEvent::always;
     const Estimate unguided = render(scene, job);
@@ -56,6 +59,8 @@ TEST_P(GuidedAgainstUnguided, AgreesInEveryBlock) {
     job.guiding.combination = Combination::fixed;
     job.guiding.spatial_threshold = 1000;  // a fine tree for a small image
     job.guiding.spp_unit = GetParam().spp_unit;
+    job.guiding.candidates = GetParam().candidates;
+    job.guiding.candidate_depth = GetParam().candidate_depth;
     job.integrator.next_event = GetParam().next_event;
     const Estimate guided = render(scene, job);
 
@@ -69,13 +74,17 @@ TEST_P(GuidedAgainstUnguided, AgreesInEveryBlock) {
     EXPECT_GT(blocks.mean_z2, 0.3);  // the variances are honest, not inflated
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, GuidedAgainstUnguided,
-                         ::testing::Values(Case{"cornell-box.xml", NextEvent::never},
-                                           Case{"cornell-box.xml", NextEvent::always},
-                                           Case{"cornell-box.xml", NextEvent::kickstart},
-                                           Case{"cornell-box.xml", NextEvent::always, MisHeuristic::balance, 1},
-                                           Case{"door-ajar.xml", NextEvent::always},
-                                           Case{"door-ajar.xml", NextEvent::kickstart}));
+INSTANTIATE_TEST_SUITE_P(
+    Scenes, GuidedAgainstUnguided,
+    ::testing::Values(Case{"cornell-box.xml", NextEvent::never}, Case{"cornell-box.xml", NextEvent::always},
+                      Case{"cornell-box.xml", NextEvent::kickstart},
+                      Case{"cornell-box.xml", NextEvent::always, MisHeuristic::balance, 1},
+                      Case{"cornell-box.xml", NextEvent::never, MisHeuristic::balance, 1, 2},
+                      Case{"cornell-box.xml", NextEvent::always, MisHeuristic::balance, 1, 4, 8},
+                      Case{"glossy-room.xml", NextEvent::always, MisHeuristic::balance, 1, 2, 1, 2048},
+                      Case{"glossy-room.xml", NextEvent::always, MisHeuristic::balance, 1, 3, 8, 2048},
+                      Case{"caustic.xml", NextEvent::kickstart, MisHeuristic::power, 1, 3, 8},
+                      Case{"door-ajar.xml", NextEvent::always}, Case{"door-ajar.xml", NextEvent::kickstart}));
 
 }  // namespace
 }  // namespace treefarm

@@ -24,6 +24,7 @@ struct ScatterSample {
     Vec3 world;
     Rgb f_cos;                 ///< f |cos|
     float pdf;                 ///< per steradian, of the whole mixture; delta: the probability of the lobe
+    float effective_pdf;       ///< pdf, or what stands for it where one of several was taken (reservoir.h)
     float bsdf_pdf;            ///< of the BSDF alone
     float guide_pdf;           ///< of the region's distribution alone, where it guides
     float view_pdf;            ///< of the view's alone, where it guides
@@ -112,12 +113,11 @@ class ScatterBatch {
         place_count_ = 0;
     }
 
-    /// random[0] chooses BSDF or guide, [1] the BSDF's lobe or the guide's cell, [2] and [3] the place; `cosine` is
-    /// that place warped to the cosine hemisphere. False if there is no direction.
+    /// `technique`, uniform in [0, 1), chooses BSDF or guide, random[1] the BSDF's lobe or the guide's cell, [2] and
+    /// [3] the place; `cosine` is that place warped to the cosine hemisphere. False if there is no direction.
     template <class Surface>
-    bool draw(const Surface& surface, const Guide& guide, const Guidance& guidance, const Draw& random,
+    bool draw(const Surface& surface, const Guide& guide, const Guidance& guidance, float technique, const Draw& random,
               const Vec3& cosine, ScatterSample& s) {
-        const float technique = to_unit(random[0]);
         s.guided = kGuided && !(technique < guidance.bsdf_fraction);
         s.guide_pdf = s.view_pdf = 0.0f;
         if (kGuided && s.guided) {
@@ -176,6 +176,7 @@ class ScatterBatch {
             else
                 s.pdf = mixed_pdf(guidance.bsdf_fraction, s.bsdf_pdf, s.guide_pdf);
         }
+        s.effective_pdf = s.pdf;
     }
 
   private:

@@ -8,6 +8,7 @@
 #include "common/film/trace_stats.h"
 #include "common/guiding/mixture.h"
 #include "common/guiding/view_mixture.h"
+#include "worker/integrator/direction_choice.h"
 #include "worker/integrator/mis.h"
 #include "worker/integrator/path_observer.h"
 #include "worker/integrator/path_recorder.h"
@@ -36,11 +37,11 @@ class PathKernel {
           settings_(settings),
           stats_(stats),
           clock_(settings.profile, stats),
-          scratch_(kBatch, Surface::make_scratch(scene)) {
+          scratch_(kBatch, Surface::make_scratch(scene)),
+          directions_(guide, settings) {
         if constexpr (kRecord) recorders_.fill(PathRecorder(settings.target, settings.view_records));
     }
 
-    /// Forgets the paths traced so far.
     void clear() { count_ = 0; }
     std::uint32_t count() const { return count_; }
     bool full() const { return count_ == kBatch; }
@@ -117,12 +118,21 @@ class PathKernel {
 
     /// The next directions.
     std::uint32_t go_on(std::uint32_t alive) {
-        scatter_.clear();
-        if constexpr (!kConverts)
-            return keep(alive, [&](std::uint8_t path) { return draw_direction(path) && leave(path); });
-        alive = keep(alive, [&](std::uint8_t path) { return draw_direction(path); });
-        scatter_.convert(guide_);
-        return keep(alive, [&](std::uint8_t path) { return leave(path); });
+        const auto draws = [&](std::uint8_t path) { return directions_.draw(paths_[path]) || end("no direction"); };
+        const auto leaves = [&](std::uint8_t path) {
+            directions_.complete(paths_[path]);
+            return leave(path);
+        };
+        directions_.clear();
+        if constexpr (!kConverts) return keep(alive, [&](std::uint8_t path) { return draws(path) && leaves(path); });
+        if constexpr (kGuided)
+            if (directions_.several()) {
+                directions_.draw_several(paths_, {alive_.data(), alive});
+                return keep(alive, [&](std::uint8_t path) { return leave(path); });
+            }
+        alive = keep(alive, draws);
+        directions_.convert();
+        return keep(alive, leaves);
     }
 
     /// Of the first `alive` of alive_ those for which `goes_on`.
@@ -142,7 +152,7 @@ class PathKernel {
             if (!path.found) continue;
             const std::uint32_t region = path.guidance.region = guide_.region(path.hit.p);
             if (kGuided && depth == 1) path.first_exponent = guide_.quantum_exponent(region);
-            if constexpr (kGuided) guide_.prefetch(region, scatter_draws_.word[1][lane]);
+            if constexpr (kGuided) directions_.prefetch(region, lane);
         }
         clock_.lap(TracePhase::direction);
     }
@@ -156,8 +166,7 @@ class PathKernel {
             keys.sample[i] = key.sample;
         }
         const std::uint64_t seed = paths_[alive_[0]].key.seed;
-        draw_batch(seed, keys, alive, vertex_of(depth), Stream::scatter, scatter_draws_);
-        cosine_hemisphere_batch(scatter_draws_, alive, cosines_);
+        directions_.draw_numbers(seed, keys, alive, vertex_of(depth));
         if (settings_.next_event || settings_.delta_alone)
             draw_batch(seed, keys, alive, vertex_of(depth), Stream::light, light_draws_);
         if (kRecord && settings_.jitter_records)
@@ -210,23 +219,15 @@ class PathKernel {
         return true;
     }
 
-    bool draw_direction(std::uint8_t index) {
-        Path& path = paths_[index];
-        return scatter_.draw(*path.surface, guide_, path.guidance, scatter_draws_[path.lane], cosines_[path.lane],
-                             path.scatter) ||
-               end("no direction");
-    }
-
     /// The path takes the direction that was drawn. False if it carries nothing.
     bool leave(std::uint8_t index) {
         Path& path = paths_[index];
         const Surface& surface = *path.surface;
-        scatter_.complete(surface, guide_, path.guidance, path.scatter);
         const Hit& hit = path.hit;
         const ScatterSample& s = path.scatter;
         if (!(s.pdf > 0.0f) || is_black(s.f_cos)) return end("no direction");
         if (settings_.strict_normals && dot(surface.ng(), s.world) * s.local.z <= 0.0f) return end("normals disagree");
-        path.weight = s.f_cos * (1.0f / s.pdf);
+        path.weight = s.f_cos * (1.0f / s.effective_pdf);
         path.throughput *= path.weight;
         observer_.scatter(s, path.throughput);
         path.scatter_pdf = s.pdf;
@@ -256,7 +257,7 @@ class PathKernel {
         const std::uint8_t bin = kViews && path.guidance.has_view()
                                      ? view_mixture_bin(s.bsdf_pdf, s.guide_pdf, s.view_pdf)
                                      : mixture_bin(s.bsdf_pdf, s.guide_pdf);
-        recorders_[index].add_vertex(target, s.code, s.pdf, path.weight, bin, vertex_of(depth));
+        recorders_[index].add_vertex(target, s.code, s.effective_pdf, path.weight, bin, vertex_of(depth));
     }
 
     /// Of the light about the path's end over that about its first vertex, by the mean records of their regions.
@@ -388,9 +389,8 @@ class PathKernel {
     std::uint32_t count_ = 0;
     std::array<Path, kBatch> paths_;
     std::array<std::uint8_t, kBatch> alive_;
-    DrawBatch scatter_draws_, light_draws_, jitter_draws_;
-    DirectionBatch cosines_;
-    ScatterBatch<kGuided, kConverts, kViews> scatter_;
+    DrawBatch light_draws_, jitter_draws_;
+    DirectionChoice<Surface, kGuided, kConverts, kViews> directions_;
     CodeBatch light_codes_;
     PendingLights pending_;
     std::array<PathRecorder, kRecord ? kBatch : 0> recorders_;

@@ -23,8 +23,10 @@ struct PathSettings {
     bool hide_emitters;
     bool record_light_samples;  ///< kick-start: what next event finds teaches the tree, too
     bool profile;
-    bool probe;           ///< pixels of guiding_probe.h are unguided
-    bool jitter_records;  ///< stochastic spatial filter
+    bool probe;                ///< pixels of guiding_probe.h are unguided
+    bool jitter_records;       ///< stochastic spatial filter
+    std::uint32_t candidates;  ///< directions drawn at a guided vertex, of which one is taken (reservoir.h)
+    int candidate_depth;       ///< up to here; deeper vertices draw one
     GuidingTarget target;
     ViewRecords view_records;
     Roulette roulette, unguided_roulette;
@@ -40,6 +42,9 @@ struct PathSettings {
           profile(job.farm.profile),
           probe(pass.probe),
           jitter_records(job.guiding.spatial_filter == SpatialFilter::stochastic),
+          candidates(static_cast<std::uint32_t>(job.guiding.candidates == 0 ? usual_candidates(job.guiding.type)
+                                                                            : job.guiding.candidates)),
+          candidate_depth(job.guiding.candidate_depth),
           target(job.guiding.target),
           view_records(job.guiding.view_records),
           roulette(job.guiding.type == GuidingType::none || !pass.guided ? Roulette::Rule::unguided

@@ -27,6 +27,7 @@ class DiffuseSurface {
     const Vec3& wo() const { return wo_; }
     const Vec3& ng() const { return hit_.ng; }
     static constexpr bool smooth() { return true; }
+    static constexpr bool has_delta() { return false; }
     static constexpr bool delta_or_transmitting() { return false; }
 
   private:
@@ -69,6 +70,7 @@ class GeneralSurface {
     bool smooth() const { return lobes_ & kSmoothLobe; }
     /// Whether the directions that it prefers depend on wo.
     bool view_dependent() const { return lobes_ & kViewLobe; }
+    bool has_delta() const { return lobes_ & kDeltaLobe; }
     bool delta_or_transmitting() const { return lobes_ & (kDeltaLobe | kTransmittingLobe); }
 
     /// What radiance is scaled by, over what it was, for a ray that goes on to the far side.

@@ -1,0 +1,107 @@
+#pragma once
+
+#include <span>
+
+#include "worker/integrator/path_settings.h"
+#include "worker/integrator/path_state.h"
+#include "worker/integrator/reservoir.h"
+
+namespace treefarm {
+
+/// The directions that a batch of paths takes in a step. Each draws one, or several, of which it takes one.
+template <class Surface, bool kGuided, bool kCoded, bool kViews>
+class DirectionChoice {
+  public:
+    using Path = PathState<Surface>;
+
+    DirectionChoice(const Guide& guide, const PathSettings& settings)
+        : guide_(guide), candidates_(kGuided ? settings.candidates : 1), candidate_depth_(settings.candidate_depth) {}
+
+    /// The random numbers of a step; Path::lane says which are a path's.
+    void draw_numbers(std::uint64_t seed, const KeyBatch& keys, std::uint32_t lanes, std::uint32_t vertex) {
+        draw_batch(seed, keys, lanes, vertex, Stream::scatter, draws_);
+        cosine_hemisphere_batch(draws_, lanes, cosines_);
+        several_ = candidates_ > 1 && vertex <= static_cast<std::uint32_t>(candidate_depth_);
+        if (!several_) return;
+        seed_ = seed;
+        keys_ = keys;
+        lanes_ = lanes;
+        first_ = vertex * kMostCandidates;
+        draw_batch(seed, keys, lanes, first_, Stream::candidate, picks_);
+    }
+
+    /// What sampling the guide would read first.
+    void prefetch(std::uint32_t region, std::uint32_t lane) const { guide_.prefetch(region, draws_.word[1][lane]); }
+
+    /// Whether the paths of this step choose among several.
+    bool several() const { return several_; }
+
+    // One: draw(), then convert(), then complete().
+    void clear() { batch_.clear(); }
+    bool draw(Path& path) { return draw(path, technique(path)); }
+    void convert() { batch_.convert(guide_); }
+    void complete(Path& path) const { batch_.complete(*path.surface, guide_, path.guidance, path.scatter); }
+
+    /// Several, for the paths whose numbers are in `alive`. The density is 0 where none was found.
+    void draw_several(std::span<Path> paths, std::span<const std::uint8_t> alive) {
+        for (const std::uint8_t index : alive)
+            reservoirs_[index].clear();
+        for (std::uint32_t candidate = 0; candidate < candidates_; ++candidate) {
+            if (candidate != 0) {
+                draw_batch(seed_, keys_, lanes_, first_ + candidate, Stream::candidate, draws_);
+                cosine_hemisphere_batch(draws_, lanes_, cosines_);
+            }
+            clear();
+            std::array<std::uint8_t, kDrawBatch> drawn;
+            std::uint32_t count = 0;
+            for (const std::uint8_t index : alive) {
+                Path& path = paths[index];
+                const std::uint32_t of = candidates_of(path);
+                if (candidate >= of) continue;
+                // Each from its own part of the techniques' probabilities: a mixture over the candidates like any.
+                const float stratum = (static_cast<float>(candidate) + technique(path)) / static_cast<float>(of);
+                if (draw(path, stratum)) drawn[count++] = index;
+            }
+            convert();
+            for (std::uint32_t i = 0; i < count; ++i) {
+                Path& path = paths[drawn[i]];
+                complete(path);
+                const float pick = candidate == 0 ? 0.0f : to_unit(picks_.word[candidate - 1][path.lane]);
+                reservoirs_[drawn[i]].offer(path.scatter, pick);
+            }
+        }
+        for (const std::uint8_t index : alive)
+            if (!reservoirs_[index].take(candidates_of(paths[index]), paths[index].scatter))
+                paths[index].scatter.pdf = 0.0f;
+    }
+
+  private:
+    /// What a path may draw at most: its numbers have places for as many.
+    static constexpr std::uint32_t kMostCandidates = 4;
+
+    /// A delta lobe has no density to weigh by.
+    std::uint32_t candidates_of(const Path& path) const {
+        return path.probe || path.surface->has_delta() ? 1 : candidates_;
+    }
+
+    float technique(const Path& path) const { return to_unit(draws_.word[0][path.lane]); }
+
+    bool draw(Path& path, float technique) {
+        return batch_.draw(*path.surface, guide_, path.guidance, technique, draws_[path.lane], cosines_[path.lane],
+                           path.scatter);
+    }
+
+    const Guide& guide_;
+    const std::uint32_t candidates_;
+    const int candidate_depth_;
+    bool several_ = false;
+    std::uint64_t seed_ = 0;
+    std::uint32_t lanes_ = 0, first_ = 0;
+    KeyBatch keys_;
+    DrawBatch draws_, picks_;
+    DirectionBatch cosines_;
+    ScatterBatch<kGuided, kCoded, kViews> batch_;
+    std::array<Reservoir, kGuided ? kDrawBatch : 0> reservoirs_;
+};
+
+}  // namespace treefarm
