@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -20,6 +21,7 @@
 /// Our own driver for fuzz targets: needs no clang, and does the same every time.
 ///
 ///     fuzz_<name> [ROUNDS]               the seeds, then so many mutations of them (default 20000)
+///     fuzz_<name> --seconds SECONDS      at least 20000, and more of the same ones until the time is over
 ///     fuzz_<name> FILE...                these inputs, to repeat a failure
 ///     fuzz_<name> --write-seeds DIRECTORY
 namespace {
@@ -226,7 +228,10 @@ int main(int count, char** arguments) {
         std::signal(signal, on_signal);
 
     int rounds = 20000;
-    if (count == 2 && std::strspn(arguments[1], "0123456789") == std::strlen(arguments[1])) {
+    std::chrono::seconds least{0};
+    if (count == 3 && std::strcmp(arguments[1], "--seconds") == 0) {
+        least = std::chrono::seconds(std::atoi(arguments[2]));
+    } else if (count == 2 && std::strspn(arguments[1], "0123456789") == std::strlen(arguments[1])) {
         rounds = std::atoi(arguments[1]);
     } else if (count > 1) {
         for (int i = 1; i < count; ++i)
@@ -240,8 +245,10 @@ int main(int count, char** arguments) {
             run(seed.substr(0, size));
     }
     Mutator mutator(seeds);
-    for (int round = 0; round < rounds; ++round)
+    const auto end = std::chrono::steady_clock::now() + least;
+    int done = 0;
+    for (; done < rounds || std::chrono::steady_clock::now() < end; ++done)
         run(mutator.next());
-    std::printf("%zu seeds, %d mutations\n", seeds.size(), rounds);
+    std::printf("%zu seeds, %d mutations\n", seeds.size(), done);
     return 0;
 }
