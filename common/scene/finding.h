@@ -24,7 +24,6 @@ struct Finding {
 
     /// One line: "file:line:col: severity: what; cure".
     std::string text() const;
-    bool operator==(const Finding&) const = default;
 };
 
 const char* name_of(Finding::Severity severity);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <algorithm>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -36,8 +36,7 @@ class Diagnostics {
     /// Nothing unless the scene is being checked.
     void find(Finding finding) {
         // What several shapes refer to is read several times where it is refused.
-        if (checks_ && std::find(findings_.begin(), findings_.end(), finding) == findings_.end())
-            findings_.push_back(std::move(finding));
+        if (checks_ && seen_.insert(finding.text()).second) findings_.push_back(std::move(finding));
     }
 
     /// Reads a part of a scene. One that is refused ends the reading, or, when checking, is left out.
@@ -62,6 +61,7 @@ class Diagnostics {
     bool lenient_, checks_;
     std::vector<Warning> warnings_;
     std::vector<Finding> findings_;
+    std::set<std::string> seen_;
 };
 
 }  // namespace treefarm::mitsuba
