@@ -4,6 +4,7 @@
 #include "common/guiding/mixture.h"
 #include "common/guiding/refine.h"
 #include "common/guiding/splat.h"
+#include "common/guiding/view_mixture.h"
 #include "tests/support/hard_case.h"
 #include "tests/support/test_scenes.h"
 
@@ -202,6 +203,27 @@ TEST(Trees, MixturesOfOneBin) {
             EXPECT_LT(mixture_bin(bsdf, tree), kMixtureBins) << bsdf << " " << tree;
     EXPECT_EQ(mixture_bin(test::kInfinity, test::kInfinity), 0);
     test::figure("least fraction", least);
+}
+
+/// 34 | Mixtures of three where no tree has energy
+/// Others: [ours] the share of one tree among two was 0/0 where neither had a density; the result was discarded.
+/// Here: a technique without density has the first bin, before anything is divided.
+/// Holds: all triples of the densities 0, 1e-30, 1 and 1e30 have a bin, which is that of no view where the view's is 0,
+/// without an invalid operation in the trapped build.
+TEST(Trees, ViewMixturesWithoutEnergy) {
+    const float densities[] = {0.0f, 1e-30f, 1.0f, 1e30f};
+    int triples = 0;
+    for (const float bsdf : densities)
+        for (const float tree : densities)
+            for (const float view : densities) {
+                const int bin = view_mixture_bin(bsdf, tree, view);
+                ASSERT_LT(bin, kViewMixtureBins) << bsdf << " " << tree << " " << view;
+                if (view == 0.0f) {
+                    ASSERT_EQ(bin % kViewSteps, 0) << bsdf << " " << tree;
+                }
+                ++triples;
+            }
+    test::figure("triples of densities", triples);
 }
 
 }  // namespace
