@@ -17,8 +17,8 @@ namespace treefarm {
 
 namespace {
 
-/// 1 to 4 have a meaning for every command.
-constexpr int kFoundSomething = 5;
+/// Exit codes: the first is that of any command whose input is bad, 1 to 4 have a meaning for all of them.
+constexpr int kRefused = 2, kFoundSomething = 5;
 
 struct CheckOptions {
     std::string scene;
@@ -38,23 +38,30 @@ std::map<std::string, std::string> defined(const std::vector<std::string>& defin
     return values;
 }
 
-/// What the reader warned of, what inspection finds, and, if that is no error, what a render would refuse.
+Finding refusal(const InputError& error) {
+    return {Finding::Severity::error, "refused", error.where(), error.problem(), error.cure()};
+}
+
+bool is_error(const Finding& finding) {
+    return finding.severity == Finding::Severity::error;
+}
+
+/// What the reader says, what inspection finds, and, if that is no error, what a render would refuse.
 std::vector<Finding> check(const CheckOptions& options) {
-    LoadedScene loaded = load_scene_unchecked(options.scene, defined(options.defines), options.lenient);
-    std::vector<Finding> findings;
-    for (const Warning& warning : loaded.warnings)
-        findings.push_back({Finding::Severity::warning, "reader", warning.where, warning.what, ""});
-    for (Finding& finding : inspect(loaded.scene))
-        findings.push_back(std::move(finding));
-    const bool refused = std::any_of(findings.begin(), findings.end(),
-                                     [](const Finding& f) { return f.severity == Finding::Severity::error; });
-    if (refused) return findings;
+    SceneToCheck read = load_scene_to_check(options.scene, defined(options.defines), options.lenient);
+    std::vector<Finding> findings = std::move(read.findings);
+    const bool is_whole = std::none_of(findings.begin(), findings.end(), &is_error);
+    for (Finding& finding : inspect(read.scene))
+        // Of a scene whose parts were left out it means nothing that it lacks some.
+        if (is_whole || !finding.kind.starts_with("no ")) findings.push_back(std::move(finding));
     std::vector<Warning> repaired;  // each has a finding of its own
     try {
-        validate_scene(loaded.scene, repaired);
+        if (std::none_of(findings.begin(), findings.end(), &is_error)) validate_scene(read.scene, repaired);
     } catch (const InputError& error) {
-        findings.push_back({Finding::Severity::error, "refused", {}, error.what(), ""});
+        findings.push_back(refusal(error));
     }
+    for (Finding& finding : findings)
+        if (finding.where.file.empty()) finding.where.file = options.scene;
     return findings;
 }
 
@@ -73,7 +80,13 @@ std::string to_json(const std::vector<Finding>& findings, const std::string& sce
 }
 
 int run_check(const CheckOptions& options, std::ostream& out) {
-    const std::vector<Finding> findings = check(options);
+    std::vector<Finding> findings;
+    try {
+        findings = check(options);
+    } catch (const InputError& error) {
+        if (!options.json) throw;
+        findings.push_back(refusal(error));
+    }
     const auto risky = std::count_if(findings.begin(), findings.end(),
                                      [](const Finding& f) { return f.severity != Finding::Severity::note; });
     if (options.json) {
@@ -83,6 +96,7 @@ int run_check(const CheckOptions& options, std::ostream& out) {
             out << finding.text() << "\n";
         out << options.scene << ": " << (risky == 0 ? "nothing risky" : std::to_string(risky) + " risky") << "\n";
     }
+    if (std::any_of(findings.begin(), findings.end(), &is_error)) return kRefused;
     return risky == 0 ? 0 : kFoundSomething;
 }
 

@@ -39,16 +39,18 @@ add_library(treefarm_flags INTERFACE)
 # -ffp-contract=off: a fused multiply-add rounds once where two operations round twice; whether it is used must not
 # depend on the compiler's mood. -fno-math-errno and -fno-trapping-math change no result: they say that nobody reads
 # errno or floating-point flags, so that square roots are one instruction and choices need no branch. Asserts are on in Debug and in sanitizer builds.
-target_compile_options(treefarm_flags INTERFACE -march=${TREEFARM_ARCH} -ffp-contract=off -fno-math-errno -fno-trapping-math -Wall -Wextra -Wconversion)
+set(trapping -fno-trapping-math)
 if(TREEFARM_TRAP)
-    if(NOT CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-        message(FATAL_ERROR "TREEFARM_TRAP needs g++: clang 14 divides in vector lanes that nothing asks for")
+    # Nothing may be computed that the program does not ask for: no division before its condition is known, none in
+    # lanes of a vector that nobody reads.
+    if(CMAKE_CXX_COMPILER_ID MATCHES "Clang")
+        set(trapping -ffp-exception-behavior=strict -fno-vectorize -fno-slp-vectorize -g1)
+    else()
+        set(trapping -ftrapping-math -fno-tree-vectorize -g1)
     endif()
-    # Nothing may be computed that the program does not ask for: no division before its condition is known.
-    add_compile_options(-ftrapping-math -fno-tree-vectorize)
-    target_compile_options(treefarm_flags INTERFACE -ftrapping-math -fno-tree-vectorize -g1)
     target_compile_definitions(treefarm_flags INTERFACE TREEFARM_TRAPS)
 endif()
+target_compile_options(treefarm_flags INTERFACE -march=${TREEFARM_ARCH} -ffp-contract=off -fno-math-errno ${trapping} -Wall -Wextra -Wconversion)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     # GCC 12 warns of overlapping copies inside std::string's operator+ (GCC bug 105651).
     # It also takes the alternatives that a std::variant does not hold for values that may be read (GCC bug 80635).
@@ -77,6 +79,7 @@ if(TREEFARM_FUZZ)
     if(NOT CMAKE_CXX_COMPILER_ID MATCHES "Clang")
         message(FATAL_ERROR "TREEFARM_FUZZ needs clang: configure with -DCMAKE_CXX_COMPILER=clang++")
     endif()
-    target_compile_options(treefarm_flags INTERFACE -fsanitize=fuzzer-no-link,address -g)
-    target_link_options(treefarm_flags INTERFACE -fsanitize=address)
+    target_compile_options(treefarm_flags INTERFACE -fsanitize=fuzzer-no-link,address,undefined
+                           -fno-sanitize-recover=undefined -g1)
+    target_link_options(treefarm_flags INTERFACE -fsanitize=address,undefined)
 endif()

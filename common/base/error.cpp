@@ -17,6 +17,6 @@ static std::string join(const Location& where, const std::string& what, const st
 }
 
 InputError::InputError(const Location& where, const std::string& what, const std::string& cure)
-    : std::runtime_error(join(where, what, cure)) {}
+    : std::runtime_error(join(where, what, cure)), where_(where), problem_(what), cure_(cure) {}
 
 }  // namespace treefarm

@@ -21,7 +21,16 @@ struct Location {
 class InputError : public std::runtime_error {
   public:
     InputError(const Location& where, const std::string& what, const std::string& cure);
-    explicit InputError(const std::string& message) : std::runtime_error(message) {}
+    explicit InputError(const std::string& message) : std::runtime_error(message), problem_(message) {}
+
+    /// The parts of the message.
+    const Location& where() const { return where_; }
+    const std::string& problem() const { return problem_; }
+    const std::string& cure() const { return cure_; }
+
+  private:
+    Location where_;
+    std::string problem_, cure_;
 };
 
 /// The run itself failed (lost workers, full disk, an internal inconsistency): exit code 1.

@@ -17,6 +17,7 @@ inline constexpr int kBsdfSteps = 8, kViewSteps = kViewMixtureBins / kBsdfSteps;
 /// Bin of a direction with these densities (per steradian, not all zero).
 inline std::uint8_t view_mixture_bin(float bsdf_pdf, float tree_pdf, float view_pdf) {
     const auto step = [](float part, float whole, int steps) {
+        if (!(part > 0.0f)) return 0;  // also where the whole is 0
         const float place = part / whole * static_cast<float>(steps);
         if (!(place > 0.0f)) return 0;  // also NaN
         return place < static_cast<float>(steps) ? static_cast<int>(place) : steps - 1;

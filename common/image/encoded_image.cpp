@@ -14,9 +14,21 @@
 namespace treefarm {
 namespace {
 
+constexpr std::array<std::uint8_t, 2> kJpeg = {0xff, 0xd8};
+constexpr std::array<std::uint8_t, 4> kPng = {0x89, 'P', 'N', 'G'};
+
+template <std::size_t kSize>
+bool begins_with(std::span<const std::uint8_t> bytes, const std::array<std::uint8_t, kSize>& magic) {
+    return bytes.size() >= kSize && std::equal(magic.begin(), magic.end(), bytes.begin());
+}
+
+std::optional<stb::Size> size_by_stb(std::span<const std::uint8_t> bytes) {
+    if (!begins_with(bytes, kJpeg) && !begins_with(bytes, kPng)) return std::nullopt;
+    return stb::image_size(bytes);
+}
+
 /// Format and claimed size from the header.
 void read_header(EncodedImage& image, std::string& why) {
-    constexpr std::array<std::uint8_t, 4> kPng = {0x89, 'P', 'N', 'G'};
     if (is_hdr(image.bytes)) {
         image.format = ImageFormat::hdr;
         if (const auto header = read_hdr_header(image.bytes, why)) {
@@ -24,8 +36,8 @@ void read_header(EncodedImage& image, std::string& why) {
             image.height = header->height;
             image.data_begin = header->data_begin;
         }
-    } else if (const auto size = stb::image_size(image.bytes); size && size->width > 0 && size->height > 0) {
-        image.format = std::equal(kPng.begin(), kPng.end(), image.bytes.begin()) ? ImageFormat::png : ImageFormat::jpeg;
+    } else if (const auto size = size_by_stb(image.bytes); size && size->width > 0 && size->height > 0) {
+        image.format = begins_with(image.bytes, kPng) ? ImageFormat::png : ImageFormat::jpeg;
         image.width = size->width;
         image.height = size->height;
     } else {
@@ -71,7 +83,10 @@ EncodedImage read_encoded_image(const std::filesystem::path& path, const std::st
     };
     EncodedImage image;
     image.bytes = read_bytes(path, cure);
-    std::string why;
+    // Before stb sees it: tables that are too long make it write past its own even where only the size is asked for.
+    std::string why = begins_with(image.bytes, kJpeg) ? jpeg_fault(image.bytes) : "";
+    const std::string again = "it is damaged or cut short; save it again";
+    if (!why.empty()) refuse("cannot be decoded (" + why + ")", again);
     read_header(image, why);
     if (!why.empty()) refuse(image.format == ImageFormat::hdr ? "cannot be decoded (" + why + ")" : why, cure);
     const std::string claim =
@@ -80,11 +95,9 @@ EncodedImage read_encoded_image(const std::filesystem::path& path, const std::st
     if (image.width > kMaxImageSide || image.height > kMaxImageSide || pixels > kMaxImageValues / 4)
         refuse(claim, "reduce its size, or check whether it is damaged");
     if (pixels / most_pixels_per_byte(image.format) > image.bytes.size())
-        refuse(claim + ", which its " + std::to_string(image.bytes.size()) + " bytes cannot hold",
-               "it is damaged or cut short; save it again");
-    if (image.format == ImageFormat::png && is_cut_png(image.bytes)) why = "it is cut short";
-    if (image.format == ImageFormat::jpeg) why = jpeg_fault(image.bytes);
-    if (!why.empty()) refuse("cannot be decoded (" + why + ")", "it is damaged or cut short; save it again");
+        refuse(claim + ", which its " + std::to_string(image.bytes.size()) + " bytes cannot hold", again);
+    if (image.format == ImageFormat::png && is_cut_png(image.bytes))
+        refuse("cannot be decoded (it is cut short)", again);
     return image;
 }
 

@@ -28,10 +28,11 @@ LoadedScene load_scene(const std::filesystem::path& path, const std::map<std::st
     return loaded(read_mitsuba(path, defines, lenient, {width, height}));
 }
 
-LoadedScene load_scene_unchecked(const std::filesystem::path& path, const std::map<std::string, std::string>& defines,
+SceneToCheck load_scene_to_check(const std::filesystem::path& path, const std::map<std::string, std::string>& defines,
                                  bool lenient) {
     require_xml(path);
-    return loaded(read_mitsuba_unchecked(path, defines, lenient));
+    SceneReading reading = read_mitsuba_to_check(path, defines, lenient);
+    return {std::move(reading.scene), std::move(reading.findings)};
 }
 
 }  // namespace treefarm

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "common/config/setting.h"
+#include "common/scene/finding.h"
 #include "common/scene/scene.h"
 #include "common/scene/warning.h"
 
@@ -23,8 +24,14 @@ struct LoadedScene {
 LoadedScene load_scene(const std::filesystem::path& path, const std::map<std::string, std::string>& defines = {},
                        bool lenient = false, int width = 0, int height = 0);
 
-/// The same for inspect(): as the file has it, before anything is checked, repaired or left out.
-LoadedScene load_scene_unchecked(const std::filesystem::path& path,
+/// A scene for inspect(): before anything is repaired; what a render would refuse to read is left out.
+struct SceneToCheck {
+    Scene scene;
+    std::vector<Finding> findings;  ///< what its reader has to say
+};
+
+/// Throws InputError only if there is no scene to look at.
+SceneToCheck load_scene_to_check(const std::filesystem::path& path,
                                  const std::map<std::string, std::string>& defines = {}, bool lenient = false);
 
 }  // namespace treefarm

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -20,6 +21,7 @@
 /// Our own driver for fuzz targets: needs no clang, and does the same every time.
 ///
 ///     fuzz_<name> [ROUNDS]               the seeds, then so many mutations of them (default 20000)
+///     fuzz_<name> --seconds SECONDS      at least 20000, and more of the same ones until the time is over
 ///     fuzz_<name> FILE...                these inputs, to repeat a failure
 ///     fuzz_<name> --write-seeds DIRECTORY
 namespace {
@@ -170,6 +172,10 @@ void* operator new(std::size_t size) {
 void* operator new[](std::size_t size) {
     return allocate(size);
 }
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
+    watch(size);
+    return std::malloc(size > 0 ? size : 1);
+}
 void operator delete(void* memory) noexcept {
     std::free(memory);
 }
@@ -184,6 +190,11 @@ void operator delete[](void* memory, std::size_t) noexcept {
 }
 
 // What libraries in C allocate is watched too, where no sanitizer has taken these functions for itself.
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#define __SANITIZE_ADDRESS__
+#endif
+#endif
 #if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 extern "C" {
 void* __libc_malloc(std::size_t size);
@@ -217,7 +228,10 @@ int main(int count, char** arguments) {
         std::signal(signal, on_signal);
 
     int rounds = 20000;
-    if (count == 2 && std::strspn(arguments[1], "0123456789") == std::strlen(arguments[1])) {
+    std::chrono::seconds least{0};
+    if (count == 3 && std::strcmp(arguments[1], "--seconds") == 0) {
+        least = std::chrono::seconds(std::atoi(arguments[2]));
+    } else if (count == 2 && std::strspn(arguments[1], "0123456789") == std::strlen(arguments[1])) {
         rounds = std::atoi(arguments[1]);
     } else if (count > 1) {
         for (int i = 1; i < count; ++i)
@@ -231,8 +245,10 @@ int main(int count, char** arguments) {
             run(seed.substr(0, size));
     }
     Mutator mutator(seeds);
-    for (int round = 0; round < rounds; ++round)
+    const auto end = std::chrono::steady_clock::now() + least;
+    int done = 0;
+    for (; done < rounds || std::chrono::steady_clock::now() < end; ++done)
         run(mutator.next());
-    std::printf("%zu seeds, %d mutations\n", seeds.size(), rounds);
+    std::printf("%zu seeds, %d mutations\n", seeds.size(), done);
     return 0;
 }

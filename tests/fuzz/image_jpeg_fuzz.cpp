@@ -13,5 +13,9 @@ std::vector<std::string> treefarm::fuzz::seeds() {
     progressive[progressive.find("\xff\xc0") + 1] = '\xc2';
     std::string huge = tiny_jpeg(8, 8, 1, 20);
     huge.replace(huge.find("\xff\xc0") + 5, 4, 4, '\xff');
-    return {tiny_jpeg(9, 7, 3, 95), tiny_jpeg(20, 18, 3, 60), tiny_jpeg(8, 8, 1, 20), progressive, huge};
+    // Found by libFuzzer: stb wrote past its table while it looked for the size.
+    std::string sizeless = tiny_jpeg(9, 7, 3, 95);
+    sizeless.replace(sizeless.find("\xff\xc4") + 5, 16, 16, '\xff');
+    sizeless[sizeless.find("\xff\xc0")] = '\0';
+    return {tiny_jpeg(9, 7, 3, 95), tiny_jpeg(20, 18, 3, 60), tiny_jpeg(8, 8, 1, 20), progressive, huge, sizeless};
 }

@@ -70,7 +70,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         }
     }
     try {
-        for (const Finding& finding : inspect(read_mitsuba_unchecked(file, {}, true).scene))
+        for (const Finding& finding : inspect(read_mitsuba_to_check(file, {}, true).scene))
             if (finding.text().empty()) std::abort();
     } catch (const InputError&) {
     }

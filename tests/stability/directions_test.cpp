@@ -172,6 +172,7 @@ TEST(Directions, CellsWithoutEnergy) {
     }
     for (std::uint32_t c = 0; c < 256; ++c)
         ASSERT_EQ(guide.pdf(0, c << 24) > 0.0f, c == 17) << c;
+    test::figure("largest density of a cell without energy", double(guide.pdf(0, 18u << 24)));
 }
 
 }  // namespace

@@ -62,8 +62,11 @@ TEST_F(Inputs, NormalsInFiles) {
         write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn " + normal + "\nf 1//1 2//1 3//1\n");
         return "<shape type=\"obj\"><string name=\"filename\" value=\"a.obj\"/></shape>";
     };
-    for (const char* bad : {"nan 0 1", "0 0 inf", "1e999 0 0"})
+    int refused = 0;
+    for (const char* bad : {"nan 0 1", "0 0 inf", "1e999 0 0"}) {
         EXPECT_NE(refusal(obj(bad)), "") << bad;
+        refused += !refusal(obj(bad)).empty();
+    }
     EXPECT_EQ(refusal(obj("0 0 0")), "");
     Scene scene;
     Mesh mesh;
@@ -74,6 +77,7 @@ TEST_F(Inputs, NormalsInFiles) {
     scene.shapes.push_back({mesh, 0, kNone, kNone, "", {}});
     std::vector<Warning> warnings;
     EXPECT_THROW(validate_scene(scene, warnings), InputError) << "of any reader, or from the coordinator";
+    test::figure("normals refused, of 3", refused);
 }
 
 /// 16, 18 | Textures with infinity and NaN
@@ -103,6 +107,7 @@ TEST_F(Inputs, TexturesWithInfinity) {
     EXPECT_GE(diffuse.warnings.size(), 2u) << "impossible texels, and what exceeds 1";
     const auto& material = std::get<DiffuseMaterial>(diffuse.scene.materials.at(0).bsdf);
     EXPECT_LE(material.reflectance.value.x * 1e30f, 1.0f + 1e-5f);
+    test::figure("largest reflectance", double(material.reflectance.value.x) * 1e30);
 }
 
 /// 42 | The sun at singular angles and of no size

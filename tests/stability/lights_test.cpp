@@ -92,14 +92,17 @@ TEST(Lights, PointsOnTheLight) {
         x = std::nextafter(x, 0.0f);
     for (int i = 0; i < 9; ++i, x = std::nextafter(x, 10.0f))
         points.emplace_back(x, 0, 0);
+    int samples = 0;
     for (const Vec3& p : points)
         for (std::uint32_t i = 0; i < 3000; ++i) {
             const DirectSample s = emitters.sample_direct(p, draw({6, i, 0}, 1, Stream::light));
             ASSERT_TRUE(std::isfinite(s.pdf) && s.pdf >= 0.0f && is_finite(s.wi)) << p << s.pdf;
             if (s.pdf > 0.0f) {
                 ASSERT_NEAR(s.wi.length(), 1.0f, 1e-5f) << p;
+                ++samples;
             }
         }
+    test::figure("samples with a density, of " + std::to_string(3000 * points.size()), samples);
 }
 
 /// 19 | The same decision made twice

@@ -2,6 +2,7 @@
 
 #include <random>
 
+#include "tests/support/hard_case.h"
 #include "tests/support/test_scenes.h"
 #include "worker/geometry/embree_scene.h"
 
@@ -32,6 +33,9 @@ class Offset : public testing::TestWithParam<Place> {
     }
     float uniform() { return uniform_(random_); }
 
+    /// Reached only if no ray was wrong.
+    static void figure_of(int rays) { test::figure("rays at each scale and place, none of them wrong", rays); }
+
     std::mt19937 random_{17};
     std::normal_distribution<float> normal_;
     std::uniform_real_distribution<float> uniform_;
@@ -44,6 +48,7 @@ class Offset : public testing::TestWithParam<Place> {
 /// Holds: 120,000 rays from triangles, a quarter of them grazing, at scales 1e-4, 1 and 1e5, at the origin and 1000
 /// sizes away from it: none meets its triangle.
 TEST_P(Offset, RaysLeaveTheTriangleTheyStartOn) {
+    int rays = 0;
     for (int i = 0; i < 3000; ++i) {
         Scene scene;
         Mesh mesh;
@@ -58,12 +63,14 @@ TEST_P(Offset, RaysLeaveTheTriangleTheyStartOn) {
         for (int j = 0; j < 40; ++j) {
             const float u = uniform(), v = uniform() * (1.0f - u);
             const Hit hit = geometry.triangle_point(0, 0, u, v);
+            ++rays;
             Vec3 d = direction();
             if (j % 4 == 0) d = normalize(d - hit.ng * (0.999f * dot(d, hit.ng)));  // grazing
             ASSERT_FALSE(geometry.occluded({offset_origin(hit, d), d}))
                 << "triangle " << i << " cosine " << dot(d, hit.ng) << " at " << hit.p;
         }
     }
+    figure_of(rays);
 }
 
 /// 12 | Self-intersection of spheres
@@ -84,6 +91,7 @@ TEST_P(Offset, RaysLeaveTheSphereTheyStartOn) {
         Hit other;
         ASSERT_TRUE(geometry.intersect({offset_origin(hit, -d), -d}, other)) << "inwards it meets the other side";
     }
+    figure_of(100000);
 }
 
 /// 12 | Self-intersection of disks
@@ -93,6 +101,7 @@ TEST_P(Offset, RaysLeaveTheSphereTheyStartOn) {
 /// Holds: 30,000 rays from flat ellipses at scales 1e-4, 1 and 1e5, at the origin and 1000 sizes away from it: none
 /// meets its own.
 TEST_P(Offset, RaysLeaveTheDiskTheyStartOn) {
+    int rays = 0;
     for (int i = 0; i < 300; ++i) {
         Scene scene;
         const float size = std::pow(10.0f, -2.0f * uniform());
@@ -103,12 +112,14 @@ TEST_P(Offset, RaysLeaveTheDiskTheyStartOn) {
         const EmbreeScene geometry(std::move(scene.shapes), "avx2");
         for (int j = 0; j < 100; ++j) {
             const Hit hit = geometry.disk_point(0, 0.7f * (2 * uniform() - 1), 0.7f * (2 * uniform() - 1));
+            ++rays;
             Vec3 d = direction();
             if (j % 4 == 0) d = normalize(d - hit.ng * (0.999f * dot(d, hit.ng)));  // grazing
             ASSERT_FALSE(geometry.occluded({offset_origin(hit, d), d})) << i << " cosine " << dot(d, hit.ng);
             ASSERT_TRUE(geometry.occluded({hit.p + hit.ng * length(0.1f) * size, -hit.ng}));
         }
     }
+    figure_of(rays);
 }
 
 /// 12 | Self-intersection of cylinders
@@ -138,6 +149,7 @@ TEST_P(Offset, RaysLeaveTheCylinderTheyStartOn) {
             ASSERT_LT(dot(opposite.ng, hit.ng), 0.0f);
         }
     }
+    figure_of(60000);
 }
 
 /// 12 | Self-intersection under skew instances
@@ -186,6 +198,7 @@ TEST_P(Offset, RaysLeaveTheInstancedTriangleTheyStartOn) {
         }
     }
     EXPECT_GT(tested, 5000);
+    figure_of(10 * tested);
 }
 
 /// 12 | A closed room keeps its rays
@@ -217,6 +230,7 @@ TEST_P(Offset, RaysInAClosedRoomStayInside) {
     }
     EXPECT_LE(lost, moved ? kRays / 1000 : 0);
     EXPECT_LE(wrong_side, moved ? kRays / 1000 : 0);
+    test::figure("rays lost or on the wrong side, 1000 sizes away, of 200000", lost + wrong_side);
 }
 
 /// 12 | Shadow rays between two surfaces
@@ -255,6 +269,7 @@ TEST_P(Offset, ShadowSegmentsBetweenTwoSurfacesAreFree) {
         ASSERT_FALSE(geometry.occluded(segment));
         ASSERT_TRUE(with_blocker.occluded(segment));
     }
+    figure_of(40000);
 }
 
 INSTANTIATE_TEST_SUITE_P(Places, Offset, testing::ValuesIn(kPlaces));
@@ -267,6 +282,7 @@ INSTANTIATE_TEST_SUITE_P(Places, Offset, testing::ValuesIn(kPlaces));
 TEST(ConcentricShells, GapsOfAHundredThousandthAreSeen) {
     std::mt19937 random(5);
     std::normal_distribution<float> normal;
+    int rays = 0;
     for (const float radius : {1e-4f, 1.0f, 1e5f, 3.8e8f}) {
         Scene scene;
         for (int i = 0; i < 4; ++i)
@@ -278,12 +294,14 @@ TEST(ConcentricShells, GapsOfAHundredThousandthAreSeen) {
                 const Hit hit = geometry.sphere_point(shell, d);
                 Hit next;
                 ASSERT_TRUE(geometry.intersect({offset_origin(hit, d), d}, next)) << radius;
+                rays += 2;
                 ASSERT_EQ(next.shape, shell + 1) << radius;
                 ASSERT_TRUE(geometry.intersect({offset_origin(hit, -d), -d}, next)) << radius;
                 ASSERT_EQ(next.shape, shell == 0 ? 0 : shell - 1) << radius;
             }
         }
     }
+    test::figure("rays, all of which met the next shell", rays);
 }
 
 /// 13 | Parallel sheets a hundred-thousandth of their size apart
@@ -294,6 +312,7 @@ TEST(ConcentricShells, GapsOfAHundredThousandthAreSeen) {
 TEST(ParallelSheets, GapsOfAHundredThousandthAreSeen) {
     std::mt19937 random(6);
     std::normal_distribution<float> normal;
+    int rays = 0;
     std::uniform_real_distribution<float> uniform;
     for (const float size : {1e-4f, 1.0f, 1e5f}) {
         Scene scene;
@@ -311,8 +330,10 @@ TEST(ParallelSheets, GapsOfAHundredThousandthAreSeen) {
             Hit next;
             ASSERT_TRUE(geometry.intersect({offset_origin(hit, d), d}, next)) << size;
             ASSERT_EQ(next.shape, d.z > 0.0f ? 2u : 0u) << size;
+            ++rays;
         }
     }
+    test::figure("rays, all of which met the next sheet", rays);
 }
 
 }  // namespace

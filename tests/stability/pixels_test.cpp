@@ -20,6 +20,7 @@ namespace {
 /// ones and one bad sample has the mean 63/64 exactly.
 TEST(Pixels, OneBadSampleDoesNotPoison) {
     const LetFloatsBe hostile;  // numbers that are none come in
+    double worst = 0;
     const WorkUnit unit{3, 0, 0, 1, 1, 0};
     for (const float bad : {test::kNan, test::kInfinity, -test::kInfinity, -1e-30f})
         for (int channel = 0; channel < 3; ++channel) {
@@ -34,9 +35,12 @@ TEST(Pixels, OneBadSampleDoesNotPoison) {
             EXPECT_EQ(stats.invalid_samples, 1u);
             ASSERT_EQ(stats.first_invalid.size(), 1u);
             EXPECT_EQ(stats.first_invalid[0].sample, 17u);
-            for (int c = 0; c < 3; ++c)
+            for (int c = 0; c < 3; ++c) {
                 EXPECT_NEAR(pixel.whole().mean[c], 63.0 / 64.0, 1e-14);
+                worst = std::max(worst, std::abs(pixel.whole().mean[c] - 63.0 / 64.0));
+            }
         }
+    test::figure("largest error of the mean", worst);
 }
 
 /// 23, 27 | The mean of very many samples
@@ -129,6 +133,7 @@ TEST(Pixels, RadianceBeyondHalf) {
         EXPECT_EQ(exact.image.pixels[i].x, y[i]);
         EXPECT_EQ(half.image.pixels[i].x, 65504.0f);
     }
+    test::figure("1e30 as half", double(half.image.pixels[1].x));
 }
 
 PassResult pass_of(std::uint32_t spp, std::uint32_t before, float value, unsigned seed) {
@@ -149,6 +154,7 @@ PassResult pass_of(std::uint32_t spp, std::uint32_t before, float value, unsigne
 /// can be.
 TEST(Pixels, PassesOfOneSample) {
     const LetFloatsBe hostile;  // numbers that are none come in
+    double worst = 0;
     for (const Combination method : {Combination::inverse_variance, Combination::fixed, Combination::last})
         for (const bool guided : {false, true})
             for (const float value : {0.0f, 1e-30f, 1.0f, 1e30f})
@@ -171,12 +177,14 @@ TEST(Pixels, PassesOfOneSample) {
                         sum += w;
                     }
                     ASSERT_NEAR(sum, 1.0, 1e-12);
+                    worst = std::max(worst, std::abs(sum - 1.0));
                     for (const PassResult& pass : passes) {
                         const PassVariance v = pass_variance(pass.pixels);
                         ASSERT_TRUE(std::isfinite(v.stuv) && std::isfinite(v.stuv_ppg) &&
                                     std::isfinite(v.stuv_trimmed));
                     }
                 }
+    test::figure("sum of the weights minus 1, at most", worst);
 }
 
 }  // namespace

@@ -55,6 +55,7 @@ TEST(Sums, CapsAreMetAndCounted) {
     sums.merge_encoded(other.encode());
     EXPECT_EQ(sums.cells()[0], std::uint64_t(-1));
     EXPECT_EQ(sums.caps().saturated_cells, 2u);
+    test::figure("saturated cells counted, of 2", static_cast<double>(sums.caps().saturated_cells));
 }
 
 /// ours | Records 2^40 apart within a region, regions 1e60 apart

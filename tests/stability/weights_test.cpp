@@ -130,6 +130,7 @@ TEST(Weights, DeltaLobesBesideATree) {
 /// weight of who survives stays finite.
 TEST(Weights, RouletteOfAnyThroughput) {
     const LetFloatsBe hostile;  // numbers that are none come in
+    float most = 0.0f;
     for (const Roulette::Rule rule :
          {Roulette::Rule::unguided, Roulette::Rule::untrained, Roulette::Rule::constant, Roulette::Rule::adjoint})
         for (const float t : {0.0f, 1e-45f, 1e-30f, 1.0f, 1e30f, 3e38f, kInfinity, kNan})
@@ -141,11 +142,13 @@ TEST(Weights, RouletteOfAnyThroughput) {
                         continue;
                     }
                     ASSERT_TRUE(survival >= 0.0f && survival <= 0.99f) << t << " " << survival;
+                    most = std::max(most, survival);
                     // The smallest random number that lets a path live is 0, and only where survival is above it.
                     if (survival > 0.0f && t < 1e30f) {
                         ASSERT_TRUE(std::isfinite(t * (1.0f / std::max(survival, 0x1p-32f))));
                     }
                 }
+    test::figure("largest survival", double(most));
 }
 
 /// 37 | Black surfaces
@@ -162,8 +165,12 @@ TEST(Weights, BlackSurfacesAreBlack) {
     test::set_film(scene, 16, 16);
     const test::LocalRender run = test::render_locally(scene, test::guided_job(31, 10, NextEvent::always));
     EXPECT_EQ(test::invalid_samples(run), 0u);
-    for (const Rgb64& pixel : run.image.mean)
+    double most = 0;
+    for (const Rgb64& pixel : run.image.mean) {
         EXPECT_TRUE(pixel.x >= 0.0 && pixel.x <= 1.0 + 1e-9) << pixel.x;
+        most = std::max(most, pixel.x);
+    }
+    test::figure("largest pixel", most);
 }
 
 }  // namespace

@@ -8,46 +8,16 @@ sources on the include path, and only the test itself and the units that a guard
 """
 import json
 import pathlib
-import re
 import subprocess
 import sys
 import tempfile
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-
-
-class Build:
-    def __init__(self, folder):
-        self.folder = folder
-        self.units = {}
-        for unit in json.loads((folder / "compile_commands.json").read_text()):
-            self.units[str(pathlib.Path(unit["file"]).resolve().relative_to(ROOT))] = unit["command"]
-
-    def compile(self, unit, overlay, output):
-        """A unit of the project, its changed copy if there is one; headers come from the overlay first."""
-        source = overlay / unit if (overlay / unit).exists() else ROOT / unit
-        command = re.sub(r" -o \S+ -c \S+$", "", self.units[unit]).replace("-Werror", "-w")
-        first, rest = re.match(r"(.*?c\+\+(?:-\d+)?|.*?g\+\+(?:-\d+)?) (.*)", command).groups()
-        return subprocess.run(f"{first} -I{overlay} {rest} -o {output} -c {source}", shell=True, cwd=self.folder,
-                              capture_output=True, text=True)
-
-    def link(self, program, objects, output):
-        commands = subprocess.run(["ninja", "-t", "commands", "-s", f"tests/{program}"], cwd=self.folder,
-                                  capture_output=True, text=True).stdout
-        command = re.sub(r"^: && | && :$", "", commands.strip().splitlines()[-1])
-        command = re.sub(r"\S+/" + program.removeprefix("stability_") + r"\.cpp\.o", " ".join(map(str, objects)), command)
-        command = re.sub(rf"-o tests/{program}\b", f"-o {output}", command)
-        return subprocess.run(command, shell=True, cwd=self.folder, capture_output=True, text=True)
+from overlay_build import ROOT, Build, write_edits
 
 
 def outcome_of(build, guard, overlay):
-    for edit in guard["edits"]:
-        copy = overlay / edit["file"]
-        text = (copy if copy.exists() else ROOT / edit["file"]).read_text()
-        if edit["text"] not in text:
-            return f"IS STALE: {edit['file']} has no such text"
-        copy.parent.mkdir(parents=True, exist_ok=True)
-        copy.write_text(text.replace(edit["text"], edit["instead"]))
+    if stale := write_edits(guard["edits"], overlay):
+        return f"IS STALE: {stale} has no such text"
     if all(edit["file"].endswith(".cmake") for edit in guard["edits"]):
         return "is not run here"
     program = "stability_" + guard["program"]
@@ -59,7 +29,7 @@ def outcome_of(build, guard, overlay):
         compiled = build.compile(unit, overlay, objects[-1])
         if compiled.returncode != 0:
             return "DOES NOT COMPILE: " + compiled.stderr[:300]
-    linked = build.link(program, objects, overlay / "test")
+    linked = build.link_test(program, objects, overlay / "test")
     if linked.returncode != 0:
         return "DOES NOT LINK: " + linked.stderr[-300:]
     test = guard["test"]

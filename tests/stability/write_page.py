@@ -81,7 +81,7 @@ def measured(build, cases):
                 for test in suite["testsuite"]:
                     name = f"{suite['name'].split('/')[-1]}.{test['name'].split('/')[0]}"
                     if "figure" in test:
-                        figures[name] = test["figure"]
+                        figures[name] = ": ".join(test["figure"].rsplit(" ", 1))
     return figures
 
 

@@ -82,6 +82,11 @@ TEST_F(HostileImages, JpegTablesThatAreTooLong) {
         changed.replace(tables + 5, length, length, '\xff');  // so many codes of each length
         expect_refused(changed, "a Huffman table has more than 256 codes");
     }
+    // And the size is unreadable: stb reads tables while it looks for the size.
+    std::string sizeless = jpeg;
+    sizeless.replace(tables + 5, 16, 16, '\xff');
+    sizeless[sizeless.find("\xff\xc0")] = '\0';
+    expect_refused(sizeless, "a Huffman table has more than 256 codes");
     // Behind the first scan, where a progressive file has tables too.
     expect_refused(jpeg.substr(0, jpeg.size() - 2) + "\xff\xc4\x7f\xff" + std::string(17, '\xff') + "\xff\xd9",
                    "a Huffman table has more than 256 codes");

@@ -63,9 +63,9 @@ void render_with(const TileJob& tile) {
     const std::uint32_t first = unit.chunk * pass.blocks_per_unit * kBlockSamples;
     const std::uint32_t last = std::min(first + pass.blocks_per_unit * kBlockSamples, pass.spp);
     const std::int64_t width = scene.film().width;
-    const auto key = [&](const UnitCursor& at) {
-        return PathKey{job.sampler.seed, static_cast<std::uint32_t>(at.y * width + at.x),
-                       pass.first_sample + at.sample};
+    const auto key = [&tile, width](const UnitCursor& at) {
+        return PathKey{tile.job.sampler.seed, static_cast<std::uint32_t>(at.y * width + at.x),
+                       tile.pass.first_sample + at.sample};
     };
     std::vector<PixelEstimate> blocks;
     UnitCursor start{unit, first, last}, end{unit, first, last};

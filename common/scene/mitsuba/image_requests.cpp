@@ -93,7 +93,8 @@ TextureImage make_image(const StoredImage& file, const Decoding& decoding, const
     }
     if (const std::size_t count = remove_impossible(image.floats, decoding.signed_values); count > 0)
         diagnostics.warn(where,
-                         std::to_string(count) + " values of the image are negative or not finite and were set to 0");
+                         std::to_string(count) + " values of the image are negative or not finite and were set to 0",
+                         "numbers");
     if (decoding.as_floats) expand_to_floats(image);
     return image;
 }
@@ -121,19 +122,21 @@ void ImageRequests::read(const std::vector<std::int32_t>& kept, Scene& scene, Di
     for (const Request& request : requests_) {
         const std::int32_t index = kept[static_cast<std::size_t>(request.image)];
         if (index == kNone) continue;
-        if (loaded == nullptr || *loaded != request.path) {
-            loaded = nullptr;
-            file = read_stored_image(request.path);
-            loaded = &request.path;
-        }
-        if (file.width > 65535 || file.height > 65535)
-            throw InputError(
-                request.where,
-                "the image has " + std::to_string(file.width) + " x " + std::to_string(file.height) + " pixels",
-                "reduce it to at most 65535 on a side");
-        TextureImage image = make_image(file, request.decoding, request.where, diagnostics);
-        image.name = request.path.string();
-        scene.images[static_cast<std::size_t>(index)] = std::move(image);
+        diagnostics.attempt([&] {
+            if (loaded == nullptr || *loaded != request.path) {
+                loaded = nullptr;
+                file = read_stored_image(request.path);
+                loaded = &request.path;
+            }
+            if (file.width > 65535 || file.height > 65535)
+                throw InputError(
+                    request.where,
+                    "the image has " + std::to_string(file.width) + " x " + std::to_string(file.height) + " pixels",
+                    "reduce it to at most 65535 on a side");
+            TextureImage image = make_image(file, request.decoding, request.where, diagnostics);
+            image.name = request.path.string();
+            scene.images[static_cast<std::size_t>(index)] = std::move(image);
+        });
     }
 }
 

@@ -14,16 +14,16 @@ void require_triangles(const Mesh& mesh, const std::filesystem::path& file) {
 
 }  // namespace
 
-Mesh read_ply_mesh(Properties& properties) {
+Mesh read_ply_mesh(Properties& properties, Diagnostics& diagnostics) {
     const MeshOptions options = read_mesh_options(properties, false);
     properties.ignore({"srgb"});  // of colours, which nothing uses
     Mesh mesh = read_ply(options.file, properties.where("filename"));
     require_triangles(mesh, options.file);
-    place_mesh(mesh, options);
+    place_mesh(mesh, options, properties.where(), diagnostics);
     return mesh;
 }
 
-Mesh read_serialized_mesh(Properties& properties) {
+Mesh read_serialized_mesh(Properties& properties, Diagnostics& diagnostics) {
     MeshOptions options = read_mesh_options(properties, false);
     options.mirror_keeps_front = true;
     const std::int64_t index = properties.integer("shape_index", 0);
@@ -31,7 +31,7 @@ Mesh read_serialized_mesh(Properties& properties) {
     Mesh mesh = read_serialized(options.file, index,
                                 properties.where(properties.has("shape_index") ? "shape_index" : "filename"));
     require_triangles(mesh, options.file);
-    place_mesh(mesh, options);
+    place_mesh(mesh, options, properties.where(), diagnostics);
     return mesh;
 }
 

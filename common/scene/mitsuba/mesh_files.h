@@ -10,7 +10,7 @@ namespace treefarm::mitsuba {
 /// the front of a file without normals in versions 2 and 3 and of serialized files; in version 0 it reverses that of
 /// the others, as Mitsuba does.
 Mesh read_obj_mesh(Properties& properties, Diagnostics& diagnostics);
-Mesh read_ply_mesh(Properties& properties);
-Mesh read_serialized_mesh(Properties& properties);
+Mesh read_ply_mesh(Properties& properties, Diagnostics& diagnostics);
+Mesh read_serialized_mesh(Properties& properties, Diagnostics& diagnostics);
 
 }  // namespace treefarm::mitsuba

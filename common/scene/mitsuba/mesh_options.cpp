@@ -1,10 +1,19 @@
 #include "common/scene/mitsuba/mesh_options.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "common/scene/mesh_normals.h"
 
 namespace treefarm::mitsuba {
+
+namespace {
+
+std::size_t count_zeros(const std::vector<Vec3>& vectors) {
+    return static_cast<std::size_t>(std::count(vectors.begin(), vectors.end(), Vec3(0.0f)));
+}
+
+}  // namespace
 
 MeshOptions read_mesh_options(Properties& properties, bool flip_tex_coords) {
     if (!properties.has("filename"))
@@ -26,7 +35,8 @@ MeshOptions read_mesh_options(Properties& properties, bool flip_tex_coords) {
     return options;
 }
 
-void place_mesh(Mesh& mesh, const MeshOptions& options) {
+void place_mesh(Mesh& mesh, const MeshOptions& options, const Location& where, Diagnostics& diagnostics) {
+    const std::size_t without = mesh.normals.empty() ? mesh.positions.size() : count_zeros(mesh.normals);
     for (Vec3& position : mesh.positions)
         position = transform_point(options.to_world, position);
     if (options.face_normals || options.max_smooth_angle) mesh.normals.clear();
@@ -51,6 +61,11 @@ void place_mesh(Mesh& mesh, const MeshOptions& options) {
             normal = -normal;
     orient_by_normals(mesh);
     drop_redundant_normals(mesh);
+    if (without > 0 && !mesh.normals.empty())
+        diagnostics.find({Finding::Severity::note, "missing normals", where,
+                          std::to_string(without) + " of " + std::to_string(mesh.positions.size()) +
+                              " vertices of the mesh have no normal: they get the mean of their triangles'",
+                          "set faceNormals if facets are meant, or export normals"});
 }
 
 }  // namespace treefarm::mitsuba

@@ -107,7 +107,7 @@ Mesh read_obj_mesh(Properties& properties, Diagnostics& diagnostics) {
                          "the materials of " + options.file.string() + " are not read: the shape is grey");
     if (group >= 0) select_group(obj, group, properties.where("shape_index"));
     Mesh mesh = merge_corners(obj, !options.face_normals, separate_groups);
-    place_mesh(mesh, options);
+    place_mesh(mesh, options, properties.where(), diagnostics);
     return mesh;
 }
 

@@ -13,8 +13,8 @@ namespace {
 
 using namespace mitsuba;
 
-SceneReading read(const SceneDocument& document, bool lenient, const FilmSize& film_size, const Imath::V3d& shift) {
-    Diagnostics diagnostics(lenient);
+SceneReading read(const SceneDocument& document, Diagnostics diagnostics, const FilmSize& film_size,
+                  const Imath::V3d& shift) {
     diagnostics.world_shift = shift;
     SceneReading reading;
     Scene& scene = reading.scene;
@@ -23,29 +23,30 @@ SceneReading read(const SceneDocument& document, bool lenient, const FilmSize& f
     const XmlElement* sensor = root.only_child("sensor");
     if (sensor == nullptr)
         throw InputError(document.root().where, "the scene has no sensor", "add <sensor type=\"perspective\">");
-    read_sensor(*sensor, film_size, scene, reading.settings, document, diagnostics);
+    diagnostics.attempt([&] { read_sensor(*sensor, film_size, scene, reading.settings, document, diagnostics); });
     // The budget of a guided integrator wins over the sampler's, which it ignores: it comes later.
     if (const XmlElement* integrator = root.only_child("integrator"))
-        read_integrator(*integrator, reading.settings, document, diagnostics);
+        diagnostics.attempt([&] { read_integrator(*integrator, reading.settings, document, diagnostics); });
 
     MaterialReader materials(scene, document, diagnostics);
     // What is read where it is referred to.
     for (const char* tag : {"texture", "sampler", "film", "rfilter"})
         root.children(tag);
     for (const Child& bsdf : root.children("bsdf"))
-        materials.read(*bsdf.object);
+        diagnostics.attempt([&] { materials.read(*bsdf.object); });
     ShapeReader shapes(scene, materials, document, diagnostics);
     for (const Child& shape : root.children("shape"))
-        shapes.read(*shape.object);
+        diagnostics.attempt([&] { shapes.read(*shape.object); });
     for (const Child& emitter : root.children("emitter"))
-        read_emitter(*emitter.object, scene, materials.textures(), document, diagnostics);
+        diagnostics.attempt([&] { read_emitter(*emitter.object, scene, materials.textures(), document, diagnostics); });
     // How Mitsuba builds its hierarchy does not change the image.
     root.ignore_prefix("kd_");
     root.ignore({"allow_thread_reordering", "compact_acceleration_structures", "embree_use_robust_intersections"});
-    root.finish();
+    diagnostics.attempt([&] { root.finish(); });
     materials.textures().images().read(remove_unused(scene), scene, diagnostics);
 
     reading.warnings = std::move(diagnostics.warnings());
+    reading.findings = std::move(diagnostics.findings());
     return reading;
 }
 
@@ -65,19 +66,18 @@ Imath::V3d shift_of(const Scene& scene) {
 
 }  // namespace
 
-SceneReading read_mitsuba_unchecked(const std::filesystem::path& path,
-                                    const std::map<std::string, std::string>& defines, bool lenient,
-                                    const mitsuba::FilmSize& film_size) {
-    return read(SceneDocument(path, defines), lenient, film_size, Imath::V3d(0.0));
+SceneReading read_mitsuba_to_check(const std::filesystem::path& path, const std::map<std::string, std::string>& defines,
+                                   bool lenient) {
+    return read(SceneDocument(path, defines), Diagnostics(lenient, true), {}, Imath::V3d(0.0));
 }
 
 SceneReading read_mitsuba(const std::filesystem::path& path, const std::map<std::string, std::string>& defines,
                           bool lenient, const mitsuba::FilmSize& film_size) {
     const SceneDocument document(path, defines);
-    SceneReading reading = read(document, lenient, film_size, Imath::V3d(0.0));
+    SceneReading reading = read(document, Diagnostics(lenient), film_size, Imath::V3d(0.0));
     // The image does not depend on where a scene stands, but its digits do: far from the origin it is read again.
     if (const Imath::V3d shift = shift_of(reading.scene); shift != Imath::V3d(0.0))
-        reading = read(document, lenient, film_size, shift);
+        reading = read(document, Diagnostics(lenient), film_size, shift);
     std::vector<Warning> found;
     validate_scene(reading.scene, found);
     for (Warning& warning : found) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "common/config/setting.h"
+#include "common/scene/finding.h"
 #include "common/scene/mitsuba/sensor.h"
 #include "common/scene/scene.h"
 #include "common/scene/warning.h"
@@ -17,6 +18,7 @@ struct SceneReading {
     Scene scene;
     std::vector<Setting> settings;  ///< what its integrator and sampler ask of the job
     std::vector<Warning> warnings;
+    std::vector<Finding> findings;  ///< when checked: warnings, what was refused and left out, remarks
 };
 
 /// Reads a Mitsuba scene (versions 0.5, 0.6, 2 and 3 of the format). `defines` are values for $name. What cannot be
@@ -25,9 +27,9 @@ struct SceneReading {
 SceneReading read_mitsuba(const std::filesystem::path& path, const std::map<std::string, std::string>& defines,
                           bool lenient, const mitsuba::FilmSize& film_size = {});
 
-/// The same without validate_scene(): nothing is repaired, and values outside their domains are left as they are.
-SceneReading read_mitsuba_unchecked(const std::filesystem::path& path,
-                                    const std::map<std::string, std::string>& defines, bool lenient,
-                                    const mitsuba::FilmSize& film_size = {});
+/// The same for inspect(): without validate_scene(), so that nothing is repaired; parts that are refused are findings,
+/// and left out. Throws InputError only if there is no scene to look at: bad XML, no sensor.
+SceneReading read_mitsuba_to_check(const std::filesystem::path& path, const std::map<std::string, std::string>& defines,
+                                   bool lenient);
 
 }  // namespace treefarm

@@ -50,7 +50,8 @@ void ShapeReader::read_shape(const XmlElement& element, std::int32_t group) {
     properties.ignore({"silhouette_sampling_weight"});
     properties.finish();
     if (const Mesh* mesh = std::get_if<Mesh>(&*geometry); mesh != nullptr && validation::is_flat(*mesh)) {
-        diagnostics_.warn(element.where, "no triangle of the shape has an area: it is left out");
+        diagnostics_.warn(element.where, "no triangle of the shape has an area: it is left out",
+                          emitter ? "zero-area emitter" : "degenerate triangles");
         return;
     }
     if (emitter && group != kNone) {

@@ -100,7 +100,8 @@ class SurfaceReader {
         if (!alpha.varies() && alpha.value < kSmallest) {
             diagnostics_.warn(where,
                               "a roughness below 1e-4 was raised to it, as Mitsuba does: for a smooth surface "
-                              "use the BSDF without \"rough\" in its name");
+                              "use the BSDF without \"rough\" in its name",
+                              "extreme alpha");
             alpha.value = kSmallest;
         }
         return alpha;

@@ -1,0 +1,70 @@
+"""Compiles units of an up-to-date Ninja build with changed copies of files, without touching a source."""
+import json
+import os
+import pathlib
+import re
+import subprocess
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+
+
+class Build:
+    def __init__(self, folder):
+        self.folder = folder
+        self.units = {}
+        for unit in json.loads((folder / "compile_commands.json").read_text()):
+            self.units[str(pathlib.Path(unit["file"]).resolve().relative_to(ROOT))] = unit["command"]
+
+    def compile(self, unit, overlay, output):
+        """A unit of the project, its changed copy if there is one; headers come from the overlay first."""
+        source = overlay / unit if (overlay / unit).exists() else ROOT / unit
+        command = re.sub(r" -o \S+ -c \S+$", "", self.units[unit]).replace("-Werror", "-w")
+        first, rest = re.match(r"(.*?c\+\+(?:-\d+)?|.*?g\+\+(?:-\d+)?) (.*)", command).groups()
+        return subprocess.run(f"{first} -I{overlay} {rest} -o {output} -c {source}", shell=True, cwd=self.folder,
+                              capture_output=True, text=True)
+
+    def link_test(self, program, objects, output):
+        """A test program with these objects in place of its own and before those of libraries."""
+        command = self.link_command(f"tests/{program}")
+        command = re.sub(r"\S+/" + program.removeprefix("stability_") + r"\.cpp\.o", " ".join(map(str, objects)), command)
+        command = re.sub(rf"-o tests/{program}\b", f"-o {output}", command)
+        return subprocess.run(command, shell=True, cwd=self.folder, capture_output=True, text=True)
+
+    def link_program(self, target, objects, output):
+        """A program with these objects before those of its libraries, which then are not taken."""
+        command = self.link_command(target).replace(f" -o {target} ", f" {' '.join(map(str, objects))} -o {output} ")
+        return subprocess.run(command, shell=True, cwd=self.folder, capture_output=True, text=True)
+
+    def link_command(self, target):
+        commands = subprocess.run(["ninja", "-t", "commands", "-s", target], cwd=self.folder, capture_output=True,
+                                  text=True).stdout
+        return re.sub(r"^: && | && :$", "", commands.strip().splitlines()[-1])
+
+    def users(self, header):
+        """The units that include a header."""
+        deps = subprocess.run(["ninja", "-t", "deps"], cwd=self.folder, capture_output=True, text=True).stdout
+        unit, users = None, set()
+        for line in deps.splitlines():
+            if line.startswith("    ") and unit is None:
+                unit = self.relative(line.strip())  # the first of an object's files is its source
+            if line.startswith("    ") and self.relative(line.strip()) == header:
+                users.add(unit)
+            if not line.startswith("    "):
+                unit = None
+        return users
+
+    def relative(self, file):
+        path = pathlib.Path(os.path.normpath(self.folder / file))
+        return str(path.relative_to(ROOT)) if path.is_relative_to(ROOT) else str(path)
+
+
+def write_edits(edits, overlay):
+    """Writes the changed copies of files; returns the file of an edit whose text is not there, if any."""
+    for edit in edits:
+        copy = overlay / edit["file"]
+        text = (copy if copy.exists() else ROOT / edit["file"]).read_text()
+        if edit["text"] not in text:
+            return edit["file"]
+        copy.parent.mkdir(parents=True, exist_ok=True)
+        copy.write_text(text.replace(edit["text"], edit["instead"]))
+    return None
