@@ -6,7 +6,7 @@
 #include "common/math/frame.h"
 #include "tests/support/chi_square.h"
 #include "tests/support/random_tree.h"
-#include "worker/integrator/reservoir.h"
+#include "worker/integrator/candidates.h"
 #include "worker/shading/plain_diffuse.h"
 
 namespace treefarm {
@@ -43,13 +43,11 @@ struct Place {
 
     /// False if nothing was found.
     bool draw_of(std::uint32_t count, std::uint32_t i, ScatterSample& s) const {
-        Reservoir reservoir;
-        reservoir.clear();
+        Candidates candidates;
         const PathKey key{3, i, count};
-        const Draw picks = draw(key, 0, Stream::candidate);
         for (std::uint32_t c = 0; c < count; ++c)
-            reservoir.offer(draw_one(draw(key, c, Stream::scatter)), to_unit(picks[c]));
-        return reservoir.take(count, s);
+            candidates.offer(draw_one(draw(key, c, Stream::scatter)));
+        return candidates.take(count, to_unit(draw(key, 0, Stream::candidate)[0]), s);
     }
 };
 
@@ -106,7 +104,8 @@ TEST(Resampling, OneCandidateIsTheSampleItself) {
     }
 }
 
-/// p(y) = 2 q(y) G(w(y)), G(w) = integral of q(z) w / (w + w(z)) dz: y came first or second, and was taken against z.
+/// p(y) = 2 q(y) G(w(y)), G(w) = integral of q(z) (0.9 w / (w + w(z)) + 0.05) dz, where z reflects, and of q(z) where
+/// it does not: y came first or second, and was taken against z.
 TEST(Resampling, TheBetterOfTwoFollowsItsDensity) {
     const auto weight = [&](const ScatterSample& s) {
         return s.pdf > 0.0f ? double(average(s.f_cos)) * (s.guide_pdf + 0.2 / (4 * M_PI)) / s.pdf : 0.0;
@@ -126,7 +125,8 @@ TEST(Resampling, TheBetterOfTwoFollowsItsDensity) {
         if (!(w > 0)) return 0.0f;
         double taken = of_nothing;
         for (std::size_t k = 0; k < histogram.size(); ++k)
-            if (histogram[k] > 0) taken += histogram[k] * w / (w + std::exp2((double(k) + 0.5) / 64 - 24));
+            if (histogram[k] > 0)
+                taken += histogram[k] * (0.9 * w / (w + std::exp2((double(k) + 0.5) / 64 - 24)) + 0.05);
         return static_cast<float>(2 * s.pdf * taken);
     };
     const auto sample = [&](std::uint32_t i, Vec3& d) {
@@ -141,18 +141,33 @@ TEST(Resampling, TheBetterOfTwoFollowsItsDensity) {
 }
 
 TEST(Resampling, NothingWorthTakingIsNothing) {
-    Reservoir reservoir;
-    reservoir.clear();
+    Candidates candidates;
     ScatterSample s{};
-    EXPECT_FALSE(reservoir.take(2, s));
+    EXPECT_FALSE(candidates.take(2, 0.5f, s));
     s.f_cos = Rgb(1.0f);  // without density
-    reservoir.offer(s, 0.0f);
+    candidates.offer(s);
     s.f_cos = Rgb(0.0f);  // black
     s.pdf = 1.0f;
-    reservoir.offer(s, 0.0f);
+    candidates.offer(s);
     s.pdf = std::numeric_limits<float>::quiet_NaN();
-    reservoir.offer(s, 0.0f);
-    EXPECT_FALSE(reservoir.take(4, s));
+    candidates.offer(s);
+    EXPECT_FALSE(candidates.take(4, 0.5f, s));
+}
+
+TEST(Resampling, NoDirectionWeighsMuchMoreThanAlone) {
+    ScatterSample bright{}, dark{};
+    bright.f_cos = dark.f_cos = Rgb(1.0f);
+    bright.pdf = dark.pdf = 1.0f;
+    bright.guide_pdf = 1e6f;
+    for (const float u : {0.0f, 0.5f, 0.94f, 0.96f, 0x1.fffffep-1f}) {
+        Candidates candidates;
+        candidates.offer(bright);
+        candidates.offer(dark);
+        ScatterSample s;
+        ASSERT_TRUE(candidates.take(2, u, s));
+        EXPECT_EQ(s.guide_pdf == 0.0f, u > 0.95f) << u;
+        EXPECT_NEAR(s.effective_pdf, u > 0.95f ? 0.1f : 1.9f, 1e-4f);
+    }
 }
 
 }  // namespace

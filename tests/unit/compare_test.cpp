@@ -1,8 +1,6 @@
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -10,32 +8,19 @@
 #include "common/base/random.h"
 #include "common/image/exr.h"
 #include "common/image/png.h"
+#include "tests/support/command.h"
 
 namespace treefarm {
 namespace {
 
 namespace fs = std::filesystem;
 
-struct Outcome {
-    int code = -1;
-    std::string output;  ///< standard output and error
-};
-
-Outcome compare(const std::string& arguments) {
-    const std::string command = std::string(TREEFARM_PROGRAM) + " compare " + arguments + " 2>&1";
-    Outcome outcome;
-    FILE* pipe = popen(command.c_str(), "r");
-    if (pipe == nullptr) return outcome;
-    char buffer[4096];
-    while (const std::size_t size = fread(buffer, 1, sizeof(buffer), pipe))
-        outcome.output.append(buffer, size);
-    const int status = pclose(pipe);
-    outcome.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-    return outcome;
+test::Ended compare(const std::string& arguments) {
+    return test::run_treefarm("compare " + arguments);
 }
 
 nlohmann::json compare_json(const std::string& arguments) {
-    const Outcome outcome = compare(arguments + " --json");
+    const test::Ended outcome = compare(arguments + " --json");
     EXPECT_EQ(outcome.code, 0) << outcome.output;
     return nlohmann::json::parse(outcome.output);
 }
@@ -106,17 +91,17 @@ TEST_F(Compare, WithoutVarianceItSaysWhyThereIsNoTest) {
     const auto json = compare_json(image + " " + reference);
     EXPECT_FALSE(json["z_tests"]["available"].get<bool>());
     EXPECT_NE(json["z_tests"]["reason"].get<std::string>().find("no variance channels"), std::string::npos);
-    const Outcome table = compare(image + " " + reference);
+    const test::Ended table = compare(image + " " + reference);
     EXPECT_EQ(table.code, 0);
     EXPECT_NE(table.output.find("not available"), std::string::npos) << table.output;
-    const Outcome refused = compare(image + " " + reference + " --reference-spp 100");
+    const test::Ended refused = compare(image + " " + reference + " --reference-spp 100");
     EXPECT_EQ(refused.code, 2);
     EXPECT_NE(refused.output.find("image.exr: --reference-spp needs"), std::string::npos) << refused.output;
 }
 
 TEST_F(Compare, TheTableNamesEveryFigure) {
     const std::string image = write("image.exr", 1.0f, 1, true), reference = write("reference.exr", 1.0f, 0, false);
-    const Outcome table = compare(image + " " + reference);
+    const test::Ended table = compare(image + " " + reference);
     EXPECT_EQ(table.code, 0);
     for (const char* word : {"RMSE", "relMSE", "relMSE trimmed", "MAPE", "SMAPE", "outliers", "worst pixel", "FLIP",
                              "FLIP weighted median", "FLIP of [0, 1]", "mean ratio", "NaN/Inf in image",
@@ -197,13 +182,13 @@ TEST_F(Compare, NegativeRadianceIsCountedAndShown) {
 
 TEST_F(Compare, BadInputIsOneLineAndExitCodeTwo) {
     const std::string image = write("image.exr", 1.0f, 0, false);
-    const Outcome missing = compare(image + " " + path("missing.exr"));
+    const test::Ended missing = compare(image + " " + path("missing.exr"));
     EXPECT_EQ(missing.code, 2);
     EXPECT_NE(missing.output.find("missing.exr: no such file"), std::string::npos) << missing.output;
     Image small;
     add_rgb_layer(small, "", RgbImage(2, 2));
     write_exr(path("small.exr"), small);
-    const Outcome sizes = compare(path("small.exr") + " " + image);
+    const test::Ended sizes = compare(path("small.exr") + " " + image);
     EXPECT_EQ(sizes.code, 2);
     EXPECT_NE(sizes.output.find("2 x 2"), std::string::npos) << sizes.output;
     EXPECT_EQ(std::count(sizes.output.begin(), sizes.output.end(), '\n'), 1) << sizes.output;
@@ -212,7 +197,7 @@ TEST_F(Compare, BadInputIsOneLineAndExitCodeTwo) {
     EXPECT_EQ(compare(image + " " + image + " --block 0").code, 2);
     for (const char* ppd : {"0", "nan", "1001", "-67"})
         EXPECT_EQ(compare(image + " " + image + " --flip-ppd " + ppd).code, 2) << ppd;
-    const Outcome map = compare(image + " " + image + " --error-map " + path("map.jpg"));
+    const test::Ended map = compare(image + " " + image + " --error-map " + path("map.jpg"));
     EXPECT_EQ(map.code, 2);
     EXPECT_NE(map.output.find("map.jpg: --error-map writes PNG and EXR"), std::string::npos) << map.output;
     EXPECT_EQ(compare(image + " " + image + " --error-map " + path("no/map.png")).code, 1);

@@ -1,13 +1,13 @@
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <string>
 #include <vector>
+
+#include "tests/support/command.h"
 
 namespace {
 
@@ -18,7 +18,7 @@ constexpr int kMostLines = 400;
 
 std::vector<fs::path> sources() {
     std::vector<fs::path> files;
-    for (const char* folder : {"common", "coordinator", "worker", "cli", "tests", "bench"}) {
+    for (const char* folder : {"common", "coordinator", "worker", "report", "cli", "tests", "bench"}) {
         if (!fs::exists(kRoot / folder)) continue;
         for (const auto& entry : fs::recursive_directory_iterator(kRoot / folder))
             if (entry.path().extension() == ".h" || entry.path().extension() == ".cpp") files.push_back(entry.path());
@@ -27,32 +27,15 @@ std::vector<fs::path> sources() {
     return files;
 }
 
-struct Outcome {
-    int code = -1;
-    std::string output;  ///< standard output and error
-};
-
-Outcome shell(const std::string& command) {
-    Outcome outcome;
-    FILE* pipe = popen((command + " 2>&1").c_str(), "r");
-    if (pipe == nullptr) return outcome;
-    char buffer[4096];
-    while (const std::size_t size = fread(buffer, 1, sizeof(buffer), pipe))
-        outcome.output.append(buffer, size);
-    const int status = pclose(pipe);
-    outcome.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-    return outcome;
-}
-
-Outcome clang_format(const std::vector<fs::path>& files) {
+treefarm::test::Ended clang_format(const std::vector<fs::path>& files) {
     std::string command = "cd '" + kRoot.string() + "' && clang-format --style=file --dry-run -Werror";
     for (const fs::path& file : files)
         command += " '" + file.string() + "'";
-    return shell(command);
+    return treefarm::test::run_command(command);
 }
 
 bool have_clang_format() {
-    return shell("clang-format --version").code == 0;
+    return treefarm::test::run_command("clang-format --version").code == 0;
 }
 
 int count_lines(const fs::path& file) {
@@ -67,7 +50,7 @@ TEST(Format, EverySourceIsFormatted) {
     if (!have_clang_format()) GTEST_SKIP() << "clang-format is not installed: run deploy/install";
     const auto files = sources();
     ASSERT_GT(files.size(), 20u) << "no sources below " << kRoot;
-    const Outcome outcome = clang_format(files);
+    const treefarm::test::Ended outcome = clang_format(files);
     EXPECT_EQ(outcome.code, 0) << "run clang-format -i on:\n" << outcome.output.substr(0, 4000);
 }
 

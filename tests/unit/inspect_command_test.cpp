@@ -1,10 +1,7 @@
 // `treefarm inspect` on small renders.
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
 #include <algorithm>
-#include <array>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -13,29 +10,13 @@
 
 #include "common/image/exr.h"
 #include "common/image/png.h"
+#include "tests/support/command.h"
 #include "tests/support/support.h"
 
 namespace treefarm {
 namespace {
 
 namespace fs = std::filesystem;
-
-struct Ended {
-    int code = -1;
-    std::string output;
-};
-
-Ended run(const std::string& arguments) {
-    FILE* pipe = popen((std::string(TREEFARM_PROGRAM) + " " + arguments + " 2>&1").c_str(), "r");
-    Ended ended;
-    if (!pipe) return ended;
-    std::array<char, 4096> buffer;
-    for (std::size_t n; (n = fread(buffer.data(), 1, buffer.size(), pipe)) > 0;)
-        ended.output.append(buffer.data(), n);
-    const int status = pclose(pipe);
-    ended.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-    return ended;
-}
 
 std::string text_of(const fs::path& file) {
     std::ifstream in(file, std::ios::binary);
@@ -55,18 +36,18 @@ class InspectCommand : public testing::Test {
     }
 
     void render(const std::string& arguments) {
-        const Ended ended = run("render --quiet --threads 2 --run-dir " + run_ + " " + arguments);
+        const test::Ended ended = test::run_treefarm("render --quiet --threads 2 --run-dir " + run_ + " " + arguments);
         ASSERT_EQ(ended.code, 0) << ended.output;
     }
 
     nlohmann::json inspect(const std::string& arguments) {
-        const Ended ended = run("inspect " + run_ + " --json " + arguments);
+        const test::Ended ended = test::run_treefarm("inspect " + run_ + " --json " + arguments);
         EXPECT_EQ(ended.code, 0) << ended.output;
         return nlohmann::json::parse(ended.output, nullptr, false);
     }
 
     void expect_refused(const std::string& arguments, const std::string& why) {
-        const Ended ended = run("inspect " + arguments);
+        const test::Ended ended = test::run_treefarm("inspect " + arguments);
         EXPECT_EQ(ended.code, 2) << arguments;
         EXPECT_EQ(std::count(ended.output.begin(), ended.output.end(), '\n'), 1) << ended.output;
         EXPECT_NE(ended.output.find(why), std::string::npos) << ended.output;
@@ -158,7 +139,7 @@ TEST_F(InspectCommand, ShowsViewsAndTheFilmWithTheSameBitsForAnyThreads) {
 
 TEST_F(InspectCommand, PrintsStatistics) {
     render(furnace(""));
-    const Ended ended = run("inspect " + run_);
+    const test::Ended ended = test::run_treefarm("inspect " + run_);
     EXPECT_EQ(ended.code, 0);
     for (const char* word : {"regions in", "bytes stored", "a_BSDF", "a_T1", "cells of T1", "no T2"})
         EXPECT_NE(ended.output.find(word), std::string::npos) << word << " in " << ended.output;

@@ -2,9 +2,9 @@
 
 #include <span>
 
+#include "worker/integrator/candidates.h"
 #include "worker/integrator/path_settings.h"
 #include "worker/integrator/path_state.h"
-#include "worker/integrator/reservoir.h"
 
 namespace treefarm {
 
@@ -26,7 +26,7 @@ class DirectionChoice {
         seed_ = seed;
         keys_ = keys;
         lanes_ = lanes;
-        first_ = vertex * kMostCandidates;
+        first_ = vertex * Candidates::kMost;
         draw_batch(seed, keys, lanes, first_, Stream::candidate, picks_);
     }
 
@@ -45,7 +45,7 @@ class DirectionChoice {
     /// Several, for the paths whose numbers are in `alive`. The density is 0 where none was found.
     void draw_several(std::span<Path> paths, std::span<const std::uint8_t> alive) {
         for (const std::uint8_t index : alive)
-            reservoirs_[index].clear();
+            offered_[index].clear();
         for (std::uint32_t candidate = 0; candidate < candidates_; ++candidate) {
             if (candidate != 0) {
                 draw_batch(seed_, keys_, lanes_, first_ + candidate, Stream::candidate, draws_);
@@ -66,19 +66,17 @@ class DirectionChoice {
             for (std::uint32_t i = 0; i < count; ++i) {
                 Path& path = paths[drawn[i]];
                 complete(path);
-                const float pick = candidate == 0 ? 0.0f : to_unit(picks_.word[candidate - 1][path.lane]);
-                reservoirs_[drawn[i]].offer(path.scatter, pick);
+                offered_[drawn[i]].offer(path.scatter);
             }
         }
-        for (const std::uint8_t index : alive)
-            if (!reservoirs_[index].take(candidates_of(paths[index]), paths[index].scatter))
-                paths[index].scatter.pdf = 0.0f;
+        for (const std::uint8_t index : alive) {
+            Path& path = paths[index];
+            const float pick = to_unit(picks_.word[0][path.lane]);
+            if (!offered_[index].take(candidates_of(path), pick, path.scatter)) path.scatter.pdf = 0.0f;
+        }
     }
 
   private:
-    /// What a path may draw at most: its numbers have places for as many.
-    static constexpr std::uint32_t kMostCandidates = 4;
-
     /// A delta lobe has no density to weigh by.
     std::uint32_t candidates_of(const Path& path) const {
         return path.probe || path.surface->has_delta() ? 1 : candidates_;
@@ -101,7 +99,7 @@ class DirectionChoice {
     DrawBatch draws_, picks_;
     DirectionBatch cosines_;
     ScatterBatch<kGuided, kCoded, kViews> batch_;
-    std::array<Reservoir, kGuided ? kDrawBatch : 0> reservoirs_;
+    std::array<Candidates, kGuided ? kDrawBatch : 0> offered_;
 };
 
 }  // namespace treefarm

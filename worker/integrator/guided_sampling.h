@@ -24,7 +24,7 @@ struct ScatterSample {
     Vec3 world;
     Rgb f_cos;                 ///< f |cos|
     float pdf;                 ///< per steradian, of the whole mixture; delta: the probability of the lobe
-    float effective_pdf;       ///< pdf, or what stands for it where one of several was taken (reservoir.h)
+    float effective_pdf;       ///< pdf, or what stands for it where one of several was taken (candidates.h)
     float bsdf_pdf;            ///< of the BSDF alone
     float guide_pdf;           ///< of the region's distribution alone, where it guides
     float view_pdf;            ///< of the view's alone, where it guides

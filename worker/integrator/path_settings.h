@@ -25,7 +25,7 @@ struct PathSettings {
     bool profile;
     bool probe;                ///< pixels of guiding_probe.h are unguided
     bool jitter_records;       ///< stochastic spatial filter
-    std::uint32_t candidates;  ///< directions drawn at a guided vertex, of which one is taken (reservoir.h)
+    std::uint32_t candidates;  ///< directions drawn at a guided vertex, of which one is taken (candidates.h)
     int candidate_depth;       ///< up to here; deeper vertices draw one
     GuidingTarget target;
     ViewRecords view_records;

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+
+namespace treefarm::test {
+
+/// How a command ended.
+struct Ended {
+    int code = -1;       ///< -1: killed, or not started
+    std::string output;  ///< standard output and error
+};
+
+/// Runs a command of the shell.
+Ended run_command(const std::string& command);
+
+/// Runs treefarm with these arguments.
+Ended run_treefarm(const std::string& arguments);
+
+}  // namespace treefarm::test
