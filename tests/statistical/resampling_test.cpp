@@ -104,7 +104,7 @@ TEST(Resampling, OneCandidateIsTheSampleItself) {
     }
 }
 
-/// p(y) = 2 q(y) G(w(y)), G(w) = integral of q(z) (0.9 w / (w + w(z)) + 0.05) dz, where z reflects, and of q(z) where
+/// p(y) = 2 q(y) G(w(y)), G(w) = integral of q(z) (0.8 w / (w + w(z)) + 0.1) dz, where z reflects, and of q(z) where
 /// it does not: y came first or second, and was taken against z.
 TEST(Resampling, TheBetterOfTwoFollowsItsDensity) {
     const auto weight = [&](const ScatterSample& s) {
@@ -126,7 +126,7 @@ TEST(Resampling, TheBetterOfTwoFollowsItsDensity) {
         double taken = of_nothing;
         for (std::size_t k = 0; k < histogram.size(); ++k)
             if (histogram[k] > 0)
-                taken += histogram[k] * (0.9 * w / (w + std::exp2((double(k) + 0.5) / 64 - 24)) + 0.05);
+                taken += histogram[k] * (0.8 * w / (w + std::exp2((double(k) + 0.5) / 64 - 24)) + 0.1);
         return static_cast<float>(2 * s.pdf * taken);
     };
     const auto sample = [&](std::uint32_t i, Vec3& d) {
@@ -159,14 +159,14 @@ TEST(Resampling, NoDirectionWeighsMuchMoreThanAlone) {
     bright.f_cos = dark.f_cos = Rgb(1.0f);
     bright.pdf = dark.pdf = 1.0f;
     bright.guide_pdf = 1e6f;
-    for (const float u : {0.0f, 0.5f, 0.94f, 0.96f, 0x1.fffffep-1f}) {
+    for (const float u : {0.0f, 0.5f, 0.89f, 0.91f, 0x1.fffffep-1f}) {
         Candidates candidates;
         candidates.offer(bright);
         candidates.offer(dark);
         ScatterSample s;
         ASSERT_TRUE(candidates.take(2, u, s));
-        EXPECT_EQ(s.guide_pdf == 0.0f, u > 0.95f) << u;
-        EXPECT_NEAR(s.effective_pdf, u > 0.95f ? 0.1f : 1.9f, 1e-4f);
+        EXPECT_EQ(s.guide_pdf == 0.0f, u > 0.9f) << u;
+        EXPECT_NEAR(s.effective_pdf, u > 0.9f ? 0.2f : 1.8f, 1e-4f);
     }
 }
 

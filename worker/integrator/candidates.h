@@ -46,7 +46,7 @@ class Candidates {
 
   private:
     /// The least share of a candidate in what is taken, times their number.
-    static constexpr float kFair = 0.1f;
+    static constexpr float kFair = 0.2f;
     /// Light from everywhere, of which the tree may have seen nothing: a fifth of what an even tree would see.
     static constexpr float kUnseen = 0.2f / (4.0f * kPi);
 
