@@ -251,7 +251,7 @@ std::vector<JobKey> make_job_keys() {
         [](auto& j) -> auto& { return j.guiding.candidates; }, 0, 4));
     add(integer_key(
         "guiding.candidate_depth", "1 and more", "vertices from the camera that draw so many; deeper ones draw one",
-        [](auto& j) -> auto& { return j.guiding.candidate_depth; }, 1, 1 << 20));
+        [](auto& j) -> auto& { return j.guiding.candidate_depth; }, 1, kMaxInt));
     add(word_key("guiding.spatial_filter",
                  "which region a record goes to; stochastic: that of its position moved by up to half a region",
                  [](auto& j) -> auto& { return j.guiding.spatial_filter; },

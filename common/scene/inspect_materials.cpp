@@ -97,8 +97,6 @@ class MaterialInspection {
         if (eta > 4.0f || eta < 0.25f) add(warning, "extreme ior", value, "glass has 1.5, diamond 2.4");
     }
 
-    static constexpr float kLeastAlpha = 1e-4f;
-
     void roughness(const Roughness& r) {
         if (r.smooth()) return;
         for (const FloatInput* alpha : {&r.alpha_u, &r.alpha_v}) {
@@ -106,9 +104,10 @@ class MaterialInspection {
             const std::string value = "a roughness alpha of " + short_number(double(alpha->value));
             if (!(alpha->value > 0.0f && alpha->value <= 1e6f))
                 add(error, "extreme alpha", value, "give 0.0001 to 1");
-            else if (alpha->value < kLeastAlpha)
+            else if (alpha->value < Roughness::kLeastAlpha)
                 add(warning, "extreme alpha", value, "it is raised to 0.0001; take the smooth material");
-            else if (alpha->value < 1e-3f && alpha->value != kLeastAlpha)  // the reader raises to it, and says so
+            else if (alpha->value < 1e-3f &&
+                     alpha->value != Roughness::kLeastAlpha)  // the reader raises to it, and says so
                 add(note, "extreme alpha", value, "the smooth material looks the same and has less noise");
             else if (alpha->value > 1.0f)
                 add(warning, "extreme alpha", value, "values above 1 lose energy; give at most 1");

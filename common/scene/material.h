@@ -11,6 +11,9 @@ enum class Microfacets : std::uint8_t { smooth, ggx, beckmann };
 
 struct Roughness {
     Microfacets distribution = Microfacets::smooth;
+    /// What is smaller is raised to it, with a warning: a mirror to the eye, and its density still a float.
+    static constexpr float kLeastAlpha = 1e-4f;
+
     FloatInput alpha_u{0.1f}, alpha_v{0.1f};  ///< along the tangent and the bitangent, above 0; equal: isotropic
 
     bool smooth() const { return distribution == Microfacets::smooth; }

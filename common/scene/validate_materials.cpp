@@ -6,7 +6,6 @@ namespace treefarm::validation {
 namespace {
 
 /// Below it facets' densities leave single precision; Mitsuba 0.6 and 3 raise alpha to the same (microfacet.h).
-constexpr float kLeastAlpha = 1e-4f;
 
 class MaterialCheck {
   public:
@@ -135,8 +134,8 @@ class MaterialCheck {
             if (alpha->varies()) {
                 if (range(alpha->texture).min < 0.0f)
                     refuse("the roughness alpha has a texture with negative values", "give values above 0");
-            } else if (alpha->value < kLeastAlpha) {
-                alpha->value = kLeastAlpha;
+            } else if (alpha->value < Roughness::kLeastAlpha) {
+                alpha->value = Roughness::kLeastAlpha;
                 raised = true;
             }
         }

@@ -1,11 +1,9 @@
 // What the processor's and the compiler's floating-point modes may not change.
-#include <sys/wait.h>
 #include <xmmintrin.h>
 
-#include <array>
-#include <cstdio>
 #include <filesystem>
 
+#include "tests/support/command.h"
 #include "tests/support/hard_case.h"
 #include "tests/support/material_scenes.h"
 
@@ -60,30 +58,22 @@ TEST(FloatModes, FlushedDenormals) {
 /// -fassociative-math; a translation unit that includes our vectors does not compile with -ffast-math.
 TEST(FloatModes, FastMathIsRefused) {
     int refused = 0;
-    const auto shell = [](const std::string& command) {
-        std::string output;
-        FILE* pipe = popen((command + " 2>&1").c_str(), "r");
-        std::array<char, 4096> buffer;
-        while (const std::size_t size = std::fread(buffer.data(), 1, buffer.size(), pipe))
-            output.append(buffer.data(), size);
-        return std::pair{WEXITSTATUS(pclose(pipe)), output};
-    };
     const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "fast_math_test";
     const std::string source = TREEFARM_SOURCE_DIR;
     std::filesystem::remove_all(folder);
     std::filesystem::create_directories(folder);
     for (const char* flag : {"-ffast-math", "-Ofast", "-funsafe-math-optimizations", "-fassociative-math"}) {
         // Only the options are read: no compiler need be looked for, nor libraries.
-        const auto [code, text] =
-            shell("cmake -DCMAKE_CXX_FLAGS=" + std::string(flag) + " -P '" + source + "/cmake/refuse_fast_math.cmake'");
+        const auto [code, text] = test::run_command("cmake -DCMAKE_CXX_FLAGS=" + std::string(flag) + " -P '" + source +
+                                                    "/cmake/refuse_fast_math.cmake'");
         EXPECT_NE(code, 0) << flag;
         EXPECT_NE(text.find(flag), std::string::npos) << text;
         refused += code != 0;
     }
     const std::string compile =
         "printf '#include \"common/math/vec.h\"\\n' | c++ -std=c++20 -I '" + source + "' -fsyntax-only -x c++ -";
-    EXPECT_EQ(shell(compile).first, 0);
-    EXPECT_NE(shell(compile + " -ffast-math").first, 0);
+    EXPECT_EQ(test::run_command(compile).code, 0);
+    EXPECT_NE(test::run_command(compile + " -ffast-math").code, 0);
     test::figure("flags that cmake refuses", refused);
 }
 

@@ -14,6 +14,8 @@ import subprocess
 import sys
 import tempfile
 
+from overlay_build import write_edits
+
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PAGE = ROOT / "docs/hard-cases.md"
 ROWS = range(1, 44)
@@ -111,6 +113,10 @@ def without_figures(text):
 def main():
     cases = descriptions()
     if sys.argv[1:] == ["--check"]:
+        for guard in guards():
+            with tempfile.TemporaryDirectory() as overlay:
+                if stale := write_edits(guard["edits"], pathlib.Path(overlay)):
+                    sys.exit(f"tests/stability/guards.json: {stale} has no such text as the guard of {guard['test']}")
         old = PAGE.read_text() if PAGE.exists() else ""
         if without_figures(old.split(ORACLES)[0]) != without_figures(page(cases, {}, "").split(ORACLES)[0]):
             sys.exit("docs/hard-cases.md is out of date: run tests/stability/write_page.py")

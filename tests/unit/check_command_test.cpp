@@ -2,12 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
-#include <cstdio>
 #include <limits>
 #include <nlohmann/json.hpp>
 
 #include "common/image/exr.h"
+#include "tests/support/command.h"
 #include "tests/support/mitsuba_fixture.h"
 #include "tests/support/support.h"
 
@@ -36,20 +35,7 @@ const std::string kLamp = "<emitter type=\"area\"><rgb name=\"radiance\" value=\
 
 class CheckCommand : public test::MitsubaFixture {
   protected:
-    struct Outcome {
-        int code;
-        std::string text;
-    };
-
-    Outcome run(const std::string& arguments) const {
-        Outcome outcome{};
-        FILE* pipe = popen(("'" TREEFARM_PROGRAM "' check " + arguments + " 2>&1").c_str(), "r");
-        std::array<char, 4096> buffer;
-        while (const std::size_t size = std::fread(buffer.data(), 1, buffer.size(), pipe))
-            outcome.text.append(buffer.data(), size);
-        outcome.code = WEXITSTATUS(pclose(pipe));
-        return outcome;
-    }
+    test::Ended run(const std::string& arguments) const { return test::run_treefarm("check " + arguments); }
 
     /// A scene of these lines below its first one, the sensor's.
     std::string scene_of(const std::vector<Defect>& defects, double camera = 5.0) const {
@@ -64,10 +50,10 @@ class CheckCommand : public test::MitsubaFixture {
 
     void expect_found(const std::vector<Defect>& defects, int code, double camera = 5.0) const {
         const std::string path = scene_of(defects, camera);
-        const Outcome found = run("--json '" + path + "'");
-        EXPECT_EQ(found.code, code) << found.text;
-        const json findings = json::parse(found.text).at("findings");
-        const Outcome lines = run("'" + path + "'");
+        const test::Ended found = run("--json '" + path + "'");
+        EXPECT_EQ(found.code, code) << found.output;
+        const json findings = json::parse(found.output).at("findings");
+        const test::Ended lines = run("'" + path + "'");
         EXPECT_EQ(lines.code, code);
         for (std::size_t i = 0; i < defects.size(); ++i) {
             const Defect& defect = defects[i];
@@ -77,11 +63,11 @@ class CheckCommand : public test::MitsubaFixture {
                 return f["kind"] == defect.kind && f["line"] == line && f["severity"] == defect.severity &&
                        f["what"].get<std::string>().find(defect.says) != std::string::npos;
             });
-            EXPECT_NE(at, findings.end()) << defect.kind << " in line " << line << " of\n" << found.text;
+            EXPECT_NE(at, findings.end()) << defect.kind << " in line " << line << " of\n" << found.output;
             if (at == findings.end()) continue;
             EXPECT_EQ((*at)["file"], path);
             const std::string place = line > 0 ? path + ":" + std::to_string(line) + ":" : path + ": ";
-            EXPECT_NE(lines.text.find(place), std::string::npos) << lines.text;
+            EXPECT_NE(lines.output.find(place), std::string::npos) << lines.output;
         }
         for (const json& f : findings) {
             const auto line = static_cast<std::size_t>(f["line"].get<int>());
@@ -219,15 +205,15 @@ TEST_F(CheckCommand, FindsDefectsOfSeveralFiles) {
                                        {mesh("nan.obj"), "", "", ""},
                                        {mesh("missing.obj"), "", "", ""},
                                        {mesh("index.obj"), "", "", ""}});
-    const Outcome found = run("--json '" + path + "'");
+    const test::Ended found = run("--json '" + path + "'");
     EXPECT_EQ(found.code, 2);
     std::string places;
-    const json findings = json::parse(found.text).at("findings");
+    const json findings = json::parse(found.output).at("findings");
     for (const json& f : findings)
         if (f["severity"] == "error")
             places += std::filesystem::path(f["file"].get<std::string>()).filename().string() + ":" +
                       std::to_string(f["line"].get<int>()) + " ";
-    EXPECT_EQ(places, "nan.ply:11 nan.obj:4 planted.xml:4 index.obj:4 ") << found.text;
+    EXPECT_EQ(places, "nan.ply:11 nan.obj:4 planted.xml:4 index.obj:4 ") << found.output;
 }
 
 /// What concerns the whole scene has the scene's file for a place.

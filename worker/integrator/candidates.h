@@ -21,10 +21,10 @@ class Candidates {
     /// Offers a direction, at most kMost of them.
     void offer(const ScatterSample& s) {
         if (!(s.pdf > 0.0f)) return;
-        const float product = average(s.f_cos) * (s.guide_pdf + kUnseen);
-        if (!(product > 0.0f)) return;
+        const float weight = average(s.f_cos) * (s.guide_pdf + kUnseen) / s.pdf;
+        if (!(weight > 0.0f)) return;
         samples_[count_] = s;
-        weights_[count_++] = product / s.pdf;
+        weights_[count_++] = weight;
     }
 
     /// One of `drawn` directions, those that failed included; `u` is uniform in [0, 1). False if all failed.
@@ -33,8 +33,8 @@ class Candidates {
         float sum = 0.0f;
         for (std::uint32_t i = 0; i < count_; ++i)
             sum += weights_[i];
-        const float fair = (sum > 0.0f ? kFair : 1.0f) / static_cast<float>(count_);
-        const float preferred = sum > 0.0f ? (1.0f - kFair) / sum : 0.0f;
+        const float fair = kFair / static_cast<float>(count_);
+        const float preferred = (1.0f - kFair) / sum;
         std::uint32_t taken = 0;
         float probability = fair + preferred * weights_[0];
         for (float before = probability; taken + 1 < count_ && !(u < before); before += probability)

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "common/math/vec.h"
+#include "common/scene/material.h"
 
 namespace treefarm {
 
@@ -12,7 +13,7 @@ struct Microfacet {
     float alpha_u = 0.1f, alpha_v = 0.1f;
 
     /// Smallest roughness that is used; below it the surface is a mirror to float directions.
-    static constexpr float kMinAlpha = 1e-4f;
+    static constexpr float kMinAlpha = Roughness::kLeastAlpha;
     /// Largest; far above any meaning, and its powers are finite.
     static constexpr float kMaxAlpha = 1e6f;
 

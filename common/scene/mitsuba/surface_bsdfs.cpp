@@ -96,13 +96,12 @@ class SurfaceReader {
         const Location& where = properties_.where(name);
         if (!(alpha.value >= 0.0f) || !(alpha.value <= 100.0f))
             throw InputError(where, "a roughness of " + number_text(alpha.value), "give more than 0");
-        constexpr float kSmallest = 1e-4f;
-        if (!alpha.varies() && alpha.value < kSmallest) {
+        if (!alpha.varies() && alpha.value < Roughness::kLeastAlpha) {
             diagnostics_.warn(where,
                               "a roughness below 1e-4 was raised to it, as Mitsuba does: for a smooth surface "
                               "use the BSDF without \"rough\" in its name",
                               "extreme alpha");
-            alpha.value = kSmallest;
+            alpha.value = Roughness::kLeastAlpha;
         }
         return alpha;
     }
