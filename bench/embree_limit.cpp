@@ -88,10 +88,10 @@ class Limit {
   private:
     static Job make_job(const LoadedScene& loaded, const Options& options) {
         Job job;
-        apply_layer(job, loaded.settings);
         std::vector<Setting> layer;
         for (const std::string& argument : options.set)
             layer.push_back(parse_set_argument(argument));
+        apply_layer(job, scene_layer(loaded.settings, {layer}));
         apply_layer(job, layer);
         job.budget.spp = options.train;
         return job;
@@ -140,9 +140,10 @@ class Limit {
             render(plan, job_, guide, stats);
             sums.commit(log_.records, log_.counts, log_.caps);
             RefineReport report;
-            tree =
-                learner.learn(tree, sums.take(), refine_settings(job_, plan, plans[std::min(k + 1, plans.size() - 1)]),
-                              plan.learn_mixture, report);
+            const auto pixels = static_cast<double>(scene_.film().pixel_count());
+            const PassPlan& coming = plans[std::min(k + 1, plans.size() - 1)];
+            tree = learner.learn(tree, sums.take(), refine_settings(job_, pixels, plan, coming), plan.learn_mixture,
+                                 report);
         }
         return tree;
     }

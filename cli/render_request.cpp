@@ -92,7 +92,7 @@ RenderRequest read_request(const RenderOptions& options) {
         load_scene(where.scene.file, where.scene.defines, where.scene.lenient, where.image.width, where.image.height);
 
     RenderRequest request;
-    apply_layer(request.job, loaded.settings);
+    apply_layer(request.job, scene_layer(loaded.settings, {file_layer, line_layer}));
     apply_layer(request.job, file_layer);
     apply_layer(request.job, line_layer);
     check_job(request.job);

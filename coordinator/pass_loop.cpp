@@ -87,7 +87,12 @@ class PassLoop {
 
     void keep(const PassPlan& plan) {
         const bool same_tree = !state_.passes.empty() && !state_.passes.back().record;
-        show({plan.spp, plan.first_sample, farm_.collector().film().pixels(), same_tree}, job_, finished_);
+        PassResult pass{plan.spp, plan.first_sample, farm_.collector().film().pixels(), same_tree};
+        if (const TraceStats stats = farm_.collector().totals(); stats.probe_paths > 0) {
+            probe_.add(pass.pixels, stats, plan.index);
+            leave_out_probes(pass.pixels, plan.index);
+        }
+        show(std::move(pass), job_, finished_);
         result_.spp = plan.first_sample + plan.spp;
         result_.tree_hash = coming_tree_hash_;
     }
@@ -99,14 +104,16 @@ class PassLoop {
         timer.restart();
         state_.error = report.error = estimate_error(result_.image, job_.sampler.seed);
         fill_from_collector(report, farm_.collector());
+        report.variance = pass_variance(finished_.back().pixels);
         report.seconds.error = timer.seconds();
         farm_.beat();
     }
 
-    /// In the image-wide number of a probe pass: a decision, not a weight, so no pixel is biased by its own samples.
+    /// By one image-wide number: a decision, not a weight, so no pixel is biased by its own samples.
     void judge_guiding(PassReport& report) {
-        if (report.plan.probe) {
-            report.guiding_gain = guiding_gain(farm_.collector().film().pixels(), result_.image.mean, report.stats);
+        if (report.plan.guided && report.plan.record) {
+            report.guiding_gain = probe_.gain(finished_.back().pixels, report.stats, result_.image.mean,
+                                              static_cast<std::size_t>(result_.width));
             state_.guiding_pays = state_.guiding_pays && guiding_pays(report.plan, report.guiding_gain);
         }
         report.guiding_pays = state_.guiding_pays;
@@ -137,8 +144,10 @@ class PassLoop {
     void learn(const PassPlan& plan, const NextPass& next_pass, PassReport& report) {
         if (!plan.record || !next_pass.pass) return;
         const Timer timer;
-        result_.tree = learner_.learn(result_.tree, farm_.collector().sums(),
-                                      refine_settings(job_, plan, *next_pass.pass), plan.learn_mixture, report.refine);
+        const auto pixels = static_cast<double>(result_.image.mean.size());
+        result_.tree =
+            learner_.learn(result_.tree, farm_.collector().sums(), refine_settings(job_, pixels, plan, *next_pass.pass),
+                           plan.learn_mixture, report.refine);
         report.seconds.refine = timer.seconds();
         farm_.beat();
     }
@@ -177,6 +186,7 @@ class PassLoop {
     TreeLearner learner_;
     RenderResult result_;
     std::vector<PassResult> finished_;
+    GuidingProbe probe_;
     std::uint64_t coming_tree_hash_ = 0;
     const Timer clock_;
     double loading_seconds_ = 0;  ///< until the first worker had scene and tree and asked for work

@@ -178,7 +178,6 @@ void fill_from_collector(PassReport& report, const Collector& collector) {
     report.update_bytes = collector.update_bytes();
     report.touched_cells = collector.touched_cells();
     report.caps = collector.sums().caps();
-    report.variance = pass_variance(collector.film().pixels());
     PassSeconds& s = report.seconds;
     s.merge = collector.merge_seconds();
     s.film += collector.film_seconds();

@@ -85,7 +85,7 @@ struct PassReport {
     double rays_per_second() const;
 };
 
-/// Figures of a pass from what was collected.
+/// Figures of a pass from what was collected, but for its variance.
 void fill_from_collector(PassReport& report, const Collector& collector);
 
 /// seconds.idle, once seconds.all and the figures are there.

@@ -117,7 +117,7 @@ struct Job {
         int candidate_depth = 1;  ///< up to which depth
         ViewRecords view_records = ViewRecords::product;
         int view_threshold = 4000;            ///< c of the split rule of views
-        int spatial_threshold = 4000;         ///< c of the spatial split rule
+        int spatial_threshold = 0;            ///< c of the spatial split rule; 0: as the film says
         float directional_threshold = 0.01f;  ///< share of a region's energy above which a cell splits
         int spp_unit = 1;                     ///< samples per pixel of the first pass; passes double
         Combination combination = Combination::inverse_variance;

@@ -226,9 +226,9 @@ std::vector<JobKey> make_job_keys() {
         [](auto& j) -> auto& { return j.guiding.view_threshold; }, 1, kMaxInt));
     add(bsdf_fraction_key());
     add(integer_key(
-        "guiding.spatial_threshold", "1 and more",
-        "c of the spatial split rule: a region splits above c sqrt(spp / 4) records",
-        [](auto& j) -> auto& { return j.guiding.spatial_threshold; }, 1, kMaxInt));
+        "guiding.spatial_threshold", "0 and more",
+        "c of the spatial split rule: a region splits above c sqrt(spp / 4) records; 0: 2000 (pixels / 2^18)^(1/4)",
+        [](auto& j) -> auto& { return j.guiding.spatial_threshold; }, 0, kMaxInt));
     add(number_key(
         "guiding.directional_threshold", "0.0005 to 1",
         "share of a region's energy above which a directional cell splits",

@@ -2,6 +2,7 @@
 
 #include <toml++/toml.h>
 
+#include <algorithm>
 #include <fstream>
 #include <sstream>
 #include <string_view>
@@ -53,6 +54,16 @@ void apply_layer(Job& job, std::span<const Setting> layer) {
     };
     apply(true);
     apply(false);
+}
+
+std::vector<Setting> scene_layer(std::span<const Setting> scene,
+                                 std::initializer_list<std::span<const Setting>> above) {
+    const bool chosen = std::any_of(above.begin(), above.end(), [](std::span<const Setting> layer) {
+        return std::any_of(layer.begin(), layer.end(), [](const Setting& s) { return s.key == "guiding.type"; });
+    });
+    std::vector<Setting> layer(scene.begin(), scene.end());
+    if (chosen) std::erase_if(layer, [](const Setting& s) { return s.key == "guiding.preset"; });
+    return layer;
 }
 
 std::vector<Setting> parse_job_settings(const std::string& toml, const std::string& name) {

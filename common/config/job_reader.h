@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <initializer_list>
 #include <span>
 #include <string>
 #include <vector>
@@ -17,6 +18,10 @@ void apply_setting(Job& job, const std::string& key, const std::string& value, c
 /// Sets the keys of one layer: its guiding.preset first, whichever place it stands at, then the others in their order.
 /// The layers of a job, each over the one before: defaults, the scene's integrator and sampler, the job file, --set.
 void apply_layer(Job& job, std::span<const Setting> layer);
+
+/// What a scene sets for jobs with these layers above it. Its integrator may stand for a preset (`guided_path`: paper);
+/// where a layer chooses guiding.type, guiding is the job's, and the preset does not hold.
+std::vector<Setting> scene_layer(std::span<const Setting> scene, std::initializer_list<std::span<const Setting>> above);
 
 /// The text of a TOML file that a person names; `kind` is "job" or "schedule", for messages. Throws InputError.
 std::string read_settings_text(const std::filesystem::path& path, const std::string& kind);

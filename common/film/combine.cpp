@@ -15,11 +15,13 @@ constexpr double kVarianceClamp = 1e4;
 /// Variance of the pass's image: mean over pixels, clamped, from one half of the samples.
 double image_variance(const PassResult& pass, int half) {
     double sum = 0;
+    std::size_t count = 0;
     for (const PixelEstimate& pixel : pass.pixels) {
         const Moments& m = pixel.half[half];
+        count += m.n != 0;
         if (m.n >= 2) sum += std::min(luminance(m.sample_variance()) / m.n, kVarianceClamp);
     }
-    return sum / static_cast<double>(std::max<std::size_t>(pass.pixels.size(), 1));
+    return sum / static_cast<double>(std::max<std::size_t>(count, 1));
 }
 
 void normalise(std::vector<double>& weights) {
@@ -86,22 +88,28 @@ struct HalfImage {
     std::vector<Rgb64> mean, variance;
 };
 
-/// The weighted mean of one half of the passes' samples. Passes of which the half holds nothing give up their weight.
+/// The weighted mean of one half of the passes' samples. Passes of which the half holds nothing give up their weight;
+/// where only passes without weight hold anything, their samples weigh alike.
 HalfImage combine_half(std::span<const PassResult> passes, const std::vector<double>& weights, int half) {
     const std::size_t count = passes.front().pixels.size();
     const PassResult& longest = longest_pass(passes);
     HalfImage image{std::vector<Rgb64>(count, Rgb64(0.0)), std::vector<Rgb64>(count, Rgb64(0.0))};
     for (std::size_t p = 0; p < count; ++p) {
         double sum = 0;
-        for (std::size_t k = 0; k < passes.size(); ++k) {
+        const auto add = [&](std::size_t k, double weight) {
             const Moments& m = passes[k].pixels[p].half[half];
-            if (m.n == 0) continue;
-            sum += weights[k];
-            image.mean[p] += m.mean * weights[k];
+            if (m.n == 0) return;
+            sum += weight;
+            image.mean[p] += m.mean * weight;
             const Rgb64 variance =
                 m.n >= 2 ? m.sample_variance() : sample_variance(passes[k].pixels[p], longest.pixels[p]);
-            image.variance[p] += variance * (weights[k] * weights[k] / m.n);
-        }
+            image.variance[p] += variance * (weight * weight / m.n);
+        };
+        for (std::size_t k = 0; k < passes.size(); ++k)
+            add(k, weights[k]);
+        if (!(sum > 0))
+            for (std::size_t k = 0; k < passes.size(); ++k)
+                add(k, passes[k].pixels[p].half[half].n);
         if (!(sum > 0)) continue;
         image.mean[p] /= sum;
         image.variance[p] /= sum * sum;
@@ -109,21 +117,28 @@ HalfImage combine_half(std::span<const PassResult> passes, const std::vector<dou
     return image;
 }
 
-/// A pass of one sample joins no half; a run that has only such passes is its plain weighted mean.
+/// A pass of one sample joins no half; a run that has only such passes is its plain weighted mean. A pass that holds
+/// nothing of a pixel gives up its weight there.
 CombinedImage combine_whole(std::span<const PassResult> passes, const std::vector<double>& weights) {
     CombinedImage image;
     const std::size_t count = passes.front().pixels.size();
     image.mean.assign(count, Rgb64(0.0));
     image.variance.assign(count, Rgb64(0.0));
     const PassResult& longest = longest_pass(passes);
-    for (std::size_t p = 0; p < count; ++p)
+    for (std::size_t p = 0; p < count; ++p) {
+        double sum = 0, left_out = 0;
         for (std::size_t k = 0; k < passes.size(); ++k) {
             const Moments m = passes[k].pixels[p].whole();
+            (m.n == 0 ? left_out : sum) += weights[k];
             if (m.n == 0) continue;
             image.mean[p] += m.mean * weights[k];
             image.variance[p] +=
                 sample_variance(passes[k].pixels[p], longest.pixels[p]) * (weights[k] * weights[k] / m.n);
         }
+        if (left_out == 0 || !(sum > 0)) continue;
+        image.mean[p] /= sum;
+        image.variance[p] /= sum * sum;
+    }
     image.half[0] = image.half[1] = image.mean;
     image.weight = weights;
     return image;
@@ -181,8 +196,11 @@ PassVariance pass_variance(std::span<const PixelEstimate> pixels) {
     if (pixels.empty()) return result;
     std::vector<double> variances;
     variances.reserve(pixels.size());
+    std::size_t rendered = 0;
     for (const PixelEstimate& pixel : pixels) {
         const Moments m = pixel.whole();
+        if (m.n == 0) continue;
+        ++rendered;
         const Rgb64 per_channel = m.sample_variance();
         const double variance = luminance(per_channel);
         variances.push_back(variance);
@@ -195,7 +213,8 @@ PassVariance pass_variance(std::span<const PixelEstimate> pixels) {
             result.stuv_ppg += n * std::min(luminance(theirs), kVarianceClamp) / (n - 1);
         }
     }
-    const auto count = static_cast<double>(pixels.size());
+    if (rendered == 0) return result;
+    const auto count = static_cast<double>(rendered);
     result.stuv /= count;
     result.mse_of_sample /= count;
     result.stuv_ppg /= count;

@@ -37,7 +37,7 @@ CombinedImage combine_passes(std::span<const PassResult> passes, Combination met
 /// Weight of a pass that is set before it begins (`fixed`): spp sqrt(spp_before); without guiding, spp. Not normalised.
 double fixed_weight(std::uint32_t spp, std::uint32_t spp_before, bool guided);
 
-/// Figures of one pass (docs/guiding.md, "stuv").
+/// Figures of one pass (docs/guiding.md, "stuv"), by the pixels that it rendered.
 struct PassVariance {
     double stuv = 0;           ///< mean over pixels of the luminance of the unbiased variance of one sample
     double stuv_trimmed = 0;   ///< the same without the worst 0.1 % of the pixels

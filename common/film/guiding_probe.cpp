@@ -1,45 +1,111 @@
 #include "common/film/guiding_probe.h"
 
 #include <algorithm>
-#include <utility>
-#include <vector>
-
-#include "common/film/trimmed_mean.h"
 
 namespace treefarm {
 namespace {
 
+constexpr std::uint64_t kProbePixels = 2048;
+constexpr std::size_t kBlock = 8;    ///< side, in pixels
 constexpr double kFloor = 0.1;       ///< of the image's mean
 constexpr double kLeastGain = 1e-9;  ///< unguided samples have no noise at all
 /// Fewer pixels tell nothing.
 constexpr std::size_t kLeastPixels = 64;
 
-}  // namespace
-
-double guiding_gain(std::span<const PixelEstimate> pixels, std::span<const Rgb64> image, const ProbeCounts& guided,
-                    const ProbeCounts& unguided) {
-    double mean = 0;
-    for (const Rgb64& c : image)
-        mean += luminance(c);
-    mean /= static_cast<double>(std::max<std::size_t>(image.size(), 1));
-    if (!(mean > 0)) return 0;
-    std::vector<double> of_guided, of_unguided;
-    for (std::size_t p = 0; p < pixels.size(); ++p) {
-        const Moments whole = pixels[p].whole();
-        if (whole.n < 2) continue;
-        const double level = luminance(image[p]), floor = kFloor * mean;
-        const double variance = luminance(whole.sample_variance()) / (level * level + floor * floor);
-        (is_probe_pixel(static_cast<std::uint32_t>(p)) ? of_unguided : of_guided).push_back(variance);
+/// The image's luminance squared, blurred and with a floor: what a pixel's variance is relative to.
+class Levels {
+  public:
+    Levels(std::span<const Rgb64> image, std::size_t width) : width_(width), columns_((width + kBlock - 1) / kBlock) {
+        const std::size_t rows = (image.size() + width - 1) / width;
+        std::vector<double> counts((rows + kBlock - 1) / kBlock * columns_);
+        squares_.resize(counts.size());
+        double sum = 0;
+        for (std::size_t p = 0; p < image.size(); ++p) {
+            const double y = luminance(image[p]);
+            sum += y;
+            squares_[block(p)] += y;
+            counts[block(p)] += 1;
+        }
+        mean_ = sum / static_cast<double>(std::max<std::size_t>(image.size(), 1));
+        for (std::size_t b = 0; b < squares_.size(); ++b) {
+            const double level = squares_[b] / counts[b];
+            squares_[b] = level * level + kFloor * kFloor * mean_ * mean_;
+        }
     }
-    if (std::min(of_guided.size(), of_unguided.size()) < kLeastPixels) return 0;
-    const double with = trimmed_mean(std::move(of_guided)) * guided.rays_per_path() * kGuidedRayCost;
-    const double without = trimmed_mean(std::move(of_unguided)) * unguided.rays_per_path();
-    return with > 0 ? std::max(without / with, kLeastGain) : 0;
+
+    double mean() const { return mean_; }
+    double square_at(std::size_t p) const { return squares_[block(p)]; }
+
+  private:
+    std::size_t block(std::size_t p) const { return p / width_ / kBlock * columns_ + p % width_ / kBlock; }
+
+    std::size_t width_, columns_;
+    std::vector<double> squares_;
+    double mean_ = 0;
+};
+
+struct Weighted {
+    double value, weight;
+};
+
+/// Weighted mean without the largest thousandth, one at least.
+double trimmed(std::vector<Weighted> values) {
+    const auto kept = static_cast<std::ptrdiff_t>(values.size() - std::max<std::size_t>(values.size() / 1000, 1));
+    const auto end = values.begin() + kept;
+    std::nth_element(values.begin(), end, values.end(),
+                     [](const Weighted& a, const Weighted& b) { return a.value < b.value; });
+    double sum = 0, weight = 0;
+    for (auto v = values.begin(); v != end; ++v) {
+        sum += v->value * v->weight;
+        weight += v->weight;
+    }
+    return sum / weight;
 }
 
-double guiding_gain(std::span<const PixelEstimate> pixels, std::span<const Rgb64> image, const TraceStats& stats) {
-    return guiding_gain(pixels, image, {stats.paths - stats.probe_paths, stats.rays - stats.probe_rays},
-                        {stats.probe_paths, stats.probe_rays});
+double per_path(std::uint64_t rays, std::uint64_t paths) {
+    return paths > 0 ? static_cast<double>(rays) / static_cast<double>(paths) : 0.0;
+}
+
+}  // namespace
+
+ProbePixels::ProbePixels(std::size_t film_pixels, std::uint32_t pass) {
+    constexpr std::uint64_t kAll = std::uint64_t{1} << 32;
+    const std::uint64_t share = kProbePixels * kAll / std::max<std::uint64_t>(film_pixels, 1);
+    count_ = static_cast<std::uint32_t>(std::clamp(share, kAll / 128, kAll / 8));
+    first_ = pass % 8 * count_;
+}
+
+void leave_out_probes(std::span<PixelEstimate> pixels, std::uint32_t pass) {
+    const ProbePixels probe(pixels.size(), pass);
+    for (std::size_t p = 0; p < pixels.size(); ++p)
+        if (probe.holds(static_cast<std::uint32_t>(p))) pixels[p] = {};
+}
+
+void GuidingProbe::add(std::span<const PixelEstimate> pixels, const TraceStats& stats, std::uint32_t pass) {
+    const ProbePixels probe(pixels.size(), pass);
+    for (std::uint32_t p = 0; p < pixels.size(); ++p) {
+        const Moments whole = pixels[p].whole();
+        if (probe.holds(p) && whole.n >= 2) unguided_.push_back({p, whole.n, luminance(whole.sample_variance())});
+    }
+    paths_ += stats.probe_paths;
+    rays_ += stats.probe_rays;
+}
+
+double GuidingProbe::gain(std::span<const PixelEstimate> pixels, const TraceStats& stats, std::span<const Rgb64> image,
+                          std::size_t width) const {
+    const Levels levels(image, width);
+    if (!(levels.mean() > 0)) return 0;
+    std::vector<Weighted> guided, unguided;
+    for (std::size_t p = 0; p < pixels.size(); ++p)
+        if (const Moments whole = pixels[p].whole(); whole.n >= 2)
+            guided.push_back({luminance(whole.sample_variance()) / levels.square_at(p), 1.0});
+    for (const Unguided& u : unguided_)
+        unguided.push_back({u.variance / levels.square_at(u.pixel), u.samples - 1.0});
+    if (std::min(guided.size(), unguided.size()) < kLeastPixels) return 0;
+    const double rays = per_path(stats.rays - stats.probe_rays, stats.paths - stats.probe_paths);
+    const double with = trimmed(std::move(guided)) * rays * kGuidedRayCost;
+    const double without = trimmed(std::move(unguided)) * per_path(rays_, paths_);
+    return with > 0 ? std::max(without / with, kLeastGain) : 0;
 }
 
 }  // namespace treefarm

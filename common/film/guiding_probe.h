@@ -2,37 +2,58 @@
 
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "common/film/pixel_estimate.h"
 #include "common/film/trace_stats.h"
 
 namespace treefarm {
 
-/// Whether guiding pays, measured by the render itself: in probe passes an eighth of the pixels, chosen by a hash, is
-/// rendered unguided, and what samples and rays gave there is held against the others.
+/// Whether guiding pays, measured by the render itself: in a few short passes some pixels, chosen by a hash, are
+/// rendered unguided. How noisy they are does not change any more, and guided samples of all passes are held against
+/// it. They are no part of the image: a pixel's weights depend on its place, never on its samples.
 
-/// Whether a pixel (row * width + column) is rendered unguided in probe passes.
-inline bool is_probe_pixel(std::uint32_t pixel) {
-    return (pixel * 0x9e3779b9u) >> 29 == 0;
-}
+/// The pixels that a pass renders unguided: about 2000, but no more than an eighth of the film and no fewer than 1/128;
+/// others in each of eight passes.
+class ProbePixels {
+  public:
+    ProbePixels() = default;  ///< none
+    ProbePixels(std::size_t film_pixels, std::uint32_t pass);
+    /// Whether it has this one (row * width + column).
+    bool holds(std::uint32_t pixel) const { return pixel * 0x9e3779b9u - first_ < count_; }
 
-/// Rays of a probe pass and paths that they belong to.
-struct ProbeCounts {
-    std::uint64_t paths = 0, rays = 0;
-    double rays_per_path() const { return paths > 0 ? static_cast<double>(rays) / static_cast<double>(paths) : 0.0; }
+  private:
+    std::uint32_t first_ = 0, count_ = 0;  ///< of the pixels' hashes
 };
 
-/// How much more a ray of a guided path costs than one of an unguided path: 1.12 to 1.49 was measured, by scene
-/// (docs/guiding.md, "auto"); what is chosen favours guiding. A constant, not a clock: the decision is part of the
-/// result.
-inline constexpr double kGuidedRayCost = 1.2;
+/// Takes the unguided pixels out of a probe pass.
+void leave_out_probes(std::span<PixelEstimate> pixels, std::uint32_t pass);
 
-/// Relative variance times cost of unguided samples over that of guided ones: above 1 guiding pays. Variances are
-/// relative to the square of the pixel's mean in `image` (with a floor of a tenth of the image's mean), the worst 0.1 %
-/// of either kind left out. 0: too little is known. `pixels` of the pass, row by row.
-double guiding_gain(std::span<const PixelEstimate> pixels, std::span<const Rgb64> image, const ProbeCounts& guided,
-                    const ProbeCounts& unguided);
-/// The same by the counts of the probe pass.
-double guiding_gain(std::span<const PixelEstimate> pixels, std::span<const Rgb64> image, const TraceStats& stats);
+/// How much more a ray of a guided path costs than one of an unguided path, training included: 1.24 to 1.53 was
+/// measured, by scene (docs/guiding.md, "auto"). A constant, not a clock: the decision is part of the result.
+inline constexpr double kGuidedRayCost = 1.4;
+
+/// What probe passes found.
+class GuidingProbe {
+  public:
+    /// A probe pass with all its pixels.
+    void add(std::span<const PixelEstimate> pixels, const TraceStats& stats, std::uint32_t pass);
+
+    /// Relative variance times cost of unguided samples over that of the guided ones of a pass: above 1 guiding pays.
+    /// `pixels` of the pass, row by row, without probes; `image` is the best that is known. Variances are relative to
+    /// the square of the mean of the pixel's block of 8 x 8 (with a floor of a tenth of the image's mean), the worst
+    /// 0.1 % of either kind, one at least, left out. A pixel's own mean would not do: where few samples find a rare
+    /// light it is large with their variance, which then looks small. 0: too little is known.
+    double gain(std::span<const PixelEstimate> pixels, const TraceStats& stats, std::span<const Rgb64> image,
+                std::size_t width) const;
+
+  private:
+    struct Unguided {
+        std::uint32_t pixel, samples;
+        double variance;  ///< of one sample, luminance
+    };
+    std::vector<Unguided> unguided_;
+    std::uint64_t paths_ = 0, rays_ = 0;
+};
 
 }  // namespace treefarm

@@ -13,8 +13,9 @@ constexpr int kSteps = 40;
 /// A T2 that deserves less in all its views, so many passes in a row, is released.
 constexpr double kIdleFraction = 0.05;
 constexpr int kIdlePasses = 2;
-/// So does one that gains less, nats per record: a look-up in it costs about as much.
-constexpr double kLeastGain = 0.03;
+/// So does one that gains less, nats per record: what it costs was measured to be worth more (docs/guiding.md,
+/// "Views").
+constexpr double kLeastGain = 0.2;
 
 /// r_j at the centre of a bin.
 ViewFractions centre(int bin) {

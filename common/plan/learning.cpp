@@ -21,14 +21,14 @@ SdTree first_tree(const Scene& scene, const Job& job, const Box3& bounds, float 
                  learns_views(scene, job), job.guiding.learn_bsdf_fraction ? 0.0f : 1.0f - a});
 }
 
-RefineSettings refine_settings(const Job& job, const PassPlan& pass, const PassPlan& coming) {
+RefineSettings refine_settings(const Job& job, double film_pixels, const PassPlan& pass, const PassPlan& coming) {
     RefineSettings settings;
-    settings.spatial_threshold = spatial_split_threshold(job, coming);
+    settings.spatial_threshold = spatial_split_threshold(job, film_pixels, coming);
     settings.directional_divisor =
         static_cast<std::uint32_t>(std::lround(1.0 / static_cast<double>(job.guiding.directional_threshold)));
     settings.record_weight = pass.record_weight;
     settings.target = job.guiding.target;
-    settings.view_threshold = settings.spatial_threshold / job.guiding.spatial_threshold * job.guiding.view_threshold;
+    settings.view_threshold = split_growth(job, coming) * job.guiding.view_threshold;
     settings.views_record_alone = job.guiding.view_records == ViewRecords::radiance;
     if (job.guiding.view_records == ViewRecords::product) {
         settings.view_set_threshold = settings.view_threshold;

@@ -10,8 +10,8 @@ namespace treefarm {
 /// The tree before the first pass over `bounds`; a record of average value is about `radiance_scale`.
 SdTree first_tree(const Scene& scene, const Job& job, const Box3& bounds, float radiance_scale);
 
-/// How the job refines the tree after `pass` for the `coming` one.
-RefineSettings refine_settings(const Job& job, const PassPlan& pass, const PassPlan& coming);
+/// How the job refines the tree of a film of so many pixels after `pass` for the `coming` one.
+RefineSettings refine_settings(const Job& job, double film_pixels, const PassPlan& pass, const PassPlan& coming);
 
 /// What a pass over `tree` sums up.
 SumsShape sums_shape(const PassPlan& pass, const SdTree& tree);

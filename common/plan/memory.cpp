@@ -30,10 +30,6 @@ constexpr std::uint64_t kSumBytes = 8;
 constexpr std::uint64_t kPlainTreeBytesPerCell = 5;
 constexpr std::uint64_t kPlainTreeBytesPerRegion = 2 * 8 + 6;
 
-std::uint64_t pixel_count(const Scene& scene) {
-    return static_cast<std::uint64_t>(scene.film.width) * static_cast<std::uint64_t>(scene.film.height);
-}
-
 std::uint64_t total(const std::vector<MemoryItem>& items) {
     std::uint64_t bytes = 0;
     for (const MemoryItem& item : items)
@@ -108,10 +104,11 @@ TreeSize expected_tree(const Scene& scene, const Job& job) {
     const std::vector<PassPlan> passes = plan_passes(job);
     const int depth = job.integrator.max_depth;
     const double length = depth < 0 ? kVerticesPerPath : std::min(kVerticesPerPath, std::max(depth - 1.0, 0.0));
+    const auto pixels = static_cast<double>(scene.film.pixel_count());
     double regions = 1.0;
     for (std::size_t k = 0; k + 1 < passes.size(); ++k) {
-        const double vertices = length * static_cast<double>(pixel_count(scene)) * passes[k].spp;
-        regions = std::max(regions, vertices / (kRegionFilling * spatial_split_threshold(job, passes[k + 1])));
+        const double vertices = length * pixels * passes[k].spp;
+        regions = std::max(regions, vertices / (kRegionFilling * spatial_split_threshold(job, pixels, passes[k + 1])));
     }
     const double views = learns_views(scene, job) ? kViewsPerRegion * regions : 0.0;
     const double cells = kCellsPerRegion * (regions + views) / static_cast<double>(job.guiding.directional_threshold);
@@ -122,7 +119,7 @@ TreeSize expected_tree(const Scene& scene, const Job& job) {
 }
 
 MemoryPlan expected_memory(const Scene& scene, const Job& job) {
-    const std::uint64_t pixels = pixel_count(scene), triangles = scene.triangle_count();
+    const std::uint64_t pixels = scene.film.pixel_count(), triangles = scene.triangle_count();
     const std::uint64_t passes = plan_passes(job).size();
     std::uint64_t objects = 0;
     for (const Shape& shape : scene.shapes)

@@ -11,10 +11,13 @@ namespace {
 
 /// Kick-start samples emitters directly in passes that begin with fewer samples per pixel than this (PPG's program).
 constexpr std::uint32_t kKickstartSpp = 128;
-/// What few samples miss of rare light makes unguided variance look small: a probe pass of so many would have no say.
-constexpr double kDoubtSpp = 16.0;
-/// Passes with fewer samples per pixel do not probe whether guiding pays.
-constexpr std::uint32_t kProbeSpp = 32;
+/// Guiding that gains less than this does not pay, less 1 / spp for short passes: it gets better with each tree, and
+/// light that unguided samples found too rarely to tell speaks for it.
+constexpr double kLosingGain = 0.8;
+/// Shorter passes have no say.
+constexpr std::uint32_t kLeastJudgedSpp = 8;
+/// Passes that probe: the first ones that have a tree and enough samples to know their variance.
+constexpr std::uint32_t kLeastProbeSpp = 4, kProbePasses = 4;
 /// Samples per pixel by which an open budget is planned.
 constexpr std::uint32_t kGuessedSpp = 64;
 /// A work unit is at most about this many samples of a full tile: around half a second on one core.
@@ -48,11 +51,12 @@ void set_guiding(PassPlan& pass, const Job& job, bool guiding_pays) {
         pass.guided = false;
         set_record(pass, job, false);
     }
-    pass.probe = pass.guided && pass.record && pass.index > 0 && pass.spp >= kProbeSpp;
+    pass.probe =
+        pass.record && pass.index > 0 && pass.index <= kProbePasses && pass.spp >= kLeastProbeSpp && pass.guided;
 }
 
-bool guiding_pays(const PassPlan& probe, double gain) {
-    return gain == 0 || gain >= 1.0 - kDoubtSpp / static_cast<double>(probe.spp);
+bool guiding_pays(const PassPlan& pass, double gain) {
+    return gain == 0 || pass.spp < kLeastJudgedSpp || gain >= kLosingGain - 1.0 / pass.spp;
 }
 
 PassPlan make_pass(const Job& job, std::uint32_t index, std::uint32_t first_sample, std::uint32_t spp, bool last) {
@@ -87,10 +91,20 @@ bool has_open_budget(const Job& job) {
     return job.budget.seconds > 0 || job.budget.error > 0;
 }
 
-double spatial_split_threshold(const Job& job, const PassPlan& coming_pass) {
+double split_growth(const Job& job, const PassPlan& coming_pass) {
     const double nominal_spp =
         std::ldexp(static_cast<double>(job.guiding.spp_unit), static_cast<int>(coming_pass.index));
-    return job.guiding.spatial_threshold * std::sqrt(nominal_spp / 4.0);
+    return std::sqrt(nominal_spp / 4.0);
+}
+
+double usual_spatial_threshold(double film_pixels) {
+    return 2000.0 * std::sqrt(std::sqrt(film_pixels / (512.0 * 512.0)));
+}
+
+double spatial_split_threshold(const Job& job, double film_pixels, const PassPlan& coming_pass) {
+    const double c =
+        job.guiding.spatial_threshold > 0 ? job.guiding.spatial_threshold : usual_spatial_threshold(film_pixels);
+    return c * split_growth(job, coming_pass);
 }
 
 }  // namespace treefarm

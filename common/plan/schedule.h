@@ -14,7 +14,7 @@ struct PassPlan {
     std::uint32_t first_sample = 0;     ///< spp done before it
     bool next_event = false;            ///< sample emitters directly
     bool guided = true;                 ///< by the tree, where there is one
-    bool probe = false;                 ///< but for an eighth of the pixels, to see whether it pays (guiding_probe.h)
+    bool probe = false;                 ///< but for some pixels, to see whether it pays (guiding_probe.h)
     bool record = false;                ///< teach the tree (the last pass does not)
     double record_weight = 1.0;         ///< 0.5 in kick-start passes
     bool learn_mixture = false;         ///< teach how often to sample the BSDF (needs a tree that guides)
@@ -31,13 +31,13 @@ PassPlan make_pass(const Job& job, std::uint32_t index, std::uint32_t first_samp
 void set_next_event(PassPlan& pass, const Job& job, bool next_event);
 void set_record(PassPlan& pass, const Job& job, bool record);
 
-/// guiding.type "auto": a pass that probes whether guiding pays, where it can, or one without guiding, once it was
-/// found not to pay.
+/// guiding.type "auto": the first passes that have a tree probe whether guiding pays; once it was found not to, passes
+/// are unguided and learn nothing.
 void set_guiding(PassPlan& pass, const Job& job, bool guiding_pays);
 
-/// Whether guiding goes on after a probe pass with this gain (guiding_gain(); 0: not known). Short passes have to say
-/// it loudly: guiding gets better with each.
-bool guiding_pays(const PassPlan& probe, double gain);
+/// Whether guiding goes on after a pass that taught, with this gain (GuidingProbe::gain(); 0: not known). Short passes
+/// have to say loudly that it does not: it gets better with each.
+bool guiding_pays(const PassPlan& pass, double gain);
 
 /// Passes double from guiding.spp_unit; when what remains after a pass would be less than twice that pass, the pass
 /// takes the rest. The budget is rounded up to whole units. For an open budget (budget.seconds, budget.error), whose
@@ -53,8 +53,16 @@ inline constexpr double kEndingMargin = 1.02;
 /// Whether clock or estimated error choose the passes.
 bool has_open_budget(const Job& job);
 
-/// c sqrt(n_k / 4): records above which a region splits before pass k. n_k is what doubling gives, spp_unit 2^k, also
-/// where the last pass is longer: as in the authors' program.
-double spatial_split_threshold(const Job& job, const PassPlan& coming_pass);
+/// sqrt(n_k / 4), by which thresholds of splits grow to pass k. n_k is what doubling gives, spp_unit 2^k, also where
+/// the last pass is longer: as in the authors' program.
+double split_growth(const Job& job, const PassPlan& coming_pass);
+
+/// guiding.spatial_threshold = 0: c of the spatial split rule for a film of so many pixels, 2000 for 512 x 512 and in
+/// proportion to their fourth root. More pixels bring more records, but what there is to learn grows more slowly
+/// (docs/guiding.md has measurements).
+double usual_spatial_threshold(double film_pixels);
+
+/// c sqrt(n_k / 4): records above which a region splits before pass k of a film of so many pixels.
+double spatial_split_threshold(const Job& job, double film_pixels, const PassPlan& coming_pass);
 
 }  // namespace treefarm

@@ -35,6 +35,8 @@ struct Film {
     PixelFilter filter = PixelFilter::box;
     float filter_radius = 0.5f;  ///< pixels; box: half its width
     float filter_stddev = 0.5f;  ///< pixels; gaussian only
+
+    std::size_t pixel_count() const { return static_cast<std::size_t>(width) * static_cast<std::size_t>(height); }
 };
 
 struct Scene {

@@ -29,7 +29,7 @@ LoadedScene load_study_scene(const Study& study, const StudyScene& scene) {
 RenderRequest study_request(const Study& study, const StudyScene& scene, const LoadedScene& loaded,
                             std::span<const Setting> method, std::span<const Setting> more) {
     RenderRequest request;
-    apply_layer(request.job, loaded.settings);
+    apply_layer(request.job, scene_layer(loaded.settings, {study.job, scene.settings, method, more}));
     apply_layer(request.job, study.job);
     apply_layer(request.job, scene.settings);
     apply_layer(request.job, method);

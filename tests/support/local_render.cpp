@@ -39,6 +39,7 @@ LocalRender render_locally(const Scene& scene, const Job& job) {
     run.tree = first_tree(scene, job, guiding_bounds(scene), 1.0f);
     TreeLearner learner;
     RenderState state;
+    GuidingProbe probe;
     for (NextPass next = choose(state); next.pass;) {
         const PassPlan pass = *next.pass;
         run.tree.pass = pass.index;
@@ -55,13 +56,18 @@ LocalRender render_locally(const Scene& scene, const Job& job) {
         }
         run.stats.push_back(stats);
         const bool same_tree = !state.passes.empty() && !state.passes.back().record;
-        show({pass.spp, pass.first_sample, film.pixels(), same_tree}, job, run.passes);
+        PassResult shown{pass.spp, pass.first_sample, film.pixels(), same_tree};
+        if (stats.probe_paths > 0) {
+            probe.add(shown.pixels, stats, pass.index);
+            leave_out_probes(shown.pixels, pass.index);
+        }
+        show(std::move(shown), job, run.passes);
         run.image = combine_passes(run.passes, job.guiding.combination, guided);
         const double seconds = 1e-3 * pass.spp;
         PassFacts facts;
         facts.spp = pass.spp;
         facts.spp_before = pass.first_sample;
-        facts.mse_of_sample = pass_variance(film.pixels()).mse_of_sample;
+        facts.mse_of_sample = pass_variance(run.passes.back().pixels).mse_of_sample;
         facts.collect_seconds = seconds;
         facts.record = pass.record;
         facts.next_event = pass.next_event;
@@ -69,14 +75,17 @@ LocalRender render_locally(const Scene& scene, const Job& job) {
         state.seconds += seconds;
         state.error = estimate_error(run.image, job.sampler.seed);
         run.states.push_back(state);
-        if (pass.probe) {
-            run.guiding_gains.push_back(guiding_gain(film.pixels(), run.image.mean, stats));
-            state.guiding_pays = state.guiding_pays && guiding_pays(pass, run.guiding_gains.back());
+        if (pass.guided && pass.record) {
+            const double gain =
+                probe.gain(run.passes.back().pixels, stats, run.image.mean, static_cast<std::size_t>(scene.film.width));
+            run.guiding_gains.push_back(gain);
+            state.guiding_pays = state.guiding_pays && guiding_pays(pass, gain);
         }
         next = choose(state);
         if (!pass.record || !next.pass) continue;
         RefineReport report;
-        run.tree = learner.learn(run.tree, accumulator.take(), refine_settings(job, pass, *next.pass),
+        run.tree = learner.learn(run.tree, accumulator.take(),
+                                 refine_settings(job, static_cast<double>(scene.film.pixel_count()), pass, *next.pass),
                                  pass.learn_mixture, report);
     }
     return run;

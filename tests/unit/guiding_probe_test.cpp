@@ -5,74 +5,184 @@
 
 #include <random>
 
+#include "common/film/combine.h"
 #include "common/plan/schedule.h"
 
 namespace treefarm {
 namespace {
 
+constexpr std::size_t kWidth = 128, kCount = 8192;
+constexpr std::uint32_t kPass = 3;
+const ProbePixels kProbe(kCount, kPass);
+const std::vector<Rgb64> kImage(kCount, Rgb64(1.0));
+
 /// Pixels of mean 1 whose samples deviate by `unguided` in probe pixels and by `guided` in the others.
-std::vector<PixelEstimate> pixels(float guided, float unguided) {
-    std::vector<PixelEstimate> result(8192);
+std::vector<PixelEstimate> pixels(float guided, float unguided, std::uint32_t spp = 8) {
+    std::vector<PixelEstimate> result(kCount);
     for (std::uint32_t p = 0; p < result.size(); ++p) {
-        const float deviation = is_probe_pixel(p) ? unguided : guided;
-        for (std::uint32_t s = 0; s < 8; ++s)
+        const float deviation = kProbe.holds(p) ? unguided : guided;
+        for (std::uint32_t s = 0; s < spp; ++s)
             result[p].add(s, Rgb(s % 4 < 2 ? 1 + deviation : 1 - deviation));
     }
     return result;
 }
 
-const std::vector<Rgb64> kImage(8192, Rgb64(1.0));
-constexpr ProbeCounts kSame{100, 500};
+struct Rays {
+    std::uint64_t guided = 500, unguided = 500;  ///< for 100 paths each
+};
+
+TraceStats stats_of(Rays rays) {
+    TraceStats stats;
+    stats.paths = 200;
+    stats.probe_paths = 100;
+    stats.rays = rays.guided + rays.unguided;
+    stats.probe_rays = rays.unguided;
+    return stats;
+}
+
+double gain(std::vector<PixelEstimate> samples, std::span<const Rgb64> image = kImage, Rays rays = {}) {
+    GuidingProbe probe;
+    probe.add(samples, stats_of(rays), kPass);
+    leave_out_probes(samples, kPass);
+    return probe.gain(samples, stats_of(rays), image, kWidth);
+}
 
 TEST(GuidingProbe, ComparesVarianceTimesCost) {
-    const double even = guiding_gain(pixels(0.5f, 0.5f), kImage, kSame, kSame);
+    const double even = gain(pixels(0.5f, 0.5f));
     EXPECT_NEAR(even, 1 / kGuidedRayCost, 1e-6);
-    EXPECT_NEAR(guiding_gain(pixels(0.25f, 0.5f), kImage, kSame, kSame), 4 * even, 1e-6);
-    EXPECT_NEAR(guiding_gain(pixels(0.5f, 0.5f), kImage, {100, 1000}, kSame), even / 2, 1e-6);
-    EXPECT_NEAR(guiding_gain(pixels(0.5f, 0.5f), kImage, kSame, {100, 250}), even / 2, 1e-6);
+    EXPECT_NEAR(gain(pixels(0.25f, 0.5f)), 4 * even, 1e-6);
+    EXPECT_NEAR(gain(pixels(0.5f, 0.5f), kImage, {1000, 500}), even / 2, 1e-6);
+    EXPECT_NEAR(gain(pixels(0.5f, 0.5f), kImage, {500, 250}), even / 2, 1e-6);
+}
+
+TEST(GuidingProbe, LaterPassesNeedNoProbes) {
+    GuidingProbe probe;
+    std::vector<PixelEstimate> first = pixels(0.5f, 0.5f);
+    probe.add(first, stats_of({}), kPass);
+    TraceStats later;
+    later.paths = 100;
+    later.rays = 500;
+    EXPECT_NEAR(probe.gain(pixels(0.25f, 0.25f), later, kImage, kWidth), 4 / kGuidedRayCost, 1e-6);
+}
+
+TEST(GuidingProbe, LongerProbesCountMore) {
+    GuidingProbe probe;
+    probe.add(pixels(0.5f, 0.5f, 4), stats_of({}), kPass);   // a variance of 1/3: 4 samples of squared deviation 1/4
+    probe.add(pixels(0.5f, 1.0f, 16), stats_of({}), kPass);  // 16/15
+    const double unguided = (3 * (1.0 / 3) + 15 * (16.0 / 15)) / 18, guided = 2.0 / 7;
+    std::vector<PixelEstimate> now = pixels(0.5f, 0.5f);
+    leave_out_probes(now, kPass);
+    EXPECT_NEAR(probe.gain(now, stats_of({}), kImage, kWidth), unguided / guided / kGuidedRayCost, 2e-3);
 }
 
 TEST(GuidingProbe, AFireflyDecidesNothing) {
     std::vector<PixelEstimate> noisy = pixels(0.5f, 0.5f);
     for (std::uint32_t p = 0, found = 0; found < 1; ++p)
-        if (is_probe_pixel(p)) noisy[p].add(8, Rgb(1e6f)), ++found;
-    EXPECT_NEAR(guiding_gain(noisy, kImage, kSame, kSame), 1 / kGuidedRayCost, 0.01);
+        if (kProbe.holds(p)) noisy[p].add(8, Rgb(1e6f)), ++found;
+    EXPECT_NEAR(gain(noisy), 1 / kGuidedRayCost, 0.01);
+}
+
+/// Where one sample in a thousand finds a light, pixels that found it are as bright as they are noisy, the others as
+/// dark as they are quiet: relative to themselves they would look alike.
+TEST(GuidingProbe, RareLightIsNotOverlooked) {
+    std::mt19937 random(1);
+    std::vector<PixelEstimate> samples(kCount);
+    std::vector<Rgb64> image;
+    for (std::uint32_t p = 0; p < samples.size(); ++p) {
+        for (std::uint32_t s = 0; s < 16; ++s) {
+            const bool found = random() % 1000 == 0;
+            samples[p].add(s, Rgb(!kProbe.holds(p) ? (s % 2 ? 4.0f : -2.0f) : found ? 1000.0f : 0.0f));
+        }
+        image.push_back(samples[p].whole().mean);
+    }
+    EXPECT_GT(gain(samples, image), 5) << "relative to itself 0.02";
 }
 
 TEST(GuidingProbe, SaysWhenItKnowsNothing) {
-    EXPECT_EQ(guiding_gain({}, {}, kSame, kSame), 0);
-    const std::vector<Rgb64> black(8192, Rgb64(0.0));
-    EXPECT_EQ(guiding_gain(pixels(0.5f, 0.5f), black, kSame, kSame), 0);
-    const std::vector<PixelEstimate> few = pixels(0.5f, 0.5f);
-    EXPECT_EQ(guiding_gain(std::span(few).first(100), std::span(kImage).first(100), kSame, kSame), 0);
-    EXPECT_EQ(guiding_gain(pixels(0.0f, 0.0f), kImage, kSame, kSame), 0) << "no noise at all";
+    EXPECT_EQ(gain({}, {}), 0);
+    const std::vector<Rgb64> black(kCount, Rgb64(0.0));
+    EXPECT_EQ(gain(pixels(0.5f, 0.5f), black), 0);
+    std::vector<PixelEstimate> few = pixels(0.5f, 0.5f);
+    few.resize(100);
+    EXPECT_EQ(gain(few, std::span(kImage).first(100)), 0);
+    EXPECT_EQ(gain(pixels(0.0f, 0.0f)), 0) << "no noise at all";
+    EXPECT_EQ(GuidingProbe().gain(pixels(0.5f, 0.5f), stats_of({}), kImage, kWidth), 0) << "no probe yet";
 }
 
 TEST(GuidingProbe, LongPassesAreBelievedSooner) {
     PassPlan pass;
-    pass.spp = 32;
-    EXPECT_TRUE(guiding_pays(pass, 0.6));
-    EXPECT_FALSE(guiding_pays(pass, 0.4));
+    pass.spp = 4;
+    EXPECT_TRUE(guiding_pays(pass, 0.1));
+    pass.spp = 8;
+    EXPECT_TRUE(guiding_pays(pass, 0.7));
+    EXPECT_FALSE(guiding_pays(pass, 0.65));
     pass.spp = 128;
-    EXPECT_FALSE(guiding_pays(pass, 0.8));
-    EXPECT_TRUE(guiding_pays(pass, 0.95));
+    EXPECT_FALSE(guiding_pays(pass, 0.78));
+    EXPECT_TRUE(guiding_pays(pass, 0.81));
     EXPECT_TRUE(guiding_pays(pass, 0)) << "not known";
 }
 
-TEST(GuidingProbe, OnlyAutoProbesAndOnlyWhatTeaches) {
+TEST(GuidingProbe, TakesAnEighthOfASmallFilmAndLessOfALargeOne) {
+    for (const auto& [film, expected] : {std::pair{4096u, 512.0}, {65536u, 2048.0}, {1u << 22, 32768.0}}) {
+        const ProbePixels probe(film, 2);
+        double held = 0;
+        for (std::uint32_t p = 0; p < film; ++p)
+            held += probe.holds(p);
+        EXPECT_NEAR(held, expected, 0.02 * expected) << film;
+    }
+    EXPECT_FALSE(ProbePixels().holds(0));
+}
+
+TEST(GuidingProbe, NoPixelIsProbedTwice) {
+    for (std::uint32_t p = 0; p < 4096; ++p) {
+        int passes = 0;
+        for (std::uint32_t pass = 0; pass < 8; ++pass)
+            passes += ProbePixels(4096, pass).holds(p);
+        EXPECT_EQ(passes, 1);
+    }
+}
+
+/// What other passes know of a probe pixel is its image, whole and unshaded.
+TEST(GuidingProbe, ProbesAreNoPartOfTheImage) {
+    std::vector<PixelEstimate> marked = pixels(0.0f, 9.0f);
+    leave_out_probes(marked, kPass);
+    std::vector<PixelEstimate> other = pixels(0.0f, 0.0f, 4);
+    const std::vector<PassResult> passes = {{4, 0, other, false}, {8, 4, marked, false}};
+    for (const Combination method : {Combination::fixed, Combination::inverse_variance, Combination::last})
+        for (const Rgb64& c :
+             combine_passes(std::span(passes).first(method == Combination::last ? 1 : 2), method, true).mean)
+            EXPECT_EQ(c, Rgb64(1.0));
+}
+
+/// Passes too short to be weighed by variance are all that is known of a pixel that the first longer one left out.
+TEST(GuidingProbe, NoPixelIsBlackForWantOfWeight) {
+    std::vector<PixelEstimate> marked = pixels(0.5f, 0.5f, 4);
+    leave_out_probes(marked, kPass);
+    const std::vector<PassResult> passes = {
+        {1, 0, pixels(0.0f, 0.0f, 1), false}, {2, 1, pixels(0.0f, 0.0f, 2), false}, {4, 3, marked, false}};
+    const CombinedImage image = combine_passes(passes, Combination::inverse_variance, true);
+    for (std::uint32_t p = 0; p < kCount; ++p) {
+        EXPECT_EQ(image.mean[p], Rgb64(1.0));
+        EXPECT_EQ(image.half[0][p], Rgb64(1.0));
+    }
+}
+
+TEST(GuidingProbe, OnlyAutoProbesAndOnlyInItsFirstPasses) {
     Job job;
     for (const auto& [type, probes] : {std::pair{GuidingType::automatic, true}, {GuidingType::view, false}}) {
         job.guiding.type = type;
-        PassPlan pass = make_pass(job, 5, 31, 32, false);
-        set_guiding(pass, job, true);
-        EXPECT_EQ(pass.probe, probes);
-        set_guiding(pass, job, false);
-        EXPECT_EQ(pass.guided, !probes);
-        EXPECT_EQ(pass.record, !probes);
-        EXPECT_FALSE(probes && pass.probe);
+        for (const auto& [index, spp] : {std::pair{1u, 2u}, {2u, 4u}, {4u, 16u}, {5u, 32u}}) {
+            PassPlan pass = make_pass(job, index, spp - 1, spp, false);
+            set_guiding(pass, job, true);
+            EXPECT_EQ(pass.probe, probes && spp >= 4 && spp <= 16) << spp;
+            set_guiding(pass, job, false);
+            EXPECT_EQ(pass.guided, !probes);
+            EXPECT_EQ(pass.record, !probes);
+            EXPECT_FALSE(probes && pass.probe);
+        }
     }
     job.guiding.type = GuidingType::automatic;
-    PassPlan last = make_pass(job, 6, 63, 64, true);
+    PassPlan last = make_pass(job, 4, 15, 16, true);
     set_guiding(last, job, true);
     EXPECT_FALSE(last.probe);
     EXPECT_TRUE(last.guided);

@@ -143,6 +143,15 @@ TEST(Job, LaterLayersWin) {
     EXPECT_EQ(job.integrator.next_event, NextEvent::never);
 }
 
+TEST(Job, WhoChoosesTheGuideIsNotBoundToTheScenesPreset) {
+    const std::vector<Setting> scene{{"guiding.preset", "paper", {}}, {"integrator.max_depth", "10", {}}};
+    const std::vector<Setting> other{{"budget.spp", "16", {}}}, chosen{parse_set_argument("guiding.type=ppg")};
+    EXPECT_EQ(scene_layer(scene, {other, other}).size(), 2u);
+    const std::vector<Setting> left = scene_layer(scene, {other, chosen});
+    ASSERT_EQ(left.size(), 1u);
+    EXPECT_EQ(left[0].key, "integrator.max_depth");
+}
+
 TEST(Job, SetArguments) {
     Job job;
     apply_layer(job,
@@ -183,7 +192,7 @@ TEST(Job, WrongTypesAndRanges) {
                              "guiding.bsdf_fraction = 1e-60",
                              "guiding.directional_threshold = 0.0004",
                              "guiding.directional_threshold = inf",
-                             "guiding.spatial_threshold = 0",
+                             "guiding.spatial_threshold = -1",
                              "guiding.spp_unit = 0",
                              "farm.tile_size = 0",
                              "farm.tile_size = 1025",

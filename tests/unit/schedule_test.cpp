@@ -73,7 +73,11 @@ TEST(Schedule, SplitThresholdFollowsTheNominalPass) {
     PassPlan pass;
     pass.index = 4;
     pass.spp = 68;  // the extended last pass of 127 spp counts as 64
-    EXPECT_DOUBLE_EQ(spatial_split_threshold(job, pass), 48000.0);
+    EXPECT_DOUBLE_EQ(spatial_split_threshold(job, 100, pass), 48000.0);
+
+    job.guiding.spatial_threshold = 0;
+    EXPECT_DOUBLE_EQ(spatial_split_threshold(job, 512 * 512, pass), 8000.0);
+    EXPECT_DOUBLE_EQ(spatial_split_threshold(job, 128 * 128, pass), 4000.0);
 }
 
 }  // namespace

@@ -4,7 +4,6 @@
 #include <cassert>
 #include <vector>
 
-#include "common/film/guiding_probe.h"
 #include "common/film/trace_stats.h"
 #include "common/guiding/mixture.h"
 #include "common/guiding/view_mixture.h"
@@ -50,7 +49,7 @@ class PathKernel {
     void add(const PathKey& key, const Ray& ray) {
         assert(!full());
         paths_[count_].begin(key, ray);
-        paths_[count_].probe = kGuided && settings_.probe && is_probe_pixel(key.pixel);
+        paths_[count_].probe = kGuided && settings_.probe.holds(key.pixel);
         stats_.probe_paths += paths_[count_].probe;
         if constexpr (kRecord) recorders_[count_].begin_path();
         observer_.camera(ray);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "common/config/job.h"
+#include "common/film/guiding_probe.h"
 #include "common/guiding/guide.h"
 #include "common/plan/schedule.h"
 #include "worker/integrator/roulette.h"
@@ -23,7 +24,7 @@ struct PathSettings {
     bool hide_emitters;
     bool record_light_samples;  ///< kick-start: what next event finds teaches the tree, too
     bool profile;
-    bool probe;                ///< pixels of guiding_probe.h are unguided
+    ProbePixels probe;         ///< unguided, to see whether guiding pays
     bool jitter_records;       ///< stochastic spatial filter
     std::uint32_t candidates;  ///< directions drawn at a guided vertex, of which one is taken (candidates.h)
     int candidate_depth;       ///< up to here; deeper vertices draw one
@@ -40,7 +41,7 @@ struct PathSettings {
           hide_emitters(job.integrator.hide_emitters),
           record_light_samples(job.integrator.next_event == NextEvent::kickstart && pass.next_event),
           profile(job.farm.profile),
-          probe(pass.probe),
+          probe(pass.probe ? ProbePixels(scene.film().pixel_count(), pass.index) : ProbePixels()),
           jitter_records(job.guiding.spatial_filter == SpatialFilter::stochastic),
           candidates(static_cast<std::uint32_t>(job.guiding.candidates == 0 ? usual_candidates(job.guiding.type)
                                                                             : job.guiding.candidates)),

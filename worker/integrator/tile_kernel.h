@@ -59,7 +59,8 @@ struct UnitCursor {
 template <class Surface, bool kGuided, bool kRecord>
 void render_with(const TileJob& tile) {
     const auto& [scene, job, pass, guide, unit, pixels, log, stats] = tile;
-    PathKernel<Surface, kGuided, kRecord> kernel(scene, guide, PathSettings(scene, job, pass, guide), stats);
+    const PathSettings settings(scene, job, pass, guide);
+    PathKernel<Surface, kGuided, kRecord> kernel(scene, guide, settings, stats);
     const std::uint32_t first = unit.chunk * pass.blocks_per_unit * kBlockSamples;
     const std::uint32_t last = std::min(first + pass.blocks_per_unit * kBlockSamples, pass.spp);
     const std::int64_t width = scene.film().width;
@@ -83,7 +84,7 @@ void render_with(const TileJob& tile) {
             const bool refused = refuse_invalid(radiance, unit, end.x, end.y, end.sample, stats);
             if (!is_black(radiance)) ++stats.nonzero_paths;
             if constexpr (kRecord)
-                if (!refused && !(kGuided && pass.probe && is_probe_pixel(key(end).pixel)))
+                if (!refused && !(kGuided && settings.probe.holds(key(end).pixel)))
                     stats.records += kernel.recorder(i).commit(key(end), log);
             blocks.back().add(key(end).sample, radiance);
             if (end.advance()) {
