@@ -90,7 +90,8 @@ class PassLoop {
         PassResult pass{plan.spp, plan.first_sample, farm_.collector().film().pixels(), same_tree};
         if (const TraceStats stats = farm_.collector().totals(); stats.probe_paths > 0) {
             probe_.add(pass.pixels, stats, plan.index);
-            leave_out_probes(pass.pixels, plan.index);
+            // An image of one pass alone has nothing better for them.
+            if (!shows_last_tree_only(job_)) leave_out_probes(pass.pixels, plan.index);
         }
         show(std::move(pass), job_, finished_);
         result_.spp = plan.first_sample + plan.spp;
@@ -112,8 +113,8 @@ class PassLoop {
     /// By one image-wide number: a decision, not a weight, so no pixel is biased by its own samples.
     void judge_guiding(PassReport& report) {
         if (report.plan.guided && report.plan.record) {
-            report.guiding_gain = probe_.gain(finished_.back().pixels, report.stats, result_.image.mean,
-                                              static_cast<std::size_t>(result_.width));
+            report.guiding_gain = probe_.gain(finished_.back().pixels, report.stats, report.plan.index,
+                                              result_.image.mean, static_cast<std::size_t>(result_.width));
             state_.guiding_pays = state_.guiding_pays && guiding_pays(report.plan, report.guiding_gain);
         }
         report.guiding_pays = state_.guiding_pays;

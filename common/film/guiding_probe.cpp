@@ -91,13 +91,14 @@ void GuidingProbe::add(std::span<const PixelEstimate> pixels, const TraceStats& 
     rays_ += stats.probe_rays;
 }
 
-double GuidingProbe::gain(std::span<const PixelEstimate> pixels, const TraceStats& stats, std::span<const Rgb64> image,
-                          std::size_t width) const {
+double GuidingProbe::gain(std::span<const PixelEstimate> pixels, const TraceStats& stats, std::uint32_t pass,
+                          std::span<const Rgb64> image, std::size_t width) const {
     const Levels levels(image, width);
     if (!(levels.mean() > 0)) return 0;
     std::vector<Weighted> guided, unguided;
-    for (std::size_t p = 0; p < pixels.size(); ++p)
-        if (const Moments whole = pixels[p].whole(); whole.n >= 2)
+    const ProbePixels probe = stats.probe_paths > 0 ? ProbePixels(pixels.size(), pass) : ProbePixels();
+    for (std::uint32_t p = 0; p < pixels.size(); ++p)
+        if (const Moments whole = pixels[p].whole(); whole.n >= 2 && !probe.holds(p))
             guided.push_back({luminance(whole.sample_variance()) / levels.square_at(p), 1.0});
     for (const Unguided& u : unguided_)
         unguided.push_back({u.variance / levels.square_at(u.pixel), u.samples - 1.0});

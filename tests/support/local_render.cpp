@@ -59,7 +59,7 @@ LocalRender render_locally(const Scene& scene, const Job& job) {
         PassResult shown{pass.spp, pass.first_sample, film.pixels(), same_tree};
         if (stats.probe_paths > 0) {
             probe.add(shown.pixels, stats, pass.index);
-            leave_out_probes(shown.pixels, pass.index);
+            if (!shows_last_tree_only(job)) leave_out_probes(shown.pixels, pass.index);
         }
         show(std::move(shown), job, run.passes);
         run.image = combine_passes(run.passes, job.guiding.combination, guided);
@@ -76,8 +76,8 @@ LocalRender render_locally(const Scene& scene, const Job& job) {
         state.error = estimate_error(run.image, job.sampler.seed);
         run.states.push_back(state);
         if (pass.guided && pass.record) {
-            const double gain =
-                probe.gain(run.passes.back().pixels, stats, run.image.mean, static_cast<std::size_t>(scene.film.width));
+            const double gain = probe.gain(run.passes.back().pixels, stats, pass.index, run.image.mean,
+                                           static_cast<std::size_t>(scene.film.width));
             run.guiding_gains.push_back(gain);
             state.guiding_pays = state.guiding_pays && guiding_pays(pass, gain);
         }
