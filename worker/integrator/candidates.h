@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+
 #include "worker/integrator/guided_sampling.h"
 
 namespace treefarm {
@@ -24,7 +26,8 @@ class Candidates {
         const float weight = average(s.f_cos) * (s.guide_pdf + kUnseen) / s.pdf;
         if (!(weight > 0.0f)) return;
         samples_[count_] = s;
-        weights_[count_++] = weight;
+        // Any choice is unbiased; this one divides by no sum of 0 or infinity.
+        weights_[count_++] = std::clamp(weight, 1e-30f, 1e30f);
     }
 
     /// One of `drawn` directions, those that failed included; `u` is uniform in [0, 1). False if all failed.
