@@ -193,14 +193,11 @@ CombinedImage combine_passes(std::span<const PassResult> passes, Combination met
 
 PassVariance pass_variance(std::span<const PixelEstimate> pixels) {
     PassVariance result;
-    if (pixels.empty()) return result;
     std::vector<double> variances;
     variances.reserve(pixels.size());
-    std::size_t rendered = 0;
     for (const PixelEstimate& pixel : pixels) {
         const Moments m = pixel.whole();
         if (m.n == 0) continue;
-        ++rendered;
         const Rgb64 per_channel = m.sample_variance();
         const double variance = luminance(per_channel);
         variances.push_back(variance);
@@ -213,8 +210,8 @@ PassVariance pass_variance(std::span<const PixelEstimate> pixels) {
             result.stuv_ppg += n * std::min(luminance(theirs), kVarianceClamp) / (n - 1);
         }
     }
-    if (rendered == 0) return result;
-    const auto count = static_cast<double>(rendered);
+    if (variances.empty()) return result;
+    const auto count = static_cast<double>(variances.size());
     result.stuv /= count;
     result.mse_of_sample /= count;
     result.stuv_ppg /= count;

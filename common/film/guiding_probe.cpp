@@ -93,6 +93,7 @@ void GuidingProbe::add(std::span<const PixelEstimate> pixels, const TraceStats& 
 
 double GuidingProbe::gain(std::span<const PixelEstimate> pixels, const TraceStats& stats, std::uint32_t pass,
                           std::span<const Rgb64> image, std::size_t width) const {
+    if (unguided_.size() < kLeastPixels) return 0;
     const Levels levels(image, width);
     if (!(levels.mean() > 0)) return 0;
     std::vector<Weighted> guided, unguided;
@@ -102,7 +103,7 @@ double GuidingProbe::gain(std::span<const PixelEstimate> pixels, const TraceStat
             guided.push_back({luminance(whole.sample_variance()) / levels.square_at(p), 1.0});
     for (const Unguided& u : unguided_)
         unguided.push_back({u.variance / levels.square_at(u.pixel), u.samples - 1.0});
-    if (std::min(guided.size(), unguided.size()) < kLeastPixels) return 0;
+    if (guided.size() < kLeastPixels) return 0;
     const double rays = per_path(stats.rays - stats.probe_rays, stats.paths - stats.probe_paths);
     const double with = trimmed(std::move(guided)) * rays * kGuidedRayCost;
     const double without = trimmed(std::move(unguided)) * per_path(rays_, paths_);

@@ -106,8 +106,8 @@ class MaterialInspection {
                 add(error, "extreme alpha", value, "give 0.0001 to 1");
             else if (alpha->value < Roughness::kLeastAlpha)
                 add(warning, "extreme alpha", value, "it is raised to 0.0001; take the smooth material");
-            else if (alpha->value < 1e-3f &&
-                     alpha->value != Roughness::kLeastAlpha)  // the reader raises to it, and says so
+            // To the least one the reader raises, and says so.
+            else if (alpha->value < 1e-3f && alpha->value != Roughness::kLeastAlpha)
                 add(note, "extreme alpha", value, "the smooth material looks the same and has less noise");
             else if (alpha->value > 1.0f)
                 add(warning, "extreme alpha", value, "values above 1 lose energy; give at most 1");

@@ -5,8 +5,6 @@
 namespace treefarm::validation {
 namespace {
 
-/// Below it facets' densities leave single precision; Mitsuba 0.6 and 3 raise alpha to the same (microfacet.h).
-
 class MaterialCheck {
   public:
     MaterialCheck(Scene& scene, std::size_t index, const std::vector<ValueRange>& textures,

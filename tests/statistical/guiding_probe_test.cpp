@@ -44,6 +44,7 @@ TEST(GuidingProbe, GuidingEndsWhereItDoesNotPay) {
     ASSERT_FALSE(run.guiding_gains.empty());
     EXPECT_LT(run.guiding_gains.back(), 0.1);
     EXPECT_FALSE(run.states.back().guiding_pays);
+    EXPECT_EQ(run.guiding_gains.size(), 4u) << "passes of 1 to 8 spp; nobody asks again";
 
     job.guiding.type = GuidingType::none;
     job.sampler.seed = 5;
@@ -69,6 +70,7 @@ TEST(GuidingProbe, ProbePixelsAreUnguided) {
             expected += probe.holds(p);
         const bool probed = run.stats[k].probe_paths != 0;
         probes += probed;
+        EXPECT_EQ(probed, run.passes[k].spp >= 4 && run.passes[k].spp <= 16);
         EXPECT_EQ(run.stats[k].probe_paths, probed ? expected * run.passes[k].spp : 0);
         EXPECT_EQ(run.stats[k].probe_rays > run.stats[k].probe_paths, probed);
         for (std::uint32_t p = 0; p < 64 * 64; ++p)

@@ -154,6 +154,21 @@ TEST(Resampling, NothingWorthTakingIsNothing) {
     EXPECT_FALSE(candidates.take(4, 0.5f, s));
 }
 
+TEST(Resampling, ProductsBeyondFloatsStillChoose) {
+    for (const float f : {1e-42f, 1e-36f, 1e38f}) {
+        ScatterSample sample;
+        sample.f_cos = Rgb(f);
+        sample.pdf = 1.0f;
+        sample.guide_pdf = f > 1.0f ? 1e6f : 1.0f;
+        Candidates candidates;
+        candidates.offer(sample);
+        candidates.offer(sample);
+        ScatterSample taken;
+        ASSERT_TRUE(candidates.take(2, 0.7f, taken));
+        EXPECT_NEAR(taken.effective_pdf, 1.0f, 1e-5f) << f;
+    }
+}
+
 TEST(Resampling, NoDirectionWeighsMuchMoreThanAlone) {
     ScatterSample bright{}, dark{};
     bright.f_cos = dark.f_cos = Rgb(1.0f);
