@@ -58,6 +58,13 @@ enum class DirectionalFilter : std::uint8_t {
     box,      ///< over a square of that cell's size around its direction
 };
 
+/// How next event chooses among a scene's emitters.
+enum class LightSelection : std::uint8_t {
+    usual,    ///< as the type says: learned in view and auto, by power in ppg
+    power,    ///< by power, everywhere the same
+    learned,  ///< per region, by what next event found there
+};
+
 /// What the cells of a region are sampled in proportion to.
 enum class GuidingRoulette : std::uint8_t {
     constant,  ///< paths survive with 0.99
@@ -115,6 +122,7 @@ struct Job {
         GuidingRoulette roulette = GuidingRoulette::adjoint;
         int candidates = 0;       ///< directions drawn at a guided vertex, of which one is taken; 0: as the type says
         int candidate_depth = 1;  ///< up to which depth
+        LightSelection light_selection = LightSelection::usual;
         ViewRecords view_records = ViewRecords::product;
         int view_threshold = 4000;            ///< c of the split rule of views
         int spatial_threshold = 0;            ///< c of the spatial split rule; 0: as the film says

@@ -252,6 +252,13 @@ std::vector<JobKey> make_job_keys() {
     add(integer_key(
         "guiding.candidate_depth", "1 and more", "vertices from the camera that draw so many; deeper ones draw one",
         [](auto& j) -> auto& { return j.guiding.candidate_depth; }, 1, kMaxInt));
+    add(word_key(
+        "guiding.light_selection",
+        "how next event chooses among emitters: by power, or as learned per region; usual: learned where guiding.type "
+        "is view or auto",
+        [](auto& j) -> auto& { return j.guiding.light_selection; },
+        std::vector<std::pair<std::string, LightSelection>>{
+            {"usual", LightSelection::usual}, {"power", LightSelection::power}, {"learned", LightSelection::learned}}));
     add(word_key("guiding.spatial_filter",
                  "which region a record goes to; stochastic: that of its position moved by up to half a region",
                  [](auto& j) -> auto& { return j.guiding.spatial_filter; },
@@ -352,35 +359,6 @@ std::span<const std::pair<std::string, std::string>> unavailable_job_keys() {
         {"farm.checkpoint_seconds", "remove it"},
     };
     return keys;
-}
-
-std::span<const Setting> preset_settings(const std::string& preset) {
-    static const std::vector<Setting> paper = {
-        {"guiding.type", "ppg", {}},
-        {"integrator.next_event", "never", {}},
-        {"guiding.spatial_threshold", "12000", {}},
-        {"guiding.directional_threshold", "0.01", {}},
-        {"guiding.bsdf_fraction", "0.5", {}},
-        {"guiding.spp_unit", "4", {}},
-        {"guiding.combination", "last", {}},
-        {"guiding.spatial_filter", "nearest", {}},
-        {"guiding.directional_filter", "nearest", {}},
-        {"guiding.target", "radiance", {}},
-        {"guiding.roulette", "constant", {}},
-        {"guiding.candidates", "1", {}},
-    };
-    // The thesis' program is that of paper but for these: they come later and win.
-    static const std::vector<Setting> thesis = [] {
-        std::vector<Setting> settings = paper;
-        settings.insert(settings.end(), {{"guiding.type", "view", {}},
-                                         {"integrator.next_event", "kickstart", {}},
-                                         {"guiding.view_records", "radiance", {}},
-                                         {"guiding.view_threshold", "4000", {}}});
-        return settings;
-    }();
-    if (preset == "paper") return paper;
-    if (preset == "thesis") return thesis;
-    return {};
 }
 
 std::string job_key_documentation() {

@@ -52,9 +52,6 @@ std::span<const std::pair<std::string, std::string>> unavailable_job_keys();
 /// Values for $name in the scene stand below this: "scene.defines.name".
 inline constexpr char kDefinesPrefix[] = "scene.defines.";
 
-/// The settings that a value of guiding.preset stands for; "" stands for none.
-std::span<const Setting> preset_settings(const std::string& preset);
-
 /// A Markdown table of all keys with defaults, for docs/.
 std::string job_key_documentation();
 

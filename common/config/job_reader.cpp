@@ -9,6 +9,7 @@
 
 #include "common/config/job_keys.h"
 #include "common/config/parse_text.h"
+#include "common/config/presets.h"
 #include "common/config/toml_settings.h"
 
 namespace treefarm {

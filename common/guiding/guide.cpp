@@ -36,6 +36,7 @@ Guide::Guide(const SdTree& tree)
       view_fraction_(tree.view_fraction),
       quantum_exponent_(tree.quantum_exponent),
       bsdf_fraction_(tree.bsdf_fraction),
+      light_share_(tree.light_share),
       region_depth_(tree.region_count()) {
     build_treelet(tree, 0, 0);
 
@@ -199,8 +200,8 @@ Guide::Place Guide::sample_place(std::uint32_t distribution, std::uint32_t pick,
 std::size_t Guide::bytes() const {
     return treelets_.size() * sizeof(treelets_[0]) + cells_.size() * sizeof(Cell) +
            (mass_guide_.size() + code_guide_.size()) * sizeof(GuideTable) + quantum_exponent_.size() * 2 +
-           bsdf_fraction_.size() * 4 + region_depth_.size() + view_count() * 12 +
-           (view_set_.size() + view_begin_.size()) * 4;
+           bsdf_fraction_.size() * 4 + light_share_.size() * sizeof(LightShare) + region_depth_.size() +
+           view_count() * 12 + (view_set_.size() + view_begin_.size()) * 4;
 }
 
 }  // namespace treefarm

@@ -43,6 +43,13 @@ class Guide {
     /// Probability of sampling the view that is this distribution.
     float view_fraction(std::uint32_t distribution) const { return view_fraction_[distribution - region_count()]; }
 
+    /// Whether next event learns how to choose emitters.
+    bool learns_lights() const { return !light_share_.empty(); }
+    /// How next event chooses emitters in a region: nullptr, by power.
+    const LightShare* light_share(std::uint32_t region) const {
+        return light_share_.empty() ? nullptr : &light_share_[region];
+    }
+
     /// The region of a point. Points outside the cube belong to the nearest region (the caller may count them with
     /// contains()).
     std::uint32_t region(const Vec3& position) const;
@@ -131,6 +138,7 @@ class Guide {
     std::vector<float> view_fraction_;
     std::vector<std::int16_t> quantum_exponent_;
     std::vector<float> bsdf_fraction_;
+    std::vector<LightShare> light_share_;
     std::vector<std::uint8_t> region_depth_;  ///< halvings from the cube to the region
 };
 

@@ -40,7 +40,8 @@ double best_bsdf_fraction(const MixtureHistogram& histogram, double prior, doubl
 void MixtureLearner::learn(const SdTree& tree, const TreeSums& sums, std::span<const RegionOrigin> origins,
                            SdTree& next) {
     const std::size_t regions = tree.region_count();
-    if (sums.shape() != SumsShape(tree.region_count(), tree.cell_count(), true, tree.view_count()))
+    if (sums.shape() !=
+        SumsShape(tree.region_count(), tree.cell_count(), true, tree.view_count(), !tree.light_share.empty()))
         throw RunError("the sums to learn the mixture from belong to another tree");
     histograms_.resize(regions);
     std::vector<float> fraction(regions);

@@ -43,6 +43,7 @@ SdTree initial_tree(const Box3& bounds, const InitialTree& settings) {
         tree.view_depth = {0};
         tree.view_fraction = {settings.view_fraction};
     }
+    if (settings.with_lights) tree.light_share = {{kLightShareOne}};
     return tree;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -7,6 +8,12 @@
 #include "common/math/vec.h"
 
 namespace treefarm {
+
+/// How next event chooses an emitter in a region, in parts of kLightShareOne, to which they sum: [0] by power among all
+/// of them, [c + 1] among those of cluster c (worker/lights/light_clusters.h).
+inline constexpr int kLightClusters = 15;
+inline constexpr std::uint16_t kLightShareOne = 1 << 15;
+using LightShare = std::array<std::uint16_t, kLightClusters + 1>;
 
 /// The SD-tree as plain values (Mueller et al. 2017): a binary tree over a cube of space, axes cycling x, y, z,
 /// midpoint splits, whose leaves ("regions") each hold a quadtree over directions, T1. Frozen for a pass; node, region
@@ -44,6 +51,8 @@ struct SdTree {
     std::vector<float> bsdf_fraction;  ///< per distribution: probability of sampling the BSDF rather than a tree where
                                        ///< it is the finest that there is, (0, 1]
 
+    std::vector<LightShare> light_share;  ///< per region; empty: emitters are chosen by power, and nothing is learned
+
     std::uint32_t distribution_count() const { return static_cast<std::uint32_t>(quantum_exponent.size()); }
     std::uint32_t view_count() const { return static_cast<std::uint32_t>(view_depth.size()); }
     std::uint32_t view_set_count() const {
@@ -66,6 +75,7 @@ struct InitialTree {
     float bsdf_fraction = 0.5f;
     bool with_views = false;
     float view_fraction = 0.0f;
+    bool with_lights = false;  ///< next event learns how to choose emitters
 };
 SdTree initial_tree(const Box3& bounds, const InitialTree& settings);
 inline SdTree initial_tree(const Box3& bounds, float radiance_scale, float bsdf_fraction = 0.5f) {

@@ -80,12 +80,17 @@ void Accumulator::add_box(const Record& record, UpdateCaps& met) {
 }
 
 void Accumulator::add_record(const Record& record, UpdateCaps& met) {
+    bool capped = false;
+    if (record.bin >= kLightBin) {
+        const std::uint64_t units = quantise(record.reflected, 0, record.rounding, capped);
+        if (units != 0 && !sums_.add_light(record.distribution, record.bin - kLightBin, units)) ++met.saturated_cells;
+        return;
+    }
     if (filter_ == DirectionalFilter::box)
         add_box(record, met);
     else
         add_quanta(record, record.code, record.value, record.rounding, met);
     if (!with_mixture_ || !(record.reflected > 0.0f)) return;
-    bool capped = false;
     const std::uint64_t quanta =
         quantise(record.reflected, guide_.quantum_exponent(record.distribution), scrambled(record.rounding, 0), capped);
     met.capped_records += capped;

@@ -33,7 +33,9 @@ class Accumulator {
     void add_quanta(const Record& record, std::uint32_t code, float value, std::uint32_t random, UpdateCaps& met);
     void add_box(const Record& record, UpdateCaps& met);
 
-    SumsShape shape() const { return {guide_.region_count(), guide_.cell_count(), with_mixture_, guide_.view_count()}; }
+    SumsShape shape() const {
+        return {guide_.region_count(), guide_.cell_count(), with_mixture_, guide_.view_count(), guide_.learns_lights()};
+    }
 
     const Guide& guide_;
     const DirectionalFilter filter_;

@@ -8,7 +8,7 @@ namespace treefarm {
 namespace {
 
 constexpr std::uint32_t kMagic = 0x52544654;  // "TFTR"
-constexpr std::uint8_t kVersion = 3;
+constexpr std::uint8_t kVersion = 4;
 /// No tree of 2^31 cells needs more; a claim above it is a broken or hostile message.
 constexpr std::uint64_t kMaxRawBytes = std::uint64_t{1} << 34;
 constexpr int kCompressionLevel = 1;  // fast: a broadcast waits for it
@@ -108,6 +108,27 @@ void write_views(ByteWriter& out, const SdTree& tree) {
         out.put_varint(set == SdTree::kNoViews ? 0 : std::uint64_t{set} + 1);
 }
 
+void write_lights(ByteWriter& out, const SdTree& tree) {
+    out.put<std::uint8_t>(!tree.light_share.empty());
+    for (const LightShare& share : tree.light_share)
+        for (const std::uint16_t part : share)
+            out.put(part);
+}
+
+void read_lights(ByteReader& in, SdTree& tree, std::uint32_t regions) {
+    const auto present = in.get<std::uint8_t>();
+    if (present > 1) throw FormatError("a tree's choice of emitters is malformed");
+    if (present == 0) return;
+    if (regions > in.remaining() / sizeof(LightShare)) throw FormatError("a tree's choice of emitters is cut short");
+    tree.light_share.resize(regions);
+    for (LightShare& share : tree.light_share) {
+        std::uint32_t sum = 0;
+        for (std::uint16_t& part : share)
+            sum += part = in.get<std::uint16_t>();
+        if (sum != kLightShareOne) throw FormatError("a region's choice of emitters does not sum to one");
+    }
+}
+
 }  // namespace
 
 Bytes encode_tree(const SdTree& tree) {
@@ -121,6 +142,7 @@ Bytes encode_tree(const SdTree& tree) {
     out.put_array(std::span<const std::int16_t>(tree.quantum_exponent));
     out.put_array(std::span<const float>(tree.bsdf_fraction));
     write_views(out, tree);
+    write_lights(out, tree);
     out.put_array(std::span<const std::uint8_t>(tree.cell_depth));
     for (const std::uint32_t mass : tree.cell_mass)
         out.put_varint(mass);
@@ -185,6 +207,7 @@ SdTree decode_tree(std::span<const std::uint8_t> bytes) {
             tree.view_set.push_back(static_cast<std::uint32_t>(in.get_varint()) - 1);
         find_views(tree, nodes.regions);
     }
+    read_lights(in, tree, nodes.regions);
     tree.cell_depth = in.get_array<std::uint8_t>();
     if (tree.cell_depth.size() > in.remaining()) throw FormatError("a tree's cells are cut short");
     tree.cell_mass.reserve(tree.cell_depth.size());

@@ -7,6 +7,7 @@ SdTree TreeLearner::learn(const SdTree& tree, const TreeSums& sums, const Refine
     std::vector<ViewAdvice> advice;
     if (learn_mixture && tree.view_count() != 0) advice = views_.judge(tree, sums);
     SdTree next = refine(tree, sums, settings, report, advice);
+    if (!tree.light_share.empty()) lights_.learn(tree, sums, report.origins, next);
     if (!learn_mixture) return next;
     mixture_.learn(tree, sums, report.origins, next);
     views_.hand_down(report.view_origins, next);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "common/guiding/light_share.h"
 #include "common/guiding/mixture.h"
 #include "common/guiding/refine.h"
 #include "common/guiding/view_mixture.h"
@@ -15,6 +16,7 @@ class TreeLearner {
                  RefineReport& report);
 
   private:
+    LightLearner lights_;
     MixtureLearner mixture_;
     ViewLearner views_;
 };

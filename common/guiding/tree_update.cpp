@@ -10,6 +10,9 @@ namespace {
 constexpr std::uint64_t kMaxSum = std::numeric_limits<std::uint64_t>::max();
 constexpr int kMaxQuantaBits = 40;  // of one contribution; leaves 2^24 capped ones before a cell saturates
 
+/// Of what one next-event sample brings: more weighs as much, which only makes its emitter a little less popular.
+constexpr double kMostLightUnits = 0x1p38;
+
 /// False where the sum would pass 2^64 - 1 and stays there.
 bool add_saturating(std::uint64_t& sum, std::uint64_t quanta) {
     const bool fits = quanta <= kMaxSum - sum;
@@ -65,7 +68,8 @@ TreeSums::TreeSums(std::uint32_t pass, const SumsShape& shape)
       shape_(shape),
       cells_(shape.cells),
       counts_(shape.regions + shape.views),
-      mixture_(shape.mixture_begin(shape.regions + shape.views)) {}
+      mixture_(shape.mixture_begin(shape.regions + shape.views)),
+      lights_(shape.light_sums()) {}
 
 bool TreeSums::add_quanta(std::uint32_t cell, std::uint64_t quanta) {
     return add_saturating(cells_[cell], quanta);
@@ -73,6 +77,10 @@ bool TreeSums::add_quanta(std::uint32_t cell, std::uint64_t quanta) {
 
 bool TreeSums::add_mixture(std::uint32_t distribution, std::uint8_t bin, std::uint64_t quanta) {
     return add_saturating(mixture_[shape_.mixture_begin(distribution) + bin], quanta);
+}
+
+bool TreeSums::add_light(std::uint32_t region, int cluster, std::uint64_t quanta) {
+    return add_saturating(lights_[std::size_t{region} * kLightClusters + static_cast<std::size_t>(cluster)], quanta);
 }
 
 void TreeSums::add(const TreeSums& other) {
@@ -83,6 +91,8 @@ void TreeSums::add(const TreeSums& other) {
         counts_[r] += other.counts_[r];
     for (std::size_t m = 0; m < mixture_.size(); ++m)
         if (!add_saturating(mixture_[m], other.mixture_[m])) ++caps_.saturated_cells;
+    for (std::size_t l = 0; l < lights_.size(); ++l)
+        if (!add_saturating(lights_[l], other.lights_[l])) ++caps_.saturated_cells;
     caps_.add(other.caps_);
 }
 
@@ -90,6 +100,7 @@ void TreeSums::clear() {
     std::fill(cells_.begin(), cells_.end(), 0);
     std::fill(counts_.begin(), counts_.end(), 0);
     std::fill(mixture_.begin(), mixture_.end(), 0);
+    std::fill(lights_.begin(), lights_.end(), 0);
     caps_ = {};
 }
 
@@ -99,21 +110,24 @@ Bytes TreeSums::encode() const {
     out.put_varint(cells_.size());
     out.put_varint(counts_.size());
     out.put_varint(mixture_.size());
+    out.put_varint(lights_.size());
     out.put_varint(caps_.capped_records);
     out.put_varint(caps_.saturated_cells);
     out.put_varint(caps_.outside_positions);
     write_sparse(out, counts_);
     write_sparse(out, cells_);
     write_sparse(out, mixture_);
+    write_sparse(out, lights_);
     return out.take();
 }
 
 std::uint64_t TreeSums::merge_encoded(std::span<const std::uint8_t> update) {
     // Two readings: the first only checks, so that a bad message changes nothing.
-    const auto read = [&](auto&& on_count, auto&& on_cell, auto&& on_mixture) {
+    const auto read = [&](auto&& on_count, auto&& on_cell, auto&& on_mixture, auto&& on_light) {
         ByteReader in(update);
         const std::uint64_t pass = in.get_varint(), cells = in.get_varint(), distributions = in.get_varint();
-        if (in.get_varint() != mixture_.size() || pass != pass_ || cells != cells_.size() ||
+        const std::uint64_t bins = in.get_varint(), lights = in.get_varint();
+        if (bins != mixture_.size() || lights != lights_.size() || pass != pass_ || cells != cells_.size() ||
             distributions != counts_.size())
             throw FormatError("a tree update of pass " + std::to_string(pass) + " with " + std::to_string(cells) +
                               " cells does not fit the tree of pass " + std::to_string(pass_) + " with " +
@@ -125,11 +139,12 @@ std::uint64_t TreeSums::merge_encoded(std::span<const std::uint8_t> update) {
         read_sparse(in, counts_.size(), "distribution", on_count);
         read_sparse(in, cells_.size(), "cell", on_cell);
         read_sparse(in, mixture_.size(), "mixture bin", on_mixture);
+        read_sparse(in, lights_.size(), "cluster of emitters", on_light);
         in.expect_end();
         return caps;
     };
     const auto ignore = [](std::uint64_t, std::uint64_t) {};
-    read(ignore, ignore, ignore);
+    read(ignore, ignore, ignore, ignore);
     std::uint64_t touched = 0;
     const UpdateCaps caps =
         read([&](std::uint64_t distribution, std::uint64_t count) { counts_[distribution] += count; },
@@ -139,9 +154,24 @@ std::uint64_t TreeSums::merge_encoded(std::span<const std::uint8_t> update) {
              },
              [&](std::uint64_t bin, std::uint64_t sum) {
                  if (!add_saturating(mixture_[bin], sum)) ++caps_.saturated_cells;
+             },
+             [&](std::uint64_t light, std::uint64_t sum) {
+                 if (!add_saturating(lights_[light], sum)) ++caps_.saturated_cells;
              });
     caps_.add(caps);
     return touched;
+}
+
+Record light_record(std::uint32_t region, int quantum_exponent, std::uint8_t cluster, float chosen, float reflected) {
+    const double x = static_cast<double>(reflected);
+    const double units = std::ldexp(x * x * static_cast<double>(chosen), -light_exponent(quantum_exponent));
+    // Half of a unit rounds up: among 2^16 no randomness is needed.
+    return {region,
+            0,
+            std::uint32_t{1} << 31,
+            0.0f,
+            static_cast<float>(std::min(units, kMostLightUnits)),
+            static_cast<std::uint8_t>(kLightBin + cluster)};
 }
 
 std::uint64_t quantise(float value, int exponent, std::uint32_t random, bool& capped) {

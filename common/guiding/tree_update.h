@@ -6,12 +6,15 @@
 #include <vector>
 
 #include "common/base/bytes.h"
+#include "common/guiding/sd_tree.h"
 
 namespace treefarm {
 
 /// Bins of the mixture histogram of a region (mixture.h) and of a view (view_mixture.h).
 inline constexpr int kMixtureBins = 16;
 inline constexpr int kViewMixtureBins = 32;
+/// Records with this bin and above are none of the mixture: what next event found in cluster `bin - kLightBin`.
+inline constexpr std::uint8_t kLightBin = 64;
 
 /// What a path vertex taught a distribution: `value` of radiance arrived from the direction `code`.
 struct Record {
@@ -20,8 +23,17 @@ struct Record {
     std::uint32_t rounding;  ///< uniform bits of the keyed generator, for stochastic rounding
     float value;             ///< L / p (or what else the tree's target is), >= 0 and finite
     float reflected = 0.0f;  ///< f |cos| L / p, >= 0 and finite: what the mixture learns from
-    std::uint8_t bin = 0;    ///< of the mixture histogram
+    std::uint8_t bin = 0;    ///< of the mixture histogram, or kLightBin and a cluster
 };
+
+/// Second moments of emitters are counted in units of 2^light_exponent(e), where records are in units of 2^e: one like
+/// the average record is then 2^16 units, and sums hold from 2^-8 to 2^11 times what the average is.
+inline constexpr int light_exponent(int quantum_exponent) {
+    return 2 * quantum_exponent + kMeanRecordBits;
+}
+
+/// The record of a next-event sample of `cluster`, chosen with the probability `chosen`, that brought `reflected`.
+Record light_record(std::uint32_t region, int quantum_exponent, std::uint8_t cluster, float chosen, float reflected);
 
 /// Caps that were met. Nothing is dropped silently: they travel with the update and are reported.
 struct UpdateCaps {
@@ -39,11 +51,14 @@ struct SumsShape {
     std::uint32_t views = 0;
     std::uint32_t cells = 0;
     bool with_mixture = false;  ///< mixture histograms: kMixtureBins more sums per region, kViewMixtureBins per view
+    bool with_lights = false;   ///< of emitters: kLightClusters more sums per region
 
     SumsShape() = default;
-    SumsShape(std::uint32_t region_count, std::uint32_t cell_count, bool mixture = false, std::uint32_t view_count = 0)
-        : regions(region_count), views(view_count), cells(cell_count), with_mixture(mixture) {}
+    SumsShape(std::uint32_t region_count, std::uint32_t cell_count, bool mixture = false, std::uint32_t view_count = 0,
+              bool lights = false)
+        : regions(region_count), views(view_count), cells(cell_count), with_mixture(mixture), with_lights(lights) {}
     bool operator==(const SumsShape&) const = default;
+    std::size_t light_sums() const { return with_lights ? std::size_t{regions} * kLightClusters : 0; }
     /// Where the bins of a distribution begin; that of the distribution after the last: how many there are.
     std::size_t mixture_begin(std::uint32_t distribution) const {
         if (!with_mixture) return 0;
@@ -69,12 +84,18 @@ class TreeSums {
         const std::size_t begin = shape_.mixture_begin(distribution);
         return {mixture_.data() + begin, shape_.mixture_begin(distribution + 1) - begin};
     }
+    /// Second moments of what next event found in a region, per cluster of emitters; empty where that is not learned.
+    std::span<const std::uint64_t> lights(std::uint32_t region) const {
+        if (!shape_.with_lights) return {};
+        return {lights_.data() + std::size_t{region} * kLightClusters, kLightClusters};
+    }
     const SumsShape& shape() const { return shape_; }
     const UpdateCaps& caps() const { return caps_; }
 
     void add_count(std::uint32_t distribution, std::uint64_t count) { counts_[distribution] += count; }
     /// Adds to one cell; false where the sum would pass 2^64 - 1 and stays there (the caller counts it).
     bool add_quanta(std::uint32_t cell, std::uint64_t quanta);
+    bool add_light(std::uint32_t region, int cluster, std::uint64_t quanta);
     bool add_mixture(std::uint32_t distribution, std::uint8_t bin, std::uint64_t quanta);
     void add_caps(const UpdateCaps& caps) { caps_.add(caps); }
     void add(const TreeSums& other);
@@ -94,6 +115,7 @@ class TreeSums {
     std::vector<std::uint64_t> cells_;
     std::vector<std::uint64_t> counts_;
     std::vector<std::uint64_t> mixture_;
+    std::vector<std::uint64_t> lights_;
     UpdateCaps caps_;
 };
 

@@ -94,7 +94,7 @@ double view_gain(const ViewMixtureHistogram& histogram, const ViewFractions& fra
 
 std::vector<ViewAdvice> ViewLearner::judge(const SdTree& tree, const TreeSums& sums) {
     const std::uint32_t regions = tree.region_count(), views = tree.view_count();
-    if (sums.shape() != SumsShape(regions, tree.cell_count(), true, views))
+    if (sums.shape() != SumsShape(regions, tree.cell_count(), true, views, !tree.light_share.empty()))
         throw RunError("the sums to learn the mixture from belong to another tree");
     views_.resize(views);
     std::vector<ViewAdvice> advice(views);

@@ -1,5 +1,6 @@
 #include "common/plan/learning.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "common/plan/kernel.h"
@@ -14,11 +15,23 @@ constexpr double kFreeCells = 1 << 16;
 
 }  // namespace
 
+bool learns_lights(const Scene& scene, const Job& job) {
+    const bool learned = job.guiding.light_selection == LightSelection::learned ||
+                         (job.guiding.light_selection == LightSelection::usual && uses_views(job.guiding.type));
+    if (!learned || job.guiding.type == GuidingType::none || job.integrator.next_event == NextEvent::never)
+        return false;
+    const bool with_image = std::any_of(scene.emitters.begin(), scene.emitters.end(), [](const Emitter& emitter) {
+        return std::holds_alternative<EnvironmentEmitter>(emitter.kind);
+    });
+    return with_image || scene.emitters.size() > 1;
+}
+
 SdTree first_tree(const Scene& scene, const Job& job, const Box3& bounds, float radiance_scale) {
     const float a = job.guiding.bsdf_fraction;
     return initial_tree(
-        bounds, {job.guiding.target == GuidingTarget::variance ? radiance_scale * radiance_scale : radiance_scale, a,
-                 learns_views(scene, job), job.guiding.learn_bsdf_fraction ? 0.0f : 1.0f - a});
+        bounds,
+        {job.guiding.target == GuidingTarget::variance ? radiance_scale * radiance_scale : radiance_scale, a,
+         learns_views(scene, job), job.guiding.learn_bsdf_fraction ? 0.0f : 1.0f - a, learns_lights(scene, job)});
 }
 
 RefineSettings refine_settings(const Job& job, double film_pixels, const PassPlan& pass, const PassPlan& coming) {
@@ -39,7 +52,7 @@ RefineSettings refine_settings(const Job& job, double film_pixels, const PassPla
 }
 
 SumsShape sums_shape(const PassPlan& pass, const SdTree& tree) {
-    return {tree.region_count(), tree.cell_count(), pass.learn_mixture, tree.view_count()};
+    return {tree.region_count(), tree.cell_count(), pass.learn_mixture, tree.view_count(), !tree.light_share.empty()};
 }
 
 }  // namespace treefarm

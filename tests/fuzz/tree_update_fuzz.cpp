@@ -1,5 +1,6 @@
 #include <cstdlib>
 
+#include "common/guiding/light_share.h"
 #include "common/guiding/splat.h"
 #include "tests/fuzz/fuzz.h"
 #include "tests/support/random_tree.h"
@@ -9,13 +10,17 @@ using namespace treefarm;
 namespace {
 
 const SdTree& small_tree() {
-    static const SdTree tree = test::random_view_tree(2, 2000, 500, 500, 1);
+    static const SdTree tree = [] {
+        SdTree grown = test::random_view_tree(2, 2000, 500, 500, 1);
+        grown.light_share.assign(grown.region_count(), kChoiceByPower);
+        return grown;
+    }();
     return tree;
 }
 
 TreeSums empty_sums() {
     const SdTree& tree = small_tree();
-    return {tree.pass, SumsShape(tree.region_count(), tree.cell_count(), false, tree.view_count())};
+    return {tree.pass, SumsShape(tree.region_count(), tree.cell_count(), false, tree.view_count(), true)};
 }
 
 void merge(std::span<const std::uint8_t> bytes) {
@@ -67,6 +72,7 @@ std::vector<std::string> fuzz::seeds() {
     };
     const auto update = [&](std::size_t count) {
         std::vector<Record> records = test::random_view_records(guide, count, 5);
+        records.push_back(light_record(1, guide.quantum_exponent(1), 3, 0.5f, 2.0f));
         std::vector<std::uint32_t> counts(guide.distribution_count(), 1);
         Accumulator accumulator(small_tree().pass, guide);
         accumulator.commit(records, counts, {1, 2, 3});

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/chi_square.h"
+#include "tests/support/map_parts.h"
 #include "worker/lights/environment_map.h"
 
 namespace treefarm {
@@ -43,24 +44,26 @@ Vec2 place_of(const EnvironmentEmitter& e, const Vec3& d) {
 }
 
 /// Samples against the density over (u, v), where poles are no singularities.
-void expect_agreement(const TextureImage& image, const std::string& what, bool rows_at_poles = false) {
+void expect_agreement(const TextureImage& image, const std::string& what, bool rows_at_poles = false,
+                      bool learned = false) {
     EnvironmentEmitter emitter = turned();
     emitter.rows_at_poles = rows_at_poles;
     const EnvironmentMap map(emitter, image);
+    const test::MapParts parts(map, learned);
     constexpr int kColumns = 64, kRows = 32, kSub = 8, kSamples = 400000;
     std::vector<double> counts(kColumns * kRows), expected(kColumns * kRows);
     double integral = 0;
     for (int i = 0; i < kColumns * kSub; ++i)
         for (int j = 0; j < kRows * kSub; ++j) {
             const double u = (i + 0.5) / (kColumns * kSub), v = (j + 0.5) / (kRows * kSub);
-            const double share = double(map.pdf(direction_at(emitter, u, v))) * 2 * M_PI * M_PI * std::sin(M_PI * v) /
-                                 (kColumns * kSub * kRows * kSub);
+            const double share = double(map.pdf(direction_at(emitter, u, v), parts.choice)) * 2 * M_PI * M_PI *
+                                 std::sin(M_PI * v) / (kColumns * kSub * kRows * kSub);
             expected[static_cast<std::size_t>(j / kSub * kColumns + i / kSub)] += share * kSamples;
             integral += share;
         }
     EXPECT_NEAR(integral, 1.0, 2e-3) << what;
     for (std::uint32_t i = 0; i < kSamples; ++i) {
-        const Vec3 d = map.sample(draw({7, i, 0}, 1, Stream::light)).direction;
+        const Vec3 d = parts.sample(map, draw({7, i, 0}, 1, Stream::light)).direction;
         ASSERT_NEAR(d.length(), 1.0f, 1e-5f);
         const Vec2 place = place_of(emitter, d);
         const int x = std::min(static_cast<int>(place.x * kColumns), kColumns - 1);
@@ -102,6 +105,7 @@ TEST(EnvironmentMap, RandomTexels) {
         }
     expect_agreement(image, "random");
     expect_agreement(image, "random at poles", true);
+    expect_agreement(image, "random, parts as learned", false, true);
 }
 
 TEST(EnvironmentMap, LooksUpWhatTheInterfaceSays) {
@@ -151,18 +155,19 @@ TEST(EnvironmentMap, DensityIsPositiveWhereRadianceIs) {
     set(image, 40, 0, Rgb(0, 0, 1e-3f));
     const EnvironmentEmitter emitter = turned();
     const EnvironmentMap map(emitter, image);
+    const test::MapParts parts(map);
     int bright = 0;
     for (std::uint32_t i = 0; i < 300000; ++i) {
         const Draw r = draw({2, i, 0}, 0, Stream::light);
         const Vec3 d = direction_at(emitter, double(to_unit(r[0])), double(to_unit(r[1])));
         if (is_black(map.radiance(d))) continue;
         ++bright;
-        ASSERT_GT(map.pdf(d), 0.0f);
-        ASSERT_TRUE(std::isfinite(map.pdf(d)));
+        ASSERT_GT(map.pdf(d, parts.choice), 0.0f);
+        ASSERT_TRUE(std::isfinite(map.pdf(d, parts.choice)));
     }
     EXPECT_GT(bright, 500);
     for (const Vec3& pole : {emitter.y_axis, -emitter.y_axis, Vec3(0, 1, 0)}) {
-        EXPECT_TRUE(std::isfinite(map.pdf(pole)));
+        EXPECT_TRUE(std::isfinite(map.pdf(pole, parts.choice)));
         EXPECT_TRUE(is_finite(map.radiance(pole)));
     }
 }
@@ -184,13 +189,53 @@ TEST(EnvironmentMap, LargeImages) {
     set(image, 4000, 7, Rgb(1e6f));
     const EnvironmentEmitter emitter = turned();
     const EnvironmentMap map(emitter, image);
+    const test::MapParts parts(map);
     for (int i = 0; i < 1000; ++i)
-        ASSERT_GT(map.pdf(direction_at(emitter, (i + 0.5) / 1000, (i % 16 + 0.5) / 16)), 0.0f);
+        ASSERT_GT(map.pdf(direction_at(emitter, (i + 0.5) / 1000, (i % 16 + 0.5) / 16), parts.choice), 0.0f);
     int near = 0;
     for (std::uint32_t i = 0; i < 1000; ++i)
-        near += dot(map.sample(draw({7, i, 0}, 1, Stream::light)).direction,
+        near += dot(parts.sample(map, draw({7, i, 0}, 1, Stream::light)).direction,
                     direction_at(emitter, 4000.5 / 8192, 7.5 / 16)) > 0.9f;
-    EXPECT_EQ(near, 1000);
+    EXPECT_GT(near, 990) << "a few are drawn from dim parts";
+}
+
+/// Every texel is in exactly one part, and in the one that is looked up for it.
+TEST(EnvironmentParts, CoverTheImageOnce) {
+    for (const auto& [width, height] : {std::pair{1, 1}, {3, 2}, {700, 300}, {512, 256}, {1, 9}}) {
+        EnvironmentGrid grid(width, height);
+        for (int y = 0; y < height; ++y)
+            for (int x = 0; x < width; ++x)
+                grid.add(x, y, x == width / 3 && y == height / 4 ? 1e4 : 1.0 + (x * 7 + y) % 5, 1.0);
+        std::vector<int> owners(static_cast<std::size_t>(width * height), -1);
+        const std::vector<EnvironmentPart> parts = grid.parts(8);
+        EXPECT_LE(parts.size(), 8u);
+        for (std::size_t i = 0; i < parts.size(); ++i)
+            for (int y = parts[i].y0; y < parts[i].y1; ++y)
+                for (int x = parts[i].x0; x < parts[i].x1; ++x) {
+                    ASSERT_EQ(owners[static_cast<std::size_t>(y * width + x)], -1);
+                    owners[static_cast<std::size_t>(y * width + x)] = static_cast<int>(i);
+                }
+        for (int y = 0; y < height; ++y)
+            for (int x = 0; x < width; ++x) {
+                int found = 0;
+                for (std::size_t i = 1; i < parts.size(); ++i)
+                    if (parts[i].cut_from == found && (parts[i].cut_rows ? y : x) >= parts[i].cut_at)
+                        found = static_cast<int>(i);
+                ASSERT_EQ(found, owners[static_cast<std::size_t>(y * width + x)]);
+            }
+    }
+}
+
+TEST(EnvironmentParts, ASunIsCutFree) {
+    EnvironmentGrid grid(64, 32);
+    for (int y = 0; y < 32; ++y)
+        for (int x = 0; x < 64; ++x)
+            grid.add(x, y, x == 20 && y == 10 ? 2048.0 : 1.0, 1.0);
+    int smallest = 64 * 32;
+    for (const EnvironmentPart& part : grid.parts(8))
+        if (part.x0 <= 20 && 20 < part.x1 && part.y0 <= 10 && 10 < part.y1)
+            smallest = (part.x1 - part.x0) * (part.y1 - part.y0);
+    EXPECT_LE(smallest, 32);
 }
 
 }  // namespace

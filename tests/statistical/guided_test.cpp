@@ -17,13 +17,15 @@ struct Case {
     MisHeuristic mis = MisHeuristic::power;
     int spp_unit = 4;
     int candidates = 1, candidate_depth = 1;
+    LightSelection light_selection = LightSelection::power;
     std::uint32_t effort =
         1;  ///< more samples where rare ones make up much of the variance: blocks have to know theirs
 };
 
 void PrintTo(const Case& c, std::ostream* out) {
     *out << c.scene << ", next event " << static_cast<int>(c.next_event) << ", MIS " << static_cast<int>(c.mis)
-         << ", candidates " << c.candidates << " to depth " << c.candidate_depth;
+         << ", candidates " << c.candidates << " to depth " << c.candidate_depth << ", light selection "
+         << static_cast<int>(c.light_selection);
 }
 
 struct Estimate {
@@ -73,22 +75,25 @@ TEST_P(GuidedAgainstUnguided, AgreesInEveryBlock) {
     job.guiding.spp_unit = GetParam().spp_unit;
     job.guiding.candidates = GetParam().candidates;
     job.guiding.candidate_depth = GetParam().candidate_depth;
+    job.guiding.light_selection = GetParam().light_selection;
     job.integrator.next_event = GetParam().next_event;
     const Estimate guided = render(scene, job);
 
     expect_same(guided, unguided);
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, GuidedAgainstUnguided,
-                         ::testing::Values(Case{"cornell-box.xml", NextEvent::never},
-                                           Case{"cornell-box.xml", NextEvent::always},
-                                           Case{"cornell-box.xml", NextEvent::kickstart},
-                                           Case{"cornell-box.xml", NextEvent::always, MisHeuristic::balance, 1},
-                                           Case{"cornell-box.xml", NextEvent::never, MisHeuristic::balance, 1, 2},
-                                           Case{"cornell-box.xml", NextEvent::always, MisHeuristic::balance, 1, 4, 8},
-                                           Case{"caustic.xml", NextEvent::kickstart, MisHeuristic::power, 1, 3, 8},
-                                           Case{"door-ajar.xml", NextEvent::always},
-                                           Case{"door-ajar.xml", NextEvent::kickstart}));
+INSTANTIATE_TEST_SUITE_P(
+    Scenes, GuidedAgainstUnguided,
+    ::testing::Values(Case{"cornell-box.xml", NextEvent::never}, Case{"cornell-box.xml", NextEvent::always},
+                      Case{"cornell-box.xml", NextEvent::kickstart},
+                      Case{"cornell-box.xml", NextEvent::always, MisHeuristic::balance, 1},
+                      Case{"cornell-box.xml", NextEvent::never, MisHeuristic::balance, 1, 2},
+                      Case{"cornell-box.xml", NextEvent::always, MisHeuristic::balance, 1, 4, 8},
+                      Case{"caustic.xml", NextEvent::kickstart, MisHeuristic::power, 1, 3, 8},
+                      Case{"diffuse-room.xml", NextEvent::always, MisHeuristic::balance, 1, 1, 1,
+                           LightSelection::learned},
+                      Case{"features.xml", NextEvent::always, MisHeuristic::balance, 1, 2, 1, LightSelection::learned},
+                      Case{"door-ajar.xml", NextEvent::always}, Case{"door-ajar.xml", NextEvent::kickstart}));
 
 /// Against one: in this room a few rare samples make up so much of what unguided paths see that blocks do not know
 /// their own variance.

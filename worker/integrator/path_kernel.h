@@ -231,6 +231,7 @@ class PathKernel {
         observer_.scatter(s, path.throughput);
         path.scatter_pdf = s.pdf;
         path.scatter_point = hit.p;
+        path.scatter_lights = light_share(path);
         // One question for what is rare: the same bits say that a lobe may be delta, or refract.
         const bool rare = Surface::kGeneral && surface.delta_or_transmitting();
         if constexpr (Surface::kTransmits)
@@ -295,19 +296,27 @@ class PathKernel {
     [[gnu::noinline]] void from_emitter(std::uint8_t index, int depth) {
         const Emitters& emitters = scene_.emitters();
         const Path& path = paths_[index];
-        meet(index, emitters.emitted(path.hit, -path.ray.direction), depth,
-             [&] { return emitters.pdf_direct(path.scatter_point, path.ray.direction, path.hit); });
+        meet(index, emitters.emitted(path.hit, -path.ray.direction), depth, [&] {
+            return emitters.pdf_direct(path.scatter_point, path.ray.direction, path.hit, path.scatter_lights);
+        });
     }
 
     [[gnu::noinline]] void from_infinity(std::uint8_t index, int depth) {
         assert(scene_.effects().environment);
         const Emitters& emitters = scene_.emitters();
-        const Vec3& direction = paths_[index].ray.direction;
-        meet(index, emitters.environment(direction), depth, [&] { return emitters.pdf_environment(direction); });
+        const Path& path = paths_[index];
+        meet(index, emitters.environment(path.ray.direction), depth,
+             [&] { return emitters.pdf_environment(path.ray.direction, path.scatter_lights); });
     }
 
     [[gnu::noinline]] void look_at_environment(PendingLight& light) const {
         light.radiance = scene_.emitters().environment(light.wi);
+    }
+
+    /// How next event chooses an emitter where the path is: nullptr, by power.
+    const LightShare* light_share(const Path& path) const {
+        if constexpr (!kConverts) return nullptr;
+        return kGuided && path.probe ? nullptr : guide_.light_share(path.guidance.region);
     }
 
     /// Samples an emitter; whether it is seen is asked for all paths of a step together.
@@ -315,28 +324,17 @@ class PathKernel {
         const Path& path = paths_[index];
         const Surface& surface = *path.surface;
         const Hit& hit = path.hit;
+        const LightShare* const share = settings_.delta_alone ? nullptr : light_share(path);
         const DirectSample light = settings_.delta_alone ? scene_.emitters().sample_delta(hit.p, random)
-                                                         : scene_.emitters().sample_direct(hit.p, random);
+                                                         : scene_.emitters().sample_direct(hit.p, random, share);
         if (!(light.pdf > 0.0f) || light.black()) return;
         const Vec3 wi = surface.frame().to_local(light.wi);
         const BsdfValue bsdf = surface.bsdf().value(surface.wo(), wi);
         if (is_black(bsdf.f_cos)) return;
         if (settings_.strict_normals && dot(surface.ng(), light.wi) * wi.z <= 0.0f) return;
         ++stats_.shadow_rays;
-        PendingLight& pending = pending_.emplace_back();
-        pending.path = index;
-        pending.vertex = kRecord ? recorders_[index].vertex_count() : 0;
-        pending.guidance = path.guidance;
-        pending.wi = light.wi;
-        pending.distance = light.distance;
-        pending.pdf = light.pdf;
-        pending.delta = light.delta;
-        pending.bsdf_pdf = bsdf.pdf;
-        pending.from_environment = light.from_environment;
-        pending.f_cos = bsdf.f_cos;
-        pending.radiance = light.radiance;
-        pending.throughput = path.throughput;
-        pending_.aim(hit, light);
+        const std::uint32_t vertex = kRecord ? recorders_[index].vertex_count() : 0;
+        pending_.add(hit, light, {index, vertex, share != nullptr, path.guidance, path.throughput}, bsdf);
     }
 
     /// Traces the step's shadow rays, and adds what is seen, weighted against scattering.
@@ -348,7 +346,7 @@ class PathKernel {
         for (std::uint32_t i = 0; i < pending_.size(); ++i) {
             if (shadowed[i]) continue;
             seen[count++] = static_cast<std::uint8_t>(i);
-            if constexpr (kConverts) light_codes_.add(pending_[i].wi, pending_[i].guidance.region);
+            if constexpr (kConverts) light_codes_.add(pending_[i].wi, pending_[i].from.guidance.region);
         }
         if constexpr (kConverts) light_codes_.convert();
         if constexpr (kGuided) light_codes_.prefetch(guide_);
@@ -361,22 +359,23 @@ class PathKernel {
             look_at_environment(light);
         float scatter_pdf = light.delta ? 0.0f : light.bsdf_pdf;
         if constexpr (kGuided)
-            if (!light.delta) scatter_pdf = mixed_pdf_at<kViews>(guide_, light.guidance, light.bsdf_pdf, code);
+            if (!light.delta) scatter_pdf = mixed_pdf_at<kViews>(guide_, light.from.guidance, light.bsdf_pdf, code);
         const float weight = mis_weight(settings_.mis, light.pdf, scatter_pdf);
         const Rgb reflected = light.f_cos * light.radiance * (weight / light.pdf);
-        Path& path = paths_[light.path];
-        path.radiance += light.throughput * reflected;
-        observer_.next_event(light, scatter_pdf, weight, light.throughput * reflected);
+        Path& path = paths_[light.from.path];
+        path.radiance += light.from.throughput * reflected;
+        observer_.next_event(light, scatter_pdf, weight, light.from.throughput * reflected);
         if constexpr (!kRecord) return;
-        recorders_[light.path].add_reflected(light.vertex, reflected);
+        recorders_[light.from.path].add_reflected(light.from.vertex, reflected);
+        if (light.from.learned_choice) recorders_[light.from.path].add_choice(light.record(guide_, average(reflected)));
         // Scattering never meets a light without extent: its samples are weighted alone and teach the guide nothing.
         if (!settings_.record_light_samples || light.delta) return;
-        RecordTarget target{light.guidance.region, light.guidance.view};
+        RecordTarget target{light.from.guidance.region, light.from.guidance.view};
         if (settings_.jitter_records)
             target = moved<kViews>(guide_, path.hit.p, path.outgoing_code, target,
                                    draw(path.key, vertex_of(depth), Stream::light_jitter));
-        recorders_[light.path].add_light_sample(target, code, light.radiance * weight, average(reflected), light.pdf,
-                                                vertex_of(depth));
+        recorders_[light.from.path].add_light_sample(target, code, light.radiance * weight, average(reflected),
+                                                     light.pdf, vertex_of(depth));
     }
 
     const TraceScene& scene_;

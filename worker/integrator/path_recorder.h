@@ -22,6 +22,7 @@ class PathRecorder {
     void begin_path() {
         vertices_.clear();
         light_samples_.clear();
+        choices_.clear();
         outside_ = 0;
     }
 
@@ -65,6 +66,9 @@ class PathRecorder {
         light_samples_.push_back({target, vertex, {code, pdf, average(radiance), finite(reflected), 0, false}});
     }
 
+    /// What next event found, of which the choice of emitters learns.
+    void add_choice(const Record& record) { choices_.push_back(record); }
+
     void add_outside() { ++outside_; }
 
     /// Appends the path's records. Returns how many vertices and next-event samples were counted.
@@ -83,6 +87,7 @@ class PathRecorder {
         }
         for (const LightSample& s : light_samples_)
             teach(path, s.vertex, Stream::light_rounding, s.target, s.lesson, log);
+        log.records.insert(log.records.end(), choices_.begin(), choices_.end());
         log.caps.outside_positions += outside_;
         return recorded;
     }
@@ -153,6 +158,7 @@ class PathRecorder {
     ViewRecords view_records_;
     std::vector<Vertex> vertices_;
     std::vector<LightSample> light_samples_;
+    std::vector<Record> choices_;
     std::uint64_t outside_ = 0;
 };
 

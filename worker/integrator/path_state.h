@@ -16,8 +16,9 @@ struct PathState {
     float scatter_pdf;  ///< infinite after a delta lobe: next event cannot have found what it meets
     float spread;       ///< product of eta^2: what refraction took from the throughput and gives back later
     Vec3 scatter_point;
-    bool probe;          ///< unguided in a pass that probes whether guiding pays
-    int first_exponent;  ///< of the quanta where the camera's ray arrived: how bright it is there
+    const LightShare* scatter_lights;  ///< how next event chose an emitter there
+    bool probe;                        ///< unguided in a pass that probes whether guiding pays
+    int first_exponent;                ///< of the quanta where the camera's ray arrived: how bright it is there
 
     // Where the ray has arrived; left over from before where it met nothing.
     bool found;
@@ -36,6 +37,7 @@ struct PathState {
         radiance = scatter_point = Rgb(0.0f);
         throughput = Rgb(1.0f);
         scatter_pdf = 0.0f;
+        scatter_lights = nullptr;
         spread = 1.0f;
         guidance = {0, Guide::kNoView, 1.0f, 0.0f};
     }

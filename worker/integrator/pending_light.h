@@ -11,20 +11,34 @@
 
 namespace treefarm {
 
-/// A sampled emitter of which it is not yet known whether it is seen.
-struct PendingLight {
+/// Where an emitter was sampled from.
+struct LightSeeker {
     std::uint32_t path;    ///< of the batch
     std::uint32_t vertex;  ///< vertices that the path has recorded before this one
+    bool learned_choice;   ///< the emitter was chosen by what is learned of this region
     Guidance guidance;
-    Vec3 wi;  ///< as in DirectSample, like distance, pdf and delta
+    Rgb throughput;
+};
+
+/// A sampled emitter of which it is not yet known whether it is seen.
+struct PendingLight {
+    LightSeeker from;
+    Vec3 wi;  ///< as in DirectSample, like all to cluster_probability
     float distance;
     float pdf;
     bool delta;
     bool from_environment;
+    std::uint8_t cluster;
+    float cluster_probability;
     float bsdf_pdf;  ///< of scattering along wi
     Rgb f_cos;
     Rgb radiance;  ///< of the emitter, unless it is the environment
-    Rgb throughput;
+
+    /// What the choice of emitters learns of a sample that brought `reflected`.
+    Record record(const Guide& guide, float reflected) const {
+        const std::uint32_t region = from.guidance.region;
+        return light_record(region, guide.quantum_exponent(region), cluster, cluster_probability, reflected);
+    }
 };
 
 /// Those of one step of a batch of paths.
@@ -37,19 +51,22 @@ class PendingLights {
     std::uint32_t size() const { return count_; }
     PendingLight& operator[](std::size_t i) { return lights_[i]; }
 
-    PendingLight& emplace_back() {
+    /// Adds what was sampled where `hit` is, with the BSDF's value for it.
+    void add(const Hit& hit, const DirectSample& light, const LightSeeker& from, const BsdfValue& bsdf) {
         assert(count_ < kMost);
-        return lights_[count_++];
-    }
-
-    /// The shadow ray of the last one. Both ends of the segment are moved off their surfaces towards each other.
-    void aim(const Hit& hit, const DirectSample& light) {
-        Ray& ray = rays_[count_ - 1];
-        ray = {offset_origin(hit, light.wi), light.wi};
-        if (light.at_infinity()) return;
-        ray.direction = offset_origin(light.on_light, -light.wi) - ray.origin;
-        // Closer than the offsets: nothing fits between.
-        ray.length = dot(ray.direction, light.wi) > 0.0f ? 1.0f : -1.0f;
+        PendingLight& pending = lights_[count_];
+        pending.from = from;
+        pending.wi = light.wi;
+        pending.distance = light.distance;
+        pending.pdf = light.pdf;
+        pending.delta = light.delta;
+        pending.from_environment = light.from_environment;
+        pending.cluster = light.cluster;
+        pending.cluster_probability = light.cluster_probability;
+        pending.bsdf_pdf = bsdf.pdf;
+        pending.f_cos = bsdf.f_cos;
+        pending.radiance = light.radiance;
+        aim(rays_[count_++], hit, light);
     }
 
     /// Which of them are hidden.
@@ -62,6 +79,15 @@ class PendingLights {
     }
 
   private:
+    /// The shadow ray. Both ends of the segment are moved off their surfaces towards each other.
+    static void aim(Ray& ray, const Hit& hit, const DirectSample& light) {
+        ray = {offset_origin(hit, light.wi), light.wi};
+        if (light.at_infinity()) return;
+        ray.direction = offset_origin(light.on_light, -light.wi) - ray.origin;
+        // Closer than the offsets: nothing fits between.
+        ray.length = dot(ray.direction, light.wi) > 0.0f ? 1.0f : -1.0f;
+    }
+
     std::uint32_t count_ = 0;
     std::array<PendingLight, kMost> lights_;
     std::array<Ray, kMost> rays_;

@@ -16,6 +16,9 @@ struct DirectSample {
     bool delta = false;
     bool from_environment = false;  ///< radiance is still to be asked for: Emitters::environment()
 
+    std::uint8_t cluster = 0;       ///< of emitters (light_clusters.h)
+    float cluster_probability = 1;  ///< with which it was chosen
+
     bool at_infinity() const { return std::isinf(distance); }
     bool black() const { return !from_environment && is_black(radiance); }
 };

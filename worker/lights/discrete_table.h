@@ -35,6 +35,10 @@ class DiscreteTable {
 
     bool empty() const { return begin_.empty(); }
 
+    std::uint32_t size() const { return begin_.empty() ? 0 : static_cast<std::uint32_t>(begin_.size() - 1); }
+    /// Where the share of an entry begins, of 2^32; of the one after the last: 2^32.
+    std::uint64_t begin(std::uint32_t index) const { return begin_[index]; }
+
     /// Index of the entry that owns these bits; the table must not be empty.
     std::uint32_t pick(std::uint32_t bits) const {
         if (begin_.size() <= 9) {

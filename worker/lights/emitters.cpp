@@ -44,7 +44,8 @@ Emitters::Emitters(const std::vector<Emitter>& emitters, const EmbreeScene& geom
     // What crosses the scene's bounding sphere, as seen by a surface: pi L times its cross-section.
     const double from_infinity = double(kPi) * radius * radius * double(kPi);
     power.push_back(from_infinity * double(average(constant_)));
-    power.push_back(map_ ? from_infinity * map_->mean_radiance() : 0.0);
+    for (int part = 0; map_ && part < map_->part_count(); ++part)
+        power.push_back(from_infinity * map_->mean_radiance() * map_->part_weight(part));
     select(std::move(power));
 }
 
@@ -63,8 +64,20 @@ void Emitters::select(std::vector<double> power) {
         light.selection = selection_.probability(next++);
     for (std::size_t i = 0; i < delta_lights_.size(); ++i)
         delta_selection_.push_back(selection_.probability(next++));
+    constant_entry_ = next;
     constant_pdf_ = selection_.probability(next++) * kInvFourPi;
-    map_selection_ = selection_.probability(next);
+    for (int part = 0; map_ && part < map_->part_count(); ++part)
+        map_parts_[static_cast<std::size_t>(part)] = selection_.probability(next++);
+    clusters_ = LightClusters(selection_);
+}
+
+EnvironmentMap::PartChoice Emitters::part_choice(const LightShare* share) const {
+    if (!share) return map_parts_;
+    EnvironmentMap::PartChoice choice = map_parts_;
+    for (int part = 0; part < map_->part_count(); ++part)
+        choice[static_cast<std::size_t>(part)] *=
+            clusters_.factor(share, constant_entry_ + 1 + static_cast<std::uint32_t>(part));
+    return choice;
 }
 
 double Emitters::add_area_light(const AreaEmitter& emitter) {
@@ -98,11 +111,18 @@ Emitters::Channels Emitters::textured(const AreaLight& light, const Hit& hit) co
     return {c.x, c.y, c.z};
 }
 
-DirectSample Emitters::sample_direct(const Vec3& p, const Draw& random) const {
+DirectSample Emitters::sample_direct(const Vec3& p, const Draw& random, const LightShare* share) const {
     if (selection_.empty()) return {};
-    const std::uint32_t chosen = selection_.pick(random[0]);
-    if (chosen < area_lights_.size() && area_lights_[chosen].plain) return sample_mesh(area_lights_[chosen], p, random);
-    return sample_other(chosen, p, random);
+    LightClusters::Choice choice{0, random[0], 1.0f, 1.0f};
+    if (share) choice = clusters_.pick(*share, random[0]);
+    const std::uint32_t chosen = selection_.pick(choice.bits);
+    DirectSample sample = chosen < area_lights_.size() && area_lights_[chosen].plain
+                              ? sample_mesh(area_lights_[chosen], p, random)
+                              : sample_other(chosen, p, random, share);
+    if (!sample.from_environment) sample.pdf *= choice.factor;  // the environment has it in its density
+    sample.cluster = choice.cluster;
+    sample.cluster_probability = choice.probability;
+    return sample;
 }
 
 DirectSample Emitters::sample_delta(const Vec3& p, const Draw& random) const {
@@ -111,8 +131,9 @@ DirectSample Emitters::sample_delta(const Vec3& p, const Draw& random) const {
     return delta_lights_[chosen].sample(p, delta_alone_.probability(chosen));
 }
 
-DirectSample Emitters::sample_other(std::uint32_t chosen, const Vec3& p, const Draw& random) const {
-    if (chosen >= area_lights_.size()) return sample_without_area(chosen, p, random);
+DirectSample Emitters::sample_other(std::uint32_t chosen, const Vec3& p, const Draw& random,
+                                    const LightShare* share) const {
+    if (chosen >= area_lights_.size()) return sample_without_area(chosen, p, random, share);
     const AreaLight& light = area_lights_[chosen];
     DirectSample sample = light.sphere ? sample_sphere(light, p, random) : sample_area(light, p, random);
     if (is_black(sample.radiance)) return sample;
@@ -159,7 +180,8 @@ DirectSample Emitters::sample_sphere(const AreaLight& light, const Vec3& p, cons
     return sample;
 }
 
-DirectSample Emitters::sample_without_area(std::uint32_t chosen, const Vec3& p, const Draw& random) const {
+DirectSample Emitters::sample_without_area(std::uint32_t chosen, const Vec3& p, const Draw& random,
+                                           const LightShare* share) const {
     std::size_t index = chosen - area_lights_.size();
     if (index < delta_lights_.size()) return delta_lights_[index].sample(p, delta_selection_[index]);
     index -= delta_lights_.size();
@@ -169,29 +191,30 @@ DirectSample Emitters::sample_without_area(std::uint32_t chosen, const Vec3& p, 
     sample.distance = std::numeric_limits<float>::infinity();
     if (index == 0) {
         sample.wi = square_to_sphere({to_unit(random[2]), to_unit(random[3])});
-        sample.pdf = pdf_environment(sample.wi);
+        sample.pdf = pdf_environment(sample.wi, share);
     } else {
-        const EnvironmentMap::Sample of_map = map_->sample(random);
+        const EnvironmentMap::Sample of_map = map_->sample(static_cast<int>(index - 1), part_choice(share), random);
         sample.wi = of_map.direction;
-        sample.pdf = constant_pdf_ + map_selection_ * of_map.pdf;
+        sample.pdf = constant_pdf(share) + of_map.pdf;
     }
     return sample;
 }
 
-float Emitters::pdf_direct(const Vec3& p, const Vec3& wi, const Hit& hit) const {
+float Emitters::pdf_direct(const Vec3& p, const Vec3& wi, const Hit& hit, const LightShare* share) const {
     const std::int32_t index = light_of_shape_[hit.shape];
     if (index == kNone) return 0.0f;
     const AreaLight& light = area_lights_[static_cast<std::size_t>(index)];
+    const float selection = light.selection * clusters_.factor(share, static_cast<std::uint32_t>(index));
     float area_density;
     if (light.sphere) {
         const SphereCone cone = sphere_cone(*light.sphere, p);
-        if (cone.outside && light.by_cone) return light.selection * cone.pdf();
+        if (cone.outside && light.by_cone) return selection * cone.pdf();
         area_density = sphere_area_density(*light.sphere);
     } else {
         area_density = light.area_density[hit.primitive];
     }
     const Vec3 to_light = hit.p - p;
-    return light.selection * per_steradian(area_density, dot(to_light, to_light), std::abs(dot(hit.ng, wi)));
+    return selection * per_steradian(area_density, dot(to_light, to_light), std::abs(dot(hit.ng, wi)));
 }
 
 }  // namespace treefarm

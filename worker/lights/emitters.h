@@ -11,6 +11,7 @@
 #include "worker/lights/direct_sample.h"
 #include "worker/lights/discrete_table.h"
 #include "worker/lights/environment_map.h"
+#include "worker/lights/light_clusters.h"
 #include "worker/lights/sphere_cone.h"
 
 namespace treefarm {
@@ -34,8 +35,11 @@ class Emitters {
 
     /// Samples a direction from p. random[0] chooses the emitter, [1] the triangle, [2] and [3] the place; for an
     /// environment's image [1] and [2] the texel, [3] the place about it. What comes from infinity has no radiance yet:
-    /// environment() is to be asked once it is known to be seen.
-    DirectSample sample_direct(const Vec3& p, const Draw& random) const;
+    /// environment() is to be asked once it is known to be seen. `share`: how clusters of emitters are chosen; nullptr:
+    /// all by power.
+    DirectSample sample_direct(const Vec3& p, const Draw& random, const LightShare* share = nullptr) const;
+    /// Clusters that next event can learn to choose among.
+    const LightClusters& clusters() const { return clusters_; }
 
     /// Point, spot and directional lights, which nothing but sampling them finds.
     bool has_delta_lights() const { return !delta_lights_.empty(); }
@@ -43,7 +47,7 @@ class Emitters {
     DirectSample sample_delta(const Vec3& p, const Draw& random) const;
 
     /// Density per steradian with which sample_direct(p) finds `hit` along the unit direction wi; 0 if it never does.
-    float pdf_direct(const Vec3& p, const Vec3& wi, const Hit& hit) const;
+    float pdf_direct(const Vec3& p, const Vec3& wi, const Hit& hit, const LightShare* share = nullptr) const;
 
     /// Whether emitted() may be other than black on a shape.
     bool emits(std::uint32_t shape) const { return light_of_shape_[shape] != kNone; }
@@ -66,9 +70,9 @@ class Emitters {
     }
 
     /// Density of sample_direct() for directions in which nothing is hit.
-    float pdf_environment(const Vec3& direction) const {
+    float pdf_environment(const Vec3& direction, const LightShare* share = nullptr) const {
         if constexpr (!kHasEnvironment) return 0.0f;
-        return map_ ? constant_pdf_ + map_selection_ * map_->pdf(direction) : constant_pdf_;
+        return map_ ? constant_pdf(share) + map_->pdf(direction, part_choice(share)) : constant_pdf(share);
     }
 
   private:
@@ -95,13 +99,19 @@ class Emitters {
 
     double add_area_light(const AreaEmitter& emitter);
     void select(std::vector<double> power);
+    float constant_pdf(const LightShare* share) const {
+        return constant_pdf_ * clusters_.factor(share, constant_entry_);
+    }
+    EnvironmentMap::PartChoice part_choice(const LightShare* share) const;
     Channels textured(const AreaLight& light, const Hit& hit) const;
     /// Kept out of line, so that plain meshes pay nothing for the other kinds.
-    [[gnu::noinline]] DirectSample sample_other(std::uint32_t chosen, const Vec3& p, const Draw& random) const;
+    [[gnu::noinline]] DirectSample sample_other(std::uint32_t chosen, const Vec3& p, const Draw& random,
+                                                const LightShare* share) const;
     DirectSample sample_mesh(const AreaLight& light, const Vec3& p, const Draw& random) const;
     DirectSample sample_area(const AreaLight& light, const Vec3& p, const Draw& random) const;
     DirectSample sample_sphere(const AreaLight& light, const Vec3& p, const Draw& random) const;
-    DirectSample sample_without_area(std::uint32_t chosen, const Vec3& p, const Draw& random) const;
+    DirectSample sample_without_area(std::uint32_t chosen, const Vec3& p, const Draw& random,
+                                     const LightShare* share) const;
 
     const EmbreeScene* geometry_;
     const TextureSet* textures_;
@@ -110,11 +120,13 @@ class Emitters {
     std::vector<DeltaLight> delta_lights_;
     std::vector<float> delta_selection_;  ///< probability that each is chosen
     DiscreteTable delta_alone_;           ///< over delta lights
-    DiscreteTable selection_;             ///< over area lights, delta lights, the constant environment, the image
+    DiscreteTable selection_;  ///< over area lights, delta lights, the constant environment, parts of the image
+    LightClusters clusters_;   ///< of its entries
     Rgb constant_{0.0f};
+    std::uint32_t constant_entry_ = 0;
     float constant_pdf_ = 0;
     std::unique_ptr<EnvironmentMap> map_;
-    float map_selection_ = 0;
+    EnvironmentMap::PartChoice map_parts_{};  ///< probability that each is chosen
     bool shines_from_infinity_ = false;
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <numeric>
 
 #include "common/math/elementary.h"
 
@@ -69,9 +70,7 @@ EnvironmentMap::EnvironmentMap(const EnvironmentEmitter& emitter, const TextureI
       y_axis_(emitter.y_axis),
       z_axis_(emitter.z_axis),
       // d(u) d(v) = d(solid angle) / (2 pi^2 sin(theta)).
-      density_scale_(
-          static_cast<float>(double(width_) * double(half_turn_) * 0x1p-62 / (2 * double(kPi) * double(kPi)))),
-      rows_(static_cast<std::size_t>(height_) + 1),
+      density_scale_(static_cast<float>(double(width_) * double(half_turn_) / (2 * double(kPi) * double(kPi)))),
       columns_(static_cast<std::size_t>(height_) * (static_cast<std::size_t>(width_) + 1)),
       guide_bits_(std::max(0, static_cast<int>(std::bit_width(static_cast<unsigned>(width_))) - 5)),
       guide_(static_cast<std::size_t>(height_) * ((std::size_t{1} << guide_bits_) + 1)) {
@@ -79,6 +78,7 @@ EnvironmentMap::EnvironmentMap(const EnvironmentEmitter& emitter, const TextureI
     double sum = 0, sines = 0;
     bool all_clean = true;
     std::vector<double> row_weights(static_cast<std::size_t>(height_)), weights(width);
+    EnvironmentGrid grid(width_, height_);
     for (int y = 0; y < height_; ++y) {
         const auto row = static_cast<std::size_t>(y);
         // On a pole, where the sine is 0, a sixth of a row away: the share of the sphere that the texel shines from.
@@ -91,6 +91,7 @@ EnvironmentMap::EnvironmentMap(const EnvironmentEmitter& emitter, const TextureI
             all_clean = all_clean && texel == treefarm::texel(image, x, y);
             sum += sine * double(average(texel));
             row_weights[row] += weights[static_cast<std::size_t>(x)] = sine * double(luminance(texel));
+            grid.add(x, y, weights[static_cast<std::size_t>(x)], sine);
         }
         if (on_pole(y)) row_weights[row] *= 0.5;
         std::uint32_t* const begin = &columns_[row * (width + 1)];
@@ -103,7 +104,32 @@ EnvironmentMap::EnvironmentMap(const EnvironmentEmitter& emitter, const TextureI
     }
     clean_ = all_clean;
     mean_ = double(scale_) * sum / (sines * static_cast<double>(width_));
-    if (!share(row_weights, rows_.data())) mean_ = 0;
+    const double whole = std::accumulate(row_weights.begin(), row_weights.end(), 0.0);
+    if (!(whole > 0)) mean_ = 0;
+    for (const EnvironmentPart& part : grid.parts(kMostParts))
+        add_part(part, whole, row_weights);
+}
+
+void EnvironmentMap::add_part(const EnvironmentPart& texels, double whole, const std::vector<double>& row_weights) {
+    const auto rows = static_cast<std::size_t>(texels.y1 - texels.y0);
+    Part part{texels, 0, std::vector<std::uint32_t>(rows + 1), std::vector<float>(rows)};
+    std::vector<double> weights(rows);
+    double sum = 0;
+    for (std::size_t row = 0; row < rows; ++row) {
+        const int y = texels.y0 + static_cast<int>(row);
+        const double columns = double(column_begin(texels.x1, y) - column_begin(texels.x0, y)) / double(kTotal);
+        sum += weights[row] = row_weights[static_cast<std::size_t>(y)] * columns;
+    }
+    share(weights, part.rows.data());
+    for (std::size_t row = 0; row < rows; ++row) {
+        if (!(weights[row] > 0)) continue;
+        const int y = texels.y0 + static_cast<int>(row);
+        const double columns = double(column_begin(texels.x1, y) - column_begin(texels.x0, y));
+        part.density[row] = static_cast<float>(double(part.rows[row + 1] - part.rows[row]) / double(kTotal) / columns *
+                                               (on_pole(y) ? 2.0 : 1.0));
+    }
+    part.weight = whole > 0 ? sum / whole : 0.0;
+    parts_.push_back(std::move(part));
 }
 
 Rgb EnvironmentMap::clean_texel(int x, int y) const {
@@ -143,15 +169,24 @@ Rgb EnvironmentMap::radiance(const Vec3& direction) const {
     return (upper * (1.0f - p.fy) + lower * p.fy) * scale_;
 }
 
-float EnvironmentMap::row_density(int y) const {
-    const std::uint32_t* const begin = &rows_[static_cast<std::size_t>(y)];
-    return static_cast<float>(begin[1] - begin[0]) * (on_pole(y) ? 2.0f : 1.0f);
+int EnvironmentMap::part_of(int x, int y) const {
+    int part = 0;
+    // A part that was cut lost its upper side to the one that came then.
+    for (int i = 1; i < part_count(); ++i) {
+        const EnvironmentPart& cut = parts_[static_cast<std::size_t>(i)].texels;
+        if (cut.cut_from == part && (cut.cut_rows ? y : x) >= cut.cut_at) part = i;
+    }
+    return part;
 }
 
-float EnvironmentMap::column_share(int x, int y) const {
-    const std::uint32_t* const begin =
-        &columns_[static_cast<std::size_t>(y) * (static_cast<std::size_t>(width_) + 1) + static_cast<std::size_t>(x)];
-    return static_cast<float>(begin[1] - begin[0]);
+std::uint32_t EnvironmentMap::column_begin(int x, int y) const {
+    return columns_[static_cast<std::size_t>(y) * (static_cast<std::size_t>(width_) + 1) + static_cast<std::size_t>(x)];
+}
+
+float EnvironmentMap::density(int part, int x, int y) const {
+    const Part& of = parts_[static_cast<std::size_t>(part)];
+    const auto columns = static_cast<float>(column_begin(x + 1, y) - column_begin(x, y));
+    return of.density[static_cast<std::size_t>(y - of.texels.y0)] * columns;
 }
 
 int EnvironmentMap::pick_column(int y, std::uint32_t bits) const {
@@ -164,23 +199,32 @@ int EnvironmentMap::pick_column(int y, std::uint32_t bits) const {
     return static_cast<int>(low + pick(begin + low, guide[entry + 1] - low + 1, bits));
 }
 
-float EnvironmentMap::pdf(const Place& p, float sine) const {
-    const float upper = row_density(p.y0) * mix(column_share(p.x0, p.y0), column_share(p.x1, p.y0), p.fx);
-    const float lower = row_density(p.y1) * mix(column_share(p.x0, p.y1), column_share(p.x1, p.y1), p.fx);
+float EnvironmentMap::pdf(const Place& p, float sine, const PartChoice& choice) const {
+    const auto texel = [&](int x, int y) {
+        const int part = part_of(x, y);
+        return choice[static_cast<std::size_t>(part)] * density(part, x, y);
+    };
+    const float upper = mix(texel(p.x0, p.y0), texel(p.x1, p.y0), p.fx);
+    const float lower = mix(texel(p.x0, p.y1), texel(p.x1, p.y1), p.fx);
     // On the pole itself the density is as large as it likes.
     return mix(upper, lower, p.fy) * density_scale_ / std::max(sine, 1e-9f);
 }
 
-float EnvironmentMap::pdf(const Vec3& direction) const {
+float EnvironmentMap::pdf(const Vec3& direction, const PartChoice& choice) const {
     if (black()) return 0.0f;
     float sine;
     const Place p = place(direction, sine);
-    return pdf(p, sine);
+    return pdf(p, sine, choice);
 }
 
-EnvironmentMap::Sample EnvironmentMap::sample(const Draw& random) const {
-    const auto row = static_cast<int>(pick(rows_.data(), rows_.size() - 1, random[1]));
-    const float u = static_cast<float>(pick_column(row, random[2])) + sample_tent(random[3] & 0xffffu);
+EnvironmentMap::Sample EnvironmentMap::sample(int chosen, const PartChoice& choice, const Draw& random) const {
+    const Part& part = parts_[static_cast<std::size_t>(chosen)];
+    const int row = part.texels.y0 + static_cast<int>(pick(part.rows.data(), part.rows.size() - 1, random[1]));
+    // Bits within the part's share of the row.
+    const std::uint32_t begin = column_begin(part.texels.x0, row), end = column_begin(part.texels.x1, row);
+    const auto bits = static_cast<std::uint32_t>(2 * std::uint64_t{begin} +
+                                                 (std::uint64_t{random[2]} * (2 * std::uint64_t{end - begin}) >> 32));
+    const float u = static_cast<float>(pick_column(row, bits)) + sample_tent(random[3] & 0xffffu);
     const float rows = std::abs(static_cast<float>(row) + margin_ + sample_tent(random[3] >> 16));
     const float from_pole = std::min(rows, 2.0f * half_turn_ - rows);
     const float turn = (u + 0.5f) / static_cast<float>(width_);
@@ -189,7 +233,7 @@ EnvironmentMap::Sample EnvironmentMap::sample(const Draw& random) const {
     const Vec3 direction =
         x_axis_ * (polar.sin * azimuth.sin) + y_axis_ * polar.cos - z_axis_ * (polar.sin * azimuth.cos);
     return {direction * (1.0f / std::sqrt(dot(direction, direction))),
-            pdf(place(u, from_pole - margin_), std::abs(polar.sin))};
+            pdf(place(u, from_pole - margin_), std::abs(polar.sin), choice)};
 }
 
 }  // namespace treefarm

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
 #include "common/base/random.h"
 #include "common/scene/emitter.h"
+#include "worker/lights/environment_parts.h"
 #include "worker/textures/texture_set.h"
 
 namespace treefarm {
@@ -16,6 +18,9 @@ namespace treefarm {
 /// mirror image beyond a pole). So the density over (u, v) interpolates the texels' probabilities just as radiance is
 /// interpolated: it is continuous, follows the radiance within texels, and vanishes only where the radiance does. It is
 /// read from the very table that texels are picked from.
+///
+/// The image is cut into a few rectangles ("parts") of little power, little size or both, so that next event can learn
+/// which of them a place sees: a sun is one of its own.
 ///
 /// Tables are searched from guide entries, so that a column costs one line of cache however long the row is. Memory:
 /// 4.25 bytes for each texel besides the image itself, 0.6 MB for 512 x 256, 143 MB for 8192 x 4096.
@@ -29,11 +34,20 @@ class EnvironmentMap {
         float pdf;       ///< per steradian
     };
 
+    static constexpr int kMostParts = 8;
+    /// Probability with which each part is chosen.
+    using PartChoice = std::array<float, kMostParts>;
+
+    int part_count() const { return static_cast<int>(parts_.size()); }
+    /// Share of a part in the image's power.
+    double part_weight(int part) const { return parts_[static_cast<std::size_t>(part)].weight; }
+
     Rgb radiance(const Vec3& direction) const;
-    /// Density of sample(), per steradian.
-    float pdf(const Vec3& direction) const;
-    /// random[1] picks the row, [2] the column, [3] the place. black() must be false.
-    Sample sample(const Draw& random) const;
+    /// Density of sample() in parts that are chosen like this, per steradian.
+    float pdf(const Vec3& direction, const PartChoice& choice) const;
+    /// Draws from a part that was chosen: random[1] picks the row, [2] the column, [3] the place. Not from one without
+    /// weight.
+    Sample sample(int part, const PartChoice& choice, const Draw& random) const;
 
     /// Mean over all directions, of the channels' mean: W / (m^2 sr).
     double mean_radiance() const { return mean_; }
@@ -50,12 +64,14 @@ class EnvironmentMap {
     Place place(float u, float v) const;
     /// The same of a direction; `sine` becomes that of its angle from the pole.
     Place place(const Vec3& direction, float& sine) const;
-    float pdf(const Place& place, float sine) const;
+    float pdf(const Place& place, float sine, const PartChoice& choice) const;
     Rgb clean_texel(int x, int y) const;
     bool on_pole(int y) const { return margin_ == 0.0f && (y == 0 || y == height_ - 1); }
-    /// A row's probability, and a texel's within its row, of 2^31. A tent about a pole is folded in two.
-    float row_density(int y) const;
-    float column_share(int x, int y) const;
+    void add_part(const EnvironmentPart& part, double weight, const std::vector<double>& row_weights);
+    int part_of(int x, int y) const;
+    /// A texel's probability within its part. A tent about a pole is folded in two.
+    float density(int part, int x, int y) const;
+    std::uint32_t column_begin(int x, int y) const;
     int pick_column(int y, std::uint32_t bits) const;
 
     const TextureImage* image_;
@@ -66,8 +82,15 @@ class EnvironmentMap {
     Vec3 x_axis_, y_axis_, z_axis_;
     bool clean_ = false;  ///< no texel is negative, infinite or not a number
     double mean_ = 0;
-    float density_scale_;                 ///< from a texel's probability, of 2^62, to a density times sin(theta)
-    std::vector<std::uint32_t> rows_;     ///< begin of each row's share of 2^31, and their end
+    /// A rectangle of texels with its rows' probabilities.
+    struct Part {
+        EnvironmentPart texels;
+        double weight;                    ///< share of the image's power
+        std::vector<std::uint32_t> rows;  ///< begin of each row's share of 2^31, and their end
+        std::vector<float> density;       ///< of each row: its probability over its texels' shares of 2^31
+    };
+    std::vector<Part> parts_;
+    float density_scale_;                 ///< from a texel's probability to a density times sin(theta)
     std::vector<std::uint32_t> columns_;  ///< per row: begin of each texel's share of 2^31 within it, and their end
     int guide_bits_;                      ///< a row has 2^guide_bits_ guide entries, and one more
     std::vector<std::uint32_t> guide_;    ///< entry k of a row: the column that owns k 2^-guide_bits_

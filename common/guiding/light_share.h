@@ -1,0 +1,39 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "common/guiding/refine.h"
+#include "common/guiding/tree_update.h"
+
+namespace treefarm {
+
+/// What a region is next event's choice among the scene's emitters by power: nothing but that, untaught.
+inline constexpr LightShare kChoiceByPower = {kLightShareOne};
+
+/// What the coordinator remembers of what next event found in each region, from pass to pass (docs/guiding.md,
+/// "Choosing emitters").
+///
+/// A sample of cluster c, chosen with the probability q, that brings X (f |cos| L over the density, weighed against
+/// scattering) adds q X^2. The sum's expectation is what c contributes to the second moment if it is always chosen,
+/// whatever q was, so sums of passes and workers add up. The choice that makes the variance least is proportional to
+/// its root.
+class LightLearner {
+  public:
+    /// Sets next.light_share from what the pass over `tree` recorded. `origins` as in MixtureLearner.
+    void learn(const SdTree& tree, const TreeSums& sums, std::span<const RegionOrigin> origins, SdTree& next);
+
+  private:
+    struct Evidence {
+        std::array<double, kLightClusters> moments{};  ///< in radiance squared, not in quanta
+        double vertices = 0;                           ///< that were recorded
+    };
+    std::vector<Evidence> evidence_;  ///< per region of the coming tree
+};
+
+/// The share of a region that recorded `vertices` with these second moments, if its parent's share is `prior`.
+LightShare learned_share(std::span<const double, kLightClusters> moments, double vertices, const LightShare& prior);
+
+}  // namespace treefarm

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <vector>
+
+namespace treefarm {
+
+/// A rectangle of an environment map's texels, one of those that its image is cut into, and how: the upper side, from
+/// `cut_at` on, of what part `cut_from` was then. The first is what is left of the whole.
+struct EnvironmentPart {
+    int x0 = 0, y0 = 0, x1 = 0, y1 = 0;  ///< texels [x0, x1) x [y0, y1)
+    int cut_from = -1;
+    bool cut_rows = false;  ///< between rows rather than columns
+    int cut_at = 0;
+};
+
+/// Cuts an environment map into parts that next event can learn to choose among. What a part costs is its power times
+/// its solid angle; each cut is the one that lowers the sum most (after the surface area heuristic of hierarchies). So
+/// a small and powerful sun is cut free first, and an even sky in halves.
+class EnvironmentGrid {
+  public:
+    EnvironmentGrid(int width, int height);
+
+    /// Adds a texel: its weight in sampling, and its solid angle, both in any unit.
+    void add(int x, int y, double weight, double solid_angle);
+
+    std::vector<EnvironmentPart> parts(int most) const;
+
+  private:
+    /// Blocks of texels, so that large images cost no more.
+    static constexpr int kMostColumns = 512, kMostRows = 256;
+
+    struct Sums {
+        double weight = 0, solid_angle = 0;
+        double cost() const { return weight * solid_angle; }
+    };
+    struct Cut {
+        double gain = 0;
+        bool rows = false;
+        int at = 0;
+    };
+    Cut best_cut(const EnvironmentPart& blocks) const;
+
+    int width_, height_, columns_, rows_;
+    std::vector<Sums> blocks_;
+};
+
+}  // namespace treefarm
