@@ -6,15 +6,17 @@
 namespace treefarm {
 namespace {
 
-/// Progress from one tree to the next is the progress before to this power.
-constexpr double kFading = 0.5;
+/// Progress from one tree to the next is the progress before to this power (docs/guiding.md, "error"); a change of what
+/// a sample costs ends sooner.
+constexpr double kFading = 0.75;
+constexpr double kCostFading = 0.5;
 /// No tree is trusted to do better than this, or to change a sample's cost by more.
 constexpr double kLeastProgress = 0.25;
 constexpr double kMostCostRatio = 1.6;
 /// So many trees that are no better than each other have learned all that there is.
 constexpr int kTreesAtRest = 3;
-/// What keeping a log of records takes of tracing itself: 2 to 16 % measured on seven scenes.
-constexpr double kRecordingShare = 0.1;
+/// What keeping a log of records takes of tracing itself: 6 to 22 % measured on six scenes.
+constexpr double kRecordingShare = 0.12;
 /// Of a clock that did not move, seconds.
 constexpr double kShortestSample = 1e-9;
 
@@ -133,9 +135,9 @@ void Outlook::look_at_cost(const RenderState& state) {
 
 namespace {
 
-/// Product of `trees` steps, each the root of the one before, that follow a step of this size.
-double fading_steps(double step, int trees) {
-    const double power = kFading * (1 - std::pow(kFading, trees)) / (1 - kFading);
+/// Product of `trees` steps, each the one before to the power `fading`, that follow a step of this size.
+double fading_steps(double step, double fading, int trees) {
+    const double power = fading * (1 - std::pow(fading, trees)) / (1 - fading);
     return std::pow(step, power);
 }
 
@@ -143,11 +145,11 @@ double fading_steps(double step, int trees) {
 
 double Outlook::variance_after(int trees) const {
     if (!(progress_ > 0)) return variance_;
-    return variance_ * fading_steps(std::pow(progress_, std::pow(kFading, trees_since_)), trees);
+    return variance_ * fading_steps(std::pow(progress_, std::pow(kFading, trees_since_)), kFading, trees);
 }
 
 double Outlook::seconds_per_spp(int trees, bool record) const {
-    const double core = core_per_spp_ * fading_steps(cost_ratio_, trees) * (record ? recording_ : 1.0);
+    const double core = core_per_spp_ * fading_steps(cost_ratio_, kCostFading, trees) * (record ? recording_ : 1.0);
     return std::max(core * clock_per_core_, kShortestSample);
 }
 

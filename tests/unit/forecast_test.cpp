@@ -10,20 +10,20 @@
 namespace treefarm {
 namespace {
 
-/// Variance and cost of a sample with each tree. From tree to tree both change by the root of the step before.
+/// Variance and cost of a sample with each tree. From tree to tree both change by a power of the step before.
 struct Learning {
     double variance = 8, progress = 0.5;
     double seconds = 0.01, growth = 1.3;
     int settled_after = 100;  ///< trees that change anything
 
-    double at(double first, double step, int tree) const {
+    double at(double first, double step, double fading, int tree) const {
         double value = first;
         for (int t = 1; t <= std::min(tree, settled_after); ++t)
-            value *= std::pow(step, std::pow(0.5, t - 1));
+            value *= std::pow(step, std::pow(fading, t - 1));
         return value;
     }
-    double variance_at(int tree) const { return at(variance, progress, tree); }
-    double seconds_at(int tree) const { return at(seconds, growth, tree); }
+    double variance_at(int tree) const { return at(variance, progress, 0.75, tree); }
+    double seconds_at(int tree) const { return at(seconds, growth, 0.5, tree); }
 };
 
 /// Adds a pass to an inverse-variance render: two threads, adding records takes 20 %, a fixed 0.02 s.
@@ -32,8 +32,8 @@ void render_pass(RenderState& state, const Learning& world, int tree, std::uint3
     pass.spp = spp;
     pass.spp_before = state.spp();
     pass.mse_of_sample = world.variance_at(tree);
-    // Keeping a log of records is a tenth of tracing with it.
-    pass.trace_core_seconds = 2 * spp * world.seconds_at(tree) / (record ? 0.9 : 1.0);
+    // Keeping a log of records is an eighth of tracing with it.
+    pass.trace_core_seconds = 2 * spp * world.seconds_at(tree) / (record ? 0.88 : 1.0);
     pass.record_core_seconds = record ? 0.2 * pass.trace_core_seconds : 0.0;
     pass.collect_seconds = (pass.trace_core_seconds + pass.record_core_seconds) / 2;
     pass.overhead_seconds = 0.02;
@@ -93,7 +93,7 @@ TEST(Forecast, IsABoundWhileLittleIsLearned) {
     const ErrorForecast forecast = halving(state);
     EXPECT_EQ(forecast.trust, Trust::learning);
     EXPECT_GE(forecast.seconds, seconds_to_half(state, world));
-    EXPECT_EQ(halving(rendered(world, 8)).trust, Trust::firm);
+    EXPECT_EQ(halving(rendered(world, 9)).trust, Trust::firm);
 }
 
 TEST(Forecast, ASingleTreeTellsNothingOfTheNext) {
@@ -192,7 +192,7 @@ TEST(Outlook, TheClockIsTheMeanOfAllPasses) {
 TEST(Outlook, RecordingIsSeenApart) {
     const Outlook outlook(rendered({.progress = 1, .growth = 1}, 6));
     EXPECT_NEAR(outlook.seconds_per_spp(0, false), 0.01, 1e-9);
-    EXPECT_NEAR(outlook.seconds_per_spp(0, true), 0.01 * 1.2 / 0.9, 1e-9);
+    EXPECT_NEAR(outlook.seconds_per_spp(0, true), 0.01 * 1.2 / 0.88, 1e-9);
 }
 
 /// The error that a render is in after one more pass, weighed as combine_passes does.
