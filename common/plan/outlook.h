@@ -33,8 +33,8 @@ struct RenderState {
 };
 
 /// What coming passes will be like, by those that are done (docs/guiding.md, "error"). A tree that learns more makes
-/// samples less noisy and changes what they cost, each time by less than the time before: its progress to the power 3/4,
-/// the change of cost to the power 1/2. Needs a finished pass.
+/// samples less noisy and changes what they cost, each time by less than the time before: its progress to the power
+/// 3/4, the change of cost to the power 1/2. Needs a finished pass.
 class Outlook {
   public:
     explicit Outlook(const RenderState& state);
