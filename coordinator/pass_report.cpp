@@ -147,7 +147,7 @@ TreeFigures tree_figures(const SdTree& tree, std::uint64_t encoded_bytes) {
         tree.cell_depth.empty() ? 0 : *std::max_element(tree.cell_depth.begin(), tree.cell_depth.end());
     figures.bytes = encoded_bytes;
     figures.views = tree.view_count();
-    const TreeSize size{figures.regions, figures.cells, false, figures.views};
+    const TreeSize size{figures.regions, figures.cells, false, figures.views, !tree.light_share.empty()};
     figures.memory = size.guide_bytes() + size.sum_bytes();
     return figures;
 }

@@ -7,6 +7,7 @@
 #include "common/film/pixel_estimate.h"
 #include "common/guiding/tree_update.h"
 #include "common/plan/kernel.h"
+#include "common/plan/learning.h"
 #include "common/plan/schedule.h"
 #include "common/plan/texture_mean.h"
 
@@ -82,11 +83,13 @@ std::uint64_t emitter_table_bytes(const Scene& scene, const Emitter& emitter) {
 }
 
 std::uint64_t TreeSize::guide_bytes() const {
-    return regions * kGuideBytesPerRegion + views * kGuideBytesPerView + cells * kGuideBytesPerCell;
+    return regions * (kGuideBytesPerRegion + (with_lights ? sizeof(LightShare) : 0)) + views * kGuideBytesPerView +
+           cells * kGuideBytesPerCell;
 }
 
 std::uint64_t TreeSize::sum_bytes() const {
     return (regions + views) * kPlainTreeBytesPerRegion +
+           (with_lights ? regions * (sizeof(LightShare) + kLightClusters * kSumBytes) : 0) +
            (with_mixture ? (regions * kMixtureBins + views * kViewMixtureBins) * kSumBytes : 0) +
            cells * (kPlainTreeBytesPerCell + kSumBytes);
 }
@@ -115,7 +118,7 @@ TreeSize expected_tree(const Scene& scene, const Job& job) {
     const bool with_mixture =
         std::any_of(passes.begin(), passes.end(), [](const PassPlan& pass) { return pass.learn_mixture; });
     return {static_cast<std::uint64_t>(regions), static_cast<std::uint64_t>(cells), with_mixture,
-            static_cast<std::uint64_t>(views)};
+            static_cast<std::uint64_t>(views), learns_lights(scene, job)};
 }
 
 MemoryPlan expected_memory(const Scene& scene, const Job& job) {

@@ -119,6 +119,7 @@ class ScatterBatch {
     bool draw(const Surface& surface, const Guide& guide, const Guidance& guidance, float technique, const Draw& random,
               const Vec3& cosine, ScatterSample& s) {
         s.guided = kGuided && !(technique < guidance.bsdf_fraction);
+        s.by_view = false;
         s.guide_pdf = s.view_pdf = 0.0f;
         if (kGuided && s.guided) {
             s.by_view = kViews && technique < guidance.bsdf_fraction + guidance.view_fraction;
