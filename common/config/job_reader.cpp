@@ -18,8 +18,14 @@ namespace {
 constexpr std::uintmax_t kMaxFileBytes = 16u << 20;
 
 std::string toml_string(const std::string& text) {
+    // Over several lines toml++ loses a newline that the text begins with, and keys may have none; so it is escaped.
+    const bool one_line = text.find('\n') == std::string::npos;
+    const toml::format_flags escaped =
+        toml::toml_formatter::default_flags &
+        ~(toml::format_flags::allow_multi_line_strings | toml::format_flags::allow_literal_strings);
+    const toml::value<std::string> value(text);
     std::ostringstream out;
-    out << toml::value<std::string>(text);
+    out << toml::toml_formatter(value, one_line ? toml::toml_formatter::default_flags : escaped);
     return out.str();
 }
 

@@ -101,6 +101,18 @@ TEST(Job, WrittenJobReadsBackTheSame) {
     EXPECT_EQ(back.output.file, "y.exr");
 }
 
+/// Found by fuzzing: toml++ wrote such texts over several lines, and lost the first newline.
+TEST(Job, TextsOfSeveralLinesReadBackTheSame) {
+    Job job;
+    job.scene.file = "\nnot 'a' \"path\"\n";
+    job.scene.defines = {{"\nodd\nname", "\n\nvalue\t\\"}, {"plain", "it's"}};
+    const std::string text = write_job(job);
+    const Job back = job_of(text);
+    EXPECT_EQ(write_job(back), text);
+    EXPECT_EQ(back.scene.file, job.scene.file);
+    EXPECT_EQ(back.scene.defines, job.scene.defines);
+}
+
 TEST(Job, WritesEveryStoredKey) {
     const std::vector<Setting> written = parse_job_settings(write_job(Job{}), "job.toml");
     std::size_t stored = 0;

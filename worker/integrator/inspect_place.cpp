@@ -57,15 +57,15 @@ struct Met {
     float light_pdf = 0;  ///< of next event
 };
 
-Met meet_emitter(const TraceScene& scene, const Vec3& from, const Ray& ray) {
+Met meet_emitter(const TraceScene& scene, const Vec3& from, const Ray& ray, const LightShare* share) {
     const Emitters& emitters = scene.emitters();
     Hit hit;
     if (!scene.geometry().intersect(ray, hit)) {
         if (!emitters.shines_from_infinity()) return {};
-        return {emitters.environment(ray.direction), emitters.pdf_environment(ray.direction)};
+        return {emitters.environment(ray.direction), emitters.pdf_environment(ray.direction, share)};
     }
     if (!emitters.emits(hit.shape)) return {};
-    return {emitters.emitted(hit, -ray.direction), emitters.pdf_direct(from, ray.direction, hit)};
+    return {emitters.emitted(hit, -ray.direction), emitters.pdf_direct(from, ray.direction, hit, share)};
 }
 
 /// The job of the paths that start at the place: their first edge is the second of a path from the camera, and what it
@@ -128,7 +128,7 @@ class PlaceTracer {
         sums.sampled += static_cast<double>(pdf);
         if (!scattering.reflects) return;
         const Ray ray{offset_origin(place_.hit, d), d};
-        const Met met = meet_emitter(scene_, place_.hit.p, ray);
+        const Met met = meet_emitter(scene_, place_.hit.p, ray, guide_.light_share(facts_.guidance.region));
         if (!is_black(met.emitted)) {
             const double weight = double(mis_weight(mis_, pdf, met.light_pdf));
             count(scattering.f_cos, met.emitted, 1.0, weight, sums);
