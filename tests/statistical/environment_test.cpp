@@ -208,6 +208,7 @@ TEST(EnvironmentParts, CoverTheImageOnce) {
                 grid.add(x, y, x == width / 3 && y == height / 4 ? 1e4 : 1.0 + (x * 7 + y) % 5, 1.0);
         std::vector<int> owners(static_cast<std::size_t>(width * height), -1);
         const std::vector<EnvironmentPart> parts = grid.parts(8);
+        const auto part = [&](int i) -> const EnvironmentPart& { return parts[static_cast<std::size_t>(i)]; };
         EXPECT_LE(parts.size(), 8u);
         for (std::size_t i = 0; i < parts.size(); ++i)
             for (int y = parts[i].y0; y < parts[i].y1; ++y)
@@ -217,10 +218,7 @@ TEST(EnvironmentParts, CoverTheImageOnce) {
                 }
         for (int y = 0; y < height; ++y)
             for (int x = 0; x < width; ++x) {
-                int found = 0;
-                for (std::size_t i = 1; i < parts.size(); ++i)
-                    if (parts[i].cut_from == found && (parts[i].cut_rows ? y : x) >= parts[i].cut_at)
-                        found = static_cast<int>(i);
+                const int found = part_of(x, y, static_cast<int>(parts.size()), part);
                 ASSERT_EQ(found, owners[static_cast<std::size_t>(y * width + x)]);
             }
     }

@@ -18,8 +18,6 @@ struct Case {
     int spp_unit = 4;
     int candidates = 1, candidate_depth = 1;
     LightSelection light_selection = LightSelection::power;
-    std::uint32_t effort =
-        1;  ///< more samples where rare ones make up much of the variance: blocks have to know theirs
 };
 
 void PrintTo(const Case& c, std::ostream* out) {

@@ -170,13 +170,8 @@ Rgb EnvironmentMap::radiance(const Vec3& direction) const {
 }
 
 int EnvironmentMap::part_of(int x, int y) const {
-    int part = 0;
-    // A part that was cut lost its upper side to the one that came then.
-    for (int i = 1; i < part_count(); ++i) {
-        const EnvironmentPart& cut = parts_[static_cast<std::size_t>(i)].texels;
-        if (cut.cut_from == part && (cut.cut_rows ? y : x) >= cut.cut_at) part = i;
-    }
-    return part;
+    const auto part = [&](int i) -> const EnvironmentPart& { return parts_[static_cast<std::size_t>(i)].texels; };
+    return treefarm::part_of(x, y, part_count(), part);
 }
 
 std::uint32_t EnvironmentMap::column_begin(int x, int y) const {

@@ -13,6 +13,18 @@ struct EnvironmentPart {
     int cut_at = 0;
 };
 
+/// Which of `count` parts holds a texel; `part(i)` is the i-th.
+template <class Part>
+int part_of(int x, int y, int count, Part part) {
+    int found = 0;
+    // A part that was cut lost its upper side to the one that came then.
+    for (int i = 1; i < count; ++i) {
+        const EnvironmentPart& cut = part(i);
+        if (cut.cut_from == found && (cut.cut_rows ? y : x) >= cut.cut_at) found = i;
+    }
+    return found;
+}
+
 /// Cuts an environment map into parts that next event can learn to choose among. What a part costs is its power times
 /// its solid angle; each cut is the one that lowers the sum most (after the surface area heuristic of hierarchies). So
 /// a small and powerful sun is cut free first, and an even sky in halves.
