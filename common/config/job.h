@@ -105,6 +105,7 @@ struct Job {
         MisHeuristic mis = MisHeuristic::balance;
         bool strict_normals = false;  ///< drop light that geometric and shading normal disagree about
         bool hide_emitters = false;   ///< the camera does not see emitters directly
+        bool split_glass = true;      ///< at the first surface: both ways out of smooth glass
     } integrator;
 
     struct Effects {

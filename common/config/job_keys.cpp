@@ -194,6 +194,10 @@ std::vector<JobKey> make_job_keys() {
     add(boolean_key(
         "integrator.hide_emitters", "the camera does not see emitters directly",
         [](auto& j) -> auto& { return j.integrator.hide_emitters; }));
+    add(boolean_key(
+        "integrator.split_glass",
+        "where the camera sees smooth glass, a path follows what it mirrors and what is behind it, not one by chance",
+        [](auto& j) -> auto& { return j.integrator.split_glass; }));
 
     for (const EffectSwitch& effect : effect_switches())
         add(effect_key(effect));

@@ -19,6 +19,7 @@ std::span<const Setting> preset_settings(const std::string& preset) {
         {"guiding.roulette", "constant", {}},
         {"guiding.candidates", "1", {}},
         {"guiding.light_selection", "power", {}},
+        {"integrator.split_glass", "false", {}},
     };
     // The thesis' program is that of paper but for these: they come later and win.
     static const std::vector<Setting> thesis = [] {

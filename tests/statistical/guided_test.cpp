@@ -6,6 +6,7 @@
 #include "common/metrics/z_test.h"
 #include "common/scene/load.h"
 #include "tests/support/local_render.h"
+#include "tests/support/material_scenes.h"
 #include "tests/support/support.h"
 
 namespace treefarm {
@@ -113,6 +114,27 @@ TEST(SeveralCandidates, EstimateTheSameImageOfAGlossyRoom) {
         job.sampler.seed = 2;
         expect_same(render(scene, job), one);
     }
+}
+
+/// A room behind a pane that mirrors the sky: a tree that is learned on both ways against one learned on either.
+TEST(SplitGlass, EstimatesTheSameImage) {
+    Scene scene = test::cornell_box(1.0f, Vec3(0.0f));
+    const std::int32_t pane = test::add_material(scene, ThinDielectricMaterial{1.5f, Rgb(1.0f), Rgb(0.9f)});
+    test::add_shape(scene, test::quad({-2, -2, -0.2f}, {5, 0, 0}, {0, 5, 0.3f}), pane);
+    scene.emitters.push_back({ConstantEmitter{Rgb(2.0f)}, {}});
+    test::set_film(scene, 64, 64);
+    Job job;
+    job.integrator.max_depth = 8;
+    job.budget.spp = 508;
+    job.guiding.type = GuidingType::ppg;
+    job.guiding.combination = Combination::fixed;
+    job.guiding.spatial_threshold = 1000;
+    job.integrator.split_glass = false;
+    job.sampler.seed = 1;
+    const Estimate tossed = render(scene, job);
+    job.integrator.split_glass = true;
+    job.sampler.seed = 2;
+    expect_same(render(scene, job), tossed);
 }
 
 }  // namespace

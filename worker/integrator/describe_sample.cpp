@@ -41,6 +41,9 @@ struct TextObserver : NoObserver {
     void roulette(float survival, bool survives) {
         text << "  roulette survival " << survival << (survives ? "" : ", lost") << '\n';
     }
+    void branch(const Ray& ray, const Rgb& throughput) {
+        text << "the other way at depth 1: (delta) along " << ray.direction << " throughput " << throughput << '\n';
+    }
     void end(const char* why) { text << "  end: " << why << '\n'; }
 };
 

@@ -5,17 +5,14 @@
 #include <vector>
 
 #include "common/film/trace_stats.h"
-#include "common/guiding/mixture.h"
-#include "common/guiding/view_mixture.h"
+#include "worker/integrator/branches.h"
 #include "worker/integrator/direction_choice.h"
 #include "worker/integrator/mis.h"
 #include "worker/integrator/path_observer.h"
-#include "worker/integrator/path_recorder.h"
-#include "worker/integrator/path_settings.h"
-#include "worker/integrator/path_state.h"
-#include "worker/integrator/pending_light.h"
+#include "worker/integrator/path_roulette.h"
 #include "worker/integrator/phase_clock.h"
 #include "worker/integrator/surface.h"
+#include "worker/integrator/vertex_records.h"
 
 namespace treefarm {
 
@@ -61,8 +58,8 @@ class PathKernel {
         std::uint32_t alive = settings_.max_depth == 0 ? 0 : count_;
         for (std::uint32_t i = 0; i < alive; ++i)
             alive_[i] = static_cast<std::uint8_t>(i);
-        for (int depth = 1; alive != 0; ++depth)
-            alive = step(alive, depth);
+        walk(alive, 1);
+        if constexpr (Surface::kTransmits) follow_branches();
     }
 
     /// Radiance along the camera ray of the path added as number `path`.
@@ -76,10 +73,33 @@ class PathKernel {
     /// Whether directions have to be converted before a path can leave.
     static constexpr bool kConverts = kGuided || kRecord;
     static constexpr bool kViews = kConverts && Surface::kViews;
+    static constexpr std::uint32_t kBranchVertices = 1u << 28;
 
     using Path = PathState<Surface>;
 
-    static std::uint32_t vertex_of(int depth) { return static_cast<std::uint32_t>(depth); }
+    /// By which random numbers are keyed.
+    std::uint32_t vertex_of(int depth) const { return first_vertex_ + static_cast<std::uint32_t>(depth); }
+
+    /// Traces the first `alive` of alive_ to their ends.
+    void walk(std::uint32_t alive, int depth) {
+        for (; alive != 0; ++depth)
+            alive = step(alive, depth);
+    }
+
+    /// The other ways of paths that were split at their first surface.
+    [[gnu::noinline]] void follow_branches() {
+        first_vertex_ = kBranchVertices;
+        for (std::uint32_t i = 0; i < branches_.size(); ++i) {
+            const Branches::Branch& branch = branches_[i];
+            alive_[i] = branch.path;
+            paths_[branch.path].resume(branch.ray, branch.weight, branch.spread);
+            if constexpr (kRecord) recorders_[branch.path].begin_branch(branch.weight, vertex_of(1));
+            observer_.branch(branch.ray, branch.weight);
+        }
+        walk(branches_.size(), 2);
+        branches_.clear();
+        first_vertex_ = 0;
+    }
 
     /// One more edge for the first `alive` of alive_; returns how many go on.
     std::uint32_t step(std::uint32_t alive, int depth) {
@@ -105,11 +125,13 @@ class PathKernel {
         clock_.lap(TracePhase::surface);
         if (!pending_.empty()) look_at_lights(depth);
         clock_.lap(TracePhase::shadow);
+        splits_ = settings_.split_glass && depth == 1;
         alive = go_on(alive);
         clock_.lap(TracePhase::direction);
         if constexpr (kRecord) {
             for (std::uint32_t i = 0; i < alive; ++i)
-                remember(alive_[i], depth);
+                record_direction<kViews>(paths_[alive_[i]], guide_, settings_, jitter_draws_, vertex_of(depth),
+                                         recorders_[alive_[i]]);
             clock_.lap(TracePhase::record);
         }
         return alive;
@@ -188,14 +210,12 @@ class PathKernel {
         if (depth == settings_.max_depth) return end("depth limit");
 
         if (depth > 1 && settings_.roulette.plays(depth - 1)) {
-            const float spread = Surface::kTransmits ? path.spread : 1.0f;
-            const Roulette& roulette = kGuided && path.probe ? settings_.unguided_roulette : settings_.roulette;
-            const float survival = roulette.survival(path.throughput, spread, brightness(path));
-            const bool survives = to_unit(draw(path.key, vertex_of(depth - 1), Stream::roulette)[0]) < survival;
-            observer_.roulette(survival, survives);
+            const float chance = survival<kGuided>(path, guide_, settings_);
+            const bool survives = to_unit(draw(path.key, vertex_of(depth - 1), Stream::roulette)[0]) < chance;
+            observer_.roulette(chance, survives);
             if (!survives) return end("roulette");
-            path.throughput *= 1.0f / survival;
-            if constexpr (kRecord) recorders_[index].survive(survival);
+            path.throughput *= 1.0f / chance;
+            if constexpr (kRecord) recorders_[index].survive(chance);
         }
 
         const Surface& surface = path.surface.emplace(scene_, hit, -ray.direction, scratch_[index]);
@@ -224,6 +244,8 @@ class PathKernel {
         const Surface& surface = *path.surface;
         const Hit& hit = path.hit;
         const ScatterSample& s = path.scatter;
+        if constexpr (Surface::kTransmits)
+            if (splits_ && s.delta) branches_.split(path, index, vertex_of(1), settings_.strict_normals);
         if (!(s.pdf > 0.0f) || is_black(s.f_cos)) return end("no direction");
         if (settings_.strict_normals && dot(surface.ng(), s.world) * s.local.z <= 0.0f) return end("normals disagree");
         path.weight = s.f_cos * (1.0f / s.effective_pdf);
@@ -240,32 +262,6 @@ class PathKernel {
         if (rare && s.delta) path.scatter_pdf = std::numeric_limits<float>::infinity();
         path.ray = {offset_origin(hit, s.world), s.world};
         return true;
-    }
-
-    /// Notes the direction that the path has taken.
-    void remember(std::uint8_t index, int depth) {
-        const Path& path = paths_[index];
-        const ScatterSample& s = path.scatter;
-        RecordTarget target{path.guidance.region, path.guidance.view};
-        if (s.delta) {
-            if (!path.surface->smooth()) target = {};
-            recorders_[index].add_delta_vertex(path.weight, target, vertex_of(depth));
-            return;
-        }
-        if (settings_.jitter_records)
-            target = moved<kViews>(guide_, path.hit.p, path.outgoing_code, target, jitter_draws_[path.lane]);
-        const std::uint8_t bin = kViews && path.guidance.has_view()
-                                     ? view_mixture_bin(s.bsdf_pdf, s.guide_pdf, s.view_pdf)
-                                     : mixture_bin(s.bsdf_pdf, s.guide_pdf);
-        recorders_[index].add_vertex(target, s.code, s.effective_pdf, path.weight, bin, vertex_of(depth));
-    }
-
-    /// Of the light about the path's end over that about its first vertex, by the mean records of their regions.
-    float brightness(const Path& path) const {
-        if constexpr (!kGuided) return 1.0f;
-        if (!settings_.roulette.needs_brightness()) return 1.0f;
-        const int exponent = guide_.quantum_exponent(path.guidance.region) - path.first_exponent;
-        return power_of_two(std::clamp(settings_.target == GuidingTarget::variance ? exponent / 2 : exponent, -60, 60));
     }
 
     bool end(const char* why) {
@@ -365,17 +361,9 @@ class PathKernel {
         Path& path = paths_[light.from.path];
         path.radiance += light.from.throughput * reflected;
         observer_.next_event(light, scatter_pdf, weight, light.from.throughput * reflected);
-        if constexpr (!kRecord) return;
-        recorders_[light.from.path].add_reflected(light.from.vertex, reflected);
-        if (light.from.learned_choice) recorders_[light.from.path].add_choice(light.record(guide_, average(reflected)));
-        // Scattering never meets a light without extent: its samples are weighted alone and teach the guide nothing.
-        if (!settings_.record_light_samples || light.delta) return;
-        RecordTarget target{light.from.guidance.region, light.from.guidance.view};
-        if (settings_.jitter_records)
-            target = moved<kViews>(guide_, path.hit.p, path.outgoing_code, target,
-                                   draw(path.key, vertex_of(depth), Stream::light_jitter));
-        recorders_[light.from.path].add_light_sample(target, code, light.radiance * weight, average(reflected),
-                                                     light.pdf, vertex_of(depth));
+        if constexpr (kRecord)
+            record_light<kViews>(light, reflected, weight, code, path, guide_, settings_, vertex_of(depth),
+                                 recorders_[light.from.path]);
     }
 
     const TraceScene& scene_;
@@ -387,6 +375,9 @@ class PathKernel {
     std::uint32_t count_ = 0;
     std::array<Path, kBatch> paths_;
     std::array<std::uint8_t, kBatch> alive_;
+    Branches branches_;
+    std::uint32_t first_vertex_ = 0;  ///< branches have random numbers of their own
+    bool splits_ = false;             ///< whether this step may split paths
     DrawBatch light_draws_, jitter_draws_;
     DirectionChoice<Surface, kGuided, kConverts, kViews> directions_;
     CodeBatch light_codes_;

@@ -15,6 +15,7 @@ struct NoObserver {
     void scatter(const ScatterSample&, const Rgb&) {}
     void next_event(const PendingLight&, float, float, const Rgb&) {}
     void roulette(float, bool) {}
+    void branch(const Ray&, const Rgb&) {}
     void end(const char*) {}
 };
 

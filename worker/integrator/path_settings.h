@@ -22,6 +22,7 @@ struct PathSettings {
     MisHeuristic mis;
     bool strict_normals;
     bool hide_emitters;
+    bool split_glass;           ///< branches.h
     bool record_light_samples;  ///< kick-start: what next event finds teaches the tree, too
     bool profile;
     ProbePixels probe;         ///< unguided, to see whether guiding pays
@@ -39,6 +40,7 @@ struct PathSettings {
           mis(job.integrator.mis),
           strict_normals(job.integrator.strict_normals),
           hide_emitters(job.integrator.hide_emitters),
+          split_glass(job.integrator.split_glass),
           record_light_samples(job.integrator.next_event == NextEvent::kickstart && pass.next_event),
           profile(job.farm.profile),
           probe(pass.probe ? ProbePixels(scene.film().pixel_count(), pass.index) : ProbePixels()),

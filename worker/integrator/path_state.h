@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <optional>
 
 #include "worker/geometry/embree_scene.h"
@@ -40,6 +41,14 @@ struct PathState {
         scatter_lights = nullptr;
         spread = 1.0f;
         guidance = {0, Guide::kNoView, 1.0f, 0.0f};
+    }
+
+    /// Goes on from a delta lobe at the first surface, to add more to the same radiance.
+    void resume(const Ray& from_surface, const Rgb& carried, float eta2) {
+        ray = from_surface;
+        throughput = carried;
+        scatter_pdf = std::numeric_limits<float>::infinity();
+        spread = eta2;
     }
 };
 

@@ -7,6 +7,7 @@
 
 #include "worker/geometry/embree_scene.h"
 #include "worker/integrator/guided_sampling.h"
+#include "worker/integrator/record_log.h"
 #include "worker/lights/direct_sample.h"
 
 namespace treefarm {

@@ -72,6 +72,16 @@ struct Bsdf {
     BsdfSample sample(const Vec3& wo, const BsdfRandom& random) const {
         return visit([&](const auto& bsdf) { return bsdf.sample(wo, random); });
     }
+
+    /// Smooth glass has two ways out: that one which is not on the side of `taken`. The density is 0 where there is
+    /// none.
+    BsdfSample other_way(const Vec3& wo, const Vec3& taken) const {
+        if constexpr (!kHasTransmission) return {};
+        if (!std::get_if<DielectricBsdf>(&kind) && !std::get_if<ThinDielectricBsdf>(&kind)) return {};
+        const float last_lobe = taken.z > 0.0f ? 0x1.fffffep-1f : 0.0f;
+        const BsdfSample other = sample(wo, {last_lobe, Vec2(0.5f)});
+        return (other.wi.z > 0.0f) != (taken.z > 0.0f) ? other : BsdfSample{};
+    }
 };
 
 static_assert(std::variant_size_v<decltype(Bsdf::kind)> == 12, "Bsdf::visit has a case for each");

@@ -5,6 +5,13 @@
 
 namespace treefarm {
 
+/// How often smooth glass is sampled by what it mirrors, where it lets the rest through: in proportion to what comes of
+/// each, so that of a way that is black no path is lost.
+inline float mirror_probability(float mirrored, const Rgb& reflectance, const Rgb& transmittance) {
+    const float one = mirrored * average(reflectance), other = (1.0f - mirrored) * average(transmittance);
+    return one + other > 0.0f ? one / (one + other) : mirrored;
+}
+
 /// A smooth boundary between transparent media. Radiance that comes from the far side is scaled by 1/eta^2: rays
 /// spread where they leave the denser medium (the convention of Mitsuba 0.6 for radiance).
 struct DielectricBsdf {
@@ -17,11 +24,11 @@ struct DielectricBsdf {
     /// it.
     [[gnu::noinline]] BsdfSample sample(const Vec3& wo, const BsdfRandom& random) const {
         const DielectricFresnel f = fresnel_dielectric(wo.z, eta);
-        if (random.lobe < f.reflectance)
-            return {{-wo.x, -wo.y, wo.z}, f.reflectance, reflectance * f.reflectance, true};
+        const float mirror = mirror_probability(f.reflectance, reflectance, transmittance);
+        if (random.lobe < mirror) return {{-wo.x, -wo.y, wo.z}, mirror, reflectance * f.reflectance, true};
         const float share = 1.0f - f.reflectance, inverse = 1.0f / eta;
         return {{-wo.x * inverse, -wo.y * inverse, -f.cos_transmitted},
-                share,
+                1.0f - mirror,
                 transmittance * (share * inverse * inverse),
                 true};
     }

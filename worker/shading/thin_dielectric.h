@@ -1,7 +1,7 @@
 #pragma once
 
 #include "worker/shading/bsdf_sample.h"
-#include "worker/shading/fresnel.h"
+#include "worker/shading/dielectric.h"
 
 namespace treefarm {
 
@@ -15,8 +15,9 @@ struct ThinDielectricBsdf {
     [[gnu::noinline]] BsdfSample sample(const Vec3& wo, const BsdfRandom& random) const {
         const float once = fresnel_dielectric(wo.z, eta).reflectance;
         const float r = 2.0f * once / (1.0f + once);  // the series summed up
-        if (random.lobe < r) return {{-wo.x, -wo.y, wo.z}, r, reflectance * r, true};
-        return {-wo, 1.0f - r, transmittance * (1.0f - r), true};
+        const float mirror = mirror_probability(r, reflectance, transmittance);
+        if (random.lobe < mirror) return {{-wo.x, -wo.y, wo.z}, mirror, reflectance * r, true};
+        return {-wo, 1.0f - mirror, transmittance * (1.0f - r), true};
     }
 };
 

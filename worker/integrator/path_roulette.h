@@ -1,0 +1,27 @@
+#pragma once
+
+#include <algorithm>
+
+#include "worker/integrator/path_settings.h"
+#include "worker/integrator/path_state.h"
+
+namespace treefarm {
+
+/// Of the light about a path's end over that about its first vertex, by the mean records of their regions.
+template <class Surface>
+float brightness(const PathState<Surface>& path, const Guide& guide, const PathSettings& settings) {
+    if (!settings.roulette.needs_brightness()) return 1.0f;
+    const int exponent = guide.quantum_exponent(path.guidance.region) - path.first_exponent;
+    return power_of_two(std::clamp(settings.target == GuidingTarget::variance ? exponent / 2 : exponent, -60, 60));
+}
+
+/// With which probability a path goes on from where it has arrived.
+template <bool kGuided, class Surface>
+float survival(const PathState<Surface>& path, const Guide& guide, const PathSettings& settings) {
+    const float spread = Surface::kTransmits ? path.spread : 1.0f;
+    if constexpr (!kGuided) return settings.roulette.survival(path.throughput, spread);
+    const Roulette& roulette = path.probe ? settings.unguided_roulette : settings.roulette;
+    return roulette.survival(path.throughput, spread, brightness(path, guide, settings));
+}
+
+}  // namespace treefarm

@@ -1,0 +1,46 @@
+#pragma once
+
+#include "common/guiding/mixture.h"
+#include "common/guiding/view_mixture.h"
+#include "worker/integrator/path_recorder.h"
+#include "worker/integrator/path_settings.h"
+#include "worker/integrator/path_state.h"
+#include "worker/integrator/pending_light.h"
+
+namespace treefarm {
+
+/// Notes the direction that a path has taken at a vertex.
+template <bool kViews, class Surface>
+void record_direction(const PathState<Surface>& path, const Guide& guide, const PathSettings& settings,
+                      const DrawBatch& jitter_draws, std::uint32_t vertex, PathRecorder& recorder) {
+    const ScatterSample& s = path.scatter;
+    RecordTarget target{path.guidance.region, path.guidance.view};
+    if (s.delta) {
+        if (!path.surface->smooth()) target = {};
+        recorder.add_delta_vertex(path.weight, target, vertex);
+        return;
+    }
+    if (settings.jitter_records)
+        target = moved<kViews>(guide, path.hit.p, path.outgoing_code, target, jitter_draws[path.lane]);
+    const std::uint8_t bin = kViews && path.guidance.has_view() ? view_mixture_bin(s.bsdf_pdf, s.guide_pdf, s.view_pdf)
+                                                                : mixture_bin(s.bsdf_pdf, s.guide_pdf);
+    recorder.add_vertex(target, s.code, s.effective_pdf, path.weight, bin, vertex);
+}
+
+/// Notes what next event found at a vertex: `reflected` of it, at `weight` against scattering.
+template <bool kViews, class Surface>
+void record_light(const PendingLight& light, const Rgb& reflected, float weight, std::uint32_t code,
+                  const PathState<Surface>& path, const Guide& guide, const PathSettings& settings,
+                  std::uint32_t vertex, PathRecorder& recorder) {
+    recorder.add_reflected(light.from.vertex, reflected);
+    if (light.from.learned_choice) recorder.add_choice(light.record(guide, average(reflected)));
+    // Scattering never meets a light without extent: its samples are weighted alone and teach the guide nothing.
+    if (!settings.record_light_samples || light.delta) return;
+    RecordTarget target{light.from.guidance.region, light.from.guidance.view};
+    if (settings.jitter_records)
+        target =
+            moved<kViews>(guide, path.hit.p, path.outgoing_code, target, draw(path.key, vertex, Stream::light_jitter));
+    recorder.add_light_sample(target, code, light.radiance * weight, average(reflected), light.pdf, vertex);
+}
+
+}  // namespace treefarm
