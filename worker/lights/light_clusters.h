@@ -35,7 +35,7 @@ class LightClusters {
                 continue;
             const auto cluster = static_cast<std::size_t>(count_++);
             width_[cluster] = table.begin(i + 1) - begin;
-            per_width_[cluster] = 1.0f / static_cast<float>(width_[cluster]);
+            per_width_[cluster] = 1.0 / static_cast<double>(width_[cluster]);
             begin = table.begin(i + 1);
         }
     }
@@ -68,14 +68,14 @@ class LightClusters {
         const std::uint64_t within = std::min<std::uint64_t>(bits - begin, w - 1);
         const auto probability = static_cast<float>(w) * 0x1p-32f;
         return {static_cast<std::uint8_t>(c), static_cast<std::uint32_t>(begin_by_power + scaled(within, by_power, w)),
-                probability, static_cast<float>(w) * per_width_[static_cast<std::size_t>(c)]};
+                probability, static_cast<float>(static_cast<double>(w) * per_width_[static_cast<std::size_t>(c)])};
     }
 
     /// Probability of an entry of the table, over that by power. `share`: nullptr, by power.
     float factor(const LightShare* share, std::uint32_t entry) const {
         if (!share || count_ == 0) return 1.0f;
         const std::uint8_t cluster = cluster_of_entry_[entry];
-        return static_cast<float>(width(*share, cluster)) * per_width_[cluster];
+        return static_cast<float>(static_cast<double>(width(*share, cluster)) * per_width_[cluster]);
     }
 
   private:
@@ -96,7 +96,8 @@ class LightClusters {
 
     int count_ = 0;
     std::array<std::uint64_t, kLightClusters> width_{};  ///< by power, of 2^32
-    std::array<float, kLightClusters> per_width_{};      ///< its reciprocal
+    std::array<double, kLightClusters>
+        per_width_{};  ///< its reciprocal: in double, so that a choice by power has the factor 1
     std::vector<std::uint8_t> cluster_of_entry_;
 };
 
