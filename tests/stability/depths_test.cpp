@@ -64,9 +64,9 @@ TEST(Depths, AThousandInGlass) {
 
 /// 38 | Work per path is bounded
 /// Others: splitting multiplied paths without end (EARS caps it at 20).
-/// Here: a path is split once, and only by smooth glass before the camera; at the latest, max_depth or roulette ends
-/// it. Holds: in a mirror hall (reflectance 1) behind a pane, without a depth limit, roulette leaves fewer than 150
-/// rays per path on average for every rule of guided and unguided renders; with max_depth 10 at most 1 and twice 9.
+/// Here: a path is split once, by smooth glass before the camera; at the latest, max_depth or roulette ends it.
+/// Holds: in a mirror hall (reflectance 1) behind a pane, without a depth limit, roulette leaves fewer than 150 rays on
+/// either way on average for every rule of guided and unguided renders; with max_depth 10 at most 1 and twice 9.
 TEST(Depths, WorkPerPathIsBounded) {
     Scene scene;
     const std::int32_t mirror = test::add_material(scene, ConductorMaterial{Rgb(0.0f), Rgb(1.0f), Rgb(1.0f), {}});
