@@ -5,6 +5,7 @@
 #include "common/scene/validate.h"
 #include "tests/support/hard_case.h"
 #include "tests/support/material_scenes.h"
+#include "worker/integrator/branches.h"
 #include "worker/shading/fresnel.h"
 
 namespace treefarm {
@@ -145,6 +146,34 @@ TEST(Boundaries, EqualIndicesAreInvisible) {
     EXPECT_LT(bent.value, 6.0) << bent.where;
     EXPECT_LT(lost.value, 0.03) << lost.where;
     test::figure("largest relative error of the power", lost.value);
+}
+
+/// ours | Faint ways out of glass
+/// Others: [ours] the lesser of two ways is followed by chance: at a probability of 1e-40 its weight is infinite.
+/// Here: it is followed once in 4096 times at least.
+/// Holds: weights are finite and at most a quarter (1 from a quarter on) for probabilities from 1e-45 to 1/2; a ball of
+/// glass that mirrors between 1e-38 and 1e-3 before an even sky has no invalid sample, and lets all through within
+/// 1e-3.
+TEST(Boundaries, FaintWaysOutOfGlass) {
+    for (float p = 1e-45f; p <= 0.5f; p *= 1.7f) {
+        const float weight = p * (1.0f / Branches::chance(p));
+        EXPECT_TRUE(std::isfinite(weight)) << p;
+        EXPECT_LE(weight, p < 0.25f ? 0.25001f : 1.0f) << p;
+    }
+    double worst = 0;
+    for (const float reflectance : {1e-38f, 1e-30f, 1e-20f, 1e-3f}) {
+        Scene scene;
+        test::add_shape(scene, Sphere{Vec3(0.0f), 1.0f},
+                        test::add_material(scene, DielectricMaterial{1.01f, Rgb(reflectance), Rgb(1.0f), {}}));
+        scene.emitters.push_back({ConstantEmitter{Rgb(1.0f)}, {}});
+        scene.camera = test::look_at({0, 0, -4}, Vec3(0.0f), {0, 1, 0}, 0.1f);
+        test::set_film(scene, 16, 16);
+        const test::LocalRender run = test::render_locally(scene, test::plain_job(64, 100));
+        EXPECT_EQ(test::invalid_samples(run), 0u);
+        worst = std::max(worst, std::abs(test::mean_of(run.image).value - 1.0));
+    }
+    EXPECT_LT(worst, 1e-3);
+    test::figure("largest error of the mean", worst);
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "worker/geometry/ray.h"
@@ -18,6 +19,10 @@ class Branches {
     std::uint32_t size() const { return static_cast<std::uint32_t>(branches_.size()); }
     void clear() { branches_.clear(); }
 
+    /// With which a way of this probability is followed. Never so seldom that its weight overflows, or that 24 random
+    /// bits do not tell.
+    static float chance(float probability) { return std::clamp(kOften * probability, kLeast, 1.0f); }
+
     /// At the first surface, which has drawn path.scatter: if the other of two ways is open, the path takes the
     /// likelier with certainty, and the lesser may become a branch.
     template <class Surface>
@@ -32,7 +37,7 @@ class Branches {
         lesser.pdf = other.pdf;
         if (lesser.pdf > path.scatter.pdf) std::swap(lesser, path.scatter);
         path.scatter.effective_pdf = 1.0f;
-        lesser.effective_pdf = std::min(1.0f, kOften * lesser.pdf);
+        lesser.effective_pdf = chance(lesser.pdf);
         if (is_black(lesser.f_cos) || (strict_normals && dot(surface.ng(), lesser.world) * lesser.local.z <= 0.0f) ||
             !(to_unit(draw(path.key, vertex, Stream::branch)[0]) < lesser.effective_pdf))
             return;
@@ -51,7 +56,7 @@ class Branches {
     const Branch& operator[](std::uint32_t i) const { return branches_[i]; }
 
   private:
-    static constexpr float kOften = 4.0f;
+    static constexpr float kOften = 4.0f, kLeast = 0x1p-12f;
 
     std::vector<Branch> branches_;  ///< at most one of each path of a batch
 };
