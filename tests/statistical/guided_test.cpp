@@ -94,17 +94,23 @@ INSTANTIATE_TEST_SUITE_P(
                       Case{"features.xml", NextEvent::always, MisHeuristic::balance, 1, 2, 1, LightSelection::learned},
                       Case{"door-ajar.xml", NextEvent::always}, Case{"door-ajar.xml", NextEvent::kickstart}));
 
+/// A guided job for a small image.
+Job with_a_fine_tree(std::uint32_t spp) {
+    Job job;
+    job.integrator.max_depth = 8;
+    job.budget.spp = spp;
+    job.guiding.type = GuidingType::ppg;
+    job.guiding.combination = Combination::fixed;
+    job.guiding.spatial_threshold = 1000;
+    return job;
+}
+
 /// Against one: in this room a few rare samples make up so much of what unguided paths see that blocks do not know
 /// their own variance.
 TEST(SeveralCandidates, EstimateTheSameImageOfAGlossyRoom) {
     Scene scene = load_scene(test::own_scene("glossy-room.xml"), {}, false).scene;
     scene.film.width = scene.film.height = 48;
-    Job job;
-    job.integrator.max_depth = 8;
-    job.budget.spp = 1016;
-    job.guiding.type = GuidingType::ppg;
-    job.guiding.combination = Combination::fixed;
-    job.guiding.spatial_threshold = 1000;
+    Job job = with_a_fine_tree(1016);
     job.guiding.candidate_depth = 8;
     job.guiding.candidates = 1;
     job.sampler.seed = 1;
@@ -123,12 +129,7 @@ TEST(SplitGlass, EstimatesTheSameImage) {
     test::add_shape(scene, test::quad({-2, -2, -0.2f}, {5, 0, 0}, {0, 5, 0.3f}), pane);
     scene.emitters.push_back({ConstantEmitter{Rgb(2.0f)}, {}});
     test::set_film(scene, 64, 64);
-    Job job;
-    job.integrator.max_depth = 8;
-    job.budget.spp = 508;
-    job.guiding.type = GuidingType::ppg;
-    job.guiding.combination = Combination::fixed;
-    job.guiding.spatial_threshold = 1000;
+    Job job = with_a_fine_tree(508);
     job.integrator.split_glass = false;
     job.sampler.seed = 1;
     const Estimate tossed = render(scene, job);

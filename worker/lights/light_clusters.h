@@ -96,8 +96,8 @@ class LightClusters {
 
     int count_ = 0;
     std::array<std::uint64_t, kLightClusters> width_{};  ///< by power, of 2^32
-    std::array<double, kLightClusters>
-        per_width_{};  ///< its reciprocal: in double, so that a choice by power has the factor 1
+    /// Its reciprocal, in double: so a choice by power has the factor 1.
+    std::array<double, kLightClusters> per_width_{};
     std::vector<std::uint8_t> cluster_of_entry_;
 };
 
