@@ -129,6 +129,7 @@ class PassLoop {
         facts.spp = report.plan.spp;
         facts.spp_before = report.plan.first_sample;
         facts.mse_of_sample = report.variance.mse_of_sample;
+        facts.stuv_trimmed = report.variance.stuv_trimmed;
         facts.collect_seconds = s.collect;
         facts.overhead_seconds = std::max(0.0, s.broadcast - loading) + s.film + s.error + before;
         facts.trace_core_seconds = report.stats.trace_seconds;

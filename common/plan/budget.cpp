@@ -22,8 +22,6 @@ constexpr double kProbe = 0.07;
 /// or there is no noise) only later.
 constexpr std::uint32_t kSppToBelieve = 16;
 constexpr std::uint32_t kSppToBelieveZero = 64;
-/// What kEndingMargin is for an ending pass that no other can follow.
-constexpr double kLastPassMargin = 1.10;
 /// A pass that makes up for a missed target renders at least this share of what there is.
 constexpr double kLeastShare = 1.0 / 16;
 
@@ -111,9 +109,9 @@ class OpenBudget {
         if (error.relative() <= target && !job_.budget.strict) return 0;
         if (!outlook_->knows_variance()) return kUnlimited;
         const double rmse = target * error.mean;
-        const double needed = spp_to_reach(state, job_, rmse * rmse, outlook_->variance());
-        if (job_.budget.strict) return std::ceil(needed * kLastPassMargin);
-        return std::max({std::ceil(needed * kEndingMargin), least_spp(), kLeastShare * done});
+        const double variance = ending_variance(*outlook_, job_, outlook_->learning() ? 1 : 0);
+        const double needed = std::ceil(spp_to_reach(state, job_, rmse * rmse, variance) * ending_margin(job_));
+        return job_.budget.strict ? needed : std::max({needed, least_spp(), kLeastShare * done});
     }
 
     const Job job_;

@@ -17,6 +17,8 @@ constexpr double kUnknown = std::numeric_limits<double>::infinity();
 constexpr double kLearned = 0.55;
 /// Half the width of the error's own interval, relative, from which on it is too noisy to forecast by.
 constexpr double kNoisy = 0.1;
+/// So many times the samples that are done, and more, are too far ahead: the trees to come are unknown.
+constexpr double kFar = 16;
 /// A forecast is no further ahead than so many doublings.
 constexpr int kMostTrees = 40;
 
@@ -84,6 +86,14 @@ bool shows_last_tree_only(const Job& job) {
     return job.budget.strict || (is_guided(job) && job.guiding.combination == Combination::last);
 }
 
+double ending_margin(const Job& job) {
+    return job.budget.strict ? 1.10 : 1.02;
+}
+
+double ending_variance(const Outlook& outlook, const Job& job, int trees) {
+    return outlook.variance_after(job.budget.strict ? std::max(trees - 1, 0) : trees);
+}
+
 double spp_to_reach(const RenderState& state, const Job& job, double mse, double variance) {
     const double now = state.error.mse();
     if (shows_last_tree_only(job)) {
@@ -109,18 +119,20 @@ ErrorForecast forecast_error(const RenderState& state, const Job& job, double re
     const bool like_the_last = make_pass(job, next, state.spp(), 1, true).next_event == state.passes.back().next_event;
     if (!outlook.knows_variance() || !like_the_last) return forecast;
     forecast.trust = trust_in(state, outlook);
+    const double margin = relative_error == job.budget.error ? ending_margin(job) : 1.0;
 
     RenderState future = state;
     double seconds = 0;
     for (int trees = outlook.learning() ? 1 : 0;; ++trees) {
-        const double variance = forecast.trust == Trust::learning ? outlook.variance() : outlook.variance_after(trees);
-        const double wanted = std::ceil(spp_to_reach(future, job, mse, variance));
+        const double variance =
+            forecast.trust == Trust::learning ? outlook.variance() : ending_variance(outlook, job, trees);
+        const double wanted = std::ceil(spp_to_reach(future, job, mse, variance)) * margin;
         const double doubled = std::ldexp(job.guiding.spp_unit, static_cast<int>(future.passes.size()));
         seconds += outlook.overhead_seconds();
         if (!outlook.learning() || wanted < kTeachingShare * doubled || trees >= kMostTrees) {
-            const double ending = wanted * (relative_error == job.budget.error ? kEndingMargin : 1.0);
-            forecast.spp = future.spp() - state.spp() + ending;
-            forecast.seconds = seconds + ending * outlook.seconds_per_spp(trees, false);
+            forecast.spp = future.spp() - state.spp() + wanted;
+            forecast.seconds = seconds + wanted * outlook.seconds_per_spp(trees, false);
+            if (forecast.trust == Trust::firm && forecast.spp > kFar * state.spp()) forecast.trust = Trust::noisy;
             return forecast;
         }
         seconds += doubled * outlook.seconds_per_spp(trees, true);

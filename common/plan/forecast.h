@@ -12,10 +12,17 @@ bool shows_last_tree_only(const Job& job);
 /// has this variance (docs/guiding.md, "error"). 0: it is there already. Infinite: not known yet.
 double spp_to_reach(const RenderState& state, const Job& job, double mse, double variance);
 
+/// How passes that end a render for budget.error are chosen: so much beyond the samples that the error needs, so that
+/// few of them suffice; ...
+double ending_margin(const Job& job);
+/// ... and by this variance of a sample, once `trees` more trees were learned. A strict render cannot make up for a
+/// tree that brings less than it should: it takes the variance of the tree before.
+double ending_variance(const Outlook& outlook, const Job& job, int trees);
+
 /// How far a forecast can be trusted.
 enum class Trust : std::uint8_t {
     none,      ///< nothing is known yet
-    noisy,     ///< the error itself is not known well enough
+    noisy,     ///< the error itself is not known well enough, or it is too far ahead
     learning,  ///< the tree still makes samples less noisy: it takes this at most
     firm,
 };

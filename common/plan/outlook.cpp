@@ -9,7 +9,7 @@ namespace {
 /// Progress from one tree to the next is the progress before to this power (docs/guiding.md, "error"); a change of what
 /// a sample costs ends sooner.
 constexpr double kFading = 0.75;
-constexpr double kCostFading = 0.5;
+constexpr double kCostFading = 0.35;
 /// No tree is trusted to do better than this, or to change a sample's cost by more.
 constexpr double kLeastProgress = 0.25;
 constexpr double kMostCostRatio = 1.6;
@@ -23,12 +23,13 @@ constexpr double kShortestSample = 1e-9;
 /// Passes that had one tree.
 struct TreeFacts {
     double spp = 0;
-    double samples_times_variance = 0, known_spp = 0;
+    double samples_times_variance = 0, samples_times_trimmed = 0, known_spp = 0;
     double trace_core_seconds = 0;  ///< without the log of records
     bool first = false;             ///< before anything was learned
     bool next_event = false;
 
     double variance() const { return samples_times_variance / known_spp; }
+    double trimmed() const { return samples_times_trimmed / known_spp; }
     double core_per_spp() const { return trace_core_seconds / spp; }
 };
 
@@ -46,6 +47,7 @@ std::vector<TreeFacts> trees_of(const RenderState& state) {
         if (pass.spp >= 2) {
             tree.known_spp += pass.spp;
             tree.samples_times_variance += pass.spp * pass.mse_of_sample;
+            tree.samples_times_trimmed += pass.spp * pass.stuv_trimmed;
         }
         tree.trace_core_seconds += pass.trace_core_seconds * (pass.record ? 1 - kRecordingShare : 1.0);
         fresh = pass.record;
@@ -74,12 +76,17 @@ void Outlook::look_at_variance(const RenderState& state) {
         double weight, variance;
         int trees;
     };
+    std::vector<TreeFacts> trees = trees_of(state);
+    std::erase_if(trees, [&](const TreeFacts& tree) {
+        return tree.known_spp == 0 || (tree.first && trees.size() > 1) || tree.next_event != trees.back().next_event;
+    });
+    const bool trimmed = std::ranges::all_of(trees, [](const TreeFacts& tree) { return tree.trimmed() > 0; });
+    double whole = 0, looked_at = 0;
     std::vector<Level> levels;
-    const std::vector<TreeFacts> trees = trees_of(state);
     for (const TreeFacts& tree : trees) {
-        if (tree.known_spp == 0 || (tree.first && trees.size() > 1)) continue;
-        if (tree.next_event != trees.back().next_event) continue;
-        levels.push_back({tree.known_spp, tree.variance(), 1});
+        levels.push_back({tree.known_spp, trimmed ? tree.trimmed() : tree.variance(), 1});
+        whole += tree.known_spp * tree.variance();
+        looked_at += tree.known_spp * levels.back().variance;
         // More noise than with the tree before: both are as good, and the noise is in the measurement (isotonic
         // regression by pooling adjacent violators).
         while (levels.size() > 1 && levels.back().variance >= levels[levels.size() - 2].variance) {
@@ -92,6 +99,9 @@ void Outlook::look_at_variance(const RenderState& state) {
             before.trees += last.trees;
         }
     }
+    // What the worst pixels add is the same for all trees, for want of better.
+    for (Level& level : levels)
+        if (looked_at > 0) level.variance *= whole / looked_at;
     if (levels.empty()) return;
     variance_ = levels.back().variance;
     quiet_ = !(variance_ > 0);

@@ -12,6 +12,7 @@ struct PassFacts {
     std::uint32_t spp = 0;
     std::uint32_t spp_before = 0;
     double mse_of_sample = 0;        ///< PassVariance::mse_of_sample
+    double stuv_trimmed = 0;         ///< PassVariance::stuv_trimmed; 0: not known
     double collect_seconds = 0;      ///< of the clock: what grows with spp
     double overhead_seconds = 0;     ///< of the clock: what does not (broadcast, refinement, combination)
     double trace_core_seconds = 0;   ///< of the workers' threads, tracing
@@ -34,14 +35,15 @@ struct RenderState {
 
 /// What coming passes will be like, by those that are done (docs/guiding.md, "error"). A tree that learns more makes
 /// samples less noisy and changes what they cost, each time by less than the time before: its progress to the power
-/// 3/4, the change of cost to the power 1/2. Needs a finished pass.
+/// 3/4, the change of cost to the power 0.35. Needs a finished pass.
 class Outlook {
   public:
     explicit Outlook(const RenderState& state);
 
     /// Whether any pass tells the variance of its samples.
     bool knows_variance() const { return variance_ > 0 || quiet_; }
-    /// Of one sample, as they are now: what the last trees measured together, as far as they show no progress.
+    /// Of one sample, as they are now: what the last trees measured together, as far as they show no progress. Progress
+    /// is seen without the worst pixels, in which a rare sample tells nothing of the tree.
     double variance() const { return variance_; }
     /// Of one sample once `trees` more trees were learned; the same where nothing is learned any more.
     double variance_after(int trees) const;

@@ -47,8 +47,6 @@ std::vector<PassPlan> plan_passes(const Job& job);
 
 /// Under an open budget a pass teaches while what is still to be rendered is at least so many times its samples.
 inline constexpr double kTeachingShare = 3;
-/// Its ending passes aim so much beyond the samples that the error asked for needs, so that few of them suffice.
-inline constexpr double kEndingMargin = 1.02;
 
 /// Whether clock or estimated error choose the passes.
 bool has_open_budget(const Job& job);

@@ -67,7 +67,9 @@ LocalRender render_locally(const Scene& scene, const Job& job) {
         PassFacts facts;
         facts.spp = pass.spp;
         facts.spp_before = pass.first_sample;
-        facts.mse_of_sample = pass_variance(run.passes.back().pixels).mse_of_sample;
+        const PassVariance variance = pass_variance(run.passes.back().pixels);
+        facts.mse_of_sample = variance.mse_of_sample;
+        facts.stuv_trimmed = variance.stuv_trimmed;
         facts.collect_seconds = seconds;
         facts.record = pass.record;
         facts.next_event = pass.next_event;

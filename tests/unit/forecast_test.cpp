@@ -109,6 +109,12 @@ TEST(Forecast, IsNotTrustedWhereTheErrorIsNot) {
     EXPECT_EQ(halving(state).trust, Trust::noisy);
 }
 
+TEST(Forecast, IsRoughWhereItIsFarAhead) {
+    const RenderState state = rendered({.progress = 1.0, .growth = 1.0}, 5);
+    EXPECT_EQ(forecast_error(state, {}, 0.3 * state.error.relative()).trust, Trust::firm);
+    EXPECT_EQ(forecast_error(state, {}, 0.2 * state.error.relative()).trust, Trust::noisy);
+}
+
 TEST(Forecast, IsUnknownBeforeThereAreVariances) {
     const ErrorForecast forecast = halving(rendered({}, 1));
     EXPECT_EQ(forecast.trust, Trust::none);
@@ -179,6 +185,19 @@ TEST(Outlook, NoiseInMeasuredVariancesIsNoProgress) {
     state.passes[3].mse_of_sample = 4;
     EXPECT_EQ(Outlook(state).progress(), 1) << "three trees, none better than that before";
     EXPECT_EQ(Outlook(state).variance_after(5), Outlook(state).variance());
+}
+
+TEST(Outlook, RareSamplesInAPassAreNoNews) {
+    RenderState state = rendered({.progress = 1, .growth = 1}, 6);
+    for (PassFacts& pass : state.passes)
+        pass.stuv_trimmed = 0.5 * pass.mse_of_sample;
+    state.passes[3].mse_of_sample *= 3;  // a pass that found some
+    const Outlook outlook(state);
+    EXPECT_EQ(outlook.progress(), 1);
+    const double worst = (2 + 4 + 3 * 8 + 16 + 32) / 62.0;
+    EXPECT_DOUBLE_EQ(outlook.variance(), 8 * worst) << "they count for all trees";
+    state.passes[5].stuv_trimmed *= 0.9;
+    EXPECT_NEAR(Outlook(state).progress(), 0.9, 1e-9);
 }
 
 TEST(Outlook, TheClockIsTheMeanOfAllPasses) {
