@@ -9,19 +9,19 @@
 namespace treefarm {
 namespace {
 
-/// Clamps a pixel's variance so that one outlier does not decide about a whole pass (as the authors' program does).
+/// Clamps a pixel's variance in stuv_ppg, as the authors' program does.
 constexpr double kVarianceClamp = 1e4;
 
-/// Variance of the pass's image: mean over pixels, clamped, from one half of the samples.
+/// Variance of the pass's image: mean over pixels, from one half of the samples. Without the worst pixels: a rare
+/// sample in one half would take all weight from the pass in the other, which does not hold it.
 double image_variance(const PassResult& pass, int half) {
-    double sum = 0;
-    std::size_t count = 0;
+    std::vector<double> variances;
+    variances.reserve(pass.pixels.size());
     for (const PixelEstimate& pixel : pass.pixels) {
         const Moments& m = pixel.half[half];
-        count += m.n != 0;
-        if (m.n >= 2) sum += std::min(luminance(m.sample_variance()) / m.n, kVarianceClamp);
+        if (m.n != 0) variances.push_back(m.n >= 2 ? luminance(m.sample_variance()) / m.n : 0.0);
     }
-    return sum / static_cast<double>(std::max<std::size_t>(count, 1));
+    return variances.empty() ? 0.0 : trimmed_mean(std::move(variances));
 }
 
 void normalise(std::vector<double>& weights) {

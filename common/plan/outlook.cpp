@@ -77,8 +77,9 @@ void Outlook::look_at_variance(const RenderState& state) {
         int trees;
     };
     std::vector<TreeFacts> trees = trees_of(state);
+    const bool several = trees.size() > 1, next_event = trees.back().next_event;
     std::erase_if(trees, [&](const TreeFacts& tree) {
-        return tree.known_spp == 0 || (tree.first && trees.size() > 1) || tree.next_event != trees.back().next_event;
+        return tree.known_spp == 0 || (tree.first && several) || tree.next_event != next_event;
     });
     const bool trimmed = std::ranges::all_of(trees, [](const TreeFacts& tree) { return tree.trimmed() > 0; });
     double whole = 0, looked_at = 0;

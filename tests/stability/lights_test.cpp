@@ -171,9 +171,10 @@ double sampled_mean(const EnvironmentMap& map, std::uint32_t samples) {
     double sum = 0;
     for (std::uint32_t i = 0; i < samples; ++i) {
         const EnvironmentMap::Sample s = parts.sample(map, draw({8, i, 0}, 1, Stream::light));
-        EXPECT_TRUE(is_finite(s.direction) && std::isfinite(s.pdf) && s.pdf > 0.0f) << s.pdf << s.direction;
+        const float pdf = map.pdf(s, parts.choice);
+        EXPECT_TRUE(is_finite(s.direction) && std::isfinite(pdf) && pdf > 0.0f) << pdf << s.direction;
         EXPECT_NEAR(s.direction.length(), 1.0f, 1e-5f);
-        sum += double(map.radiance(s.direction).x) / double(s.pdf);
+        sum += double(map.radiance(s.direction).x) / double(pdf);
     }
     return sum / samples / (4 * M_PI);
 }

@@ -24,7 +24,7 @@ struct MapParts {
             choice[part] = table.probability(part);
     }
     EnvironmentMap::Sample sample(const EnvironmentMap& map, const Draw& random) const {
-        return map.sample(static_cast<int>(table.pick(random[0])), choice, random);
+        return map.sample(static_cast<int>(table.pick(random[0])), random);
     }
     DiscreteTable table;
     EnvironmentMap::PartChoice choice{};

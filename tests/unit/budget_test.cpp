@@ -44,6 +44,7 @@ PassFacts facts_of(const PassPlan& pass, const World& world, std::uint32_t trees
 struct Simulated {
     std::vector<PassPlan> passes;
     RenderState state;
+    std::vector<ErrorForecast> forecasts;  ///< of budget.error, after each pass
 };
 
 Simulated simulate(const Job& job, const World& world) {
@@ -69,6 +70,7 @@ Simulated simulate(const Job& job, const World& world) {
         state.error.low = 0.9 * state.error.rmse;
         state.error.mean = 0.5;
         run.passes.push_back(*pass);
+        run.forecasts.push_back(forecast_error(state, job, job.budget.error));
     }
     return run;
 }
@@ -202,6 +204,20 @@ TEST(Budget, AStrictRenderNeverReturnsAPassThatItLookedAt) {
     job.budget.strict = true;
     const Simulated run = simulate(job, {});
     EXPECT_FALSE(run.passes.back().record);
+}
+
+TEST(Budget, TheForecastOfAnErrorSaysWhatWillBeDone) {
+    for (const bool strict : {false, true})
+        for (const double target : {0.1, 0.03}) {
+            Job job = error_job(target);
+            job.budget.strict = strict;
+            const Simulated run = simulate(job, {});
+            const double total = run.state.spp();
+            for (std::size_t k = 4; k + 1 < run.passes.size(); ++k) {
+                const double done = run.passes[k].first_sample + run.passes[k].spp;
+                EXPECT_NEAR((done + run.forecasts[k].spp) / total, 1.0, 0.02) << k << (strict ? ", strict" : "");
+            }
+        }
 }
 
 TEST(Budget, WhatCannotBeReachedEndsAtMaxSpp) {

@@ -82,6 +82,13 @@ TEST(Combine, EachHalfIsWeighedByTheOthersVariance) {
     EXPECT_NEAR(image.mean[0].x, 1.5, 1e-9);
 }
 
+TEST(Combine, ARareSampleTakesNoWeightFromItsPass) {
+    std::vector<PassResult> passes{make_pass(16, 0, 1.0f, 1.0f, 2000, 1), make_pass(16, 16, 1.0f, 1.0f, 2000, 2)};
+    passes[0].pixels[7].add(16, Rgb(1e5f));
+    const CombinedImage image = combine_passes(passes, Combination::inverse_variance, true);
+    EXPECT_NEAR(image.weight[0], 0.5, 0.02);
+}
+
 TEST(Combine, IsUnbiasedWhenVarianceFollowsTheSignal) {
     // Skewed samples: a per-pixel or same-half weight would pull the mean down.
     double sum = 0, squared = 0;

@@ -143,6 +143,49 @@ TEST(Emitters, DensityOfAHitIsThatOfTheSample) {
     EXPECT_GT(compared, 3000);
 }
 
+TEST(Emitters, ASurfaceThatReflectsOnlyGetsTheSamplesThatItSees) {
+    Scene scene = every_kind_of_light();
+    add_shape(scene, quad({-1, -1, -2}, {2, 0, 0}, {0, 2, 0}), kNone, Rgb(1.0f));
+    const Lights lights(scene);
+    const Vec3 p(0.1f, 0.2f, -0.3f), front = normalize(Vec3(0.4f, -0.2f, 0.9f));
+    int kept = 0, dropped = 0;
+    for (std::uint32_t i = 0; i < 20000; ++i) {
+        const DirectSample all = lights.emitters.sample_direct(p, random_draw(i));
+        const DirectSample seen = lights.emitters.sample_direct(p, random_draw(i), nullptr, &front);
+        const float cosine = dot(front, all.wi);
+        const bool useful = cosine > 0.0f && !all.black();
+        // Where it grazes, rounding decides.
+        if (std::abs(cosine) < 1e-5f) continue;
+        if (!useful) {
+            EXPECT_TRUE(seen.pdf == 0.0f || seen.black());
+            ++dropped;
+            continue;
+        }
+        ASSERT_EQ(seen.pdf, all.pdf);
+        ASSERT_EQ(seen.wi, all.wi);
+        ASSERT_EQ(seen.radiance, all.radiance);
+        ASSERT_EQ(seen.on_light.p, all.on_light.p);
+        ASSERT_EQ(seen.on_light.primitive, all.on_light.primitive);
+        ++kept;
+    }
+    EXPECT_GT(kept, 5000);
+    EXPECT_GT(dropped, 5000);
+}
+
+TEST(Emitters, PointsOfFlatTrianglesAreThoseOfTheGeometry) {
+    const Lights lights(every_kind_of_light());
+    for (std::uint32_t i = 0; i < 2000; ++i) {
+        const DirectSample sample = lights.emitters.sample_direct(Vec3(0.1f, 0.2f, -0.3f), random_draw(i));
+        const Hit& hit = sample.on_light;
+        if (sample.at_infinity() || lights.geometry.triangle_count(hit.shape) == 0) continue;
+        const Hit same = lights.geometry.triangle_point(hit.shape, hit.primitive, hit.b1, hit.b2);
+        ASSERT_EQ(hit.p, same.p);
+        ASSERT_EQ(hit.ng, same.ng);
+        ASSERT_EQ(hit.ns, same.ns);
+        ASSERT_EQ(hit.error, same.error);
+    }
+}
+
 TEST(Emitters, NonEmittersHaveNoDensity) {
     Scene scene = every_kind_of_light();
     const auto dark = static_cast<std::uint32_t>(add_shape(scene, quad({0, 0, 0}, {1, 0, 0}, {0, 1, 0}), kNone));

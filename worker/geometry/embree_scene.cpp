@@ -93,16 +93,10 @@ void EmbreeScene::set_triangle_point(Hit& hit, std::uint32_t shape, std::uint32_
     const std::uint32_t* corner = surface.indices + 3 * std::size_t(primitive);
     const Vec3 &v0 = surface.positions[corner[0]], &v1 = surface.positions[corner[1]],
                &v2 = surface.positions[corner[2]];
-    const Vec3 e1 = v1 - v0, e2 = v2 - v0;
     hit.shape = shape;
     hit.primitive = primitive;
-    hit.b1 = b1;
-    hit.b2 = b2;
     hit.instance = 0;
-    hit.p = v0 + (e1 * b1 + e2 * b2);
-    hit.error = offset_bound(std::max(max_abs(v0), std::max(max_abs(v1), max_abs(v2))));
-    hit.ng = unit_normal(e1, e2);
-    hit.ns = hit.ng;
+    FlatTriangle(v0, v1, v2).set_point(hit, b1, b2);
     if (surface.normals) {
         const Vec3 n = surface.normals[corner[0]] * (1.0f - b1 - b2) + surface.normals[corner[1]] * b1 +
                        surface.normals[corner[2]] * b2;
@@ -112,6 +106,16 @@ void EmbreeScene::set_triangle_point(Hit& hit, std::uint32_t shape, std::uint32_
             if (dot(hit.ng, hit.ns) < 0.0f) hit.ng = -hit.ng;
         }
     }
+}
+
+std::vector<FlatTriangle> EmbreeScene::flat_triangles(std::uint32_t shape) const {
+    const Surface& surface = surfaces_[shape];
+    std::vector<FlatTriangle> triangles;
+    if (surface.normals) return triangles;
+    for (std::size_t i = 0; i < 3 * std::size_t(surface.triangle_count); i += 3)
+        triangles.emplace_back(surface.positions[surface.indices[i]], surface.positions[surface.indices[i + 1]],
+                               surface.positions[surface.indices[i + 2]]);
+    return triangles;
 }
 
 Hit EmbreeScene::triangle_point(std::uint32_t shape, std::uint32_t primitive, float b1, float b2) const {

@@ -10,6 +10,7 @@
 #include "worker/geometry/hit.h"
 #include "worker/geometry/mask.h"
 #include "worker/geometry/placement.h"
+#include "worker/geometry/primitive_points.h"
 #include "worker/geometry/ray.h"
 #include "worker/geometry/surface_detail.h"
 
@@ -61,6 +62,8 @@ class EmbreeScene {
     Hit triangle_point(std::uint32_t shape, std::uint32_t primitive, float b1, float b2) const;
     /// The same in place: a hit is too large to be copied for each ray.
     void set_triangle_point(Hit& hit, std::uint32_t shape, std::uint32_t primitive, float b1, float b2) const;
+    /// A mesh's triangles; none if it has shading normals.
+    std::vector<FlatTriangle> flat_triangles(std::uint32_t shape) const;
     /// The point of a sphere in the direction `outward` (unit) from its centre.
     Hit sphere_point(std::uint32_t shape, const Vec3& outward) const;
     /// The points of disks and cylinders: see primitive_points.h.

@@ -24,6 +24,30 @@ inline Vec3 unit_normal(const Vec3& e1, const Vec3& e2) {
     return Vec3(wide / length);
 }
 
+/// What points of one triangle share.
+struct FlatTriangle {
+    Vec3 origin, e1, e2;
+    Vec3 ng;
+    float error;
+
+    FlatTriangle(const Vec3& v0, const Vec3& v1, const Vec3& v2)
+        : origin(v0),
+          e1(v1 - v0),
+          e2(v2 - v0),
+          ng(unit_normal(e1, e2)),
+          error(offset_bound(std::max(max_abs(v0), std::max(max_abs(v1), max_abs(v2))))) {}
+
+    /// The point with these barycentrics, of a mesh without shading normals.
+    void set_point(Hit& hit, float b1, float b2) const {
+        hit.b1 = b1;
+        hit.b2 = b2;
+        hit.p = origin + (e1 * b1 + e2 * b2);
+        hit.ng = ng;
+        hit.ns = ng;
+        hit.error = error;
+    }
+};
+
 /// The point of a sphere in the direction `outward` from its centre (need not be unit).
 inline Hit sphere_point(const Sphere& s, const Vec3& outward) {
     Hit hit;

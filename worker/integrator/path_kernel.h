@@ -321,8 +321,11 @@ class PathKernel {
         const Surface& surface = *path.surface;
         const Hit& hit = path.hit;
         const LightShare* const share = settings_.delta_alone ? nullptr : light_share(path);
-        const DirectSample light = settings_.delta_alone ? scene_.emitters().sample_delta(hit.p, random)
-                                                         : scene_.emitters().sample_direct(hit.p, random, share);
+        const Vec3 front = surface.front();
+        const DirectSample light =
+            settings_.delta_alone
+                ? scene_.emitters().sample_delta(hit.p, random)
+                : scene_.emitters().sample_direct(hit.p, random, share, surface.transmits() ? nullptr : &front);
         if (!(light.pdf > 0.0f) || light.black()) return;
         const Vec3 wi = surface.frame().to_local(light.wi);
         const BsdfValue bsdf = surface.bsdf().value(surface.wo(), wi);

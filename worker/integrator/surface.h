@@ -26,7 +26,10 @@ class DiffuseSurface {
     const Frame& frame() const { return frame_; }
     const Vec3& wo() const { return wo_; }
     const Vec3& ng() const { return hit_.ng; }
+    /// Normal on wo's side.
+    Vec3 front() const { return wo_.z < 0.0f ? -frame_.n : frame_.n; }
     static constexpr bool smooth() { return true; }
+    static constexpr bool transmits() { return false; }
     static constexpr bool has_delta() { return false; }
     static constexpr bool delta_or_transmitting() { return false; }
 
@@ -68,6 +71,9 @@ class GeneralSurface {
     const Vec3& ng() const { return ng_; }
     /// Whether any lobe has a density: next event and guides are of no use without.
     bool smooth() const { return lobes_ & kSmoothLobe; }
+    /// Normal on wo's side.
+    const Vec3& front() const { return frame_.n; }
+    bool transmits() const { return lobes_ & kTransmittingLobe; }
     /// Whether the directions that it prefers depend on wo.
     bool view_dependent() const { return lobes_ & kViewLobe; }
     bool has_delta() const { return lobes_ & kDeltaLobe; }

@@ -10,6 +10,14 @@
 namespace treefarm {
 namespace {
 
+/// Larger meshes would not stay in the cache.
+constexpr std::size_t kMostFlat = 4096;
+
+/// Whether a surface with this normal, if that matters, sees a direction.
+bool sees(const Vec3* front, const Vec3& direction) {
+    return !front || dot(*front, direction) > 0.0f;
+}
+
 double bounding_radius(const Box3& bounds) {
     if (bounds.isEmpty()) return 1.0;
     const Imath::V3d size = Imath::V3d(bounds.max) - Imath::V3d(bounds.min);
@@ -99,6 +107,7 @@ double Emitters::add_area_light(const AreaEmitter& emitter) {
                 light.area_density[i] = static_cast<float>(double(light.triangles.probability(i)) / areas[i]);
     }
     light.plain = geometry_->triangle_count(light.shape) > 0 && light.texture == kNone && !light.mask;
+    if (light.plain && areas.size() <= kMostFlat) light.flat = geometry_->flat_triangles(light.shape);
     light_of_shape_[light.shape] = static_cast<std::int32_t>(area_lights_.size());
     area_lights_.push_back(std::move(light));
     const Rgb mean = emitter.radiance.value *
@@ -111,14 +120,15 @@ Emitters::Channels Emitters::textured(const AreaLight& light, const Hit& hit) co
     return {c.x, c.y, c.z};
 }
 
-DirectSample Emitters::sample_direct(const Vec3& p, const Draw& random, const LightShare* share) const {
+DirectSample Emitters::sample_direct(const Vec3& p, const Draw& random, const LightShare* share,
+                                     const Vec3* front) const {
     if (selection_.empty()) return {};
     LightClusters::Choice choice{0, random[0], 1.0f, 1.0f};
     if (share) choice = clusters_.pick(*share, random[0]);
     const std::uint32_t chosen = selection_.pick(choice.bits);
     DirectSample sample = chosen < area_lights_.size() && area_lights_[chosen].plain
-                              ? sample_mesh(area_lights_[chosen], p, random)
-                              : sample_other(chosen, p, random, share);
+                              ? sample_mesh(area_lights_[chosen], p, random, front)
+                              : sample_other(chosen, p, random, share, front);
     if (!sample.from_environment) sample.pdf *= choice.factor;  // the environment has it in its density
     sample.cluster = choice.cluster;
     sample.cluster_probability = choice.probability;
@@ -131,11 +141,11 @@ DirectSample Emitters::sample_delta(const Vec3& p, const Draw& random) const {
     return delta_lights_[chosen].sample(p, delta_alone_.probability(chosen));
 }
 
-DirectSample Emitters::sample_other(std::uint32_t chosen, const Vec3& p, const Draw& random,
-                                    const LightShare* share) const {
-    if (chosen >= area_lights_.size()) return sample_without_area(chosen, p, random, share);
+DirectSample Emitters::sample_other(std::uint32_t chosen, const Vec3& p, const Draw& random, const LightShare* share,
+                                    const Vec3* front) const {
+    if (chosen >= area_lights_.size()) return sample_without_area(chosen, p, random, share, front);
     const AreaLight& light = area_lights_[chosen];
-    DirectSample sample = light.sphere ? sample_sphere(light, p, random) : sample_area(light, p, random);
+    DirectSample sample = light.sphere ? sample_sphere(light, p, random, front) : sample_area(light, p, random, front);
     if (is_black(sample.radiance)) return sample;
     if (kHasTextures && light.texture != kNone) sample.radiance = textured(light, sample.on_light).rgb();
     // The shadow ray ends before the emitter, so its own mask is not asked: on average it lets this much be seen.
@@ -143,30 +153,40 @@ DirectSample Emitters::sample_other(std::uint32_t chosen, const Vec3& p, const D
     return sample;
 }
 
-DirectSample Emitters::sample_mesh(const AreaLight& light, const Vec3& p, const Draw& random) const {
+DirectSample Emitters::sample_mesh(const AreaLight& light, const Vec3& p, const Draw& random, const Vec3* front) const {
     const std::uint32_t triangle = light.triangles.pick(random[1]);
     const Vec2 b = square_to_triangle({to_unit(random[2]), to_unit(random[3])});
     DirectSample sample;
-    geometry_->set_triangle_point(sample.on_light, light.shape, triangle, b.x, b.y);
+    Hit& hit = sample.on_light;
+    if (light.flat.empty()) {
+        geometry_->set_triangle_point(hit, light.shape, triangle, b.x, b.y);
+    } else {
+        hit.shape = light.shape;
+        hit.primitive = triangle;
+        light.flat[triangle].set_point(hit, b.x, b.y);
+    }
+    if (front && !(dot(*front, hit.p - p) > 0.0f && dot(hit.ng, p - hit.p) > 0.0f)) return sample;
     look_at(sample, p, light.radiance, light.selection, light.area_density[triangle]);
     return sample;
 }
 
 /// Any shape but a sphere, uniformly by area.
-DirectSample Emitters::sample_area(const AreaLight& light, const Vec3& p, const Draw& random) const {
-    if (geometry_->triangle_count(light.shape) > 0) return sample_mesh(light, p, random);
+DirectSample Emitters::sample_area(const AreaLight& light, const Vec3& p, const Draw& random, const Vec3* front) const {
+    if (geometry_->triangle_count(light.shape) > 0) return sample_mesh(light, p, random, front);
     DirectSample sample;
     sample.on_light = uniform_point(*geometry_, light.shape, {to_unit(random[2]), to_unit(random[3])});
     look_at(sample, p, light.radiance, light.selection, light.area_density[0]);
     return sample;
 }
 
-DirectSample Emitters::sample_sphere(const AreaLight& light, const Vec3& p, const Draw& random) const {
+DirectSample Emitters::sample_sphere(const AreaLight& light, const Vec3& p, const Draw& random,
+                                     const Vec3* front) const {
     DirectSample sample;
     const Vec2 u = {to_unit(random[2]), to_unit(random[3])};
     const SphereCone cone = sphere_cone(*light.sphere, p);
     if (cone.outside && light.by_cone) {
         const ConeSample c = sample_cone(cone, u);
+        if (!sees(front, c.direction)) return sample;
         sample.wi = c.direction;
         sample.on_light = geometry_->sphere_point(light.shape, c.normal);
         const Vec3 to_light = sample.on_light.p - p;
@@ -181,7 +201,7 @@ DirectSample Emitters::sample_sphere(const AreaLight& light, const Vec3& p, cons
 }
 
 DirectSample Emitters::sample_without_area(std::uint32_t chosen, const Vec3& p, const Draw& random,
-                                           const LightShare* share) const {
+                                           const LightShare* share, const Vec3* front) const {
     std::size_t index = chosen - area_lights_.size();
     if (index < delta_lights_.size()) return delta_lights_[index].sample(p, delta_selection_[index]);
     index -= delta_lights_.size();
@@ -191,11 +211,11 @@ DirectSample Emitters::sample_without_area(std::uint32_t chosen, const Vec3& p, 
     sample.distance = std::numeric_limits<float>::infinity();
     if (index == 0) {
         sample.wi = square_to_sphere({to_unit(random[2]), to_unit(random[3])});
-        sample.pdf = pdf_environment(sample.wi, share);
+        if (sees(front, sample.wi)) sample.pdf = pdf_environment(sample.wi, share);
     } else {
-        const EnvironmentMap::Sample of_map = map_->sample(static_cast<int>(index - 1), part_choice(share), random);
+        const EnvironmentMap::Sample of_map = map_->sample(static_cast<int>(index - 1), random);
         sample.wi = of_map.direction;
-        sample.pdf = constant_pdf(share) + of_map.pdf;
+        if (sees(front, sample.wi)) sample.pdf = constant_pdf(share) + map_->pdf(of_map, part_choice(share));
     }
     return sample;
 }

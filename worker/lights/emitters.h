@@ -36,8 +36,10 @@ class Emitters {
     /// Samples a direction from p. random[0] chooses the emitter, [1] the triangle, [2] and [3] the place; for an
     /// environment's image [1] and [2] the texel, [3] the place about it. What comes from infinity has no radiance yet:
     /// environment() is to be asked once it is known to be seen. `share`: how clusters of emitters are chosen; nullptr:
-    /// all by power.
-    DirectSample sample_direct(const Vec3& p, const Draw& random, const LightShare* share = nullptr) const;
+    /// all by power. `front`: normal of a surface at p that reflects only; what is behind it, or turns its back on p,
+    /// is no sample then, which is found out before it costs much. nullptr: every sample has its density.
+    DirectSample sample_direct(const Vec3& p, const Draw& random, const LightShare* share = nullptr,
+                               const Vec3* front = nullptr) const;
     /// Clusters that next event can learn to choose among.
     const LightClusters& clusters() const { return clusters_; }
 
@@ -92,6 +94,7 @@ class Emitters {
         float selection = 0;              ///< probability that this light is chosen
         DiscreteTable triangles;          ///< meshes
         std::vector<float> area_density;  ///< per triangle: per area, within this light; none for spheres
+        std::vector<FlatTriangle> flat;   ///< of a plain mesh without shading normals that is not large
         const Mask* mask = nullptr;
         /// Spheres: sampled by their cone from outside. Not those that shine inwards through the holes of a mask.
         bool by_cone = true;
@@ -106,12 +109,12 @@ class Emitters {
     Channels textured(const AreaLight& light, const Hit& hit) const;
     /// Kept out of line, so that plain meshes pay nothing for the other kinds.
     [[gnu::noinline]] DirectSample sample_other(std::uint32_t chosen, const Vec3& p, const Draw& random,
-                                                const LightShare* share) const;
-    DirectSample sample_mesh(const AreaLight& light, const Vec3& p, const Draw& random) const;
-    DirectSample sample_area(const AreaLight& light, const Vec3& p, const Draw& random) const;
-    DirectSample sample_sphere(const AreaLight& light, const Vec3& p, const Draw& random) const;
-    DirectSample sample_without_area(std::uint32_t chosen, const Vec3& p, const Draw& random,
-                                     const LightShare* share) const;
+                                                const LightShare* share, const Vec3* front) const;
+    DirectSample sample_mesh(const AreaLight& light, const Vec3& p, const Draw& random, const Vec3* front) const;
+    DirectSample sample_area(const AreaLight& light, const Vec3& p, const Draw& random, const Vec3* front) const;
+    DirectSample sample_sphere(const AreaLight& light, const Vec3& p, const Draw& random, const Vec3* front) const;
+    DirectSample sample_without_area(std::uint32_t chosen, const Vec3& p, const Draw& random, const LightShare* share,
+                                     const Vec3* front) const;
 
     const EmbreeScene* geometry_;
     const TextureSet* textures_;

@@ -195,8 +195,11 @@ int EnvironmentMap::pick_column(int y, std::uint32_t bits) const {
 }
 
 float EnvironmentMap::pdf(const Place& p, float sine, const PartChoice& choice) const {
+    // Nearly always all four texels are of one part.
+    const int first = part_of(p.x0, p.y0);
+    const bool one_part = parts_[static_cast<std::size_t>(first)].texels.holds(p.x1, p.y1);
     const auto texel = [&](int x, int y) {
-        const int part = part_of(x, y);
+        const int part = one_part ? first : part_of(x, y);
         return choice[static_cast<std::size_t>(part)] * density(part, x, y);
     };
     const float upper = mix(texel(p.x0, p.y0), texel(p.x1, p.y0), p.fx);
@@ -212,7 +215,7 @@ float EnvironmentMap::pdf(const Vec3& direction, const PartChoice& choice) const
     return pdf(p, sine, choice);
 }
 
-EnvironmentMap::Sample EnvironmentMap::sample(int chosen, const PartChoice& choice, const Draw& random) const {
+EnvironmentMap::Sample EnvironmentMap::sample(int chosen, const Draw& random) const {
     const Part& part = parts_[static_cast<std::size_t>(chosen)];
     const int row = part.texels.y0 + static_cast<int>(pick(part.rows.data(), part.rows.size() - 1, random[1]));
     // Bits within the part's share of the row.
@@ -227,8 +230,8 @@ EnvironmentMap::Sample EnvironmentMap::sample(int chosen, const PartChoice& choi
     const SinCos azimuth = sincos_turn(turn < 0.0f ? turn + 1.0f : turn);
     const Vec3 direction =
         x_axis_ * (polar.sin * azimuth.sin) + y_axis_ * polar.cos - z_axis_ * (polar.sin * azimuth.cos);
-    return {direction * (1.0f / std::sqrt(dot(direction, direction))),
-            pdf(place(u, from_pole - margin_), std::abs(polar.sin), choice)};
+    return {direction * (1.0f / std::sqrt(dot(direction, direction))), place(u, from_pole - margin_),
+            std::abs(polar.sin)};
 }
 
 }  // namespace treefarm

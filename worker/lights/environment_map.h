@@ -29,9 +29,16 @@ class EnvironmentMap {
     /// Texels that are negative or not finite count as black. `image` must outlive it; `emitter.scale` is at least 0.
     EnvironmentMap(const EnvironmentEmitter& emitter, const TextureImage& image);
 
+    /// A place between four texel centres: the texels' columns and rows, and how far it lies from the first ones.
+    struct Place {
+        int x0, x1, y0, y1;
+        float fx, fy;
+    };
+
     struct Sample {
         Vec3 direction;  ///< unit
-        float pdf;       ///< per steradian
+        Place place;
+        float sine;  ///< of the angle from the pole
     };
 
     static constexpr int kMostParts = 8;
@@ -45,21 +52,16 @@ class EnvironmentMap {
     Rgb radiance(const Vec3& direction) const;
     /// Density of sample() in parts that are chosen like this, per steradian.
     float pdf(const Vec3& direction, const PartChoice& choice) const;
+    float pdf(const Sample& sample, const PartChoice& choice) const { return pdf(sample.place, sample.sine, choice); }
     /// Draws from a part that was chosen: random[1] picks the row, [2] the column, [3] the place. Not from one without
     /// weight.
-    Sample sample(int part, const PartChoice& choice, const Draw& random) const;
+    Sample sample(int part, const Draw& random) const;
 
     /// Mean over all directions, of the channels' mean: W / (m^2 sr).
     double mean_radiance() const { return mean_; }
     bool black() const { return !(mean_ > 0); }
 
   private:
-    /// A place between four texel centres: the texels' columns and rows, and how far it lies from the first ones.
-    struct Place {
-        int x0, x1, y0, y1;
-        float fx, fy;
-    };
-
     /// In texels from the centre of the first one; u at most one and a half outside [0, width).
     Place place(float u, float v) const;
     /// The same of a direction; `sine` becomes that of its angle from the pole.

@@ -11,6 +11,8 @@ struct EnvironmentPart {
     int cut_from = -1;
     bool cut_rows = false;  ///< between rows rather than columns
     int cut_at = 0;
+
+    bool holds(int x, int y) const { return x >= x0 && x < x1 && y >= y0 && y < y1; }
 };
 
 /// Which of `count` parts holds a texel; `part(i)` is the i-th.
