@@ -1,5 +1,8 @@
 #include "coordinator/study/cell_request.h"
 
+#include <filesystem>
+#include <fstream>
+
 #include "common/base/hash.h"
 #include "common/config/check_job.h"
 #include "common/config/job_reader.h"
@@ -17,6 +20,18 @@ Job scene_job(const Study& study, const StudyScene& scene) {
     apply_layer(job, scene.settings);
     job.scene.file = scene.file;
     return job;
+}
+
+/// Of this very program: another build renders anew, whatever its version.
+std::uint64_t program_hash() {
+    const std::filesystem::path self = "/proc/self/exe";
+    std::error_code error;
+    const std::uintmax_t size = std::filesystem::file_size(self, error);
+    if (error) return 0;
+    std::vector<std::uint8_t> bytes(size);
+    std::ifstream(self, std::ios::binary)
+        .read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size));
+    return hash_bytes(bytes);
 }
 
 }  // namespace
@@ -53,10 +68,11 @@ std::vector<Setting> cell_settings(const Study& study, const StudyCell& cell) {
 }
 
 std::uint64_t request_key(const RenderRequest& request, const std::string& more) {
+    static const std::uint64_t program = program_hash();
     Job job = request.job;
     job.output = {};
     const std::string text = write_job(job) + hash_text(hash_bytes(encode_scene(request.scene))) +
-                             hash_text(request.fingerprint) + kProgramVersion + more;
+                             hash_text(request.fingerprint) + hash_text(program) + more;
     return hash_bytes({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
 }
 

@@ -91,6 +91,13 @@ TEST_P(StudyTest, KilledHalfWayGoesOn) {
 
     const Ending dry = Program(study(file, whole) + std::vector<std::string>{"--dry-run"}).wait(kPatience);
     EXPECT_NE(dry.output.find("24 of 24 cells are done"), std::string::npos) << dry.output;
+
+    std::vector<std::string> other_build = study(file, whole) + std::vector<std::string>{"--dry-run"};
+    other_build[0] = folder / "treefarm";
+    fs::copy_file(TREEFARM_PROGRAM, other_build[0]);
+    std::ofstream(other_build[0], std::ios::binary | std::ios::app) << ' ';
+    const Ending other = Program(other_build).wait(kPatience);
+    EXPECT_NE(other.output.find("0 of 24 cells are done"), std::string::npos) << other.output;
 }
 
 INSTANTIATE_TEST_SUITE_P(Ranks, StudyTest, ::testing::Values(0, 3));
