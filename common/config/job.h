@@ -114,7 +114,7 @@ struct Job {
 
     struct Guiding {
         GuidingType type = GuidingType::automatic;
-        std::string preset;               ///< "" or "paper": recorded so that the result says what was asked
+        std::string preset;               ///< "" or a preset's name: recorded so that the result says what was asked
         float bsdf_fraction = 0.5f;       ///< probability of sampling the BSDF rather than the tree, (0, 1]
         bool learn_bsdf_fraction = true;  ///< per region, from bsdf_fraction on
         SpatialFilter spatial_filter = SpatialFilter::stochastic;

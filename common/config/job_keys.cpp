@@ -214,9 +214,11 @@ std::vector<JobKey> make_job_keys() {
                                                          {"auto", GuidingType::automatic}}));
     add(word_key(
         "guiding.preset",
-        "a publication's settings, applied before all other keys; paper: Mueller et al. 2017, thesis: Cavus 2020",
+        "a publication's settings, applied before all other keys; paper: Mueller et al. 2017, improved: with what its "
+        "authors added in 2019, thesis: Cavus 2020",
         [](auto& j) -> auto& { return j.guiding.preset; },
-        std::vector<std::pair<std::string, std::string>>{{"", ""}, {"paper", "paper"}, {"thesis", "thesis"}}));
+        std::vector<std::pair<std::string, std::string>>{
+            {"", ""}, {"paper", "paper"}, {"improved", "improved"}, {"thesis", "thesis"}}));
     add(word_key(
         "guiding.view_records",
         "what a view-dependent vertex teaches: its view the radiance that arrives and its region nothing (Cavus 2020), "

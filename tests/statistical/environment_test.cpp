@@ -172,6 +172,35 @@ TEST(EnvironmentMap, DensityIsPositiveWhereRadianceIs) {
     }
 }
 
+TEST(EnvironmentMap, BatchesAreTheirSamplesToTheBit) {
+    TextureImage image = black(300, 40);
+    for (std::uint32_t i = 0; i < image.floats.size(); ++i)
+        image.floats[i] = to_unit(draw({3, i, 0}, 0, Stream::light)[0]);
+    set(image, 299, 0, Rgb(500.0f));
+    set(image, 7, 39, Rgb(500.0f));
+    const EnvironmentMap map(turned(), image);
+    const test::MapParts parts(map);
+    EnvironmentBatch batch;
+    std::uint32_t asked = 0;
+    for (const std::uint32_t size : {64u, 1u, 0u, 37u}) {
+        batch.clear();
+        std::vector<EnvironmentMap::Sample> alone;
+        for (std::uint32_t i = 0; i < size; ++i) {
+            const Draw random = draw({4, asked++, 0}, 0, Stream::light);
+            const int part = static_cast<int>(parts.table.pick(random[0]));
+            ASSERT_EQ(batch.add(part, random), i);
+            alone.push_back(map.sample(part, random));
+        }
+        map.sample(batch);
+        for (std::uint32_t i = 0; i < size; ++i) {
+            EXPECT_EQ(batch[i].direction, alone[i].direction) << i << " of " << size;
+            EXPECT_EQ(batch[i].sine, alone[i].sine);
+            EXPECT_EQ(map.pdf(batch[i], parts.choice), map.pdf(alone[i], parts.choice));
+            EXPECT_EQ(map.radiance(batch.place(i)), map.radiance(alone[i].place));
+        }
+    }
+}
+
 TEST(EnvironmentMap, BadTexelsAreBlack) {
     TextureImage image = black(4, 4);
     const float bad[] = {std::nanf(""), -1.0f, std::numeric_limits<float>::infinity()};

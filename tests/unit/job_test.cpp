@@ -145,6 +145,20 @@ TEST(Job, PresetComesFirstInItsLayer) {
     EXPECT_EQ(job.guiding.preset, "paper");
 }
 
+TEST(Job, TheImprovedProgramLeavesNextEventToTheScene) {
+    Job job = job_of("[guiding]\npreset = \"improved\"\n[integrator]\nnext_event = \"kickstart\"\n");
+    EXPECT_EQ(job.guiding.type, GuidingType::ppg);
+    EXPECT_EQ(job.guiding.spatial_threshold, 4000);
+    EXPECT_EQ(job.guiding.spp_unit, 1);
+    EXPECT_EQ(job.guiding.combination, Combination::inverse_variance);
+    EXPECT_EQ(job.guiding.roulette, GuidingRoulette::constant);
+    EXPECT_EQ(job.guiding.light_selection, LightSelection::power);
+    EXPECT_EQ(job.guiding.candidates, 1);
+    EXPECT_EQ(job.integrator.mis, MisHeuristic::power);
+    EXPECT_EQ(job.integrator.next_event, NextEvent::kickstart);
+    EXPECT_FALSE(job.integrator.split_glass);
+}
+
 TEST(Job, LaterLayersWin) {
     Job job;
     apply_layer(job, std::vector<Setting>{{"guiding.preset", "paper", {}}, {"budget.spp", "127", {}}});

@@ -50,6 +50,16 @@ class EmbreeScene {
     bool meet(const Ray& ray, Meeting& meeting) const;
     /// The point that was met. Apart from meet(), so that of many points none waits for another's memory.
     void set_point(Hit& hit, const Meeting& meeting) const;
+    /// Fetches what that reads.
+    void prefetch_point(const Meeting& m) const {
+        if (m.instance != kNoInstance) return;  // rare, and another's
+        const Surface& surface = surfaces_[m.id];
+        const std::uint32_t* corner = surface.indices + 3 * std::size_t(m.primitive);
+        for (int i = 0; i < 3; ++i) {
+            __builtin_prefetch(surface.positions + corner[i]);
+            if (surface.normals) __builtin_prefetch(surface.normals + corner[i]);
+        }
+    }
     /// Both in one.
     bool intersect(const Ray& ray, Hit& hit) const;
     /// Whether anything lies on the segment or half line.
@@ -91,6 +101,8 @@ class EmbreeScene {
     RTCSceneTy* handle() const { return scene_.get(); }
 
   private:
+    static constexpr std::uint32_t kNoInstance = ~0u;  ///< Embree's RTC_INVALID_GEOMETRY_ID
+
     /// What a hit needs of a shape, side by side.
     struct Surface {
         const Vec3* positions = nullptr;

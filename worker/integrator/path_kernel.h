@@ -7,6 +7,7 @@
 #include "common/film/trace_stats.h"
 #include "worker/integrator/branches.h"
 #include "worker/integrator/direction_choice.h"
+#include "worker/integrator/emitter_choice.h"
 #include "worker/integrator/mis.h"
 #include "worker/integrator/path_observer.h"
 #include "worker/integrator/path_roulette.h"
@@ -34,6 +35,7 @@ class PathKernel {
           stats_(stats),
           clock_(settings.profile, stats),
           scratch_(kBatch, Surface::make_scratch(scene)),
+          emitters_(scene.emitters(), settings),
           directions_(guide, settings) {
         if constexpr (kRecord) recorders_.fill(PathRecorder(settings.target, settings.view_records));
     }
@@ -113,13 +115,17 @@ class PathKernel {
             path.found = scene_.geometry().meet(path.ray, path.meeting);
         }
         clock_.lap(TracePhase::intersect);
+        if constexpr (Surface::kGeneral)  // others are of small scenes mostly
+            arrivals(alive, [&](std::uint32_t, Path& path) { scene_.geometry().prefetch_point(path.meeting); });
         draw_numbers(alive, depth);
-        for (std::uint32_t lane = 0; lane < alive; ++lane) {
-            Path& path = paths_[alive_[lane]];
-            if (path.found) scene_.geometry().set_point(path.hit, path.meeting);
-        }
+        arrivals(alive, [&](std::uint32_t, Path& path) {
+            scene_.geometry().set_point(path.hit, path.meeting);
+            if constexpr (kHasTextures) Surface::prefetch(scene_, path.hit);
+        });
         clock_.lap(TracePhase::surface);
         if constexpr (kConverts) find_regions(alive, depth);
+        if (emitters_.together() && depth != settings_.max_depth) [[unlikely]]
+            choose_emitters(alive);
         pending_.clear();
         alive = keep(alive, [&](std::uint8_t path) { return visit(path, depth); });
         clock_.lap(TracePhase::surface);
@@ -167,14 +173,19 @@ class PathKernel {
         return left;
     }
 
+    /// Calls visit(lane, path) for the first `alive` of alive_ that have met a surface.
+    template <class Visit>
+    void arrivals(std::uint32_t alive, Visit visit) {
+        for (std::uint32_t lane = 0; lane < alive; ++lane)
+            if (Path& path = paths_[alive_[lane]]; path.found) visit(lane, path);
+    }
+
     void find_regions(std::uint32_t alive, [[maybe_unused]] int depth) {
-        for (std::uint32_t lane = 0; lane < alive; ++lane) {
-            Path& path = paths_[alive_[lane]];
-            if (!path.found) continue;
+        arrivals(alive, [&](std::uint32_t lane, Path& path) {
             const std::uint32_t region = path.guidance.region = guide_.region(path.hit.p);
             if (kGuided && depth == 1) path.first_exponent = guide_.quantum_exponent(region);
             if constexpr (kGuided) directions_.prefetch(region, lane);
-        }
+        });
         clock_.lap(TracePhase::direction);
     }
 
@@ -182,14 +193,12 @@ class PathKernel {
     void draw_numbers(std::uint32_t alive, int depth) {
         KeyBatch keys;
         for (std::uint32_t i = 0; i < alive; ++i) {
-            const PathKey& key = paths_[alive_[i]].key;
-            keys.pixel[i] = key.pixel;
-            keys.sample[i] = key.sample;
+            keys.pixel[i] = paths_[alive_[i]].key.pixel;
+            keys.sample[i] = paths_[alive_[i]].key.sample;
         }
         const std::uint64_t seed = paths_[alive_[0]].key.seed;
         directions_.draw_numbers(seed, keys, alive, vertex_of(depth));
-        if (settings_.next_event || settings_.delta_alone)
-            draw_batch(seed, keys, alive, vertex_of(depth), Stream::light, light_draws_);
+        emitters_.draw_numbers(seed, keys, alive, vertex_of(depth));
         if (kRecord && settings_.jitter_records)
             draw_batch(seed, keys, alive, vertex_of(depth), Stream::jitter, jitter_draws_);
     }
@@ -233,8 +242,7 @@ class PathKernel {
         }
         if constexpr (kRecord)
             if (surface.smooth() && !guide_.contains(hit.p)) recorders_[index].add_outside();
-        if ((settings_.next_event || settings_.delta_alone) && surface.smooth())
-            next_event(index, light_draws_[path.lane]);
+        if ((settings_.next_event || settings_.delta_alone) && surface.smooth()) next_event(index);
         return true;
     }
 
@@ -242,7 +250,6 @@ class PathKernel {
     bool leave(std::uint8_t index) {
         Path& path = paths_[index];
         const Surface& surface = *path.surface;
-        const Hit& hit = path.hit;
         const ScatterSample& s = path.scatter;
         if constexpr (Surface::kTransmits)
             if (splits_ && s.delta) branches_.split(path, index, vertex_of(1), settings_.strict_normals);
@@ -252,7 +259,7 @@ class PathKernel {
         path.throughput *= path.weight;
         observer_.scatter(s, path.throughput);
         path.scatter_pdf = s.pdf;
-        path.scatter_point = hit.p;
+        path.scatter_point = path.hit.p;
         path.scatter_lights = light_share(path);
         // One question for what is rare: the same bits say that a lobe may be delta, or refract.
         const bool rare = Surface::kGeneral && surface.delta_or_transmitting();
@@ -260,7 +267,7 @@ class PathKernel {
             if (rare && s.local.z < 0.0f) path.spread *= surface.eta2();
         assert(path.spread == 1.0f || scene_.effects().transmission);
         if (rare && s.delta) path.scatter_pdf = std::numeric_limits<float>::infinity();
-        path.ray = {offset_origin(hit, s.world), s.world};
+        path.ray = {offset_origin(path.hit, s.world), s.world};
         return true;
     }
 
@@ -305,8 +312,10 @@ class PathKernel {
              [&] { return emitters.pdf_environment(path.ray.direction, path.scatter_lights); });
     }
 
-    [[gnu::noinline]] void look_at_environment(PendingLight& light) const {
-        light.radiance = scene_.emitters().environment(light.wi);
+    [[gnu::noinline]] void choose_emitters(std::uint32_t alive) {
+        emitters_.clear();
+        arrivals(alive, [&](std::uint32_t lane, const Path& path) { emitters_.choose(lane, light_share(path)); });
+        emitters_.draw();
     }
 
     /// How next event chooses an emitter where the path is: nullptr, by power.
@@ -316,16 +325,13 @@ class PathKernel {
     }
 
     /// Samples an emitter; whether it is seen is asked for all paths of a step together.
-    void next_event(std::uint8_t index, const Draw& random) {
+    void next_event(std::uint8_t index) {
         const Path& path = paths_[index];
         const Surface& surface = *path.surface;
-        const Hit& hit = path.hit;
         const LightShare* const share = settings_.delta_alone ? nullptr : light_share(path);
         const Vec3 front = surface.front();
         const DirectSample light =
-            settings_.delta_alone
-                ? scene_.emitters().sample_delta(hit.p, random)
-                : scene_.emitters().sample_direct(hit.p, random, share, surface.transmits() ? nullptr : &front);
+            emitters_.sample(path.hit.p, path.lane, share, surface.transmits() ? nullptr : &front);
         if (!(light.pdf > 0.0f) || light.black()) return;
         const Vec3 wi = surface.frame().to_local(light.wi);
         const BsdfValue bsdf = surface.bsdf().value(surface.wo(), wi);
@@ -333,7 +339,7 @@ class PathKernel {
         if (settings_.strict_normals && dot(surface.ng(), light.wi) * wi.z <= 0.0f) return;
         ++stats_.shadow_rays;
         const std::uint32_t vertex = kRecord ? recorders_[index].vertex_count() : 0;
-        pending_.add(hit, light, {index, vertex, share != nullptr, path.guidance, path.throughput}, bsdf);
+        pending_.add(path.hit, light, {index, vertex, share != nullptr, path.guidance, path.throughput}, bsdf);
     }
 
     /// Traces the step's shadow rays, and adds what is seen, weighted against scattering.
@@ -345,6 +351,7 @@ class PathKernel {
         for (std::uint32_t i = 0; i < pending_.size(); ++i) {
             if (shadowed[i]) continue;
             seen[count++] = static_cast<std::uint8_t>(i);
+            if constexpr (kHasEnvironment) emitters_.prefetch_environment(paths_[pending_[i].from.path].lane);
             if constexpr (kConverts) light_codes_.add(pending_[i].wi, pending_[i].from.guidance.region);
         }
         if constexpr (kConverts) light_codes_.convert();
@@ -355,7 +362,7 @@ class PathKernel {
 
     void add_light(PendingLight& light, std::uint32_t code, int depth) {
         if (kHasEnvironment && light.from_environment) [[unlikely]]
-            look_at_environment(light);
+            light.radiance = emitters_.environment(paths_[light.from.path].lane, light.wi);
         float scatter_pdf = light.delta ? 0.0f : light.bsdf_pdf;
         if constexpr (kGuided)
             if (!light.delta) scatter_pdf = mixed_pdf_at<kViews>(guide_, light.from.guidance, light.bsdf_pdf, code);
@@ -381,7 +388,8 @@ class PathKernel {
     Branches branches_;
     std::uint32_t first_vertex_ = 0;  ///< branches have random numbers of their own
     bool splits_ = false;             ///< whether this step may split paths
-    DrawBatch light_draws_, jitter_draws_;
+    DrawBatch jitter_draws_;
+    EmitterChoice emitters_;
     DirectionChoice<Surface, kGuided, kConverts, kViews> directions_;
     CodeBatch light_codes_;
     PendingLights pending_;

@@ -16,6 +16,7 @@ class DiffuseSurface {
     static constexpr bool kGeneral = false, kTransmits = false, kViews = false;
     struct Scratch {};
     static Scratch make_scratch(const TraceScene&) { return {}; }
+    static void prefetch(const TraceScene&, const Hit&) {}
 
     /// `outgoing`: unit, in world space, to where light goes.
     DiffuseSurface(const TraceScene& scene, const Hit& hit, const Vec3& outgoing, Scratch&)
@@ -63,6 +64,12 @@ class GeneralSurface {
         if (!bsdf_ && side.material != kNone) look_up(scene, hit, side.material, back, scratch);
     }
 
+    /// Fetches what a hit's material will look up.
+    static void prefetch(const TraceScene& scene, const Hit& hit) {
+        const std::int32_t material = scene.materials().side(hit.shape, false).material;
+        if (material != kNone) prefetch(scene, hit, material);
+    }
+
     bool black() const { return !bsdf_ || !(wo_.z > 0.0f); }
     const Bsdf& bsdf() const { return *bsdf_; }
     const Frame& frame() const { return frame_; }
@@ -86,6 +93,7 @@ class GeneralSurface {
     }
 
   private:
+    static void prefetch(const TraceScene& scene, const Hit& hit, std::int32_t material);
     void look_up(const TraceScene& scene, const Hit& hit, std::int32_t material, bool back, Scratch& scratch);
 
     const Bsdf* bsdf_;

@@ -41,14 +41,11 @@ class DiscreteTable {
 
     /// Index of the entry that owns these bits; the table must not be empty.
     std::uint32_t pick(std::uint32_t bits) const {
-        if (begin_.size() <= 9) {
-            std::uint32_t i = 0;
-            while (begin_[i + 1] <= bits)
-                ++i;
-            return i;
-        }
-        const auto above = std::upper_bound(begin_.begin() + 1, begin_.end(), std::uint64_t(bits));
-        return static_cast<std::uint32_t>(above - begin_.begin() - 1);
+        // As many steps for any bits, and none is a branch.
+        const std::uint64_t* at = begin_.data();
+        for (std::size_t count = begin_.size() - 1; count > 1; count -= count / 2)
+            at += at[count / 2] <= bits ? count / 2 : 0;
+        return static_cast<std::uint32_t>(at - begin_.data());
     }
 
     float probability(std::uint32_t index) const {

@@ -120,19 +120,45 @@ Emitters::Channels Emitters::textured(const AreaLight& light, const Hit& hit) co
     return {c.x, c.y, c.z};
 }
 
+inline DirectSample Emitters::sample(const ChosenEmitter& chosen, const EnvironmentSample* drawn, const Vec3& p,
+                                     const Draw& random, const LightShare* share, const Vec3* front) const {
+    DirectSample sample = chosen.entry < area_lights_.size() && area_lights_[chosen.entry].plain
+                              ? sample_mesh(area_lights_[chosen.entry], p, random, front)
+                              : sample_other(chosen.entry, drawn, p, random, share, front);
+    if (!sample.from_environment) sample.pdf *= chosen.cluster.factor;  // the environment has it in its density
+    sample.cluster = chosen.cluster.cluster;
+    sample.cluster_probability = chosen.cluster.probability;
+    return sample;
+}
+
 DirectSample Emitters::sample_direct(const Vec3& p, const Draw& random, const LightShare* share,
                                      const Vec3* front) const {
     if (selection_.empty()) return {};
-    LightClusters::Choice choice{0, random[0], 1.0f, 1.0f};
-    if (share) choice = clusters_.pick(*share, random[0]);
-    const std::uint32_t chosen = selection_.pick(choice.bits);
-    DirectSample sample = chosen < area_lights_.size() && area_lights_[chosen].plain
-                              ? sample_mesh(area_lights_[chosen], p, random, front)
-                              : sample_other(chosen, p, random, share, front);
-    if (!sample.from_environment) sample.pdf *= choice.factor;  // the environment has it in its density
-    sample.cluster = choice.cluster;
-    sample.cluster_probability = choice.probability;
-    return sample;
+    return sample(choose(random, share), nullptr, p, random, share, front);
+}
+
+void Emitters::choose(LightBatch& batch, std::uint32_t lane, const Draw& random, const LightShare* share) const {
+    const ChosenEmitter chosen = batch.chosen[lane] = choose(random, share);
+    if (on_map(chosen.entry))
+        batch.on_map[lane] =
+            static_cast<std::uint8_t>(batch.map.add(static_cast<int>(chosen.entry - constant_entry_ - 1), random));
+}
+
+DirectSample Emitters::sample_direct(const Vec3& p, const LightBatch& batch, std::uint32_t lane, const Draw& random,
+                                     const LightShare* share, const Vec3* front) const {
+    const ChosenEmitter& chosen = batch.chosen[lane];
+    if (!on_map(chosen.entry)) return sample(chosen, nullptr, p, random, share, front);
+    const EnvironmentSample drawn = batch.map[batch.on_map[lane]];
+    return sample(chosen, &drawn, p, random, share, front);
+}
+
+Rgb Emitters::environment(const LightBatch& batch, std::uint32_t lane, const Vec3& direction) const {
+    return on_map(batch.chosen[lane].entry) ? constant_ + map_->radiance(batch.map.place(batch.on_map[lane]))
+                                            : environment(direction);
+}
+
+void Emitters::prefetch_environment(const LightBatch& batch, std::uint32_t lane) const {
+    if (on_map(batch.chosen[lane].entry)) map_->prefetch(batch.map.place(batch.on_map[lane]));
 }
 
 DirectSample Emitters::sample_delta(const Vec3& p, const Draw& random) const {
@@ -141,10 +167,10 @@ DirectSample Emitters::sample_delta(const Vec3& p, const Draw& random) const {
     return delta_lights_[chosen].sample(p, delta_alone_.probability(chosen));
 }
 
-DirectSample Emitters::sample_other(std::uint32_t chosen, const Vec3& p, const Draw& random, const LightShare* share,
-                                    const Vec3* front) const {
-    if (chosen >= area_lights_.size()) return sample_without_area(chosen, p, random, share, front);
-    const AreaLight& light = area_lights_[chosen];
+DirectSample Emitters::sample_other(std::uint32_t entry, const EnvironmentSample* drawn, const Vec3& p,
+                                    const Draw& random, const LightShare* share, const Vec3* front) const {
+    if (entry >= area_lights_.size()) return sample_without_area(entry, drawn, p, random, share, front);
+    const AreaLight& light = area_lights_[entry];
     DirectSample sample = light.sphere ? sample_sphere(light, p, random, front) : sample_area(light, p, random, front);
     if (is_black(sample.radiance)) return sample;
     if (kHasTextures && light.texture != kNone) sample.radiance = textured(light, sample.on_light).rgb();
@@ -183,6 +209,7 @@ DirectSample Emitters::sample_sphere(const AreaLight& light, const Vec3& p, cons
                                      const Vec3* front) const {
     DirectSample sample;
     const Vec2 u = {to_unit(random[2]), to_unit(random[3])};
+    if (front && dot(*front, light.sphere->center - p) < -light.sphere->radius) return sample;
     const SphereCone cone = sphere_cone(*light.sphere, p);
     if (cone.outside && light.by_cone) {
         const ConeSample c = sample_cone(cone, u);
@@ -200,22 +227,22 @@ DirectSample Emitters::sample_sphere(const AreaLight& light, const Vec3& p, cons
     return sample;
 }
 
-DirectSample Emitters::sample_without_area(std::uint32_t chosen, const Vec3& p, const Draw& random,
-                                           const LightShare* share, const Vec3* front) const {
-    std::size_t index = chosen - area_lights_.size();
+DirectSample Emitters::sample_without_area(std::uint32_t entry, const EnvironmentSample* drawn, const Vec3& p,
+                                           const Draw& random, const LightShare* share, const Vec3* front) const {
+    const std::size_t index = entry - area_lights_.size();
     if (index < delta_lights_.size()) return delta_lights_[index].sample(p, delta_selection_[index]);
-    index -= delta_lights_.size();
     DirectSample sample;
     if constexpr (!kHasEnvironment) return sample;
     sample.from_environment = true;
     sample.distance = std::numeric_limits<float>::infinity();
-    if (index == 0) {
-        sample.wi = square_to_sphere({to_unit(random[2]), to_unit(random[3])});
-        if (sees(front, sample.wi)) sample.pdf = pdf_environment(sample.wi, share);
-    } else {
-        const EnvironmentMap::Sample of_map = map_->sample(static_cast<int>(index - 1), random);
+    if (on_map(entry)) {
+        const EnvironmentSample of_map =
+            drawn ? *drawn : map_->sample(static_cast<int>(entry - constant_entry_ - 1), random);
         sample.wi = of_map.direction;
         if (sees(front, sample.wi)) sample.pdf = constant_pdf(share) + map_->pdf(of_map, part_choice(share));
+    } else {
+        sample.wi = square_to_sphere({to_unit(random[2]), to_unit(random[3])});
+        if (sees(front, sample.wi)) sample.pdf = pdf_environment(sample.wi, share);
     }
     return sample;
 }

@@ -11,7 +11,7 @@
 #include "worker/lights/direct_sample.h"
 #include "worker/lights/discrete_table.h"
 #include "worker/lights/environment_map.h"
-#include "worker/lights/light_clusters.h"
+#include "worker/lights/light_batch.h"
 #include "worker/lights/sphere_cone.h"
 
 namespace treefarm {
@@ -37,9 +37,22 @@ class Emitters {
     /// environment's image [1] and [2] the texel, [3] the place about it. What comes from infinity has no radiance yet:
     /// environment() is to be asked once it is known to be seen. `share`: how clusters of emitters are chosen; nullptr:
     /// all by power. `front`: normal of a surface at p that reflects only; what is behind it, or turns its back on p,
-    /// is no sample then, which is found out before it costs much. nullptr: every sample has its density.
+    /// may be no sample then, where that is found out before it costs much. nullptr: every sample has its density.
     DirectSample sample_direct(const Vec3& p, const Draw& random, const LightShare* share = nullptr,
                                const Vec3* front = nullptr) const;
+
+    /// Whether there is a gain in drawing many together.
+    bool draws_together() const { return kHasEnvironment && map_; }
+    // The same for many: clear the batch, choose() for all lanes that may sample, draw(), and sample_direct() for those
+    // that do, each with the numbers and the share of its choice.
+    void choose(LightBatch& batch, std::uint32_t lane, const Draw& random, const LightShare* share) const;
+    void draw(LightBatch& batch) const { map_->sample(batch.map); }
+    DirectSample sample_direct(const Vec3& p, const LightBatch& batch, std::uint32_t lane, const Draw& random,
+                               const LightShare* share, const Vec3* front) const;
+    /// Radiance from infinity against a direction of such a sample.
+    Rgb environment(const LightBatch& batch, std::uint32_t lane, const Vec3& direction) const;
+    /// Fetches what that reads.
+    void prefetch_environment(const LightBatch& batch, std::uint32_t lane) const;
     /// Clusters that next event can learn to choose among.
     const LightClusters& clusters() const { return clusters_; }
 
@@ -108,13 +121,23 @@ class Emitters {
     EnvironmentMap::PartChoice part_choice(const LightShare* share) const;
     Channels textured(const AreaLight& light, const Hit& hit) const;
     /// Kept out of line, so that plain meshes pay nothing for the other kinds.
-    [[gnu::noinline]] DirectSample sample_other(std::uint32_t chosen, const Vec3& p, const Draw& random,
-                                                const LightShare* share, const Vec3* front) const;
+    [[gnu::noinline]] DirectSample sample_other(std::uint32_t entry, const EnvironmentSample* drawn, const Vec3& p,
+                                                const Draw& random, const LightShare* share, const Vec3* front) const;
     DirectSample sample_mesh(const AreaLight& light, const Vec3& p, const Draw& random, const Vec3* front) const;
     DirectSample sample_area(const AreaLight& light, const Vec3& p, const Draw& random, const Vec3* front) const;
     DirectSample sample_sphere(const AreaLight& light, const Vec3& p, const Draw& random, const Vec3* front) const;
-    DirectSample sample_without_area(std::uint32_t chosen, const Vec3& p, const Draw& random, const LightShare* share,
-                                     const Vec3* front) const;
+    DirectSample sample_without_area(std::uint32_t entry, const EnvironmentSample* drawn, const Vec3& p,
+                                     const Draw& random, const LightShare* share, const Vec3* front) const;
+    ChosenEmitter choose(const Draw& random, const LightShare* share) const {
+        const auto cluster =
+            share ? clusters_.pick(*share, random[0]) : LightClusters::Choice{0, random[0], 1.0f, 1.0f};
+        return {selection_.pick(cluster.bits), cluster};
+    }
+    /// `drawn`: from the environment map, where that was chosen; nullptr: not drawn yet.
+    DirectSample sample(const ChosenEmitter& chosen, const EnvironmentSample* drawn, const Vec3& p, const Draw& random,
+                        const LightShare* share, const Vec3* front) const;
+    /// Whether an entry of the table is a part of the environment map.
+    bool on_map(std::uint32_t entry) const { return entry > constant_entry_; }
 
     const EmbreeScene* geometry_;
     const TextureSet* textures_;

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "common/math/elementary.h"
+#include "common/math/warp_batch.h"
 
 namespace treefarm {
 namespace {
@@ -46,6 +47,24 @@ std::size_t pick(const std::uint32_t* begin, std::size_t count, std::uint32_t bi
     return static_cast<std::size_t>(at - begin);
 }
 
+/// Writes to 2^guide_bits + 1 entries which shares own the bits that are whole multiples of 2^(32 - guide_bits).
+void fill_guide(const std::uint32_t* begin, std::size_t count, int guide_bits, std::uint32_t* guide) {
+    const std::size_t entries = std::size_t{1} << guide_bits;
+    for (std::size_t k = 0; k < entries; ++k)
+        guide[k] = static_cast<std::uint32_t>(pick(begin, count, static_cast<std::uint32_t>((k << 32) / entries)));
+    guide[entries] = static_cast<std::uint32_t>(count - 1);
+}
+
+/// Entry of such a guide from which to search for these bits; the next one ends the search.
+const std::uint32_t* look_up(const std::uint32_t* guide, int guide_bits, std::uint32_t bits) {
+    return guide + (std::uint64_t{bits} >> (32 - guide_bits));
+}
+
+/// pick() between the shares that two entries of a guide name.
+int pick_between(const std::uint32_t* begin, std::uint32_t low, std::uint32_t high, std::uint32_t bits) {
+    return static_cast<int>(low + pick(begin + low, high - low + 1, bits));
+}
+
 /// Draws from [-1, 1] with a density of 1 - |x|.
 float sample_tent(std::uint32_t bits16) {
     const float u = (static_cast<float>(bits16) + 0.5f) * 0x1p-15f;  // in (0, 2)
@@ -61,32 +80,30 @@ float mix(float a, float b, float t) {
 
 EnvironmentMap::EnvironmentMap(const EnvironmentEmitter& emitter, const TextureImage& image)
     : image_(&image),
-      width_(image.width),
-      height_(image.height),
-      margin_(emitter.rows_at_poles && image.height > 1 ? 0.0f : 0.5f),
-      half_turn_(static_cast<float>(height_ - 1) + 2.0f * margin_),
+      frame_{image.width,   image.height,   emitter.rows_at_poles && image.height > 1 ? 0.0f : 0.5f,
+             0.0f,          emitter.x_axis, emitter.y_axis,
+             emitter.z_axis},
       scale_(emitter.scale),
-      x_axis_(emitter.x_axis),
-      y_axis_(emitter.y_axis),
-      z_axis_(emitter.z_axis),
-      // d(u) d(v) = d(solid angle) / (2 pi^2 sin(theta)).
-      density_scale_(static_cast<float>(double(width_) * double(half_turn_) / (2 * double(kPi) * double(kPi)))),
-      columns_(static_cast<std::size_t>(height_) * (static_cast<std::size_t>(width_) + 1)),
-      guide_bits_(std::max(0, static_cast<int>(std::bit_width(static_cast<unsigned>(width_))) - 5)),
-      guide_(static_cast<std::size_t>(height_) * ((std::size_t{1} << guide_bits_) + 1)) {
-    const auto width = static_cast<std::size_t>(width_);
+      columns_(static_cast<std::size_t>(image.height) * (static_cast<std::size_t>(image.width) + 1)),
+      guide_bits_(std::max(0, static_cast<int>(std::bit_width(static_cast<unsigned>(image.width))) - 3)),
+      guide_(static_cast<std::size_t>(image.height) * ((std::size_t{1} << guide_bits_) + 1)) {
+    frame_.half_turn = static_cast<float>(frame_.height - 1) + 2.0f * frame_.margin;
+    // d(u) d(v) = d(solid angle) / (2 pi^2 sin(theta)).
+    density_scale_ =
+        static_cast<float>(double(frame_.width) * double(frame_.half_turn) / (2 * double(kPi) * double(kPi)));
+    const auto width = static_cast<std::size_t>(frame_.width);
     double sum = 0, sines = 0;
     bool all_clean = true;
-    std::vector<double> row_weights(static_cast<std::size_t>(height_)), weights(width);
-    EnvironmentGrid grid(width_, height_);
-    for (int y = 0; y < height_; ++y) {
+    std::vector<double> row_weights(static_cast<std::size_t>(frame_.height)), weights(width);
+    EnvironmentGrid grid(frame_.width, frame_.height);
+    for (int y = 0; y < frame_.height; ++y) {
         const auto row = static_cast<std::size_t>(y);
         // On a pole, where the sine is 0, a sixth of a row away: the share of the sphere that the texel shines from.
-        const float from_pole =
-            std::clamp(static_cast<float>(y) + margin_, 1.0f / 6.0f, half_turn_ - 1.0f / 6.0f) / half_turn_;
-        const auto sine = double(sincos_turn(0.5f * from_pole).sin);
+        const float row_from_pole = static_cast<float>(y) + frame_.margin;
+        const float from_pole = std::clamp(row_from_pole, 1.0f / 6.0f, frame_.half_turn - 1.0f / 6.0f);
+        const auto sine = double(sincos_turn(0.5f * (from_pole / frame_.half_turn)).sin);
         sines += sine;
-        for (int x = 0; x < width_; ++x) {
+        for (int x = 0; x < frame_.width; ++x) {
             const Rgb texel = clean_texel(x, y);
             all_clean = all_clean && texel == treefarm::texel(image, x, y);
             sum += sine * double(average(texel));
@@ -96,14 +113,10 @@ EnvironmentMap::EnvironmentMap(const EnvironmentEmitter& emitter, const TextureI
         if (on_pole(y)) row_weights[row] *= 0.5;
         std::uint32_t* const begin = &columns_[row * (width + 1)];
         share(weights, begin);
-        const std::size_t entries = std::size_t{1} << guide_bits_;
-        std::uint32_t* const guide = &guide_[row * (entries + 1)];
-        for (std::size_t k = 0; k < entries; ++k)
-            guide[k] = static_cast<std::uint32_t>(pick(begin, width, static_cast<std::uint32_t>((k << 32) / entries)));
-        guide[entries] = static_cast<std::uint32_t>(width - 1);
+        fill_guide(begin, width, guide_bits_, &guide_[row * ((std::size_t{1} << guide_bits_) + 1)]);
     }
     clean_ = all_clean;
-    mean_ = double(scale_) * sum / (sines * static_cast<double>(width_));
+    mean_ = double(scale_) * sum / (sines * static_cast<double>(frame_.width));
     const double whole = std::accumulate(row_weights.begin(), row_weights.end(), 0.0);
     if (!(whole > 0)) mean_ = 0;
     for (const EnvironmentPart& part : grid.parts(kMostParts))
@@ -112,21 +125,24 @@ EnvironmentMap::EnvironmentMap(const EnvironmentEmitter& emitter, const TextureI
 
 void EnvironmentMap::add_part(const EnvironmentPart& texels, double whole, const std::vector<double>& row_weights) {
     const auto rows = static_cast<std::size_t>(texels.y1 - texels.y0);
-    Part part{texels, 0, std::vector<std::uint32_t>(rows + 1), std::vector<float>(rows)};
+    Part part{texels, 0, std::vector<std::uint32_t>(rows + 1), std::vector<std::uint32_t>((1u << kRowGuideBits) + 1),
+              std::vector<Part::Row>(rows)};
     std::vector<double> weights(rows);
     double sum = 0;
     for (std::size_t row = 0; row < rows; ++row) {
         const int y = texels.y0 + static_cast<int>(row);
-        const double columns = double(column_begin(texels.x1, y) - column_begin(texels.x0, y)) / double(kTotal);
+        part.rows[row] = {column_begin(texels.x0, y), column_begin(texels.x1, y), 0.0f};
+        const double columns = double(part.rows[row].end - part.rows[row].begin) / double(kTotal);
         sum += weights[row] = row_weights[static_cast<std::size_t>(y)] * columns;
     }
-    share(weights, part.rows.data());
+    share(weights, part.row_begin.data());
+    fill_guide(part.row_begin.data(), rows, kRowGuideBits, part.row_guide.data());
     for (std::size_t row = 0; row < rows; ++row) {
         if (!(weights[row] > 0)) continue;
         const int y = texels.y0 + static_cast<int>(row);
-        const double columns = double(column_begin(texels.x1, y) - column_begin(texels.x0, y));
-        part.density[row] = static_cast<float>(double(part.rows[row + 1] - part.rows[row]) / double(kTotal) / columns *
-                                               (on_pole(y) ? 2.0 : 1.0));
+        const double columns = double(part.rows[row].end - part.rows[row].begin);
+        const double probability = double(part.row_begin[row + 1] - part.row_begin[row]) / double(kTotal);
+        part.rows[row].density = static_cast<float>(probability / columns * (on_pole(y) ? 2.0 : 1.0));
     }
     part.weight = whole > 0 ? sum / whole : 0.0;
     parts_.push_back(std::move(part));
@@ -140,33 +156,53 @@ Rgb EnvironmentMap::clean_texel(int x, int y) const {
     return c;
 }
 
-EnvironmentMap::Place EnvironmentMap::place(float u, float v) const {
+inline EnvironmentMap::Place EnvironmentMap::Frame::place(float u, float v) const {
     const float left = std::floor(u), top = std::floor(v);
     const int x = static_cast<int>(left), y = static_cast<int>(top);
     Place p;
     p.fx = u - left;
     p.fy = v - top;
-    p.x0 = x < 0 ? x + width_ : x >= width_ ? x - width_ : x;
-    p.x1 = p.x0 + 1 < width_ ? p.x0 + 1 : 0;
-    p.y0 = std::clamp(y, 0, height_ - 1);
-    p.y1 = std::clamp(y + 1, 0, height_ - 1);
+    p.x0 = x < 0 ? x + width : x >= width ? x - width : x;
+    p.x1 = p.x0 + 1 < width ? p.x0 + 1 : 0;
+    p.y0 = std::clamp(y, 0, height - 1);
+    p.y1 = std::clamp(y + 1, 0, height - 1);
     return p;
 }
 
+inline EnvironmentMap::Sample EnvironmentMap::Frame::locate(int x, int y, std::uint32_t tent_bits) const {
+    const float u = static_cast<float>(x) + sample_tent(tent_bits & 0xffffu);
+    const float rows = std::abs(static_cast<float>(y) + margin + sample_tent(tent_bits >> 16));
+    const float from_pole = std::min(rows, 2.0f * half_turn - rows);
+    const float turn = (u + 0.5f) / static_cast<float>(width);
+    const SinCos polar = sincos_turn(0.5f * from_pole / half_turn);
+    const SinCos azimuth = sincos_turn(select(turn < 0.0f, turn + 1.0f, turn));
+    const Vec3 direction = x_axis * (polar.sin * azimuth.sin) + y_axis * polar.cos - z_axis * (polar.sin * azimuth.cos);
+    return {direction * (1.0f / std::sqrt(dot(direction, direction))), place(u, from_pole - margin),
+            std::abs(polar.sin)};
+}
+
 EnvironmentMap::Place EnvironmentMap::place(const Vec3& d, float& sine) const {
-    const float x = dot(d, x_axis_), y = dot(d, y_axis_), z = dot(d, z_axis_);
+    const float x = dot(d, frame_.x_axis), y = dot(d, frame_.y_axis), z = dot(d, frame_.z_axis);
     sine = std::sqrt(x * x + z * z);
     // The angle from the pole by both its sine and cosine: no digits are lost near the poles.
-    return place(azimuth_turn(-z, x) * static_cast<float>(width_) - 0.5f,
-                 2.0f * azimuth_turn(y, sine) * half_turn_ - margin_);
+    return frame_.place(azimuth_turn(-z, x) * static_cast<float>(frame_.width) - 0.5f,
+                        2.0f * azimuth_turn(y, sine) * frame_.half_turn - frame_.margin);
 }
 
 Rgb EnvironmentMap::radiance(const Vec3& direction) const {
     float sine;
-    const Place p = place(direction, sine);
+    return radiance(place(direction, sine));
+}
+
+Rgb EnvironmentMap::radiance(const Place& p) const {
     const Rgb upper = clean_texel(p.x0, p.y0) * (1.0f - p.fx) + clean_texel(p.x1, p.y0) * p.fx;
     const Rgb lower = clean_texel(p.x0, p.y1) * (1.0f - p.fx) + clean_texel(p.x1, p.y1) * p.fx;
     return (upper * (1.0f - p.fy) + lower * p.fy) * scale_;
+}
+
+void EnvironmentMap::prefetch(const Place& p) const {
+    prefetch_texel(*image_, p.x0, p.y0);
+    prefetch_texel(*image_, p.x0, p.y1);
 }
 
 int EnvironmentMap::part_of(int x, int y) const {
@@ -174,24 +210,10 @@ int EnvironmentMap::part_of(int x, int y) const {
     return treefarm::part_of(x, y, part_count(), part);
 }
 
-std::uint32_t EnvironmentMap::column_begin(int x, int y) const {
-    return columns_[static_cast<std::size_t>(y) * (static_cast<std::size_t>(width_) + 1) + static_cast<std::size_t>(x)];
-}
-
 float EnvironmentMap::density(int part, int x, int y) const {
     const Part& of = parts_[static_cast<std::size_t>(part)];
-    const auto columns = static_cast<float>(column_begin(x + 1, y) - column_begin(x, y));
-    return of.density[static_cast<std::size_t>(y - of.texels.y0)] * columns;
-}
-
-int EnvironmentMap::pick_column(int y, std::uint32_t bits) const {
-    const auto row = static_cast<std::size_t>(y);
-    const std::size_t entries = std::size_t{1} << guide_bits_;
-    const std::uint32_t* const guide = &guide_[row * (entries + 1)];
-    const std::size_t entry = std::uint64_t{bits} >> (32 - guide_bits_);
-    const std::size_t low = guide[entry];
-    const std::uint32_t* const begin = &columns_[row * (static_cast<std::size_t>(width_) + 1)];
-    return static_cast<int>(low + pick(begin + low, guide[entry + 1] - low + 1, bits));
+    const std::uint32_t* const begin = columns(y) + x;
+    return of.rows[static_cast<std::size_t>(y - of.texels.y0)].density * static_cast<float>(begin[1] - begin[0]);
 }
 
 float EnvironmentMap::pdf(const Place& p, float sine, const PartChoice& choice) const {
@@ -215,23 +237,63 @@ float EnvironmentMap::pdf(const Vec3& direction, const PartChoice& choice) const
     return pdf(p, sine, choice);
 }
 
+int EnvironmentMap::pick_row(const Part& part, std::uint32_t bits) const {
+    const std::uint32_t* const between = look_up(part.row_guide.data(), kRowGuideBits, bits);
+    return part.texels.y0 + pick_between(part.row_begin.data(), between[0], between[1], bits);
+}
+
+std::uint32_t EnvironmentMap::bits_in_part(const Part& part, int y, std::uint32_t bits) const {
+    const Part::Row& row = part.rows[static_cast<std::size_t>(y - part.texels.y0)];
+    const std::uint64_t width = 2 * std::uint64_t{row.end - row.begin};
+    return static_cast<std::uint32_t>(2 * std::uint64_t{row.begin} + (std::uint64_t{bits} * width >> 32));
+}
+
+const std::uint32_t* EnvironmentMap::guide(int y, std::uint32_t bits) const {
+    const std::size_t entries = (std::size_t{1} << guide_bits_) + 1;
+    return look_up(&guide_[static_cast<std::size_t>(y) * entries], guide_bits_, bits);
+}
+
 EnvironmentMap::Sample EnvironmentMap::sample(int chosen, const Draw& random) const {
     const Part& part = parts_[static_cast<std::size_t>(chosen)];
-    const int row = part.texels.y0 + static_cast<int>(pick(part.rows.data(), part.rows.size() - 1, random[1]));
-    // Bits within the part's share of the row.
-    const std::uint32_t begin = column_begin(part.texels.x0, row), end = column_begin(part.texels.x1, row);
-    const auto bits = static_cast<std::uint32_t>(2 * std::uint64_t{begin} +
-                                                 (std::uint64_t{random[2]} * (2 * std::uint64_t{end - begin}) >> 32));
-    const float u = static_cast<float>(pick_column(row, bits)) + sample_tent(random[3] & 0xffffu);
-    const float rows = std::abs(static_cast<float>(row) + margin_ + sample_tent(random[3] >> 16));
-    const float from_pole = std::min(rows, 2.0f * half_turn_ - rows);
-    const float turn = (u + 0.5f) / static_cast<float>(width_);
-    const SinCos polar = sincos_turn(0.5f * from_pole / half_turn_);
-    const SinCos azimuth = sincos_turn(turn < 0.0f ? turn + 1.0f : turn);
-    const Vec3 direction =
-        x_axis_ * (polar.sin * azimuth.sin) + y_axis_ * polar.cos - z_axis_ * (polar.sin * azimuth.cos);
-    return {direction * (1.0f / std::sqrt(dot(direction, direction))), place(u, from_pole - margin_),
-            std::abs(polar.sin)};
+    const int y = pick_row(part, random[1]);
+    const std::uint32_t bits = bits_in_part(part, y, random[2]);
+    const std::uint32_t* const between = guide(y, bits);
+    return frame_.locate(pick_between(columns(y), between[0], between[1], bits), y, random[3]);
+}
+
+void EnvironmentMap::sample(EnvironmentBatch& b) const {
+    for (std::uint32_t i = 0; i < b.count_; ++i) {
+        const Part& part = parts_[static_cast<std::size_t>(b.part_[i])];
+        b.row_[i] = pick_row(part, b.row_bits_[i]);
+        b.column_bits_[i] = bits_in_part(part, b.row_[i], b.column_bits_[i]);
+        __builtin_prefetch(guide(b.row_[i], b.column_bits_[i]));
+    }
+    for (std::uint32_t i = 0; i < b.count_; ++i) {
+        const std::uint32_t* const between = guide(b.row_[i], b.column_bits_[i]);
+        b.low_[i] = between[0];
+        b.high_[i] = between[1];
+        __builtin_prefetch(columns(b.row_[i]) + (between[0] + between[1]) / 2);
+    }
+    for (std::uint32_t i = 0; i < b.count_; ++i)
+        b.column_[i] = pick_between(columns(b.row_[i]), b.low_[i], b.high_[i], b.column_bits_[i]);
+    const Frame frame = frame_;  // a copy, that what is written cannot change
+    for (std::uint32_t i = 0; i < whole_lanes(b.count_); ++i) {
+        const Sample s = frame.locate(b.column_[i], b.row_[i], b.tent_bits_[i]);
+        b.dx_[i] = s.direction.x;
+        b.dy_[i] = s.direction.y;
+        b.dz_[i] = s.direction.z;
+        b.x0_[i] = s.place.x0;
+        b.x1_[i] = s.place.x1;
+        b.y0_[i] = s.place.y0;
+        b.y1_[i] = s.place.y1;
+        b.fx_[i] = s.place.fx;
+        b.fy_[i] = s.place.fy;
+        b.sine_[i] = s.sine;
+    }
+    for (std::uint32_t i = 0; i < b.count_; ++i) {
+        __builtin_prefetch(columns(b.y0_[i]) + b.x0_[i]);
+        __builtin_prefetch(columns(b.y1_[i]) + b.x0_[i]);
+    }
 }
 
 }  // namespace treefarm

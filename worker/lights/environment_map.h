@@ -6,6 +6,7 @@
 
 #include "common/base/random.h"
 #include "common/scene/emitter.h"
+#include "worker/lights/environment_batch.h"
 #include "worker/lights/environment_parts.h"
 #include "worker/textures/texture_set.h"
 
@@ -23,23 +24,14 @@ namespace treefarm {
 /// which of them a place sees: a sun is one of its own.
 ///
 /// Tables are searched from guide entries, so that a column costs one line of cache however long the row is. Memory:
-/// 4.25 bytes for each texel besides the image itself, 0.6 MB for 512 x 256, 143 MB for 8192 x 4096.
+/// 5 bytes for each texel besides the image itself, 0.7 MB for 512 x 256, 168 MB for 8192 x 4096.
 class EnvironmentMap {
   public:
     /// Texels that are negative or not finite count as black. `image` must outlive it; `emitter.scale` is at least 0.
     EnvironmentMap(const EnvironmentEmitter& emitter, const TextureImage& image);
 
-    /// A place between four texel centres: the texels' columns and rows, and how far it lies from the first ones.
-    struct Place {
-        int x0, x1, y0, y1;
-        float fx, fy;
-    };
-
-    struct Sample {
-        Vec3 direction;  ///< unit
-        Place place;
-        float sine;  ///< of the angle from the pole
-    };
+    using Place = TexelPlace;
+    using Sample = EnvironmentSample;
 
     static constexpr int kMostParts = 8;
     /// Probability with which each part is chosen.
@@ -50,47 +42,73 @@ class EnvironmentMap {
     double part_weight(int part) const { return parts_[static_cast<std::size_t>(part)].weight; }
 
     Rgb radiance(const Vec3& direction) const;
+    Rgb radiance(const Place& place) const;
+    /// Fetches what radiance() of a place reads.
+    void prefetch(const Place& place) const;
     /// Density of sample() in parts that are chosen like this, per steradian.
     float pdf(const Vec3& direction, const PartChoice& choice) const;
     float pdf(const Sample& sample, const PartChoice& choice) const { return pdf(sample.place, sample.sine, choice); }
     /// Draws from a part that was chosen: random[1] picks the row, [2] the column, [3] the place. Not from one without
     /// weight.
     Sample sample(int part, const Draw& random) const;
+    /// The same for all that a batch was asked for, and fetches what pdf() of them reads.
+    void sample(EnvironmentBatch& batch) const;
 
     /// Mean over all directions, of the channels' mean: W / (m^2 sr).
     double mean_radiance() const { return mean_; }
     bool black() const { return !(mean_ > 0); }
 
   private:
-    /// In texels from the centre of the first one; u at most one and a half outside [0, width).
-    Place place(float u, float v) const;
-    /// The same of a direction; `sine` becomes that of its angle from the pole.
+    /// A rectangle of texels with its rows' probabilities.
+    struct Part {
+        /// Begin and end of the part's columns, in shares of the row's 2^31, and the row's probability over that many.
+        struct Row {
+            std::uint32_t begin, end;
+            float density;
+        };
+        EnvironmentPart texels;
+        double weight;                         ///< share of the image's power
+        std::vector<std::uint32_t> row_begin;  ///< begin of each row's share of 2^31, and their end
+        std::vector<std::uint32_t> row_guide;  ///< entry k: the row that owns k / kRowGuide
+        std::vector<Row> rows;
+    };
+    static constexpr int kRowGuideBits = 6;
+
+    /// Of a direction; `sine` becomes that of its angle from the pole.
     Place place(const Vec3& direction, float& sine) const;
     float pdf(const Place& place, float sine, const PartChoice& choice) const;
     Rgb clean_texel(int x, int y) const;
-    bool on_pole(int y) const { return margin_ == 0.0f && (y == 0 || y == height_ - 1); }
+    bool on_pole(int y) const { return frame_.margin == 0.0f && (y == 0 || y == frame_.height - 1); }
     void add_part(const EnvironmentPart& part, double weight, const std::vector<double>& row_weights);
     int part_of(int x, int y) const;
     /// A texel's probability within its part. A tent about a pole is folded in two.
     float density(int part, int x, int y) const;
-    std::uint32_t column_begin(int x, int y) const;
-    int pick_column(int y, std::uint32_t bits) const;
+    const std::uint32_t* columns(int y) const {
+        return &columns_[static_cast<std::size_t>(y) * (static_cast<std::size_t>(frame_.width) + 1)];
+    }
+    std::uint32_t column_begin(int x, int y) const { return columns(y)[x]; }
+    const std::uint32_t* guide(int y, std::uint32_t bits) const;
+    int pick_row(const Part& part, std::uint32_t bits) const;
+    /// Bits that pick a column of the row among those of the part.
+    std::uint32_t bits_in_part(const Part& part, int y, std::uint32_t bits) const;
 
     const TextureImage* image_;
-    int width_, height_;
-    float margin_;     ///< height of the image beyond the centres of its outer rows, in rows of texels
-    float half_turn_;  ///< rows of texels from pole to pole
+    /// How the image lies around the scene.
+    struct Frame {
+        int width, height;
+        float margin;     ///< height of the image beyond the centres of its outer rows, in rows of texels
+        float half_turn;  ///< rows of texels from pole to pole
+        Vec3 x_axis, y_axis, z_axis;
+
+        /// In texels from the centre of the first one; u at most one and a half outside [0, width).
+        Place place(float u, float v) const;
+        /// Where a direction goes whose texel is this one, by the bits of its tents.
+        Sample locate(int x, int y, std::uint32_t tent_bits) const;
+    };
+    Frame frame_;
     float scale_;
-    Vec3 x_axis_, y_axis_, z_axis_;
     bool clean_ = false;  ///< no texel is negative, infinite or not a number
     double mean_ = 0;
-    /// A rectangle of texels with its rows' probabilities.
-    struct Part {
-        EnvironmentPart texels;
-        double weight;                    ///< share of the image's power
-        std::vector<std::uint32_t> rows;  ///< begin of each row's share of 2^31, and their end
-        std::vector<float> density;       ///< of each row: its probability over its texels' shares of 2^31
-    };
     std::vector<Part> parts_;
     float density_scale_;                 ///< from a texel's probability to a density times sin(theta)
     std::vector<std::uint32_t> columns_;  ///< per row: begin of each texel's share of 2^31 within it, and their end

@@ -45,6 +45,15 @@ ShadingPoint seen_in(const OrientedBsdf& frame, const ShadingPoint& point) {
             point.mirrored};
 }
 
+/// The texture of a material's main colour.
+std::int32_t color_texture(const Material& material) {
+    if (const auto* diffuse = std::get_if<DiffuseMaterial>(&material.bsdf)) return diffuse->reflectance.texture;
+    if (const auto* plastic = std::get_if<PlasticMaterial>(&material.bsdf)) return plastic->diffuse_reflectance.texture;
+    if (const auto* blend = std::get_if<BlendMaterial>(&material.bsdf)) return blend->weight.texture;
+    if (const auto* metal = std::get_if<ConductorMaterial>(&material.bsdf)) return metal->specular_reflectance.texture;
+    return kNone;
+}
+
 float clamped(float x) {
     return std::min(1.0f, std::max(0.0f, x));
 }
@@ -63,6 +72,9 @@ void BsdfBuilder::note(std::size_t index) {
     const MaterialTraits traits = own_traits(material);
     Notes notes;
     notes.varies = traits.needs_surface_detail();
+    notes.anisotropic = traits.anisotropic;
+    notes.tangents = traits.anisotropic || material.detail.any();
+    notes.texture = color_texture(material);
     notes.transmits = traits.lobes.transmits();
     // Its own node, and one for each frame of its own.
     notes.nodes = 1 + (material.detail.any() ? 1 : 0) + (traits.anisotropic ? 1 : 0);
@@ -71,12 +83,15 @@ void BsdfBuilder::note(std::size_t index) {
         for (const std::int32_t part : {blend->first, blend->second}) {
             const Notes& of_part = notes_[static_cast<std::size_t>(part)];
             notes.varies |= of_part.varies;
+            notes.tangents |= of_part.tangents;
+            if (notes.texture == kNone) notes.texture = of_part.texture;
             notes.transmits |= of_part.transmits;
             notes.nodes += of_part.nodes;
         }
     if (material.twosided && material.back != kNone) {
         const Notes& of_back = notes_[static_cast<std::size_t>(material.back)];
         notes.varies |= of_back.varies;
+        notes.tangents |= of_back.tangents;
         notes.nodes = std::max(notes.nodes, of_back.nodes);
     }
     if (notes.nodes > kMaxNodes)
@@ -128,7 +143,6 @@ const Bsdf* BsdfBuilder::side(std::int32_t index, bool back, const ShadingPoint&
 template <class Nodes>
 const Bsdf* BsdfBuilder::described(std::int32_t index, bool back, const ShadingPoint& point, Nodes& nodes) const {
     const Material& material = materials_[static_cast<std::size_t>(index)];
-    const MaterialTraits traits = own_traits(material);
     Bsdf& outer = nodes.add();
     // From the outside in: the tilted frame, the frame along its tangent, what scatters in it.
     Bsdf* slot = &outer;
@@ -141,7 +155,7 @@ const Bsdf* BsdfBuilder::described(std::int32_t index, bool back, const ShadingP
         inside = seen_in(frame, inside);
     };
     if (kHasBump && material.detail.any()) orient(tilted_normal(material.detail, point));
-    if (traits.anisotropic) orient(Vec3(0.0f, 0.0f, 1.0f));
+    if (notes_[static_cast<std::size_t>(index)].anisotropic) orient(Vec3(0.0f, 0.0f, 1.0f));
     *slot = leaf(index, back, inside, nodes);
     return &outer;
 }

@@ -51,6 +51,12 @@ class BsdfBuilder {
 
     /// Whether it must be built at every hit: textures, tilted normals, tangents.
     bool varies(std::int32_t material) const { return notes_[static_cast<std::size_t>(material)].varies; }
+    /// Whether at() needs more of the point than texture coordinates and wo.
+    bool needs_tangents(std::int32_t material) const { return notes_[static_cast<std::size_t>(material)].tangents; }
+    /// The image that at() is likely to look up first: an index in TextureSet::textures(), or kNone.
+    std::int32_t first_texture(std::int32_t material) const {
+        return notes_[static_cast<std::size_t>(material)].texture;
+    }
     /// Nodes that at() needs for it.
     std::size_t nodes(std::int32_t material) const { return notes_[static_cast<std::size_t>(material)].nodes; }
 
@@ -60,8 +66,11 @@ class BsdfBuilder {
     /// What is known of a material before any point of it.
     struct Notes {
         bool varies = false;
-        bool transmits = false;  ///< its back scatters by nature: glass, nothing, blends with them
+        bool anisotropic = false;  ///< itself, not what it is made of
+        bool tangents = false;     ///< it, or what it is made of, has a frame of its own
+        bool transmits = false;    ///< its back scatters by nature: glass, nothing, blends with them
         std::size_t nodes = 0;
+        std::int32_t texture = kNone;                ///< of its colour, or that of what it is made of
         const RoughTransmittance* coat = nullptr;    ///< rough plastic of one roughness
         const RoughTransmittances* coats = nullptr;  ///< rough plastic whose roughness varies
         float smooth_escapes = 1;                    ///< smooth plastic: see coated_base

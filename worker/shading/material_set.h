@@ -20,6 +20,10 @@ class MaterialSet {
 
     const Side& side(std::uint32_t shape, bool back) const { return sides_[2 * shape + (back ? 1 : 0)]; }
 
+    /// Whether look_up() needs more of the point than texture coordinates and wo.
+    bool needs_tangents(std::int32_t material) const { return builder_.needs_tangents(material); }
+    /// The texture that look_up() is likely to read first; kNone: none.
+    std::int32_t first_texture(std::int32_t material) const { return builder_.first_texture(material); }
     /// The BSDF of a material that varies, at a point.
     const Bsdf* look_up(std::int32_t material, bool back, const ShadingPoint& point, BsdfScratch& scratch) const {
         return builder_.at(material, back, point, scratch);

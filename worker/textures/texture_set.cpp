@@ -44,7 +44,8 @@ Rgb wrapped_texel(const TextureImage& image, const BitmapTexture& bitmap, int x,
     return texel(image, x, y);
 }
 
-Rgb look_up(const TextureImage& image, const BitmapTexture& bitmap, const Vec2& at) {
+/// In texels from the upper left corner.
+Vec2 texel_place(const TextureImage& image, const BitmapTexture& bitmap, const Vec2& at) {
     const Vec2 uv = transformed(bitmap.uv, at);
     // Whole units are taken off first where they make no difference, so that large coordinates keep their fraction.
     const auto place = [](float x, int size, Wrap wrap) {
@@ -53,7 +54,12 @@ Rgb look_up(const TextureImage& image, const BitmapTexture& bitmap, const Vec2& 
         const float scaled = x * static_cast<float>(size);
         return scaled > -0x1p30f && scaled < 0x1p30f ? scaled : (scaled > 0.0f ? 0x1p30f : -0x1p30f);
     };
-    const float x = place(uv.x, image.width, bitmap.wrap_u), y = place(uv.y, image.height, bitmap.wrap_v);
+    return {place(uv.x, image.width, bitmap.wrap_u), place(uv.y, image.height, bitmap.wrap_v)};
+}
+
+Rgb look_up(const TextureImage& image, const BitmapTexture& bitmap, const Vec2& at) {
+    const Vec2 place = texel_place(image, bitmap, at);
+    const float x = place.x, y = place.y;
     if (!bitmap.bilinear)
         return wrapped_texel(image, bitmap, static_cast<int>(std::floor(x)), static_cast<int>(std::floor(y)));
     const float left = std::floor(x - 0.5f), top = std::floor(y - 0.5f);
@@ -71,12 +77,25 @@ bool in_upper_half(float x) {
     return x - std::floor(x) >= 0.5f;
 }
 
+/// Where a texel begins.
+std::size_t offset_of(const TextureImage& image, int x, int y) {
+    return (static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) + static_cast<std::size_t>(x)) *
+           static_cast<std::size_t>(image.channels);
+}
+
 }  // namespace
+
+void prefetch_texel(const TextureImage& image, int x, int y) {
+    const std::size_t at = offset_of(image, x, y);
+    if (image.bytes.empty())
+        __builtin_prefetch(&image.floats[at]);
+    else
+        __builtin_prefetch(&image.bytes[at]);
+}
 
 Rgb texel(const TextureImage& image, int x, int y) {
     const auto channels = static_cast<std::size_t>(image.channels);
-    const std::size_t at =
-        (static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) + static_cast<std::size_t>(x)) * channels;
+    const std::size_t at = offset_of(image, x, y);
     if (!image.bytes.empty()) {
         const std::uint8_t* p = &image.bytes[at];
         if (channels == 1) return Rgb(image.decode[p[0]]);
@@ -97,6 +116,17 @@ Rgb TextureSet::color(std::int32_t texture, const Vec2& uv) const {
     const auto& board = std::get<CheckerboardTexture>(kind);
     const Vec2 at = transformed(board.uv, uv);
     return in_upper_half(at.x) == in_upper_half(at.y) ? board.color0 : board.color1;
+}
+
+void TextureSet::prefetch(std::int32_t texture, const Vec2& uv) const {
+    const auto* bitmap = std::get_if<BitmapTexture>(&textures_[static_cast<std::size_t>(texture)].kind);
+    if (!bitmap) return;
+    const TextureImage& image = images_[static_cast<std::size_t>(bitmap->image)];
+    const Vec2 place = texel_place(image, *bitmap, uv);
+    const int x = static_cast<int>(std::floor(place.x)), y = static_cast<int>(std::floor(place.y - 0.5f));
+    if (x < 0 || x >= image.width) return;  // beyond the edges: rare
+    for (const int row : {y, y + 1})
+        if (row >= 0 && row < image.height) prefetch_texel(image, x, row);
 }
 
 Vec2 TextureSet::gradient(std::int32_t texture, const Vec2& uv) const {

@@ -15,6 +15,8 @@ class TextureSet {
 
     /// Linear value of a texture at texture coordinates.
     Rgb color(std::int32_t texture, const Vec2& uv) const;
+    /// Fetches what color() reads.
+    void prefetch(std::int32_t texture, const Vec2& uv) const;
     /// Mean of its channels.
     float value(std::int32_t texture, const Vec2& uv) const { return average(color(texture, uv)); }
     /// How the value changes with u and v: central differences over half a texel to each side.
@@ -39,5 +41,7 @@ class TextureSet {
 
 /// Texel (x, y) of an image, x and y in range; single-channel images are grey.
 Rgb texel(const TextureImage& image, int x, int y);
+/// Fetches it.
+void prefetch_texel(const TextureImage& image, int x, int y);
 
 }  // namespace treefarm

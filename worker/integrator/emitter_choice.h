@@ -1,0 +1,51 @@
+#pragma once
+
+#include "worker/integrator/path_settings.h"
+#include "worker/lights/light_batch.h"
+
+namespace treefarm {
+
+/// The emitters that next event samples at the vertices of a step, by Path::lane. Where some are drawn together, each
+/// path's is chosen before any vertex is visited: clear(), choose() for each, draw().
+class EmitterChoice {
+  public:
+    EmitterChoice(const Emitters& emitters, const PathSettings& settings)
+        : emitters_(emitters),
+          needed_(settings.next_event || settings.delta_alone),
+          delta_alone_(settings.delta_alone),
+          together_(settings.next_event && emitters.draws_together()) {}
+
+    /// The random numbers of a step.
+    void draw_numbers(std::uint64_t seed, const KeyBatch& keys, std::uint32_t lanes, std::uint32_t vertex) {
+        if (needed_) draw_batch(seed, keys, lanes, vertex, Stream::light, draws_);
+    }
+
+    bool together() const { return together_; }
+    void clear() { batch_.clear(); }
+    void choose(std::uint32_t lane, const LightShare* share) { emitters_.choose(batch_, lane, draws_[lane], share); }
+    void draw() { emitters_.draw(batch_); }
+
+    /// As Emitters::sample_direct(), or sample_delta() where next event is for those alone.
+    DirectSample sample(const Vec3& p, std::uint32_t lane, const LightShare* share, const Vec3* front) const {
+        if (delta_alone_) return emitters_.sample_delta(p, draws_[lane]);
+        return together_ ? emitters_.sample_direct(p, batch_, lane, draws_[lane], share, front)
+                         : emitters_.sample_direct(p, draws_[lane], share, front);
+    }
+    /// What comes from infinity along a sample of it.
+    [[gnu::noinline]] Rgb environment(std::uint32_t lane, const Vec3& direction) const {
+        return together_ ? emitters_.environment(batch_, lane, direction) : emitters_.environment(direction);
+    }
+    /// Fetches what that reads.
+    void prefetch_environment(std::uint32_t lane) const {
+        if (together_) [[unlikely]]
+            emitters_.prefetch_environment(batch_, lane);
+    }
+
+  private:
+    const Emitters& emitters_;
+    const bool needed_, delta_alone_, together_;
+    DrawBatch draws_;
+    LightBatch batch_;
+};
+
+}  // namespace treefarm

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <array>
+
+#include "common/base/random.h"
+#include "common/base/random_batch.h"
+#include "common/math/vec.h"
+
+namespace treefarm {
+
+/// A place of an image between four texel centres: the texels' columns and rows, and how far it lies from the first
+/// ones.
+struct TexelPlace {
+    int x0, x1, y0, y1;
+    float fx, fy;
+};
+
+/// A direction that was drawn from an environment map.
+struct EnvironmentSample {
+    Vec3 direction;  ///< unit
+    TexelPlace place;
+    float sine;  ///< of the angle from the pole
+};
+
+/// Directions that are drawn together (EnvironmentMap::draw): what one waits for from memory another works through, and
+/// arithmetic is done by vector code. Each is what it would be alone, to the bit.
+class EnvironmentBatch {
+  public:
+    static constexpr std::uint32_t kMost = kDrawBatch;
+
+    void clear() { count_ = 0; }
+    /// Asks for a direction of this part by these numbers, as EnvironmentMap::sample(); returns its number.
+    std::uint32_t add(int part, const Draw& random) {
+        part_[count_] = part;
+        row_bits_[count_] = random[1];
+        column_bits_[count_] = random[2];
+        tent_bits_[count_] = random[3];
+        return count_++;
+    }
+
+    EnvironmentSample operator[](std::uint32_t i) const { return {{dx_[i], dy_[i], dz_[i]}, place(i), sine_[i]}; }
+    TexelPlace place(std::uint32_t i) const { return {x0_[i], x1_[i], y0_[i], y1_[i], fx_[i], fy_[i]}; }
+
+  private:
+    friend class EnvironmentMap;
+    template <class T>
+    using Lanes = std::array<T, kMost>;
+
+    std::uint32_t count_ = 0;
+    alignas(64) Lanes<std::int32_t> part_;
+    Lanes<std::uint32_t> row_bits_, column_bits_, tent_bits_;
+    Lanes<std::int32_t> row_, column_;
+    Lanes<std::uint32_t> low_, high_;  ///< columns between which the guide has it
+    Lanes<float> dx_, dy_, dz_, fx_, fy_, sine_;
+    Lanes<std::int32_t> x0_, x1_, y0_, y1_;
+};
+
+}  // namespace treefarm
