@@ -66,7 +66,8 @@ void apply_layer(Job& job, std::span<const Setting> layer) {
 std::vector<Setting> scene_layer(std::span<const Setting> scene,
                                  std::initializer_list<std::span<const Setting>> above) {
     const bool chosen = std::any_of(above.begin(), above.end(), [](std::span<const Setting> layer) {
-        return std::any_of(layer.begin(), layer.end(), [](const Setting& s) { return s.key == "guiding.type"; });
+        return std::any_of(layer.begin(), layer.end(),
+                           [](const Setting& s) { return s.key == "guiding.type" || s.key == "guiding.preset"; });
     });
     std::vector<Setting> layer(scene.begin(), scene.end());
     if (chosen) std::erase_if(layer, [](const Setting& s) { return s.key == "guiding.preset"; });

@@ -58,6 +58,7 @@ class PreparedMaterial {
     const Bsdf& front() const { return *side(false); }
     const Bsdf& back() const { return *side(true); }
     bool varies() const { return set_->side(0, false).material != kNone; }
+    bool needs_tangents() const { return set_->needs_tangents(set_->side(0, false).material); }
     const Bsdf& at(const ShadingPoint& point, bool back = false) {
         return *set_->look_up(set_->side(0, back).material, back, point, scratch_);
     }

@@ -176,6 +176,8 @@ TEST(Job, WhoChoosesTheGuideIsNotBoundToTheScenesPreset) {
     const std::vector<Setting> left = scene_layer(scene, {other, chosen});
     ASSERT_EQ(left.size(), 1u);
     EXPECT_EQ(left[0].key, "integrator.max_depth");
+    const std::vector<Setting> preset{parse_set_argument("guiding.preset=improved")};
+    EXPECT_EQ(scene_layer(scene, {other, preset}).size(), 1u) << "the scene's would leave next event off";
 }
 
 TEST(Job, SetArguments) {

@@ -75,6 +75,34 @@ TEST(Bump, TiltsTheNormalByTheSlope) {
     EXPECT_NEAR(bsdf.value(kUp, wi).f_cos.x, dot(wi, expected) * kInvPi, 1e-4f);
 }
 
+TEST(Bump, TangentsAreAskedForWhereAPartNeedsThem) {
+    Scene plain;
+    const std::int32_t board = test::add_board(plain, Rgb(0.8f), Rgb(0.1f));
+    const std::int32_t textured = test::add_material(plain, DiffuseMaterial{ColorInput(Rgb(1.0f), board)});
+    EXPECT_FALSE(PreparedMaterial(plain).needs_tangents());
+    EXPECT_TRUE(PreparedMaterial(bumped(0.5f)).needs_tangents());
+
+    Scene blend = bumped(0.5f);
+    const std::int32_t bump = static_cast<std::int32_t>(blend.materials.size()) - 1;
+    const std::int32_t inner =
+        test::add_material(blend, BlendMaterial{FloatInput(0.5f), test::add_diffuse(blend, Rgb(0.5f)), bump});
+    test::add_material(blend, BlendMaterial{FloatInput(0.5f), inner, test::add_diffuse(blend, Rgb(0.2f))});
+    EXPECT_TRUE(PreparedMaterial(blend).needs_tangents());
+
+    Scene back = bumped(0.5f);
+    const std::int32_t behind = static_cast<std::int32_t>(back.materials.size()) - 1;
+    const std::int32_t front = test::add_material(back, DiffuseMaterial{Rgb(0.5f)}, true);
+    back.materials[static_cast<std::size_t>(front)].back = behind;
+    EXPECT_TRUE(PreparedMaterial(back).needs_tangents());
+
+    Scene brushed = plain;
+    ConductorMaterial metal;
+    metal.roughness = test::rough(Microfacets::ggx, 0.1f, 0.3f);
+    const std::int32_t anisotropic = test::add_material(brushed, metal);
+    test::add_material(brushed, BlendMaterial{FloatInput(0.5f), textured, anisotropic});
+    EXPECT_TRUE(PreparedMaterial(brushed).needs_tangents());
+}
+
 TEST(Bump, BackSeesTheSameTiltedSurface) {
     PreparedMaterial prepared(bumped(0.5f, true));
     // The frame of the back is mirrored in z: the tilted normal, reversed, is (0.5, 0, 1) there.

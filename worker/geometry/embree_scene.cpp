@@ -55,7 +55,8 @@ bool EmbreeScene::meet(const Ray& ray, Meeting& meeting) const {
 }
 
 void EmbreeScene::set_point(Hit& hit, const Meeting& m) const {
-    if (m.instance == RTC_INVALID_GEOMETRY_ID)
+    static_assert(kNoInstance == RTC_INVALID_GEOMETRY_ID);
+    if (m.instance == kNoInstance)
         set_triangle_point(hit, m.id, m.primitive, m.u, m.v);
     else
         hit = other_point(m.instance, m.id, m.primitive, m.u, m.v, m.outward);

@@ -20,6 +20,8 @@ class EmitterChoice {
         if (needed_) draw_batch(seed, keys, lanes, vertex, Stream::light, draws_);
     }
 
+    /// Whether there is anything to sample in this pass.
+    bool any() const { return needed_; }
     bool together() const { return together_; }
     void clear() { batch_.clear(); }
     void choose(std::uint32_t lane, const LightShare* share) { emitters_.choose(batch_, lane, draws_[lane], share); }

@@ -118,10 +118,9 @@ class PathKernel {
         if constexpr (Surface::kGeneral)  // others are of small scenes mostly
             arrivals(alive, [&](std::uint32_t, Path& path) { scene_.geometry().prefetch_point(path.meeting); });
         draw_numbers(alive, depth);
-        arrivals(alive, [&](std::uint32_t, Path& path) {
-            scene_.geometry().set_point(path.hit, path.meeting);
-            if constexpr (kHasTextures) Surface::prefetch(scene_, path.hit);
-        });
+        arrivals(alive, [&](std::uint32_t, Path& path) { scene_.geometry().set_point(path.hit, path.meeting); });
+        if (kHasTextures && settings_.textured && depth != settings_.max_depth)
+            arrivals(alive, [&](std::uint32_t, Path& path) { Surface::prefetch(scene_, path.hit); });
         clock_.lap(TracePhase::surface);
         if constexpr (kConverts) find_regions(alive, depth);
         if (emitters_.together() && depth != settings_.max_depth) [[unlikely]]
@@ -242,7 +241,7 @@ class PathKernel {
         }
         if constexpr (kRecord)
             if (surface.smooth() && !guide_.contains(hit.p)) recorders_[index].add_outside();
-        if ((settings_.next_event || settings_.delta_alone) && surface.smooth()) next_event(index);
+        if (emitters_.any() && surface.smooth()) next_event(index);
         return true;
     }
 

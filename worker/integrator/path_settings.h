@@ -25,6 +25,7 @@ struct PathSettings {
     bool split_glass;           ///< branches.h
     bool record_light_samples;  ///< kick-start: what next event finds teaches the tree, too
     bool profile;
+    bool textured;             ///< surfaces have something to look up
     ProbePixels probe;         ///< unguided, to see whether guiding pays
     bool jitter_records;       ///< stochastic spatial filter
     std::uint32_t candidates;  ///< directions drawn at a guided vertex, of which one is taken (candidates.h)
@@ -43,6 +44,7 @@ struct PathSettings {
           split_glass(job.integrator.split_glass),
           record_light_samples(job.integrator.next_event == NextEvent::kickstart && pass.next_event),
           profile(job.farm.profile),
+          textured(!scene.plainly_diffuse() && scene.materials().varies()),
           probe(pass.probe ? ProbePixels(scene.film().pixel_count(), pass.index) : ProbePixels()),
           jitter_records(job.guiding.spatial_filter == SpatialFilter::stochastic),
           candidates(static_cast<std::uint32_t>(job.guiding.candidates == 0 ? usual_candidates(job.guiding.type)

@@ -140,25 +140,24 @@ DirectSample Emitters::sample_direct(const Vec3& p, const Draw& random, const Li
 void Emitters::choose(LightBatch& batch, std::uint32_t lane, const Draw& random, const LightShare* share) const {
     const ChosenEmitter chosen = batch.chosen[lane] = choose(random, share);
     if (on_map(chosen.entry))
-        batch.on_map[lane] =
-            static_cast<std::uint8_t>(batch.map.add(static_cast<int>(chosen.entry - constant_entry_ - 1), random));
+        batch.number[lane] = static_cast<std::uint8_t>(batch.map.add(part_of(chosen.entry), random));
 }
 
 DirectSample Emitters::sample_direct(const Vec3& p, const LightBatch& batch, std::uint32_t lane, const Draw& random,
                                      const LightShare* share, const Vec3* front) const {
     const ChosenEmitter& chosen = batch.chosen[lane];
     if (!on_map(chosen.entry)) return sample(chosen, nullptr, p, random, share, front);
-    const EnvironmentSample drawn = batch.map[batch.on_map[lane]];
+    const EnvironmentSample drawn = batch.map[batch.number[lane]];
     return sample(chosen, &drawn, p, random, share, front);
 }
 
 Rgb Emitters::environment(const LightBatch& batch, std::uint32_t lane, const Vec3& direction) const {
-    return on_map(batch.chosen[lane].entry) ? constant_ + map_->radiance(batch.map.place(batch.on_map[lane]))
+    return on_map(batch.chosen[lane].entry) ? constant_ + map_->radiance(batch.map.place(batch.number[lane]))
                                             : environment(direction);
 }
 
 void Emitters::prefetch_environment(const LightBatch& batch, std::uint32_t lane) const {
-    if (on_map(batch.chosen[lane].entry)) map_->prefetch(batch.map.place(batch.on_map[lane]));
+    if (on_map(batch.chosen[lane].entry)) map_->prefetch(batch.map.place(batch.number[lane]));
 }
 
 DirectSample Emitters::sample_delta(const Vec3& p, const Draw& random) const {
@@ -236,8 +235,7 @@ DirectSample Emitters::sample_without_area(std::uint32_t entry, const Environmen
     sample.from_environment = true;
     sample.distance = std::numeric_limits<float>::infinity();
     if (on_map(entry)) {
-        const EnvironmentSample of_map =
-            drawn ? *drawn : map_->sample(static_cast<int>(entry - constant_entry_ - 1), random);
+        const EnvironmentSample of_map = drawn ? *drawn : map_->sample(part_of(entry), random);
         sample.wi = of_map.direction;
         if (sees(front, sample.wi)) sample.pdf = constant_pdf(share) + map_->pdf(of_map, part_choice(share));
     } else {

@@ -138,6 +138,7 @@ class Emitters {
                         const LightShare* share, const Vec3* front) const;
     /// Whether an entry of the table is a part of the environment map.
     bool on_map(std::uint32_t entry) const { return entry > constant_entry_; }
+    int part_of(std::uint32_t entry) const { return static_cast<int>(entry - constant_entry_ - 1); }
 
     const EmbreeScene* geometry_;
     const TextureSet* textures_;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cassert>
 
 #include "common/base/random.h"
 #include "common/base/random_batch.h"
@@ -22,8 +23,8 @@ struct EnvironmentSample {
     float sine;  ///< of the angle from the pole
 };
 
-/// Directions that are drawn together (EnvironmentMap::draw): what one waits for from memory another works through, and
-/// arithmetic is done by vector code. Each is what it would be alone, to the bit.
+/// Directions that are drawn together (EnvironmentMap::sample): what one waits for from memory another works through,
+/// and arithmetic is done by vector code. Each is what it would be alone, to the bit.
 class EnvironmentBatch {
   public:
     static constexpr std::uint32_t kMost = kDrawBatch;
@@ -31,6 +32,7 @@ class EnvironmentBatch {
     void clear() { count_ = 0; }
     /// Asks for a direction of this part by these numbers, as EnvironmentMap::sample(); returns its number.
     std::uint32_t add(int part, const Draw& random) {
+        assert(count_ < kMost);
         part_[count_] = part;
         row_bits_[count_] = random[1];
         column_bits_[count_] = random[2];
@@ -48,8 +50,10 @@ class EnvironmentBatch {
 
     std::uint32_t count_ = 0;
     alignas(64) Lanes<std::int32_t> part_;
-    Lanes<std::uint32_t> row_bits_, column_bits_, tent_bits_;
-    Lanes<std::int32_t> row_, column_;
+    Lanes<std::uint32_t> row_bits_, column_bits_;
+    // Vector code goes on beyond the last.
+    Lanes<std::uint32_t> tent_bits_{};
+    Lanes<std::int32_t> row_{}, column_{};
     Lanes<std::uint32_t> low_, high_;  ///< columns between which the guide has it
     Lanes<float> dx_, dy_, dz_, fx_, fy_, sine_;
     Lanes<std::int32_t> x0_, x1_, y0_, y1_;

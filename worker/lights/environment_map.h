@@ -69,7 +69,7 @@ class EnvironmentMap {
         EnvironmentPart texels;
         double weight;                         ///< share of the image's power
         std::vector<std::uint32_t> row_begin;  ///< begin of each row's share of 2^31, and their end
-        std::vector<std::uint32_t> row_guide;  ///< entry k: the row that owns k / kRowGuide
+        std::vector<std::uint32_t> row_guide;  ///< entry k: the row that owns k 2^-kRowGuideBits
         std::vector<Row> rows;
     };
     static constexpr int kRowGuideBits = 6;
@@ -79,7 +79,7 @@ class EnvironmentMap {
     float pdf(const Place& place, float sine, const PartChoice& choice) const;
     Rgb clean_texel(int x, int y) const;
     bool on_pole(int y) const { return frame_.margin == 0.0f && (y == 0 || y == frame_.height - 1); }
-    void add_part(const EnvironmentPart& part, double weight, const std::vector<double>& row_weights);
+    void add_part(const EnvironmentPart& part, double whole, const std::vector<double>& row_weights);
     int part_of(int x, int y) const;
     /// A texel's probability within its part. A tent about a pole is folded in two.
     float density(int part, int x, int y) const;

@@ -18,7 +18,7 @@ struct ChosenEmitter {
 /// environment map are drawn together: Emitters::choose() for each, then Emitters::draw().
 struct LightBatch {
     std::array<ChosenEmitter, kDrawBatch> chosen;  ///< of each lane
-    std::array<std::uint8_t, kDrawBatch> on_map;   ///< its number in `map`, where it is a part of the environment's
+    std::array<std::uint8_t, kDrawBatch> number;   ///< in `map`, where it is a part of the environment's
     EnvironmentBatch map;
 
     void clear() { map.clear(); }

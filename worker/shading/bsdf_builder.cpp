@@ -45,7 +45,7 @@ ShadingPoint seen_in(const OrientedBsdf& frame, const ShadingPoint& point) {
             point.mirrored};
 }
 
-/// The texture of a material's main colour.
+/// The texture of a material's main colour, or of what a blend is mixed by.
 std::int32_t color_texture(const Material& material) {
     if (const auto* diffuse = std::get_if<DiffuseMaterial>(&material.bsdf)) return diffuse->reflectance.texture;
     if (const auto* plastic = std::get_if<PlasticMaterial>(&material.bsdf)) return plastic->diffuse_reflectance.texture;

@@ -70,7 +70,7 @@ class BsdfBuilder {
         bool tangents = false;     ///< it, or what it is made of, has a frame of its own
         bool transmits = false;    ///< its back scatters by nature: glass, nothing, blends with them
         std::size_t nodes = 0;
-        std::int32_t texture = kNone;                ///< of its colour, or that of what it is made of
+        std::int32_t texture = kNone;                ///< that it most likely reads first
         const RoughTransmittance* coat = nullptr;    ///< rough plastic of one roughness
         const RoughTransmittances* coats = nullptr;  ///< rough plastic whose roughness varies
         float smooth_escapes = 1;                    ///< smooth plastic: see coated_base

@@ -22,6 +22,8 @@ class MaterialSet {
 
     /// Whether look_up() needs more of the point than texture coordinates and wo.
     bool needs_tangents(std::int32_t material) const { return builder_.needs_tangents(material); }
+    /// Whether any material varies.
+    bool varies() const { return scratch_nodes_ != 0; }
     /// The texture that look_up() is likely to read first; kNone: none.
     std::int32_t first_texture(std::int32_t material) const { return builder_.first_texture(material); }
     /// The BSDF of a material that varies, at a point.

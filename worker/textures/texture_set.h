@@ -15,7 +15,7 @@ class TextureSet {
 
     /// Linear value of a texture at texture coordinates.
     Rgb color(std::int32_t texture, const Vec2& uv) const;
-    /// Fetches what color() reads.
+    /// Fetches most of what color() reads.
     void prefetch(std::int32_t texture, const Vec2& uv) const;
     /// Mean of its channels.
     float value(std::int32_t texture, const Vec2& uv) const { return average(color(texture, uv)); }
