@@ -86,8 +86,8 @@ class PassLoop {
     }
 
     void keep(const PassPlan& plan) {
-        const bool same_tree = !state_.passes.empty() && !state_.passes.back().record;
-        PassResult pass{plan.spp, plan.first_sample, farm_.collector().film().pixels(), same_tree};
+        const PassPlan* const before = result_.passes.empty() ? nullptr : &result_.passes.back().plan;
+        PassResult pass = finished_pass(plan, before, farm_.collector().film().pixels());
         if (const TraceStats stats = farm_.collector().totals(); stats.probe_paths > 0) {
             probe_.add(pass.pixels, stats, plan.index);
             // An image of one pass alone has nothing better for them.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "common/film/trimmed_mean.h"
@@ -12,16 +13,50 @@ namespace {
 /// Clamps a pixel's variance in stuv_ppg, as the authors' program does.
 constexpr double kVarianceClamp = 1e4;
 
-/// Variance of the pass's image: mean over pixels, from one half of the samples. Without the worst pixels: a rare
-/// sample in one half would take all weight from the pass in the other, which does not hold it.
-double image_variance(const PassResult& pass, int half) {
+/// Passes one after the other that have one tree.
+using Alike = std::span<const PassResult>;
+
+/// Those from number `first` on that have its tree.
+Alike alike_from(std::span<const PassResult> passes, std::size_t first) {
+    std::size_t end = first + 1;
+    while (end < passes.size() && passes[end].same_tree)
+        ++end;
+    return passes.subspan(first, end - first);
+}
+
+/// Variance of one sample, from one half of all that are alike: mean of its luminance over pixels; nothing if no pixel
+/// has two. Without the worst pixels: a rare sample in one half would take all weight from its pass in the other, which
+/// does not hold it.
+std::optional<double> sample_variance(Alike passes, int half) {
+    std::vector<double> squares(passes.front().pixels.size(), 0.0), freedom(squares.size(), 0.0);
+    for (const PassResult& pass : passes)
+        for (std::size_t p = 0; p < squares.size(); ++p) {
+            const Moments& m = pass.pixels[p].half[half];
+            if (m.n < 2) continue;
+            squares[p] += luminance(m.m2);
+            freedom[p] += m.n - 1;
+        }
     std::vector<double> variances;
-    variances.reserve(pass.pixels.size());
-    for (const PixelEstimate& pixel : pass.pixels) {
-        const Moments& m = pixel.half[half];
-        if (m.n != 0) variances.push_back(m.n >= 2 ? luminance(m.sample_variance()) / m.n : 0.0);
-    }
-    return variances.empty() ? 0.0 : trimmed_mean(std::move(variances));
+    variances.reserve(squares.size());
+    for (std::size_t p = 0; p < squares.size(); ++p)
+        if (freedom[p] > 0) variances.push_back(squares[p] / freedom[p]);
+    if (variances.empty()) return {};
+    return trimmed_mean(std::move(variances));
+}
+
+/// Samples of a pixel that are in this half of a pass.
+std::uint32_t samples_of(const PassResult& pass, int half) {
+    std::uint32_t most = 0;
+    for (const PixelEstimate& pixel : pass.pixels)
+        most = std::max(most, pixel.half[half].n);
+    return most;
+}
+
+std::uint32_t spp_of(Alike passes) {
+    std::uint32_t spp = 0;
+    for (const PassResult& pass : passes)
+        spp += pass.spp;
+    return spp;
 }
 
 void normalise(std::vector<double>& weights) {
@@ -43,17 +78,50 @@ std::vector<double> fixed_weights(std::span<const PassResult> passes, bool guide
     return weights;
 }
 
+/// Passes, one after the other, whose samples are taken for equally noisy.
+struct Level {
+    std::size_t first, end;
+    double spp, variance;
+    bool apart;  ///< sampled in another way than the level before
+};
+
+/// A tree is at least as good as the one before. Where it has more noise, the noise is in the measurement: a short pass
+/// has not met the rare samples yet that a long one knows of. Both are then as good (isotonic regression by pooling
+/// adjacent violators). The same holds for unguided passes after guided ones, which come where guiding did not pay: a
+/// guided sample may be better there, but the few that there are lose less by being taken for equal than by the
+/// weights that their passes report.
+void add_level(std::vector<Level>& levels, Level last) {
+    while (!levels.empty() && !last.apart && last.variance >= levels.back().variance) {
+        const Level before = levels.back();
+        levels.pop_back();
+        const double spp = before.spp + last.spp;
+        const double variance = (before.spp * before.variance + last.spp * last.variance) / spp;
+        last = {before.first, last.end, spp, variance, before.apart};
+    }
+    levels.push_back(last);
+}
+
 /// Weights by the inverse variance that `half` reports.
 std::vector<double> inverse_variance_weights(std::span<const PassResult> passes, int half, bool guided) {
-    std::vector<double> weights(passes.size(), 0.0);
-    for (std::size_t k = 0; k < passes.size(); ++k) {
-        if (passes[k].spp < kMinSamplesForVariance) continue;
-        const double variance = image_variance(passes[k], half);
-        if (!(variance > 0)) return fixed_weights(passes, guided);  // a pass without noise: nothing to weigh by
-        weights[k] = 1.0 / variance;
+    std::vector<Level> levels;
+    bool apart = true;
+    for (std::size_t first = 0; first < passes.size();) {
+        const Alike alike = alike_from(passes, first);
+        const std::size_t end = first + alike.size();
+        apart = apart || alike.front().new_technique;
+        const std::uint32_t spp = spp_of(alike);
+        if (const auto variance = sample_variance(alike, half); variance && spp >= kMinSamplesForVariance) {
+            if (!(*variance > 0)) return fixed_weights(passes, guided);  // a tree without noise: nothing to weigh by
+            add_level(levels, {first, end, double(spp), *variance, apart});
+            apart = false;
+        }
+        first = end;
     }
-    if (std::all_of(weights.begin(), weights.end(), [](double w) { return w == 0; }))
-        return fixed_weights(passes, guided);
+    if (levels.empty()) return fixed_weights(passes, guided);
+    std::vector<double> weights(passes.size(), 0.0);
+    for (const Level& level : levels)
+        for (std::size_t k = level.first; k < level.end; ++k)
+            weights[k] = samples_of(passes[k], half) / level.variance;
     normalise(weights);
     return weights;
 }
@@ -72,7 +140,7 @@ Rgb64 sample_variance(const PixelEstimate& pixel, const PixelEstimate& longest) 
 }
 
 /// Those at the end that had one tree.
-std::span<const PassResult> passes_of_last_tree(std::span<const PassResult> passes) {
+Alike passes_of_last_tree(std::span<const PassResult> passes) {
     std::size_t first = passes.size() - 1;
     while (first > 0 && passes[first].same_tree)
         --first;

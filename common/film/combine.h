@@ -9,8 +9,8 @@
 
 namespace treefarm {
 
-/// A pass with fewer samples knows too little of its own variance to be weighed by it: `inverse_variance` leaves it
-/// out.
+/// A tree with fewer samples knows too little of its own variance to be weighed by it: `inverse_variance` leaves its
+/// passes out.
 inline constexpr std::uint32_t kMinSamplesForVariance = 4;
 
 /// One finished pass.
@@ -19,6 +19,7 @@ struct PassResult {
     std::uint32_t spp_before = 0;       ///< N_k: what had been rendered when the pass began
     std::vector<PixelEstimate> pixels;  ///< row by row
     bool same_tree = false;             ///< as the pass before it: their samples are alike
+    bool new_technique = false;         ///< next event began or ended with it
 };
 
 /// The image so far, with its own error.

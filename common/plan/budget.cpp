@@ -133,6 +133,13 @@ PassChooser open_passes(const Job& job) {
     return [budget = OpenBudget(job)](const RenderState& state) mutable { return budget.next(state); };
 }
 
+PassResult finished_pass(const PassPlan& plan, const PassPlan* before, std::vector<PixelEstimate> pixels) {
+    PassResult pass{plan.spp, plan.first_sample, std::move(pixels)};
+    pass.same_tree = before && !before->record;
+    pass.new_technique = before && before->next_event != plan.next_event;
+    return pass;
+}
+
 void show(PassResult pass, const Job& job, std::vector<PassResult>& shown) {
     if (job.budget.strict || (shows_last_tree_only(job) && !pass.same_tree)) shown.clear();
     shown.push_back(std::move(pass));

@@ -30,6 +30,9 @@ PassChooser open_passes(const Job& job);
 /// The job's own.
 PassChooser passes_of(const Job& job);
 
+/// A finished pass; `before`: the one before it, or nullptr.
+PassResult finished_pass(const PassPlan& plan, const PassPlan* before, std::vector<PixelEstimate> pixels);
+
 /// Adds a finished pass to those that make the image. Those that it replaces leave.
 void show(PassResult pass, const Job& job, std::vector<PassResult>& shown);
 

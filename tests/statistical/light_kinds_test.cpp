@@ -109,6 +109,7 @@ TEST(LightBatch, IsItsSamplesToTheBit) {
     Scene scene = environment(37, 11, {{5, 3}, {36, 0}, {0, 10}}, 0.3f);
     add_shape(scene, quad({-1, -1, -1}, {2, 0, 0}, {0, 2, 0}), kNone, Rgb(3.0f));
     add_shape(scene, Sphere{Vec3(0, 0, 0.5f), 0.5f}, kNone, Rgb(1.0f, 2.0f, 3.0f));
+    add_shape(scene, Sphere{Vec3(0, 0, 0), 4.0f, true}, kNone, Rgb(0.1f));
     scene.emitters.push_back({PointEmitter{Vec3(3, 0, 0), Rgb(1.5f)}, {}});
     scene.emitters.push_back({ConstantEmitter{Rgb(0.2f)}, {}});
     const TraceScene lights(scene, Job());
@@ -118,22 +119,23 @@ TEST(LightBatch, IsItsSamplesToTheBit) {
     learned[0] = kLightShareOne / 2;
     learned[1] = kLightShareOne / 8;
     learned[static_cast<std::size_t>(emitters.clusters().count())] = 3 * kLightShareOne / 8;
-    const Vec3 p(0.2f, 0.1f, -0.3f), front = normalize(Vec3(1, 1, 1));
-    int from_map = 0, others = 0;
+    const Vec3 front = normalize(Vec3(1, 1, 1));
+    int from_map = 0, by_cone = 0, from_inside = 0, others = 0;
     LightBatch batch;
     for (std::uint32_t round = 0; round < 200; ++round) {
         const LightShare* const share = round % 2 == 0 ? nullptr : &learned;
         const auto random = [&](std::uint32_t lane) { return draw({6, round, lane}, 1, Stream::light); };
+        const auto place = [&](std::uint32_t lane) { return Vec3(0.2f, 0.1f, 0.05f * static_cast<float>(lane) - 2); };
         const auto skipped = [&](std::uint32_t lane) { return (lane + round) % 5 == 0; };
         batch.clear();
         for (std::uint32_t lane = 0; lane < kDrawBatch; ++lane)
-            if (!skipped(lane)) emitters.choose(batch, lane, random(lane), share);
+            if (!skipped(lane)) emitters.choose(batch, lane, place(lane), random(lane), share);
         emitters.draw(batch);
         for (std::uint32_t lane = 0; lane < kDrawBatch; ++lane) {
             if (skipped(lane)) continue;
             const Vec3* const seen_from = lane % 3 == 0 ? &front : nullptr;
-            const DirectSample a = emitters.sample_direct(p, batch, lane, random(lane), share, seen_from);
-            const DirectSample b = emitters.sample_direct(p, random(lane), share, seen_from);
+            const DirectSample a = emitters.sample_direct(place(lane), batch, lane, random(lane), share, seen_from);
+            const DirectSample b = emitters.sample_direct(place(lane), random(lane), share, seen_from);
             ASSERT_EQ(a.pdf, b.pdf);
             ASSERT_EQ(a.from_environment, b.from_environment);
             ASSERT_EQ(a.delta, b.delta);
@@ -141,14 +143,21 @@ TEST(LightBatch, IsItsSamplesToTheBit) {
             ASSERT_EQ(a.cluster_probability, b.cluster_probability);
             if (!(a.pdf > 0.0f)) continue;
             ASSERT_EQ(a.wi, b.wi);
-            (a.from_environment ? from_map : others) += 1;
+            ASSERT_EQ(a.distance, b.distance);
+            ASSERT_EQ(a.radiance, b.radiance);
+            ASSERT_EQ(a.on_light.p, b.on_light.p);
+            ASSERT_EQ(a.on_light.ng, b.on_light.ng);
+            const bool on_sphere = !a.from_environment && !a.delta && a.on_light.shape != 0;
+            (a.from_environment ? from_map : !on_sphere ? others : a.on_light.shape == 1 ? by_cone : from_inside) += 1;
             if (!a.from_environment) continue;
             const Rgb at_place = emitters.environment(batch, lane, a.wi), along = emitters.environment(b.wi);
             ASSERT_NEAR(at_place.x, along.x, 1e-3f * along.x + 1e-4f) << "the sample's place is its direction's";
         }
     }
-    EXPECT_GT(from_map, 2000);
-    EXPECT_GT(others, 1000);
+    EXPECT_GT(from_map, 1000);
+    EXPECT_GT(by_cone, 200);
+    EXPECT_GT(from_inside, 200);
+    EXPECT_GT(others, 200);
 }
 
 TEST(LightChoice, IsByPower) {

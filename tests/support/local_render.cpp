@@ -40,6 +40,7 @@ LocalRender render_locally(const Scene& scene, const Job& job) {
     TreeLearner learner;
     RenderState state;
     GuidingProbe probe;
+    std::optional<PassPlan> before;
     for (NextPass next = choose(state); next.pass;) {
         const PassPlan pass = *next.pass;
         run.tree.pass = pass.index;
@@ -55,8 +56,8 @@ LocalRender render_locally(const Scene& scene, const Job& job) {
             if (pass.record) accumulator.commit(log.records, log.counts, log.caps);
         }
         run.stats.push_back(stats);
-        const bool same_tree = !state.passes.empty() && !state.passes.back().record;
-        PassResult shown{pass.spp, pass.first_sample, film.pixels(), same_tree};
+        PassResult shown = finished_pass(pass, before ? &*before : nullptr, film.pixels());
+        before = pass;
         if (stats.probe_paths > 0) {
             probe.add(shown.pixels, stats, pass.index);
             if (!shows_last_tree_only(job)) leave_out_probes(shown.pixels, pass.index);

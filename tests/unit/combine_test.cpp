@@ -76,10 +76,36 @@ TEST(Combine, EachHalfIsWeighedByTheOthersVariance) {
             }
         passes.push_back(std::move(pass));
     }
+    passes[1].new_technique = true;  // may be worse
     const CombinedImage image = combine_passes(passes, Combination::inverse_variance, true);
     EXPECT_NEAR(image.half[0][0].x, (64 * 1.0 + 1 * 2.0) / 65, 1e-9);  // the odd samples trust the first pass
     EXPECT_NEAR(image.half[1][0].x, (1 * 1.0 + 64 * 2.0) / 65, 1e-9);
     EXPECT_NEAR(image.mean[0].x, 1.5, 1e-9);
+}
+
+TEST(Combine, SamplesOfOneTreeWeighTheSame) {
+    std::vector<PassResult> passes{make_pass(16, 0, 1.0f, 2.0f, 2000, 1), make_pass(8, 16, 1.0f, 0.5f, 2000, 2),
+                                   make_pass(2, 24, 1.0f, 1.3f, 2000, 3), make_pass(22, 26, 1.0f, 1.3f, 2000, 4)};
+    passes[2].same_tree = passes[3].same_tree = true;
+    const std::vector<double> weight = combine_passes(passes, Combination::inverse_variance, true).weight;
+    EXPECT_NEAR(weight[1] / weight[3], 8.0 / 22, 1e-9);
+    EXPECT_NEAR(weight[2] / weight[3], 2.0 / 22, 1e-9) << "also of a pass that is too short to weigh itself";
+    const double pooled = (3 * 0.25 + 10 * 1.69) / 13;  // by degrees of freedom of a half
+    EXPECT_NEAR(weight[0] / (weight[1] + weight[2] + weight[3]), (16 / 4.0) / (32 / pooled), 0.01);
+}
+
+TEST(Combine, NoTreeIsTakenForWorseThanTheOneBefore) {
+    // By its few samples the second pass is quieter than what comes after it.
+    std::vector<PassResult> passes{make_pass(8, 0, 1.0f, 2.0f, 2000, 1), make_pass(8, 8, 1.0f, 0.25f, 2000, 2),
+                                   make_pass(16, 16, 1.0f, 1.0f, 2000, 3), make_pass(32, 32, 1.0f, 0.5f, 2000, 4)};
+    const auto weights = [&] { return combine_passes(passes, Combination::inverse_variance, true).weight; };
+    EXPECT_NEAR(weights()[1] / weights()[2], 8.0 / 16, 1e-9);
+    const double pooled = (8 * 0.0625 + 16 * 1.0) / 24;
+    EXPECT_NEAR(weights()[0] / weights()[2], (8 / 4.0) / (16 / pooled), 0.01);
+    EXPECT_NEAR(weights()[3] / weights()[2], (32 / 0.25) / (16 / pooled), 0.1);
+    // Unless it was sampled in another way.
+    passes[2].new_technique = true;
+    EXPECT_NEAR(weights()[1] / weights()[2], (8 / 0.0625) / 16, 0.3);
 }
 
 TEST(Combine, ARareSampleTakesNoWeightFromItsPass) {

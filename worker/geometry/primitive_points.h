@@ -48,15 +48,20 @@ struct FlatTriangle {
     }
 };
 
-/// The point of a sphere in the direction `outward` from its centre (need not be unit).
-inline Hit sphere_point(const Sphere& s, const Vec3& outward) {
+/// The point p of a sphere, with its unit outward normal there.
+inline Hit sphere_hit(const Sphere& s, const Vec3& p, const Vec3& n) {
     Hit hit;
-    const Vec3 n = normalize(outward);
-    hit.p = s.center + n * s.radius;
+    hit.p = p;
     hit.error = offset_bound(max_abs(s.center) + s.radius);
     hit.ng = s.flip_normals ? -n : n;
     hit.ns = hit.ng;
     return hit;
+}
+
+/// The point of a sphere in the direction `outward` from its centre (need not be unit).
+inline Hit sphere_point(const Sphere& s, const Vec3& outward) {
+    const Vec3 n = normalize(outward);
+    return sphere_hit(s, s.center + n * s.radius, n);
 }
 
 /// center + a * half_u + b * half_v.

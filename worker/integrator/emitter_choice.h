@@ -13,7 +13,9 @@ class EmitterChoice {
         : emitters_(emitters),
           needed_(settings.next_event || settings.delta_alone),
           delta_alone_(settings.delta_alone),
-          together_(settings.next_event && emitters.draws_together()) {}
+          together_(settings.next_event && emitters.draws_together()),
+          from_map_(together_ && emitters.has_map()),
+          special_(delta_alone_ || together_) {}
 
     /// The random numbers of a step.
     void draw_numbers(std::uint64_t seed, const KeyBatch& keys, std::uint32_t lanes, std::uint32_t vertex) {
@@ -24,28 +26,39 @@ class EmitterChoice {
     bool any() const { return needed_; }
     bool together() const { return together_; }
     void clear() { batch_.clear(); }
-    void choose(std::uint32_t lane, const LightShare* share) { emitters_.choose(batch_, lane, draws_[lane], share); }
+    void choose(std::uint32_t lane, const Vec3& p, const LightShare* share) {
+        emitters_.choose(batch_, lane, p, draws_[lane], share);
+    }
     void draw() { emitters_.draw(batch_); }
 
     /// As Emitters::sample_direct(), or sample_delta() where next event is for those alone.
     DirectSample sample(const Vec3& p, std::uint32_t lane, const LightShare* share, const Vec3* front) const {
-        if (delta_alone_) return emitters_.sample_delta(p, draws_[lane]);
-        return together_ ? emitters_.sample_direct(p, batch_, lane, draws_[lane], share, front)
-                         : emitters_.sample_direct(p, draws_[lane], share, front);
+        if (special_) [[unlikely]]
+            return sample_specially(p, lane, share, front);
+        return emitters_.sample_direct(p, draws_[lane], share, front);
     }
     /// What comes from infinity along a sample of it.
     [[gnu::noinline]] Rgb environment(std::uint32_t lane, const Vec3& direction) const {
         return together_ ? emitters_.environment(batch_, lane, direction) : emitters_.environment(direction);
     }
-    /// Fetches what that reads.
-    void prefetch_environment(std::uint32_t lane) const {
-        if (together_) [[unlikely]]
-            emitters_.prefetch_environment(batch_, lane);
+    /// Fetches what environment() reads, for the lanes lane_of(0) to lane_of(count - 1).
+    template <class LaneOf>
+    void prefetch(std::uint32_t count, LaneOf lane_of) const {
+        if (from_map_) [[unlikely]]
+            for (std::uint32_t i = 0; i < count; ++i)
+                emitters_.prefetch_environment(batch_, lane_of(i));
     }
 
   private:
+    /// Out of line: most scenes pay one test for it.
+    [[gnu::noinline]] DirectSample sample_specially(const Vec3& p, std::uint32_t lane, const LightShare* share,
+                                                    const Vec3* front) const {
+        if (delta_alone_) return emitters_.sample_delta(p, draws_[lane]);
+        return emitters_.sample_direct(p, batch_, lane, draws_[lane], share, front);
+    }
+
     const Emitters& emitters_;
-    const bool needed_, delta_alone_, together_;
+    const bool needed_, delta_alone_, together_, from_map_, special_;
     DrawBatch draws_;
     LightBatch batch_;
 };

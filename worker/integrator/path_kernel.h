@@ -198,6 +198,8 @@ class PathKernel {
         const std::uint64_t seed = paths_[alive_[0]].key.seed;
         directions_.draw_numbers(seed, keys, alive, vertex_of(depth));
         emitters_.draw_numbers(seed, keys, alive, vertex_of(depth));
+        if (depth > 1 && settings_.roulette.plays(depth - 1))
+            draw_batch(seed, keys, alive, vertex_of(depth - 1), Stream::roulette, roulette_draws_);
         if (kRecord && settings_.jitter_records)
             draw_batch(seed, keys, alive, vertex_of(depth), Stream::jitter, jitter_draws_);
     }
@@ -219,7 +221,7 @@ class PathKernel {
 
         if (depth > 1 && settings_.roulette.plays(depth - 1)) {
             const float chance = survival<kGuided>(path, guide_, settings_);
-            const bool survives = to_unit(draw(path.key, vertex_of(depth - 1), Stream::roulette)[0]) < chance;
+            const bool survives = to_unit(roulette_draws_.word[0][path.lane]) < chance;
             observer_.roulette(chance, survives);
             if (!survives) return end("roulette");
             path.throughput *= 1.0f / chance;
@@ -292,8 +294,7 @@ class PathKernel {
         path.radiance += path.throughput * weighted;
     }
 
-    // Emitters are met once in a path or never. Out of line, what they may be (textured, an image around the scene)
-    // costs the other vertices nothing, not even registers.
+    // Rare, and out of line: what emitters may be (textured, an image) costs other vertices nothing, not a register.
 
     [[gnu::noinline]] void from_emitter(std::uint8_t index, int depth) {
         const Emitters& emitters = scene_.emitters();
@@ -313,7 +314,7 @@ class PathKernel {
 
     [[gnu::noinline]] void choose_emitters(std::uint32_t alive) {
         emitters_.clear();
-        arrivals(alive, [&](std::uint32_t lane, const Path& path) { emitters_.choose(lane, light_share(path)); });
+        arrivals(alive, [&](std::uint32_t lane, const Path& at) { emitters_.choose(lane, at.hit.p, light_share(at)); });
         emitters_.draw();
     }
 
@@ -350,11 +351,11 @@ class PathKernel {
         for (std::uint32_t i = 0; i < pending_.size(); ++i) {
             if (shadowed[i]) continue;
             seen[count++] = static_cast<std::uint8_t>(i);
-            if constexpr (kHasEnvironment) emitters_.prefetch_environment(paths_[pending_[i].from.path].lane);
             if constexpr (kConverts) light_codes_.add(pending_[i].wi, pending_[i].from.guidance.region);
         }
         if constexpr (kConverts) light_codes_.convert();
         if constexpr (kGuided) light_codes_.prefetch(guide_);
+        emitters_.prefetch(count, [&](std::uint32_t i) { return paths_[pending_[seen[i]].from.path].lane; });
         for (std::uint32_t i = 0; i < count; ++i)
             add_light(pending_[seen[i]], light_codes_[i], depth);
     }
@@ -387,7 +388,7 @@ class PathKernel {
     Branches branches_;
     std::uint32_t first_vertex_ = 0;  ///< branches have random numbers of their own
     bool splits_ = false;             ///< whether this step may split paths
-    DrawBatch jitter_draws_;
+    DrawBatch jitter_draws_, roulette_draws_;
     EmitterChoice emitters_;
     DirectionChoice<Surface, kGuided, kConverts, kViews> directions_;
     CodeBatch light_codes_;

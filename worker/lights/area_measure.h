@@ -12,8 +12,8 @@ inline float per_steradian(float area_density, float distance2, float cosine) {
     return cosine > 0.0f ? area_density * distance2 / cosine : 0.0f;
 }
 
-inline float sphere_area_density(const Sphere& sphere) {
-    return kInvFourPi / (sphere.radius * sphere.radius);
+inline float sphere_area_density(float radius) {
+    return kInvFourPi / (radius * radius);
 }
 
 /// Completes a sample whose point on the light is chosen with density `selection * area_density` per area.

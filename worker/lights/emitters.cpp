@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "common/base/error.h"
+#include "worker/geometry/primitive_points.h"
 #include "worker/lights/area_measure.h"
 
 namespace treefarm {
@@ -108,6 +109,7 @@ double Emitters::add_area_light(const AreaEmitter& emitter) {
     }
     light.plain = geometry_->triangle_count(light.shape) > 0 && light.texture == kNone && !light.mask;
     if (light.plain && areas.size() <= kMostFlat) light.flat = geometry_->flat_triangles(light.shape);
+    has_spheres_ |= light.sphere != nullptr;
     light_of_shape_[light.shape] = static_cast<std::int32_t>(area_lights_.size());
     area_lights_.push_back(std::move(light));
     const Rgb mean = emitter.radiance.value *
@@ -120,44 +122,68 @@ Emitters::Channels Emitters::textured(const AreaLight& light, const Hit& hit) co
     return {c.x, c.y, c.z};
 }
 
-inline DirectSample Emitters::sample(const ChosenEmitter& chosen, const EnvironmentSample* drawn, const Vec3& p,
-                                     const Draw& random, const LightShare* share, const Vec3* front) const {
-    DirectSample sample = chosen.entry < area_lights_.size() && area_lights_[chosen.entry].plain
-                              ? sample_mesh(area_lights_[chosen.entry], p, random, front)
-                              : sample_other(chosen.entry, drawn, p, random, share, front);
-    if (!sample.from_environment) sample.pdf *= chosen.cluster.factor;  // the environment has it in its density
-    sample.cluster = chosen.cluster.cluster;
-    sample.cluster_probability = chosen.cluster.probability;
+/// Adds what is known of the choice of its emitter.
+static void add_choice(DirectSample& sample, const LightClusters::Choice& choice) {
+    if (!sample.from_environment) sample.pdf *= choice.factor;  // the environment has it in its density
+    sample.cluster = choice.cluster;
+    sample.cluster_probability = choice.probability;
+}
+
+inline DirectSample Emitters::sample(const ChosenEmitter& chosen, const Vec3& p, const Draw& random,
+                                     const LightShare* share, const Vec3* front) const {
+    const bool plain = chosen.entry < area_lights_.size() && area_lights_[chosen.entry].plain;
+    DirectSample sample = plain ? sample_mesh(area_lights_[chosen.entry], p, random, front)
+                                : sample_other(chosen.entry, p, random, share, front);
+    add_choice(sample, chosen.cluster);
     return sample;
 }
 
 DirectSample Emitters::sample_direct(const Vec3& p, const Draw& random, const LightShare* share,
                                      const Vec3* front) const {
     if (selection_.empty()) return {};
-    return sample(choose(random, share), nullptr, p, random, share, front);
+    return sample(choose(random, share), p, random, share, front);
 }
 
-void Emitters::choose(LightBatch& batch, std::uint32_t lane, const Draw& random, const LightShare* share) const {
+void Emitters::choose(LightBatch& batch, std::uint32_t lane, const Vec3& p, const Draw& random,
+                      const LightShare* share) const {
     const ChosenEmitter chosen = batch.chosen[lane] = choose(random, share);
-    if (on_map(chosen.entry))
-        batch.number[lane] = static_cast<std::uint8_t>(batch.map.add(part_of(chosen.entry), random));
+    std::uint32_t number = LightBatch::kAlone;
+    if (is_map(chosen.entry)) {
+        number = batch.map.add(part_of(chosen.entry), random);
+    } else if (const AreaLight* light = sphere_light(chosen.entry)) {
+        batch.by_cone[lane] = light->by_cone && has_cone(*light->sphere, p);
+        number = batch.by_cone[lane] ? batch.cones.add(*light->sphere, p, random)
+                                     : batch.spheres.add(*light->sphere, p, random);
+    }
+    batch.number[lane] = static_cast<std::uint8_t>(number);
+}
+
+void Emitters::draw(LightBatch& batch) const {
+    if (has_map()) map_->sample(batch.map);
+    batch.cones.draw();
+    batch.spheres.draw();
 }
 
 DirectSample Emitters::sample_direct(const Vec3& p, const LightBatch& batch, std::uint32_t lane, const Draw& random,
                                      const LightShare* share, const Vec3* front) const {
     const ChosenEmitter& chosen = batch.chosen[lane];
-    if (!on_map(chosen.entry)) return sample(chosen, nullptr, p, random, share, front);
-    const EnvironmentSample drawn = batch.map[batch.number[lane]];
-    return sample(chosen, &drawn, p, random, share, front);
+    const std::uint32_t number = batch.number[lane];
+    if (number == LightBatch::kAlone) return sample(chosen, p, random, share, front);
+    const bool map = is_map(chosen.entry), by_cone = !map && batch.by_cone[lane];
+    DirectSample sample = map ? on_map(batch.map[number], share, front)
+                              : on_sphere(area_lights_[chosen.entry],
+                                          by_cone ? batch.cones[number] : batch.spheres[number], by_cone, front);
+    add_choice(sample, chosen.cluster);
+    return sample;
 }
 
 Rgb Emitters::environment(const LightBatch& batch, std::uint32_t lane, const Vec3& direction) const {
-    return on_map(batch.chosen[lane].entry) ? constant_ + map_->radiance(batch.map.place(batch.number[lane]))
+    return is_map(batch.chosen[lane].entry) ? constant_ + map_->radiance(batch.map.place(batch.number[lane]))
                                             : environment(direction);
 }
 
 void Emitters::prefetch_environment(const LightBatch& batch, std::uint32_t lane) const {
-    if (on_map(batch.chosen[lane].entry)) map_->prefetch(batch.map.place(batch.number[lane]));
+    if (is_map(batch.chosen[lane].entry)) map_->prefetch(batch.map.place(batch.number[lane]));
 }
 
 DirectSample Emitters::sample_delta(const Vec3& p, const Draw& random) const {
@@ -166,16 +192,22 @@ DirectSample Emitters::sample_delta(const Vec3& p, const Draw& random) const {
     return delta_lights_[chosen].sample(p, delta_alone_.probability(chosen));
 }
 
-DirectSample Emitters::sample_other(std::uint32_t entry, const EnvironmentSample* drawn, const Vec3& p,
-                                    const Draw& random, const LightShare* share, const Vec3* front) const {
-    if (entry >= area_lights_.size()) return sample_without_area(entry, drawn, p, random, share, front);
+DirectSample Emitters::sample_other(std::uint32_t entry, const Vec3& p, const Draw& random, const LightShare* share,
+                                    const Vec3* front) const {
+    if (entry >= area_lights_.size()) return sample_without_area(entry, p, random, share, front);
     const AreaLight& light = area_lights_[entry];
-    DirectSample sample = light.sphere ? sample_sphere(light, p, random, front) : sample_area(light, p, random, front);
-    if (is_black(sample.radiance)) return sample;
+    if (light.sphere) return sample_sphere(light, p, random, front);
+    DirectSample sample = sample_area(light, p, random, front);
+    shine(light, sample);
+    return sample;
+}
+
+/// Adds what texture and mask of an emitter make of its radiance.
+inline void Emitters::shine(const AreaLight& light, DirectSample& sample) const {
+    if (is_black(sample.radiance)) return;
     if (kHasTextures && light.texture != kNone) sample.radiance = textured(light, sample.on_light).rgb();
     // The shadow ray ends before the emitter, so its own mask is not asked: on average it lets this much be seen.
     if (kHasMasks && light.mask) sample.radiance *= geometry_->opacity(sample.on_light);
-    return sample;
 }
 
 DirectSample Emitters::sample_mesh(const AreaLight& light, const Vec3& p, const Draw& random, const Vec3* front) const {
@@ -206,42 +238,49 @@ DirectSample Emitters::sample_area(const AreaLight& light, const Vec3& p, const 
 
 DirectSample Emitters::sample_sphere(const AreaLight& light, const Vec3& p, const Draw& random,
                                      const Vec3* front) const {
-    DirectSample sample;
+    const Sphere& sphere = *light.sphere;
     const Vec2 u = {to_unit(random[2]), to_unit(random[3])};
-    if (front && dot(*front, light.sphere->center - p) < -light.sphere->radius) return sample;
-    const SphereCone cone = sphere_cone(*light.sphere, p);
-    if (cone.outside && light.by_cone) {
-        const ConeSample c = sample_cone(cone, u);
-        if (!sees(front, c.direction)) return sample;
-        sample.wi = c.direction;
-        sample.on_light = geometry_->sphere_point(light.shape, c.normal);
-        const Vec3 to_light = sample.on_light.p - p;
-        sample.distance = std::sqrt(dot(to_light, to_light));
-        sample.pdf = light.selection * cone.pdf();
-        if (!light.sphere->flip_normals) sample.radiance = light.radiance;
-        return sample;
-    }
-    sample.on_light = geometry_->sphere_point(light.shape, square_to_sphere(u));
-    look_at(sample, p, light.radiance, light.selection, sphere_area_density(*light.sphere));
+    const bool by_cone = light.by_cone && has_cone(sphere, p);
+    const auto sample = by_cone ? sample_by_cone : sample_by_area;
+    return on_sphere(light, sample(sphere.center, sphere.radius, p, u), by_cone, front);
+}
+
+DirectSample Emitters::on_sphere(const AreaLight& light, const SphereSample& drawn, bool by_cone,
+                                 const Vec3* front) const {
+    DirectSample sample;
+    if (!(drawn.pdf > 0.0f) || !sees(front, drawn.direction)) return sample;
+    sample.wi = drawn.direction;
+    sample.on_light = sphere_hit(*light.sphere, drawn.p, drawn.normal);
+    sample.on_light.shape = light.shape;
+    sample.distance = drawn.distance;
+    sample.pdf = light.selection * drawn.pdf;
+    // What a cone meets first is the outside, also where rounding has it beyond the rim.
+    const bool shines = by_cone ? !light.sphere->flip_normals : dot(sample.on_light.ng, drawn.direction) < 0.0f;
+    if (shines) sample.radiance = light.radiance;
+    shine(light, sample);
     return sample;
 }
 
-DirectSample Emitters::sample_without_area(std::uint32_t entry, const EnvironmentSample* drawn, const Vec3& p,
-                                           const Draw& random, const LightShare* share, const Vec3* front) const {
+DirectSample Emitters::sample_without_area(std::uint32_t entry, const Vec3& p, const Draw& random,
+                                           const LightShare* share, const Vec3* front) const {
     const std::size_t index = entry - area_lights_.size();
     if (index < delta_lights_.size()) return delta_lights_[index].sample(p, delta_selection_[index]);
     DirectSample sample;
     if constexpr (!kHasEnvironment) return sample;
+    if (is_map(entry)) return on_map(map_->sample(part_of(entry), random), share, front);
     sample.from_environment = true;
     sample.distance = std::numeric_limits<float>::infinity();
-    if (on_map(entry)) {
-        const EnvironmentSample of_map = drawn ? *drawn : map_->sample(part_of(entry), random);
-        sample.wi = of_map.direction;
-        if (sees(front, sample.wi)) sample.pdf = constant_pdf(share) + map_->pdf(of_map, part_choice(share));
-    } else {
-        sample.wi = square_to_sphere({to_unit(random[2]), to_unit(random[3])});
-        if (sees(front, sample.wi)) sample.pdf = pdf_environment(sample.wi, share);
-    }
+    sample.wi = square_to_sphere({to_unit(random[2]), to_unit(random[3])});
+    if (sees(front, sample.wi)) sample.pdf = pdf_environment(sample.wi, share);
+    return sample;
+}
+
+DirectSample Emitters::on_map(const EnvironmentSample& drawn, const LightShare* share, const Vec3* front) const {
+    DirectSample sample;
+    sample.from_environment = true;
+    sample.distance = std::numeric_limits<float>::infinity();
+    sample.wi = drawn.direction;
+    if (sees(front, sample.wi)) sample.pdf = constant_pdf(share) + map_->pdf(drawn, part_choice(share));
     return sample;
 }
 
@@ -254,7 +293,7 @@ float Emitters::pdf_direct(const Vec3& p, const Vec3& wi, const Hit& hit, const 
     if (light.sphere) {
         const SphereCone cone = sphere_cone(*light.sphere, p);
         if (cone.outside && light.by_cone) return selection * cone.pdf();
-        area_density = sphere_area_density(*light.sphere);
+        area_density = sphere_area_density(light.sphere->radius);
     } else {
         area_density = light.area_density[hit.primitive];
     }

@@ -12,7 +12,6 @@
 #include "worker/lights/discrete_table.h"
 #include "worker/lights/environment_map.h"
 #include "worker/lights/light_batch.h"
-#include "worker/lights/sphere_cone.h"
 
 namespace treefarm {
 
@@ -42,13 +41,16 @@ class Emitters {
                                const Vec3* front = nullptr) const;
 
     /// Whether there is a gain in drawing many together.
-    bool draws_together() const { return kHasEnvironment && map_; }
+    bool draws_together() const { return has_spheres_ || has_map(); }
     // The same for many: clear the batch, choose() for all lanes that may sample, draw(), and sample_direct() for those
-    // that do, each with the numbers and the share of its choice.
-    void choose(LightBatch& batch, std::uint32_t lane, const Draw& random, const LightShare* share) const;
-    void draw(LightBatch& batch) const { map_->sample(batch.map); }
+    // that do, each from the place, with the numbers and the share of its choice.
+    void choose(LightBatch& batch, std::uint32_t lane, const Vec3& p, const Draw& random,
+                const LightShare* share) const;
+    void draw(LightBatch& batch) const;
     DirectSample sample_direct(const Vec3& p, const LightBatch& batch, std::uint32_t lane, const Draw& random,
                                const LightShare* share, const Vec3* front) const;
+    /// Whether some may be of an environment map.
+    bool has_map() const { return kHasEnvironment && map_; }
     /// Radiance from infinity against a direction of such a sample.
     Rgb environment(const LightBatch& batch, std::uint32_t lane, const Vec3& direction) const;
     /// Fetches what that reads.
@@ -110,7 +112,7 @@ class Emitters {
         std::vector<FlatTriangle> flat;   ///< of a plain mesh without shading normals that is not large
         const Mask* mask = nullptr;
         /// Spheres: sampled by their cone from outside. Not those that shine inwards through the holes of a mask.
-        bool by_cone = true;
+        bool by_cone = false;
     };
 
     double add_area_light(const AreaEmitter& emitter);
@@ -121,23 +123,29 @@ class Emitters {
     EnvironmentMap::PartChoice part_choice(const LightShare* share) const;
     Channels textured(const AreaLight& light, const Hit& hit) const;
     /// Kept out of line, so that plain meshes pay nothing for the other kinds.
-    [[gnu::noinline]] DirectSample sample_other(std::uint32_t entry, const EnvironmentSample* drawn, const Vec3& p,
-                                                const Draw& random, const LightShare* share, const Vec3* front) const;
+    [[gnu::noinline]] DirectSample sample_other(std::uint32_t entry, const Vec3& p, const Draw& random,
+                                                const LightShare* share, const Vec3* front) const;
     DirectSample sample_mesh(const AreaLight& light, const Vec3& p, const Draw& random, const Vec3* front) const;
     DirectSample sample_area(const AreaLight& light, const Vec3& p, const Draw& random, const Vec3* front) const;
     DirectSample sample_sphere(const AreaLight& light, const Vec3& p, const Draw& random, const Vec3* front) const;
-    DirectSample sample_without_area(std::uint32_t entry, const EnvironmentSample* drawn, const Vec3& p,
-                                     const Draw& random, const LightShare* share, const Vec3* front) const;
+    DirectSample on_sphere(const AreaLight& light, const SphereSample& drawn, bool by_cone, const Vec3* front) const;
+    void shine(const AreaLight& light, DirectSample& sample) const;
+    DirectSample sample_without_area(std::uint32_t entry, const Vec3& p, const Draw& random, const LightShare* share,
+                                     const Vec3* front) const;
+    DirectSample on_map(const EnvironmentSample& drawn, const LightShare* share, const Vec3* front) const;
     ChosenEmitter choose(const Draw& random, const LightShare* share) const {
         const auto cluster =
             share ? clusters_.pick(*share, random[0]) : LightClusters::Choice{0, random[0], 1.0f, 1.0f};
         return {selection_.pick(cluster.bits), cluster};
     }
-    /// `drawn`: from the environment map, where that was chosen; nullptr: not drawn yet.
-    DirectSample sample(const ChosenEmitter& chosen, const EnvironmentSample* drawn, const Vec3& p, const Draw& random,
-                        const LightShare* share, const Vec3* front) const;
+    DirectSample sample(const ChosenEmitter& chosen, const Vec3& p, const Draw& random, const LightShare* share,
+                        const Vec3* front) const;
     /// Whether an entry of the table is a part of the environment map.
-    bool on_map(std::uint32_t entry) const { return entry > constant_entry_; }
+    bool is_map(std::uint32_t entry) const { return entry > constant_entry_; }
+    /// That of the table's entry, if it is a sphere.
+    const AreaLight* sphere_light(std::uint32_t entry) const {
+        return entry < area_lights_.size() && area_lights_[entry].sphere ? &area_lights_[entry] : nullptr;
+    }
     int part_of(std::uint32_t entry) const { return static_cast<int>(entry - constant_entry_ - 1); }
 
     const EmbreeScene* geometry_;
@@ -155,6 +163,7 @@ class Emitters {
     std::unique_ptr<EnvironmentMap> map_;
     EnvironmentMap::PartChoice map_parts_{};  ///< probability that each is chosen
     bool shines_from_infinity_ = false;
+    bool has_spheres_ = false;  ///< among area lights
 };
 
 }  // namespace treefarm

@@ -5,6 +5,7 @@
 
 #include "worker/lights/environment_batch.h"
 #include "worker/lights/light_clusters.h"
+#include "worker/lights/sphere_batch.h"
 
 namespace treefarm {
 
@@ -15,13 +16,23 @@ struct ChosenEmitter {
 };
 
 /// Which emitters the vertices of a step sample, chosen before any of them is looked at, so that directions of an
-/// environment map are drawn together: Emitters::choose() for each, then Emitters::draw().
+/// environment map and points of spheres are drawn together: Emitters::choose() for each, then Emitters::draw().
 struct LightBatch {
-    std::array<ChosenEmitter, kDrawBatch> chosen;  ///< of each lane
-    std::array<std::uint8_t, kDrawBatch> number;   ///< in `map`, where it is a part of the environment's
-    EnvironmentBatch map;
+    /// Instead of a number: nothing was drawn yet.
+    static constexpr std::uint8_t kAlone = 0xff;
 
-    void clear() { map.clear(); }
+    std::array<ChosenEmitter, kDrawBatch> chosen;  ///< of each lane
+    std::array<std::uint8_t, kDrawBatch> number;   ///< in the batch of its kind
+    EnvironmentBatch map;
+    SphereBatch<sample_by_cone> cones;
+    SphereBatch<sample_by_area> spheres;
+    std::array<bool, kDrawBatch> by_cone;  ///< which of the two, where it is a sphere
+
+    void clear() {
+        map.clear();
+        cones.clear();
+        spheres.clear();
+    }
 };
 
 }  // namespace treefarm

@@ -1,10 +1,14 @@
 #pragma once
 
-#include "common/math/frame.h"
-#include "common/math/warp.h"
+#include "common/math/vec.h"
 #include "common/scene/scene.h"
 
 namespace treefarm {
+
+/// Density per steradian of directions that are uniform in a cone.
+inline float cone_pdf(float one_minus_cos) {
+    return 0.5f * kInvPi / one_minus_cos;
+}
 
 /// The cone of directions in which a sphere is seen from a point outside of it.
 struct SphereCone {
@@ -13,41 +17,29 @@ struct SphereCone {
     float sin2_max = 0;       ///< squared sine of the half angle
     float one_minus_cos = 0;  ///< 1 - cos of the half angle, without the cancellation that small cones suffer
 
-    float pdf() const { return 0.5f * kInvPi / one_minus_cos; }
+    float pdf() const { return cone_pdf(one_minus_cos); }
 };
 
-inline SphereCone sphere_cone(const Sphere& sphere, const Vec3& from) {
+/// That of a sphere with its centre at `to_center`, as seen from a point outside.
+inline SphereCone cone_from_outside(const Vec3& to_center, float radius) {
     SphereCone cone;
-    const Vec3 to_center = sphere.center - from;
-    const float distance2 = dot(to_center, to_center), radius2 = sphere.radius * sphere.radius;
-    if (!(distance2 > 1.0001f * radius2)) return cone;
+    const float distance2 = dot(to_center, to_center);
+    cone.outside = true;
     cone.axis = to_center * (1.0f / std::sqrt(distance2));
-    cone.sin2_max = radius2 / distance2;
+    cone.sin2_max = radius * radius / distance2;
     cone.one_minus_cos = cone.sin2_max / (1.0f + std::sqrt(1.0f - cone.sin2_max));
-    cone.outside = cone.one_minus_cos > 0.0f;
     return cone;
 }
 
-/// A direction of the cone, uniform, and the outward normal of the sphere where it is met first.
-struct ConeSample {
-    Vec3 direction;
-    Vec3 normal;
-};
+/// Whether a point is so far outside of a sphere, and so near, that rounding leaves a cone.
+inline bool has_cone(const Sphere& sphere, const Vec3& from) {
+    const Vec3 to_center = sphere.center - from;
+    const float distance2 = dot(to_center, to_center), radius2 = sphere.radius * sphere.radius;
+    return distance2 > 1.0001f * radius2 && radius2 > 1e-36f * distance2;
+}
 
-/// The angle alpha at the centre follows from the angle theta at the point by the law of sines (Pharr, Jakob and
-/// Humphreys, "Physically Based Rendering", 4th ed., section 6.2.4).
-inline ConeSample sample_cone(const SphereCone& cone, const Vec2& u) {
-    const Vec3 w = square_to_cone(u, cone.one_minus_cos);
-    const float h = u.x * cone.one_minus_cos;
-    const float sin2_theta = h * (2.0f - h);
-    const float ratio2 = std::min(1.0f, sin2_theta / cone.sin2_max);  // (sin theta / sin theta_max)^2
-    const float sin_max = std::sqrt(cone.sin2_max);
-    const float cos_alpha = ratio2 * sin_max + (1.0f - h) * std::sqrt(1.0f - ratio2);
-    const float sin_alpha = std::sqrt(std::max(0.0f, 1.0f - cos_alpha * cos_alpha));
-    const float sin_theta = std::sqrt(w.x * w.x + w.y * w.y);
-    const float along = sin_theta > 0.0f ? sin_alpha / sin_theta : 0.0f;
-    const Frame frame(cone.axis);
-    return {frame.to_world(w), frame.to_world(Vec3(w.x * along, w.y * along, -cos_alpha))};
+inline SphereCone sphere_cone(const Sphere& sphere, const Vec3& from) {
+    return has_cone(sphere, from) ? cone_from_outside(sphere.center - from, sphere.radius) : SphereCone{};
 }
 
 }  // namespace treefarm
