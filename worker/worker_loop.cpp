@@ -24,7 +24,9 @@ constexpr std::size_t kUnitsPerThread = 3;
 /// A tree or scene of which nothing was heard for so many heartbeats is asked for again.
 constexpr double kPatienceHeartbeats = 5.0;
 
-constexpr double kRestSeconds = 2e-3;
+/// No message tells that threads run out of units, or that a guide is built. Both are due soon after one arrived, if
+/// they are small: how long to rest doubles from there on.
+constexpr double kShortestRest = 5e-5, kLongestRest = 2e-3;
 
 template <class T>
 bool ready(const std::future<T>& task) {
@@ -48,8 +50,9 @@ class WorkerLoop {
 
     WorkerEnd run() {
         say_hello();
-        while (!end_) {
+        for (double rest = kShortestRest; !end_; rest = std::min(2 * rest, kLongestRest)) {
             while (const auto message = channel_.poll()) {
+                rest = kShortestRest;
                 silence_.broken();
                 take(*message);
                 if (end_) return *end_;
@@ -64,7 +67,7 @@ class WorkerLoop {
                 log_->error("the coordinator has been silent for {:.0f} s: leaving", silence_.seconds());
                 return WorkerEnd::orphaned;
             }
-            channel_.rest(kRestSeconds);
+            channel_.rest(rest);
         }
         return *end_;
     }
