@@ -22,9 +22,10 @@ struct DrawBatch {
 };
 
 /// draw() for the first `count` keys (Philox 4x32, 7 rounds): the same numbers at a fraction of the time. What stands
-/// beyond them is left undefined.
-inline void draw_batch(std::uint64_t seed, const KeyBatch& keys, std::uint32_t count, std::uint32_t vertex,
-                       Stream stream, DrawBatch& out) {
+/// beyond them is left undefined. Not inlined: it is long, called once for many, and whether it were would hang on what
+/// else its caller does.
+[[gnu::noinline]] inline void draw_batch(std::uint64_t seed, const KeyBatch& keys, std::uint32_t count,
+                                         std::uint32_t vertex, Stream stream, DrawBatch& out) {
     constexpr std::uint32_t kLanes = 8;
     for (std::uint32_t i = 0; i < (count + kLanes - 1) / kLanes * kLanes; ++i) {
         std::uint32_t c0 = keys.pixel[i], c1 = keys.sample[i], c2 = vertex, c3 = static_cast<std::uint32_t>(stream);

@@ -13,13 +13,13 @@ namespace {
 /// Clamps a pixel's variance in stuv_ppg, as the authors' program does.
 constexpr double kVarianceClamp = 1e4;
 
-/// Passes one after the other that have one tree.
+/// Passes one after the other that have one tree, and sample emitters in one way.
 using Alike = std::span<const PassResult>;
 
-/// Those from number `first` on that have its tree.
+/// Those from number `first` on that are like it.
 Alike alike_from(std::span<const PassResult> passes, std::size_t first) {
     std::size_t end = first + 1;
-    while (end < passes.size() && passes[end].same_tree)
+    while (end < passes.size() && passes[end].same_tree && !passes[end].new_technique)
         ++end;
     return passes.subspan(first, end - first);
 }
@@ -101,9 +101,10 @@ void add_level(std::vector<Level>& levels, Level last) {
     levels.push_back(last);
 }
 
-/// Weights by the inverse variance that `half` reports.
+/// Weights of the samples of one half by the inverse variance that the other, `half`, reports.
 std::vector<double> inverse_variance_weights(std::span<const PassResult> passes, int half, bool guided) {
     std::vector<Level> levels;
+    std::vector<bool> counted(passes.size(), false);
     bool apart = true;
     for (std::size_t first = 0; first < passes.size();) {
         const Alike alike = alike_from(passes, first);
@@ -114,6 +115,7 @@ std::vector<double> inverse_variance_weights(std::span<const PassResult> passes,
             if (!(*variance > 0)) return fixed_weights(passes, guided);  // a tree without noise: nothing to weigh by
             add_level(levels, {first, end, double(spp), *variance, apart});
             apart = false;
+            std::fill(counted.begin() + std::ptrdiff_t(first), counted.begin() + std::ptrdiff_t(end), true);
         }
         first = end;
     }
@@ -121,7 +123,7 @@ std::vector<double> inverse_variance_weights(std::span<const PassResult> passes,
     std::vector<double> weights(passes.size(), 0.0);
     for (const Level& level : levels)
         for (std::size_t k = level.first; k < level.end; ++k)
-            weights[k] = samples_of(passes[k], half) / level.variance;
+            if (counted[k]) weights[k] = samples_of(passes[k], 1 - half) / level.variance;
     normalise(weights);
     return weights;
 }

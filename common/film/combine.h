@@ -18,7 +18,7 @@ struct PassResult {
     std::uint32_t spp = 0;              ///< n_k
     std::uint32_t spp_before = 0;       ///< N_k: what had been rendered when the pass began
     std::vector<PixelEstimate> pixels;  ///< row by row
-    bool same_tree = false;             ///< as the pass before it: their samples are alike
+    bool same_tree = false;             ///< as the pass before it
     bool new_technique = false;         ///< next event began or ended with it
 };
 

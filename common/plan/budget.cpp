@@ -59,7 +59,7 @@ class OpenBudget {
         return make_pass(job_, 0, 0, std::min(unit, job_.budget.max_spp), unit >= job_.budget.max_spp);
     }
 
-    /// Fewer samples than this would not count in the image.
+    /// Fewer samples of a new tree would not count in the image.
     double least_spp() const {
         const bool by_variance = job_.guiding.type != GuidingType::none &&
                                  job_.guiding.combination == Combination::inverse_variance && !job_.budget.strict;

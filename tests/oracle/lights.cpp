@@ -1,3 +1,4 @@
+#include "common/math/warp.h"
 #include "tests/oracle/oracle.h"
 #include "tests/support/test_scenes.h"
 #include "worker/lights/area_measure.h"

@@ -120,7 +120,7 @@ TEST(LightBatch, IsItsSamplesToTheBit) {
     learned[1] = kLightShareOne / 8;
     learned[static_cast<std::size_t>(emitters.clusters().count())] = 3 * kLightShareOne / 8;
     const Vec3 front = normalize(Vec3(1, 1, 1));
-    int from_map = 0, by_cone = 0, from_inside = 0, others = 0;
+    int from_map = 0, on_lamp = 0, from_inside = 0, others = 0;
     LightBatch batch;
     for (std::uint32_t round = 0; round < 200; ++round) {
         const LightShare* const share = round % 2 == 0 ? nullptr : &learned;
@@ -148,14 +148,14 @@ TEST(LightBatch, IsItsSamplesToTheBit) {
             ASSERT_EQ(a.on_light.p, b.on_light.p);
             ASSERT_EQ(a.on_light.ng, b.on_light.ng);
             const bool on_sphere = !a.from_environment && !a.delta && a.on_light.shape != 0;
-            (a.from_environment ? from_map : !on_sphere ? others : a.on_light.shape == 1 ? by_cone : from_inside) += 1;
+            (a.from_environment ? from_map : !on_sphere ? others : a.on_light.shape == 1 ? on_lamp : from_inside) += 1;
             if (!a.from_environment) continue;
             const Rgb at_place = emitters.environment(batch, lane, a.wi), along = emitters.environment(b.wi);
             ASSERT_NEAR(at_place.x, along.x, 1e-3f * along.x + 1e-4f) << "the sample's place is its direction's";
         }
     }
     EXPECT_GT(from_map, 1000);
-    EXPECT_GT(by_cone, 200);
+    EXPECT_GT(on_lamp, 200);
     EXPECT_GT(from_inside, 200);
     EXPECT_GT(others, 200);
 }

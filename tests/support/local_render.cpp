@@ -1,6 +1,7 @@
 #include "tests/support/local_render.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "common/film/guiding_probe.h"
 #include "common/film/pass_film.h"

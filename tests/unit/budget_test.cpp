@@ -92,6 +92,19 @@ double distance(const Simulated& run, double seconds) {
     return std::abs(run.state.seconds - seconds) / std::max(0.05 * seconds, 1.0);
 }
 
+TEST(FinishedPass, KnowsItsTreeAndWhetherNextEventEnded) {
+    Job job;
+    job.integrator.next_event = NextEvent::kickstart;
+    const PassPlan teaching = make_pass(job, 6, 63, 64, false), kickstart = make_pass(job, 7, 127, 10, true),
+                   after = make_pass(job, 8, 137, 10, true);
+    const PassResult first = finished_pass(teaching, nullptr, {});
+    EXPECT_FALSE(first.same_tree || first.new_technique);
+    const PassResult of_new_tree = finished_pass(kickstart, &teaching, {});
+    EXPECT_FALSE(of_new_tree.same_tree || of_new_tree.new_technique);
+    const PassResult unaided = finished_pass(after, &kickstart, {});
+    EXPECT_TRUE(unaided.same_tree && unaided.new_technique);
+}
+
 TEST(Budget, SecondsAreKept) {
     for (const double seconds : {1.0, 5.0, 10.0, 60.0, 600.0})
         for (const double per_spp : {0.0005, 0.01, 0.2})

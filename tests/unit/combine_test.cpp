@@ -85,8 +85,10 @@ TEST(Combine, EachHalfIsWeighedByTheOthersVariance) {
 
 TEST(Combine, SamplesOfOneTreeWeighTheSame) {
     std::vector<PassResult> passes{make_pass(16, 0, 1.0f, 2.0f, 2000, 1), make_pass(8, 16, 1.0f, 0.5f, 2000, 2),
-                                   make_pass(2, 24, 1.0f, 1.3f, 2000, 3), make_pass(22, 26, 1.0f, 1.3f, 2000, 4)};
-    passes[2].same_tree = passes[3].same_tree = true;
+                                   make_pass(2, 24, 1.0f, 1.3f, 2000, 3), make_pass(22, 26, 1.0f, 1.3f, 2000, 4),
+                                   make_pass(22, 48, 1.0f, 0.1f, 2000, 5)};
+    passes[2].same_tree = passes[3].same_tree = passes[4].same_tree = true;
+    passes[4].new_technique = true;  // next event has ended: nothing of it says how noisy the others are
     const std::vector<double> weight = combine_passes(passes, Combination::inverse_variance, true).weight;
     EXPECT_NEAR(weight[1] / weight[3], 8.0 / 22, 1e-9);
     EXPECT_NEAR(weight[2] / weight[3], 2.0 / 22, 1e-9) << "also of a pass that is too short to weigh itself";
@@ -116,7 +118,7 @@ TEST(Combine, ARareSampleTakesNoWeightFromItsPass) {
 }
 
 TEST(Combine, IsUnbiasedWhenVarianceFollowsTheSignal) {
-    // Skewed samples: a per-pixel or same-half weight would pull the mean down.
+    // Skewed samples: a weight per pixel would pull the mean down.
     double sum = 0, squared = 0;
     constexpr int kRuns = 400;
     for (unsigned run = 0; run < kRuns; ++run) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <span>
+
 #include "worker/integrator/path_settings.h"
 #include "worker/lights/light_batch.h"
 
@@ -14,7 +16,6 @@ class EmitterChoice {
           needed_(settings.next_event || settings.delta_alone),
           delta_alone_(settings.delta_alone),
           together_(settings.next_event && emitters.draws_together()),
-          from_map_(together_ && emitters.has_map()),
           special_(delta_alone_ || together_) {}
 
     /// The random numbers of a step.
@@ -37,16 +38,13 @@ class EmitterChoice {
             return sample_specially(p, lane, share, front);
         return emitters_.sample_direct(p, draws_[lane], share, front);
     }
-    /// What comes from infinity along a sample of it.
-    [[gnu::noinline]] Rgb environment(std::uint32_t lane, const Vec3& direction) const {
-        return together_ ? emitters_.environment(batch_, lane, direction) : emitters_.environment(direction);
-    }
-    /// Fetches what environment() reads, for the lanes lane_of(0) to lane_of(count - 1).
-    template <class LaneOf>
-    void prefetch(std::uint32_t count, LaneOf lane_of) const {
-        if (from_map_) [[unlikely]]
-            for (std::uint32_t i = 0; i < count; ++i)
-                emitters_.prefetch_environment(batch_, lane_of(i));
+    /// Adds their radiance to the samples from infinity among `lights`, of those numbers that are seen;
+    /// lane_of(light) has drawn one. All together: the others then have no test for it, nor a call to save registers
+    /// for.
+    template <class Lights, class LaneOf>
+    void shine_from_infinity(Lights& lights, std::span<const std::uint8_t> seen, LaneOf lane_of) const {
+        if (emitters_.shines_from_infinity()) [[unlikely]]
+            add_infinity(lights, seen, lane_of);
     }
 
   private:
@@ -57,8 +55,21 @@ class EmitterChoice {
         return emitters_.sample_direct(p, batch_, lane, draws_[lane], share, front);
     }
 
+    template <class Lights, class LaneOf>
+    [[gnu::noinline]] void add_infinity(Lights& lights, std::span<const std::uint8_t> seen, LaneOf lane_of) const {
+        if (together_ && emitters_.has_map())
+            for (const std::uint8_t i : seen)
+                emitters_.prefetch_environment(batch_, lane_of(lights[i]));
+        for (const std::uint8_t i : seen) {
+            auto& light = lights[i];
+            if (!light.from_environment) continue;
+            light.radiance =
+                together_ ? emitters_.environment(batch_, lane_of(light), light.wi) : emitters_.environment(light.wi);
+        }
+    }
+
     const Emitters& emitters_;
-    const bool needed_, delta_alone_, together_, from_map_, special_;
+    const bool needed_, delta_alone_, together_, special_;
     DrawBatch draws_;
     LightBatch batch_;
 };

@@ -355,14 +355,13 @@ class PathKernel {
         }
         if constexpr (kConverts) light_codes_.convert();
         if constexpr (kGuided) light_codes_.prefetch(guide_);
-        emitters_.prefetch(count, [&](std::uint32_t i) { return paths_[pending_[seen[i]].from.path].lane; });
+        emitters_.shine_from_infinity(pending_, {seen.data(), count},
+                                      [&](const PendingLight& light) { return paths_[light.from.path].lane; });
         for (std::uint32_t i = 0; i < count; ++i)
             add_light(pending_[seen[i]], light_codes_[i], depth);
     }
 
-    void add_light(PendingLight& light, std::uint32_t code, int depth) {
-        if (kHasEnvironment && light.from_environment) [[unlikely]]
-            light.radiance = emitters_.environment(paths_[light.from.path].lane, light.wi);
+    void add_light(const PendingLight& light, std::uint32_t code, int depth) {
         float scatter_pdf = light.delta ? 0.0f : light.bsdf_pdf;
         if constexpr (kGuided)
             if (!light.delta) scatter_pdf = mixed_pdf_at<kViews>(guide_, light.from.guidance, light.bsdf_pdf, code);

@@ -7,6 +7,7 @@
 #include "common/base/error.h"
 #include "worker/geometry/primitive_points.h"
 #include "worker/lights/area_measure.h"
+#include "worker/lights/sphere_sample.h"
 
 namespace treefarm {
 namespace {

@@ -12,7 +12,7 @@ inline float cone_pdf(float one_minus_cos) {
 
 /// The cone of directions in which a sphere is seen from a point outside of it.
 struct SphereCone {
-    bool outside = false;     ///< false: the point is inside or on the sphere, there is no cone
+    bool outside = false;     ///< false: there is no cone (has_cone())
     Vec3 axis{0.0f};          ///< unit, towards the centre
     float sin2_max = 0;       ///< squared sine of the half angle
     float one_minus_cos = 0;  ///< 1 - cos of the half angle, without the cancellation that small cones suffer
@@ -35,7 +35,7 @@ inline SphereCone cone_from_outside(const Vec3& to_center, float radius) {
 inline bool has_cone(const Sphere& sphere, const Vec3& from) {
     const Vec3 to_center = sphere.center - from;
     const float distance2 = dot(to_center, to_center), radius2 = sphere.radius * sphere.radius;
-    return distance2 > 1.0001f * radius2 && radius2 > 1e-36f * distance2;
+    return distance2 > 1.0001f * radius2 && radius2 > 2e-38f * distance2;
 }
 
 inline SphereCone sphere_cone(const Sphere& sphere, const Vec3& from) {
