@@ -7,10 +7,6 @@
 namespace treefarm {
 namespace {
 
-double centre(int bin) {
-    return (bin + 0.5) / kMixtureBins;
-}
-
 double total(const MixtureHistogram& histogram) {
     double sum = 0;
     for (const double h : histogram)
@@ -24,7 +20,7 @@ double best_bsdf_fraction(const MixtureHistogram& histogram, double prior, doubl
     const auto slope = [&](double a) {
         double sum = prior_weight * (prior / a - (1.0 - prior) / (1.0 - a));
         for (int b = 0; b < kMixtureBins; ++b) {
-            const double r = centre(b);
+            const double r = mixture_bin_centre(b);
             sum += histogram[static_cast<std::size_t>(b)] * (2.0 * r - 1.0) / (a * r + (1.0 - a) * (1.0 - r));
         }
         return sum;

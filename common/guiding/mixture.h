@@ -17,17 +17,20 @@ namespace treefarm {
 /// H_b = sum of f |cos| L / p_s over the directions whose r falls into it. Its expectation is the integral of f |cos| L
 /// there, whatever a was, so histograms of passes, regions and workers add up.
 
-/// Bin of a direction with these densities (per steradian, not both zero).
+/// Bin of a direction with these densities (per steradian).
 inline std::uint8_t mixture_bin(float bsdf_pdf, float tree_pdf) {
+    if (!(bsdf_pdf > 0.0f)) return 0;  // also where neither has a density: only a view reaches it
     const float place = bsdf_pdf / (bsdf_pdf + tree_pdf) * static_cast<float>(kMixtureBins);
     if (!(place > 0.0f)) return 0;  // also NaN
     return static_cast<std::uint8_t>(place < static_cast<float>(kMixtureBins) ? place : kMixtureBins - 1);
 }
 
-using MixtureHistogram = std::array<double, kMixtureBins>;
+/// r at the centre of a bin, (0, 1).
+inline double mixture_bin_centre(int bin) {
+    return (bin + 0.5) / kMixtureBins;
+}
 
-/// Never 0: where the tree has seen nothing the BSDF alone reaches everything.
-inline constexpr double kLeastBsdfFraction = 0.05;
+using MixtureHistogram = std::array<double, kMixtureBins>;
 
 /// The prior counts as much as so many average records: a young region keeps its parent's fraction.
 inline constexpr double kPriorRecords = 64.0;

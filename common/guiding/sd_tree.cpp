@@ -42,6 +42,7 @@ SdTree initial_tree(const Box3& bounds, const InitialTree& settings) {
         tree.view_begin = {0, 1};
         tree.view_depth = {0};
         tree.view_fraction = {settings.view_fraction};
+        if (settings.view_fraction == 0.0f) tree.bsdf_fraction.back() = static_cast<float>(kLeastBsdfFraction);
     }
     if (settings.with_lights) tree.light_share = {{kLightShareOne}};
     return tree;

@@ -48,8 +48,8 @@ struct SdTree {
     std::vector<std::uint32_t>
         cell_mass;  ///< per cell: probability times 2^kMassBits; a distribution's sum to 2^kMassBits
     std::vector<std::int16_t> quantum_exponent;  ///< per distribution: records are counted in units of 2^e
-    std::vector<float> bsdf_fraction;  ///< per distribution: probability of sampling the BSDF rather than a tree where
-                                       ///< it is the finest that there is, (0, 1]
+    std::vector<float> bsdf_fraction;  ///< per region: probability of sampling the BSDF rather than the tree; per view:
+                                       ///< the least that is left of it, (0, 1]
 
     std::vector<LightShare> light_share;  ///< per region; empty: emitters are chosen by power, and nothing is learned
 
@@ -62,6 +62,9 @@ struct SdTree {
     std::uint32_t cell_count() const { return static_cast<std::uint32_t>(cell_depth.size()); }
 };
 
+/// Of learned fractions. Never 0: where the tree has seen nothing the BSDF alone reaches everything.
+inline constexpr double kLeastBsdfFraction = 0.05;
+
 inline constexpr int kMassBits = 30;
 inline constexpr int kMaxDirectionDepth = 16;  ///< cells of 4^-16 of the sphere
 inline constexpr int kMaxViewDepth = 8;        ///< views of 4^-8 of the sphere
@@ -69,7 +72,7 @@ inline constexpr int kMaxSpatialDepth = 60;    ///< 20 halvings of each axis: fl
 
 /// The tree before any pass: one region, directions in 4^4 equal cells, records in units that suit `radiance_scale`
 /// (a typical emitted radiance), the BSDF sampled with probability `bsdf_fraction`. `with_views`: and a T2 of one view,
-/// sampled with the probability `view_fraction`.
+/// sampled with the probability `view_fraction`; 0: it is learned.
 struct InitialTree {
     float radiance_scale = 1.0f;
     float bsdf_fraction = 0.5f;

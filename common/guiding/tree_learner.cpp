@@ -5,12 +5,13 @@ namespace treefarm {
 SdTree TreeLearner::learn(const SdTree& tree, const TreeSums& sums, const RefineSettings& settings, bool learn_mixture,
                           RefineReport& report) {
     std::vector<ViewAdvice> advice;
-    if (learn_mixture && tree.view_count() != 0) advice = views_.judge(tree, sums);
+    const bool learn_views = learn_mixture && tree.view_count() != 0;
+    if (learn_views) advice = views_.judge(tree, sums, settings.last_lesson);
     SdTree next = refine(tree, sums, settings, report, advice);
     if (!tree.light_share.empty()) lights_.learn(tree, sums, report.origins, next);
     if (!learn_mixture) return next;
     mixture_.learn(tree, sums, report.origins, next);
-    views_.hand_down(report.view_origins, next);
+    if (learn_views) views_.hand_down(report.view_origins, next);
     return next;
 }
 

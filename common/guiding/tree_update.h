@@ -12,7 +12,6 @@ namespace treefarm {
 
 /// Bins of the mixture histogram of a region (mixture.h) and of a view (view_mixture.h).
 inline constexpr int kMixtureBins = 16;
-inline constexpr int kViewMixtureBins = 32;
 /// Records with this bin and above are none of the mixture: what next event found in cluster `bin - kLightBin`.
 inline constexpr std::uint8_t kLightBin = 64;
 
@@ -50,7 +49,7 @@ struct SumsShape {
     std::uint32_t regions = 0;
     std::uint32_t views = 0;
     std::uint32_t cells = 0;
-    bool with_mixture = false;  ///< mixture histograms: kMixtureBins more sums per region, kViewMixtureBins per view
+    bool with_mixture = false;  ///< mixture histograms: kMixtureBins more sums per distribution
     bool with_lights = false;   ///< of emitters: kLightClusters more sums per region
 
     SumsShape() = default;
@@ -61,9 +60,7 @@ struct SumsShape {
     std::size_t light_sums() const { return with_lights ? std::size_t{regions} * kLightClusters : 0; }
     /// Where the bins of a distribution begin; that of the distribution after the last: how many there are.
     std::size_t mixture_begin(std::uint32_t distribution) const {
-        if (!with_mixture) return 0;
-        const std::size_t of_regions = std::min(distribution, regions), of_views = distribution - of_regions;
-        return of_regions * kMixtureBins + of_views * kViewMixtureBins;
+        return with_mixture ? std::size_t{distribution} * kMixtureBins : 0;
     }
 };
 

@@ -9,9 +9,11 @@ namespace {
 
 constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 
-/// How far a render may be from budget.seconds: this share of it, or this many seconds if that is more.
+/// How far a render may be from budget.seconds: this share of it; of a short one a second, as long as that is no more
+/// than a larger share (one of half a second that ends at a quarter has wasted half of what was granted).
 constexpr double kTimeTolerance = 0.05;
 constexpr double kLeastTolerance = 1.0;
+constexpr double kMostTolerance = 0.1;
 /// An ending pass takes this share of the time left, so that a wrong forecast can be made up for.
 constexpr double kHedge = 0.7;
 /// Where one pass must end the render, one with the same tree comes before it, to learn what its samples cost: this
@@ -66,7 +68,10 @@ class OpenBudget {
         return by_variance ? kMinSamplesForVariance : 1.0;
     }
 
-    double tolerance() const { return std::max(kTimeTolerance * job_.budget.seconds, kLeastTolerance); }
+    double tolerance() const {
+        const double seconds = job_.budget.seconds;
+        return std::max(kTimeTolerance * seconds, std::min(kLeastTolerance, kMostTolerance * seconds));
+    }
 
     /// Of an ending pass.
     double seconds_of_pass(double spp) const {

@@ -42,6 +42,7 @@ RefineSettings refine_settings(const Job& job, double film_pixels, const PassPla
     settings.record_weight = pass.record_weight;
     settings.target = job.guiding.target;
     settings.view_threshold = split_growth(job, coming) * job.guiding.view_threshold;
+    settings.last_lesson = !coming.record;
     settings.views_record_alone = job.guiding.view_records == ViewRecords::radiance;
     if (job.guiding.view_records == ViewRecords::product) {
         settings.view_set_threshold = settings.view_threshold;

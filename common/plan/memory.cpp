@@ -90,7 +90,7 @@ std::uint64_t TreeSize::guide_bytes() const {
 std::uint64_t TreeSize::sum_bytes() const {
     return (regions + views) * kPlainTreeBytesPerRegion +
            (with_lights ? regions * (sizeof(LightShare) + kLightClusters * kSumBytes) : 0) +
-           (with_mixture ? (regions * kMixtureBins + views * kViewMixtureBins) * kSumBytes : 0) +
+           (with_mixture ? (regions + views) * kMixtureBins * kSumBytes : 0) +
            cells * (kPlainTreeBytesPerCell + kSumBytes);
 }
 

@@ -116,6 +116,18 @@ TEST(Budget, SecondsAreKept) {
             }
 }
 
+/// Of half a second a whole one was tolerated: the render ended at a quarter of it.
+TEST(Budget, AShortRenderUsesWhatItWasGranted) {
+    for (const double seconds : {0.3, 0.5, 0.7, 2.0})
+        for (const double per_spp : {0.0005, 0.002, 0.01})
+            for (const GuidingType type : {GuidingType::none, GuidingType::automatic}) {
+                Job job = seconds_job(seconds);
+                job.guiding.type = type;
+                const Simulated run = simulate(job, {.seconds_per_spp = per_spp, .overhead = 0.001});
+                EXPECT_NEAR(run.state.seconds, seconds, 0.1 * seconds) << per_spp << " s per sample";
+            }
+}
+
 TEST(Budget, SecondsAreKeptWhenSamplesBecomeDearer) {
     for (const double slow : {0.7, 1.35})
         for (const double from : {2.0, 8.0, 14.0}) {

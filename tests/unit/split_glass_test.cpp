@@ -160,11 +160,11 @@ TEST(PathRecorder, ABranchCarriesNothingForTheOtherWay) {
     log.begin(2);
     recorder.begin_path();
     recorder.add_delta_vertex(Rgb(0.9f), {}, 1);
-    recorder.add_vertex({0}, 11, 0.5f, Rgb(0.5f), 3, 2);
+    recorder.add_vertex({0}, 11, 0.5f, Rgb(0.5f), {3}, 2);
     recorder.add_emission(Rgb(1.0f));
     recorder.begin_branch(Rgb(0.1f), 7);
     recorder.add_reflected(recorder.vertex_count(), Rgb(100.0f));
-    recorder.add_vertex({1}, 22, 4.0f, Rgb(0.25f), 4, 8);
+    recorder.add_vertex({1}, 22, 4.0f, Rgb(0.25f), {4}, 8);
     recorder.add_emission(Rgb(8.0f));
     EXPECT_EQ(recorder.commit({}, log), 2u);
     ASSERT_EQ(log.records.size(), 2u);

@@ -1,86 +1,99 @@
-// The learned mixture of BSDF, T1 and T2, against optima found by search.
+// What a view adds to the mixture of its region, and when it is released.
 #include "common/guiding/view_mixture.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <random>
 
-#include "common/guiding/mixture.h"
+#include "worker/integrator/guided_sampling.h"
 
 namespace treefarm {
 namespace {
 
-ViewMixtureHistogram only(int bin, double value = 1.0) {
-    ViewMixtureHistogram histogram{};
+MixtureHistogram only(int bin, double value = 1.0) {
+    MixtureHistogram histogram{};
     histogram[static_cast<std::size_t>(bin)] = value;
     return histogram;
 }
 
-constexpr int kBsdfBin = kViewMixtureBins - 1, kTreeBin = 0, kViewBin = kViewSteps - 1;
-
-double objective(const ViewMixtureHistogram& histogram, const ViewFractions& prior, double weight, double bsdf,
-                 double view) {
-    const double tree = 1 - bsdf - view;
-    double sum = weight * (prior.bsdf * std::log(bsdf) + prior.tree * std::log(tree) + prior.view * std::log(view));
-    for (int b = 0; b < kViewMixtureBins; ++b) {
-        const double r = (b / kViewSteps + 0.5) / kBsdfSteps, share = (b % kViewSteps + 0.5) / kViewSteps;
-        sum += histogram[static_cast<std::size_t>(b)] *
-               std::log(bsdf * r + tree * (1 - r) * (1 - share) + view * (1 - r) * share);
-    }
-    return sum;
-}
-
-TEST(ViewMixture, BinsCoverAllDensities) {
-    EXPECT_EQ(view_mixture_bin(1.0f, 0.0f, 0.0f), kBsdfBin - kViewSteps + 1);
-    EXPECT_EQ(view_mixture_bin(0.0f, 1.0f, 0.0f), kTreeBin);
-    EXPECT_EQ(view_mixture_bin(0.0f, 0.0f, 1.0f), kViewBin);
-    EXPECT_EQ(view_mixture_bin(1e30f, 1e-30f, 1e-30f), kBsdfBin - 1) << "two halves of what is hardly there";
-    EXPECT_EQ(view_mixture_bin(0.0f, 0.0f, 0.0f), 0) << "NaN must not leave the bins";
-    EXPECT_LT(view_mixture_bin(std::numeric_limits<float>::infinity(), 1.0f, 1.0f), kViewMixtureBins);
-}
-
-TEST(ViewMixture, FollowsWhatFitsBetter) {
-    const ViewFractions even{1.0 / 3, 1.0 / 3, 1.0 / 3};
-    EXPECT_GT(best_view_fractions(only(kBsdfBin), even, 0.0).bsdf, 0.99);
-    EXPECT_GT(best_view_fractions(only(kTreeBin), even, 0.0).tree, 0.94);
-    EXPECT_GT(best_view_fractions(only(kViewBin), even, 0.0).view, 0.94);
-    EXPECT_EQ(best_view_fractions(only(kViewBin), even, 0.0).bsdf, kLeastBsdfFraction) << "the BSDF reaches everything";
-}
-
-TEST(ViewMixture, WithoutDataKeepsThePrior) {
-    const ViewFractions prior{0.4, 0.5, 0.1};
-    for (const ViewMixtureHistogram& histogram : {ViewMixtureHistogram{}, only(kViewBin, 1e-9)}) {
-        const ViewFractions a = best_view_fractions(histogram, prior, 1.0);
-        EXPECT_NEAR(a.bsdf, 0.4, 1e-6);
-        EXPECT_NEAR(a.tree, 0.5, 1e-6);
-        EXPECT_NEAR(a.view, 0.1, 1e-6);
-    }
-}
-
-TEST(ViewMixture, IsTheMaximumOfTheObjective) {
-    std::mt19937 engine(3);
-    std::exponential_distribution<double> exponential;
-    for (int run = 0; run < 5; ++run) {
-        ViewMixtureHistogram histogram;
-        for (double& h : histogram)
-            h = exponential(engine);
-        const ViewFractions prior{0.3, 0.5, 0.2};
-        const ViewFractions best = best_view_fractions(histogram, prior, 2.0);
-        EXPECT_NEAR(best.bsdf + best.tree + best.view, 1.0, 1e-12);
-        const double reached = objective(histogram, prior, 2.0, best.bsdf, best.view);
-        for (double bsdf = 0.05; bsdf < 1; bsdf += 0.01)
-            for (double view = 0.01; bsdf + view < 0.995; view += 0.01)
-                ASSERT_GE(reached + 2e-3, objective(histogram, prior, 2.0, bsdf, view)) << bsdf << ' ' << view;
-    }
-}
+constexpr int kOthersBin = kMixtureBins - 1, kViewBin = 0;
 
 TEST(ViewMixture, GainsNothingWhereT2IsOfNoUse) {
-    const ViewMixtureHistogram useless = only(kTreeBin);
-    EXPECT_LE(view_gain(useless, best_view_fractions(useless, {}, 1e-3)), 1e-3);
-    const ViewMixtureHistogram useful = only(kViewBin);
-    EXPECT_GT(view_gain(useful, best_view_fractions(useful, {}, 1e-3)), 1.0);
-    EXPECT_EQ(view_gain({}, {}), 0.0);
+    EXPECT_LE(view_gain(only(kOthersBin), 1.0), 0.0);
+    EXPECT_LT(view_gain(only(kOthersBin), 0.5), 0.0) << "what goes to the view is taken from what is needed";
+    EXPECT_GT(view_gain(only(kViewBin), 0.05), 3.0);
+    EXPECT_EQ(view_gain({}, 0.5), 0.0);
+}
+
+TEST(ViewMixture, GainIsTheMeanLogarithmOfTheRatioOfDensities) {
+    MixtureHistogram histogram{};
+    histogram[3] = 2.0;
+    histogram[12] = 6.0;
+    const double r3 = 3.5 / kMixtureBins, r12 = 12.5 / kMixtureBins, a = 0.7;
+    const double expected =
+        (2 * std::log((a * r3 + 0.3 * (1 - r3)) / r3) + 6 * std::log((a * r12 + 0.3 * (1 - r12)) / r12)) / 8;
+    EXPECT_NEAR(view_gain(histogram, a), expected, 1e-12);
+}
+
+/// A tree of one region and one view, as it is after the first pass.
+struct OneView {
+    SdTree tree;
+    ViewLearner learner;
+
+    OneView() {
+        Box3 box{Vec3(0.0f)};
+        box.extendBy(Vec3(1.0f));
+        tree = initial_tree(box, {1.0f, 0.5f, true, 0.0f});
+        tree.trained = true;
+    }
+
+    /// A pass in which `records` of the view, of `all`, fell into this bin. Whether the view is kept.
+    bool judge(int bin, std::uint32_t records, std::uint32_t all, bool last_lesson = false) {
+        TreeSums sums(tree.pass, SumsShape(1, tree.cell_count(), true, 1));
+        sums.add_count(0, all);
+        sums.add_count(1, records);
+        sums.add_mixture(1, static_cast<std::uint8_t>(bin), std::uint64_t{records} << kMeanRecordBits);
+        const bool keep = learner.judge(tree, sums, last_lesson)[0].keep;
+        const ViewOrigin same{0, 0};
+        learner.hand_down({&same, 1}, tree);
+        return keep;
+    }
+};
+
+TEST(ViewMixture, AYoungViewLeavesItsRegionAsItIs) {
+    OneView one;
+    EXPECT_EQ(one.tree.view_fraction[0], 0.0f);
+    one.judge(kViewBin, 1, 10);
+    EXPECT_LT(one.tree.view_fraction[0], 0.05f) << "64 records' worth of prior";
+    for (int pass = 0; pass < 3; ++pass)
+        one.judge(kViewBin, 10000, 20000);
+    EXPECT_GT(one.tree.view_fraction[0], 0.9f);
+    EXPECT_LE(one.tree.view_fraction[0], 1.0f - one.tree.bsdf_fraction[1]) << "the BSDF reaches everything";
+    EXPECT_NO_THROW(decode_tree(encode_tree(one.tree)));
+}
+
+TEST(ViewMixture, OfNoUseTwiceItIsReleasedAndAtOnceInTheLastLesson) {
+    OneView useful, useless, last;
+    EXPECT_TRUE(useful.judge(kViewBin, 10000, 20000));
+    EXPECT_TRUE(useful.judge(kViewBin, 10000, 20000, true));
+    EXPECT_TRUE(useless.judge(kOthersBin, 10000, 20000));
+    EXPECT_FALSE(useless.judge(kOthersBin, 10000, 20000));
+    EXPECT_FALSE(last.judge(kOthersBin, 10000, 20000, true));
+}
+
+/// All vertices pay for the view-dependent kernel: the good that a few do must outweigh that.
+TEST(ViewMixture, OfUseToFewIsReleasedToo) {
+    OneView one;
+    one.judge(kViewBin, 1000, 10000000);
+    EXPECT_FALSE(one.judge(kViewBin, 1000, 10000000));
+}
+
+TEST(ViewMixture, TakesItsPartOfWhatRegionAndBsdfShare) {
+    const float region_fraction = 0.6f;
+    const Guidance guidance{0, 1, region_fraction * (1 - 0.25f), 0.25f};
+    EXPECT_NEAR(without_view(guidance, 2.0f, 3.0f), mixed_pdf(region_fraction, 2.0f, 3.0f), 1e-6f);
+    EXPECT_NEAR(mixed_pdf(guidance, 2.0f, 3.0f, 7.0f), 0.25f * 7 + 0.75f * mixed_pdf(region_fraction, 2.0f, 3.0f),
+                1e-6f);
 }
 
 }  // namespace

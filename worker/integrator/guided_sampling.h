@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 
 #include "common/guiding/guide.h"
@@ -48,6 +49,12 @@ inline float mixed_pdf(const Guidance& guidance, float bsdf_pdf, float guide_pdf
     return guidance.bsdf_fraction * bsdf_pdf + (trees + guidance.view_fraction * view_pdf);
 }
 
+/// What the mixture of BSDF and region would be without the view.
+inline float without_view(const Guidance& guidance, float bsdf_pdf, float guide_pdf) {
+    const float others = 1.0f - guidance.view_fraction;
+    return (guidance.bsdf_fraction * bsdf_pdf + (others - guidance.bsdf_fraction) * guide_pdf) / others;
+}
+
 /// The density of whatever guides, for a direction that was not drawn from it.
 template <bool kViews>
 float mixed_pdf_at(const Guide& guide, const Guidance& guidance, float bsdf_pdf, std::uint32_t code) {
@@ -67,8 +74,10 @@ void find_view(const Guide& guide, bool view_dependent, const Vec3& outgoing, st
     outgoing_code = direction_to_code(outgoing);
     guidance.view = guide.view(guidance.region, outgoing_code);
     if (!kGuided || !guidance.has_view()) return;
-    guidance.bsdf_fraction = guide.bsdf_fraction(guidance.view);
-    guidance.view_fraction = guide.view_fraction(guidance.view);
+    // The view takes its part of what region and BSDF share without it, but for what is left to the BSDF at least.
+    const float of_view = guide.view_fraction(guidance.view);
+    guidance.bsdf_fraction = std::max(guide.bsdf_fraction(guidance.view), guidance.bsdf_fraction * (1.0f - of_view));
+    guidance.view_fraction = std::min(of_view, 1.0f - guidance.bsdf_fraction);
 }
 
 /// Directions whose codes are wanted, converted together by vector code.

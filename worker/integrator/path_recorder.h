@@ -9,6 +9,11 @@
 
 namespace treefarm {
 
+/// Where a direction stands in the histograms that learn mixtures (mixture.h, view_mixture.h).
+struct MixtureBins {
+    std::uint8_t region = 0, view = 0;
+};
+
 /// Remembers the vertices of one path and, at its end, what radiance each sampled direction carried:
 ///   L_i = emission_i + (reflected_i + weight_(i+1) L_(i+1)) / survival_i,
 /// where emission_i was met by the direction sampled at vertex i, and reflected_i is what next event found at its end.
@@ -34,19 +39,17 @@ class PathRecorder {
         add_delta_vertex(weight, {}, vertex);
     }
 
-    /// A direction was sampled: its code and density, f |cos| / density, and the bin of the mixture histogram (of the
-    /// view, where there is one).
-    void add_vertex(const RecordTarget& target, std::uint32_t code, float pdf, const Rgb& weight, std::uint8_t bin,
-                    std::uint32_t vertex) {
-        vertices_.push_back({weight, Rgb(0.0f), Rgb(0.0f), 1.0f, pdf, target, code, vertex, bin});
+    /// A direction was sampled: its code and density, f |cos| / density, and its bins of the mixture histograms.
+    void add_vertex(const RecordTarget& target, std::uint32_t code, float pdf, const Rgb& weight,
+                    const MixtureBins& bins, std::uint32_t vertex) {
+        vertices_.push_back({weight, Rgb(0.0f), Rgb(0.0f), 1.0f, pdf, target, code, vertex, bins});
     }
 
     /// The same of a delta lobe: its direction is no record, but what it carried belongs to the vertices before it, and
     /// to the mixture where the BSDF has lobes besides; the target is empty where it has not.
     void add_delta_vertex(const Rgb& weight, const RecordTarget& target, std::uint32_t vertex) {
-        const int bins = target.has_view() ? kViewMixtureBins : kMixtureBins;
         vertices_.push_back(
-            {weight, Rgb(0.0f), Rgb(0.0f), 1.0f, 0.0f, target, 0, vertex, static_cast<std::uint8_t>(bins - 1)});
+            {weight, Rgb(0.0f), Rgb(0.0f), 1.0f, 0.0f, target, 0, vertex, {kMixtureBins - 1, kMixtureBins - 1}});
     }
 
     /// Emission that the last sampled direction met, weighted against next event.
@@ -71,7 +74,7 @@ class PathRecorder {
     /// the density, and the density.
     void add_light_sample(const RecordTarget& target, std::uint32_t code, const Rgb& radiance, float reflected,
                           float pdf, std::uint32_t vertex) {
-        light_samples_.push_back({target, vertex, {code, pdf, average(radiance), finite(reflected), 0, false}});
+        light_samples_.push_back({target, vertex, {code, pdf, average(radiance), finite(reflected), {}, false}});
     }
 
     /// What next event found, of which the choice of emitters learns.
@@ -90,7 +93,7 @@ class PathRecorder {
             const Rgb arriving = carried;
             carried *= v.weight;
             if (v.target.empty()) continue;
-            const Lesson lesson{v.code, v.pdf, average(arriving), finite(average(carried)), v.bin};
+            const Lesson lesson{v.code, v.pdf, average(arriving), finite(average(carried)), v.bins};
             recorded += v.pdf > 0.0f;
             teach(path, v.vertex, Stream::rounding, v.target, lesson, log);
         }
@@ -107,7 +110,7 @@ class PathRecorder {
         float survival, pdf;
         RecordTarget target;
         std::uint32_t code, vertex;
-        std::uint8_t bin;
+        MixtureBins bins;
     };
     /// What a direction carried.
     struct Lesson {
@@ -115,7 +118,7 @@ class PathRecorder {
         float pdf;        ///< 0: of a delta lobe beside others, which teaches how often to sample the BSDF
         float radiance;   ///< that arrived
         float reflected;  ///< of that, over the density
-        std::uint8_t bin = 0;
+        MixtureBins bins;
         bool of_mixture = true;  ///< whether it was drawn from what the mixture mixes
     };
     struct LightSample {
@@ -124,8 +127,8 @@ class PathRecorder {
         Lesson lesson;
     };
 
-    /// Where there is a view it alone learns the mixture. As published it alone learns the radiance, too; otherwise the
-    /// region learns that, and the view what is reflected.
+    /// As published a view alone learns, and the radiance; otherwise the region learns that as it would without, and
+    /// the view what is reflected.
     void teach(const PathKey& path, std::uint32_t vertex, Stream rounding, const RecordTarget& target, const Lesson& l,
                RecordLog& log) const {
         const bool smooth = l.pdf > 0.0f;
@@ -134,17 +137,17 @@ class PathRecorder {
         const float mixture = l.of_mixture ? l.reflected : 0.0f;
         if (!target.has_view()) {
             log.counts[target.region] += smooth;
-            append(bits[0], {target.region, l.code, 0, value, mixture, l.bin}, log);
+            append(bits[0], {target.region, l.code, 0, value, mixture, l.bins.region}, log);
             return;
         }
         const bool product = view_records_ == ViewRecords::product;
-        if (product && smooth) {
-            ++log.counts[target.region];
-            append(bits[0], {target.region, l.code, 0, value, 0.0f, 0}, log);
+        if (product) {
+            log.counts[target.region] += smooth;
+            append(bits[0], {target.region, l.code, 0, value, mixture, l.bins.region}, log);
         }
         log.counts[target.view] += smooth;
         const float of_view = product && smooth ? target_value(l.reflected * l.pdf, l.pdf) : value;
-        append(bits[1], {target.view, l.code, 0, of_view, mixture, l.bin}, log);
+        append(bits[1], {target.view, l.code, 0, of_view, mixture, l.bins.view}, log);
     }
 
     /// A value beyond float becomes the largest one: the sums cap it, and count that.

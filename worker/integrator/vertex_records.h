@@ -1,7 +1,6 @@
 #pragma once
 
 #include "common/guiding/mixture.h"
-#include "common/guiding/view_mixture.h"
 #include "worker/integrator/path_recorder.h"
 #include "worker/integrator/path_settings.h"
 #include "worker/integrator/path_state.h"
@@ -22,9 +21,10 @@ void record_direction(const PathState<Surface>& path, const Guide& guide, const 
     }
     if (settings.jitter_records)
         target = moved<kViews>(guide, path.hit.p, path.outgoing_code, target, jitter_draws[path.lane]);
-    const std::uint8_t bin = kViews && path.guidance.has_view() ? view_mixture_bin(s.bsdf_pdf, s.guide_pdf, s.view_pdf)
-                                                                : mixture_bin(s.bsdf_pdf, s.guide_pdf);
-    recorder.add_vertex(target, s.code, s.effective_pdf, path.weight, bin, vertex);
+    MixtureBins bins{mixture_bin(s.bsdf_pdf, s.guide_pdf)};
+    if (kViews && path.guidance.has_view())
+        bins.view = mixture_bin(without_view(path.guidance, s.bsdf_pdf, s.guide_pdf), s.view_pdf);
+    recorder.add_vertex(target, s.code, s.effective_pdf, path.weight, bins, vertex);
 }
 
 /// Notes what next event found at a vertex: `reflected` of it, at `weight` against scattering.
