@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes glossy-room, mixed-room, diffuse-room, caustic and features with the files they need, beside itself.
+"""Writes glossy-room, mixed-room, matte-room, diffuse-room, caustic and features with the files they need, beside itself.
 
 Python 3, standard library only. Lengths are in metres, y is up.
 """
@@ -113,12 +113,21 @@ def diffuse_room():
 
 
 def mixed_room():
-    w = Writer("3.0.0", "Diffuse, rough, mirroring and transparent things together; light of a sky through a glazed window, and\n"
-               "     of a lamp in a shade.")
+    furnished_room("mixed-room", "Diffuse, rough, mirroring and transparent things together; light of a sky through a glazed window, and\n"
+                   "     of a lamp in a shade.", lambda w: rough_plastic(w, "parquet", (0.33, 0.19, 0.1), 0.2))
+
+
+def matte_room():
+    furnished_room("matte-room", "The mixed room with a matte floor: large diffuse surfaces and smaller glossy things, as in the mixed scene\n"
+                   "     of Cavus 2020.", lambda w: w.bsdf("parquet", "diffuse", reflectance=(0.33, 0.19, 0.1)))
+
+
+def furnished_room(name, comment, add_floor):
+    w = Writer("3.0.0", comment)
     w.camera((0.4, 1.5, 3.75), (3.1, 0.85, 0.9), 62, width=384, height=256)
     for ident, colour in (("white", (0.8, 0.79, 0.77)), ("ochre", (0.62, 0.45, 0.22)), ("cloth", (0.15, 0.25, 0.4))):
         w.bsdf(ident, "diffuse", reflectance=colour)
-    rough_plastic(w, "parquet", (0.33, 0.19, 0.1), 0.2)
+    add_floor(w)
     w.bsdf("china", "plastic", diffuseReflectance=(0.75, 0.75, 0.8), nonlinear=True)
     w.bsdf("mirror", "conductor", material="none")
     metal(w, "brass", "Au", 0.15)
@@ -152,7 +161,7 @@ def mixed_room():
     w.shape("cylinder", "shade", points={"p0": (0.75, 1.5, 0.6), "p1": (0.75, 1.85, 0.6)}, radius=0.2)
     w.shape("sphere", None, points={"center": (0.75, 1.67, 0.6)}, radius=0.15,
             children=[lambda: w.object("emitter", "area", radiance=(15, 11, 6.6))])
-    w.save(HERE / "mixed-room.xml")
+    w.save(HERE / f"{name}.xml")
 
 
 def caustic():
@@ -322,5 +331,6 @@ if __name__ == "__main__":
     glossy_room()
     diffuse_room()
     mixed_room()
+    matte_room()
     caustic()
     features()
