@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <map>
+#include <vector>
 
 #include "common/film/pass_film.h"
 #include "common/guiding/sd_tree.h"
@@ -27,6 +28,7 @@ class Collector {
     bool take(int worker, Result result, Ledger& ledger);
 
     const PassFilm& film() const { return film_; }
+    std::vector<PixelEstimate> take_pixels() { return film_.take_pixels(); }  ///< once, of a complete film
     const TreeSums& sums() const { return sums_; }
     TraceStats totals() const;
     const std::map<int, WorkerShare>& shares() const { return shares_; }

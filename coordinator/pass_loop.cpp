@@ -87,7 +87,7 @@ class PassLoop {
 
     void keep(const PassPlan& plan) {
         const PassPlan* const before = result_.passes.empty() ? nullptr : &result_.passes.back().plan;
-        PassResult pass = finished_pass(plan, before, farm_.collector().film().pixels());
+        PassResult pass = finished_pass(plan, before, farm_.take_pixels());
         if (const TraceStats stats = farm_.collector().totals(); stats.probe_paths > 0) {
             probe_.add(pass.pixels, stats, plan.index);
             // An image of one pass alone has nothing better for them.

@@ -1,6 +1,7 @@
 #include "common/film/combine.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -24,39 +25,59 @@ Alike alike_from(std::span<const PassResult> passes, std::size_t first) {
     return passes.subspan(first, end - first);
 }
 
-/// Variance of one sample, from one half of all that are alike: mean of its luminance over pixels; nothing if no pixel
-/// has two. Without the worst pixels: a rare sample in one half would take all weight from its pass in the other, which
-/// does not hold it.
-std::optional<double> sample_variance(Alike passes, int half) {
-    std::vector<double> squares(passes.front().pixels.size(), 0.0), freedom(squares.size(), 0.0);
-    for (const PassResult& pass : passes)
-        for (std::size_t p = 0; p < squares.size(); ++p) {
-            const Moments& m = pass.pixels[p].half[half];
-            if (m.n < 2) continue;
-            squares[p] += luminance(m.m2);
-            freedom[p] += m.n - 1;
-        }
-    std::vector<double> variances;
-    variances.reserve(squares.size());
-    for (std::size_t p = 0; p < squares.size(); ++p)
-        if (freedom[p] > 0) variances.push_back(squares[p] / freedom[p]);
-    if (variances.empty()) return {};
-    return trimmed_mean(std::move(variances));
-}
-
-/// Samples of a pixel that are in this half of a pass.
-std::uint32_t samples_of(const PassResult& pass, int half) {
-    std::uint32_t most = 0;
-    for (const PixelEstimate& pixel : pass.pixels)
-        most = std::max(most, pixel.half[half].n);
-    return most;
-}
-
 std::uint32_t spp_of(Alike passes) {
     std::uint32_t spp = 0;
     for (const PassResult& pass : passes)
         spp += pass.spp;
     return spp;
+}
+
+/// What one half of all passes that are alike says of their samples.
+struct HalfNoise {
+    std::optional<double> variance;      ///< of one sample: mean of its luminance; nothing if no pixel has two
+    std::vector<std::uint32_t> samples;  ///< of a pixel, in each pass
+};
+
+/// Both halves' in one sweep over the pixels: there is more of them than caches hold. Without the worst pixels: a rare
+/// sample in one half would take all weight from its pass in the other, which does not hold it.
+std::array<HalfNoise, 2> measure_noise(Alike passes) {
+    const std::size_t count = passes.front().pixels.size();
+    std::array<HalfNoise, 2> noise;
+    std::array<std::vector<double>, 2> variances;
+    for (int half = 0; half < 2; ++half) {
+        noise[half].samples.resize(passes.size());
+        variances[half].reserve(count);
+    }
+    for (std::size_t p = 0; p < count; ++p)
+        for (int half = 0; half < 2; ++half) {
+            double squares = 0, freedom = 0;
+            for (std::size_t k = 0; k < passes.size(); ++k) {
+                const Moments& m = passes[k].pixels[p].half[half];
+                noise[half].samples[k] = std::max(noise[half].samples[k], m.n);
+                if (m.n < 2) continue;
+                squares += luminance(m.m2);
+                freedom += m.n - 1;
+            }
+            if (freedom > 0) variances[half].push_back(squares / freedom);
+        }
+    for (int half = 0; half < 2; ++half)
+        if (!variances[half].empty()) noise[half].variance = trimmed_mean(std::move(variances[half]));
+    return noise;
+}
+
+/// All passes, in groups of those that are alike.
+struct Group {
+    Alike passes;
+    std::array<HalfNoise, 2> noise;
+};
+
+std::vector<Group> group_alike(std::span<const PassResult> passes) {
+    std::vector<Group> groups;
+    for (std::size_t first = 0; first < passes.size(); first += groups.back().passes.size()) {
+        const Alike alike = alike_from(passes, first);
+        groups.push_back({alike, measure_noise(alike)});
+    }
+    return groups;
 }
 
 void normalise(std::vector<double>& weights) {
@@ -102,20 +123,22 @@ void add_level(std::vector<Level>& levels, Level last) {
 }
 
 /// Weights of the samples of one half by the inverse variance that the other, `half`, reports.
-std::vector<double> inverse_variance_weights(std::span<const PassResult> passes, int half, bool guided) {
+std::vector<double> inverse_variance_weights(std::span<const PassResult> passes, const std::vector<Group>& groups,
+                                             int half, bool guided) {
     std::vector<Level> levels;
-    std::vector<bool> counted(passes.size(), false);
+    std::vector<std::uint32_t> samples(passes.size(), 0);  // those of trees too young to tell stay 0
     bool apart = true;
-    for (std::size_t first = 0; first < passes.size();) {
-        const Alike alike = alike_from(passes, first);
-        const std::size_t end = first + alike.size();
-        apart = apart || alike.front().new_technique;
-        const std::uint32_t spp = spp_of(alike);
-        if (const auto variance = sample_variance(alike, half); variance && spp >= kMinSamplesForVariance) {
+    std::size_t first = 0;
+    for (const Group& group : groups) {
+        const std::size_t end = first + group.passes.size();
+        const std::optional<double>& variance = group.noise[half].variance;
+        const std::uint32_t spp = spp_of(group.passes);
+        apart = apart || group.passes.front().new_technique;
+        if (variance && spp >= kMinSamplesForVariance) {
             if (!(*variance > 0)) return fixed_weights(passes, guided);  // a tree without noise: nothing to weigh by
             add_level(levels, {first, end, double(spp), *variance, apart});
             apart = false;
-            std::fill(counted.begin() + std::ptrdiff_t(first), counted.begin() + std::ptrdiff_t(end), true);
+            std::ranges::copy(group.noise[1 - half].samples, samples.begin() + std::ptrdiff_t(first));
         }
         first = end;
     }
@@ -123,7 +146,7 @@ std::vector<double> inverse_variance_weights(std::span<const PassResult> passes,
     std::vector<double> weights(passes.size(), 0.0);
     for (const Level& level : levels)
         for (std::size_t k = level.first; k < level.end; ++k)
-            if (counted[k]) weights[k] = samples_of(passes[k], 1 - half) / level.variance;
+            weights[k] = samples[k] / level.variance;
     normalise(weights);
     return weights;
 }
@@ -154,36 +177,53 @@ const PassResult& longest_pass(std::span<const PassResult> passes) {
                              [](const PassResult& a, const PassResult& b) { return a.spp < b.spp; });
 }
 
-struct HalfImage {
-    std::vector<Rgb64> mean, variance;
+/// One pixel of an image.
+struct Estimate {
+    Rgb64 mean{0.0}, variance{0.0};
 };
 
-/// The weighted mean of one half of the passes' samples. Passes of which the half holds nothing give up their weight;
+/// The weighted mean of one half of a pixel's samples. Passes of which the half holds nothing give up their weight;
 /// where only passes without weight hold anything, their samples weigh alike.
-HalfImage combine_half(std::span<const PassResult> passes, const std::vector<double>& weights, int half) {
+Estimate combine_half(std::span<const PassResult> passes, const std::vector<double>& weights, int half, std::size_t p,
+                      const PassResult& longest) {
+    Estimate pixel;
+    double sum = 0;
+    const auto add = [&](const PassResult& pass, double weight) {
+        const Moments& m = pass.pixels[p].half[half];
+        if (m.n == 0) return;
+        sum += weight;
+        pixel.mean += m.mean * weight;
+        const Rgb64 variance = m.n >= 2 ? m.sample_variance() : sample_variance(pass.pixels[p], longest.pixels[p]);
+        pixel.variance += variance * (weight * weight / m.n);
+    };
+    for (std::size_t k = 0; k < passes.size(); ++k)
+        if (weights[k] > 0) add(passes[k], weights[k]);
+    if (!(sum > 0))
+        for (const PassResult& pass : passes)
+            add(pass, pass.pixels[p].half[half].n);
+    if (!(sum > 0)) return {};
+    pixel.mean /= sum;
+    pixel.variance /= sum * sum;
+    return pixel;
+}
+
+/// Halves with weights of their own, and their average.
+CombinedImage combine_halves(std::span<const PassResult> passes, const std::array<std::vector<double>, 2>& weights) {
+    CombinedImage image;
     const std::size_t count = passes.front().pixels.size();
+    for (std::vector<Rgb64>* values : {&image.mean, &image.variance, &image.half[0], &image.half[1]})
+        values->resize(count);
     const PassResult& longest = longest_pass(passes);
-    HalfImage image{std::vector<Rgb64>(count, Rgb64(0.0)), std::vector<Rgb64>(count, Rgb64(0.0))};
     for (std::size_t p = 0; p < count; ++p) {
-        double sum = 0;
-        const auto add = [&](std::size_t k, double weight) {
-            const Moments& m = passes[k].pixels[p].half[half];
-            if (m.n == 0) return;
-            sum += weight;
-            image.mean[p] += m.mean * weight;
-            const Rgb64 variance =
-                m.n >= 2 ? m.sample_variance() : sample_variance(passes[k].pixels[p], longest.pixels[p]);
-            image.variance[p] += variance * (weight * weight / m.n);
-        };
-        for (std::size_t k = 0; k < passes.size(); ++k)
-            add(k, weights[k]);
-        if (!(sum > 0))
-            for (std::size_t k = 0; k < passes.size(); ++k)
-                add(k, passes[k].pixels[p].half[half].n);
-        if (!(sum > 0)) continue;
-        image.mean[p] /= sum;
-        image.variance[p] /= sum * sum;
+        const Estimate a = combine_half(passes, weights[0], 0, p, longest);
+        const Estimate b = combine_half(passes, weights[1], 1, p, longest);
+        image.half[0][p] = a.mean;
+        image.half[1][p] = b.mean;
+        image.mean[p] = (a.mean + b.mean) * 0.5;
+        image.variance[p] = (a.variance + b.variance) * 0.25;
     }
+    for (std::size_t k = 0; k < passes.size(); ++k)
+        image.weight.push_back(0.5 * (weights[0][k] + weights[1][k]));
     return image;
 }
 
@@ -233,31 +273,19 @@ CombinedImage combine_passes(std::span<const PassResult> passes, Combination met
 
     // Set weights apply to all samples of a pass alike. Variances cross over: what half A reports weighs half B, so
     // that a weight never depends on the samples that it multiplies.
-    const std::vector<double> fixed = fixed_weights(passes, guided);
-    if (method != Combination::inverse_variance) {
-        CombinedImage image = combine_whole(passes, fixed);
-        image.longest_pass = longest;
-        image.half[0] = combine_half(passes, fixed, 0).mean;
-        image.half[1] = combine_half(passes, fixed, 1).mean;
-        return image;
-    }
-    const std::vector<double> weights_a = inverse_variance_weights(passes, 1, guided);
-    const std::vector<double> weights_b = inverse_variance_weights(passes, 0, guided);
-    HalfImage a = combine_half(passes, weights_a, 0);
-    HalfImage b = combine_half(passes, weights_b, 1);
     CombinedImage image;
-    image.longest_pass = longest;
-    const std::size_t count = a.mean.size();
-    image.mean.resize(count);
-    image.variance.resize(count);
-    for (std::size_t p = 0; p < count; ++p) {
-        image.mean[p] = (a.mean[p] + b.mean[p]) * 0.5;
-        image.variance[p] = (a.variance[p] + b.variance[p]) * 0.25;
+    if (method == Combination::inverse_variance) {
+        const std::vector<Group> groups = group_alike(passes);
+        image = combine_halves(passes, {inverse_variance_weights(passes, groups, 1, guided),
+                                        inverse_variance_weights(passes, groups, 0, guided)});
+    } else {
+        const std::vector<double> fixed = fixed_weights(passes, guided);
+        image = combine_whole(passes, fixed);
+        CombinedImage halves = combine_halves(passes, {fixed, fixed});
+        image.half[0] = std::move(halves.half[0]);
+        image.half[1] = std::move(halves.half[1]);
     }
-    image.half[0] = std::move(a.mean);
-    image.half[1] = std::move(b.mean);
-    for (std::size_t k = 0; k < passes.size(); ++k)
-        image.weight.push_back(0.5 * (weights_a[k] + weights_b[k]));
+    image.longest_pass = longest;
     return image;
 }
 

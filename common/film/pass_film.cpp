@@ -22,7 +22,7 @@ PassFilm::PassFilm(int width, int height, std::uint32_t chunks)
 
 void PassFilm::add(const WorkUnit& unit, std::span<const PixelEstimate> pixels) {
     if (unit.x0 >= unit.x1 || unit.y0 >= unit.y1 || unit.x1 > width_ || unit.y1 > height_ || unit.chunk >= chunks_ ||
-        pixels.size() != unit.pixel_count())
+        pixels.size() != unit.pixel_count() || missing_ < pixels.size())
         throw FormatError("a work unit does not fit the film");
     const PixelEstimate* next = pixels.data();
     for (std::uint32_t y = unit.y0; y < unit.y1; ++y)

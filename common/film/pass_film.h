@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <span>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "common/film/pixel_estimate.h"
@@ -27,6 +28,8 @@ class PassFilm {
     int height() const { return height_; }
     /// Row by row from the top. Valid once complete; before, pixels with missing chunks are empty.
     const std::vector<PixelEstimate>& pixels() const { return pixels_; }
+    /// The same, once: the film of a large image is not copied. Nothing can be added any more.
+    std::vector<PixelEstimate> take_pixels() { return std::exchange(pixels_, {}); }
 
   private:
     int width_, height_;

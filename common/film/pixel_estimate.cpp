@@ -26,10 +26,6 @@ Moments Moments::merge(const Moments& a, const Moments& b) {
     return whole;
 }
 
-Rgb64 Moments::sample_variance() const {
-    return n < 2 ? Rgb64(0.0) : m2 / static_cast<double>(n - 1);
-}
-
 PixelEstimate PixelEstimate::merge(const PixelEstimate& a, const PixelEstimate& b) {
     return {{Moments::merge(a.half[0], b.half[0]), Moments::merge(a.half[1], b.half[1])}};
 }

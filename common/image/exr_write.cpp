@@ -4,12 +4,14 @@
 #include <ImfIO.h>
 #include <ImfOutputFile.h>
 #include <ImfStringAttribute.h>
+#include <ImfThreading.h>
 #include <half.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <set>
+#include <thread>
 
 #include "common/base/error.h"
 #include "common/image/atomic_file.h"
@@ -82,6 +84,14 @@ void check_names(const std::filesystem::path& path, const Image& image) {
             throw RunError(path.string() + ": channel '" + name + "' has no name or occurs twice");
 }
 
+/// OpenEXR has one pool for all files, without threads to begin with.
+int compression_threads() {
+    constexpr unsigned kMost = 8;  // beyond, memory is what lines wait for
+    const auto threads = static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1u, kMost));
+    if (Imf::globalThreadCount() < threads) Imf::setGlobalThreadCount(threads);
+    return threads;
+}
+
 void write_pixels(Imf::OStream& stream, const Image& image, const Attributes& attributes, PixelType type) {
     const Imf::PixelType stored = type == PixelType::half     ? Imf::HALF
                                   : type == PixelType::uint32 ? Imf::UINT
@@ -105,7 +115,7 @@ void write_pixels(Imf::OStream& stream, const Image& image, const Attributes& at
     } else {
         insert(buffer, image, stored, image.data.data());
     }
-    Imf::OutputFile file(stream, header);
+    Imf::OutputFile file(stream, header, compression_threads());
     file.setFrameBuffer(buffer);
     file.writePixels(image.height);
 }
