@@ -126,19 +126,24 @@ void add_level(std::vector<Level>& levels, Level last) {
 std::vector<double> inverse_variance_weights(std::span<const PassResult> passes, const std::vector<Group>& groups,
                                              int half, bool guided) {
     std::vector<Level> levels;
-    std::vector<std::uint32_t> samples(passes.size(), 0);  // those of trees too young to tell stay 0
+    // Where guiding was given up no tree was better than another: those too young to tell count like the next.
+    const bool young_count = !passes.back().guided;
+    std::vector<std::uint32_t> samples(passes.size(), 0);  // of those that count
     bool apart = true;
-    std::size_t first = 0;
+    std::size_t first = 0, level_begin = 0;
     for (const Group& group : groups) {
         const std::size_t end = first + group.passes.size();
         const std::optional<double>& variance = group.noise[half].variance;
         const std::uint32_t spp = spp_of(group.passes);
         apart = apart || group.passes.front().new_technique;
-        if (variance && spp >= kMinSamplesForVariance) {
-            if (!(*variance > 0)) return fixed_weights(passes, guided);  // a tree without noise: nothing to weigh by
-            add_level(levels, {first, end, double(spp), *variance, apart});
-            apart = false;
+        const bool known = variance && spp >= kMinSamplesForVariance;
+        if (known || young_count)
             std::ranges::copy(group.noise[1 - half].samples, samples.begin() + std::ptrdiff_t(first));
+        if (known) {
+            if (!(*variance > 0)) return fixed_weights(passes, guided);  // a tree without noise: nothing to weigh by
+            add_level(levels, {level_begin, end, double(spp), *variance, apart});
+            apart = false;
+            level_begin = end;
         }
         first = end;
     }

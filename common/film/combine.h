@@ -10,7 +10,7 @@
 namespace treefarm {
 
 /// A tree with fewer samples knows too little of its own variance to be weighed by it: `inverse_variance` leaves its
-/// passes out.
+/// passes out, as long as later trees are better.
 inline constexpr std::uint32_t kMinSamplesForVariance = 4;
 
 /// One finished pass.
@@ -20,6 +20,7 @@ struct PassResult {
     std::vector<PixelEstimate> pixels;  ///< row by row
     bool same_tree = false;             ///< as the pass before it
     bool new_technique = false;         ///< next event began or ended with it
+    bool guided = true;                 ///< false where guiding has been given up
 };
 
 /// The image so far, with its own error.

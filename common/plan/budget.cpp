@@ -142,6 +142,7 @@ PassResult finished_pass(const PassPlan& plan, const PassPlan* before, std::vect
     PassResult pass{plan.spp, plan.first_sample, std::move(pixels)};
     pass.same_tree = before && !before->record;
     pass.new_technique = before && before->next_event != plan.next_event;
+    pass.guided = plan.guided;
     return pass;
 }
 

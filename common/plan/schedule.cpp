@@ -15,7 +15,7 @@ constexpr std::uint32_t kKickstartSpp = 128;
 /// light that unguided samples found too rarely to tell speaks for it.
 constexpr double kLosingGain = 0.8;
 /// Shorter passes have no say.
-constexpr std::uint32_t kLeastJudgedSpp = 8;
+constexpr std::uint32_t kLeastJudgedSpp = 4;
 /// Passes that probe: the first ones that have a tree and enough samples to know their variance.
 constexpr std::uint32_t kLeastProbeSpp = 4, kProbePasses = 4;
 /// Samples per pixel by which an open budget is planned.

@@ -44,7 +44,7 @@ TEST(GuidingProbe, GuidingEndsWhereItDoesNotPay) {
     ASSERT_FALSE(run.guiding_gains.empty());
     EXPECT_LT(run.guiding_gains.back(), 0.1);
     EXPECT_FALSE(run.states.back().guiding_pays);
-    EXPECT_EQ(run.guiding_gains.size(), 4u) << "passes of 1 to 8 spp; nobody asks again";
+    EXPECT_EQ(run.guiding_gains.size(), 3u) << "passes of 1 to 4 spp; nobody asks again";
 
     job.guiding.type = GuidingType::none;
     job.sampler.seed = 5;

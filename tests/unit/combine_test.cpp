@@ -110,6 +110,21 @@ TEST(Combine, NoTreeIsTakenForWorseThanTheOneBefore) {
     EXPECT_NEAR(weights()[1] / weights()[2], (8 / 0.0625) / 16, 0.3);
 }
 
+TEST(Combine, YoungTreesCountOnlyWhereNoneIsBetter) {
+    std::vector<PassResult> passes{make_pass(1, 0, 1.0f, 1.0f, 2000, 1), make_pass(2, 1, 1.0f, 1.0f, 2000, 2),
+                                   make_pass(4, 3, 1.0f, 1.0f, 2000, 3), make_pass(16, 7, 1.0f, 1.0f, 2000, 4)};
+    const auto image = [&] { return combine_passes(passes, Combination::inverse_variance, true); };
+    EXPECT_EQ(image().weight[0] + image().weight[1], 0) << "later trees are better";
+    passes[3].guided = false;  // guiding was given up after 4 spp
+    passes[3].pixels = make_pass(16, 7, 1.0f, 1.1f, 2000, 4).pixels;
+    const CombinedImage whole = image();
+    EXPECT_NEAR(whole.weight[1] / whole.weight[2], 2.0 / 4, 0.01);
+    EXPECT_NEAR(whole.weight[2] / whole.weight[3], 4.0 / 16, 0.01);
+    EXPECT_NEAR(whole.weight[0] / whole.weight[3], 1.0 / 16, 0.01) << "though but one half holds its sample";
+    const double rmse = estimate_error(whole, 0).rmse;
+    EXPECT_NEAR(rmse, std::sqrt((7 + 16 * 1.21) / (23.0 * 23)), 0.05 * rmse);
+}
+
 TEST(Combine, ARareSampleTakesNoWeightFromItsPass) {
     std::vector<PassResult> passes{make_pass(16, 0, 1.0f, 1.0f, 2000, 1), make_pass(16, 16, 1.0f, 1.0f, 2000, 2)};
     passes[0].pixels[7].add(16, Rgb(1e5f));

@@ -109,8 +109,11 @@ TEST(GuidingProbe, SaysWhenItKnowsNothing) {
 
 TEST(GuidingProbe, LongPassesAreBelievedSooner) {
     PassPlan pass;
-    pass.spp = 4;
+    pass.spp = 2;
     EXPECT_TRUE(guiding_pays(pass, 0.1));
+    pass.spp = 4;
+    EXPECT_TRUE(guiding_pays(pass, 0.6));
+    EXPECT_FALSE(guiding_pays(pass, 0.5));
     pass.spp = 8;
     EXPECT_TRUE(guiding_pays(pass, 0.7));
     EXPECT_FALSE(guiding_pays(pass, 0.65));
