@@ -126,7 +126,7 @@ void add_level(std::vector<Level>& levels, Level last) {
 std::vector<double> inverse_variance_weights(std::span<const PassResult> passes, const std::vector<Group>& groups,
                                              int half, bool guided) {
     std::vector<Level> levels;
-    // Where guiding was given up no tree was better than another: those too young to tell count like the next.
+    // Where guiding was given up no tree was better than another: those too young to tell count like the next, or the last.
     const bool young_count = !passes.back().guided;
     std::vector<std::uint32_t> samples(passes.size(), 0);  // of those that count
     bool apart = true;
@@ -148,6 +148,7 @@ std::vector<double> inverse_variance_weights(std::span<const PassResult> passes,
         first = end;
     }
     if (levels.empty()) return fixed_weights(passes, guided);
+    if (young_count) levels.back().end = passes.size();
     std::vector<double> weights(passes.size(), 0.0);
     for (const Level& level : levels)
         for (std::size_t k = level.first; k < level.end; ++k)

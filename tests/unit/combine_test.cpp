@@ -123,6 +123,9 @@ TEST(Combine, YoungTreesCountOnlyWhereNoneIsBetter) {
     EXPECT_NEAR(whole.weight[0] / whole.weight[3], 1.0 / 16, 0.01) << "though but one half holds its sample";
     const double rmse = estimate_error(whole, 0).rmse;
     EXPECT_NEAR(rmse, std::sqrt((7 + 16 * 1.21) / (23.0 * 23)), 0.05 * rmse);
+    passes.push_back(make_pass(2, 23, 1.0f, 1.0f, 2000, 5));
+    passes.back().guided = false;
+    EXPECT_NEAR(image().weight[4] / image().weight[3], 2.0 / 16, 0.01) << "nor is what comes last thrown away";
 }
 
 TEST(Combine, ARareSampleTakesNoWeightFromItsPass) {
