@@ -126,7 +126,8 @@ void add_level(std::vector<Level>& levels, Level last) {
 std::vector<double> inverse_variance_weights(std::span<const PassResult> passes, const std::vector<Group>& groups,
                                              int half, bool guided) {
     std::vector<Level> levels;
-    // Where guiding was given up no tree was better than another: those too young to tell count like the next, or the last.
+    // Where guiding was given up no tree was better than another: those too young to tell count like the next, or the
+    // last.
     const bool young_count = !passes.back().guided;
     std::vector<std::uint32_t> samples(passes.size(), 0);  // of those that count
     bool apart = true;
