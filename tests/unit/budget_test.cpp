@@ -103,6 +103,10 @@ TEST(FinishedPass, KnowsItsTreeAndWhetherNextEventEnded) {
     EXPECT_FALSE(of_new_tree.same_tree || of_new_tree.new_technique);
     const PassResult unaided = finished_pass(after, &kickstart, {});
     EXPECT_TRUE(unaided.same_tree && unaided.new_technique);
+    EXPECT_TRUE(unaided.guided);
+    PassPlan given_up = after;
+    given_up.guided = false;
+    EXPECT_FALSE(finished_pass(given_up, &after, {}).guided);
 }
 
 TEST(Budget, SecondsAreKept) {

@@ -129,6 +129,9 @@ TEST(PassFilm, RefusesUnitsThatDoNotFit) {
     EXPECT_THROW(film.add({0, 2, 0, 2, 2, 0}, {}), FormatError);
     EXPECT_THROW(film.add({0, 0, 0, 4, 1, 1}, pixels), FormatError);
     EXPECT_THROW(film.add({0, 0, 0, 4, 2, 0}, pixels), FormatError);
+    film.add({0, 0, 0, 4, 4, 0}, std::vector<PixelEstimate>(16));
+    EXPECT_EQ(film.take_pixels().size(), 16u);
+    EXPECT_THROW(film.add({0, 0, 0, 4, 1, 0}, pixels), FormatError) << "its pixels are gone";
 }
 
 }  // namespace
