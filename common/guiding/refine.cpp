@@ -14,6 +14,14 @@ namespace {
 /// Beyond this many cells a region no longer splits, so that indices stay below 2^32.
 constexpr std::uint64_t kMaxCells = std::uint64_t{1} << 31;
 
+/// How much a region's tree can gain by finer cells depends on how often it is sampled at all.
+std::uint32_t cell_divisor(const SdTree& tree, std::uint32_t distribution, const RefineSettings& settings) {
+    if (distribution >= tree.region_count()) return settings.directional_divisor;
+    const double tree_fraction = 1.0 - static_cast<double>(tree.bsdf_fraction[distribution]);
+    const double use = std::clamp(2.0 * tree_fraction, settings.least_use, 1.0);
+    return static_cast<std::uint32_t>(std::lround(use * settings.directional_divisor));
+}
+
 class TreeRefiner {
   public:
     TreeRefiner(const SdTree& tree, const TreeSums& sums, const RefineSettings& settings, RefineReport& report)
@@ -106,8 +114,8 @@ RefinedDistribution refine_distribution(const SdTree& tree, const TreeSums& sums
             deviations.push_back(deviation(energies[c], depths[c]));
         energies = deviations;
     }
-    RefinedDistribution refined{refine_directions(depths, energies, settings.directional_divisor),
-                                tree.quantum_exponent[distribution]};
+    const std::uint32_t divisor = cell_divisor(tree, distribution, settings);
+    RefinedDistribution refined{refine_directions(depths, energies, divisor), tree.quantum_exponent[distribution]};
     report.directional_depth_capped += refined.directions.depth_capped;
     report.directional_depth = std::max(report.directional_depth, refined.directions.max_depth);
     const std::uint64_t records = sums.counts()[distribution];

@@ -15,7 +15,9 @@ struct RefineSettings {
     double spatial_threshold =
         0;  ///< records (weighted) above which a region splits: c sqrt(n_k / 4), n_k spp of the coming pass
     std::uint32_t directional_divisor = 100;  ///< a cell splits while divisor * sum > total
-    double record_weight = 1.0;               ///< of each record of the pass: 0.5 in kick-start passes
+    double least_use = 1.0;      ///< a region's divisor shrinks with twice the probability of sampling its tree, but at
+                                 ///< most to this part, (0, 1]; 1: never
+    double record_weight = 1.0;  ///< of each record of the pass: 0.5 in kick-start passes
     GuidingTarget target = GuidingTarget::radiance;
     double view_threshold = 0;        ///< records (weighted) above which a view splits, once
     double view_set_threshold = 0;    ///< records (weighted) above which a T2 of several regions is cut in space

@@ -12,6 +12,8 @@ namespace {
 constexpr double kProductCells = 0.5;
 /// As many are never too many: half a megabyte.
 constexpr double kFreeCells = 1 << 16;
+/// Of a region's cells, what is left where the BSDF is sampled instead (docs/guiding.md, "Cells by use").
+constexpr double kLeastUse = 0.5;
 
 }  // namespace
 
@@ -24,6 +26,11 @@ bool learns_lights(const Scene& scene, const Job& job) {
         return std::holds_alternative<EnvironmentEmitter>(emitter.kind);
     });
     return with_image || scene.emitters.size() > 1;
+}
+
+bool cells_follow_use(const Job& job) {
+    return uses_views(job.guiding.type) && job.guiding.view_records == ViewRecords::product &&
+           job.guiding.learn_bsdf_fraction;
 }
 
 SdTree first_tree(const Scene& scene, const Job& job, const Box3& bounds, float radiance_scale) {
@@ -44,6 +51,7 @@ RefineSettings refine_settings(const Job& job, double film_pixels, const PassPla
     settings.view_threshold = split_growth(job, coming) * job.guiding.view_threshold;
     settings.last_lesson = !coming.record;
     settings.views_record_alone = job.guiding.view_records == ViewRecords::radiance;
+    if (cells_follow_use(job)) settings.least_use = kLeastUse;
     if (job.guiding.view_records == ViewRecords::product) {
         settings.view_set_threshold = settings.view_threshold;
         settings.least_view_cells = kFreeCells;

@@ -10,6 +10,9 @@ namespace treefarm {
 /// Whether next event learns how to choose emitters: the job asks for it, and there is a choice.
 bool learns_lights(const Scene& scene, const Job& job);
 
+/// Whether regions get fewer cells where the BSDF is sampled rather than their tree.
+bool cells_follow_use(const Job& job);
+
 /// The tree before the first pass over `bounds`; a record of average value is about `radiance_scale`.
 SdTree first_tree(const Scene& scene, const Job& job, const Box3& bounds, float radiance_scale);
 

@@ -18,8 +18,9 @@ namespace {
 constexpr double kVerticesPerPath = 8.0;
 /// Of its threshold, what a region holds after the last split: measured in the scenes of configs/.
 constexpr double kRegionFilling = 0.65;
-/// Measured, too: 230 to 245 cells at a threshold of 0.01.
+/// Measured, too: 230 to 245 cells at a threshold of 0.01; 185 to 210 where cells follow use.
 constexpr double kCellsPerRegion = 2.4;
+constexpr double kCellsPerRegionByUse = 2.0;
 
 /// Sampling form of a cell, and its two sums (docs/guiding.md).
 constexpr std::uint64_t kGuideBytesPerCell = 8;
@@ -114,7 +115,9 @@ TreeSize expected_tree(const Scene& scene, const Job& job) {
         regions = std::max(regions, vertices / (kRegionFilling * spatial_split_threshold(job, pixels, passes[k + 1])));
     }
     const double views = learns_views(scene, job) ? kViewsPerRegion * regions : 0.0;
-    const double cells = kCellsPerRegion * (regions + views) / static_cast<double>(job.guiding.directional_threshold);
+    const double region_cells = cells_follow_use(job) ? kCellsPerRegionByUse : kCellsPerRegion;
+    const double cells =
+        (region_cells * regions + kCellsPerRegion * views) / static_cast<double>(job.guiding.directional_threshold);
     const bool with_mixture =
         std::any_of(passes.begin(), passes.end(), [](const PassPlan& pass) { return pass.learn_mixture; });
     return {static_cast<std::uint64_t>(regions), static_cast<std::uint64_t>(cells), with_mixture,

@@ -79,6 +79,26 @@ TEST(Refine, ThresholdIsExclusive) {
         EXPECT_LE(depth, 4);
 }
 
+TEST(Refine, ATreeThatIsSeldomSampledGetsFewerCells) {
+    // 64 equal cells: each holds 1/64, more than a hundredth and less than a fiftieth.
+    const auto cells_at = [](float bsdf_fraction, double least_use) {
+        SdTree first = initial_tree(kUnitBox, 1.0f, bsdf_fraction);
+        TreeSums sums = sums_for(first);
+        for (std::uint32_t c = 0; c < 64; ++c)
+            sums.add_quanta(c, 7);
+        sums.add_count(0, 1);
+        RefineReport report;
+        return refine(first, sums, {.spatial_threshold = 1e18, .least_use = least_use}, report).cell_count();
+    };
+    const std::uint32_t fine = cells_at(0.5f, 0.5), coarse = cells_at(1.0f, 0.5);
+    EXPECT_EQ(fine, 3 + 4 * 64u);  // one quarter of the directions, its 64 cells split, the other three pruned
+    EXPECT_EQ(coarse, 3 + 64u);
+    EXPECT_EQ(cells_at(0.1f, 0.5), fine);      // never finer than asked
+    EXPECT_EQ(cells_at(1.0f, 1.0), fine);      // as published
+    EXPECT_EQ(cells_at(0.74f, 0.01), coarse);  // 52 parts: 1/64 does not split
+    EXPECT_EQ(cells_at(1.0f, 0.1), 3 + 16u);   // 10 parts: 1/16 does not split, 1/4 does
+}
+
 TEST(Refine, SplitsRegionsByWeightHalvingIt) {
     const SdTree first = initial_tree(kUnitBox, 1.0f);
     TreeSums sums = sums_for(first);
