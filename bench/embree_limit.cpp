@@ -36,6 +36,7 @@ struct Options {
     std::uint32_t spp = 32;
     int width = 0, height = 0;
     int repetitions = 5;
+    std::vector<std::string> modes{};
 };
 
 /// A way of rendering; what the renderer took for it, and the bare loop for its rays.
@@ -236,7 +237,11 @@ void run(const Options& options) {
         "| mode                          | rays per path | ns per ray | bare | ratio | rest, ns per vertex | splat, ns "
         "per record |");
     std::puts("|---|---|---|---|---|---|---|");
+    const auto wanted = [&](const char* name) {
+        return options.modes.empty() || std::count(options.modes.begin(), options.modes.end(), name) > 0;
+    };
     for (Mode& mode : modes) {
+        if (!wanted(mode.name)) continue;
         limit.collect(mode);
         for (int i = 0; i < options.repetitions; ++i)
             limit.measure(mode);
@@ -258,6 +263,7 @@ int main(int argc, char** argv) {
     app.add_option("--spp", options.spp, "samples per pixel that are measured")->capture_default_str();
     app.add_option("--width", options.width, "of the image, instead of the scene's");
     app.add_option("--height", options.height, "of the image, instead of the scene's");
+    app.add_option("--mode", options.modes, "of the table's first column, these alone")->allow_extra_args(false);
     app.add_option("--repetitions", options.repetitions, "turns; medians are printed")->capture_default_str();
     CLI11_PARSE(app, argc, argv);
     try {

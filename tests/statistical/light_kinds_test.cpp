@@ -134,7 +134,8 @@ TEST(LightBatch, IsItsSamplesToTheBit) {
         for (std::uint32_t lane = 0; lane < kDrawBatch; ++lane) {
             if (skipped(lane)) continue;
             const Vec3* const seen_from = lane % 3 == 0 ? &front : nullptr;
-            const DirectSample a = emitters.sample_direct(place(lane), batch, lane, random(lane), share, seen_from);
+            DirectSample a = emitters.sample_direct(place(lane), batch, lane, random(lane), share, seen_from);
+            if (a.pdf > 0.0f) a.pdf = emitters.environment_pdf(batch, lane, a.pdf, share);
             const DirectSample b = emitters.sample_direct(place(lane), random(lane), share, seen_from);
             ASSERT_EQ(a.pdf, b.pdf);
             ASSERT_EQ(a.from_environment, b.from_environment);

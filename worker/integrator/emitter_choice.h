@@ -38,13 +38,14 @@ class EmitterChoice {
             return sample_specially(p, lane, share, front);
         return emitters_.sample_direct(p, draws_[lane], share, front);
     }
-    /// Adds their radiance to the samples from infinity among `lights`, of those numbers that are seen;
-    /// lane_of(light) has drawn one. All together: the others then have no test for it, nor a call to save registers
-    /// for.
-    template <class Lights, class LaneOf>
-    void shine_from_infinity(Lights& lights, std::span<const std::uint8_t> seen, LaneOf lane_of) const {
+    /// Adds their radiance, and what density they lack, to the samples from infinity among `lights`, of those numbers
+    /// that are seen; lane_of(light) has drawn one, by share_of(light). All together: the others then have no test for
+    /// it, nor a call to save registers for.
+    template <class Lights, class LaneOf, class ShareOf>
+    void shine_from_infinity(Lights& lights, std::span<const std::uint8_t> seen, LaneOf lane_of,
+                             ShareOf share_of) const {
         if (emitters_.shines_from_infinity()) [[unlikely]]
-            add_infinity(lights, seen, lane_of);
+            add_infinity(lights, seen, lane_of, share_of);
     }
 
   private:
@@ -55,8 +56,9 @@ class EmitterChoice {
         return emitters_.sample_direct(p, batch_, lane, draws_[lane], share, front);
     }
 
-    template <class Lights, class LaneOf>
-    [[gnu::noinline]] void add_infinity(Lights& lights, std::span<const std::uint8_t> seen, LaneOf lane_of) const {
+    template <class Lights, class LaneOf, class ShareOf>
+    [[gnu::noinline]] void add_infinity(Lights& lights, std::span<const std::uint8_t> seen, LaneOf lane_of,
+                                        ShareOf share_of) const {
         if (together_ && emitters_.has_map())
             for (const std::uint8_t i : seen)
                 emitters_.prefetch_environment(batch_, lane_of(lights[i]));
@@ -65,6 +67,7 @@ class EmitterChoice {
             if (!light.from_environment) continue;
             light.radiance =
                 together_ ? emitters_.environment(batch_, lane_of(light), light.wi) : emitters_.environment(light.wi);
+            if (together_) light.pdf = emitters_.environment_pdf(batch_, lane_of(light), light.pdf, share_of(light));
         }
     }
 

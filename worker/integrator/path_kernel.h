@@ -333,13 +333,29 @@ class PathKernel {
         const DirectSample light =
             emitters_.sample(path.hit.p, path.lane, share, surface.transmits() ? nullptr : &front);
         if (!(light.pdf > 0.0f) || light.black()) return;
-        const Vec3 wi = surface.frame().to_local(light.wi);
-        const BsdfValue bsdf = surface.bsdf().value(surface.wo(), wi);
-        if (is_black(bsdf.f_cos)) return;
-        if (settings_.strict_normals && dot(surface.ng(), light.wi) * wi.z <= 0.0f) return;
+        BsdfValue bsdf;
+        if (surface.evaluate_late()) {
+            if (!surface.transmits() && !(dot(front, light.wi) > 0.0f)) return;
+        } else {
+            bsdf = bsdf_value(surface, light.wi);
+            if (is_black(bsdf.f_cos)) return;
+        }
+        if (settings_.strict_normals && dot(surface.ng(), light.wi) * dot(surface.frame().n, light.wi) <= 0.0f) return;
         ++stats_.shadow_rays;
         const std::uint32_t vertex = kRecord ? recorders_[index].vertex_count() : 0;
         pending_.add(path.hit, light, {index, vertex, share != nullptr, path.guidance, path.throughput}, bsdf);
+    }
+
+    static BsdfValue bsdf_value(const Surface& surface, const Vec3& wi) {
+        return surface.bsdf().value(surface.wo(), surface.frame().to_local(wi));
+    }
+
+    /// Finds out how the surface scatters what it sees, unless that is known; false if not at all.
+    bool reflects(PendingLight& light) {
+        const Surface& surface = *paths_[light.from.path].surface;
+        if (!surface.evaluate_late()) return true;
+        light.set(bsdf_value(surface, light.wi));
+        return !is_black(light.f_cos);
     }
 
     /// Traces the step's shadow rays, and adds what is seen, weighted against scattering.
@@ -349,19 +365,21 @@ class PathKernel {
         std::uint32_t count = 0;
         light_codes_.clear();
         for (std::uint32_t i = 0; i < pending_.size(); ++i) {
-            if (shadowed[i]) continue;
+            if (shadowed[i] || !reflects(pending_[i])) continue;
             seen[count++] = static_cast<std::uint8_t>(i);
             if constexpr (kConverts) light_codes_.add(pending_[i].wi, pending_[i].from.guidance.region);
         }
         if constexpr (kConverts) light_codes_.convert();
         if constexpr (kGuided) light_codes_.prefetch(guide_);
-        emitters_.shine_from_infinity(pending_, {seen.data(), count},
-                                      [&](const PendingLight& light) { return paths_[light.from.path].lane; });
+        emitters_.shine_from_infinity(
+            pending_, {seen.data(), count}, [&](const PendingLight& light) { return paths_[light.from.path].lane; },
+            [&](const PendingLight& light) { return light_share(paths_[light.from.path]); });
         for (std::uint32_t i = 0; i < count; ++i)
             add_light(pending_[seen[i]], light_codes_[i], depth);
     }
 
     void add_light(const PendingLight& light, std::uint32_t code, int depth) {
+        if (!(light.pdf > 0.0f)) return;
         float scatter_pdf = light.delta ? 0.0f : light.bsdf_pdf;
         if constexpr (kGuided)
             if (!light.delta) scatter_pdf = mixed_pdf_at<kViews>(guide_, light.from.guidance, light.bsdf_pdf, code);

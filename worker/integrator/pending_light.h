@@ -35,6 +35,11 @@ struct PendingLight {
     Rgb f_cos;
     Rgb radiance;  ///< of the emitter, unless it is the environment
 
+    void set(const BsdfValue& bsdf) {
+        bsdf_pdf = bsdf.pdf;
+        f_cos = bsdf.f_cos;
+    }
+
     /// What the choice of emitters learns of a sample that brought `reflected`.
     Record record(const Guide& guide, float reflected) const {
         const std::uint32_t region = from.guidance.region;
@@ -52,7 +57,7 @@ class PendingLights {
     std::uint32_t size() const { return count_; }
     PendingLight& operator[](std::size_t i) { return lights_[i]; }
 
-    /// Adds what was sampled where `hit` is, with the BSDF's value for it.
+    /// Adds what was sampled where `hit` is, with the BSDF's value for it, if it is known already.
     void add(const Hit& hit, const DirectSample& light, const LightSeeker& from, const BsdfValue& bsdf) {
         assert(count_ < kMost);
         PendingLight& pending = lights_[count_];
@@ -64,8 +69,7 @@ class PendingLights {
         pending.from_environment = light.from_environment;
         pending.cluster = light.cluster;
         pending.cluster_probability = light.cluster_probability;
-        pending.bsdf_pdf = bsdf.pdf;
-        pending.f_cos = bsdf.f_cos;
+        pending.set(bsdf);
         pending.radiance = light.radiance;
         aim(rays_[count_++], hit, light);
     }

@@ -30,6 +30,7 @@ class DiffuseSurface {
     /// Normal on wo's side.
     Vec3 front() const { return wo_.z < 0.0f ? -frame_.n : frame_.n; }
     static constexpr bool smooth() { return true; }
+    static constexpr bool evaluate_late() { return false; }
     static constexpr bool transmits() { return false; }
     static constexpr bool has_delta() { return false; }
     static constexpr bool delta_or_transmitting() { return false; }
@@ -78,6 +79,9 @@ class GeneralSurface {
     const Vec3& ng() const { return ng_; }
     /// Whether any lobe has a density: next event and guides are of no use without.
     bool smooth() const { return lobes_ & kSmoothLobe; }
+    /// Whether next event gains by asking for the BSDF's value only once it sees the emitter. Not where a black value
+    /// often spares the shadow ray, nor where the value costs next to nothing.
+    bool evaluate_late() const { return lobes_ & kWideLobe; }
     /// Normal on wo's side.
     const Vec3& front() const { return frame_.n; }
     bool transmits() const { return lobes_ & kTransmittingLobe; }

@@ -20,6 +20,16 @@ bool sees(const Vec3* front, const Vec3& direction) {
     return !front || dot(*front, direction) > 0.0f;
 }
 
+/// A direction towards the environment map, without its density yet.
+DirectSample from_map(const Vec3& direction, const Vec3* front) {
+    DirectSample sample;
+    sample.from_environment = true;
+    sample.distance = std::numeric_limits<float>::infinity();
+    sample.wi = direction;
+    if (sees(front, direction)) sample.pdf = 1.0f;
+    return sample;
+}
+
 double bounding_radius(const Box3& bounds) {
     if (bounds.isEmpty()) return 1.0;
     const Imath::V3d size = Imath::V3d(bounds.max) - Imath::V3d(bounds.min);
@@ -171,11 +181,15 @@ DirectSample Emitters::sample_direct(const Vec3& p, const LightBatch& batch, std
     const std::uint32_t number = batch.number[lane];
     if (number == LightBatch::kAlone) return sample(chosen, p, random, share, front);
     const bool map = is_map(chosen.entry), by_cone = !map && batch.by_cone[lane];
-    DirectSample sample = map ? on_map(batch.map[number], share, front)
+    DirectSample sample = map ? from_map(batch.map.direction(number), front)
                               : on_sphere(area_lights_[chosen.entry],
                                           by_cone ? batch.cones[number] : batch.spheres[number], by_cone, front);
     add_choice(sample, chosen.cluster);
     return sample;
+}
+
+float Emitters::environment_pdf(const LightBatch& batch, std::uint32_t lane, float pdf, const LightShare* share) const {
+    return is_map(batch.chosen[lane].entry) ? map_pdf(batch.map[batch.number[lane]], share) : pdf;
 }
 
 Rgb Emitters::environment(const LightBatch& batch, std::uint32_t lane, const Vec3& direction) const {
@@ -268,7 +282,12 @@ DirectSample Emitters::sample_without_area(std::uint32_t entry, const Vec3& p, c
     if (index < delta_lights_.size()) return delta_lights_[index].sample(p, delta_selection_[index]);
     DirectSample sample;
     if constexpr (!kHasEnvironment) return sample;
-    if (is_map(entry)) return on_map(map_->sample(part_of(entry), random), share, front);
+    if (is_map(entry)) {
+        const EnvironmentSample drawn = map_->sample(part_of(entry), random);
+        sample = from_map(drawn.direction, front);
+        if (sample.pdf > 0.0f) sample.pdf = map_pdf(drawn, share);
+        return sample;
+    }
     sample.from_environment = true;
     sample.distance = std::numeric_limits<float>::infinity();
     sample.wi = square_to_sphere({to_unit(random[2]), to_unit(random[3])});
@@ -276,13 +295,8 @@ DirectSample Emitters::sample_without_area(std::uint32_t entry, const Vec3& p, c
     return sample;
 }
 
-DirectSample Emitters::on_map(const EnvironmentSample& drawn, const LightShare* share, const Vec3* front) const {
-    DirectSample sample;
-    sample.from_environment = true;
-    sample.distance = std::numeric_limits<float>::infinity();
-    sample.wi = drawn.direction;
-    if (sees(front, sample.wi)) sample.pdf = constant_pdf(share) + map_->pdf(drawn, part_choice(share));
-    return sample;
+float Emitters::map_pdf(const EnvironmentSample& drawn, const LightShare* share) const {
+    return constant_pdf(share) + map_->pdf(drawn, part_choice(share));
 }
 
 float Emitters::pdf_direct(const Vec3& p, const Vec3& wi, const Hit& hit, const LightShare* share) const {

@@ -43,7 +43,8 @@ class Emitters {
     /// Whether there is a gain in drawing many together.
     bool draws_together() const { return has_spheres_ || has_map(); }
     // The same for many: clear the batch, choose() for all lanes that may sample, draw(), and sample_direct() for those
-    // that do, each from the place, with the numbers and the share of its choice.
+    // that do, each from the place, with the numbers and the share of its choice. A density from the environment map is
+    // still to be asked for, as radiance is: 1 stands for it.
     void choose(LightBatch& batch, std::uint32_t lane, const Vec3& p, const Draw& random,
                 const LightShare* share) const;
     void draw(LightBatch& batch) const;
@@ -53,7 +54,9 @@ class Emitters {
     bool has_map() const { return kHasEnvironment && map_; }
     /// Radiance from infinity against a direction of such a sample.
     Rgb environment(const LightBatch& batch, std::uint32_t lane, const Vec3& direction) const;
-    /// Fetches what that reads.
+    /// Density of such a sample, for which sample_direct() gave `pdf`.
+    float environment_pdf(const LightBatch& batch, std::uint32_t lane, float pdf, const LightShare* share) const;
+    /// Fetches what both read.
     void prefetch_environment(const LightBatch& batch, std::uint32_t lane) const;
     /// Clusters that next event can learn to choose among.
     const LightClusters& clusters() const { return clusters_; }
@@ -132,7 +135,7 @@ class Emitters {
     void shine(const AreaLight& light, DirectSample& sample) const;
     DirectSample sample_without_area(std::uint32_t entry, const Vec3& p, const Draw& random, const LightShare* share,
                                      const Vec3* front) const;
-    DirectSample on_map(const EnvironmentSample& drawn, const LightShare* share, const Vec3* front) const;
+    float map_pdf(const EnvironmentSample& drawn, const LightShare* share) const;
     ChosenEmitter choose(const Draw& random, const LightShare* share) const {
         const auto cluster =
             share ? clusters_.pick(*share, random[0]) : LightClusters::Choice{0, random[0], 1.0f, 1.0f};

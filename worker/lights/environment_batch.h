@@ -40,7 +40,8 @@ class EnvironmentBatch {
         return count_++;
     }
 
-    EnvironmentSample operator[](std::uint32_t i) const { return {{dx_[i], dy_[i], dz_[i]}, place(i), sine_[i]}; }
+    EnvironmentSample operator[](std::uint32_t i) const { return {direction(i), place(i), sine_[i]}; }
+    Vec3 direction(std::uint32_t i) const { return {dx_[i], dy_[i], dz_[i]}; }
     TexelPlace place(std::uint32_t i) const { return {x0_[i], x1_[i], y0_[i], y1_[i], fx_[i], fy_[i]}; }
 
   private:

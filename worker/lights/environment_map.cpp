@@ -203,6 +203,8 @@ Rgb EnvironmentMap::radiance(const Place& p) const {
 void EnvironmentMap::prefetch(const Place& p) const {
     prefetch_texel(*image_, p.x0, p.y0);
     prefetch_texel(*image_, p.x0, p.y1);
+    __builtin_prefetch(columns(p.y0) + p.x0);
+    __builtin_prefetch(columns(p.y1) + p.x0);
 }
 
 int EnvironmentMap::part_of(int x, int y) const {
@@ -289,10 +291,6 @@ void EnvironmentMap::sample(EnvironmentBatch& b) const {
         b.fx_[i] = s.place.fx;
         b.fy_[i] = s.place.fy;
         b.sine_[i] = s.sine;
-    }
-    for (std::uint32_t i = 0; i < b.count_; ++i) {
-        __builtin_prefetch(columns(b.y0_[i]) + b.x0_[i]);
-        __builtin_prefetch(columns(b.y1_[i]) + b.x0_[i]);
     }
 }
 

@@ -43,7 +43,7 @@ class EnvironmentMap {
 
     Rgb radiance(const Vec3& direction) const;
     Rgb radiance(const Place& place) const;
-    /// Fetches what radiance() of a place reads.
+    /// Fetches what radiance() and pdf() of a place read.
     void prefetch(const Place& place) const;
     /// Density of sample() in parts that are chosen like this, per steradian.
     float pdf(const Vec3& direction, const PartChoice& choice) const;
@@ -51,7 +51,7 @@ class EnvironmentMap {
     /// Draws from a part that was chosen: random[1] picks the row, [2] the column, [3] the place. Not from one without
     /// weight.
     Sample sample(int part, const Draw& random) const;
-    /// The same for all that a batch was asked for, and fetches what pdf() of them reads.
+    /// The same for all that a batch was asked for.
     void sample(EnvironmentBatch& batch) const;
 
     /// Mean over all directions, of the channels' mean: W / (m^2 sr).

@@ -18,9 +18,11 @@ LobeBits lobes_of(const Bsdf& bsdf) {
         else if constexpr (std::is_same_v<Kind, DielectricBsdf> || std::is_same_v<Kind, ThinDielectricBsdf>)
             return kDeltaLobe | kTransmittingLobe;
         else if constexpr (std::is_same_v<Kind, PlasticBsdf>)
-            return kSmoothLobe | kDeltaLobe;
+            return kSmoothLobe | kWideLobe | kDeltaLobe;
         else if constexpr (std::is_same_v<Kind, DiffuseBsdf>)
-            return kSmoothLobe;
+            return kSmoothLobe | kWideLobe;
+        else if constexpr (std::is_same_v<Kind, RoughPlasticBsdf>)
+            return kSmoothLobe | kWideLobe | kViewLobe;
         else if constexpr (requires { b.facets; })
             return kSmoothLobe | kViewLobe;
         else

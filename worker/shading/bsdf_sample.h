@@ -39,6 +39,7 @@ inline constexpr LobeBits kDeltaLobe = 2;
 inline constexpr LobeBits kTransmittingLobe = 4;  ///< of a dielectric; beside one of the others
 inline constexpr LobeBits kViewLobe =
     8;  ///< smooth, and what it sends where depends on wo: neither delta nor Lambertian
+inline constexpr LobeBits kWideLobe = 16;  ///< smooth, and hardly ever black for a direction on wo's side
 
 /// All directions of a BSDF are unit vectors in the shading frame, pointing away from the surface: `wo` to where light
 /// goes, `wi` to where it comes from. wo is on the side of +z: the other side has a BSDF of its own (MaterialSet).
