@@ -214,7 +214,7 @@ TEST(Bsdf, BlendsInterpolateAndSampleBoth) {
     const PreparedMaterial prepared(scene);
     const Vec3 up(0, 0, 1);
     EXPECT_NEAR(prepared.front().value(up, up).f_cos.x, 0.75f * 0.8f * kInvPi, 1e-6f);
-    EXPECT_EQ(lobes_of(prepared.front()), kSmoothLobe | kDeltaLobe | kTransmittingLobe);
+    EXPECT_EQ(lobes_of(prepared.front()), kSmoothLobe | kWideLobe | kDeltaLobe | kTransmittingLobe);
     EXPECT_EQ(lobes_of(prepared.back()), kDeltaLobe | kTransmittingLobe) << "diffuse reflects on its front only";
     EXPECT_NEAR(mean_power(prepared.front(), up, 40000), 0.75 * 0.8 + 0.25, 0.01);
     EXPECT_NEAR(mean_power(prepared.back(), up, 40000), 0.25, 0.01);

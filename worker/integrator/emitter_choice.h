@@ -8,7 +8,7 @@
 namespace treefarm {
 
 /// The emitters that next event samples at the vertices of a step, by Path::lane. Where some are drawn together, each
-/// path's is chosen before any vertex is visited: clear(), choose() for each, draw().
+/// path's is chosen before any is sampled: clear(), choose() for each, draw().
 class EmitterChoice {
   public:
     EmitterChoice(const Emitters& emitters, const PathSettings& settings)

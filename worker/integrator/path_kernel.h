@@ -7,6 +7,7 @@
 #include "common/film/trace_stats.h"
 #include "worker/integrator/branches.h"
 #include "worker/integrator/direction_choice.h"
+#include "worker/integrator/emission.h"
 #include "worker/integrator/emitter_choice.h"
 #include "worker/integrator/mis.h"
 #include "worker/integrator/path_observer.h"
@@ -36,9 +37,13 @@ class PathKernel {
           clock_(settings.profile, stats),
           scratch_(kBatch, Surface::make_scratch(scene)),
           emitters_(scene.emitters(), settings),
-          directions_(guide, settings) {
+          directions_(guide, settings),
+          emission_(scene, settings_, observer_) {
         if constexpr (kRecord) recorders_.fill(PathRecorder(settings.target, settings.view_records));
     }
+
+    PathKernel(const PathKernel&) = delete;
+    PathKernel& operator=(const PathKernel&) = delete;
 
     void clear() { count_ = 0; }
     std::uint32_t count() const { return count_; }
@@ -123,10 +128,10 @@ class PathKernel {
             arrivals(alive, [&](std::uint32_t, Path& path) { Surface::prefetch(scene_, path.hit); });
         clock_.lap(TracePhase::surface);
         if constexpr (kConverts) find_regions(alive, depth);
-        if (emitters_.together() && depth != settings_.max_depth) [[unlikely]]
-            choose_emitters(alive);
         pending_.clear();
         alive = keep(alive, [&](std::uint8_t path) { return visit(path, depth); });
+        if (emitters_.together()) [[unlikely]]
+            sample_emitters_together(alive);
         clock_.lap(TracePhase::surface);
         if (!pending_.empty()) look_at_lights(depth);
         clock_.lap(TracePhase::shadow);
@@ -212,11 +217,11 @@ class PathKernel {
         observer_.arrive(depth, path.found ? &hit : nullptr);
         if (!path.found) {
             if (scene_.emitters().shines_from_infinity()) [[unlikely]]
-                from_infinity(index, depth);
+                emission_.from_infinity(path, recorder_of(index), depth);
             return end("left the scene");
         }
         if (scene_.emitters().emits(hit.shape)) [[unlikely]]
-            from_emitter(index, depth);
+            emission_.from_emitter(path, recorder_of(index), depth);
         if (depth == settings_.max_depth) return end("depth limit");
 
         if (depth > 1 && settings_.roulette.plays(depth - 1)) {
@@ -243,7 +248,7 @@ class PathKernel {
         }
         if constexpr (kRecord)
             if (surface.smooth() && !guide_.contains(hit.p)) recorders_[index].add_outside();
-        if (emitters_.any() && surface.smooth()) next_event(index);
+        if (emitters_.any() && !emitters_.together() && surface.smooth()) next_event(index);
         return true;
     }
 
@@ -272,50 +277,27 @@ class PathKernel {
         return true;
     }
 
+    PathRecorder* recorder_of(std::uint32_t index) { return kRecord ? &recorders_[index] : nullptr; }
+
     bool end(const char* why) {
         observer_.end(why);
         return false;
     }
 
-    /// Adds what the path brings that met `emitted`, weighted against next event, which finds that with the density
-    /// `next_event_pdf()`.
-    template <class Pdf>
-    void meet(std::uint8_t index, const Rgb& emitted, int depth, Pdf next_event_pdf) {
-        if (is_black(emitted) || (depth == 1 && settings_.hide_emitters)) return;
-        Path& path = paths_[index];
-        float light_pdf = 0.0f, weight = 1.0f;
-        if (settings_.next_event && depth > 1) {
-            light_pdf = next_event_pdf();
-            weight = mis_weight(settings_.mis, path.scatter_pdf, light_pdf);
-        }
-        const Rgb weighted = emitted * weight;
-        if constexpr (kRecord) recorders_[index].add_emission(weighted);
-        observer_.emission(emitted, light_pdf, weight, path.throughput * weighted);
-        path.radiance += path.throughput * weighted;
-    }
-
-    // Rare, and out of line: what emitters may be (textured, an image) costs other vertices nothing, not a register.
-
-    [[gnu::noinline]] void from_emitter(std::uint8_t index, int depth) {
-        const Emitters& emitters = scene_.emitters();
-        const Path& path = paths_[index];
-        meet(index, emitters.emitted(path.hit, -path.ray.direction), depth, [&] {
-            return emitters.pdf_direct(path.scatter_point, path.ray.direction, path.hit, path.scatter_lights);
-        });
-    }
-
-    [[gnu::noinline]] void from_infinity(std::uint8_t index, int depth) {
-        assert(scene_.effects().environment);
-        const Emitters& emitters = scene_.emitters();
-        const Path& path = paths_[index];
-        meet(index, emitters.environment(path.ray.direction), depth,
-             [&] { return emitters.pdf_environment(path.ray.direction, path.scatter_lights); });
-    }
-
-    [[gnu::noinline]] void choose_emitters(std::uint32_t alive) {
+    /// Out of line: most scenes pay one test for it.
+    [[gnu::noinline]] void sample_emitters_together(std::uint32_t alive) {
+        std::array<std::uint8_t, kBatch> smooth;
+        std::uint32_t count = 0;
         emitters_.clear();
-        arrivals(alive, [&](std::uint32_t lane, const Path& at) { emitters_.choose(lane, at.hit.p, light_share(at)); });
+        for (std::uint32_t i = 0; i < alive; ++i) {
+            const Path& path = paths_[alive_[i]];
+            if (!path.surface->smooth()) continue;
+            smooth[count++] = alive_[i];
+            emitters_.choose(path.lane, path.hit.p, light_share(path));
+        }
         emitters_.draw();
+        for (std::uint32_t i = 0; i < count; ++i)
+            next_event(smooth[i]);
     }
 
     /// How next event chooses an emitter where the path is: nullptr, by power.
@@ -412,6 +394,7 @@ class PathKernel {
     PendingLights pending_;
     std::array<PathRecorder, kRecord ? kBatch : 0> recorders_;
     [[no_unique_address]] Observer observer_;
+    Emission<Surface, kRecord, Observer> emission_;
 };
 
 }  // namespace treefarm
