@@ -237,7 +237,8 @@ std::vector<JobKey> make_job_keys() {
         [](auto& j) -> auto& { return j.guiding.spatial_threshold; }, 0, kMaxInt));
     add(number_key(
         "guiding.directional_threshold", "0.0005 to 1",
-        "share of a region's energy above which a directional cell splits",
+        "share of a region's energy above which a directional cell splits; in view and auto up to twice as much where "
+        "the BSDF is sampled rather than the tree",
         [](auto& j) -> auto& { return j.guiding.directional_threshold; },
         [](float v) { return v >= 0.0005f && v <= 1.0f; }));
     add(integer_key(

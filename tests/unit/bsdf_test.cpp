@@ -231,6 +231,10 @@ TEST(Bsdf, LobesAreThoseThatThePlanExpects) {
         EXPECT_EQ((lobes & kDeltaLobe) != 0, expected.delta()) << subject.name;
         EXPECT_EQ(prepared.side(true) != nullptr, expected.transmits()) << subject.name;
         EXPECT_EQ(prepared.varies(), material_traits(scene, material).needs_surface_detail()) << subject.name;
+        for (std::uint32_t i = 0; i < 500 && (lobes & kWideLobe); ++i) {
+            const Vec3 wi = square_to_cosine_hemisphere(uniform(i).place);
+            EXPECT_FALSE(is_black(prepared.front().value(at_cosine(0.7f, 0.0f), wi).f_cos)) << subject.name;
+        }
         bool below = false, delta = false, smooth = false;
         for (std::uint32_t i = 0; i < 500; ++i) {
             const BsdfSample s = prepared.front().sample(at_cosine(0.7f, 0.0f), uniform(i));

@@ -7,6 +7,7 @@
 #include "common/config/job_reader.h"
 #include "common/guiding/tree_update.h"
 #include "common/plan/effect_table.h"
+#include "common/plan/learning.h"
 #include "common/plan/plan_text.h"
 #include "common/plan/texture_mean.h"
 #include "common/scene/material_traits.h"
@@ -244,6 +245,28 @@ TEST(Plan, MemoryFollowsTheFormulas) {
     Job given;
     given.guiding.learn_bsdf_fraction = false;
     EXPECT_FALSE(expected_tree(scene, given).with_mixture);
+}
+
+TEST(Plan, CellsFollowUseWhereViewsAndMixturesAreLearned) {
+    const auto least_use = [](Job job) { return refine_settings(job, 1e4, {}, {}).least_use; };
+    Job job;
+    EXPECT_EQ(least_use(job), 0.5);
+    job.guiding.type = GuidingType::ppg;
+    EXPECT_EQ(least_use(job), 1.0);
+    job.guiding.type = GuidingType::view;
+    EXPECT_EQ(least_use(job), 0.5);
+    job.guiding.learn_bsdf_fraction = false;
+    EXPECT_EQ(least_use(job), 1.0);
+    job.guiding.learn_bsdf_fraction = true;
+    job.guiding.view_records = ViewRecords::radiance;  // as published
+    EXPECT_EQ(least_use(job), 1.0);
+
+    const Scene scene = full_scene();
+    Job ppg;
+    ppg.guiding.type = GuidingType::ppg;
+    const TreeSize even = expected_tree(scene, ppg), by_use = expected_tree(scene, Job{});
+    ASSERT_EQ(even.regions, by_use.regions);
+    EXPECT_LT(by_use.cells - by_use.views * 240, even.cells);
 }
 
 TEST(Plan, TextAndJsonSayTheSame) {

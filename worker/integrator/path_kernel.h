@@ -361,7 +361,7 @@ class PathKernel {
     }
 
     void add_light(const PendingLight& light, std::uint32_t code, int depth) {
-        if (!(light.pdf > 0.0f)) return;
+        if (!(light.pdf > 0.0f)) return;  // of an environment map: only now known
         float scatter_pdf = light.delta ? 0.0f : light.bsdf_pdf;
         if constexpr (kGuided)
             if (!light.delta) scatter_pdf = mixed_pdf_at<kViews>(guide_, light.from.guidance, light.bsdf_pdf, code);

@@ -15,7 +15,7 @@ struct ChosenEmitter {
     LightClusters::Choice cluster;
 };
 
-/// Which emitters the vertices of a step sample, chosen before any of them is looked at, so that directions of an
+/// Which emitters the vertices of a step sample, chosen before any of them is sampled, so that directions of an
 /// environment map and points of spheres are drawn together: Emitters::choose() for each, then Emitters::draw().
 struct LightBatch {
     /// Instead of a number: nothing was drawn yet.
