@@ -20,8 +20,8 @@ bool sees(const Vec3* front, const Vec3& direction) {
     return !front || dot(*front, direction) > 0.0f;
 }
 
-/// A direction towards the environment map, without its density yet.
-DirectSample from_map(const Vec3& direction, const Vec3* front) {
+/// A direction towards the environment, without its density yet: 1 stands for it where it is a sample.
+DirectSample towards_infinity(const Vec3& direction, const Vec3* front) {
     DirectSample sample;
     sample.from_environment = true;
     sample.distance = std::numeric_limits<float>::infinity();
@@ -181,7 +181,7 @@ DirectSample Emitters::sample_direct(const Vec3& p, const LightBatch& batch, std
     const std::uint32_t number = batch.number[lane];
     if (number == LightBatch::kAlone) return sample(chosen, p, random, share, front);
     const bool map = is_map(chosen.entry), by_cone = !map && batch.by_cone[lane];
-    DirectSample sample = map ? from_map(batch.map.direction(number), front)
+    DirectSample sample = map ? towards_infinity(batch.map.direction(number), front)
                               : on_sphere(area_lights_[chosen.entry],
                                           by_cone ? batch.cones[number] : batch.spheres[number], by_cone, front);
     add_choice(sample, chosen.cluster);
@@ -284,14 +284,12 @@ DirectSample Emitters::sample_without_area(std::uint32_t entry, const Vec3& p, c
     if constexpr (!kHasEnvironment) return sample;
     if (is_map(entry)) {
         const EnvironmentSample drawn = map_->sample(part_of(entry), random);
-        sample = from_map(drawn.direction, front);
+        sample = towards_infinity(drawn.direction, front);
         if (sample.pdf > 0.0f) sample.pdf = map_pdf(drawn, share);
         return sample;
     }
-    sample.from_environment = true;
-    sample.distance = std::numeric_limits<float>::infinity();
-    sample.wi = square_to_sphere({to_unit(random[2]), to_unit(random[3])});
-    if (sees(front, sample.wi)) sample.pdf = pdf_environment(sample.wi, share);
+    sample = towards_infinity(square_to_sphere({to_unit(random[2]), to_unit(random[3])}), front);
+    if (sample.pdf > 0.0f) sample.pdf = pdf_environment(sample.wi, share);
     return sample;
 }
 
