@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "common/base/prefetch.h"
 #include "common/base/random.h"
 #include "common/guiding/sd_tree.h"
 #include "common/math/direction_map.h"
@@ -66,8 +67,8 @@ class Guide {
 
     /// Fetches what sample() with this `pick` will read first.
     void prefetch(std::uint32_t region, std::uint32_t pick) const {
-        __builtin_prefetch(&bsdf_fraction_[region]);
-        __builtin_prefetch(&mass_guide_[region][pick >> (32 - kGuideBits)]);
+        prefetch_line(&bsdf_fraction_[region]);
+        prefetch_line(&mass_guide_[region][pick >> (32 - kGuideBits)]);
     }
 
     /// Draws a direction; `pick`, `u0` and `u1` are uniform 32-bit numbers.
@@ -80,7 +81,7 @@ class Guide {
 
     /// Fetches what pdf() with this code will read first.
     void prefetch_pdf(std::uint32_t region, std::uint32_t code) const {
-        __builtin_prefetch(&code_guide_[region][code >> (2 * kDirectionBits - kGuideBits)]);
+        prefetch_line(&code_guide_[region][code >> (2 * kDirectionBits - kGuideBits)]);
     }
 
     /// Density per steradian of the direction with this code; 0 where the tree has seen nothing.

@@ -7,28 +7,12 @@
 #include <cmath>
 
 #include "common/base/float_traps.h"
+#include "worker/geometry/embree_ray.h"
 #include "worker/geometry/primitive_points.h"
 #include "worker/geometry/user_geometry.h"
 
 namespace treefarm {
 namespace {
-
-RTCRay make_ray(const Ray& ray) {
-    RTCRay r;
-    r.org_x = ray.origin.x;
-    r.org_y = ray.origin.y;
-    r.org_z = ray.origin.z;
-    r.tnear = 0.0f;
-    r.dir_x = ray.direction.x;
-    r.dir_y = ray.direction.y;
-    r.dir_z = ray.direction.z;
-    r.time = 0.0f;
-    r.tfar = ray.length;
-    r.mask = ~0u;
-    r.id = 0;
-    r.flags = 0;
-    return r;
-}
 
 RTCIntersectContext incoherent_context() {
     RTCIntersectContext context;
@@ -42,7 +26,7 @@ RTCIntersectContext incoherent_context() {
 bool EmbreeScene::meet(const Ray& ray, Meeting& meeting) const {
     RTCIntersectContext context = incoherent_context();
     RTCRayHit query;
-    query.ray = make_ray(ray);
+    query.ray = to_embree(ray);
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     const LetFloatsBe embree;
     rtcIntersect1(scene_.get(), &context, &query);
@@ -50,7 +34,7 @@ bool EmbreeScene::meet(const Ray& ray, Meeting& meeting) const {
     if (hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
     meeting = {hit.instID[0], hit.geomID, hit.primID, hit.u, hit.v, {hit.Ng_x, hit.Ng_y, hit.Ng_z}};
     if (hit.instID[0] == RTC_INVALID_GEOMETRY_ID)
-        __builtin_prefetch(surfaces_[hit.geomID].indices + 3 * std::size_t(hit.primID));
+        prefetch_line(surfaces_[hit.geomID].indices + 3 * std::size_t(hit.primID));
     return true;
 }
 
@@ -71,7 +55,7 @@ bool EmbreeScene::intersect(const Ray& ray, Hit& hit) const {
 
 bool EmbreeScene::occluded(const Ray& ray) const {
     RTCIntersectContext context = incoherent_context();
-    RTCRay query = make_ray(ray);
+    RTCRay query = to_embree(ray);
     const LetFloatsBe embree;
     rtcOccluded1(scene_.get(), &context, &query);
     return query.tfar < 0.0f;
@@ -82,7 +66,7 @@ void EmbreeScene::occluded(std::span<const Ray> rays, bool* hidden) const {
     RTCIntersectContext context = incoherent_context();
     std::array<RTCRay, kMostTogether> queries;
     for (std::size_t i = 0; i < rays.size(); ++i)
-        queries[i] = make_ray(rays[i]);
+        queries[i] = to_embree(rays[i]);
     const LetFloatsBe embree;
     rtcOccluded1M(scene_.get(), &context, queries.data(), static_cast<unsigned>(rays.size()), sizeof(RTCRay));
     for (std::size_t i = 0; i < rays.size(); ++i)

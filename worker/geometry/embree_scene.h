@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "common/base/build_options.h"
+#include "common/base/prefetch.h"
 #include "common/scene/scene.h"
 #include "worker/geometry/hit.h"
 #include "worker/geometry/mask.h"
@@ -56,8 +57,8 @@ class EmbreeScene {
         const Surface& surface = surfaces_[m.id];
         const std::uint32_t* corner = surface.indices + 3 * std::size_t(m.primitive);
         for (int i = 0; i < 3; ++i) {
-            __builtin_prefetch(surface.positions + corner[i]);
-            if (surface.normals) __builtin_prefetch(surface.normals + corner[i]);
+            prefetch_line(surface.positions + corner[i]);
+            if (surface.normals) prefetch_line(surface.normals + corner[i]);
         }
     }
     /// Both in one.

@@ -4,6 +4,7 @@
 #include <bit>
 #include <numeric>
 
+#include "common/base/prefetch.h"
 #include "common/math/elementary.h"
 #include "common/math/warp_batch.h"
 
@@ -203,8 +204,8 @@ Rgb EnvironmentMap::radiance(const Place& p) const {
 void EnvironmentMap::prefetch(const Place& p) const {
     prefetch_texel(*image_, p.x0, p.y0);
     prefetch_texel(*image_, p.x0, p.y1);
-    __builtin_prefetch(columns(p.y0) + p.x0);
-    __builtin_prefetch(columns(p.y1) + p.x0);
+    prefetch_line(columns(p.y0) + p.x0);
+    prefetch_line(columns(p.y1) + p.x0);
 }
 
 int EnvironmentMap::part_of(int x, int y) const {
@@ -268,13 +269,13 @@ void EnvironmentMap::sample(EnvironmentBatch& b) const {
         const Part& part = parts_[static_cast<std::size_t>(b.part_[i])];
         b.row_[i] = pick_row(part, b.row_bits_[i]);
         b.column_bits_[i] = bits_in_part(part, b.row_[i], b.column_bits_[i]);
-        __builtin_prefetch(guide(b.row_[i], b.column_bits_[i]));
+        prefetch_line(guide(b.row_[i], b.column_bits_[i]));
     }
     for (std::uint32_t i = 0; i < b.count_; ++i) {
         const std::uint32_t* const between = guide(b.row_[i], b.column_bits_[i]);
         b.low_[i] = between[0];
         b.high_[i] = between[1];
-        __builtin_prefetch(columns(b.row_[i]) + (between[0] + between[1]) / 2);
+        prefetch_line(columns(b.row_[i]) + (between[0] + between[1]) / 2);
     }
     for (std::uint32_t i = 0; i < b.count_; ++i)
         b.column_[i] = pick_between(columns(b.row_[i]), b.low_[i], b.high_[i], b.column_bits_[i]);

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <utility>
 
+#include "common/base/prefetch.h"
+
 namespace treefarm {
 namespace {
 
@@ -88,9 +90,9 @@ std::size_t offset_of(const TextureImage& image, int x, int y) {
 void prefetch_texel(const TextureImage& image, int x, int y) {
     const std::size_t at = offset_of(image, x, y);
     if (image.bytes.empty())
-        __builtin_prefetch(&image.floats[at]);
+        prefetch_line(&image.floats[at]);
     else
-        __builtin_prefetch(&image.bytes[at]);
+        prefetch_line(&image.bytes[at]);
 }
 
 Rgb texel(const TextureImage& image, int x, int y) {
