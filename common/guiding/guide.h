@@ -71,6 +71,11 @@ class Guide {
         prefetch_line(&mass_guide_[region][pick >> (32 - kGuideBits)]);
     }
 
+    /// Fetches what it will read next, by what prefetch() has brought.
+    void prefetch_cell(std::uint32_t region, std::uint32_t pick) const {
+        prefetch_middle(mass_guide_[region], pick >> (32 - kGuideBits));
+    }
+
     /// Draws a direction; `pick`, `u0` and `u1` are uniform 32-bit numbers.
     Sample sample(std::uint32_t distribution, std::uint32_t pick, std::uint32_t u0, std::uint32_t u1) const {
         const Place place = sample_place(distribution, pick, u0, u1);
@@ -82,6 +87,11 @@ class Guide {
     /// Fetches what pdf() with this code will read first.
     void prefetch_pdf(std::uint32_t region, std::uint32_t code) const {
         prefetch_line(&code_guide_[region][code >> (2 * kDirectionBits - kGuideBits)]);
+    }
+
+    /// Fetches what it will read next, by what prefetch_pdf() has brought.
+    void prefetch_pdf_cell(std::uint32_t region, std::uint32_t code) const {
+        prefetch_middle(code_guide_[region], code >> (2 * kDirectionBits - kGuideBits));
     }
 
     /// Density per steradian of the direction with this code; 0 where the tree has seen nothing.
@@ -129,6 +139,10 @@ class Guide {
     using GuideTable = std::array<std::uint32_t, kGuideSize + 1>;
     Range range(const GuideTable& guide, std::uint32_t entry) const {
         return {&cells_[guide[entry]], guide[entry + 1] - guide[entry] + 1};
+    }
+    /// Cells of a range lie side by side, eight in a line of cache.
+    void prefetch_middle(const GuideTable& guide, std::uint32_t entry) const {
+        prefetch_line(&cells_[(guide[entry] + guide[entry + 1]) / 2]);
     }
     std::vector<GuideTable> mass_guide_;     ///< per region: first of cells_ that may hold probability k/64
     std::vector<GuideTable> code_guide_;     ///< per region: the one that holds code k/64

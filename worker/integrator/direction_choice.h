@@ -36,8 +36,15 @@ class DirectionChoice {
     /// Whether the paths of this step choose among several.
     bool several() const { return several_; }
 
+    /// Before any of these paths draws; fetches what they read after what prefetch() asked for.
+    void start(std::span<const Path> paths, std::span<const std::uint8_t> alive) {
+        batch_.clear();
+        if constexpr (kGuided)
+            for (const std::uint8_t index : alive)
+                guide_.prefetch_cell(paths[index].guidance.region, draws_.word[1][paths[index].lane]);
+    }
+
     // One: draw(), then convert(), then complete().
-    void clear() { batch_.clear(); }
     bool draw(Path& path) { return draw(path, technique(path)); }
     void convert() { batch_.convert(guide_); }
     void complete(Path& path) const { batch_.complete(*path.surface, guide_, path.guidance, path.scatter); }
@@ -50,8 +57,8 @@ class DirectionChoice {
             if (candidate != 0) {
                 draw_batch(seed_, keys_, lanes_, first_ + candidate, Stream::candidate, draws_);
                 cosine_hemisphere_batch(draws_, lanes_, cosines_);
+                batch_.clear();
             }
-            clear();
             std::array<std::uint8_t, kDrawBatch> drawn;
             std::uint32_t count = 0;
             for (const std::uint8_t index : alive) {

@@ -98,6 +98,8 @@ class CodeBatch {
     void prefetch(const Guide& guide) const {
         for (std::uint32_t i = 0; i < count_; ++i)
             guide.prefetch_pdf(regions_[i], codes_[i]);
+        for (std::uint32_t i = 0; i < count_; ++i)
+            guide.prefetch_pdf_cell(regions_[i], codes_[i]);
     }
 
     std::uint32_t operator[](std::size_t i) const { return codes_[i]; }

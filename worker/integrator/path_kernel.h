@@ -154,7 +154,7 @@ class PathKernel {
             directions_.complete(paths_[path]);
             return leave(path);
         };
-        directions_.clear();
+        directions_.start(paths_, {alive_.data(), alive});
         if constexpr (!kConverts) return keep(alive, [&](std::uint8_t path) { return draws(path) && leaves(path); });
         if constexpr (kGuided)
             if (directions_.several()) {
