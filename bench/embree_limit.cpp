@@ -246,9 +246,8 @@ void run(const Options& options) {
                                {"guided, recording", true, false, true, {}, {}, {}},
                                {"guided, recording, next event", true, true, true, {}, {}, {}}};
     std::puts(
-        "| mode                          | rays per path | ns per ray | bare | ratio | best bare | ratio | rest, ns "
-        "per "
-        "vertex | splat, ns per record |");
+        "| mode                          | rays per path | ns per ray | bare | ratio | best bare | ratio | "
+        "rest, ns per vertex | splat, ns per record |");
     std::puts("|---|---|---|---|---|---|---|---|---|");
     const auto wanted = [&](const char* name) {
         return options.modes.empty() || std::count(options.modes.begin(), options.modes.end(), name) > 0;
