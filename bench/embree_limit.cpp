@@ -74,21 +74,18 @@ class Limit {
 
     void measure(Mode& mode) {
         mode.stats = {};
-        double start = thread_cpu_seconds();
-        render(pass(mode), job(mode), guide(mode), mode.stats);
-        mode.render_seconds.push_back(thread_cpu_seconds() - start);
+        const auto seconds = [](const auto& work) {
+            const double start = thread_cpu_seconds();
+            work();
+            return thread_cpu_seconds() - start;
+        };
+        mode.render_seconds.push_back(seconds([&] { render(pass(mode), job(mode), guide(mode), mode.stats); }));
         if (mode.record) {
             Accumulator sums(9, guide(mode), job_.guiding.directional_filter, true);
-            start = thread_cpu_seconds();
-            sums.commit(log_.records, log_.counts, log_.caps);
-            mode.splat_seconds.push_back(thread_cpu_seconds() - start);
+            mode.splat_seconds.push_back(seconds([&] { sums.commit(log_.records, log_.counts, log_.caps); }));
         }
-        start = thread_cpu_seconds();
-        trace_bare(mode, by_fields);
-        mode.bare_seconds.push_back(thread_cpu_seconds() - start);
-        start = thread_cpu_seconds();
-        trace_bare(mode, to_embree);
-        mode.best_bare_seconds.push_back(thread_cpu_seconds() - start);
+        mode.bare_seconds.push_back(seconds([&] { trace_bare(mode, by_fields); }));
+        mode.best_bare_seconds.push_back(seconds([&] { trace_bare(mode, to_embree); }));
     }
 
   private:

@@ -142,7 +142,8 @@ class Guide {
     }
     /// Cells of a range lie side by side, eight in a line of cache.
     void prefetch_middle(const GuideTable& guide, std::uint32_t entry) const {
-        prefetch_line(&cells_[(guide[entry] + guide[entry + 1]) / 2]);
+        const Range among = range(guide, entry);
+        prefetch_line(among.first + among.count / 2);
     }
     std::vector<GuideTable> mass_guide_;     ///< per region: first of cells_ that may hold probability k/64
     std::vector<GuideTable> code_guide_;     ///< per region: the one that holds code k/64
