@@ -15,15 +15,6 @@ std::uint32_t axis_step(float position, float origin, float inverse_extent) {
     return steps < kAxisSteps ? static_cast<std::uint32_t>(steps) : (1u << kAxisBits) - 1;
 }
 
-/// The last cell whose `begin` is at or before `key`, without a branch that nothing predicts.
-template <class Range, class Cell>
-const Cell* last_before(const Range& range, std::uint32_t Cell::*begin, std::uint32_t key) {
-    const Cell* at = range.first;
-    for (std::uint32_t count = range.count; count > 1; count -= count / 2)
-        at += at[count / 2].*begin <= key ? count / 2 : 0;
-    return at;
-}
-
 }  // namespace
 
 Guide::Guide(const SdTree& tree)
@@ -148,28 +139,12 @@ float Guide::density(const Cell* cell) {
     return kScale * static_cast<float>(static_cast<std::int32_t>(mass)) * power_of_two(-std::countr_zero(area));
 }
 
-std::uint32_t Guide::cell_side(std::uint32_t distribution, std::uint32_t cell) const {
-    const Cell* const c = &cells_[cell + distribution];
-    return 1u << (std::countr_zero(c[1].code_begin - c[0].code_begin) / 2);
-}
-
 std::uint32_t Guide::view(std::uint32_t region, std::uint32_t outgoing_code) const {
     if (view_set_.empty() || view_set_[region] == SdTree::kNoViews) return kNoView;
     std::uint32_t at = view_begin_[view_set_[region]], count = view_begin_[view_set_[region] + 1] - at;
     for (; count > 1; count -= count / 2)
         at += view_code_[at + count / 2] <= outgoing_code ? count / 2 : 0;
     return region_count() + at;
-}
-
-const Guide::Cell* Guide::find(std::uint32_t distribution, std::uint32_t code) const {
-    const Range among = distribution < region_count()
-                            ? range(code_guide_[distribution], code >> (2 * kDirectionBits - kGuideBits))
-                            : view_range(distribution);
-    return last_before(among, &Cell::code_begin, code);
-}
-
-std::uint32_t Guide::cell(std::uint32_t distribution, std::uint32_t code) const {
-    return static_cast<std::uint32_t>(find(distribution, code) - cells_.data()) - distribution;
 }
 
 float Guide::pdf(std::uint32_t distribution, std::uint32_t code) const {

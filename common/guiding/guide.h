@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <vector>
 
@@ -98,9 +99,14 @@ class Guide {
     float pdf(std::uint32_t distribution, std::uint32_t code) const;
 
     /// Index (over the whole tree) of the cell of a direction: where a record goes.
-    std::uint32_t cell(std::uint32_t distribution, std::uint32_t code) const;
+    std::uint32_t cell(std::uint32_t distribution, std::uint32_t code) const {
+        return static_cast<std::uint32_t>(find(distribution, code) - cells_.data()) - distribution;
+    }
     /// A cell's side, in steps of the direction square: 2^(kDirectionBits - depth).
-    std::uint32_t cell_side(std::uint32_t distribution, std::uint32_t cell) const;
+    std::uint32_t cell_side(std::uint32_t distribution, std::uint32_t cell) const {
+        const Cell* const c = &cells_[cell + distribution];
+        return 1u << (std::countr_zero(c[1].code_begin - c[0].code_begin) / 2);
+    }
 
     std::size_t bytes() const;
 
@@ -120,7 +126,19 @@ class Guide {
 
     std::uint32_t build_treelet(const SdTree& tree, std::uint32_t node, int depth);
     static float density(const Cell* cell);
-    const Cell* find(std::uint32_t distribution, std::uint32_t code) const;
+    const Cell* find(std::uint32_t distribution, std::uint32_t code) const {
+        const Range among = distribution < region_count()
+                                ? range(code_guide_[distribution], code >> (2 * kDirectionBits - kGuideBits))
+                                : view_range(distribution);
+        return last_before(among, &Cell::code_begin, code);
+    }
+    /// The last cell whose `begin` is at or before `key`, without a branch that nothing predicts.
+    static const Cell* last_before(const Range& range, std::uint32_t Cell::*begin, std::uint32_t key) {
+        const Cell* at = range.first;
+        for (std::uint32_t count = range.count; count > 1; count -= count / 2)
+            at += at[count / 2].*begin <= key ? count / 2 : 0;
+        return at;
+    }
     void add_distribution(const SdTree& tree, std::uint32_t distribution);
     void fill_guides(std::uint32_t region, std::size_t first);
     /// All cells of a view: it is small, and tables would outweigh it.

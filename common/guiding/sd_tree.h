@@ -88,6 +88,7 @@ inline SdTree initial_tree(const Box3& bounds, float radiance_scale, float bsdf_
 /// A distribution counts its records in units of 2^e such that a record of average value is 2^15 to 2^16 units: fine
 /// enough that rounding adds nothing measurable, with a cap (2^40 units) 2^24 times the average.
 inline constexpr int kMeanRecordBits = 16;
+inline constexpr int kMostQuantumExponent = 200;  ///< no mean of floats asks for one so far from 0
 std::int16_t quantum_exponent_for(float mean_record);
 
 /// Codec of the broadcast form. decode_tree checks every structural rule and throws FormatError.

@@ -6,14 +6,15 @@
 #include <vector>
 
 #include "common/config/job.h"
+#include "common/guiding/box_filter.h"
 #include "common/guiding/guide.h"
 #include "common/guiding/tree_update.h"
 
 namespace treefarm {
 
 /// Adds the records of finished work to a worker's sums. Threads keep a log each while they trace and commit it once
-/// per unit: sorted by distribution, so that a stripe of them is locked once for many records and cells are found in
-/// cache.
+/// per unit: in the order of distributions, so that a stripe of them is locked once for many records and cells are
+/// found in cache.
 class Accumulator {
   public:
     /// `with_mixture`: records also feed the histograms of mixture.h.
@@ -29,9 +30,14 @@ class Accumulator {
   private:
     static constexpr std::size_t kStripes = 64;
 
-    void add_record(const Record& record, UpdateCaps& met);
-    void add_quanta(const Record& record, std::uint32_t code, float value, std::uint32_t random, UpdateCaps& met);
-    void add_box(const Record& record, UpdateCaps& met);
+    /// Cell of each record of a block.
+    using BlockCells = std::array<std::uint32_t, BoxBlock::kRecords>;
+
+    void add_block(std::span<const Record> records, UpdateCaps& met);
+    void add_boxes(std::span<const Record> records, const BlockCells& cells, UpdateCaps& met);
+    void add_reflected(const Record& record, UpdateCaps& met);
+    void add_to_cell(std::uint32_t cell, std::uint64_t quanta, UpdateCaps& met);
+    int exponent(const Record& record) const { return guide_.quantum_exponent(record.distribution); }
 
     SumsShape shape() const {
         return {guide_.region_count(), guide_.cell_count(), with_mixture_, guide_.view_count(), guide_.learns_lights()};

@@ -1,6 +1,7 @@
 #include <zstd.h>
 
 #include <cmath>
+#include <cstdlib>
 
 #include "common/guiding/sd_tree.h"
 
@@ -193,6 +194,8 @@ SdTree decode_tree(std::span<const std::uint8_t> bytes) {
     nodes.read(0);
     if (tree.nodes.size() != node_count) throw FormatError("the spatial tree is malformed");
     tree.quantum_exponent = in.get_array<std::int16_t>();
+    for (const std::int16_t exponent : tree.quantum_exponent)
+        if (std::abs(exponent) > kMostQuantumExponent) throw FormatError("a region's unit of records is out of range");
     tree.bsdf_fraction = in.get_array<float>();
     if (tree.bsdf_fraction.size() != tree.quantum_exponent.size())
         throw FormatError("a tree's mixtures do not match its regions");

@@ -1,24 +1,12 @@
 #include "common/guiding/tree_update.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
 namespace treefarm {
 namespace {
 
-constexpr std::uint64_t kMaxSum = std::numeric_limits<std::uint64_t>::max();
-constexpr int kMaxQuantaBits = 40;  // of one contribution; leaves 2^24 capped ones before a cell saturates
-
 /// Of what one next-event sample brings: more weighs as much, which only makes its emitter a little less popular.
 constexpr double kMostLightUnits = 0x1p38;
-
-/// False where the sum would pass 2^64 - 1 and stays there.
-bool add_saturating(std::uint64_t& sum, std::uint64_t quanta) {
-    const bool fits = quanta <= kMaxSum - sum;
-    sum = fits ? sum + quanta : kMaxSum;
-    return fits;
-}
 
 /// Entries of a sparse list: (distance to the last index, value), both varints; calls `visit(index, value)`.
 template <class Visit>
@@ -70,14 +58,6 @@ TreeSums::TreeSums(std::uint32_t pass, const SumsShape& shape)
       counts_(shape.regions + shape.views),
       mixture_(shape.mixture_begin(shape.regions + shape.views)),
       lights_(shape.light_sums()) {}
-
-bool TreeSums::add_quanta(std::uint32_t cell, std::uint64_t quanta) {
-    return add_saturating(cells_[cell], quanta);
-}
-
-bool TreeSums::add_mixture(std::uint32_t distribution, std::uint8_t bin, std::uint64_t quanta) {
-    return add_saturating(mixture_[shape_.mixture_begin(distribution) + bin], quanta);
-}
 
 bool TreeSums::add_light(std::uint32_t region, int cluster, std::uint64_t quanta) {
     return add_saturating(lights_[std::size_t{region} * kLightClusters + static_cast<std::size_t>(cluster)], quanta);
@@ -164,7 +144,7 @@ std::uint64_t TreeSums::merge_encoded(std::span<const std::uint8_t> update) {
 
 Record light_record(std::uint32_t region, int quantum_exponent, std::uint8_t cluster, float chosen, float reflected) {
     const double x = static_cast<double>(reflected);
-    const double units = std::ldexp(x * x * static_cast<double>(chosen), -light_exponent(quantum_exponent));
+    const double units = x * x * static_cast<double>(chosen) * exact_power_of_two(-light_exponent(quantum_exponent));
     // Half of a unit rounds up: among 2^16 no randomness is needed.
     return {region,
             0,
@@ -172,18 +152,6 @@ Record light_record(std::uint32_t region, int quantum_exponent, std::uint8_t clu
             0.0f,
             static_cast<float>(std::min(units, kMostLightUnits)),
             static_cast<std::uint8_t>(kLightBin + cluster)};
-}
-
-std::uint64_t quantise(float value, int exponent, std::uint32_t random, bool& capped) {
-    // Exact: scaling a float by a power of two in double loses nothing, nor does splitting off the integer part.
-    const double quanta = std::ldexp(static_cast<double>(value), -exponent);
-    if (!(quanta < static_cast<double>(std::uint64_t{1} << kMaxQuantaBits))) {
-        capped = true;
-        return std::uint64_t{1} << kMaxQuantaBits;
-    }
-    const double whole = std::floor(quanta);
-    const double fraction = quanta - whole;
-    return static_cast<std::uint64_t>(whole) + (static_cast<double>(random) * 0x1p-32 < fraction ? 1 : 0);
 }
 
 }  // namespace treefarm

@@ -1,12 +1,15 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "common/base/bytes.h"
+#include "common/base/prefetch.h"
 #include "common/guiding/sd_tree.h"
+#include "common/math/elementary.h"
 
 namespace treefarm {
 
@@ -91,9 +94,12 @@ class TreeSums {
 
     void add_count(std::uint32_t distribution, std::uint64_t count) { counts_[distribution] += count; }
     /// Adds to one cell; false where the sum would pass 2^64 - 1 and stays there (the caller counts it).
-    bool add_quanta(std::uint32_t cell, std::uint64_t quanta);
+    bool add_quanta(std::uint32_t cell, std::uint64_t quanta) { return add_saturating(cells_[cell], quanta); }
+    void prefetch_cell(std::uint32_t cell) const { prefetch_line(&cells_[cell]); }
     bool add_light(std::uint32_t region, int cluster, std::uint64_t quanta);
-    bool add_mixture(std::uint32_t distribution, std::uint8_t bin, std::uint64_t quanta);
+    bool add_mixture(std::uint32_t distribution, std::uint8_t bin, std::uint64_t quanta) {
+        return add_saturating(mixture_[shape_.mixture_begin(distribution) + bin], quanta);
+    }
     void add_caps(const UpdateCaps& caps) { caps_.add(caps); }
     void add(const TreeSums& other);
     void clear();
@@ -107,6 +113,13 @@ class TreeSums {
     bool operator==(const TreeSums&) const = default;
 
   private:
+    /// False where the sum would pass 2^64 - 1 and stays there.
+    static bool add_saturating(std::uint64_t& sum, std::uint64_t quanta) {
+        const bool fits = quanta <= ~sum;
+        sum = fits ? sum + quanta : ~std::uint64_t{0};
+        return fits;
+    }
+
     std::uint32_t pass_ = 0;
     SumsShape shape_;
     std::vector<std::uint64_t> cells_;
@@ -116,8 +129,25 @@ class TreeSums {
     UpdateCaps caps_;
 };
 
-/// value / 2^exponent as an integer, rounded up with the probability of its fraction, so that the expectation is exact.
-/// Above 2^40 quanta it is capped and `capped` is raised.
-std::uint64_t quantise(float value, int exponent, std::uint32_t random, bool& capped);
+/// Of one contribution: leaves 2^24 capped ones before a cell saturates.
+inline constexpr double kMostQuanta = 0x1p40;
+
+/// value * per_value as a whole number, rounded up with the probability of its fraction, so that the expectation is
+/// exact; at most kMostQuanta. `per_value`, a power of two: scaling a float by it in double loses nothing, nor does
+/// splitting off the integer part.
+inline double whole_quanta(float value, double per_value, std::uint32_t random) {
+    const double quanta = static_cast<double>(value) * per_value;
+    const double whole = std::floor(quanta);
+    // An unsigned number is converted as a signed one, for which there are vector instructions.
+    const double threshold = static_cast<double>(static_cast<std::int32_t>(random ^ 0x80000000u)) * 0x1p-32 + 0.5;
+    return quanta < kMostQuanta ? whole + (threshold < quanta - whole ? 1.0 : 0.0) : kMostQuanta;
+}
+
+/// value / 2^exponent by whole_quanta(). Above 2^40 quanta it is capped and `capped` is raised.
+inline std::uint64_t quantise(float value, int exponent, std::uint32_t random, bool& capped) {
+    const double quanta = whole_quanta(value, exact_power_of_two(-exponent), random);
+    capped = capped || quanta >= kMostQuanta;  // a float beyond 2^24 is whole: rounding does not bring it there
+    return static_cast<std::uint64_t>(static_cast<std::int64_t>(quanta));
+}
 
 }  // namespace treefarm

@@ -28,6 +28,11 @@ inline float power_of_two(int exponent) {
     return std::bit_cast<float>(static_cast<std::uint32_t>(127 + exponent) << 23);
 }
 
+/// 2^exponent for exponents of -1022 to 1023: scaling a float by it is exact.
+inline double exact_power_of_two(int exponent) {
+    return std::bit_cast<double>(static_cast<std::uint64_t>(1023 + exponent) << 52);
+}
+
 /// sin and cos of x in [0, pi/2], error below 2e-7.
 struct SinCos {
     float sin, cos;

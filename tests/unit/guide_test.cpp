@@ -110,6 +110,16 @@ TEST_F(GuideTest, CodecKeepsTheTree) {
     }
 }
 
+TEST_F(GuideTest, UnitsOfRecordsBeyondAnyMeanAreRefused) {
+    for (const int exponent : {-kMostQuantumExponent, kMostQuantumExponent}) {
+        SdTree far = tree;
+        far.quantum_exponent[0] = static_cast<std::int16_t>(exponent);
+        EXPECT_EQ(decode_tree(encode_tree(far)).quantum_exponent[0], exponent);
+        far.quantum_exponent[0] = static_cast<std::int16_t>(exponent < 0 ? exponent - 1 : exponent + 1);
+        EXPECT_THROW(decode_tree(encode_tree(far)), FormatError);
+    }
+}
+
 TEST_F(GuideTest, DamagedBytesAreRefused) {
     const Bytes bytes = encode_tree(test::random_tree(2, 2000, 500, 3));
     for (std::size_t size = 0; size < bytes.size(); ++size)
