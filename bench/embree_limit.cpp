@@ -47,6 +47,7 @@ struct Mode {
     bool guided, next_event, record;
     std::vector<Ray> rays, shadow_rays;
     TraceStats stats;
+    std::size_t log_records = 0;  ///< of directions and of emitters, those that taught nothing left out
     std::vector<double> render_seconds{}, bare_seconds{}, best_bare_seconds{}, splat_seconds{};
 };
 
@@ -81,6 +82,7 @@ class Limit {
         };
         mode.render_seconds.push_back(seconds([&] { render(pass(mode), job(mode), guide(mode), mode.stats); }));
         if (mode.record) {
+            mode.log_records = log_.records.size();
             Accumulator sums(9, guide(mode), job_.guiding.directional_filter, true);
             mode.splat_seconds.push_back(seconds([&] { sums.commit(log_.records, log_.counts, log_.caps); }));
         }
@@ -227,7 +229,7 @@ void print(const Mode& mode) {
                 1e9 * median(mode.best_bare_seconds) / rays, ratio(mode.best_bare_seconds),
                 1e9 * (render - bare) / vertices);
     if (mode.record)
-        std::printf(" %5.1f |\n", 1e9 * median(mode.splat_seconds) / static_cast<double>(mode.stats.records));
+        std::printf(" %5.1f |\n", 1e9 * median(mode.splat_seconds) / static_cast<double>(mode.log_records));
     else
         std::printf("       |\n");
 }

@@ -31,7 +31,7 @@ Guide::Guide(const SdTree& tree)
       region_depth_(tree.region_count()) {
     build_treelet(tree, 0, 0);
 
-    cells_.reserve(tree.cell_count() + distribution_count());
+    cells_.reserve(tree.cell_count() + distribution_count() + kFewCells);
     mass_guide_.resize(region_count());
     code_guide_.resize(region_count());
     for (std::uint32_t r = 0; r < region_count(); ++r) {
@@ -44,6 +44,7 @@ Guide::Guide(const SdTree& tree)
         add_distribution(tree, region_count() + v);
     }
     view_cells_.push_back(static_cast<std::uint32_t>(cells_.size()));
+    cells_.resize(cells_.size() + kFewCells);
     for (std::uint32_t t = 0; t < tree.view_set_count(); ++t) {
         std::uint64_t code = 0;
         for (std::uint32_t v = view_begin_[t]; v < view_begin_[t + 1]; ++v) {

@@ -38,7 +38,9 @@ class Guide {
     std::uint32_t distribution_count() const { return static_cast<std::uint32_t>(quantum_exponent_.size()); }
     std::uint32_t region_count() const { return static_cast<std::uint32_t>(region_depth_.size()); }
     std::uint32_t view_count() const { return distribution_count() - region_count(); }
-    std::uint32_t cell_count() const { return static_cast<std::uint32_t>(cells_.size()) - distribution_count(); }
+    std::uint32_t cell_count() const {
+        return static_cast<std::uint32_t>(cells_.size()) - kFewCells - distribution_count();
+    }
     std::int16_t quantum_exponent(std::uint32_t distribution) const { return quantum_exponent_[distribution]; }
     /// Probability of sampling the BSDF rather than a tree where `distribution` is the finest that there is.
     float bsdf_fraction(std::uint32_t distribution) const { return bsdf_fraction_[distribution]; }
@@ -132,13 +134,22 @@ class Guide {
                                 : view_range(distribution);
         return last_before(among, &Cell::code_begin, code);
     }
-    /// The last cell whose `begin` is at or before `key`, without a branch that nothing predicts.
+    /// The last cell whose `begin` is at or before `key`. Most ranges have eight cells or fewer: three steps that never
+    /// branch, because nothing would predict how many are needed.
     static const Cell* last_before(const Range& range, std::uint32_t Cell::*begin, std::uint32_t key) {
-        const Cell* at = range.first;
-        for (std::uint32_t count = range.count; count > 1; count -= count / 2)
-            at += at[count / 2].*begin <= key ? count / 2 : 0;
-        return at;
+        const Cell* first = range.first;
+        std::uint32_t count = range.count;
+        for (; count > kFewCells; count -= count / 2)
+            first += first[count / 2].*begin <= key ? count / 2 : 0;
+        std::uint32_t at = 0;
+        for (std::uint32_t step = kFewCells / 2; step > 0; step /= 2) {
+            const std::uint32_t next = at + step;
+            at += step & (0u - (static_cast<std::uint32_t>(next < count) &
+                                static_cast<std::uint32_t>(first[next].*begin <= key)));
+        }
+        return first + at;
     }
+    static constexpr std::uint32_t kFewCells = 8;  ///< and as many may be read after the last one
     void add_distribution(const SdTree& tree, std::uint32_t distribution);
     void fill_guides(std::uint32_t region, std::size_t first);
     /// All cells of a view: it is small, and tables would outweigh it.
