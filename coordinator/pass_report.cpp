@@ -109,7 +109,8 @@ std::vector<Column> columns() {
         column("tree_nodes", [](R r) { return r.tree.nodes; }),
         column("tree_regions", [](R r) { return r.tree.regions; }),
         column("guided", [](R r) { return std::uint64_t{r.plan.guided}; }),
-        column("guiding_gain", [](R r) { return r.guiding_gain; }),
+        column("guiding_gain", [](R r) { return r.guiding_gain.all; }),
+        column("guiding_gain_bulk", [](R r) { return r.guiding_gain.bulk; }),
         column("tree_views", [](R r) { return r.tree.views; }),
         column("tree_cells", [](R r) { return r.tree.cells; }),
         column("spatial_depth", [](R r) { return r.tree.spatial_depth; }),
@@ -217,8 +218,8 @@ std::string pass_summary(const PassReport& r, std::size_t pass_count) {
     text += fmt::format(", {:.1f} % of paths see light", 100 * r.nonzero_share());
     if (r.tree.regions > 1)
         text += fmt::format("; tree {} nodes, {:.1f} MB", r.tree.nodes, 1e-6 * static_cast<double>(r.tree.memory));
-    if (r.guiding_gain > 0)
-        text += fmt::format("; guided samples are worth {:.3g} unguided ones{}", r.guiding_gain,
+    if (r.guiding_gain.all > 0)
+        text += fmt::format("; guided samples are worth {:.3g} unguided ones{}", r.guiding_gain.all,
                             r.guiding_pays ? "" : ": unguided from here on");
     for (const ErrorForecast& forecast : {r.halving, r.target})
         if (forecast.trust != Trust::none && forecast.relative_error > 0 && forecast.seconds > 0)

@@ -7,6 +7,7 @@
 
 #include "common/film/combine.h"
 #include "common/film/error_estimate.h"
+#include "common/film/guiding_probe.h"
 #include "common/film/trace_stats.h"
 #include "common/guiding/refine.h"
 #include "common/guiding/sd_tree.h"
@@ -66,7 +67,7 @@ struct PassReport {
     TraceStats stats;
     PassVariance variance;
     ErrorEstimate error;       ///< of the image with this pass
-    double guiding_gain = 0;   ///< of a probe pass (guiding_probe.h); 0: it was none, or could not tell
+    GuidingGain guiding_gain;  ///< of a guided pass that taught, since the first probe pass
     bool guiding_pays = true;  ///< so the next pass is guided
     double run_seconds = 0;    ///< since the first worker asked for work, with this pass
     ErrorForecast halving;     ///< until the error is half of this

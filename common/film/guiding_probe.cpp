@@ -48,9 +48,9 @@ struct Weighted {
     double value, weight;
 };
 
-/// Weighted mean without the largest thousandth, one at least.
-double trimmed(std::vector<Weighted> values) {
-    const auto kept = static_cast<std::ptrdiff_t>(values.size() - std::max<std::size_t>(values.size() / 1000, 1));
+/// Weighted mean without the largest, one of so many and one at least; changes their order.
+double trimmed(std::vector<Weighted>& values, std::size_t one_of) {
+    const auto kept = static_cast<std::ptrdiff_t>(values.size() - std::max<std::size_t>(values.size() / one_of, 1));
     const auto end = values.begin() + kept;
     std::nth_element(values.begin(), end, values.end(),
                      [](const Weighted& a, const Weighted& b) { return a.value < b.value; });
@@ -91,11 +91,11 @@ void GuidingProbe::add(std::span<const PixelEstimate> pixels, const TraceStats& 
     rays_ += stats.probe_rays;
 }
 
-double GuidingProbe::gain(std::span<const PixelEstimate> pixels, const TraceStats& stats, std::uint32_t pass,
-                          std::span<const Rgb64> image, std::size_t width) const {
-    if (unguided_.size() < kLeastPixels) return 0;
+GuidingGain GuidingProbe::gain(std::span<const PixelEstimate> pixels, const TraceStats& stats, std::uint32_t pass,
+                               std::span<const Rgb64> image, std::size_t width) const {
+    if (unguided_.size() < kLeastPixels) return {};
     const Levels levels(image, width);
-    if (!(levels.mean() > 0)) return 0;
+    if (!(levels.mean() > 0)) return {};
     std::vector<Weighted> guided, unguided;
     const ProbePixels probe = stats.probe_paths > 0 ? ProbePixels(pixels.size(), pass) : ProbePixels();
     for (std::uint32_t p = 0; p < pixels.size(); ++p)
@@ -103,11 +103,14 @@ double GuidingProbe::gain(std::span<const PixelEstimate> pixels, const TraceStat
             guided.push_back({luminance(whole.sample_variance()) / levels.square_at(p), 1.0});
     for (const Unguided& u : unguided_)
         unguided.push_back({u.variance / levels.square_at(u.pixel), u.samples - 1.0});
-    if (guided.size() < kLeastPixels) return 0;
+    if (guided.size() < kLeastPixels) return {};
     const double rays = per_path(stats.rays - stats.probe_rays, stats.paths - stats.probe_paths);
-    const double with = trimmed(std::move(guided)) * rays * kGuidedRayCost;
-    const double without = trimmed(std::move(unguided)) * per_path(rays_, paths_);
-    return with > 0 ? std::max(without / with, kLeastGain) : 0;
+    const auto gain_without_one_of = [&](std::size_t one_of) {
+        const double with = trimmed(guided, one_of) * rays * kGuidedRayCost;
+        const double without = trimmed(unguided, one_of) * per_path(rays_, paths_);
+        return with > 0 ? std::max(without / with, kLeastGain) : 0;
+    };
+    return {gain_without_one_of(1000), gain_without_one_of(100)};
 }
 
 }  // namespace treefarm

@@ -33,19 +33,24 @@ void leave_out_probes(std::span<PixelEstimate> pixels, std::uint32_t pass);
 /// measured, by scene (docs/guiding.md, "auto"). A constant, not a clock: the decision is part of the result.
 inline constexpr double kGuidedRayCost = 1.4;
 
+/// Relative variance times cost of unguided samples over that of guided ones: above 1 guiding pays. 0: not known.
+struct GuidingGain {
+    double all = 0;   ///< without the worst 0.1 % of the pixels
+    double bulk = 0;  ///< without the worst 1 %: steadier, but blind to light that few unguided samples find
+};
+
 /// What probe passes found.
 class GuidingProbe {
   public:
     /// A probe pass with all its pixels.
     void add(std::span<const PixelEstimate> pixels, const TraceStats& stats, std::uint32_t pass);
 
-    /// Relative variance times cost of unguided samples over that of the guided ones of a pass: above 1 guiding pays.
-    /// `pixels` of the pass, row by row, its probes left out or not; `image` is the best that is known. Variances are
-    /// relative to the square of the mean of the pixel's block of 8 x 8 (with a floor of a tenth of the image's mean),
-    /// the worst 0.1 % of either kind, one at least, left out. A pixel's own mean would not do: where few samples find
-    /// a rare light it is large with their variance, which then looks small. 0: too little is known.
-    double gain(std::span<const PixelEstimate> pixels, const TraceStats& stats, std::uint32_t pass,
-                std::span<const Rgb64> image, std::size_t width) const;
+    /// Of the guided samples of a pass. `pixels` of the pass, row by row, its probes left out or not; `image` is the
+    /// best that is known. Variances are relative to the square of the mean of the pixel's block of 8 x 8 (with a floor
+    /// of a tenth of the image's mean), the worst of either kind, one at least, left out. A pixel's own mean would not
+    /// do: where few samples find a rare light it is large with their variance, which then looks small.
+    GuidingGain gain(std::span<const PixelEstimate> pixels, const TraceStats& stats, std::uint32_t pass,
+                     std::span<const Rgb64> image, std::size_t width) const;
 
   private:
     struct Unguided {

@@ -16,6 +16,10 @@ constexpr std::uint32_t kKickstartSpp = 128;
 constexpr double kLosingGain = 0.8;
 /// Shorter passes have no say.
 constexpr std::uint32_t kLeastJudgedSpp = 4;
+/// What few samples decide is hardly known where bright paths are rare. From this length on the other pixels are asked,
+/// too: if guiding clearly loses there, it has to win clearly by the few.
+constexpr std::uint32_t kLeastBulkSpp = 16;
+constexpr double kClearLoss = 0.6, kClearWin = 1.5;
 /// Passes that probe: the first ones that have a tree and enough samples to know their variance.
 constexpr std::uint32_t kLeastProbeSpp = 4, kProbePasses = 4;
 /// Samples per pixel by which an open budget is planned.
@@ -55,8 +59,10 @@ void set_guiding(PassPlan& pass, const Job& job, bool guiding_pays) {
         pass.record && pass.index > 0 && pass.index <= kProbePasses && pass.spp >= kLeastProbeSpp && pass.guided;
 }
 
-bool guiding_pays(const PassPlan& pass, double gain) {
-    return gain == 0 || pass.spp < kLeastJudgedSpp || gain >= kLosingGain - 1.0 / pass.spp;
+bool guiding_pays(const PassPlan& pass, const GuidingGain& gain) {
+    if (gain.all == 0 || pass.spp < kLeastJudgedSpp) return true;
+    if (pass.spp >= kLeastBulkSpp && gain.bulk > 0 && gain.bulk < kClearLoss && gain.all < kClearWin) return false;
+    return gain.all >= kLosingGain - 1.0 / pass.spp;
 }
 
 PassPlan make_pass(const Job& job, std::uint32_t index, std::uint32_t first_sample, std::uint32_t spp, bool last) {

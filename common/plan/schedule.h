@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "common/config/job.h"
+#include "common/film/guiding_probe.h"
 
 namespace treefarm {
 
@@ -35,9 +36,9 @@ void set_record(PassPlan& pass, const Job& job, bool record);
 /// are unguided and learn nothing.
 void set_guiding(PassPlan& pass, const Job& job, bool guiding_pays);
 
-/// Whether guiding goes on after a pass that taught, with this gain (GuidingProbe::gain(); 0: not known). Short passes
-/// have to say loudly that it does not: it gets better with each.
-bool guiding_pays(const PassPlan& pass, double gain);
+/// Whether guiding goes on after a pass that taught, with this gain. Short passes have to say loudly that it does not:
+/// it gets better with each.
+bool guiding_pays(const PassPlan& pass, const GuidingGain& gain);
 
 /// Passes double from guiding.spp_unit; when what remains after a pass would be less than twice that pass, the pass
 /// takes the rest. The budget is rounded up to whole units. For an open budget (budget.seconds, budget.error), whose

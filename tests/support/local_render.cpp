@@ -80,9 +80,9 @@ LocalRender render_locally(const Scene& scene, const Job& job) {
         state.error = estimate_error(run.image, job.sampler.seed);
         run.states.push_back(state);
         if (pass.guided && pass.record) {
-            const double gain = probe.gain(run.passes.back().pixels, stats, pass.index, run.image.mean,
-                                           static_cast<std::size_t>(scene.film.width));
-            run.guiding_gains.push_back(gain);
+            const GuidingGain gain = probe.gain(run.passes.back().pixels, stats, pass.index, run.image.mean,
+                                                static_cast<std::size_t>(scene.film.width));
+            run.guiding_gains.push_back(gain.all);
             state.guiding_pays = state.guiding_pays && guiding_pays(pass, gain);
         }
         next = choose(state);

@@ -40,10 +40,14 @@ TraceStats stats_of(Rays rays) {
     return stats;
 }
 
-double gain(std::span<const PixelEstimate> samples, std::span<const Rgb64> image = kImage, Rays rays = {}) {
+GuidingGain both_gains(std::span<const PixelEstimate> samples, std::span<const Rgb64> image = kImage, Rays rays = {}) {
     GuidingProbe probe;
     probe.add(samples, stats_of(rays), kPass);
     return probe.gain(samples, stats_of(rays), kPass, image, kWidth);
+}
+
+double gain(std::span<const PixelEstimate> samples, std::span<const Rgb64> image = kImage, Rays rays = {}) {
+    return both_gains(samples, image, rays).all;
 }
 
 TEST(GuidingProbe, ComparesVarianceTimesCost) {
@@ -61,7 +65,7 @@ TEST(GuidingProbe, LaterPassesNeedNoProbes) {
     TraceStats later;
     later.paths = 100;
     later.rays = 500;
-    EXPECT_NEAR(probe.gain(pixels(0.25f, 0.25f), later, 5, kImage, kWidth), 4 / kGuidedRayCost, 1e-6);
+    EXPECT_NEAR(probe.gain(pixels(0.25f, 0.25f), later, 5, kImage, kWidth).all, 4 / kGuidedRayCost, 1e-6);
 }
 
 TEST(GuidingProbe, LongerProbesCountMore) {
@@ -70,7 +74,7 @@ TEST(GuidingProbe, LongerProbesCountMore) {
     probe.add(pixels(0.5f, 1.0f, 16), stats_of({}), kPass);  // 16/15
     const double unguided = (3 * (1.0 / 3) + 15 * (16.0 / 15)) / 18, guided = 2.0 / 7;
     const std::vector<PixelEstimate> now = pixels(0.5f, 0.5f);
-    EXPECT_NEAR(probe.gain(now, stats_of({}), kPass, kImage, kWidth), unguided / guided / kGuidedRayCost, 2e-3);
+    EXPECT_NEAR(probe.gain(now, stats_of({}), kPass, kImage, kWidth).all, unguided / guided / kGuidedRayCost, 2e-3);
 }
 
 TEST(GuidingProbe, AFireflyDecidesNothing) {
@@ -104,23 +108,44 @@ TEST(GuidingProbe, SaysWhenItKnowsNothing) {
     few.resize(100);
     EXPECT_EQ(gain(few, std::span(kImage).first(100)), 0);
     EXPECT_EQ(gain(pixels(0.0f, 0.0f)), 0) << "no noise at all";
-    EXPECT_EQ(GuidingProbe().gain(pixels(0.5f, 0.5f), stats_of({}), kPass, kImage, kWidth), 0) << "no probe yet";
+    EXPECT_EQ(GuidingProbe().gain(pixels(0.5f, 0.5f), stats_of({}), kPass, kImage, kWidth).all, 0) << "no probe yet";
 }
 
 TEST(GuidingProbe, LongPassesAreBelievedSooner) {
     PassPlan pass;
     pass.spp = 2;
-    EXPECT_TRUE(guiding_pays(pass, 0.1));
+    EXPECT_TRUE(guiding_pays(pass, {0.1, 1.0}));
     pass.spp = 4;
-    EXPECT_TRUE(guiding_pays(pass, 0.6));
-    EXPECT_FALSE(guiding_pays(pass, 0.5));
+    EXPECT_TRUE(guiding_pays(pass, {0.6, 1.0}));
+    EXPECT_FALSE(guiding_pays(pass, {0.5, 1.0}));
     pass.spp = 8;
-    EXPECT_TRUE(guiding_pays(pass, 0.7));
-    EXPECT_FALSE(guiding_pays(pass, 0.65));
+    EXPECT_TRUE(guiding_pays(pass, {0.7, 1.0}));
+    EXPECT_FALSE(guiding_pays(pass, {0.65, 1.0}));
     pass.spp = 128;
-    EXPECT_FALSE(guiding_pays(pass, 0.78));
-    EXPECT_TRUE(guiding_pays(pass, 0.81));
-    EXPECT_TRUE(guiding_pays(pass, 0)) << "not known";
+    EXPECT_FALSE(guiding_pays(pass, {0.78, 1.0}));
+    EXPECT_TRUE(guiding_pays(pass, {0.81, 1.0}));
+    EXPECT_TRUE(guiding_pays(pass, {0, 1.0})) << "not known";
+}
+
+/// Few samples, of bright paths that are rare, may say the contrary of all others.
+TEST(GuidingProbe, TheBulkOfThePixelsHasASayInLongPasses) {
+    PassPlan pass;
+    pass.spp = 8;
+    EXPECT_TRUE(guiding_pays(pass, {1.0, 0.3}));
+    pass.spp = 16;
+    EXPECT_FALSE(guiding_pays(pass, {1.0, 0.3}));
+    EXPECT_TRUE(guiding_pays(pass, {1.0, 0.7}));
+    EXPECT_TRUE(guiding_pays(pass, {1.6, 0.3})) << "light that few unguided samples find";
+    EXPECT_TRUE(guiding_pays(pass, {1.0, 0})) << "not known";
+}
+
+TEST(GuidingProbe, TheBulkLeavesOutOnePixelInAHundred) {
+    std::vector<PixelEstimate> noisy = pixels(0.5f, 0.5f);
+    for (std::uint32_t p = 0, found = 0; found < 8; ++p)  // of a thousand
+        if (kProbe.holds(p)) noisy[p].add(8, Rgb(1e3f)), ++found;
+    const GuidingGain gain = both_gains(noisy);
+    EXPECT_GT(gain.all, 10);
+    EXPECT_NEAR(gain.bulk, 1 / kGuidedRayCost, 0.01);
 }
 
 TEST(GuidingProbe, TakesAnEighthOfASmallFilmAndLessOfALargeOne) {
