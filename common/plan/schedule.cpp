@@ -17,7 +17,8 @@ constexpr double kLosingGain = 0.8;
 /// Shorter passes have no say.
 constexpr std::uint32_t kLeastJudgedSpp = 4;
 /// What few samples decide is hardly known where bright paths are rare. From this length on the other pixels are asked,
-/// too: if guiding clearly loses there, it has to win clearly by the few.
+/// too: if guiding clearly loses there, it has to win clearly by the few. Only if next event looks for emitters in all
+/// passes: otherwise few unguided samples find any light, and that is what guiding is for.
 constexpr std::uint32_t kLeastBulkSpp = 16;
 constexpr double kClearLoss = 0.6, kClearWin = 1.5;
 /// Passes that probe: the first ones that have a tree and enough samples to know their variance.
@@ -59,9 +60,10 @@ void set_guiding(PassPlan& pass, const Job& job, bool guiding_pays) {
         pass.record && pass.index > 0 && pass.index <= kProbePasses && pass.spp >= kLeastProbeSpp && pass.guided;
 }
 
-bool guiding_pays(const PassPlan& pass, const GuidingGain& gain) {
+bool guiding_pays(const PassPlan& pass, const Job& job, const GuidingGain& gain) {
     if (gain.all == 0 || pass.spp < kLeastJudgedSpp) return true;
-    if (pass.spp >= kLeastBulkSpp && gain.bulk > 0 && gain.bulk < kClearLoss && gain.all < kClearWin) return false;
+    const bool ask_bulk = pass.spp >= kLeastBulkSpp && gain.bulk > 0 && job.integrator.next_event == NextEvent::always;
+    if (ask_bulk && gain.bulk < kClearLoss && gain.all < kClearWin) return false;
     return gain.all >= kLosingGain - 1.0 / pass.spp;
 }
 

@@ -112,31 +112,36 @@ TEST(GuidingProbe, SaysWhenItKnowsNothing) {
 }
 
 TEST(GuidingProbe, LongPassesAreBelievedSooner) {
+    const Job job;
     PassPlan pass;
     pass.spp = 2;
-    EXPECT_TRUE(guiding_pays(pass, {0.1, 1.0}));
+    EXPECT_TRUE(guiding_pays(pass, job, {0.1, 1.0}));
     pass.spp = 4;
-    EXPECT_TRUE(guiding_pays(pass, {0.6, 1.0}));
-    EXPECT_FALSE(guiding_pays(pass, {0.5, 1.0}));
+    EXPECT_TRUE(guiding_pays(pass, job, {0.6, 1.0}));
+    EXPECT_FALSE(guiding_pays(pass, job, {0.5, 1.0}));
     pass.spp = 8;
-    EXPECT_TRUE(guiding_pays(pass, {0.7, 1.0}));
-    EXPECT_FALSE(guiding_pays(pass, {0.65, 1.0}));
+    EXPECT_TRUE(guiding_pays(pass, job, {0.7, 1.0}));
+    EXPECT_FALSE(guiding_pays(pass, job, {0.65, 1.0}));
     pass.spp = 128;
-    EXPECT_FALSE(guiding_pays(pass, {0.78, 1.0}));
-    EXPECT_TRUE(guiding_pays(pass, {0.81, 1.0}));
-    EXPECT_TRUE(guiding_pays(pass, {0, 1.0})) << "not known";
+    EXPECT_FALSE(guiding_pays(pass, job, {0.78, 1.0}));
+    EXPECT_TRUE(guiding_pays(pass, job, {0.81, 1.0}));
+    EXPECT_TRUE(guiding_pays(pass, job, {0, 1.0})) << "not known";
 }
 
 /// Few samples, of bright paths that are rare, may say the contrary of all others.
 TEST(GuidingProbe, TheBulkOfThePixelsHasASayInLongPasses) {
+    Job job;
+    job.integrator.next_event = NextEvent::always;
     PassPlan pass;
     pass.spp = 8;
-    EXPECT_TRUE(guiding_pays(pass, {1.0, 0.3}));
+    EXPECT_TRUE(guiding_pays(pass, job, {1.0, 0.3}));
     pass.spp = 16;
-    EXPECT_FALSE(guiding_pays(pass, {1.0, 0.3}));
-    EXPECT_TRUE(guiding_pays(pass, {1.0, 0.7}));
-    EXPECT_TRUE(guiding_pays(pass, {1.6, 0.3})) << "light that few unguided samples find";
-    EXPECT_TRUE(guiding_pays(pass, {1.0, 0})) << "not known";
+    EXPECT_FALSE(guiding_pays(pass, job, {1.0, 0.3}));
+    EXPECT_TRUE(guiding_pays(pass, job, {1.0, 0.7}));
+    EXPECT_TRUE(guiding_pays(pass, job, {1.6, 0.3})) << "light that few unguided samples find";
+    EXPECT_TRUE(guiding_pays(pass, job, {1.0, 0})) << "not known";
+    job.integrator.next_event = NextEvent::never;
+    EXPECT_TRUE(guiding_pays(pass, job, {1.0, 0.3})) << "few unguided samples find any";
 }
 
 TEST(GuidingProbe, TheBulkLeavesOutOnePixelInAHundred) {
