@@ -115,7 +115,7 @@ class PassLoop {
         if (report.plan.guided && report.plan.record) {
             report.guiding_gain = probe_.gain(finished_.back().pixels, report.stats, report.plan.index,
                                               result_.image.mean, static_cast<std::size_t>(result_.width));
-            state_.guiding_pays = state_.guiding_pays && guiding_pays(report.plan, job_, report.guiding_gain);
+            state_.guiding_pays = state_.guiding_pays && guiding_pays(report.plan, report.guiding_gain);
         }
         report.guiding_pays = state_.guiding_pays;
     }

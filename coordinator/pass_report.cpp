@@ -111,6 +111,7 @@ std::vector<Column> columns() {
         column("guided", [](R r) { return std::uint64_t{r.plan.guided}; }),
         column("guiding_gain", [](R r) { return r.guiding_gain.all; }),
         column("guiding_gain_bulk", [](R r) { return r.guiding_gain.bulk; }),
+        column("unguided_coverage", [](R r) { return r.guiding_gain.coverage; }),
         column("tree_views", [](R r) { return r.tree.views; }),
         column("tree_cells", [](R r) { return r.tree.cells; }),
         column("spatial_depth", [](R r) { return r.tree.spatial_depth; }),

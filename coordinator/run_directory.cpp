@@ -97,6 +97,7 @@ Json pass_json(const PassReport& r) {
             {"guided", r.plan.guided},
             {"guiding_gain", r.guiding_gain.all},
             {"guiding_gain_bulk", r.guiding_gain.bulk},
+            {"unguided_coverage", r.guiding_gain.coverage},
             {"tree_views", r.tree.views},
             {"tree_cells", r.tree.cells},
             {"tree_bytes", r.tree.bytes},

@@ -1,13 +1,15 @@
 #include "common/film/guiding_probe.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace treefarm {
 namespace {
 
 constexpr std::uint64_t kProbePixels = 2048;
-constexpr std::size_t kBlock = 8;    ///< side, in pixels
-constexpr double kFloor = 0.1;       ///< of the image's mean
+constexpr std::size_t kBlock = 8;  ///< side, in pixels
+constexpr double kFloor = 0.1;     ///< of the image's mean
+constexpr double kEvenly = 3.0;
 constexpr double kLeastGain = 1e-9;  ///< unguided samples have no noise at all
 /// Fewer pixels tell nothing.
 constexpr std::size_t kLeastPixels = 64;
@@ -85,7 +87,8 @@ void GuidingProbe::add(std::span<const PixelEstimate> pixels, const TraceStats& 
     const ProbePixels probe(pixels.size(), pass);
     for (std::uint32_t p = 0; p < pixels.size(); ++p) {
         const Moments whole = pixels[p].whole();
-        if (probe.holds(p) && whole.n >= 2) unguided_.push_back({p, whole.n, luminance(whole.sample_variance())});
+        if (probe.holds(p) && whole.n >= 2)
+            unguided_.push_back({p, whole.n, luminance(whole.sample_variance()), luminance(whole.mean)});
     }
     paths_ += stats.probe_paths;
     rays_ += stats.probe_rays;
@@ -101,8 +104,13 @@ GuidingGain GuidingProbe::gain(std::span<const PixelEstimate> pixels, const Trac
     for (std::uint32_t p = 0; p < pixels.size(); ++p)
         if (const Moments whole = pixels[p].whole(); whole.n >= 2 && !probe.holds(p))
             guided.push_back({luminance(whole.sample_variance()) / levels.square_at(p), 1.0});
-    for (const Unguided& u : unguided_)
-        unguided.push_back({u.variance / levels.square_at(u.pixel), u.samples - 1.0});
+    double found = 0, samples = 0;
+    for (const Unguided& u : unguided_) {
+        const double square = levels.square_at(u.pixel);
+        unguided.push_back({u.variance / square, u.samples - 1.0});
+        found += u.samples * std::min(u.mean / std::sqrt(square), kEvenly);
+        samples += u.samples;
+    }
     if (guided.size() < kLeastPixels) return {};
     const double rays = per_path(stats.rays - stats.probe_rays, stats.paths - stats.probe_paths);
     const auto gain_without_one_of = [&](std::size_t one_of) {
@@ -110,7 +118,7 @@ GuidingGain GuidingProbe::gain(std::span<const PixelEstimate> pixels, const Trac
         const double without = trimmed(unguided, one_of) * per_path(rays_, paths_);
         return with > 0 ? std::max(without / with, kLeastGain) : 0;
     };
-    return {gain_without_one_of(1000), gain_without_one_of(100)};
+    return {gain_without_one_of(1000), gain_without_one_of(100), found / samples};
 }
 
 }  // namespace treefarm

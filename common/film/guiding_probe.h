@@ -36,7 +36,10 @@ inline constexpr double kGuidedRayCost = 1.4;
 /// Relative variance times cost of unguided samples over that of guided ones: above 1 guiding pays. 0: not known.
 struct GuidingGain {
     double all = 0;   ///< without the worst 0.1 % of the pixels
-    double bulk = 0;  ///< without the worst 1 %: steadier, but blind to light that few unguided samples find
+    double bulk = 0;  ///< without the worst 1 %: steadier, but blind to light that few samples find
+    /// How much of the light unguided samples find evenly: mean of their pixels relative to their blocks, of each at
+    /// most three times as much. Where it is low few samples find the light, and nobody knows how noisy they are.
+    double coverage = 0;
 };
 
 /// What probe passes found.
@@ -55,7 +58,7 @@ class GuidingProbe {
   private:
     struct Unguided {
         std::uint32_t pixel, samples;
-        double variance;  ///< of one sample, luminance
+        double variance, mean;  ///< of one sample, luminance
     };
     std::vector<Unguided> unguided_;
     std::uint64_t paths_ = 0, rays_ = 0;

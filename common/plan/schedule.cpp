@@ -11,16 +11,16 @@ namespace {
 
 /// Kick-start samples emitters directly in passes that begin with fewer samples per pixel than this (PPG's program).
 constexpr std::uint32_t kKickstartSpp = 128;
-/// Guiding that gains less than this does not pay, less 1 / spp for short passes: it gets better with each tree, and
-/// light that unguided samples found too rarely to tell speaks for it.
-constexpr double kLosingGain = 0.8;
-/// Shorter passes have no say.
-constexpr std::uint32_t kLeastJudgedSpp = 4;
-/// What few samples decide is hardly known where bright paths are rare. From this length on the other pixels are asked,
-/// too: if guiding clearly loses there, it has to win clearly by the few. Only if next event looks for emitters in all
-/// passes: otherwise few unguided samples find any light, and that is what guiding is for.
-constexpr std::uint32_t kLeastBulkSpp = 16;
-constexpr double kClearLoss = 0.6, kClearWin = 1.5;
+/// Guiding whose bulk gains less than this does not pay. Below 1: it gets better with each tree, and equal noise is
+/// 0.71.
+constexpr double kLosingBulk = 0.75;
+/// Unless the few pixels that are left out there say clearly that it does.
+constexpr double kWinningFew = 1.5;
+/// Short passes have to say more loudly that it does not, shorter ones have no say.
+constexpr std::uint32_t kLeastJudgedSpp = 4, kLeastTrustedSpp = 8;
+constexpr double kLosingFew = 0.55;
+/// Of the light, by unguided samples: with less nobody knows how noisy they are.
+constexpr double kLeastCoverage = 0.8;
 /// Passes that probe: the first ones that have a tree and enough samples to know their variance.
 constexpr std::uint32_t kLeastProbeSpp = 4, kProbePasses = 4;
 /// Samples per pixel by which an open budget is planned.
@@ -60,11 +60,9 @@ void set_guiding(PassPlan& pass, const Job& job, bool guiding_pays) {
         pass.record && pass.index > 0 && pass.index <= kProbePasses && pass.spp >= kLeastProbeSpp && pass.guided;
 }
 
-bool guiding_pays(const PassPlan& pass, const Job& job, const GuidingGain& gain) {
-    if (gain.all == 0 || pass.spp < kLeastJudgedSpp) return true;
-    const bool ask_bulk = pass.spp >= kLeastBulkSpp && gain.bulk > 0 && job.integrator.next_event == NextEvent::always;
-    if (ask_bulk && gain.bulk < kClearLoss && gain.all < kClearWin) return false;
-    return gain.all >= kLosingGain - 1.0 / pass.spp;
+bool guiding_pays(const PassPlan& pass, const GuidingGain& gain) {
+    if (gain.all == 0 || pass.spp < kLeastJudgedSpp || gain.coverage < kLeastCoverage) return true;
+    return gain.bulk >= kLosingBulk || gain.all >= (pass.spp < kLeastTrustedSpp ? kLosingFew : kWinningFew);
 }
 
 PassPlan make_pass(const Job& job, std::uint32_t index, std::uint32_t first_sample, std::uint32_t spp, bool last) {

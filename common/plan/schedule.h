@@ -37,8 +37,8 @@ void set_record(PassPlan& pass, const Job& job, bool record);
 void set_guiding(PassPlan& pass, const Job& job, bool guiding_pays);
 
 /// Whether guiding goes on after a pass that taught, with this gain. Short passes have to say loudly that it does not:
-/// it gets better with each.
-bool guiding_pays(const PassPlan& pass, const Job& job, const GuidingGain& gain);
+/// it gets better with each. Where unguided samples hardly find the light it always does.
+bool guiding_pays(const PassPlan& pass, const GuidingGain& gain);
 
 /// Passes double from guiding.spp_unit; when what remains after a pass would be less than twice that pass, the pass
 /// takes the rest. The budget is rounded up to whole units. For an open budget (budget.seconds, budget.error), whose

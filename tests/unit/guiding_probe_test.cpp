@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <random>
 
 #include "common/film/combine.h"
@@ -111,37 +112,45 @@ TEST(GuidingProbe, SaysWhenItKnowsNothing) {
     EXPECT_EQ(GuidingProbe().gain(pixels(0.5f, 0.5f), stats_of({}), kPass, kImage, kWidth).all, 0) << "no probe yet";
 }
 
-TEST(GuidingProbe, LongPassesAreBelievedSooner) {
-    const Job job;
+bool pays(std::uint32_t spp, double all, double bulk = 0.7, double coverage = 0.95) {
     PassPlan pass;
-    pass.spp = 2;
-    EXPECT_TRUE(guiding_pays(pass, job, {0.1, 1.0}));
-    pass.spp = 4;
-    EXPECT_TRUE(guiding_pays(pass, job, {0.6, 1.0}));
-    EXPECT_FALSE(guiding_pays(pass, job, {0.5, 1.0}));
-    pass.spp = 8;
-    EXPECT_TRUE(guiding_pays(pass, job, {0.7, 1.0}));
-    EXPECT_FALSE(guiding_pays(pass, job, {0.65, 1.0}));
-    pass.spp = 128;
-    EXPECT_FALSE(guiding_pays(pass, job, {0.78, 1.0}));
-    EXPECT_TRUE(guiding_pays(pass, job, {0.81, 1.0}));
-    EXPECT_TRUE(guiding_pays(pass, job, {0, 1.0})) << "not known";
+    pass.spp = spp;
+    return guiding_pays(pass, {all, bulk, coverage});
+}
+
+TEST(GuidingProbe, LongPassesAreBelievedSooner) {
+    EXPECT_TRUE(pays(2, 0.1));
+    EXPECT_TRUE(pays(4, 0.6));
+    EXPECT_FALSE(pays(4, 0.5));
+    EXPECT_FALSE(pays(8, 1.4));
+    EXPECT_TRUE(pays(8, 0)) << "not known";
 }
 
 /// Few samples, of bright paths that are rare, may say the contrary of all others.
-TEST(GuidingProbe, TheBulkOfThePixelsHasASayInLongPasses) {
-    Job job;
-    job.integrator.next_event = NextEvent::always;
-    PassPlan pass;
-    pass.spp = 8;
-    EXPECT_TRUE(guiding_pays(pass, job, {1.0, 0.3}));
-    pass.spp = 16;
-    EXPECT_FALSE(guiding_pays(pass, job, {1.0, 0.3}));
-    EXPECT_TRUE(guiding_pays(pass, job, {1.0, 0.7}));
-    EXPECT_TRUE(guiding_pays(pass, job, {1.6, 0.3})) << "light that few unguided samples find";
-    EXPECT_TRUE(guiding_pays(pass, job, {1.0, 0})) << "not known";
-    job.integrator.next_event = NextEvent::never;
-    EXPECT_TRUE(guiding_pays(pass, job, {1.0, 0.3})) << "few unguided samples find any";
+TEST(GuidingProbe, TheBulkOfThePixelsDecides) {
+    EXPECT_TRUE(pays(4, 0.5, 0.76));
+    EXPECT_TRUE(pays(128, 0.5, 0.76));
+    EXPECT_FALSE(pays(128, 1.4, 0.74));
+    EXPECT_TRUE(pays(128, 1.6, 0.3)) << "light that few unguided samples find";
+}
+
+/// A sun that one path in a million finds makes no noise until it is found.
+TEST(GuidingProbe, SamplesThatFindNoLightSayNothing) {
+    EXPECT_TRUE(pays(16, 0.2, 0.2, 0.5));
+    EXPECT_FALSE(pays(16, 0.2, 0.2, 0.85));
+}
+
+TEST(GuidingProbe, CoverageIsWhatUnguidedSamplesFindEvenly) {
+    const std::vector<PixelEstimate> even = pixels(0.5f, 0.5f);
+    EXPECT_NEAR(both_gains(even).coverage, 1 / std::sqrt(1.01), 1e-6);  // of the floor
+    std::vector<PixelEstimate> rare(kCount);
+    std::uint32_t probes = 0;
+    for (std::uint32_t p = 0; p < rare.size(); ++p) {
+        const bool found = kProbe.holds(p) ? probes++ % 20 == 0 : p % 2 == 0;
+        for (std::uint32_t s = 0; s < 8; ++s)
+            rare[p].add(s, Rgb(found && s == 0 ? 160.0f : 0.0f));  // 20 on average: a mean of 1
+    }
+    EXPECT_NEAR(both_gains(rare).coverage, 3.0 / 20, 0.01);
 }
 
 TEST(GuidingProbe, TheBulkLeavesOutOnePixelInAHundred) {
