@@ -56,7 +56,6 @@ void Farm::begin_pass(const PassPlan& plan, const SdTree& tree, Bytes encoded_tr
     const std::uint64_t hash = hash_bytes(encoded_tree);
     pass_ = OpenPass{plan, std::move(encoded_tree), hash};
     ledger_ = std::make_unique<Ledger>(plan, width, height, job_.farm.tile_size);
-    collector_ = std::make_unique<Collector>(plan, tree, width, height);
     pass_began_ = clock_.seconds();
     first_request_seconds_ = broadcast_seconds_ = 0;
     requested_ = false;
@@ -67,6 +66,8 @@ void Farm::begin_pass(const PassPlan& plan, const SdTree& tree, Bytes encoded_tr
         announce(member->peer);
     }
     send_blob(Blob::tree, 0, chain_of_present());
+    // Its sums take a while to make, as the workers do to unpack the tree.
+    collector_ = std::make_unique<Collector>(plan, tree, width, height);
 }
 
 void Farm::announce(int peer) {

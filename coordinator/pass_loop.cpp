@@ -115,9 +115,10 @@ class PassLoop {
         if (report.plan.guided && report.plan.record) {
             report.guiding_gain = probe_.gain(finished_.back().pixels, report.stats, report.plan.index,
                                               result_.image.mean, static_cast<std::size_t>(result_.width));
-            state_.guiding_pays = state_.guiding_pays && guiding_pays(report.plan, report.guiding_gain);
+            if (state_.guiding == Guiding::open)
+                state_.guiding = treefarm::judge_guiding(report.plan, report.guiding_gain);
         }
-        report.guiding_pays = state_.guiding_pays;
+        report.guiding_pays = state_.guiding != Guiding::loses;
     }
 
     NextPass look_ahead(PassReport& report) {

@@ -155,7 +155,7 @@ PassChooser passes_of(const Job& job) {
     PassChooser chooser = has_open_budget(job) ? open_passes(job) : listed_passes(plan_passes(job));
     return [chooser = std::move(chooser), job](const RenderState& state) {
         NextPass next = chooser(state);
-        if (next.pass) set_guiding(*next.pass, job, state.guiding_pays);
+        if (next.pass) set_guiding(*next.pass, job, state.guiding);
         return next;
     };
 }

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "common/film/error_estimate.h"
+#include "common/plan/schedule.h"
 
 namespace treefarm {
 
@@ -26,7 +27,7 @@ struct RenderState {
     std::vector<PassFacts> passes;  ///< the finished ones
     double seconds = 0;             ///< spent since the first worker asked for work
     ErrorEstimate error;            ///< of the image so far
-    bool guiding_pays = true;       ///< as far as probes tell
+    Guiding guiding = Guiding::open;
 
     std::uint32_t spp() const { return passes.empty() ? 0 : passes.back().spp_before + passes.back().spp; }
     /// Of those passes that had the last one's tree.

@@ -50,19 +50,21 @@ void set_record(PassPlan& pass, const Job& job, bool record) {
     pass.learn_mixture = record && pass.index > 0 && job.guiding.learn_bsdf_fraction;
 }
 
-void set_guiding(PassPlan& pass, const Job& job, bool guiding_pays) {
+void set_guiding(PassPlan& pass, const Job& job, Guiding guiding) {
     if (job.guiding.type != GuidingType::automatic) return;
-    if (!guiding_pays) {
+    if (guiding == Guiding::loses) {
         pass.guided = false;
         set_record(pass, job, false);
     }
-    pass.probe =
-        pass.record && pass.index > 0 && pass.index <= kProbePasses && pass.spp >= kLeastProbeSpp && pass.guided;
+    pass.probe = guiding == Guiding::open && pass.record && pass.index > 0 && pass.index <= kProbePasses &&
+                 pass.spp >= kLeastProbeSpp && pass.guided;
 }
 
-bool guiding_pays(const PassPlan& pass, const GuidingGain& gain) {
-    if (gain.all == 0 || pass.spp < kLeastJudgedSpp || gain.coverage < kLeastCoverage) return true;
-    return gain.bulk >= kLosingBulk || gain.all >= (pass.spp < kLeastTrustedSpp ? kLosingFew : kWinningFew);
+Guiding judge_guiding(const PassPlan& pass, const GuidingGain& gain) {
+    if (gain.all == 0 || pass.spp < kLeastJudgedSpp) return Guiding::open;
+    if (gain.coverage < kLeastCoverage) return Guiding::pays;
+    const bool wins_by_few = gain.all >= (pass.spp < kLeastTrustedSpp ? kLosingFew : kWinningFew);
+    return gain.bulk >= kLosingBulk || wins_by_few ? Guiding::open : Guiding::loses;
 }
 
 PassPlan make_pass(const Job& job, std::uint32_t index, std::uint32_t first_sample, std::uint32_t spp, bool last) {

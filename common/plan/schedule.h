@@ -32,13 +32,20 @@ PassPlan make_pass(const Job& job, std::uint32_t index, std::uint32_t first_samp
 void set_next_event(PassPlan& pass, const Job& job, bool next_event);
 void set_record(PassPlan& pass, const Job& job, bool record);
 
+/// Whether guiding pays, as far as probes tell.
+enum class Guiding {
+    open,   ///< it goes on and is asked again
+    pays,   ///< for good
+    loses,  ///< for good
+};
+
 /// guiding.type "auto": the first passes that have a tree probe whether guiding pays; once it was found not to, passes
 /// are unguided and learn nothing.
-void set_guiding(PassPlan& pass, const Job& job, bool guiding_pays);
+void set_guiding(PassPlan& pass, const Job& job, Guiding guiding);
 
-/// Whether guiding goes on after a pass that taught, with this gain. Short passes have to say loudly that it does not:
-/// it gets better with each. Where unguided samples hardly find the light it always does.
-bool guiding_pays(const PassPlan& pass, const GuidingGain& gain);
+/// What is known after a guided pass that taught, with this gain. Short passes have to say loudly that guiding does not
+/// pay: it gets better with each. Where unguided samples hardly find the light it does, and probes tell no more.
+Guiding judge_guiding(const PassPlan& pass, const GuidingGain& gain);
 
 /// Passes double from guiding.spp_unit; when what remains after a pass would be less than twice that pass, the pass
 /// takes the rest. The budget is rounded up to whole units. For an open budget (budget.seconds, budget.error), whose

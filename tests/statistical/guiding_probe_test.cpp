@@ -30,7 +30,7 @@ TEST(GuidingProbe, GuidingGoesOnWhereItPays) {
     const test::LocalRender run = test::render_locally(scene, automatic_job(127));
     ASSERT_FALSE(run.guiding_gains.empty());
     EXPECT_GT(run.guiding_gains.back(), 1.0);
-    EXPECT_TRUE(run.states.back().guiding_pays);
+    EXPECT_NE(run.states.back().guiding, Guiding::loses);
 }
 
 /// In a closed furnace all paths of the same length carry the same: nothing is gained by a tree.
@@ -43,7 +43,7 @@ TEST(GuidingProbe, GuidingEndsWhereItDoesNotPay) {
     const test::LocalRender run = test::render_locally(scene, job);
     ASSERT_FALSE(run.guiding_gains.empty());
     EXPECT_LT(run.guiding_gains.back(), 0.1);
-    EXPECT_FALSE(run.states.back().guiding_pays);
+    EXPECT_EQ(run.states.back().guiding, Guiding::loses);
     EXPECT_EQ(run.guiding_gains.size(), 3u) << "passes of 1 to 4 spp; nobody asks again";
 
     job.guiding.type = GuidingType::none;

@@ -83,7 +83,7 @@ LocalRender render_locally(const Scene& scene, const Job& job) {
             const GuidingGain gain = probe.gain(run.passes.back().pixels, stats, pass.index, run.image.mean,
                                                 static_cast<std::size_t>(scene.film.width));
             run.guiding_gains.push_back(gain.all);
-            state.guiding_pays = state.guiding_pays && guiding_pays(pass, gain);
+            if (state.guiding == Guiding::open) state.guiding = judge_guiding(pass, gain);
         }
         next = choose(state);
         if (!pass.record || !next.pass) continue;

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <random>
+#include <tuple>
 
 #include "common/film/combine.h"
 #include "common/plan/schedule.h"
@@ -112,32 +113,44 @@ TEST(GuidingProbe, SaysWhenItKnowsNothing) {
     EXPECT_EQ(GuidingProbe().gain(pixels(0.5f, 0.5f), stats_of({}), kPass, kImage, kWidth).all, 0) << "no probe yet";
 }
 
-bool pays(std::uint32_t spp, double all, double bulk = 0.7, double coverage = 0.95) {
+Guiding verdict(std::uint32_t spp, double all, double bulk = 0.7, double coverage = 0.95) {
     PassPlan pass;
     pass.spp = spp;
-    return guiding_pays(pass, {all, bulk, coverage});
+    return judge_guiding(pass, {all, bulk, coverage});
 }
 
 TEST(GuidingProbe, LongPassesAreBelievedSooner) {
-    EXPECT_TRUE(pays(2, 0.1));
-    EXPECT_TRUE(pays(4, 0.6));
-    EXPECT_FALSE(pays(4, 0.5));
-    EXPECT_FALSE(pays(8, 1.4));
-    EXPECT_TRUE(pays(8, 0)) << "not known";
+    EXPECT_EQ(verdict(2, 0.1), Guiding::open);
+    EXPECT_EQ(verdict(4, 0.6), Guiding::open);
+    EXPECT_EQ(verdict(4, 0.5), Guiding::loses);
+    EXPECT_EQ(verdict(8, 1.4), Guiding::loses);
+    EXPECT_EQ(verdict(8, 0), Guiding::open) << "not known";
 }
 
 /// Few samples, of bright paths that are rare, may say the contrary of all others.
 TEST(GuidingProbe, TheBulkOfThePixelsDecides) {
-    EXPECT_TRUE(pays(4, 0.5, 0.76));
-    EXPECT_TRUE(pays(128, 0.5, 0.76));
-    EXPECT_FALSE(pays(128, 1.4, 0.74));
-    EXPECT_TRUE(pays(128, 1.6, 0.3)) << "light that few unguided samples find";
+    EXPECT_EQ(verdict(4, 0.5, 0.76), Guiding::open);
+    EXPECT_EQ(verdict(128, 0.5, 0.76), Guiding::open);
+    EXPECT_EQ(verdict(128, 1.4, 0.74), Guiding::loses);
+    EXPECT_EQ(verdict(128, 1.6, 0.3), Guiding::open) << "light that few unguided samples find";
 }
 
 /// A sun that one path in a million finds makes no noise until it is found.
 TEST(GuidingProbe, SamplesThatFindNoLightSayNothing) {
-    EXPECT_TRUE(pays(16, 0.2, 0.2, 0.5));
-    EXPECT_FALSE(pays(16, 0.2, 0.2, 0.85));
+    EXPECT_EQ(verdict(4, 0.2, 0.2, 0.5), Guiding::pays);
+    EXPECT_EQ(verdict(4, 0.2, 0.2, 0.85), Guiding::loses);
+}
+
+TEST(GuidingProbe, NobodyProbesOnceTheVerdictIsOut) {
+    const Job job;
+    for (const auto& [guiding, guided, probe] :
+         {std::tuple{Guiding::open, true, true}, {Guiding::pays, true, false}, {Guiding::loses, false, false}}) {
+        PassPlan pass = make_pass(job, 3, 7, 8, false);
+        set_guiding(pass, job, guiding);
+        EXPECT_EQ(pass.guided, guided);
+        EXPECT_EQ(pass.record, guided);
+        EXPECT_EQ(pass.probe, probe);
+    }
 }
 
 TEST(GuidingProbe, CoverageIsWhatUnguidedSamplesFindEvenly) {
@@ -213,9 +226,9 @@ TEST(GuidingProbe, OnlyAutoProbesAndOnlyInItsFirstPasses) {
         job.guiding.type = type;
         for (const auto& [index, spp] : {std::pair{1u, 2u}, {2u, 4u}, {4u, 16u}, {5u, 32u}}) {
             PassPlan pass = make_pass(job, index, spp - 1, spp, false);
-            set_guiding(pass, job, true);
+            set_guiding(pass, job, Guiding::open);
             EXPECT_EQ(pass.probe, probes && spp >= 4 && spp <= 16) << spp;
-            set_guiding(pass, job, false);
+            set_guiding(pass, job, Guiding::loses);
             EXPECT_EQ(pass.guided, !probes);
             EXPECT_EQ(pass.record, !probes);
             EXPECT_FALSE(probes && pass.probe);
@@ -223,7 +236,7 @@ TEST(GuidingProbe, OnlyAutoProbesAndOnlyInItsFirstPasses) {
     }
     job.guiding.type = GuidingType::automatic;
     PassPlan last = make_pass(job, 4, 15, 16, true);
-    set_guiding(last, job, true);
+    set_guiding(last, job, Guiding::open);
     EXPECT_FALSE(last.probe);
     EXPECT_TRUE(last.guided);
 }
