@@ -60,7 +60,7 @@ TEST(GuidingProbe, GuidingEndsWhereItDoesNotPay) {
 }
 
 TEST(GuidingProbe, ProbePixelsAreUnguided) {
-    Scene scene = load_scene(test::own_scene("matte-room.xml"), {}, false).scene;
+    Scene scene = load_scene(test::own_scene("features.xml"), {}, false).scene;
     scene.film.width = scene.film.height = 64;
     Job job = automatic_job(127);
     const test::LocalRender run = test::render_locally(scene, job);
