@@ -118,7 +118,7 @@ class PassLoop {
             if (state_.guiding == Guiding::open)
                 state_.guiding = treefarm::judge_guiding(report.plan, report.guiding_gain);
         }
-        report.guiding_pays = state_.guiding != Guiding::loses;
+        report.guiding = state_.guiding;
     }
 
     NextPass look_ahead(PassReport& report) {

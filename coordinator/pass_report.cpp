@@ -221,7 +221,9 @@ std::string pass_summary(const PassReport& r, std::size_t pass_count) {
         text += fmt::format("; tree {} nodes, {:.1f} MB", r.tree.nodes, 1e-6 * static_cast<double>(r.tree.memory));
     if (r.guiding_gain.all > 0)
         text += fmt::format("; guided samples are worth {:.3g} unguided ones{}", r.guiding_gain.all,
-                            r.guiding_pays ? "" : ": unguided from here on");
+                            r.guiding == Guiding::loses  ? ": unguided from here on"
+                            : r.guiding == Guiding::pays ? ", which hardly find the light: guided to the end"
+                                                         : "");
     for (const ErrorForecast& forecast : {r.halving, r.target})
         if (forecast.trust != Trust::none && forecast.relative_error > 0 && forecast.seconds > 0)
             text += fmt::format("; {:.3g} % in {}", 100 * forecast.relative_error, forecast_text(forecast));

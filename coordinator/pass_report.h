@@ -66,13 +66,13 @@ struct PassReport {
     PassSeconds seconds;
     TraceStats stats;
     PassVariance variance;
-    ErrorEstimate error;       ///< of the image with this pass
-    GuidingGain guiding_gain;  ///< of a guided pass that taught, since the first probe pass
-    bool guiding_pays = true;  ///< so the next pass is guided
-    double run_seconds = 0;    ///< since the first worker asked for work, with this pass
-    ErrorForecast halving;     ///< until the error is half of this
-    ErrorForecast target;      ///< until it is budget.error; its relative_error is 0 where there is none
-    TreeFigures tree;          ///< that guided the pass
+    ErrorEstimate error;              ///< of the image with this pass
+    GuidingGain guiding_gain;         ///< of a guided pass that taught, since the first probe pass
+    Guiding guiding = Guiding::open;  ///< what is known with this pass
+    double run_seconds = 0;           ///< since the first worker asked for work, with this pass
+    ErrorForecast halving;            ///< until the error is half of this
+    ErrorForecast target;             ///< until it is budget.error; its relative_error is 0 where there is none
+    TreeFigures tree;                 ///< that guided the pass
     std::uint64_t update_bytes = 0, touched_cells = 0;
     UpdateCaps caps;
     RefineReport refine;  ///< of the tree that this pass taught

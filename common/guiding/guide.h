@@ -149,7 +149,7 @@ class Guide {
         }
         return first + at;
     }
-    static constexpr std::uint32_t kFewCells = 8;  ///< and as many may be read after the last one
+    static constexpr std::uint32_t kFewCells = 8;  ///< and as many may be read beyond a range
     void add_distribution(const SdTree& tree, std::uint32_t distribution);
     void fill_guides(std::uint32_t region, std::size_t first);
     /// All cells of a view: it is small, and tables would outweigh it.
@@ -164,7 +164,7 @@ class Guide {
     float extent_ = 1.0f;
     std::vector<std::array<std::uint32_t, 8>> treelets_;
     std::vector<Cell> cells_;  ///< each distribution's, then one at which the next would begin: cell c of distribution
-                               ///< d is c + d
+                               ///< d is c + d; kFewCells more at the end
     using GuideTable = std::array<std::uint32_t, kGuideSize + 1>;
     Range range(const GuideTable& guide, std::uint32_t entry) const {
         return {&cells_[guide[entry]], guide[entry + 1] - guide[entry] + 1};
