@@ -7,9 +7,9 @@ namespace treefarm {
 namespace {
 
 constexpr std::uint64_t kProbePixels = 2048;
-constexpr std::size_t kBlock = 8;  ///< side, in pixels
-constexpr double kFloor = 0.1;     ///< of the image's mean
-constexpr double kEvenly = 3.0;
+constexpr std::size_t kBlock = 8;    ///< side, in pixels
+constexpr double kFloor = 0.1;       ///< of the image's mean
+constexpr double kEvenly = 3.0;      ///< of its block's mean: what counts of a pixel for the coverage
 constexpr double kLeastGain = 1e-9;  ///< unguided samples have no noise at all
 /// Fewer pixels tell nothing.
 constexpr std::size_t kLeastPixels = 64;

@@ -1,8 +1,5 @@
 #include "common/guiding/box_filter.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "common/math/direction_map.h"
 
 namespace treefarm {
