@@ -108,7 +108,7 @@ TEST(Resampling, OneCandidateIsTheSampleItself) {
 /// it does not: y came first or second, and was taken against z.
 TEST(Resampling, TheBetterOfTwoFollowsItsDensity) {
     const auto weight = [&](const ScatterSample& s) {
-        return s.pdf > 0.0f ? double(average(s.f_cos)) * (s.guide_pdf + 0.2 / (4 * M_PI)) / s.pdf : 0.0;
+        return s.pdf > 0.0f ? double(average(s.f_cos)) * (s.guide_pdf + 1.0 / (4 * M_PI)) / s.pdf : 0.0;
     };
     // How probable it is that w(z) is about 2^(k / 64 - 24), or 0.
     std::array<double, 64 * 48> histogram{};
