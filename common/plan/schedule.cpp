@@ -11,9 +11,9 @@ namespace {
 
 /// Kick-start samples emitters directly in passes that begin with fewer samples per pixel than this (PPG's program).
 constexpr std::uint32_t kKickstartSpp = 128;
-/// Guiding whose bulk gains less than this does not pay. Below 1: it gets better with each tree, and equal noise is
-/// 0.71.
-constexpr double kLosingBulk = 0.75;
+/// Guiding whose bulk gains less than this does not pay. Below 1: it gets better with each tree (docs/guiding.md,
+/// "auto"), and equal noise is 0.71.
+constexpr double kLosingBulk = 0.7;
 /// Unless the few pixels that are left out there say clearly that it does.
 constexpr double kWinningFew = 1.5;
 /// Short passes have to say more loudly that it does not, shorter ones have no say.

@@ -113,7 +113,7 @@ TEST(GuidingProbe, SaysWhenItKnowsNothing) {
     EXPECT_EQ(GuidingProbe().gain(pixels(0.5f, 0.5f), stats_of({}), kPass, kImage, kWidth).all, 0) << "no probe yet";
 }
 
-Guiding verdict(std::uint32_t spp, double all, double bulk = 0.7, double coverage = 0.95) {
+Guiding verdict(std::uint32_t spp, double all, double bulk = 0.65, double coverage = 0.95) {
     PassPlan pass;
     pass.spp = spp;
     return judge_guiding(pass, {all, bulk, coverage});
@@ -129,9 +129,9 @@ TEST(GuidingProbe, LongPassesAreBelievedSooner) {
 
 /// Few samples, of bright paths that are rare, may say the contrary of all others.
 TEST(GuidingProbe, TheBulkOfThePixelsDecides) {
-    EXPECT_EQ(verdict(4, 0.5, 0.76), Guiding::open);
-    EXPECT_EQ(verdict(128, 0.5, 0.76), Guiding::open);
-    EXPECT_EQ(verdict(128, 1.4, 0.74), Guiding::loses);
+    EXPECT_EQ(verdict(4, 0.5, 0.71), Guiding::open);
+    EXPECT_EQ(verdict(128, 0.5, 0.71), Guiding::open);
+    EXPECT_EQ(verdict(128, 1.4, 0.69), Guiding::loses);
     EXPECT_EQ(verdict(128, 1.6, 0.3), Guiding::open) << "light that few unguided samples find";
 }
 
