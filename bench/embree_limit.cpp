@@ -166,7 +166,7 @@ class Limit {
                 PathKey path{job_.sampler.seed, static_cast<std::uint32_t>(y * scene_.film().width + x), 0};
                 for (std::uint32_t sample = 0; sample < spp_;) {
                     kernel.clear();
-                    for (std::uint32_t i = 0; i < kernel.kBatch && sample < spp_; ++i, ++sample) {
+                    for (; !kernel.full() && sample < spp_; ++sample) {
                         path.sample = pass(mode).first_sample + sample;
                         kernel.add(path, scene_.camera().generate(x, y, path));
                     }

@@ -9,9 +9,9 @@ namespace treefarm {
 /// How many paths draw together: a multiple of every vector register's lanes.
 inline constexpr std::uint32_t kDrawBatch = 64;
 
-/// Which paths draw.
+/// Which paths draw, and at which of their vertices.
 struct KeyBatch {
-    alignas(64) std::array<std::uint32_t, kDrawBatch> pixel{}, sample{};
+    alignas(64) std::array<std::uint32_t, kDrawBatch> pixel{}, sample{}, vertex{};
 };
 
 /// The draws of many paths, word by word, so that the compiler makes vector code of what is computed for all.
@@ -21,14 +21,15 @@ struct DrawBatch {
     Draw operator[](std::size_t i) const { return {word[0][i], word[1][i], word[2][i], word[3][i]}; }
 };
 
-/// draw() for the first `count` keys (Philox 4x32, 7 rounds): the same numbers at a fraction of the time. What stands
-/// beyond them is left undefined. Not inlined: it is long, called once for many, and whether it were would hang on what
-/// else its caller does.
+/// draw() for the first `count` keys (Philox 4x32, 7 rounds), `offset` vertices further: the same numbers at a fraction
+/// of the time. What stands beyond them is left undefined. Not inlined: it is long, called once for many, and whether
+/// it were would hang on what else its caller does.
 [[gnu::noinline]] inline void draw_batch(std::uint64_t seed, const KeyBatch& keys, std::uint32_t count,
-                                         std::uint32_t vertex, Stream stream, DrawBatch& out) {
+                                         std::uint32_t offset, Stream stream, DrawBatch& out) {
     constexpr std::uint32_t kLanes = 8;
     for (std::uint32_t i = 0; i < (count + kLanes - 1) / kLanes * kLanes; ++i) {
-        std::uint32_t c0 = keys.pixel[i], c1 = keys.sample[i], c2 = vertex, c3 = static_cast<std::uint32_t>(stream);
+        std::uint32_t c0 = keys.pixel[i], c1 = keys.sample[i], c2 = keys.vertex[i] + offset,
+                      c3 = static_cast<std::uint32_t>(stream);
         auto k0 = static_cast<std::uint32_t>(seed), k1 = static_cast<std::uint32_t>(seed >> 32);
 #pragma GCC unroll 7
         for (int round = 0; round < 7; ++round) {

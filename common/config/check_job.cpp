@@ -12,6 +12,10 @@ void check_job(const Job& job) {
             "paths without a depth limit play roulette from depth " + std::to_string(rr_depth) +
                 " only: in a closed scene they would not end",
             "set integrator.max_depth, or integrator.rr_depth to at most " + std::to_string(kLatestRoulette));
+    if (job.guiding.splitting > 1 && job.guiding.roulette == GuidingRoulette::constant)
+        throw InputError(Location{"guiding.splitting", 0, 0},
+                         "where roulette is constant nobody knows what a path is expected to carry, so none is split",
+                         "set guiding.roulette = \"adjoint\", or guiding.splitting to 0 or 1");
 }
 
 }  // namespace treefarm

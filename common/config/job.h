@@ -65,12 +65,18 @@ enum class LightSelection : std::uint8_t {
     learned,  ///< per region, by what next event found there
 };
 
-/// What the cells of a region are sampled in proportion to.
+/// How guided paths end.
 enum class GuidingRoulette : std::uint8_t {
     constant,  ///< paths survive with 0.99
     adjoint,   ///< by what the tree expects of them, against what it expected of their first vertex
 };
 
+/// As how many paths one may go on at a vertex, unless the job says it.
+inline int usual_splitting(GuidingType type, GuidingRoulette roulette) {
+    return uses_views(type) && roulette == GuidingRoulette::adjoint ? 8 : 1;
+}
+
+/// What the cells of a region are sampled in proportion to.
 enum class GuidingTarget : std::uint8_t {
     radiance,  ///< their mean radiance: sums of L / p
     variance,  ///< the square root of their second moment, from sums of L^2 / p (Rath et al. 2020)
@@ -121,6 +127,7 @@ struct Job {
         DirectionalFilter directional_filter = DirectionalFilter::box;
         GuidingTarget target = GuidingTarget::radiance;
         GuidingRoulette roulette = GuidingRoulette::adjoint;
+        int splitting = 0;        ///< as how many paths one may go on at a vertex; 0: as the type says
         int candidates = 0;       ///< directions drawn at a guided vertex, of which one is taken; 0: as the type says
         int candidate_depth = 1;  ///< up to which depth
         LightSelection light_selection = LightSelection::usual;

@@ -290,6 +290,11 @@ std::vector<JobKey> make_job_keys() {
         [](auto& j) -> auto& { return j.guiding.roulette; },
         std::vector<std::pair<std::string, GuidingRoulette>>{{"adjoint", GuidingRoulette::adjoint},
                                                              {"constant", GuidingRoulette::constant}}));
+    add(integer_key(
+        "guiding.splitting", "0 to 32",
+        "as how many paths one may go on at a vertex, where the tree expects it to carry several times what its first "
+        "vertex does; 0: 8 where guiding.type is view or auto and roulette adjoint, else 1",
+        [](auto& j) -> auto& { return j.guiding.splitting; }, 0, 32));
 
     add(integer_key(
         "budget.spp", "1 to 2^30", "samples per pixel in all passes, unless `budget.seconds` or `budget.error` is set",

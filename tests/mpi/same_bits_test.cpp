@@ -120,6 +120,10 @@ TEST(SameBitsOfScenes, GlossyRoomAsInTheThesis) {
                      {"--set", "guiding.preset=\"thesis\"", "--set", "guiding.view_threshold=50"});
 }
 
+TEST(SameBitsOfScenes, DoorAjarSplitOften) {
+    expect_same_bits(own_scene("door-ajar.xml"), {2, 3, 5}, {"--set", "guiding.splitting=32"});
+}
+
 TEST(SameBitsOfScenes, MixedRoom) {
     expect_same_bits(own_scene("mixed-room.xml"), {3});
 }

@@ -85,6 +85,7 @@ TEST(Depths, WorkPerPathIsBounded) {
                 Job job = guided ? test::guided_job(31, max_depth) : test::plain_job(31, max_depth);
                 job.integrator.rr_depth = 5;
                 job.guiding.roulette = rule;
+                job.guiding.splitting = rule == GuidingRoulette::adjoint ? 32 : 1;
                 const test::LocalRender run = test::render_locally(scene, job);
                 EXPECT_EQ(test::invalid_samples(run), 0u);
                 for (const TraceStats& stats : run.stats) {

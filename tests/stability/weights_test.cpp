@@ -126,8 +126,8 @@ TEST(Weights, DeltaLobesBesideATree) {
 /// 37 | Roulette on black, tiny, huge and invalid throughputs
 /// Others: survival probabilities of 0 or NaN were divided by (EARS clamps at 0.05, practical-path-guiding at 0.1).
 /// Here: survival is at most 0.99, and where it may be 0 or NaN no path survives.
-/// Holds: for every rule, throughput and brightness the survival is NaN (nobody survives) or in [0, 0.99], and the
-/// weight of who survives stays finite.
+/// Holds: for every rule, throughput and brightness the survival is NaN (nobody survives) or in [0, 0.99], the weight
+/// of who survives stays finite, and nobody goes on as more paths than may be.
 TEST(Weights, RouletteOfAnyThroughput) {
     const LetFloatsBe hostile;  // numbers that are none come in
     float most = 0.0f;
@@ -143,6 +143,8 @@ TEST(Weights, RouletteOfAnyThroughput) {
                     }
                     ASSERT_TRUE(survival >= 0.0f && survival <= 0.99f) << t << " " << survival;
                     most = std::max(most, survival);
+                    const std::uint32_t paths = Roulette(rule, 1).splitting(Rgb(t), scale, brightness, 32);
+                    ASSERT_TRUE(paths >= 1 && paths <= 32) << t << " " << paths;
                     // The smallest random number that lets a path live is 0, and only where survival is above it.
                     if (survival > 0.0f && t < 1e30f) {
                         ASSERT_TRUE(std::isfinite(t * (1.0f / std::max(survival, 0x1p-32f))));

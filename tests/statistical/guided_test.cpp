@@ -19,12 +19,13 @@ struct Case {
     int spp_unit = 4;
     int candidates = 1, candidate_depth = 1;
     LightSelection light_selection = LightSelection::power;
+    int splitting = 1;
 };
 
 void PrintTo(const Case& c, std::ostream* out) {
     *out << c.scene << ", next event " << static_cast<int>(c.next_event) << ", MIS " << static_cast<int>(c.mis)
          << ", candidates " << c.candidates << " to depth " << c.candidate_depth << ", light selection "
-         << static_cast<int>(c.light_selection);
+         << static_cast<int>(c.light_selection) << ", splitting " << c.splitting;
 }
 
 struct Estimate {
@@ -75,6 +76,7 @@ TEST_P(GuidedAgainstUnguided, AgreesInEveryBlock) {
     job.guiding.candidates = GetParam().candidates;
     job.guiding.candidate_depth = GetParam().candidate_depth;
     job.guiding.light_selection = GetParam().light_selection;
+    job.guiding.splitting = GetParam().splitting;
     job.integrator.next_event = GetParam().next_event;
     const Estimate guided = render(scene, job);
 
@@ -83,16 +85,19 @@ TEST_P(GuidedAgainstUnguided, AgreesInEveryBlock) {
 
 INSTANTIATE_TEST_SUITE_P(
     Scenes, GuidedAgainstUnguided,
-    ::testing::Values(Case{"cornell-box.xml", NextEvent::never}, Case{"cornell-box.xml", NextEvent::always},
-                      Case{"cornell-box.xml", NextEvent::kickstart},
-                      Case{"cornell-box.xml", NextEvent::always, MisHeuristic::balance, 1},
-                      Case{"cornell-box.xml", NextEvent::never, MisHeuristic::balance, 1, 2},
-                      Case{"cornell-box.xml", NextEvent::always, MisHeuristic::balance, 1, 4, 8},
-                      Case{"caustic.xml", NextEvent::kickstart, MisHeuristic::power, 1, 3, 8},
-                      Case{"diffuse-room.xml", NextEvent::always, MisHeuristic::balance, 1, 1, 1,
-                           LightSelection::learned},
-                      Case{"features.xml", NextEvent::always, MisHeuristic::balance, 1, 2, 1, LightSelection::learned},
-                      Case{"door-ajar.xml", NextEvent::always}, Case{"door-ajar.xml", NextEvent::kickstart}));
+    ::testing::Values(
+        Case{"cornell-box.xml", NextEvent::never}, Case{"cornell-box.xml", NextEvent::always},
+        Case{"cornell-box.xml", NextEvent::kickstart},
+        Case{"cornell-box.xml", NextEvent::always, MisHeuristic::balance, 1},
+        Case{"cornell-box.xml", NextEvent::never, MisHeuristic::balance, 1, 2},
+        Case{"cornell-box.xml", NextEvent::always, MisHeuristic::balance, 1, 4, 8},
+        Case{"caustic.xml", NextEvent::kickstart, MisHeuristic::power, 1, 3, 8},
+        Case{"diffuse-room.xml", NextEvent::always, MisHeuristic::balance, 1, 1, 1, LightSelection::learned},
+        Case{"features.xml", NextEvent::always, MisHeuristic::balance, 1, 2, 1, LightSelection::learned},
+        Case{"cornell-box.xml", NextEvent::never, MisHeuristic::balance, 1, 1, 1, LightSelection::power, 32},
+        Case{"door-ajar.xml", NextEvent::always, MisHeuristic::power, 1, 2, 8, LightSelection::power, 8},
+        Case{"features.xml", NextEvent::always, MisHeuristic::power, 1, 1, 1, LightSelection::learned, 32},
+        Case{"door-ajar.xml", NextEvent::always}, Case{"door-ajar.xml", NextEvent::kickstart}));
 
 /// A guided job for a small image.
 Job with_a_fine_tree(std::uint32_t spp) {

@@ -32,6 +32,9 @@ TEST(Job, PathsMustEnd) {
     EXPECT_NO_THROW(check_job(job_of("[integrator]\nmax_depth = -1\nrr_depth = 10000\n")));
     EXPECT_NO_THROW(check_job(job_of("[integrator]\nmax_depth = 5\nrr_depth = 1000000\n")));
     EXPECT_THROW(check_job(job_of("[integrator]\nmax_depth = -1\nrr_depth = 10001\n")), InputError);
+    EXPECT_NO_THROW(check_job(job_of("[guiding]\nroulette = \"constant\"\n")));
+    EXPECT_NO_THROW(check_job(job_of("[guiding]\nroulette = \"adjoint\"\nsplitting = 8\n")));
+    EXPECT_THROW(check_job(job_of("[guiding]\nroulette = \"constant\"\nsplitting = 2\n")), InputError);
 }
 
 TEST(Job, ReadsEveryKind) {
@@ -154,6 +157,7 @@ TEST(Job, TheImprovedProgramLeavesNextEventToTheScene) {
     EXPECT_EQ(job.guiding.roulette, GuidingRoulette::constant);
     EXPECT_EQ(job.guiding.light_selection, LightSelection::power);
     EXPECT_EQ(job.guiding.candidates, 1);
+    EXPECT_EQ(job.guiding.splitting, 1);
     EXPECT_EQ(job.integrator.mis, MisHeuristic::power);
     EXPECT_EQ(job.integrator.next_event, NextEvent::kickstart);
     EXPECT_FALSE(job.integrator.split_glass);

@@ -26,7 +26,7 @@ class Branches {
     /// At the first surface, which has drawn path.scatter: if the other of two ways is open, the path takes the
     /// likelier with certainty, and the lesser may become a branch.
     template <class Surface>
-    void split(PathState<Surface>& path, std::uint8_t index, std::uint32_t vertex, bool strict_normals) {
+    void split(PathState<Surface>& path, std::uint8_t index, bool strict_normals) {
         const Surface& surface = *path.surface;
         const BsdfSample other = surface.bsdf().other_way(surface.wo(), path.scatter.local);
         if (!(other.pdf > 0.0f)) return;
@@ -39,7 +39,7 @@ class Branches {
         path.scatter.effective_pdf = 1.0f;
         lesser.effective_pdf = chance(lesser.pdf);
         if (is_black(lesser.f_cos) || (strict_normals && dot(surface.ng(), lesser.world) * lesser.local.z <= 0.0f) ||
-            !(to_unit(draw(path.key, vertex, Stream::branch)[0]) < lesser.effective_pdf))
+            !(to_unit(draw(path.key, path.vertex, Stream::branch)[0]) < lesser.effective_pdf))
             return;
         branches_.push_back({index,
                              {offset_origin(path.hit, lesser.world), lesser.world},

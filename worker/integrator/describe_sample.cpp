@@ -44,6 +44,13 @@ struct TextObserver : NoObserver {
     void branch(const Ray& ray, const Rgb& throughput) {
         text << "the other way at depth 1: (delta) along " << ray.direction << " throughput " << throughput << '\n';
     }
+    void split(std::uint32_t paths, const Rgb& throughput) {
+        text << "  goes on as " << paths << ", throughput of each " << throughput << '\n';
+    }
+    void copy(const PathCopy& copy) {
+        text << "copy " << int{copy.copies.number} << " from depth " << copy.depth << " throughput " << copy.throughput
+             << '\n';
+    }
     void end(const char* why) { text << "  end: " << why << '\n'; }
 };
 

@@ -18,16 +18,18 @@ class DirectionChoice {
         : guide_(guide), candidates_(kGuided ? settings.candidates : 1), candidate_depth_(settings.candidate_depth) {}
 
     /// The random numbers of a step; Path::lane says which are a path's.
-    void draw_numbers(std::uint64_t seed, const KeyBatch& keys, std::uint32_t lanes, std::uint32_t vertex) {
-        draw_batch(seed, keys, lanes, vertex, Stream::scatter, draws_);
+    /// `least_depth`: of their vertices.
+    void draw_numbers(std::uint64_t seed, const KeyBatch& keys, std::uint32_t lanes, int least_depth) {
+        draw_batch(seed, keys, lanes, 0, Stream::scatter, draws_);
         cosine_hemisphere_batch(draws_, lanes, cosines_);
-        several_ = candidates_ > 1 && vertex <= static_cast<std::uint32_t>(candidate_depth_);
+        several_ = candidates_ > 1 && least_depth <= candidate_depth_;
         if (!several_) return;
         seed_ = seed;
         keys_ = keys;
         lanes_ = lanes;
-        first_ = vertex * Candidates::kMost;
-        draw_batch(seed, keys, lanes, first_, Stream::candidate, picks_);
+        for (std::uint32_t& vertex : keys_.vertex)
+            vertex *= Candidates::kMost;
+        draw_batch(seed, keys_, lanes, 0, Stream::candidate, picks_);
     }
 
     /// What sampling the guide would read first.
@@ -55,7 +57,7 @@ class DirectionChoice {
             offered_[index].clear();
         for (std::uint32_t candidate = 0; candidate < candidates_; ++candidate) {
             if (candidate != 0) {
-                draw_batch(seed_, keys_, lanes_, first_ + candidate, Stream::candidate, draws_);
+                draw_batch(seed_, keys_, lanes_, candidate, Stream::candidate, draws_);
                 cosine_hemisphere_batch(draws_, lanes_, cosines_);
                 batch_.clear();
             }
@@ -86,7 +88,7 @@ class DirectionChoice {
   private:
     /// A delta lobe has no density to weigh by.
     std::uint32_t candidates_of(const Path& path) const {
-        return path.probe || path.surface->has_delta() ? 1 : candidates_;
+        return path.probe || path.depth > candidate_depth_ || path.surface->has_delta() ? 1 : candidates_;
     }
 
     float technique(const Path& path) const { return to_unit(draws_.word[0][path.lane]); }
@@ -101,7 +103,7 @@ class DirectionChoice {
     const int candidate_depth_;
     bool several_ = false;
     std::uint64_t seed_ = 0;
-    std::uint32_t lanes_ = 0, first_ = 0;
+    std::uint32_t lanes_ = 0;
     KeyBatch keys_;
     DrawBatch draws_, picks_;
     DirectionBatch cosines_;

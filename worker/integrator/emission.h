@@ -21,26 +21,26 @@ class Emission {
 
     // Rare, and out of line: what emitters may be (textured, an image) costs other vertices nothing, not a register.
 
-    [[gnu::noinline]] void from_emitter(Path& path, PathRecorder* recorder, int depth) const {
+    [[gnu::noinline]] void from_emitter(Path& path, PathRecorder* recorder) const {
         const Emitters& emitters = scene_.emitters();
-        add(path, recorder, emitters.emitted(path.hit, -path.ray.direction), depth,
+        add(path, recorder, emitters.emitted(path.hit, -path.ray.direction),
             [&] { return emitters.pdf_direct(path.scatter_point, path.ray.direction, path.hit, path.scatter_lights); });
     }
 
-    [[gnu::noinline]] void from_infinity(Path& path, PathRecorder* recorder, int depth) const {
+    [[gnu::noinline]] void from_infinity(Path& path, PathRecorder* recorder) const {
         assert(scene_.effects().environment);
         const Emitters& emitters = scene_.emitters();
-        add(path, recorder, emitters.environment(path.ray.direction), depth,
+        add(path, recorder, emitters.environment(path.ray.direction),
             [&] { return emitters.pdf_environment(path.ray.direction, path.scatter_lights); });
     }
 
   private:
     /// Next event finds `emitted` with the density `next_event_pdf()`.
     template <class Pdf>
-    void add(Path& path, PathRecorder* recorder, const Rgb& emitted, int depth, Pdf next_event_pdf) const {
-        if (is_black(emitted) || (depth == 1 && settings_.hide_emitters)) return;
+    void add(Path& path, PathRecorder* recorder, const Rgb& emitted, Pdf next_event_pdf) const {
+        if (is_black(emitted) || (path.depth == 1 && settings_.hide_emitters)) return;
         float light_pdf = 0.0f, weight = 1.0f;
-        if (settings_.next_event && depth > 1) {
+        if (settings_.next_event && path.depth > 1) {
             light_pdf = next_event_pdf();
             weight = mis_weight(settings_.mis, path.scatter_pdf, light_pdf);
         }

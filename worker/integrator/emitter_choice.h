@@ -19,8 +19,8 @@ class EmitterChoice {
           special_(delta_alone_ || together_) {}
 
     /// The random numbers of a step.
-    void draw_numbers(std::uint64_t seed, const KeyBatch& keys, std::uint32_t lanes, std::uint32_t vertex) {
-        if (needed_) draw_batch(seed, keys, lanes, vertex, Stream::light, draws_);
+    void draw_numbers(std::uint64_t seed, const KeyBatch& keys, std::uint32_t lanes) {
+        if (needed_) draw_batch(seed, keys, lanes, 0, Stream::light, draws_);
     }
 
     /// Whether there is anything to sample in this pass.

@@ -162,8 +162,9 @@ class PlaceTracer {
     const std::uint64_t seed_;
     TraceStats stats_;
     Scatterer<Surface> scatterer_;
-    PathKernel<Surface, false, false> kernel_;
-    std::array<Rgb, kDrawBatch> waiting_;  ///< f |cos| of the directions that the kernel's paths start into
+    using Kernel = PathKernel<Surface, false, false>;
+    Kernel kernel_;
+    std::array<Rgb, Kernel::kGroup> waiting_;  ///< f |cos| of the directions that the kernel's paths start into
 };
 
 template <class Surface>

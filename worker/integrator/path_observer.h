@@ -1,6 +1,7 @@
 #pragma once
 
 #include "worker/integrator/guided_sampling.h"
+#include "worker/integrator/path_copies.h"
 #include "worker/integrator/pending_light.h"
 
 namespace treefarm {
@@ -16,6 +17,8 @@ struct NoObserver {
     void next_event(const PendingLight&, float, float, const Rgb&) {}
     void roulette(float, bool) {}
     void branch(const Ray&, const Rgb&) {}
+    void split(std::uint32_t, const Rgb&) {}
+    void copy(const PathCopy&) {}
     void end(const char*) {}
 };
 

@@ -29,14 +29,13 @@ class PathRecorder {
         light_samples_.clear();
         choices_.clear();
         outside_ = 0;
-        branch_ = 0;
     }
 
     /// What comes is the other way out of the path's first surface, by a delta lobe of this weight: it carries nothing
     /// for the vertices so far.
     void begin_branch(const Rgb& weight, std::uint32_t vertex) {
-        branch_ = vertices_.size();
         add_delta_vertex(weight, {}, vertex);
+        vertices_.back().first = true;
     }
 
     /// A direction was sampled: its code and density, f |cos| / density, and its bins of the mixture histograms.
@@ -88,12 +87,12 @@ class PathRecorder {
         std::uint64_t recorded = light_samples_.size();
         for (std::size_t i = vertices_.size(); i-- > 0;) {
             const Vertex& v = vertices_[i];
-            if (i + 1 == branch_) carried = Rgb(0.0f);
             carried = v.emission + (v.reflected + carried) * (1.0f / v.survival);
             const Rgb arriving = carried;
             carried *= v.weight;
-            if (v.target.empty()) continue;
             const Lesson lesson{v.code, v.pdf, average(arriving), finite(average(carried)), v.bins};
+            if (v.first) carried = Rgb(0.0f);
+            if (v.target.empty()) continue;
             recorded += v.pdf > 0.0f;
             teach(path, v.vertex, Stream::rounding, v.target, lesson, log);
         }
@@ -111,6 +110,7 @@ class PathRecorder {
         RecordTarget target;
         std::uint32_t code, vertex;
         MixtureBins bins;
+        bool first = false;  ///< carries nothing for those before it
     };
     /// What a direction carried.
     struct Lesson {
@@ -172,7 +172,6 @@ class PathRecorder {
     std::vector<LightSample> light_samples_;
     std::vector<Record> choices_;
     std::uint64_t outside_ = 0;
-    std::size_t branch_ = 0;  ///< number of the branch's first vertex; 0: there is none, or nothing before it
 };
 
 }  // namespace treefarm

@@ -15,6 +15,14 @@ float brightness(const PathState<Surface>& path, const Guide& guide, const PathS
     return power_of_two(std::clamp(settings.target == GuidingTarget::variance ? exponent / 2 : exponent, -60, 60));
 }
 
+/// As how many paths it goes on from where it has arrived.
+template <class Surface>
+std::uint32_t splitting(const PathState<Surface>& path, const Guide& guide, const PathSettings& settings) {
+    if (settings.splitting == 1 || path.probe) return 1;
+    const float spread = Surface::kTransmits ? path.spread : 1.0f;
+    return settings.roulette.splitting(path.throughput, spread, brightness(path, guide, settings), settings.splitting);
+}
+
 /// With which probability a path goes on from where it has arrived.
 template <bool kGuided, class Surface>
 float survival(const PathState<Surface>& path, const Guide& guide, const PathSettings& settings) {

@@ -30,6 +30,7 @@ struct PathSettings {
     bool jitter_records;       ///< stochastic spatial filter
     std::uint32_t candidates;  ///< directions drawn at a guided vertex, of which one is taken (candidates.h)
     int candidate_depth;       ///< up to here; deeper vertices draw one
+    std::uint32_t splitting;   ///< as how many paths one may go on at a vertex
     GuidingTarget target;
     ViewRecords view_records;
     Roulette roulette, unguided_roulette;
@@ -50,6 +51,9 @@ struct PathSettings {
           candidates(static_cast<std::uint32_t>(job.guiding.candidates == 0 ? usual_candidates(job.guiding.type)
                                                                             : job.guiding.candidates)),
           candidate_depth(job.guiding.candidate_depth),
+          splitting(static_cast<std::uint32_t>(job.guiding.splitting == 0
+                                                   ? usual_splitting(job.guiding.type, job.guiding.roulette)
+                                                   : job.guiding.splitting)),
           target(job.guiding.target),
           view_records(job.guiding.view_records),
           roulette(job.guiding.type == GuidingType::none || !pass.guided ? Roulette::Rule::unguided

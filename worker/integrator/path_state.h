@@ -5,6 +5,7 @@
 
 #include "worker/geometry/embree_scene.h"
 #include "worker/integrator/guided_sampling.h"
+#include "worker/integrator/path_copies.h"
 
 namespace treefarm {
 
@@ -12,6 +13,8 @@ namespace treefarm {
 template <class Surface>
 struct PathState {
     PathKey key;
+    std::uint32_t vertex;  ///< by which random numbers are keyed; copies and branches have numbers of their own
+    int depth;             ///< edges so far
     Ray ray;
     Rgb radiance, throughput;
     float scatter_pdf;  ///< infinite after a delta lobe: next event cannot have found what it meets
@@ -20,6 +23,9 @@ struct PathState {
     const LightShare* scatter_lights;  ///< how next event chose an emitter there
     bool probe;                        ///< unguided in a pass that probes whether guiding pays
     int first_exponent;                ///< of the quanta where the camera's ray arrived: how bright it is there
+    std::uint16_t origin;              ///< the group's camera path that it is part of
+    CopyBudget copies;
+    bool copied;  ///< has just left another: its ray has arrived, and what it met is accounted for
 
     // Where the ray has arrived; left over from before where it met nothing.
     bool found;
@@ -34,6 +40,10 @@ struct PathState {
 
     void begin(const PathKey& path, const Ray& from_camera) {
         key = path;
+        vertex = 0;
+        depth = 0;
+        copies = {};
+        copied = false;
         ray = from_camera;
         radiance = scatter_point = Rgb(0.0f);
         throughput = Rgb(1.0f);
@@ -44,11 +54,32 @@ struct PathState {
     }
 
     /// Goes on from a delta lobe at the first surface, to add more to the same radiance.
-    void resume(const Ray& from_surface, const Rgb& carried, float eta2) {
+    void resume(const Ray& from_surface, const Rgb& carried, float eta2, std::uint32_t at_vertex) {
+        vertex = at_vertex;
+        depth = 1;
         ray = from_surface;
         throughput = carried;
         scatter_pdf = std::numeric_limits<float>::infinity();
         spread = eta2;
+    }
+
+    /// A copy of this path, to go on from where its ray has arrived.
+    PathCopy copy() const { return {origin, copies, depth, ray, meeting, throughput, spread, first_exponent}; }
+
+    /// Goes on as a copy of the path of this key; it adds to a radiance of its own.
+    void begin(const PathKey& path, const PathCopy& copy) {
+        begin(path, copy.ray);
+        vertex = copy.first_vertex();
+        depth = copy.depth - 1;
+        throughput = copy.throughput;
+        spread = copy.spread;
+        first_exponent = copy.first_exponent;
+        origin = copy.origin;
+        copies = copy.copies;
+        copied = true;
+        probe = false;
+        found = true;
+        meeting = copy.meeting;
     }
 };
 

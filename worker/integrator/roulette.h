@@ -38,12 +38,22 @@ class Roulette {
         return 0.99f;
     }
 
+    /// As how many paths, at most `most`, one goes on that is expected to carry several times what its first vertex
+    /// does: each of them carries at least kShare of that. 1 but by the adjoint rule.
+    std::uint32_t splitting(const Rgb& throughput, float scale, float brightness, std::uint32_t most) const {
+        if (rule_ != Rule::adjoint) return 1;
+        const float paths = max_component(throughput) * scale * brightness * (1.0f / kShare);
+        if (!(paths >= 2.0f)) return 1;
+        return static_cast<std::uint32_t>(std::min(paths, static_cast<float>(most)));
+    }
+
     bool needs_brightness() const { return rule_ == Rule::adjoint; }
 
   private:
     /// A path plays when it is expected to carry less than a quarter of what its first vertex does: the estimate is
     /// rough, and a path too many costs less than one that came through against the odds.
     static constexpr float kWindow = 4.0f, kLeast = 0.5f, kMost = 0.95f;
+    static constexpr float kShare = 2.0f;
 
     Rule rule_;
     int first_depth_;

@@ -34,7 +34,7 @@ std::span<const TileKernel> general_kernels();
 std::span<const TileKernel> viewed_kernels();
 
 /// The film's door: what is not a radiance counts as black, is counted, and can be reproduced from what is kept.
-bool refuse_invalid(Rgb& radiance, const WorkUnit& unit, int x, int y, std::uint32_t sample, TraceStats& stats);
+void refuse_invalid(Rgb& radiance, const WorkUnit& unit, int x, int y, std::uint32_t sample, TraceStats& stats);
 
 /// Walks through the samples of a unit: pixel by pixel, row by row.
 struct UnitCursor {
@@ -60,7 +60,7 @@ template <class Surface, bool kGuided, bool kRecord>
 void render_with(const TileJob& tile) {
     const auto& [scene, job, pass, guide, unit, pixels, log, stats] = tile;
     const PathSettings settings(scene, job, pass, guide);
-    PathKernel<Surface, kGuided, kRecord> kernel(scene, guide, settings, stats);
+    PathKernel<Surface, kGuided, kRecord> kernel(scene, guide, settings, stats, &log);
     const std::uint32_t first = unit.chunk * pass.blocks_per_unit * kBlockSamples;
     const std::uint32_t last = std::min(first + pass.blocks_per_unit * kBlockSamples, pass.spp);
     const std::int64_t width = scene.film().width;
@@ -81,11 +81,8 @@ void render_with(const TileJob& tile) {
         for (std::uint32_t i = 0; i < kernel.count(); ++i) {
             if (end.sample % kBlockSamples == 0) blocks.emplace_back();
             Rgb radiance = kernel.radiance(i);
-            const bool refused = refuse_invalid(radiance, unit, end.x, end.y, end.sample, stats);
+            refuse_invalid(radiance, unit, end.x, end.y, end.sample, stats);
             if (!is_black(radiance)) ++stats.nonzero_paths;
-            if constexpr (kRecord)
-                if (!refused && !(kGuided && settings.probe.holds(key(end).pixel)))
-                    stats.records += kernel.recorder(i).commit(key(end), log);
             blocks.back().add(key(end).sample, radiance);
             if (end.advance()) {
                 pixels.push_back(reduce_blocks(blocks));

@@ -5,10 +5,6 @@
 namespace treefarm {
 namespace {
 
-bool is_valid(const Rgb& c) {
-    return is_finite(c) && c.x >= 0.0f && c.y >= 0.0f && c.z >= 0.0f;
-}
-
 const TileKernel& kernel(const KernelChoice& choice) {
     for (const auto& kernels : {diffuse_kernels(), general_kernels(), viewed_kernels()})
         for (const TileKernel& kernel : kernels)
@@ -26,8 +22,8 @@ std::vector<KernelChoice> compiled_kernels() {
     return choices;
 }
 
-bool refuse_invalid(Rgb& radiance, const WorkUnit& unit, int x, int y, std::uint32_t sample, TraceStats& stats) {
-    if (is_valid(radiance)) return false;
+void refuse_invalid(Rgb& radiance, const WorkUnit& unit, int x, int y, std::uint32_t sample, TraceStats& stats) {
+    if (is_radiance(radiance)) return;
     ++stats.invalid_samples;
     if (stats.first_invalid.size() < TraceStats::kMaxReported)
         stats.first_invalid.push_back({unit.pass,
@@ -36,7 +32,6 @@ bool refuse_invalid(Rgb& radiance, const WorkUnit& unit, int x, int y, std::uint
                                        sample,
                                        {radiance.x, radiance.y, radiance.z}});
     radiance = Rgb(0.0f);
-    return true;
 }
 
 void render_unit(const TraceScene& scene, const Job& job, const PassPlan& pass, const Guide& guide,

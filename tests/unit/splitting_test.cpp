@@ -1,0 +1,183 @@
+// Paths that go on as several (worker/integrator/path_copies.h).
+#include <gtest/gtest.h>
+
+#include <map>
+#include <numeric>
+
+#include "common/scene/load.h"
+#include "tests/support/local_render.h"
+#include "tests/support/support.h"
+#include "worker/integrator/path_copies.h"
+#include "worker/integrator/roulette.h"
+#include "worker/integrator/tile_renderer.h"
+
+namespace treefarm {
+namespace {
+
+TEST(Splitting, IsByWhatAPathIsExpectedToCarry) {
+    using Rule = Roulette::Rule;
+    const Roulette adjoint(Rule::adjoint, 5);
+    EXPECT_EQ(adjoint.splitting(Rgb(1.0f), 1.0f, 1.0f, 8), 1u);
+    EXPECT_EQ(adjoint.splitting(Rgb(0.1f, 3.9f, 0.1f), 1.0f, 1.0f, 8), 1u);
+    EXPECT_EQ(adjoint.splitting(Rgb(0.1f, 4.0f, 0.1f), 1.0f, 1.0f, 8), 2u);
+    EXPECT_EQ(adjoint.splitting(Rgb(0.5f), 2.0f, 8.0f, 8), 4u);
+    EXPECT_EQ(adjoint.splitting(Rgb(1e30f), 1e6f, 0x1p60f, 8), 8u);
+    EXPECT_EQ(adjoint.splitting(Rgb(std::numeric_limits<float>::infinity()), 1.0f, 1.0f, 8), 8u);
+    EXPECT_EQ(adjoint.splitting(Rgb(std::numeric_limits<float>::quiet_NaN()), 1.0f, 1.0f, 8), 1u);
+    for (const Rule rule : {Rule::unguided, Rule::untrained, Rule::constant})
+        EXPECT_EQ(Roulette(rule, 5).splitting(Rgb(100.0f), 1.0f, 1.0f, 8), 1u);
+}
+
+/// Every path splits as often as it may: into `ways` each time.
+std::uint32_t most_copies(CopyBudget budget, std::uint32_t ways) {
+    const std::uint32_t paths = budget.split(ways);
+    return paths == 1 ? 0 : paths - 1 + paths * most_copies(budget, ways);
+}
+
+TEST(Splitting, CopiesOfAPathAreBounded) {
+    EXPECT_EQ(CopyBudget{}.split(1), 1u);
+    for (std::uint32_t ways = 2; ways <= 40; ++ways) {
+        const std::uint32_t copies = most_copies({}, ways);
+        EXPECT_GE(copies, ways - 1);
+        EXPECT_LE(copies, std::uint32_t{CopyBudget::kMost}) << ways;
+    }
+    CopyBudget spent;
+    spent.left = 0;
+    EXPECT_EQ(spent.split(8), 1u);
+}
+
+PathCopy copy_of(std::uint16_t origin, std::uint8_t left_by, int depth) {
+    PathCopy copy{};
+    copy.origin = origin;
+    copy.copies.number = left_by;
+    copy.depth = depth;
+    return copy;
+}
+
+TEST(Splitting, CopiesAreNumberedWhateverTheirCompany) {
+    // Path 1 left two; then, with another path between, its copies 1 and 2 left some in the other order.
+    std::vector<std::uint8_t> numbers(3, 0);
+    PathCopies copies;
+    copies.leave(copy_of(1, 0, 3));
+    copies.leave(copy_of(0, 0, 2));
+    copies.leave(copy_of(1, 0, 5));
+    const auto first = copies.next(numbers);
+    ASSERT_EQ(first.size(), 3u);
+    EXPECT_EQ(first[0].origin, 0);
+    EXPECT_EQ(first[1].depth, 3);
+    EXPECT_EQ(first[1].copies.number, 1);
+    EXPECT_EQ(first[2].depth, 5);
+    EXPECT_EQ(first[2].copies.number, 2);
+    EXPECT_TRUE(copies.empty());
+    std::map<int, int> alone;
+    for (const bool company : {false, true}) {
+        std::fill(numbers.begin(), numbers.end(), std::uint8_t{2});
+        if (company) copies.leave(copy_of(2, 1, 9));
+        if (company) copies.leave(copy_of(1, 2, 7));
+        copies.leave(copy_of(1, 1, 4));
+        if (company) copies.leave(copy_of(0, 1, 9));
+        copies.leave(copy_of(1, 1, 6));
+        if (!company) copies.leave(copy_of(1, 2, 7));
+        std::map<int, int> number_of;
+        for (const PathCopy& copy : copies.next(numbers))
+            if (copy.origin == 1) number_of[copy.depth] = copy.copies.number;
+        if (!company) alone = number_of;
+        EXPECT_EQ(number_of, alone);
+    }
+    EXPECT_EQ(alone, (std::map<int, int>{{4, 3}, {6, 4}, {7, 5}}));
+}
+
+TEST(Splitting, RandomNumbersOfCopiesAreTheirOwn) {
+    PathCopy copy = copy_of(0, 1, 7);
+    EXPECT_EQ(copy.first_vertex(), (1u << 16) + 6);
+    copy.copies.number = CopyBudget::kMost;
+    EXPECT_LT(copy.first_vertex() + (1u << 16), 1u << 28) << "below those of the other way out of glass";
+}
+
+class SplittingInARoom : public ::testing::Test {
+  protected:
+    SplittingInARoom() {
+        scene_ = load_scene(test::own_scene("door-ajar.xml"), {}, false).scene;
+        scene_.film.width = 24;
+        scene_.film.height = 16;
+        job_.budget.spp = 31;
+        job_.guiding.spatial_threshold = 200;
+        job_.guiding.splitting = 32;
+        tree_ = test::render_locally(scene_, job_).tree;
+        pass_.spp = 96;
+        pass_.blocks_per_unit = 64;
+        pass_.next_event = true;
+        pass_.guided = true;
+        pass_.record = true;
+    }
+
+    struct Rendered {
+        std::vector<PixelEstimate> pixels;
+        RecordLog log;
+        TraceStats stats;
+    };
+
+    Rendered render(const Job& job, const WorkUnit& unit) const {
+        Rendered r;
+        const TraceScene trace(scene_, job);
+        render_unit(trace, job, pass_, Guide(tree_), unit, r.pixels, r.log, r.stats);
+        return r;
+    }
+
+    WorkUnit part(int x0, int y0, int x1, int y1) const {
+        return {pass_.index,
+                static_cast<std::uint16_t>(x0),
+                static_cast<std::uint16_t>(y0),
+                static_cast<std::uint16_t>(x1),
+                static_cast<std::uint16_t>(y1),
+                0};
+    }
+
+    Scene scene_;
+    Job job_;
+    SdTree tree_;
+    PassPlan pass_;
+};
+
+/// Groups, batches of copies and their order differ; samples and what they teach do not.
+TEST_F(SplittingInARoom, DoesNotDependOnCompany) {
+    const Rendered whole = render(job_, part(0, 0, 24, 16));
+    Job alone = job_;
+    alone.guiding.splitting = 1;
+    EXPECT_GT(whole.stats.rays, render(alone, part(0, 0, 24, 16)).stats.rays * 21 / 20) << "the test must split paths";
+    std::uint64_t rays = 0, records = 0;
+    std::vector<std::uint32_t> counts(whole.log.counts.size());
+    for (int y = 0; y < 16; ++y)
+        for (int x = 0; x < 24; x += y % 2 ? 1 : 8) {
+            const int end = y % 2 ? x + 1 : x + 8;
+            const Rendered r = render(job_, part(x, y, end, y + 1));
+            for (int i = x; i < end; ++i) {
+                const PixelEstimate &a = r.pixels[static_cast<std::size_t>(i - x)],
+                                    &b = whole.pixels[static_cast<std::size_t>(y * 24 + i)];
+                ASSERT_EQ(a.whole().mean.x, b.whole().mean.x) << i << ", " << y;
+                ASSERT_EQ(a.whole().mean.z, b.whole().mean.z) << i << ", " << y;
+            }
+            rays += r.stats.rays;
+            records += r.log.records.size();
+            for (std::size_t k = 0; k < counts.size(); ++k)
+                counts[k] += r.log.counts[k];
+        }
+    EXPECT_EQ(rays, whole.stats.rays);
+    EXPECT_EQ(records, whole.log.records.size());
+    EXPECT_EQ(counts, whole.log.counts);
+}
+
+TEST_F(SplittingInARoom, IsToldByDescribeSample) {
+    const TraceScene trace(scene_, job_);
+    const Guide guide(tree_);
+    for (std::uint32_t sample = 0; sample < pass_.spp; ++sample) {
+        const std::string text = describe_sample(trace, job_, pass_, guide, 12, 8, sample);
+        if (text.find("goes on as") == std::string::npos) continue;
+        EXPECT_NE(text.find("copy 1 from depth"), std::string::npos) << text;
+        return;
+    }
+    FAIL() << "no sample was split";
+}
+
+}  // namespace
+}  // namespace treefarm

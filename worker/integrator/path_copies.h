@@ -1,0 +1,78 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "worker/geometry/embree_scene.h"
+
+namespace treefarm {
+
+/// How many copies a path may still leave, and which copy it is itself. What is left is shared with each copy, so that
+/// all copies of a camera path are bounded, and none has to know of the others.
+struct CopyBudget {
+    static constexpr std::uint8_t kMost = 64;
+
+    std::uint8_t number = 0;  ///< of the camera path's copies; 0: no copy
+    std::uint8_t left = kMost;
+
+    /// Takes place for `paths` instead of one; returns how many it is for.
+    std::uint32_t split(std::uint32_t paths) {
+        paths = std::min<std::uint32_t>(paths, left + 1u);
+        left = static_cast<std::uint8_t>((left + 1u - paths) / paths);
+        return paths;
+    }
+};
+
+/// One of the paths that a path goes on as, from where its ray has arrived.
+struct PathCopy {
+    std::uint16_t origin;
+    CopyBudget copies;
+    int depth;
+    Ray ray;
+    EmbreeScene::Meeting meeting;
+    Rgb throughput;
+    float spread;
+    int first_exponent;
+
+    /// Random numbers of copies begin beyond those of any path: its number says where.
+    std::uint32_t first_vertex() const {
+        return (std::uint32_t{copies.number} << 16) + static_cast<std::uint32_t>(depth) - 1;
+    }
+};
+
+/// Splitting: a path that is expected to carry far more than its first vertex does goes on as several, each with its
+/// share (after Vorba and Krivanek 2016, "Adjoint-driven Russian roulette and splitting"). Copies walk when the paths
+/// that left them are done, all together; then the copies' copies do. A camera path's copies are numbered in an order
+/// that does not depend on its company: by the path that they left, then as it left them.
+class PathCopies {
+  public:
+    bool empty() const { return left_.empty(); }
+
+    void leave(const PathCopy& copy) {
+        const auto place = static_cast<std::uint32_t>(left_.size());
+        left_.push_back(copy);
+        order_.push_back(std::uint64_t{copy.origin} << 40 | std::uint64_t{copy.copies.number} << 32 | place);
+    }
+
+    /// Those that were left since, by camera path, numbered on from what `numbers` has of each. They last until the
+    /// next call.
+    std::span<const PathCopy> next(std::span<std::uint8_t> numbers) {
+        std::sort(order_.begin(), order_.end());
+        going_.clear();
+        for (const std::uint64_t place : order_) {
+            going_.push_back(left_[static_cast<std::uint32_t>(place)]);
+            going_.back().copies.number = ++numbers[going_.back().origin];
+        }
+        left_.clear();
+        order_.clear();
+        return going_;
+    }
+
+  private:
+    std::vector<PathCopy> left_, going_;
+    std::vector<std::uint64_t> order_;
+};
+
+}  // namespace treefarm

@@ -1,0 +1,12 @@
+#pragma once
+
+#include "common/math/vec.h"
+
+namespace treefarm {
+
+/// Whether a film takes it: finite, and nothing negative.
+inline bool is_radiance(const Rgb& c) {
+    return is_finite(c) && c.x >= 0.0f && c.y >= 0.0f && c.z >= 0.0f;
+}
+
+}  // namespace treefarm
