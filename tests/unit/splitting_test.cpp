@@ -18,9 +18,9 @@ TEST(Splitting, IsByWhatAPathIsExpectedToCarry) {
     using Rule = Roulette::Rule;
     const Roulette adjoint(Rule::adjoint, 5);
     EXPECT_EQ(adjoint.splitting(Rgb(1.0f), 1.0f, 1.0f, 8), 1u);
-    EXPECT_EQ(adjoint.splitting(Rgb(0.1f, 3.9f, 0.1f), 1.0f, 1.0f, 8), 1u);
-    EXPECT_EQ(adjoint.splitting(Rgb(0.1f, 4.0f, 0.1f), 1.0f, 1.0f, 8), 2u);
-    EXPECT_EQ(adjoint.splitting(Rgb(0.5f), 2.0f, 8.0f, 8), 4u);
+    EXPECT_EQ(adjoint.splitting(Rgb(0.1f, 2.7f, 0.1f), 1.0f, 1.0f, 8), 1u);
+    EXPECT_EQ(adjoint.splitting(Rgb(0.1f, 2.9f, 0.1f), 1.0f, 1.0f, 8), 2u);
+    EXPECT_EQ(adjoint.splitting(Rgb(0.5f), 2.0f, 6.0f, 8), 4u);
     EXPECT_EQ(adjoint.splitting(Rgb(1e30f), 1e6f, 0x1p60f, 8), 8u);
     EXPECT_EQ(adjoint.splitting(Rgb(std::numeric_limits<float>::infinity()), 1.0f, 1.0f, 8), 8u);
     EXPECT_EQ(adjoint.splitting(Rgb(std::numeric_limits<float>::quiet_NaN()), 1.0f, 1.0f, 8), 1u);

@@ -53,7 +53,7 @@ class Roulette {
     /// A path plays when it is expected to carry less than a quarter of what its first vertex does: the estimate is
     /// rough, and a path too many costs less than one that came through against the odds.
     static constexpr float kWindow = 4.0f, kLeast = 0.5f, kMost = 0.95f;
-    static constexpr float kShare = 2.0f;
+    static constexpr float kShare = 1.4f;
 
     Rule rule_;
     int first_depth_;
