@@ -11,9 +11,9 @@ namespace {
 
 /// Kick-start samples emitters directly in passes that begin with fewer samples per pixel than this (PPG's program).
 constexpr std::uint32_t kKickstartSpp = 128;
-/// Guiding whose bulk gains less than this does not pay. Below 1: it gets better with each tree (docs/guiding.md,
-/// "auto"), and equal noise is 0.71.
-constexpr double kLosingBulk = 0.7;
+/// Guiding whose bulk gains less than this share of the light that unguided samples find does not pay: light that they
+/// miss would be noise. Below 1: guiding gets better with each tree (docs/guiding.md, "auto"), and equal noise is 0.71.
+constexpr double kLosingBulk = 0.75;
 /// Unless the few pixels that are left out there say clearly that it does.
 constexpr double kWinningFew = 1.5;
 /// Short passes have to say more loudly that it does not, shorter ones have no say.
@@ -64,7 +64,7 @@ Guiding judge_guiding(const PassPlan& pass, const GuidingGain& gain) {
     if (gain.all == 0 || pass.spp < kLeastJudgedSpp) return Guiding::open;
     if (gain.coverage < kLeastCoverage) return Guiding::pays;
     const bool wins_by_few = gain.all >= (pass.spp < kLeastTrustedSpp ? kLosingFew : kWinningFew);
-    return gain.bulk >= kLosingBulk || wins_by_few ? Guiding::open : Guiding::loses;
+    return gain.bulk >= kLosingBulk * std::min(gain.coverage, 1.0) || wins_by_few ? Guiding::open : Guiding::loses;
 }
 
 PassPlan make_pass(const Job& job, std::uint32_t index, std::uint32_t first_sample, std::uint32_t spp, bool last) {

@@ -129,8 +129,8 @@ TEST(GuidingProbe, LongPassesAreBelievedSooner) {
 
 /// Few samples, of bright paths that are rare, may say the contrary of all others.
 TEST(GuidingProbe, TheBulkOfThePixelsDecides) {
-    EXPECT_EQ(verdict(4, 0.5, 0.71), Guiding::open);
-    EXPECT_EQ(verdict(128, 0.5, 0.71), Guiding::open);
+    EXPECT_EQ(verdict(4, 0.5, 0.72), Guiding::open);
+    EXPECT_EQ(verdict(128, 0.5, 0.72), Guiding::open);
     EXPECT_EQ(verdict(128, 1.4, 0.69), Guiding::loses);
     EXPECT_EQ(verdict(128, 1.6, 0.3), Guiding::open) << "light that few unguided samples find";
 }
@@ -139,6 +139,14 @@ TEST(GuidingProbe, TheBulkOfThePixelsDecides) {
 TEST(GuidingProbe, SamplesThatFindNoLightSayNothing) {
     EXPECT_EQ(verdict(4, 0.2, 0.2, 0.5), Guiding::pays);
     EXPECT_EQ(verdict(4, 0.2, 0.2, 0.85), Guiding::loses);
+}
+
+/// Nor do they say how noisy what they miss would be.
+TEST(GuidingProbe, TheBulkIsThatOfTheLightThatIsFound) {
+    EXPECT_EQ(verdict(8, 0.7, 0.67, 0.86), Guiding::open);
+    EXPECT_EQ(verdict(8, 0.7, 0.67, 0.93), Guiding::loses);
+    EXPECT_EQ(verdict(8, 0.7, 0.74, 1.5), Guiding::loses);
+    EXPECT_EQ(verdict(8, 0.7, 0.76, 1.5), Guiding::open);
 }
 
 TEST(GuidingProbe, NobodyProbesOnceTheVerdictIsOut) {
