@@ -1,12 +1,14 @@
 // Paths that go on as several (worker/integrator/path_copies.h).
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
 #include <map>
-#include <numeric>
 
 #include "common/scene/load.h"
 #include "tests/support/local_render.h"
 #include "tests/support/support.h"
+#include "tests/support/test_scenes.h"
 #include "worker/integrator/path_copies.h"
 #include "worker/integrator/roulette.h"
 #include "worker/integrator/tile_renderer.h"
@@ -177,6 +179,40 @@ TEST_F(SplittingInARoom, IsToldByDescribeSample) {
         return;
     }
     FAIL() << "no sample was split";
+}
+
+/// In a furnace whose directions the BSDF alone draws every path carries exactly 1 + a + a^2 + ...: shares that did not
+/// sum to one would show in each sample, which z-tests of noisy rooms cannot tell.
+TEST(Splitting, SharesSumToOne) {
+    Scene scene = test::furnace(0.5f, 1.0f, 2.0f, Vec3(0.0f));
+    test::set_film(scene, 16, 16);
+    Job job;
+    job.integrator.rr_depth = 1000;
+    job.integrator.max_depth = 6;
+    job.guiding.candidates = 1;
+    job.guiding.splitting = 8;
+    job.guiding.spatial_threshold = 50;
+    job.budget.spp = 31;
+    SdTree tree = test::render_locally(scene, job).tree;
+    ASSERT_GT(tree.region_count(), 4u);
+    for (std::uint32_t r = 0; r < tree.region_count(); ++r) {
+        tree.bsdf_fraction[r] = 1.0f;
+        tree.quantum_exponent[r] = static_cast<std::int16_t>(tree.quantum_exponent[r] + r % 5);
+    }
+    PassPlan pass;
+    pass.spp = 16;
+    pass.blocks_per_unit = 64;
+    pass.guided = true;
+    pass.next_event = false;
+    std::vector<PixelEstimate> pixels;
+    RecordLog log;
+    TraceStats stats;
+    render_unit(TraceScene(scene, job), job, pass, Guide(tree), {pass.index, 0, 0, 16, 16, 0}, pixels, log, stats);
+    EXPECT_GT(stats.rays, 6 * stats.paths + stats.paths / 2) << "the test must split paths: of six edges each";
+    for (const PixelEstimate& pixel : pixels) {
+        EXPECT_NEAR(pixel.whole().mean.x, 2 - std::pow(0.5, 5), 1e-5);
+        EXPECT_NEAR(pixel.whole().sample_variance().x, 0, 1e-10);
+    }
 }
 
 }  // namespace
