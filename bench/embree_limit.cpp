@@ -80,12 +80,16 @@ class Limit {
             work();
             return thread_cpu_seconds() - start;
         };
-        mode.render_seconds.push_back(seconds([&] { render(pass(mode), job(mode), guide(mode), mode.stats); }));
-        if (mode.record) {
-            mode.log_records = log_.records.size();
-            Accumulator sums(9, guide(mode), job_.guiding.directional_filter, true);
-            mode.splat_seconds.push_back(seconds([&] { sums.commit(log_.records, log_.counts, log_.caps); }));
-        }
+        Accumulator sums(9, guide(mode), job_.guiding.directional_filter, true);
+        double splat = 0;
+        mode.log_records = 0;
+        const auto learn = [&](RecordLog& log) {
+            mode.log_records += log.records.size();
+            splat += seconds([&] { sums.commit(log.records, log.counts, log.caps); });
+        };
+        const double both = seconds([&] { render(pass(mode), job(mode), guide(mode), mode.stats, learn); });
+        mode.render_seconds.push_back(both - splat);
+        mode.splat_seconds.push_back(splat);
         mode.bare_seconds.push_back(seconds([&] { trace_bare(mode, by_fields); }));
         mode.best_bare_seconds.push_back(seconds([&] { trace_bare(mode, to_embree); }));
     }
@@ -122,11 +126,22 @@ class Limit {
         return pass;
     }
 
-    void render(const PassPlan& pass, const Job& job, const Guide& guide, TraceStats& stats) {
+    /// Unit by unit, as workers do; `learn` gets what each recorded.
+    template <class Learn>
+    void render(const PassPlan& pass, const Job& job, const Guide& guide, TraceStats& stats, Learn learn) {
+        const int size = job.farm.tile_size;
         const Film& film = scene_.film();
-        const WorkUnit whole{
-            pass.index, 0, 0, static_cast<std::uint16_t>(film.width), static_cast<std::uint16_t>(film.height), 0};
-        render_unit(scene_, job, pass, guide, whole, pixels_, log_, stats);
+        for (int y = 0; y < film.height; y += size)
+            for (int x = 0; x < film.width; x += size) {
+                const WorkUnit unit{pass.index,
+                                    static_cast<std::uint16_t>(x),
+                                    static_cast<std::uint16_t>(y),
+                                    static_cast<std::uint16_t>(std::min(x + size, film.width)),
+                                    static_cast<std::uint16_t>(std::min(y + size, film.height)),
+                                    0};
+                render_unit(scene_, job, pass, guide, unit, pixels_, log_, stats);
+                if (pass.record) learn(log_);
+            }
     }
 
     /// The tree after the job's passes.
@@ -142,8 +157,7 @@ class Limit {
             const Guide guide(tree);
             Accumulator sums(plan.index, guide, job_.guiding.directional_filter, plan.learn_mixture);
             TraceStats stats;
-            render(plan, job_, guide, stats);
-            sums.commit(log_.records, log_.counts, log_.caps);
+            render(plan, job_, guide, stats, [&](RecordLog& log) { sums.commit(log.records, log.counts, log.caps); });
             RefineReport report;
             const auto pixels = static_cast<double>(scene_.film().pixel_count());
             const PassPlan& coming = plans[std::min(k + 1, plans.size() - 1)];

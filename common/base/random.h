@@ -10,18 +10,16 @@ namespace treefarm {
 /// What a random number is for. Each use has a stream of its own, so switching an effect on never shifts another
 /// effect's numbers (docs/guiding.md, "random streams").
 enum class Stream : std::uint32_t {
-    camera,          ///< position on the pixel filter
-    lens,            ///< position on the lens
-    scatter,         ///< which density a direction is drawn from, and the direction
-    light,           ///< next event: which emitter, where on it
-    roulette,        ///< survival
-    rounding,        ///< stochastic rounding of what scattered directions taught the tree
-    light_rounding,  ///< the same for next event's records
-    jitter,          ///< spatial filter of what scattered directions taught the tree
-    light_jitter,    ///< the same for next event's records
-    bootstrap,       ///< the interval of the estimated error; keyed by block and resample instead of pixel and sample
-    candidate,       ///< further directions to choose among, and which is taken; keyed by vertex and candidate
-    branch,          ///< whether the lesser way out of glass is followed, too
+    camera,        ///< position on the pixel filter
+    lens,          ///< position on the lens
+    scatter,       ///< which density a direction is drawn from, and the direction
+    light,         ///< next event: which emitter, where on it
+    roulette,      ///< survival
+    record,        ///< spatial filter (three words) and stochastic rounding of what scattered directions teach the tree
+    light_record,  ///< the same for next event's records
+    bootstrap,     ///< the interval of the estimated error; keyed by block and resample instead of pixel and sample
+    candidate,     ///< further directions to choose among, and which is taken; keyed by vertex and candidate
+    branch,        ///< whether the lesser way out of glass is followed, too
 };
 
 /// Names one camera path: the same key gives the same path on any machine, thread or rank.
@@ -46,6 +44,14 @@ inline Draw draw(const PathKey& path, std::uint32_t vertex, Stream stream) {
 /// Uniform in [0, 1), never 1: the top 24 bits as a float.
 inline float to_unit(std::uint32_t bits) {
     return static_cast<float>(static_cast<std::int32_t>(bits >> 8)) * 0x1p-24f;  // signed: one instruction
+}
+
+/// More random bits from those at hand (the finaliser of MurmurHash3).
+inline std::uint32_t scrambled(std::uint32_t bits, std::uint32_t salt) {
+    bits ^= salt * 0x9e3779b9u;
+    bits = (bits ^ (bits >> 16)) * 0x85ebca6bu;
+    bits = (bits ^ (bits >> 13)) * 0xc2b2ae35u;
+    return bits ^ (bits >> 16);
 }
 
 }  // namespace treefarm

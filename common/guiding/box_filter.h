@@ -3,17 +3,10 @@
 #include <array>
 #include <cstdint>
 
+#include "common/base/random.h"
 #include "common/guiding/tree_update.h"
 
 namespace treefarm {
-
-/// More random bits from a record's own (the finaliser of MurmurHash3).
-inline std::uint32_t scrambled(std::uint32_t bits, std::uint32_t salt) {
-    bits ^= salt * 0x9e3779b9u;
-    bits = (bits ^ (bits >> 16)) * 0x85ebca6bu;
-    bits = (bits ^ (bits >> 13)) * 0xc2b2ae35u;
-    return bits ^ (bits >> 16);
-}
 
 /// The box filter over directions: a square of the size of the record's cell around the record overlaps two by two
 /// squares of the grid of that size. Each gets its share; where it is cut finer, at a point drawn from the overlap, so

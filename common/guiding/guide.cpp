@@ -1,6 +1,7 @@
 #include "common/guiding/guide.h"
 
 #include <bit>
+#include <utility>
 
 namespace treefarm {
 namespace {
@@ -9,10 +10,24 @@ namespace {
 constexpr int kAxisBits = kMaxSpatialDepth / 3;
 constexpr float kAxisSteps = static_cast<float>(1 << kAxisBits);
 
+/// Halvings of each axis that a table does at once: 16 KB, and most of a tree's treelets lie below.
+constexpr int kTopBits = 4;
+
 std::uint32_t axis_step(float position, float origin, float inverse_extent) {
     const float steps = (position - origin) * inverse_extent * kAxisSteps;
-    if (!(steps > 0.0f)) return 0;  // also NaN
-    return steps < kAxisSteps ? static_cast<std::uint32_t>(steps) : (1u << kAxisBits) - 1;
+    const float inside = steps > 0.0f ? steps : 0.0f;  // also NaN
+    return static_cast<std::uint32_t>(static_cast<std::int32_t>(inside < kAxisSteps ? inside : kAxisSteps - 1.0f));
+}
+
+/// Which of a treelet's entries, at the axes' `bit`.
+std::uint32_t octant_at(std::uint32_t x, std::uint32_t y, std::uint32_t z, int bit) {
+    return ((x >> bit) & 1) | (((y >> bit) & 1) << 1) | (((z >> bit) & 1) << 2);
+}
+
+/// Which of the table's entries.
+std::uint32_t top_index(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
+    constexpr int kShift = kAxisBits - kTopBits;
+    return (x >> kShift) | (y >> kShift << kTopBits) | (z >> kShift << (2 * kTopBits));
 }
 
 }  // namespace
@@ -30,6 +45,7 @@ Guide::Guide(const SdTree& tree)
       light_share_(tree.light_share),
       region_depth_(tree.region_count()) {
     build_treelet(tree, 0, 0);
+    build_top();
 
     cells_.reserve(tree.cell_count() + distribution_count() + kFewCells);
     mass_guide_.resize(region_count());
@@ -105,25 +121,66 @@ std::uint32_t Guide::build_treelet(const SdTree& tree, std::uint32_t node, int d
     return index;
 }
 
+/// What the root's treelet and those below lead to, for each of the cube's cells of this size.
+void Guide::build_top() {
+    top_.resize(std::size_t{1} << (3 * kTopBits));
+    constexpr std::uint32_t kSide = 1u << kTopBits;
+    for (std::uint32_t z = 0; z < kSide; ++z)
+        for (std::uint32_t y = 0; y < kSide; ++y)
+            for (std::uint32_t x = 0; x < kSide; ++x) {
+                std::uint32_t entry = 0;
+                for (int bit = kTopBits - 1; bit >= 0 && !(entry & kLeafFlag); --bit)
+                    entry = treelets_[entry][octant_at(x, y, z, bit)];
+                top_[x | y << kTopBits | z << (2 * kTopBits)] = entry;
+            }
+}
+
 std::uint32_t Guide::region(const Vec3& p) const {
     const std::uint32_t x = axis_step(p.x, origin_.x, inverse_extent_);
     const std::uint32_t y = axis_step(p.y, origin_.y, inverse_extent_);
     const std::uint32_t z = axis_step(p.z, origin_.z, inverse_extent_);
-    std::uint32_t entry = 0;
-    for (int bit = kAxisBits - 1;; --bit) {
-        const std::uint32_t octant = ((x >> bit) & 1) | (((y >> bit) & 1) << 1) | (((z >> bit) & 1) << 2);
-        entry = treelets_[entry][octant];
-        if (entry & kLeafFlag) return entry & ~kLeafFlag;
-    }
+    std::uint32_t entry = top_[top_index(x, y, z)];
+    for (int bit = kAxisBits - 1 - kTopBits; !(entry & kLeafFlag); --bit)
+        entry = treelets_[entry][octant_at(x, y, z, bit)];
+    return entry & ~kLeafFlag;
 }
 
-std::uint32_t Guide::jittered_region(const Vec3& p, std::uint32_t region, const Draw& random) const {
+void Guide::regions(const VectorBatch& positions, std::uint32_t count,
+                    std::array<std::uint32_t, kDrawBatch>& found) const {
+    alignas(64) std::array<std::uint32_t, kDrawBatch> x, y, z;
+    for (std::uint32_t i = 0; i < whole_lanes(count); ++i) {
+        x[i] = axis_step(positions.x[i], origin_.x, inverse_extent_);
+        y[i] = axis_step(positions.y[i], origin_.y, inverse_extent_);
+        z[i] = axis_step(positions.z[i], origin_.z, inverse_extent_);
+    }
+    // Whether an entry is a leaf nothing would predict: no branch asks.
+    std::array<std::uint8_t, kDrawBatch> inner;
+    std::uint32_t left = 0;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        found[i] = top_[top_index(x[i], y[i], z[i])];
+        inner[left] = static_cast<std::uint8_t>(i);
+        left += found[i] < kLeafFlag;
+    }
+    for (int bit = kAxisBits - 1 - kTopBits; left != 0; --bit) {
+        const std::uint32_t among = std::exchange(left, 0);
+        for (std::uint32_t k = 0; k < among; ++k) {
+            const std::uint8_t i = inner[k];
+            found[i] = treelets_[found[i]][octant_at(x[i], y[i], z[i], bit)];
+            inner[left] = i;
+            left += found[i] < kLeafFlag;
+        }
+    }
+    for (std::uint32_t i = 0; i < count; ++i)
+        found[i] &= ~kLeafFlag;
+}
+
+Vec3 Guide::jittered(const Vec3& p, std::uint32_t region, const Draw& random) const {
     const int depth = region_depth_[region];
     Vec3 moved = p;
     for (int axis = 0; axis < 3; ++axis)
         moved[axis] +=
             extent_ * power_of_two(-(depth + 2 - axis) / 3) * (to_unit(random[static_cast<std::size_t>(axis)]) - 0.5f);
-    return this->region(moved);
+    return moved;
 }
 
 bool Guide::contains(const Vec3& p) const {
@@ -174,7 +231,7 @@ Guide::Place Guide::sample_place(std::uint32_t distribution, std::uint32_t pick,
 }
 
 std::size_t Guide::bytes() const {
-    return treelets_.size() * sizeof(treelets_[0]) + cells_.size() * sizeof(Cell) +
+    return treelets_.size() * sizeof(treelets_[0]) + top_.size() * 4 + cells_.size() * sizeof(Cell) +
            (mass_guide_.size() + code_guide_.size()) * sizeof(GuideTable) + quantum_exponent_.size() * 2 +
            bsdf_fraction_.size() * 4 + light_share_.size() * sizeof(LightShare) + region_depth_.size() +
            view_count() * 12 + (view_set_.size() + view_begin_.size()) * 4;

@@ -9,6 +9,7 @@
 #include "common/base/random.h"
 #include "common/guiding/sd_tree.h"
 #include "common/math/direction_map.h"
+#include "common/math/vector_batch.h"
 
 namespace treefarm {
 
@@ -57,11 +58,14 @@ class Guide {
     /// The region of a point. Points outside the cube belong to the nearest region (the caller may count them with
     /// contains()).
     std::uint32_t region(const Vec3& position) const;
+    /// Those of the first `count` points, in step: what one waits for (memory, how deep the tree is there) another
+    /// works through.
+    void regions(const VectorBatch& positions, std::uint32_t count, std::array<std::uint32_t, kDrawBatch>& found) const;
     bool contains(const Vec3& position) const;
 
-    /// The region of a point moved by up to half the size of `region` along each axis: the stochastic spatial filter of
-    /// the authors' improved program. Three uniform 32-bit numbers.
-    std::uint32_t jittered_region(const Vec3& position, std::uint32_t region, const Draw& random) const;
+    /// A point of `region` moved by up to half the region's size along each axis: where the stochastic spatial filter
+    /// of the authors' improved program looks for a record's region. Three uniform 32-bit numbers.
+    Vec3 jittered(const Vec3& position, std::uint32_t region, const Draw& random) const;
 
     /// The distribution (region_count() or more) of light leaving `region` in the direction with this code, or kNoView
     /// where the region has no T2.
@@ -76,7 +80,7 @@ class Guide {
 
     /// Fetches what it will read next, by what prefetch() has brought.
     void prefetch_cell(std::uint32_t region, std::uint32_t pick) const {
-        prefetch_middle(mass_guide_[region], pick >> (32 - kGuideBits));
+        prefetch_ends(mass_guide_[region], pick >> (32 - kGuideBits));
     }
 
     /// Draws a direction; `pick`, `u0` and `u1` are uniform 32-bit numbers.
@@ -94,11 +98,23 @@ class Guide {
 
     /// Fetches what it will read next, by what prefetch_pdf() has brought.
     void prefetch_pdf_cell(std::uint32_t region, std::uint32_t code) const {
-        prefetch_middle(code_guide_[region], code >> (2 * kDirectionBits - kGuideBits));
+        prefetch_ends(code_guide_[region], code >> (2 * kDirectionBits - kGuideBits));
     }
 
     /// Density per steradian of the direction with this code; 0 where the tree has seen nothing.
     float pdf(std::uint32_t distribution, std::uint32_t code) const;
+
+    /// Fetches what cell() will read first.
+    void prefetch_find(std::uint32_t distribution, std::uint32_t code) const {
+        if (distribution < region_count()) prefetch_pdf(distribution, code);
+    }
+
+    /// Fetches what it will read next, by what prefetch_find() has brought.
+    void prefetch_found(std::uint32_t distribution, std::uint32_t code) const {
+        if (distribution < region_count()) return prefetch_pdf_cell(distribution, code);
+        const Range among = view_range(distribution);
+        prefetch_line(among.first + among.count / 2);
+    }
 
     /// Index (over the whole tree) of the cell of a direction: where a record goes.
     std::uint32_t cell(std::uint32_t distribution, std::uint32_t code) const {
@@ -127,6 +143,7 @@ class Guide {
     static constexpr std::uint32_t kLeafFlag = 0x80000000u;
 
     std::uint32_t build_treelet(const SdTree& tree, std::uint32_t node, int depth);
+    void build_top();
     static float density(const Cell* cell);
     const Cell* find(std::uint32_t distribution, std::uint32_t code) const {
         const Range among = distribution < region_count()
@@ -163,16 +180,18 @@ class Guide {
     float inverse_extent_ = 1.0f;
     float extent_ = 1.0f;
     std::vector<std::array<std::uint32_t, 8>> treelets_;
+    std::vector<std::uint32_t> top_;  ///< the entries that kTopBits treelets lead to, or the leaf before
     std::vector<Cell> cells_;  ///< each distribution's, then one at which the next would begin: cell c of distribution
                                ///< d is c + d; kFewCells more at the end
     using GuideTable = std::array<std::uint32_t, kGuideSize + 1>;
     Range range(const GuideTable& guide, std::uint32_t entry) const {
         return {&cells_[guide[entry]], guide[entry + 1] - guide[entry] + 1};
     }
-    /// Cells of a range lie side by side, eight in a line of cache.
-    void prefetch_middle(const GuideTable& guide, std::uint32_t entry) const {
+    /// Cells of a range lie side by side: most are in one line of cache, or in two.
+    void prefetch_ends(const GuideTable& guide, std::uint32_t entry) const {
         const Range among = range(guide, entry);
-        prefetch_line(among.first + among.count / 2);
+        prefetch_line(among.first);
+        prefetch_line(among.first + among.count);
     }
     std::vector<GuideTable> mass_guide_;     ///< per region: first of cells_ that may hold probability k/64
     std::vector<GuideTable> code_guide_;     ///< per region: the one that holds code k/64

@@ -48,12 +48,28 @@ std::uint64_t counted(float value, int exponent, std::uint32_t random, UpdateCap
 Accumulator::Accumulator(std::uint32_t pass, const Guide& guide, DirectionalFilter filter, bool with_mixture)
     : guide_(guide), filter_(filter), with_mixture_(with_mixture), sums_(pass, shape()) {}
 
-void Accumulator::add_block(std::span<const Record> records, UpdateCaps& met) {
-    BlockCells cells;
-    for (std::uint32_t i = 0; i < records.size(); ++i) {
-        cells[i] = guide_.cell(records[i].distribution, records[i].code);
+/// The cells of `count` codes, and their sums fetched. Each step fetches for all what the next one reads.
+template <class DistributionOf, class CodeOf>
+void Accumulator::find_cells(std::uint32_t count, DistributionOf distribution, CodeOf code,
+                             std::span<std::uint32_t> cells) {
+    for (std::uint32_t i = 0; i < count; ++i)
+        guide_.prefetch_find(distribution(i), code(i));
+    for (std::uint32_t i = 0; i < count; ++i)
+        guide_.prefetch_found(distribution(i), code(i));
+    for (std::uint32_t i = 0; i < count; ++i) {
+        cells[i] = guide_.cell(distribution(i), code(i));
         sums_.prefetch_cell(cells[i]);
     }
+}
+
+void Accumulator::add_block(std::span<const Record> records, UpdateCaps& met) {
+    BlockCells cells;
+    find_cells(
+        static_cast<std::uint32_t>(records.size()), [&](std::uint32_t i) { return records[i].distribution; },
+        [&](std::uint32_t i) { return records[i].code; }, cells);
+    if (with_mixture_)
+        for (const Record& record : records)
+            sums_.prefetch_mixture(record.distribution);
     if (filter_ == DirectionalFilter::box)
         add_boxes(records, cells, met);
     else
@@ -68,12 +84,21 @@ void Accumulator::add_boxes(std::span<const Record> records, const BlockCells& c
     for (std::uint32_t i = 0; i < records.size(); ++i)
         boxes.set(i, records[i], guide_.cell_side(records[i].distribution, cells[i]), exponent(records[i]));
     met.capped_records += boxes.cut(static_cast<std::uint32_t>(records.size()));
+    Shares others;
     for (std::uint32_t i = 0; i < records.size(); ++i) {
         add_to_cell(cells[i], boxes.quanta(0, i), met);
-        for (std::uint32_t part = 1; part < BoxBlock::kParts; ++part)
-            if (const std::uint64_t quanta = boxes.quanta(part, i); quanta != 0)
-                add_to_cell(guide_.cell(records[i].distribution, boxes.place(part, i)), quanta, met);
+        for (std::uint32_t part = 1; part < BoxBlock::kParts; ++part) {
+            others.distribution[others.count] = records[i].distribution;
+            others.code[others.count] = boxes.place(part, i);
+            others.quanta[others.count] = boxes.quanta(part, i);
+            others.count += others.quanta[others.count] != 0;
+        }
     }
+    find_cells(
+        others.count, [&](std::uint32_t i) { return others.distribution[i]; },
+        [&](std::uint32_t i) { return others.code[i]; }, others.cell);
+    for (std::uint32_t i = 0; i < others.count; ++i)
+        add_to_cell(others.cell[i], others.quanta[i], met);
 }
 
 /// What the mixture and next event learn.

@@ -33,6 +33,16 @@ class Accumulator {
     /// Cell of each record of a block.
     using BlockCells = std::array<std::uint32_t, BoxBlock::kRecords>;
 
+    /// What goes to the cells of so many codes.
+    struct Shares {
+        static constexpr std::uint32_t kMost = BoxBlock::kRecords * (BoxBlock::kParts - 1);
+        std::uint32_t count = 0;
+        std::array<std::uint32_t, kMost> distribution, code, cell;
+        std::array<std::uint64_t, kMost> quanta;
+    };
+
+    template <class DistributionOf, class CodeOf>
+    void find_cells(std::uint32_t count, DistributionOf distribution, CodeOf code, std::span<std::uint32_t> cells);
     void add_block(std::span<const Record> records, UpdateCaps& met);
     void add_boxes(std::span<const Record> records, const BlockCells& cells, UpdateCaps& met);
     void add_reflected(const Record& record, UpdateCaps& met);

@@ -96,6 +96,9 @@ class TreeSums {
     /// Adds to one cell; false where the sum would pass 2^64 - 1 and stays there (the caller counts it).
     bool add_quanta(std::uint32_t cell, std::uint64_t quanta) { return add_saturating(cells_[cell], quanta); }
     void prefetch_cell(std::uint32_t cell) const { prefetch_line(&cells_[cell]); }
+    void prefetch_mixture(std::uint32_t distribution) const {
+        prefetch_line(mixture_.data() + shape_.mixture_begin(distribution));
+    }
     bool add_light(std::uint32_t region, int cluster, std::uint64_t quanta);
     bool add_mixture(std::uint32_t distribution, std::uint8_t bin, std::uint64_t quanta) {
         return add_saturating(mixture_[shape_.mixture_begin(distribution) + bin], quanta);

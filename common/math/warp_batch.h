@@ -2,34 +2,14 @@
 
 #include <array>
 
-#include "common/base/float_traps.h"
-#include "common/base/random_batch.h"
 #include "common/math/direction_map.h"
+#include "common/math/vector_batch.h"
 #include "common/math/warp.h"
 
 namespace treefarm {
 
-/// Directions of many paths, coordinate by coordinate.
-struct DirectionBatch {
-    alignas(64) std::array<float, kDrawBatch> x, y, z;
-
-    Vec3 operator[](std::size_t i) const { return {x[i], y[i], z[i]}; }
-    void set(std::size_t i, const Vec3& d) {
-        x[i] = d.x;
-        y[i] = d.y;
-        z[i] = d.z;
-    }
-};
-
-/// How many of a batch are worked on where the first `count` are asked for. What the others hold is anything.
-inline std::uint32_t whole_lanes(std::uint32_t count) {
-    if constexpr (kTrapsFloats) return count;
-    constexpr std::uint32_t kLanes = 8;
-    return (count + kLanes - 1) / kLanes * kLanes;
-}
-
 /// direction_to_code() of the first `count` directions.
-inline void direction_to_code_batch(const DirectionBatch& from, std::uint32_t count,
+inline void direction_to_code_batch(const VectorBatch& from, std::uint32_t count,
                                     std::array<std::uint32_t, kDrawBatch>& codes) {
     for (std::uint32_t i = 0; i < whole_lanes(count); ++i)
         codes[i] = direction_to_code({from.x[i], from.y[i], from.z[i]});
@@ -37,7 +17,7 @@ inline void direction_to_code_batch(const DirectionBatch& from, std::uint32_t co
 
 /// square_to_direction() of the first `count` places.
 inline void square_to_direction_batch(const std::array<float, kDrawBatch>& x, const std::array<float, kDrawBatch>& y,
-                                      std::uint32_t count, DirectionBatch& out) {
+                                      std::uint32_t count, VectorBatch& out) {
     for (std::uint32_t i = 0; i < whole_lanes(count); ++i) {
         const Vec3 d = square_to_direction({x[i], y[i]});
         out.x[i] = d.x;
@@ -47,7 +27,7 @@ inline void square_to_direction_batch(const std::array<float, kDrawBatch>& x, co
 }
 
 /// square_to_cosine_hemisphere() of words 2 and 3 of the first `count` draws: the same bits, by vector code.
-inline void cosine_hemisphere_batch(const DrawBatch& draws, std::uint32_t count, DirectionBatch& out) {
+inline void cosine_hemisphere_batch(const DrawBatch& draws, std::uint32_t count, VectorBatch& out) {
     for (std::uint32_t i = 0; i < whole_lanes(count); ++i) {
         const Vec3 d = square_to_cosine_hemisphere({to_unit(draws.word[2][i]), to_unit(draws.word[3][i])});
         out.x[i] = d.x;

@@ -69,7 +69,7 @@ TEST(Directions, OnSeamsAndPoles) {
         const Vec2 p = direction_to_square(d);
         ASSERT_TRUE(p.x >= 0.0f && p.x < 1.0f && p.y >= 0.0f && p.y < 1.0f) << d << p;
         worst.see(double((square_to_direction(p) - d).length()), d);
-        DirectionBatch batch;
+        VectorBatch batch;
         for (std::size_t i = 0; i < 8; ++i)
             batch.set(i, d);
         std::array<std::uint32_t, kDrawBatch> codes;

@@ -129,7 +129,7 @@ TEST(Trees, PositionsOutsideTheCube) {
                 ASSERT_EQ(guide.contains(p), p == nearest) << p;
                 ++positions;
                 const Draw draw = {static_cast<std::uint32_t>(random()), 0u, 0xffffffffu, 1u};
-                ASSERT_LT(guide.jittered_region(p, region, draw), 512u);
+                ASSERT_LT(guide.region(guide.jittered(p, region, draw)), 512u);
             }
     for (const Vec3& p : {Vec3(test::kNan), Vec3(0.5f, test::kNan, 0.5f)}) {
         EXPECT_LT(guide.region(p), 512u);

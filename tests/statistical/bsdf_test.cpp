@@ -138,7 +138,7 @@ class MixtureSamples {
             keys.sample[k] = 0;
         }
         DrawBatch draws;
-        DirectionBatch cosines;
+        VectorBatch cosines;
         draw_batch(8, keys, kDrawBatch, 0, Stream::scatter, draws);
         cosine_hemisphere_batch(draws, kDrawBatch, cosines);
         ScatterBatch<true, true, true> scatter;

@@ -50,7 +50,7 @@ TEST(Batch, DirectionsAreThoseOfEachPath) {
             draws.word[2] = {0, 0, 0, 1u << 31, 1u << 31, 1u << 31, ~0u, ~0u, ~0u};
             draws.word[3] = {0, 1u << 31, ~0u, 0, 1u << 31, ~0u, 0, 1u << 31, ~0u};
         }
-        DirectionBatch cosines, directions;
+        VectorBatch cosines, directions;
         cosine_hemisphere_batch(draws, kDrawBatch, cosines);
         std::array<float, kDrawBatch> x, y;
         for (std::uint32_t i = 0; i < kDrawBatch; ++i) {

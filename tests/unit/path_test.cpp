@@ -95,13 +95,13 @@ TEST(PathRecorder, CarriesRadianceBackwards) {
     recorder.begin_path();
     recorder.add_reflected(recorder.vertex_count(),
                            Rgb(100.0f));  // next event at the first surface: no direction carries it
-    recorder.add_vertex({0}, 11, 0.5f, Rgb(0.5f), {3}, 1);
+    recorder.add_vertex({0}, 11, 0.5f, Rgb(0.5f), {3}, 0);
     recorder.add_emission(Rgb(1.0f));
     recorder.survive(0.5f);
     recorder.add_reflected(recorder.vertex_count(), Rgb(2.0f));
-    recorder.add_vertex({2}, 22, 4.0f, Rgb(0.25f), {4}, 2);
+    recorder.add_vertex({2}, 22, 4.0f, Rgb(0.25f), {4}, 0);
     recorder.add_emission(Rgb(8.0f));
-    EXPECT_EQ(recorder.commit({}, log), 2u);
+    EXPECT_EQ(recorder.commit(log), 2u);
     ASSERT_EQ(log.records.size(), 2u);
     EXPECT_EQ(log.records[0].code, 22u);
     EXPECT_FLOAT_EQ(log.records[0].value, 8.0f / 4.0f);
@@ -116,9 +116,9 @@ TEST(PathRecorder, RegionAndViewLearnTheirOwnMixtures) {
     RecordLog log;
     log.begin(2);
     recorder.begin_path();
-    recorder.add_vertex({0, 1}, 5, 2.0f, Rgb(0.5f), {3, 9}, 1);
+    recorder.add_vertex({0, 1}, 5, 2.0f, Rgb(0.5f), {3, 9}, 0);
     recorder.add_emission(Rgb(4.0f));
-    recorder.commit({}, log);
+    recorder.commit(log);
     ASSERT_EQ(log.records.size(), 2u);
     EXPECT_EQ(log.records[0].distribution, 0u);
     EXPECT_EQ(log.records[0].bin, 3);
@@ -136,9 +136,9 @@ TEST(PathRecorder, CountsVerticesWithoutRadiance) {
     RecordLog log;
     log.begin(1);
     recorder.begin_path();
-    recorder.add_vertex({0}, 1, 1.0f, Rgb(1.0f), {0}, 1);
-    recorder.add_vertex({0}, 2, 1.0f, Rgb(1.0f), {0}, 2);
-    EXPECT_EQ(recorder.commit({}, log), 2u);
+    recorder.add_vertex({0}, 1, 1.0f, Rgb(1.0f), {0}, 0);
+    recorder.add_vertex({0}, 2, 1.0f, Rgb(1.0f), {0}, 0);
+    EXPECT_EQ(recorder.commit(log), 2u);
     EXPECT_TRUE(log.records.empty());
     EXPECT_EQ(log.counts[0], 2u);
 }

@@ -95,12 +95,12 @@ TEST(SpatialFilter, MovesByUpToHalfARegion) {
     for (int k = 0; k < 1000; ++k) {
         const Draw random{static_cast<std::uint32_t>(engine()), static_cast<std::uint32_t>(engine()),
                           static_cast<std::uint32_t>(engine()), 0};
-        elsewhere += guide.jittered_region(p, own, random) != own;
+        elsewhere += guide.region(guide.jittered(p, own, random)) != own;
     }
     EXPECT_GT(elsewhere, 100);
     EXPECT_LT(elsewhere, 1000);
     const Draw middle{1u << 31, 1u << 31, 1u << 31, 0};
-    EXPECT_EQ(guide.jittered_region(p, own, middle), own);
+    EXPECT_EQ(guide.region(guide.jittered(p, own, middle)), own);
 }
 
 TEST(VarianceTarget, ProbabilityFollowsTheRootOfTheMoment) {

@@ -106,7 +106,7 @@ class DirectionChoice {
     std::uint32_t lanes_ = 0;
     KeyBatch keys_;
     DrawBatch draws_, picks_;
-    DirectionBatch cosines_;
+    VectorBatch cosines_;
     ScatterBatch<kGuided, kCoded, kViews> batch_;
     std::array<Candidates, kGuided ? kDrawBatch : 0> offered_;
 };

@@ -106,7 +106,7 @@ class CodeBatch {
 
   private:
     std::uint32_t count_ = 0;
-    DirectionBatch directions_;
+    VectorBatch directions_;
     std::array<std::uint32_t, kDrawBatch> regions_;
     alignas(64) std::array<std::uint32_t, kDrawBatch> codes_;
 };
@@ -200,7 +200,7 @@ class ScatterBatch {
     CodeBatch codes_;
     std::uint32_t place_count_ = 0;
     alignas(64) std::array<float, kDrawBatch> places_x_, places_y_;
-    DirectionBatch directions_;
+    VectorBatch directions_;
 };
 
 }  // namespace treefarm

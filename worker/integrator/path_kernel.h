@@ -85,7 +85,7 @@ class PathKernel {
             const Branches::Branch& branch = branches[i];
             of[i] = branch.path;
             walk_[branch.path].resume(branch.ray, branch.weight, branch.spread, kBranchVertices + 1);
-            if constexpr (kRecord) walk_.recorder(branch.path).begin_branch(branch.weight, kBranchVertices + 1);
+            if constexpr (kRecord) walk_.recorder(branch.path).begin_branch(branch.weight);
             walk_.observer().branch(branch.ray, branch.weight);
         }
         const std::uint32_t count = branches.size();
@@ -120,7 +120,7 @@ class PathKernel {
             walk_.clock().start();
             for (std::uint32_t i = 0; i < count; ++i)
                 if (!walk_[i].probe && is_radiance(walk_[i].radiance))
-                    stats_.records += walk_.recorder(i).commit(walk_[i].key, *log_);
+                    stats_.records += walk_.recorder(i).commit(*log_);
             walk_.clock().lap(TracePhase::record);
         }
     }

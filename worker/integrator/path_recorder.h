@@ -33,22 +33,23 @@ class PathRecorder {
 
     /// What comes is the other way out of the path's first surface, by a delta lobe of this weight: it carries nothing
     /// for the vertices so far.
-    void begin_branch(const Rgb& weight, std::uint32_t vertex) {
-        add_delta_vertex(weight, {}, vertex);
+    void begin_branch(const Rgb& weight) {
+        add_delta_vertex(weight, {}, 0);
         vertices_.back().first = true;
     }
 
-    /// A direction was sampled: its code and density, f |cos| / density, and its bins of the mixture histograms.
+    /// A direction was sampled: its code and density, f |cos| / density, its bins of the mixture histograms, and the
+    /// random bits by which its records are rounded.
     void add_vertex(const RecordTarget& target, std::uint32_t code, float pdf, const Rgb& weight,
-                    const MixtureBins& bins, std::uint32_t vertex) {
-        vertices_.push_back({weight, Rgb(0.0f), Rgb(0.0f), 1.0f, pdf, target, code, vertex, bins});
+                    const MixtureBins& bins, std::uint32_t rounding) {
+        vertices_.push_back({weight, Rgb(0.0f), Rgb(0.0f), 1.0f, pdf, target, code, rounding, bins});
     }
 
     /// The same of a delta lobe: its direction is no record, but what it carried belongs to the vertices before it, and
     /// to the mixture where the BSDF has lobes besides; the target is empty where it has not.
-    void add_delta_vertex(const Rgb& weight, const RecordTarget& target, std::uint32_t vertex) {
+    void add_delta_vertex(const Rgb& weight, const RecordTarget& target, std::uint32_t rounding) {
         vertices_.push_back(
-            {weight, Rgb(0.0f), Rgb(0.0f), 1.0f, 0.0f, target, 0, vertex, {kMixtureBins - 1, kMixtureBins - 1}});
+            {weight, Rgb(0.0f), Rgb(0.0f), 1.0f, 0.0f, target, 0, rounding, {kMixtureBins - 1, kMixtureBins - 1}});
     }
 
     /// Emission that the last sampled direction met, weighted against next event.
@@ -72,8 +73,8 @@ class PathRecorder {
     /// A next-event sample that is a record itself (kick-start passes): weighted radiance, what of it is reflected over
     /// the density, and the density.
     void add_light_sample(const RecordTarget& target, std::uint32_t code, const Rgb& radiance, float reflected,
-                          float pdf, std::uint32_t vertex) {
-        light_samples_.push_back({target, vertex, {code, pdf, average(radiance), finite(reflected), {}, false}});
+                          float pdf, std::uint32_t rounding) {
+        light_samples_.push_back({target, rounding, {code, pdf, average(radiance), finite(reflected), {}, false}});
     }
 
     /// What next event found, of which the choice of emitters learns.
@@ -82,9 +83,11 @@ class PathRecorder {
     void add_outside() { ++outside_; }
 
     /// Appends the path's records. Returns how many vertices and next-event samples were counted.
-    std::uint64_t commit(const PathKey& path, RecordLog& log) {
+    std::uint64_t commit(RecordLog& log) {
         Rgb carried(0.0f);
         std::uint64_t recorded = light_samples_.size();
+        drafts_.resize(std::max(drafts_.size(), 2 * (vertices_.size() + light_samples_.size())));
+        next_ = 0;
         for (std::size_t i = vertices_.size(); i-- > 0;) {
             const Vertex& v = vertices_[i];
             carried = v.emission + (v.reflected + carried) * (1.0f / v.survival);
@@ -94,10 +97,11 @@ class PathRecorder {
             if (v.first) carried = Rgb(0.0f);
             if (v.target.empty()) continue;
             recorded += v.pdf > 0.0f;
-            teach(path, v.vertex, Stream::rounding, v.target, lesson, log);
+            teach(v.rounding, v.target, lesson, log);
         }
         for (const LightSample& s : light_samples_)
-            teach(path, s.vertex, Stream::light_rounding, s.target, s.lesson, log);
+            teach(s.rounding, s.target, s.lesson, log);
+        log.records.insert(log.records.end(), drafts_.begin(), drafts_.begin() + next_);
         log.records.insert(log.records.end(), choices_.begin(), choices_.end());
         log.caps.outside_positions += outside_;
         return recorded;
@@ -108,7 +112,7 @@ class PathRecorder {
         Rgb weight, emission, reflected;
         float survival, pdf;
         RecordTarget target;
-        std::uint32_t code, vertex;
+        std::uint32_t code, rounding;
         MixtureBins bins;
         bool first = false;  ///< carries nothing for those before it
     };
@@ -123,31 +127,29 @@ class PathRecorder {
     };
     struct LightSample {
         RecordTarget target;
-        std::uint32_t vertex;
+        std::uint32_t rounding;
         Lesson lesson;
     };
 
     /// As published a view alone learns, and the radiance; otherwise the region learns that as it would without, and
     /// the view what is reflected.
-    void teach(const PathKey& path, std::uint32_t vertex, Stream rounding, const RecordTarget& target, const Lesson& l,
-               RecordLog& log) const {
+    void teach(std::uint32_t rounding, const RecordTarget& target, const Lesson& l, RecordLog& log) {
         const bool smooth = l.pdf > 0.0f;
-        const Draw bits = l.radiance > 0.0f || l.reflected > 0.0f ? draw(path, vertex, rounding) : Draw{};
         const float value = smooth ? target_value(l.radiance, l.pdf) : 0.0f;
         const float mixture = l.of_mixture ? l.reflected : 0.0f;
         if (!target.has_view()) {
             log.counts[target.region] += smooth;
-            append(bits[0], {target.region, l.code, 0, value, mixture, l.bins.region}, log);
+            append({target.region, l.code, rounding, value, mixture, l.bins.region});
             return;
         }
         const bool product = view_records_ == ViewRecords::product;
         if (product) {
             log.counts[target.region] += smooth;
-            append(bits[0], {target.region, l.code, 0, value, mixture, l.bins.region}, log);
+            append({target.region, l.code, rounding, value, mixture, l.bins.region});
         }
         log.counts[target.view] += smooth;
         const float of_view = product && smooth ? target_value(l.reflected * l.pdf, l.pdf) : value;
-        append(bits[1], {target.view, l.code, 0, of_view, mixture, l.bins.view}, log);
+        append({target.view, l.code, scrambled(rounding, kOfView), of_view, mixture, l.bins.view});
     }
 
     /// A value beyond float becomes the largest one: the sums cap it, and count that.
@@ -158,19 +160,23 @@ class PathRecorder {
         return finite(target_ == GuidingTarget::variance ? radiance * (radiance / pdf) : radiance / pdf);
     }
 
-    static void append(std::uint32_t rounding, Record record, RecordLog& log) {
-        if (!(record.value > 0.0f)) record.value = 0.0f;  // also NaN
-        if (!(record.reflected > 0.0f)) record.reflected = 0.0f;
-        if (record.value == 0.0f && record.reflected == 0.0f) return;
-        record.rounding = rounding;
-        log.records.push_back(record);
+    /// Keeps a record, unless it has nothing to tell. About half have, which no processor predicts: no branch asks.
+    void append(Record record) {
+        record.value = record.value > 0.0f ? record.value : 0.0f;  // also NaN
+        record.reflected = record.reflected > 0.0f ? record.reflected : 0.0f;
+        drafts_[static_cast<std::size_t>(next_)] = record;
+        next_ += std::max(record.value, record.reflected) > 0.0f;
     }
+
+    static constexpr std::uint32_t kOfView = 9;  ///< salt: a view's record is rounded apart from its region's
 
     GuidingTarget target_;
     ViewRecords view_records_;
     std::vector<Vertex> vertices_;
     std::vector<LightSample> light_samples_;
     std::vector<Record> choices_;
+    std::vector<Record> drafts_;  ///< of the path's records, those with nothing to tell overwritten
+    std::ptrdiff_t next_ = 0;
     std::uint64_t outside_ = 0;
 };
 

@@ -40,6 +40,7 @@ class PathWalk {
           scratch_(kBatch, Surface::make_scratch(scene)),
           emitters_(scene.emitters(), settings),
           directions_(guide, settings),
+          direction_records_(guide, settings),
           emission_(scene, settings_, observer_) {
         recorders_.fill(PathRecorder(settings.target, settings.view_records));
     }
@@ -104,8 +105,7 @@ class PathWalk {
         alive = go_on(alive);
         clock_.lap(TracePhase::direction);
         if constexpr (kRecord) {
-            for (std::uint32_t i = 0; i < alive; ++i)
-                record_direction<kViews>(paths_[alive_[i]], guide_, settings_, jitter_draws_, recorders_[alive_[i]]);
+            direction_records_.template add<Surface>(paths_, {alive_.data(), alive}, recorders_);
             clock_.lap(TracePhase::record);
         }
         return alive;
@@ -149,8 +149,12 @@ class PathWalk {
     }
 
     void find_regions(std::uint32_t alive) {
+        std::uint32_t count = 0;
+        arrivals(alive, [&](std::uint32_t, Path& path) { places_.set(count++, path.hit.p); });
+        guide_.regions(places_, count, regions_);
+        count = 0;
         arrivals(alive, [&](std::uint32_t lane, Path& path) {
-            const std::uint32_t region = path.guidance.region = guide_.region(path.hit.p);
+            const std::uint32_t region = path.guidance.region = regions_[count++];
             if (kGuided && path.depth == 1) path.first_exponent = guide_.quantum_exponent(region);
             if constexpr (kGuided) directions_.prefetch(region, lane);
         });
@@ -174,7 +178,7 @@ class PathWalk {
         emitters_.draw_numbers(seed, keys, alive);
         if (depth > 1 && settings_.roulette.plays(depth - 1))
             draw_batch(seed, keys, alive, ~0u, Stream::roulette, roulette_draws_);  // of the vertex before
-        if (kRecord && settings_.jitter_records) draw_batch(seed, keys, alive, 0, Stream::jitter, jitter_draws_);
+        if constexpr (kRecord) direction_records_.draw_numbers(seed, keys, alive);
     }
 
     /// What a path's ray has met: emission, and whether the path goes on from there, as one or as several.
@@ -373,14 +377,17 @@ class PathWalk {
     std::vector<typename Surface::Scratch> scratch_;  ///< a path's surface lasts for a step
     std::array<Path, kBatch> paths_;
     std::array<std::uint8_t, kBatch> alive_;
+    VectorBatch places_;
+    std::array<std::uint32_t, kBatch> regions_;
     Branches branches_;
     PathCopies copies_;
-    DrawBatch jitter_draws_, roulette_draws_;
+    DrawBatch roulette_draws_;
     EmitterChoice emitters_;
     DirectionChoice<Surface, kGuided, kConverts, kViews> directions_;
     CodeBatch light_codes_;
     PendingLights pending_;
     std::array<PathRecorder, kRecord ? kBatch : 0> recorders_;
+    DirectionRecords<kViews> direction_records_;
     [[no_unique_address]] Observer observer_;
     Emission<Surface, kRecord, Observer> emission_;
 };

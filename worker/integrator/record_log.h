@@ -17,12 +17,11 @@ struct RecordTarget {
     bool has_view() const { return view != Guide::kNoView; }
 };
 
-/// The stochastic spatial filter: where a record at `position` goes. One for a view goes to that of the same direction
-/// there, if there is one.
+/// Where a record goes that the stochastic spatial filter has moved to `region`. One for a view goes to that of the
+/// same direction there, if there is one.
 template <bool kViews>
-RecordTarget moved(const Guide& guide, const Vec3& position, std::uint32_t outgoing_code, RecordTarget target,
-                   const Draw& random) {
-    target.region = guide.jittered_region(position, target.region, random);
+RecordTarget moved(const Guide& guide, std::uint32_t region, std::uint32_t outgoing_code, RecordTarget target) {
+    target.region = region;
     if (kViews && target.has_view()) {
         const std::uint32_t view = guide.view(target.region, outgoing_code);
         if (view != Guide::kNoView) target.view = view;

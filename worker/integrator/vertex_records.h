@@ -1,5 +1,7 @@
 #pragma once
 
+#include <span>
+
 #include "common/guiding/mixture.h"
 #include "worker/integrator/path_recorder.h"
 #include "worker/integrator/path_settings.h"
@@ -8,24 +10,61 @@
 
 namespace treefarm {
 
-/// Notes the direction that a path has taken at a vertex.
-template <bool kViews, class Surface>
-void record_direction(const PathState<Surface>& path, const Guide& guide, const PathSettings& settings,
-                      const DrawBatch& jitter_draws, PathRecorder& recorder) {
-    const ScatterSample& s = path.scatter;
-    RecordTarget target{path.guidance.region, path.guidance.view};
-    if (s.delta) {
-        if (!path.surface->smooth()) target = {};
-        recorder.add_delta_vertex(path.weight, target, path.vertex);
-        return;
+/// Notes the directions that the paths of a step have taken.
+template <bool kViews>
+class DirectionRecords {
+  public:
+    DirectionRecords(const Guide& guide, const PathSettings& settings)
+        : guide_(guide), jitters_(settings.jitter_records) {}
+
+    /// The random numbers of a step; PathState::lane says which are a path's.
+    void draw_numbers(std::uint64_t seed, const KeyBatch& keys, std::uint32_t lanes) {
+        draw_batch(seed, keys, lanes, 0, Stream::record, draws_);
     }
-    if (settings.jitter_records)
-        target = moved<kViews>(guide, path.hit.p, path.outgoing_code, target, jitter_draws[path.lane]);
-    MixtureBins bins{mixture_bin(s.bsdf_pdf, s.guide_pdf)};
-    if (kViews && path.guidance.has_view())
-        bins.view = mixture_bin(without_view(path.guidance, s.bsdf_pdf, s.guide_pdf), s.view_pdf);
-    recorder.add_vertex(target, s.code, s.effective_pdf, path.weight, bins, path.vertex);
-}
+
+    /// Of the paths whose numbers are in `alive`, each with its own of the recorders.
+    template <class Surface>
+    void add(std::span<const PathState<Surface>> paths, std::span<const std::uint8_t> alive,
+             std::span<PathRecorder> recorders) {
+        if (jitters_) find_regions(paths, alive);
+        std::uint32_t smooth = 0;
+        for (const std::uint8_t index : alive) {
+            const PathState<Surface>& path = paths[index];
+            const ScatterSample& s = path.scatter;
+            const std::uint32_t rounding = draws_.word[3][path.lane];
+            RecordTarget target{path.guidance.region, path.guidance.view};
+            if (s.delta) {
+                if (!path.surface->smooth()) target = {};
+                recorders[index].add_delta_vertex(path.weight, target, rounding);
+                continue;
+            }
+            if (jitters_) target = moved<kViews>(guide_, regions_[smooth++], path.outgoing_code, target);
+            MixtureBins bins{mixture_bin(s.bsdf_pdf, s.guide_pdf)};
+            if (kViews && path.guidance.has_view())
+                bins.view = mixture_bin(without_view(path.guidance, s.bsdf_pdf, s.guide_pdf), s.view_pdf);
+            recorders[index].add_vertex(target, s.code, s.effective_pdf, path.weight, bins, rounding);
+        }
+    }
+
+  private:
+    /// Where the stochastic spatial filter puts the records, delta lobes' left out.
+    template <class Surface>
+    void find_regions(std::span<const PathState<Surface>> paths, std::span<const std::uint8_t> alive) {
+        std::uint32_t count = 0;
+        for (const std::uint8_t index : alive) {
+            const PathState<Surface>& path = paths[index];
+            if (path.scatter.delta) continue;
+            places_.set(count++, guide_.jittered(path.hit.p, path.guidance.region, draws_[path.lane]));
+        }
+        guide_.regions(places_, count, regions_);
+    }
+
+    const Guide& guide_;
+    const bool jitters_;
+    DrawBatch draws_;
+    VectorBatch places_;
+    std::array<std::uint32_t, kDrawBatch> regions_;
+};
 
 /// Notes what next event found at a vertex: `reflected` of it, at `weight` against scattering.
 template <bool kViews, class Surface>
@@ -37,10 +76,12 @@ void record_light(const PendingLight& light, const Rgb& reflected, float weight,
     // Scattering never meets a light without extent: its samples are weighted alone and teach the guide nothing.
     if (!settings.record_light_samples || light.delta) return;
     RecordTarget target{light.from.guidance.region, light.from.guidance.view};
-    if (settings.jitter_records)
-        target = moved<kViews>(guide, path.hit.p, path.outgoing_code, target,
-                               draw(path.key, path.vertex, Stream::light_jitter));
-    recorder.add_light_sample(target, code, light.radiance * weight, average(reflected), light.pdf, path.vertex);
+    const Draw random = draw(path.key, path.vertex, Stream::light_record);
+    if (settings.jitter_records) {
+        const std::uint32_t region = guide.region(guide.jittered(path.hit.p, target.region, random));
+        target = moved<kViews>(guide, region, path.outgoing_code, target);
+    }
+    recorder.add_light_sample(target, code, light.radiance * weight, average(reflected), light.pdf, random[3]);
 }
 
 }  // namespace treefarm
