@@ -91,7 +91,7 @@ class PassLoop {
         if (const TraceStats stats = farm_.collector().totals(); stats.probe_paths > 0) {
             probe_.add(pass.pixels, stats, plan.index);
             // An image of one pass alone has nothing better for them.
-            if (!shows_last_tree_only(job_)) leave_out_probes(pass.pixels, plan.index);
+            if (!shows_last_tree_only(job_)) set_aside_.take_out(pass.pixels, plan.index, finished_.size());
         }
         show(std::move(pass), job_, finished_);
         result_.spp = plan.first_sample + plan.spp;
@@ -117,6 +117,7 @@ class PassLoop {
                                               result_.image.mean, static_cast<std::size_t>(result_.width));
             if (state_.guiding == Guiding::open)
                 state_.guiding = treefarm::judge_guiding(report.plan, report.guiding_gain);
+            if (state_.guiding == Guiding::loses) set_aside_.put_back(finished_);
         }
         report.guiding = state_.guiding;
     }
@@ -190,6 +191,7 @@ class PassLoop {
     RenderResult result_;
     std::vector<PassResult> finished_;
     GuidingProbe probe_;
+    ProbesSetAside set_aside_;
     std::uint64_t coming_tree_hash_ = 0;
     const Timer clock_;
     double loading_seconds_ = 0;  ///< until the first worker had scene and tree and asked for work

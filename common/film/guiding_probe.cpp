@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace treefarm {
 namespace {
@@ -77,10 +78,15 @@ ProbePixels::ProbePixels(std::size_t film_pixels, std::uint32_t pass) {
     first_ = pass % 8 * count_;
 }
 
-void leave_out_probes(std::span<PixelEstimate> pixels, std::uint32_t pass) {
+void ProbesSetAside::take_out(std::span<PixelEstimate> pixels, std::uint32_t pass, std::size_t place) {
     const ProbePixels probe(pixels.size(), pass);
     for (std::size_t p = 0; p < pixels.size(); ++p)
-        if (probe.holds(static_cast<std::uint32_t>(p))) pixels[p] = {};
+        if (probe.holds(static_cast<std::uint32_t>(p))) probes_.push_back({place, p, std::exchange(pixels[p], {})});
+}
+
+void ProbesSetAside::put_back(std::span<PassResult> passes) {
+    for (const Probe& probe : std::exchange(probes_, {}))
+        passes[probe.place].pixels[probe.pixel] = probe.estimate;
 }
 
 void GuidingProbe::add(std::span<const PixelEstimate> pixels, const TraceStats& stats, std::uint32_t pass) {

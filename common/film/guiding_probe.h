@@ -4,14 +4,14 @@
 #include <span>
 #include <vector>
 
-#include "common/film/pixel_estimate.h"
+#include "common/film/combine.h"
 #include "common/film/trace_stats.h"
 
 namespace treefarm {
 
 /// Whether guiding pays, measured by the render itself: in a few short passes some pixels, chosen by a hash, are
 /// rendered unguided. How noisy they are does not change any more, and guided samples of all passes are held against
-/// it. They are no part of the image: a pixel's weights depend on its place, never on its samples.
+/// it. They are no part of a guided image: a pixel's weights depend on its place, never on its samples.
 
 /// The pixels that a pass renders unguided: about 2000, but no more than an eighth of the film and no fewer than 1/128;
 /// others in each of eight passes.
@@ -26,8 +26,22 @@ class ProbePixels {
     std::uint32_t first_ = 0, count_ = 0;  ///< of the pixels' hashes
 };
 
-/// Takes the unguided pixels out of a probe pass.
-void leave_out_probes(std::span<PixelEstimate> pixels, std::uint32_t pass);
+/// The unguided pixels of probe passes: too noisy for an image that is guided to its end, but as good as any other
+/// where guiding is given up.
+class ProbesSetAside {
+  public:
+    /// Takes them out of a probe pass, the one that will be at `place` among the passes of the image.
+    void take_out(std::span<PixelEstimate> pixels, std::uint32_t pass, std::size_t place);
+    /// Gives them back, once.
+    void put_back(std::span<PassResult> passes);
+
+  private:
+    struct Probe {
+        std::size_t place, pixel;
+        PixelEstimate estimate;
+    };
+    std::vector<Probe> probes_;
+};
 
 /// How much more a ray of a guided path costs than one of an unguided path, training included: 1.24 to 1.53 was
 /// measured, by scene (docs/guiding.md, "auto"). A constant, not a clock: the decision is part of the result.

@@ -47,6 +47,9 @@ TEST(GuidingProbe, GuidingEndsWhereItDoesNotPay) {
     EXPECT_LT(run.guiding_gains.back(), 0.1);
     EXPECT_EQ(run.states.back().guiding, Guiding::loses);
     EXPECT_EQ(run.guiding_gains.size(), 3u) << "passes of 1 to 4 spp; nobody asks again";
+    for (const PassResult& pass : run.passes)
+        for (const PixelEstimate& pixel : pass.pixels)
+            ASSERT_EQ(pixel.whole().n, pass.spp) << "what probed is as good as the rest, and was put back";
 
     job.guiding.type = GuidingType::none;
     job.sampler.seed = 5;

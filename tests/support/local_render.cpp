@@ -41,6 +41,7 @@ LocalRender render_locally(const Scene& scene, const Job& job) {
     TreeLearner learner;
     RenderState state;
     GuidingProbe probe;
+    ProbesSetAside set_aside;
     std::optional<PassPlan> before;
     for (NextPass next = choose(state); next.pass;) {
         const PassPlan pass = *next.pass;
@@ -61,7 +62,7 @@ LocalRender render_locally(const Scene& scene, const Job& job) {
         before = pass;
         if (stats.probe_paths > 0) {
             probe.add(shown.pixels, stats, pass.index);
-            if (!shows_last_tree_only(job)) leave_out_probes(shown.pixels, pass.index);
+            if (!shows_last_tree_only(job)) set_aside.take_out(shown.pixels, pass.index, run.passes.size());
         }
         show(std::move(shown), job, run.passes);
         run.image = combine_passes(run.passes, job.guiding.combination, guided);
@@ -84,6 +85,7 @@ LocalRender render_locally(const Scene& scene, const Job& job) {
                                                 static_cast<std::size_t>(scene.film.width));
             run.guiding_gains.push_back(gain.all);
             if (state.guiding == Guiding::open) state.guiding = judge_guiding(pass, gain);
+            if (state.guiding == Guiding::loses) set_aside.put_back(run.passes);
         }
         next = choose(state);
         if (!pass.record || !next.pass) continue;

@@ -206,7 +206,7 @@ TEST(GuidingProbe, NoPixelIsProbedTwice) {
 /// What other passes know of a probe pixel is its image, whole and unshaded.
 TEST(GuidingProbe, ProbesAreNoPartOfTheImage) {
     std::vector<PixelEstimate> marked = pixels(0.0f, 9.0f);
-    leave_out_probes(marked, kPass);
+    ProbesSetAside().take_out(marked, kPass, 0);
     std::vector<PixelEstimate> other = pixels(0.0f, 0.0f, 4);
     const std::vector<PassResult> passes = {{4, 0, other, false}, {8, 4, marked, false}};
     for (const Combination method : {Combination::fixed, Combination::inverse_variance, Combination::last})
@@ -215,10 +215,26 @@ TEST(GuidingProbe, ProbesAreNoPartOfTheImage) {
             EXPECT_EQ(c, Rgb64(1.0));
 }
 
+TEST(GuidingProbe, ProbesComeBackToTheirPass) {
+    const std::vector<PixelEstimate> before = pixels(0.0f, 9.0f);
+    std::vector<PassResult> passes = {{4, 0, pixels(0.0f, 0.0f, 4), false}, {8, 4, before, false}};
+    ProbesSetAside aside;
+    aside.take_out(passes[1].pixels, kPass, 1);
+    for (std::uint32_t p = 0; p < kCount; ++p)
+        ASSERT_EQ(passes[1].pixels[p].whole().n, kProbe.holds(p) ? 0u : 8u);
+    aside.put_back(passes);
+    for (std::uint32_t p = 0; p < kCount; ++p) {
+        ASSERT_EQ(passes[0].pixels[p].whole().n, 4u);
+        ASSERT_EQ(passes[1].pixels[p].whole().m2, before[p].whole().m2);
+    }
+    passes.clear();
+    aside.put_back(passes);  // nothing is left to give
+}
+
 /// Passes too short to be weighed by variance are all that is known of a pixel that the first longer one left out.
 TEST(GuidingProbe, NoPixelIsBlackForWantOfWeight) {
     std::vector<PixelEstimate> marked = pixels(0.5f, 0.5f, 4);
-    leave_out_probes(marked, kPass);
+    ProbesSetAside().take_out(marked, kPass, 0);
     const std::vector<PassResult> passes = {
         {1, 0, pixels(0.0f, 0.0f, 1), false}, {2, 1, pixels(0.0f, 0.0f, 2), false}, {4, 3, marked, false}};
     const CombinedImage image = combine_passes(passes, Combination::inverse_variance, true);
