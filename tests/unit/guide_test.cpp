@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <random>
 
 #include "tests/support/random_tree.h"
@@ -40,6 +42,61 @@ TEST_F(GuideTest, FindsTheSameRegionsAsThePlainTree) {
         const Vec3 p(uniform(engine), uniform(engine), uniform(engine));
         EXPECT_EQ(guide.region(p), slow_region(p));
     }
+}
+
+/// Halved towards the origin again and again, down to the deepest region that there may be.
+SdTree deep_tree() {
+    SdTree tree = initial_tree(Box3(Vec3(0.0f), Vec3(1.0f)), 1.0f);
+    const std::size_t cells = tree.cell_depth.size();
+    const std::vector<std::uint8_t> depths = tree.cell_depth;
+    const std::vector<std::uint32_t> masses = tree.cell_mass;
+    const auto leaf = [](std::uint32_t region) { return SdTree::Node{{0, region}}; };
+    tree.nodes.clear();
+    for (std::uint32_t level = 0; level < kMaxSpatialDepth; ++level) {
+        const auto next = 2 * level + 1;  // its leaf, then the next to be halved
+        tree.nodes.push_back({{next + 1, next}});
+        tree.nodes.push_back(leaf(level));
+    }
+    tree.nodes.push_back(leaf(kMaxSpatialDepth));
+    for (int region = 0; region < kMaxSpatialDepth; ++region) {
+        tree.cell_depth.insert(tree.cell_depth.end(), depths.begin(), depths.end());
+        tree.cell_mass.insert(tree.cell_mass.end(), masses.begin(), masses.end());
+        tree.cell_begin.push_back(tree.cell_begin.back() + static_cast<std::uint32_t>(cells));
+        tree.quantum_exponent.push_back(tree.quantum_exponent.front());
+        tree.bsdf_fraction.push_back(tree.bsdf_fraction.front());
+    }
+    return tree;
+}
+
+/// In step, the first of a batch, shallow and deep ones mixed.
+TEST_F(GuideTest, RegionsOfABatchAreThoseOfItsPoints) {
+    tree = deep_tree();
+    const Guide deep(tree);
+    VectorBatch points{};
+    std::array<std::uint32_t, kDrawBatch> found;
+    std::uint32_t deepest = 0;
+    for (const std::uint32_t count : {0u, 1u, 7u, 33u, kDrawBatch}) {
+        for (int round = 0; round < 200; ++round) {
+            for (std::uint32_t i = 0; i < count; ++i) {
+                const float scale = std::ldexp(1.0f, -static_cast<int>(bits() % 24));
+                points.set(
+                    i, tree.origin + Vec3(uniform(engine), uniform(engine), uniform(engine)) * (scale * tree.extent));
+            }
+            if (count > 2) {
+                points.set(1, Vec3(std::nanf("")));
+                points.set(2, Vec3(1e30f, -1e30f, 0.5f));
+            }
+            deep.regions(points, count, found);
+            for (std::uint32_t i = 0; i < count; ++i) {
+                ASSERT_EQ(found[i], deep.region(points[i]));
+                if (deep.contains(points[i])) {
+                    ASSERT_EQ(found[i], slow_region(points[i]));
+                }
+                deepest = std::max(deepest, found[i]);
+            }
+        }
+    }
+    EXPECT_EQ(deepest, static_cast<std::uint32_t>(kMaxSpatialDepth));
 }
 
 TEST_F(GuideTest, PointsOutsideBelongToTheNearestRegion) {
