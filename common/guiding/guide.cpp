@@ -10,7 +10,7 @@ namespace {
 constexpr int kAxisBits = kMaxSpatialDepth / 3;
 constexpr float kAxisSteps = static_cast<float>(1 << kAxisBits);
 
-/// Halvings of each axis that a table does at once: 16 KB, and most of a tree's treelets lie below.
+/// Halvings of each axis that a table does at once, by 16 KB.
 constexpr int kTopBits = 4;
 
 std::uint32_t axis_step(float position, float origin, float inverse_extent) {

@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -97,20 +96,15 @@ TEST_F(InspectCommand, TheTruthIsWhatThePixelShows) {
     };
     for (const Case& c :
          {Case{"cornell-box.xml -D size=32", 4, 12}, Case{"glossy-room.xml -D width=96 -D height=64", 70, 30}}) {
-        render(test::own_scene("") + c.scene + " --spp 255 --set guiding.type=ppg");
+        // Enough samples: at 255 spp nine pixels of the glossy room deviate by 4 % (one standard error).
+        render(test::own_scene("") + c.scene + " --spp 1023 --set guiding.type=ppg");
         const RgbImage image = read_exr_rgb(run_ + "/image.exr").image;
-        const RgbImage variance = read_exr_rgb(run_ + "/image.exr", "variance").image;
         const nlohmann::json found = inspect("--spp 16 --pixel " + std::to_string(c.x) + "," + std::to_string(c.y));
-        double shown = 0, noise = 0;  // of the neighbours, too: the image is noisy
+        double shown = 0;  // of the neighbours, too: the image is noisy
         for (int y = c.y - 1; y <= c.y + 1; ++y)
-            for (int x = c.x - 1; x <= c.x + 1; ++x) {
-                const auto p = static_cast<std::size_t>(y * image.width + x);
-                shown += static_cast<double>(average(image.pixels[p])) / 9;
-                noise += static_cast<double>(average(variance.pixels[p])) / 81;
-            }
-        const double tolerance = 0.08 * shown + 2.5 * std::sqrt(noise);
-        EXPECT_LT(tolerance, 0.25 * shown) << c.scene << ": tells something";
-        EXPECT_NEAR(found["places"][0]["reflected"].get<double>(), shown, tolerance) << c.scene;
+            for (int x = c.x - 1; x <= c.x + 1; ++x)
+                shown += static_cast<double>(average(image.pixels[static_cast<std::size_t>(y * image.width + x)])) / 9;
+        EXPECT_NEAR(found["places"][0]["reflected"].get<double>(), shown, 0.1 * shown) << c.scene;
     }
 }
 

@@ -160,7 +160,7 @@ class PathRecorder {
         return finite(target_ == GuidingTarget::variance ? radiance * (radiance / pdf) : radiance / pdf);
     }
 
-    /// Keeps a record, unless it has nothing to tell. About half have, which no processor predicts: no branch asks.
+    /// Keeps a record, unless it has nothing to tell, which nothing would predict: no branch asks.
     void append(Record record) {
         record.value = record.value > 0.0f ? record.value : 0.0f;  // also NaN
         record.reflected = record.reflected > 0.0f ? record.reflected : 0.0f;
