@@ -86,8 +86,8 @@ class PathRecorder {
     std::uint64_t commit(RecordLog& log) {
         Rgb carried(0.0f);
         std::uint64_t recorded = light_samples_.size();
-        drafts_.resize(std::max(drafts_.size(), 2 * (vertices_.size() + light_samples_.size())));
-        next_ = 0;
+        log.drafts.resize(std::max(log.drafts.size(), 2 * (vertices_.size() + light_samples_.size())));
+        Record* end = log.drafts.data();
         for (std::size_t i = vertices_.size(); i-- > 0;) {
             const Vertex& v = vertices_[i];
             carried = v.emission + (v.reflected + carried) * (1.0f / v.survival);
@@ -97,11 +97,11 @@ class PathRecorder {
             if (v.first) carried = Rgb(0.0f);
             if (v.target.empty()) continue;
             recorded += v.pdf > 0.0f;
-            teach(v.rounding, v.target, lesson, log);
+            end = teach(v.rounding, v.target, lesson, log, end);
         }
         for (const LightSample& s : light_samples_)
-            teach(s.rounding, s.target, s.lesson, log);
-        log.records.insert(log.records.end(), drafts_.begin(), drafts_.begin() + next_);
+            end = teach(s.rounding, s.target, s.lesson, log, end);
+        log.records.insert(log.records.end(), log.drafts.data(), end);
         log.records.insert(log.records.end(), choices_.begin(), choices_.end());
         log.caps.outside_positions += outside_;
         return recorded;
@@ -132,24 +132,24 @@ class PathRecorder {
     };
 
     /// As published a view alone learns, and the radiance; otherwise the region learns that as it would without, and
-    /// the view what is reflected.
-    void teach(std::uint32_t rounding, const RecordTarget& target, const Lesson& l, RecordLog& log) {
+    /// the view what is reflected. Records are written at `end`; returns the new one.
+    Record* teach(std::uint32_t rounding, const RecordTarget& target, const Lesson& l, RecordLog& log,
+                  Record* end) const {
         const bool smooth = l.pdf > 0.0f;
         const float value = smooth ? target_value(l.radiance, l.pdf) : 0.0f;
         const float mixture = l.of_mixture ? l.reflected : 0.0f;
         if (!target.has_view()) {
             log.counts[target.region] += smooth;
-            append({target.region, l.code, rounding, value, mixture, l.bins.region});
-            return;
+            return append({target.region, l.code, rounding, value, mixture, l.bins.region}, end);
         }
         const bool product = view_records_ == ViewRecords::product;
         if (product) {
             log.counts[target.region] += smooth;
-            append({target.region, l.code, rounding, value, mixture, l.bins.region});
+            end = append({target.region, l.code, rounding, value, mixture, l.bins.region}, end);
         }
         log.counts[target.view] += smooth;
         const float of_view = product && smooth ? target_value(l.reflected * l.pdf, l.pdf) : value;
-        append({target.view, l.code, scrambled(rounding, kOfView), of_view, mixture, l.bins.view});
+        return append({target.view, l.code, scrambled(rounding, kOfView), of_view, mixture, l.bins.view}, end);
     }
 
     /// A value beyond float becomes the largest one: the sums cap it, and count that.
@@ -161,11 +161,11 @@ class PathRecorder {
     }
 
     /// Keeps a record, unless it has nothing to tell, which nothing would predict: no branch asks.
-    void append(Record record) {
+    static Record* append(Record record, Record* end) {
         record.value = record.value > 0.0f ? record.value : 0.0f;  // also NaN
         record.reflected = record.reflected > 0.0f ? record.reflected : 0.0f;
-        drafts_[static_cast<std::size_t>(next_)] = record;
-        next_ += std::max(record.value, record.reflected) > 0.0f;
+        *end = record;
+        return end + (std::max(record.value, record.reflected) > 0.0f);
     }
 
     static constexpr std::uint32_t kOfView = 9;  ///< salt: a view's record is rounded apart from its region's
@@ -175,8 +175,6 @@ class PathRecorder {
     std::vector<Vertex> vertices_;
     std::vector<LightSample> light_samples_;
     std::vector<Record> choices_;
-    std::vector<Record> drafts_;  ///< of the path's records, those with nothing to tell overwritten
-    std::ptrdiff_t next_ = 0;
     std::uint64_t outside_ = 0;
 };
 

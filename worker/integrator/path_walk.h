@@ -149,12 +149,14 @@ class PathWalk {
     }
 
     void find_regions(std::uint32_t alive) {
+        VectorBatch places;
+        std::array<std::uint32_t, kBatch> regions;
         std::uint32_t count = 0;
-        arrivals(alive, [&](std::uint32_t, Path& path) { places_.set(count++, path.hit.p); });
-        guide_.regions(places_, count, regions_);
+        arrivals(alive, [&](std::uint32_t, Path& path) { places.set(count++, path.hit.p); });
+        guide_.regions(places, count, regions);
         count = 0;
         arrivals(alive, [&](std::uint32_t lane, Path& path) {
-            const std::uint32_t region = path.guidance.region = regions_[count++];
+            const std::uint32_t region = path.guidance.region = regions[count++];
             if (kGuided && path.depth == 1) path.first_exponent = guide_.quantum_exponent(region);
             if constexpr (kGuided) directions_.prefetch(region, lane);
         });
@@ -377,8 +379,6 @@ class PathWalk {
     std::vector<typename Surface::Scratch> scratch_;  ///< a path's surface lasts for a step
     std::array<Path, kBatch> paths_;
     std::array<std::uint8_t, kBatch> alive_;
-    VectorBatch places_;
-    std::array<std::uint32_t, kBatch> regions_;
     Branches branches_;
     PathCopies copies_;
     DrawBatch roulette_draws_;

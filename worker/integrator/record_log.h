@@ -34,6 +34,7 @@ struct RecordLog {
     std::vector<Record> records;        ///< those with radiance
     std::vector<std::uint32_t> counts;  ///< recorded vertices per distribution, those without radiance included
     UpdateCaps caps;
+    std::vector<Record> drafts;  ///< room for a path's records, of which only some are kept
 
     /// Empties the log, keeping its memory.
     void begin(std::uint32_t distributions) {

@@ -50,19 +50,19 @@ class DirectionRecords {
     /// Where the stochastic spatial filter puts the records, delta lobes' left out.
     template <class Surface>
     void find_regions(std::span<const PathState<Surface>> paths, std::span<const std::uint8_t> alive) {
+        VectorBatch places;
         std::uint32_t count = 0;
         for (const std::uint8_t index : alive) {
             const PathState<Surface>& path = paths[index];
             if (path.scatter.delta) continue;
-            places_.set(count++, guide_.jittered(path.hit.p, path.guidance.region, draws_[path.lane]));
+            places.set(count++, guide_.jittered(path.hit.p, path.guidance.region, draws_[path.lane]));
         }
-        guide_.regions(places_, count, regions_);
+        guide_.regions(places, count, regions_);
     }
 
     const Guide& guide_;
     const bool jitters_;
     DrawBatch draws_;
-    VectorBatch places_;
     std::array<std::uint32_t, kDrawBatch> regions_;
 };
 
