@@ -38,13 +38,13 @@ class DirectionChoice {
     /// Whether the paths of this step choose among several.
     bool several() const { return several_; }
 
-    /// Before any of these paths draws; fetches what they read after what prefetch() asked for.
-    void start(std::span<const Path> paths, std::span<const std::uint8_t> alive) {
-        batch_.clear();
-        if constexpr (kGuided)
-            for (const std::uint8_t index : alive)
-                guide_.prefetch_cell(paths[index].guidance.region, draws_.word[1][paths[index].lane]);
+    /// What it would read next, by what prefetch() has brought.
+    void prefetch_cell(const Path& path) const {
+        if (path.found) guide_.prefetch_cell(path.guidance.region, draws_.word[1][path.lane]);
     }
+
+    /// Before any path of a step draws.
+    void start() { batch_.clear(); }
 
     // One: draw(), then convert(), then complete().
     bool draw(Path& path) { return draw(path, technique(path)); }

@@ -94,10 +94,14 @@ class CodeBatch {
 
     void convert() { direction_to_code_batch(directions_, count_, codes_); }
 
-    /// Fetches what the tree's densities of these directions need.
+    /// Fetches what the tree's densities of these directions will read first.
     void prefetch(const Guide& guide) const {
         for (std::uint32_t i = 0; i < count_; ++i)
             guide.prefetch_pdf(regions_[i], codes_[i]);
+    }
+
+    /// Fetches what they will read next, by what prefetch() has brought.
+    void prefetch_cells(const Guide& guide) const {
         for (std::uint32_t i = 0; i < count_; ++i)
             guide.prefetch_pdf_cell(regions_[i], codes_[i]);
     }
@@ -162,6 +166,7 @@ class ScatterBatch {
         if constexpr (kGuided) {
             codes_.prefetch(guide);
             square_to_direction_batch(places_x_, places_y_, place_count_, directions_);
+            codes_.prefetch_cells(guide);
         }
     }
 

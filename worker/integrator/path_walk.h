@@ -96,7 +96,10 @@ class PathWalk {
         clock_.lap(TracePhase::surface);
         if constexpr (kConverts) find_regions(alive);
         pending_.clear();
-        alive = keep(alive, [&](std::uint8_t path) { return visit(path); });
+        alive = keep(alive, [&](std::uint8_t path) {
+            if constexpr (kGuided) directions_.prefetch_cell(paths_[path]);
+            return visit(path);
+        });
         if (emitters_.together()) [[unlikely]]
             sample_emitters_together(alive);
         clock_.lap(TracePhase::surface);
@@ -118,7 +121,7 @@ class PathWalk {
             directions_.complete(paths_[path]);
             return leave(path);
         };
-        directions_.start(paths_, {alive_.data(), alive});
+        directions_.start();
         if constexpr (!kConverts) return keep(alive, [&](std::uint8_t path) { return draws(path) && leaves(path); });
         if constexpr (kGuided)
             if (directions_.several()) {
@@ -353,6 +356,7 @@ class PathWalk {
         emitters_.shine_from_infinity(
             pending_, {seen.data(), count}, [&](const PendingLight& light) { return paths_[light.from.path].lane; },
             [&](const PendingLight& light) { return light_share(paths_[light.from.path]); });
+        if constexpr (kGuided) light_codes_.prefetch_cells(guide_);
         for (std::uint32_t i = 0; i < count; ++i)
             add_light(pending_[seen[i]], light_codes_[i]);
     }
