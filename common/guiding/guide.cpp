@@ -37,8 +37,6 @@ Guide::Guide(const SdTree& tree)
       origin_(tree.origin),
       inverse_extent_(1.0f / tree.extent),
       extent_(tree.extent),
-      view_set_(tree.view_set),
-      view_begin_(tree.view_begin),
       view_fraction_(tree.view_fraction),
       quantum_exponent_(tree.quantum_exponent),
       bsdf_fraction_(tree.bsdf_fraction),
@@ -48,22 +46,32 @@ Guide::Guide(const SdTree& tree)
     build_top();
 
     cells_.reserve(tree.cell_count() + distribution_count() + kFewCells);
-    mass_guide_.resize(region_count());
-    code_guide_.resize(region_count());
+    region_mass_.resize(region_count());
+    region_code_.resize(region_count());
     for (std::uint32_t r = 0; r < region_count(); ++r) {
         const std::size_t first = cells_.size();
         add_distribution(tree, r);
-        fill_guides(r, first);
+        fill_guides<kRegionBits>(region_mass_[r], region_code_[r], first);
     }
-    for (std::uint32_t v = 0; v < tree.view_count(); ++v) {
-        view_cells_.push_back(static_cast<std::uint32_t>(cells_.size()));
-        add_distribution(tree, region_count() + v);
-    }
-    view_cells_.push_back(static_cast<std::uint32_t>(cells_.size()));
+    add_views(tree);
     cells_.resize(cells_.size() + kFewCells);
+}
+
+void Guide::add_views(const SdTree& tree) {
+    view_mass_.resize(tree.view_count());
+    view_cell_code_.resize(tree.view_count());
+    for (std::uint32_t v = 0; v < tree.view_count(); ++v) {
+        const std::size_t first = cells_.size();
+        add_distribution(tree, region_count() + v);
+        fill_guides<kViewBits>(view_mass_[v], view_cell_code_[v], first);
+    }
+    views_.resize(tree.view_set.size());
+    for (std::uint32_t r = 0; r < views_.size(); ++r)
+        if (const std::uint32_t set = tree.view_set[r]; set != SdTree::kNoViews)
+            views_[r] = {tree.view_begin[set], tree.view_begin[set + 1] - tree.view_begin[set]};
     for (std::uint32_t t = 0; t < tree.view_set_count(); ++t) {
         std::uint64_t code = 0;
-        for (std::uint32_t v = view_begin_[t]; v < view_begin_[t + 1]; ++v) {
+        for (std::uint32_t v = tree.view_begin[t]; v < tree.view_begin[t + 1]; ++v) {
             view_code_.push_back(static_cast<std::uint32_t>(code));
             code += std::uint64_t{1} << (2 * (kDirectionBits - tree.view_depth[v]));
         }
@@ -81,22 +89,23 @@ void Guide::add_distribution(const SdTree& tree, std::uint32_t distribution) {
     cells_.push_back({static_cast<std::uint32_t>(code), mass});
 }
 
-/// Entry k is the cell that contains k/64; the binary search of a look-up runs between entries k and k+1.
-void Guide::fill_guides(std::uint32_t region, std::size_t first) {
+/// The binary search of a look-up runs between entries k and k + 1.
+template <int bits>
+void Guide::fill_guides(GuideTable<bits>& by_mass, GuideTable<bits>& by_code, std::size_t first) const {
+    constexpr std::uint32_t kSize = 1u << bits;
     const std::size_t end = cells_.size() - 1;
     std::uint32_t next_mass = 0, next_code = 0;
     for (std::size_t i = first; i < end; ++i) {
         const auto index = static_cast<std::uint32_t>(i);
-        for (; next_mass < kGuideSize && (next_mass << (kMassBits - kGuideBits)) < cells_[i + 1].mass_begin;
-             ++next_mass)
-            mass_guide_[region][next_mass] = index;
+        for (; next_mass < kSize && (next_mass << (kMassBits - bits)) < cells_[i + 1].mass_begin; ++next_mass)
+            by_mass[next_mass] = index;
         // The last cell ends at 2^32, which its code does not show.
-        for (; next_code < kGuideSize &&
-               (i + 1 == end || (next_code << (2 * kDirectionBits - kGuideBits)) < cells_[i + 1].code_begin);
+        for (; next_code < kSize &&
+               (i + 1 == end || (next_code << (2 * kDirectionBits - bits)) < cells_[i + 1].code_begin);
              ++next_code)
-            code_guide_[region][next_code] = index;
+            by_code[next_code] = index;
     }
-    mass_guide_[region][kGuideSize] = code_guide_[region][kGuideSize] = static_cast<std::uint32_t>(end - 1);
+    by_mass[kSize] = by_code[kSize] = static_cast<std::uint32_t>(end - 1);
 }
 
 /// Three levels of the binary tree (x, y, z) become one line of eight entries; a leaf above the third level fills all
@@ -198,8 +207,8 @@ float Guide::density(const Cell* cell) {
 }
 
 std::uint32_t Guide::view(std::uint32_t region, std::uint32_t outgoing_code) const {
-    if (view_set_.empty() || view_set_[region] == SdTree::kNoViews) return kNoView;
-    std::uint32_t at = view_begin_[view_set_[region]], count = view_begin_[view_set_[region] + 1] - at;
+    if (views_.empty() || views_[region].count == 0) return kNoView;
+    std::uint32_t at = views_[region].first, count = views_[region].count;
     for (; count > 1; count -= count / 2)
         at += view_code_[at + count / 2] <= outgoing_code ? count / 2 : 0;
     return region_count() + at;
@@ -212,11 +221,8 @@ float Guide::pdf(std::uint32_t distribution, std::uint32_t code) const {
 Guide::Place Guide::sample_place(std::uint32_t distribution, std::uint32_t pick, std::uint32_t u0,
                                  std::uint32_t u1) const {
     const std::uint32_t mass = pick >> (32 - kMassBits);
-    const Range among = distribution < region_count()
-                            ? range(mass_guide_[distribution], mass >> (kMassBits - kGuideBits))
-                            : view_range(distribution);
     // The last cell whose probability begins at or before the pick is never an empty one.
-    const Cell* const cell = last_before(among, &Cell::mass_begin, mass);
+    const Cell* const cell = last_before(range(by_mass(distribution, mass)), &Cell::mass_begin, mass);
     const std::uint32_t begin = cell[0].code_begin, area = cell[1].code_begin - begin;
     // Positions are drawn on a grid of 2^23 steps per axis that nests in the quadtree's cells (steps' centres are exact
     // floats), so the code of the sampled point lies in the sampled cell by construction.
@@ -232,9 +238,9 @@ Guide::Place Guide::sample_place(std::uint32_t distribution, std::uint32_t pick,
 
 std::size_t Guide::bytes() const {
     return treelets_.size() * sizeof(treelets_[0]) + top_.size() * 4 + cells_.size() * sizeof(Cell) +
-           (mass_guide_.size() + code_guide_.size()) * sizeof(GuideTable) + quantum_exponent_.size() * 2 +
-           bsdf_fraction_.size() * 4 + light_share_.size() * sizeof(LightShare) + region_depth_.size() +
-           view_count() * 12 + (view_set_.size() + view_begin_.size()) * 4;
+           2 * region_mass_.size() * sizeof(region_mass_[0]) + 2 * view_mass_.size() * sizeof(view_mass_[0]) +
+           quantum_exponent_.size() * 2 + bsdf_fraction_.size() * 4 + light_share_.size() * sizeof(LightShare) +
+           region_depth_.size() + view_count() * 8 + views_.size() * sizeof(Views);
 }
 
 }  // namespace treefarm

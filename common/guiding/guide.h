@@ -72,15 +72,20 @@ class Guide {
     static constexpr std::uint32_t kNoView = 0xffffffffu;
     std::uint32_t view(std::uint32_t region, std::uint32_t outgoing_code) const;
 
+    /// Fetches what view() will read first.
+    void prefetch_views(std::uint32_t region) const {
+        if (!views_.empty()) prefetch_line(&views_[region]);
+    }
+
     /// Fetches what sample() with this `pick` will read first.
-    void prefetch(std::uint32_t region, std::uint32_t pick) const {
-        prefetch_line(&bsdf_fraction_[region]);
-        prefetch_line(&mass_guide_[region][pick >> (32 - kGuideBits)]);
+    void prefetch(std::uint32_t distribution, std::uint32_t pick) const {
+        prefetch_line(&bsdf_fraction_[distribution]);
+        prefetch_line(by_mass(distribution, pick >> (32 - kMassBits)));
     }
 
     /// Fetches what it will read next, by what prefetch() has brought.
-    void prefetch_cell(std::uint32_t region, std::uint32_t pick) const {
-        prefetch_ends(mass_guide_[region], pick >> (32 - kGuideBits));
+    void prefetch_cell(std::uint32_t distribution, std::uint32_t pick) const {
+        prefetch_ends(range(by_mass(distribution, pick >> (32 - kMassBits))));
     }
 
     /// Draws a direction; `pick`, `u0` and `u1` are uniform 32-bit numbers.
@@ -91,30 +96,18 @@ class Guide {
     /// The same without its direction, which is quicker found for many places together.
     Place sample_place(std::uint32_t distribution, std::uint32_t pick, std::uint32_t u0, std::uint32_t u1) const;
 
-    /// Fetches what pdf() with this code will read first.
-    void prefetch_pdf(std::uint32_t region, std::uint32_t code) const {
-        prefetch_line(&code_guide_[region][code >> (2 * kDirectionBits - kGuideBits)]);
+    /// Fetches what pdf() and cell() with this code will read first.
+    void prefetch_pdf(std::uint32_t distribution, std::uint32_t code) const {
+        prefetch_line(by_code(distribution, code));
     }
 
     /// Fetches what it will read next, by what prefetch_pdf() has brought.
-    void prefetch_pdf_cell(std::uint32_t region, std::uint32_t code) const {
-        prefetch_ends(code_guide_[region], code >> (2 * kDirectionBits - kGuideBits));
+    void prefetch_pdf_cell(std::uint32_t distribution, std::uint32_t code) const {
+        prefetch_ends(range(by_code(distribution, code)));
     }
 
     /// Density per steradian of the direction with this code; 0 where the tree has seen nothing.
     float pdf(std::uint32_t distribution, std::uint32_t code) const;
-
-    /// Fetches what cell() will read first.
-    void prefetch_find(std::uint32_t distribution, std::uint32_t code) const {
-        if (distribution < region_count()) prefetch_pdf(distribution, code);
-    }
-
-    /// Fetches what it will read next, by what prefetch_find() has brought.
-    void prefetch_found(std::uint32_t distribution, std::uint32_t code) const {
-        if (distribution < region_count()) return prefetch_pdf_cell(distribution, code);
-        const Range among = view_range(distribution);
-        prefetch_line(among.first + among.count / 2);
-    }
 
     /// Index (over the whole tree) of the cell of a direction: where a record goes.
     std::uint32_t cell(std::uint32_t distribution, std::uint32_t code) const {
@@ -138,18 +131,37 @@ class Guide {
         const Cell* first;
         std::uint32_t count;
     };
-    static constexpr int kGuideBits = 6;
-    static constexpr std::uint32_t kGuideSize = 1u << kGuideBits;
+    /// Per distribution, entry k of 2^bits: the cell that holds what is k / 2^bits of a look-up's key, or may hold it.
+    template <int bits>
+    using GuideTable = std::array<std::uint32_t, (1u << bits) + 1>;
+    static constexpr int kRegionBits = 6;
+    static constexpr int kViewBits = 4;  ///< views are many and small
     static constexpr std::uint32_t kLeafFlag = 0x80000000u;
 
     std::uint32_t build_treelet(const SdTree& tree, std::uint32_t node, int depth);
     void build_top();
     static float density(const Cell* cell);
+    template <int bits>
+    void fill_guides(GuideTable<bits>& by_mass, GuideTable<bits>& by_code, std::size_t first) const;
+    /// Entries of the tables: the cell is among those from this entry's to the next one's.
+    const std::uint32_t* by_mass(std::uint32_t distribution, std::uint32_t mass) const {
+        return distribution < region_count()
+                   ? &region_mass_[distribution][mass >> (kMassBits - kRegionBits)]
+                   : &view_mass_[distribution - region_count()][mass >> (kMassBits - kViewBits)];
+    }
+    const std::uint32_t* by_code(std::uint32_t distribution, std::uint32_t code) const {
+        return distribution < region_count()
+                   ? &region_code_[distribution][code >> (2 * kDirectionBits - kRegionBits)]
+                   : &view_cell_code_[distribution - region_count()][code >> (2 * kDirectionBits - kViewBits)];
+    }
+    Range range(const std::uint32_t* entry) const { return {&cells_[entry[0]], entry[1] - entry[0] + 1}; }
+    /// Cells of a range lie side by side: most are in one line of cache, or in two.
+    static void prefetch_ends(const Range& among) {
+        prefetch_line(among.first);
+        prefetch_line(among.first + among.count);
+    }
     const Cell* find(std::uint32_t distribution, std::uint32_t code) const {
-        const Range among = distribution < region_count()
-                                ? range(code_guide_[distribution], code >> (2 * kDirectionBits - kGuideBits))
-                                : view_range(distribution);
-        return last_before(among, &Cell::code_begin, code);
+        return last_before(range(by_code(distribution, code)), &Cell::code_begin, code);
     }
     /// The last cell whose `begin` is at or before `key`. Most ranges have eight cells or fewer: three steps that never
     /// branch, because nothing would predict how many are needed.
@@ -168,12 +180,7 @@ class Guide {
     }
     static constexpr std::uint32_t kFewCells = 8;  ///< and as many may be read beyond a range
     void add_distribution(const SdTree& tree, std::uint32_t distribution);
-    void fill_guides(std::uint32_t region, std::size_t first);
-    /// All cells of a view: it is small, and tables would outweigh it.
-    Range view_range(std::uint32_t distribution) const {
-        const std::uint32_t first = view_cells_[distribution - region_count()];
-        return {&cells_[first], view_cells_[distribution - region_count() + 1] - first - 1};
-    }
+    void add_views(const SdTree& tree);
 
     bool trained_ = false;
     Vec3 origin_{0.0f};
@@ -183,22 +190,13 @@ class Guide {
     std::vector<std::uint32_t> top_;  ///< the entries that kTopBits treelets lead to, or the leaf before
     std::vector<Cell> cells_;  ///< each distribution's, then one at which the next would begin: cell c of distribution
                                ///< d is c + d; kFewCells more at the end
-    using GuideTable = std::array<std::uint32_t, kGuideSize + 1>;
-    Range range(const GuideTable& guide, std::uint32_t entry) const {
-        return {&cells_[guide[entry]], guide[entry + 1] - guide[entry] + 1};
-    }
-    /// Cells of a range lie side by side: most are in one line of cache, or in two.
-    void prefetch_ends(const GuideTable& guide, std::uint32_t entry) const {
-        const Range among = range(guide, entry);
-        prefetch_line(among.first);
-        prefetch_line(among.first + among.count);
-    }
-    std::vector<GuideTable> mass_guide_;     ///< per region: first of cells_ that may hold probability k/64
-    std::vector<GuideTable> code_guide_;     ///< per region: the one that holds code k/64
-    std::vector<std::uint32_t> view_set_;    ///< as in SdTree
-    std::vector<std::uint32_t> view_begin_;  ///< as in SdTree
-    std::vector<std::uint32_t> view_code_;   ///< per view: its first Z-order code
-    std::vector<std::uint32_t> view_cells_;  ///< per view and one more: its first of cells_
+    std::vector<GuideTable<kRegionBits>> region_mass_, region_code_;
+    std::vector<GuideTable<kViewBits>> view_mass_, view_cell_code_;
+    struct Views {
+        std::uint32_t first = 0, count = 0;  ///< of the views that a region has
+    };
+    std::vector<Views> views_;              ///< per region; empty if none has any
+    std::vector<std::uint32_t> view_code_;  ///< per view: its first Z-order code
     std::vector<float> view_fraction_;
     std::vector<std::int16_t> quantum_exponent_;
     std::vector<float> bsdf_fraction_;

@@ -53,9 +53,9 @@ template <class DistributionOf, class CodeOf>
 void Accumulator::find_cells(std::uint32_t count, DistributionOf distribution, CodeOf code,
                              std::span<std::uint32_t> cells) {
     for (std::uint32_t i = 0; i < count; ++i)
-        guide_.prefetch_find(distribution(i), code(i));
+        guide_.prefetch_pdf(distribution(i), code(i));
     for (std::uint32_t i = 0; i < count; ++i)
-        guide_.prefetch_found(distribution(i), code(i));
+        guide_.prefetch_pdf_cell(distribution(i), code(i));
     for (std::uint32_t i = 0; i < count; ++i) {
         cells[i] = guide_.cell(distribution(i), code(i));
         sums_.prefetch_cell(cells[i]);

@@ -32,19 +32,29 @@ class DirectionChoice {
         draw_batch(seed, keys_, lanes, 0, Stream::candidate, picks_);
     }
 
-    /// What sampling the guide would read first.
-    void prefetch(std::uint32_t region, std::uint32_t lane) const { guide_.prefetch(region, draws_.word[1][lane]); }
-
     /// Whether the paths of this step choose among several.
     bool several() const { return several_; }
 
-    /// What it would read next, by what prefetch() has brought.
+    // What sampling will read is fetched ahead, each time by what the last has brought.
+    void prefetch(std::uint32_t region, std::uint32_t lane) const {
+        guide_.prefetch(region, draws_.word[1][lane]);
+        if constexpr (kViews) guide_.prefetch_views(region);
+    }
     void prefetch_cell(const Path& path) const {
         if (path.found) guide_.prefetch_cell(path.guidance.region, draws_.word[1][path.lane]);
     }
+    void prefetch_view(const Path& path) const {
+        if (path.guidance.has_view()) guide_.prefetch(path.guidance.view, draws_.word[1][path.lane]);
+    }
 
-    /// Before any path of a step draws.
-    void start() { batch_.clear(); }
+    /// Before any path of a step draws; `alive` are the numbers of those that will.
+    void start(std::span<const Path> paths, std::span<const std::uint8_t> alive) {
+        batch_.clear();
+        if constexpr (kGuided && kViews)
+            for (const std::uint8_t index : alive)
+                if (const Path& path = paths[index]; path.guidance.has_view())
+                    guide_.prefetch_cell(path.guidance.view, draws_.word[1][path.lane]);
+    }
 
     // One: draw(), then convert(), then complete().
     bool draw(Path& path) { return draw(path, technique(path)); }

@@ -81,14 +81,16 @@ void find_view(const Guide& guide, bool view_dependent, const Vec3& outgoing, st
 }
 
 /// Directions whose codes are wanted, converted together by vector code.
+template <bool kViews>
 class CodeBatch {
   public:
     void clear() { count_ = 0; }
 
     /// Returns the direction's number.
-    std::uint32_t add(const Vec3& direction, std::uint32_t region) {
+    std::uint32_t add(const Vec3& direction, const Guidance& guidance) {
         directions_.set(count_, direction);
-        regions_[count_] = region;
+        regions_[count_] = guidance.region;
+        if constexpr (kViews) views_[count_] = guidance.view;
         return count_++;
     }
 
@@ -96,14 +98,18 @@ class CodeBatch {
 
     /// Fetches what the tree's densities of these directions will read first.
     void prefetch(const Guide& guide) const {
-        for (std::uint32_t i = 0; i < count_; ++i)
+        for (std::uint32_t i = 0; i < count_; ++i) {
             guide.prefetch_pdf(regions_[i], codes_[i]);
+            if (kViews && views_[i] != Guide::kNoView) guide.prefetch_pdf(views_[i], codes_[i]);
+        }
     }
 
     /// Fetches what they will read next, by what prefetch() has brought.
     void prefetch_cells(const Guide& guide) const {
-        for (std::uint32_t i = 0; i < count_; ++i)
+        for (std::uint32_t i = 0; i < count_; ++i) {
             guide.prefetch_pdf_cell(regions_[i], codes_[i]);
+            if (kViews && views_[i] != Guide::kNoView) guide.prefetch_pdf_cell(views_[i], codes_[i]);
+        }
     }
 
     std::uint32_t operator[](std::size_t i) const { return codes_[i]; }
@@ -112,6 +118,7 @@ class CodeBatch {
     std::uint32_t count_ = 0;
     VectorBatch directions_;
     std::array<std::uint32_t, kDrawBatch> regions_;
+    std::array<std::uint32_t, kViews ? kDrawBatch : 0> views_;
     alignas(64) std::array<std::uint32_t, kDrawBatch> codes_;
 };
 
@@ -145,7 +152,9 @@ class ScatterBatch {
             s.delta = false;
             s.conversion = place_count_;
             places_x_[place_count_] = place.at.x;
-            places_y_[place_count_++] = place.at.y;
+            places_y_[place_count_] = place.at.y;
+            if constexpr (kViews) others_[place_count_] = {s.by_view ? guidance.region : guidance.view, place.code};
+            ++place_count_;
             return true;
         }
         const Vec2 place(to_unit(random[2]), to_unit(random[3]));
@@ -156,7 +165,7 @@ class ScatterBatch {
         s.f_cos = b.f_cos;
         s.bsdf_pdf = b.pdf;
         s.delta = b.delta;
-        if (kCoded && !b.delta) s.conversion = codes_.add(s.world, guidance.region);
+        if (kCoded && !b.delta) s.conversion = codes_.add(s.world, guidance);
         return true;
     }
 
@@ -165,8 +174,10 @@ class ScatterBatch {
         if constexpr (kCoded) codes_.convert();
         if constexpr (kGuided) {
             codes_.prefetch(guide);
+            each_other([&](std::uint32_t other, std::uint32_t code) { guide.prefetch_pdf(other, code); });
             square_to_direction_batch(places_x_, places_y_, place_count_, directions_);
             codes_.prefetch_cells(guide);
+            each_other([&](std::uint32_t other, std::uint32_t code) { guide.prefetch_pdf_cell(other, code); });
         }
     }
 
@@ -202,8 +213,21 @@ class ScatterBatch {
         return mixed_pdf(guidance, s.bsdf_pdf, s.guide_pdf, s.view_pdf);
     }
 
-    CodeBatch codes_;
+    /// Calls visit(distribution, code) for what guides beside those that the guide's places were drawn from.
+    template <class Visit>
+    void each_other(Visit visit) const {
+        if constexpr (kViews)
+            for (std::uint32_t i = 0; i < place_count_; ++i)
+                if (others_[i].distribution != Guide::kNoView) visit(others_[i].distribution, others_[i].code);
+    }
+
+    struct Other {
+        std::uint32_t distribution, code;
+    };
+
+    CodeBatch<kViews> codes_;
     std::uint32_t place_count_ = 0;
+    std::array<Other, kViews ? kDrawBatch : 0> others_;
     alignas(64) std::array<float, kDrawBatch> places_x_, places_y_;
     VectorBatch directions_;
 };

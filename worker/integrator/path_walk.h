@@ -121,7 +121,7 @@ class PathWalk {
             directions_.complete(paths_[path]);
             return leave(path);
         };
-        directions_.start();
+        directions_.start(paths_, {alive_.data(), alive});
         if constexpr (!kConverts) return keep(alive, [&](std::uint8_t path) { return draws(path) && leaves(path); });
         if constexpr (kGuided)
             if (directions_.several()) {
@@ -241,6 +241,7 @@ class PathWalk {
         path.guidance.bsdf_fraction = kGuided && surface.smooth() ? guide_.bsdf_fraction(path.guidance.region) : 1.0f;
         if constexpr (kViews)
             find_view<kGuided>(guide_, surface.view_dependent(), -ray.direction, path.outgoing_code, path.guidance);
+        if constexpr (kGuided && kViews) directions_.prefetch_view(path);
         if (kGuided && path.probe) {
             path.guidance.bsdf_fraction = 1.0f;
             path.guidance.view_fraction = 0.0f;
@@ -349,7 +350,7 @@ class PathWalk {
         for (std::uint32_t i = 0; i < pending_.size(); ++i) {
             if (shadowed[i] || !reflects(pending_[i])) continue;
             seen[count++] = static_cast<std::uint8_t>(i);
-            if constexpr (kConverts) light_codes_.add(pending_[i].wi, pending_[i].from.guidance.region);
+            if constexpr (kConverts) light_codes_.add(pending_[i].wi, pending_[i].from.guidance);
         }
         if constexpr (kConverts) light_codes_.convert();
         if constexpr (kGuided) light_codes_.prefetch(guide_);
@@ -388,7 +389,7 @@ class PathWalk {
     DrawBatch roulette_draws_;
     EmitterChoice emitters_;
     DirectionChoice<Surface, kGuided, kConverts, kViews> directions_;
-    CodeBatch light_codes_;
+    CodeBatch<kViews> light_codes_;
     PendingLights pending_;
     std::array<PathRecorder, kRecord ? kBatch : 0> recorders_;
     DirectionRecords<kViews> direction_records_;
