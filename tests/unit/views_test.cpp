@@ -1,6 +1,7 @@
 // T2, the view-dependent part of the tree: looked up, refined, encoded.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numeric>
 #include <random>
 
@@ -52,10 +53,12 @@ TEST_F(ViewsTest, ViewsAreSampledByTheDensityOfTheirCells) {
         double whole = 0;
         std::uint64_t code = 0;
         for (std::uint32_t c = tree.cell_begin[d]; c < tree.cell_begin[d + 1]; ++c) {
+            const std::uint64_t size = std::uint64_t{1} << (2 * (kDirectionBits - tree.cell_depth[c]));
             EXPECT_EQ(guide.cell(d, static_cast<std::uint32_t>(code)), c);
+            EXPECT_EQ(guide.cell(d, static_cast<std::uint32_t>(code + size - 1)), c);
             const double area = 4 * 3.14159265358979 / std::pow(4.0, tree.cell_depth[c]);
             whole += area * static_cast<double>(guide.pdf(d, static_cast<std::uint32_t>(code)));
-            code += std::uint64_t{1} << (2 * (kDirectionBits - tree.cell_depth[c]));
+            code += size;
         }
         EXPECT_NEAR(whole, 1.0, 1e-5);
         for (int i = 0; i < 20; ++i) {
@@ -64,6 +67,22 @@ TEST_F(ViewsTest, ViewsAreSampledByTheDensityOfTheirCells) {
             EXPECT_EQ(place.pdf, guide.pdf(d, place.code));
         }
     }
+}
+
+TEST_F(ViewsTest, APickFindsTheCellThatHoldsItsProbability) {
+    std::uint32_t largest = 0;
+    for (std::uint32_t d = 0; d < tree.distribution_count(); ++d) {
+        std::uint32_t mass = 0;
+        for (std::uint32_t c = tree.cell_begin[d]; c < tree.cell_begin[d + 1]; mass += tree.cell_mass[c++]) {
+            if (tree.cell_mass[c] == 0) continue;
+            for (const std::uint32_t at : {mass, mass + tree.cell_mass[c] - 1}) {
+                const Guide::Place place = guide.sample_place(d, at << (32 - kMassBits), bits(), bits());
+                ASSERT_EQ(guide.cell(d, place.code), c);
+            }
+        }
+        if (d >= tree.region_count()) largest = std::max(largest, tree.cell_begin[d + 1] - tree.cell_begin[d]);
+    }
+    EXPECT_GT(largest, 64u) << "views that are searched between entries of their tables";
 }
 
 TEST_F(ViewsTest, SurviveTheCodec) {
