@@ -227,5 +227,71 @@ TEST(Geometry, PickedPointsAreTheHitPoints) {
     }
 }
 
+constexpr std::size_t kMasked = 4;
+
+/// Meshes, a group placed, a ball, a disk, and a quad to be masked: whatever rays can meet.
+Scene varied_scene() {
+    Scene scene;
+    const std::int32_t grey = test::add_diffuse(scene, Rgb(0.5f));
+    add_shape(scene, sphere_mesh(Vec3(0.0f), 1.0f, 4, true), grey);
+    add_shape(scene, quad({-9, -9, -2}, {18, 0, 0}, {0, 18, 0}), grey);
+    add_shape(scene, Sphere{Vec3(2, 0, 0), 0.9f}, grey);
+    add_shape(scene, Disk{Vec3(-2, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)}, grey);
+    add_shape(scene, quad({-3, 1.5f, -3}, {6, 0, 0}, {0, 0, 6}), grey);
+    for (const Vec3& center : {Vec3(0.0f), Vec3(0.7f, 0, 0)}) {
+        add_shape(scene, sphere_mesh(center, 0.6f, 3, false), grey);
+        scene.shapes.back().group = 0;
+    }
+    scene.group_count = 1;
+    Imath::M44f placed;
+    placed.translate(Vec3(0, -2.5f, 0));
+    add_shape(scene, Instance{0, placed}, kNone);
+    return scene;
+}
+
+/// Rays that are found together start anywhere and point anywhere, to vertices and edges, too.
+TEST(Geometry, WhatARayMeetsDoesNotDependOnItsCompany) {
+    for (const char* isa : {"sse2", "avx", "avx2"}) {
+        const Scene scene = varied_scene();
+        const std::vector<Vec3>& corners = std::get<Mesh>(scene.shapes[0].geometry).positions;
+        std::vector<FloatInput> opacity(scene.shapes.size(), FloatInput(1.0f));
+        opacity[kMasked] = FloatInput(0.5f);
+        const EmbreeScene geometry(scene.shapes, isa, {opacity, nullptr});
+        std::mt19937 random(5);
+        std::normal_distribution<float> normal;
+        std::uint32_t met = 0;
+        for (int round = 0; round < 2000; ++round) {
+            std::array<Ray, 19> rays;
+            std::array<EmbreeScene::Meeting, 19> meetings;
+            std::array<bool, 19> found;
+            std::vector<EmbreeScene::Query> queries;
+            for (std::size_t i = 0; i < rays.size(); ++i) {
+                const Vec3 from = Vec3(normal(random), normal(random), normal(random)) * 2.0f;
+                const Vec3 to = i % 3 == 0   ? corners[random() % corners.size()]
+                                : i % 3 == 1 ? (corners[random() % corners.size()] + corners[0]) * 0.5f
+                                             : Vec3(normal(random), normal(random), normal(random));
+                rays[i] = {from, to - from};
+                if (i % 5 == 0) rays[i].length = 1.1f;
+                queries.push_back({&rays[i], &meetings[i], &found[i]});
+            }
+            geometry.meet(queries);
+            for (std::size_t i = 0; i < rays.size(); ++i) {
+                EmbreeScene::Meeting alone;
+                bool found_alone;
+                const EmbreeScene::Query query{&rays[i], &alone, &found_alone};
+                geometry.meet({&query, 1});
+                ASSERT_EQ(found[i], found_alone) << isa;
+                if (!found[i]) continue;
+                ++met;
+                const EmbreeScene::Meeting& m = meetings[i];
+                ASSERT_EQ(std::tie(m.instance, m.id, m.primitive, m.u, m.v, m.outward),
+                          std::tie(alone.instance, alone.id, alone.primitive, alone.u, alone.v, alone.outward))
+                    << isa;
+            }
+        }
+        EXPECT_GT(met, 20'000u);
+    }
+}
+
 }  // namespace
 }  // namespace treefarm

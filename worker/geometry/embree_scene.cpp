@@ -2,6 +2,7 @@
 
 #include <embree3/rtcore.h>
 
+#include <algorithm>
 #include <array>
 #include <cassert>
 #include <cmath>
@@ -23,19 +24,45 @@ RTCIntersectContext incoherent_context() {
 
 }  // namespace
 
-bool EmbreeScene::meet(const Ray& ray, Meeting& meeting) const {
+void EmbreeScene::meet(std::span<const Query> queries) const {
+    for (; queries.size() > kPacket; queries = queries.subspan(kPacket))
+        meet_packet(queries.first(kPacket));
+    if (!queries.empty()) meet_packet(queries);
+}
+
+void EmbreeScene::meet_packet(std::span<const Query> queries) const {
     RTCIntersectContext context = incoherent_context();
-    RTCRayHit query;
-    query.ray = to_embree(ray);
-    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    const LetFloatsBe embree;
-    rtcIntersect1(scene_.get(), &context, &query);
-    const RTCHit& hit = query.hit;
-    if (hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
-    meeting = {hit.instID[0], hit.geomID, hit.primID, hit.u, hit.v, {hit.Ng_x, hit.Ng_y, hit.Ng_z}};
-    if (hit.instID[0] == RTC_INVALID_GEOMETRY_ID)
-        prefetch_line(surfaces_[hit.geomID].indices + 3 * std::size_t(hit.primID));
-    return true;
+    alignas(32) std::array<int, kPacket> valid{};
+    RTCRayHit8 packet;
+    std::fill_n(packet.ray.tnear, kPacket, 0.0f);
+    std::fill_n(packet.ray.time, kPacket, 0.0f);
+    std::fill_n(packet.ray.mask, kPacket, ~0u);
+    std::fill_n(packet.ray.flags, kPacket, 0u);
+    std::fill_n(packet.hit.geomID, kPacket, RTC_INVALID_GEOMETRY_ID);
+    for (std::size_t i = 0; i < queries.size(); ++i) {
+        const Ray& ray = *queries[i].ray;
+        valid[i] = -1;
+        packet.ray.org_x[i] = ray.origin.x;
+        packet.ray.org_y[i] = ray.origin.y;
+        packet.ray.org_z[i] = ray.origin.z;
+        packet.ray.dir_x[i] = ray.direction.x;
+        packet.ray.dir_y[i] = ray.direction.y;
+        packet.ray.dir_z[i] = ray.direction.z;
+        packet.ray.tfar[i] = ray.length;
+    }
+    {
+        const LetFloatsBe embree;
+        rtcIntersect8(valid.data(), scene_.get(), &context, &packet);
+    }
+    const RTCHit8& hit = packet.hit;
+    for (std::size_t i = 0; i < queries.size(); ++i) {
+        *queries[i].found = hit.geomID[i] != RTC_INVALID_GEOMETRY_ID;
+        if (hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) continue;
+        *queries[i].meeting = {hit.instID[0][i], hit.geomID[i], hit.primID[i],
+                               hit.u[i],         hit.v[i],      {hit.Ng_x[i], hit.Ng_y[i], hit.Ng_z[i]}};
+        if (hit.instID[0][i] == RTC_INVALID_GEOMETRY_ID)
+            prefetch_line(surfaces_[hit.geomID[i]].indices + 3 * std::size_t(hit.primID[i]));
+    }
 }
 
 void EmbreeScene::set_point(Hit& hit, const Meeting& m) const {
@@ -48,9 +75,11 @@ void EmbreeScene::set_point(Hit& hit, const Meeting& m) const {
 
 bool EmbreeScene::intersect(const Ray& ray, Hit& hit) const {
     Meeting meeting;
-    if (!meet(ray, meeting)) return false;
-    set_point(hit, meeting);
-    return true;
+    bool found;
+    const Query query{&ray, &meeting, &found};
+    meet({&query, 1});
+    if (found) set_point(hit, meeting);
+    return found;
 }
 
 bool EmbreeScene::occluded(const Ray& ray) const {

@@ -47,8 +47,15 @@ class EmbreeScene {
         float u, v;
         Vec3 outward;
     };
-    /// The nearest surface along the ray; false if there is none. Tuned for incoherent rays (SPEED.md, section 1).
-    bool meet(const Ray& ray, Meeting& meeting) const;
+    /// A ray, and where to put whether it meets anything, and what first.
+    struct Query {
+        const Ray* ray;
+        Meeting* meeting;
+        bool* found;
+    };
+    /// The nearest surface along each ray. Rays go to Embree in packets, which spares calls, but as incoherent ones:
+    /// each finds its own way through the hierarchy, so that what it meets does not depend on its company.
+    void meet(std::span<const Query> queries) const;
     /// The point that was met. Apart from meet(), so that of many points none waits for another's memory.
     void set_point(Hit& hit, const Meeting& meeting) const;
     /// Fetches what that reads.
@@ -103,6 +110,7 @@ class EmbreeScene {
 
   private:
     static constexpr std::uint32_t kNoInstance = ~0u;  ///< Embree's RTC_INVALID_GEOMETRY_ID
+    static constexpr std::size_t kPacket = 8;
 
     /// What a hit needs of a shape, side by side.
     struct Surface {
@@ -125,6 +133,7 @@ class EmbreeScene {
         std::vector<std::uint32_t> members;  ///< indices in Scene::shapes
     };
 
+    void meet_packet(std::span<const Query> queries) const;
     const Mask* find_mask(std::uint32_t shape) const;
     void make_masks(const ShapeMasks& masks);
     std::unique_ptr<RTCSceneTy, ReleaseScene> make_scene() const;

@@ -89,19 +89,21 @@ bool find(const Args& args, const RTCRay& ray, RTCHit& hit, double& t) {
     });
 }
 
-/// Nearest hits are asked for ray by ray.
+// Rays come in any number.
+
 template <class Geometry, bool kMasked>
 void intersect(const RTCIntersectFunctionNArguments* args) {
-    if (args->N != 1 || args->valid[0] == 0) return;
-    RTCRayHit& query = *reinterpret_cast<RTCRayHit*>(args->rayhit);
-    RTCHit hit;
-    double t = 0;
-    if (!find<Geometry, kMasked>(*args, query.ray, hit, t)) return;
-    query.ray.tfar = static_cast<float>(t);
-    query.hit = hit;
+    RTCRayN* const rays = RTCRayHitN_RayN(args->rayhit, args->N);
+    for (unsigned i = 0; i < args->N; ++i) {
+        if (args->valid[i] == 0) continue;
+        RTCHit hit;
+        double t = 0;
+        if (!find<Geometry, kMasked>(*args, rtcGetRayFromRayN(rays, args->N, i), hit, t)) continue;
+        RTCRayN_tfar(rays, args->N, i) = static_cast<float>(t);
+        rtcCopyHitToHitN(RTCRayHitN_HitN(args->rayhit, args->N), &hit, args->N, i);
+    }
 }
 
-/// Shadow rays come in any number.
 template <class Geometry, bool kMasked>
 void occluded(const RTCOccludedFunctionNArguments* args) {
     for (unsigned i = 0; i < args->N; ++i) {

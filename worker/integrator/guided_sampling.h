@@ -17,6 +17,10 @@ struct Guidance {
     float view_fraction;   ///< probability of sampling the view; the rest goes to the region's own distribution
 
     bool has_view() const { return view != Guide::kNoView; }
+    void sample_bsdf_alone() {
+        bsdf_fraction = 1.0f;
+        view_fraction = 0.0f;
+    }
 };
 
 /// A sampled direction at a surface.

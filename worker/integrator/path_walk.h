@@ -75,6 +75,8 @@ class PathWalk {
     /// One more edge for the first `alive` of alive_; returns how many go on.
     std::uint32_t step(std::uint32_t alive) {
         clock_.start();
+        std::array<EmbreeScene::Query, kBatch> queries;
+        std::uint32_t count = 0;
         for (std::uint32_t lane = 0; lane < alive; ++lane) {
             Path& path = paths_[alive_[lane]];
             path.lane = static_cast<std::uint8_t>(lane);
@@ -84,8 +86,9 @@ class PathWalk {
             ++stats_.rays;
             if constexpr (kGuided) stats_.probe_rays += path.probe;
             observer_.ray(path.ray);
-            path.found = scene_.geometry().meet(path.ray, path.meeting);
+            queries[count++] = {&path.ray, &path.meeting, &path.found};
         }
+        scene_.geometry().meet({queries.data(), count});
         clock_.lap(TracePhase::intersect);
         if constexpr (Surface::kGeneral)  // others are of small scenes mostly
             arrivals(alive, [&](std::uint32_t, Path& path) { scene_.geometry().prefetch_point(path.meeting); });
@@ -242,10 +245,7 @@ class PathWalk {
         if constexpr (kViews)
             find_view<kGuided>(guide_, surface.view_dependent(), -ray.direction, path.outgoing_code, path.guidance);
         if constexpr (kGuided && kViews) directions_.prefetch_view(path);
-        if (kGuided && path.probe) {
-            path.guidance.bsdf_fraction = 1.0f;
-            path.guidance.view_fraction = 0.0f;
-        }
+        if (kGuided && path.probe) path.guidance.sample_bsdf_alone();
         if constexpr (kRecord)
             if (surface.smooth() && !guide_.contains(hit.p)) recorders_[index].add_outside();
         if (emitters_.any() && !emitters_.together() && surface.smooth()) next_event(index);
