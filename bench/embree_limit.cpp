@@ -1,11 +1,14 @@
 // How close whole renders come to Embree: paths of a scene are traced by the renderer, then exactly their rays by a
 // bare loop over Embree, in turns, on one thread. What the renderer does besides is given per vertex. There are two
-// bare loops: one fills its rays in as Embree's examples do ("bare"), the other as the renderer does ("best bare").
+// bare loops: one asks for rays one by one, as Embree's examples do ("bare"), the other for packets of nearest hits and
+// streams of shadow rays, as the renderer does ("best bare").
 #include <embree3/rtcore.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <cstdio>
+#include <span>
 
 #include "common/base/error.h"
 #include "common/base/timer.h"
@@ -14,7 +17,6 @@
 #include "common/guiding/tree_learner.h"
 #include "common/plan/learning.h"
 #include "common/scene/load.h"
-#include "worker/geometry/embree_ray.h"
 #include "worker/integrator/path_kernel.h"
 #include "worker/integrator/tile_renderer.h"
 
@@ -90,8 +92,8 @@ class Limit {
         const double both = seconds([&] { render(pass(mode), job(mode), guide(mode), mode.stats, learn); });
         mode.render_seconds.push_back(both - splat);
         mode.splat_seconds.push_back(splat);
-        mode.bare_seconds.push_back(seconds([&] { trace_bare(mode, by_fields); }));
-        mode.best_bare_seconds.push_back(seconds([&] { trace_bare(mode, to_embree); }));
+        mode.bare_seconds.push_back(seconds([&] { trace_bare(mode); }));
+        mode.best_bare_seconds.push_back(seconds([&] { trace_together(mode); }));
     }
 
   private:
@@ -129,19 +131,11 @@ class Limit {
     /// Unit by unit, as workers do; `learn` gets what each recorded.
     template <class Learn>
     void render(const PassPlan& pass, const Job& job, const Guide& guide, TraceStats& stats, Learn learn) {
-        const int size = job.farm.tile_size;
         const Film& film = scene_.film();
-        for (int y = 0; y < film.height; y += size)
-            for (int x = 0; x < film.width; x += size) {
-                const WorkUnit unit{pass.index,
-                                    static_cast<std::uint16_t>(x),
-                                    static_cast<std::uint16_t>(y),
-                                    static_cast<std::uint16_t>(std::min(x + size, film.width)),
-                                    static_cast<std::uint16_t>(std::min(y + size, film.height)),
-                                    0};
-                render_unit(scene_, job, pass, guide, unit, pixels_, log_, stats);
-                if (pass.record) learn(log_);
-            }
+        for (const WorkUnit& unit : cut_pass(pass.index, 1, film.width, film.height, job.farm.tile_size)) {
+            render_unit(scene_, job, pass, guide, unit, pixels_, log_, stats);
+            if (pass.record) learn(log_);
+        }
     }
 
     /// The tree after the job's passes.
@@ -195,22 +189,39 @@ class Limit {
                 r.length,   ~0u,        0,          0};
     }
 
-    template <class MakeRay>
-    void trace_bare(const Mode& mode, MakeRay make_ray) {
+    void trace_bare(const Mode& mode) const {
         RTCIntersectContext context;
         rtcInitIntersectContext(&context);
         context.flags = RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
         for (const Ray& ray : mode.rays) {
             RTCRayHit query;
-            query.ray = make_ray(ray);
+            query.ray = by_fields(ray);
             query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
             query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
             rtcIntersect1(scene_.geometry().handle(), &context, &query);
         }
         for (const Ray& ray : mode.shadow_rays) {
-            RTCRay query = make_ray(ray);
+            RTCRay query = by_fields(ray);
             rtcOccluded1(scene_.geometry().handle(), &context, &query);
         }
+    }
+
+    /// As many at a time as the renderer may have.
+    void trace_together(const Mode& mode) const {
+        constexpr std::size_t kMost = EmbreeScene::kMostTogether;
+        std::array<EmbreeScene::Meeting, kMost> meetings;
+        std::array<bool, kMost> told;
+        std::array<EmbreeScene::Query, kMost> queries;
+        const auto in_parts = [](std::span<const Ray> rays, const auto& trace) {
+            for (; !rays.empty(); rays = rays.subspan(std::min(kMost, rays.size())))
+                trace(rays.first(std::min(kMost, rays.size())));
+        };
+        in_parts(mode.rays, [&](std::span<const Ray> rays) {
+            for (std::size_t i = 0; i < rays.size(); ++i)
+                queries[i] = {&rays[i], &meetings[i], &told[i]};
+            scene_.geometry().meet({queries.data(), rays.size()});
+        });
+        in_parts(mode.shadow_rays, [&](std::span<const Ray> rays) { scene_.geometry().occluded(rays, told.data()); });
     }
 
     Job job_;

@@ -13,12 +13,8 @@ constexpr int kSmallestEdge = 4;
 
 Ledger::Ledger(const PassPlan& plan, int width, int height, int tile_size)
     : total_(static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height) * plan.chunks) {
-    for (int y = 0; y < height; y += tile_size)
-        for (int x = 0; x < width; x += tile_size)
-            for (std::uint32_t chunk = 0; chunk < plan.chunks; ++chunk)
-                waiting_.push_back({plan.index, static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y),
-                                    static_cast<std::uint16_t>(std::min(x + tile_size, width)),
-                                    static_cast<std::uint16_t>(std::min(y + tile_size, height)), chunk});
+    const std::vector<WorkUnit> units = cut_pass(plan.index, plan.chunks, width, height, tile_size);
+    waiting_.assign(units.begin(), units.end());
 }
 
 void Ledger::quarter_front() {

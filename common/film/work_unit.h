@@ -1,7 +1,9 @@
 #pragma once
 
+#include <algorithm>
 #include <compare>
 #include <cstdint>
+#include <vector>
 
 namespace treefarm {
 
@@ -21,5 +23,17 @@ struct WorkUnit {
     }
     auto operator<=>(const WorkUnit&) const = default;
 };
+
+/// Everything of a pass of `chunks` runs of blocks: square tiles row by row, all runs of one before the next.
+inline std::vector<WorkUnit> cut_pass(std::uint32_t pass, std::uint32_t chunks, int width, int height, int tile_size) {
+    std::vector<WorkUnit> units;
+    for (int y = 0; y < height; y += tile_size)
+        for (int x = 0; x < width; x += tile_size)
+            for (std::uint32_t chunk = 0; chunk < chunks; ++chunk)
+                units.push_back({pass, static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y),
+                                 static_cast<std::uint16_t>(std::min(x + tile_size, width)),
+                                 static_cast<std::uint16_t>(std::min(y + tile_size, height)), chunk});
+    return units;
+}
 
 }  // namespace treefarm

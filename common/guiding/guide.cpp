@@ -59,11 +59,11 @@ Guide::Guide(const SdTree& tree)
 
 void Guide::add_views(const SdTree& tree) {
     view_mass_.resize(tree.view_count());
-    view_cell_code_.resize(tree.view_count());
+    view_code_.resize(tree.view_count());
     for (std::uint32_t v = 0; v < tree.view_count(); ++v) {
         const std::size_t first = cells_.size();
         add_distribution(tree, region_count() + v);
-        fill_guides<kViewBits>(view_mass_[v], view_cell_code_[v], first);
+        fill_guides<kViewBits>(view_mass_[v], view_code_[v], first);
     }
     views_.resize(tree.view_set.size());
     for (std::uint32_t r = 0; r < views_.size(); ++r)
@@ -72,7 +72,7 @@ void Guide::add_views(const SdTree& tree) {
     for (std::uint32_t t = 0; t < tree.view_set_count(); ++t) {
         std::uint64_t code = 0;
         for (std::uint32_t v = tree.view_begin[t]; v < tree.view_begin[t + 1]; ++v) {
-            view_code_.push_back(static_cast<std::uint32_t>(code));
+            view_begin_.push_back(static_cast<std::uint32_t>(code));
             code += std::uint64_t{1} << (2 * (kDirectionBits - tree.view_depth[v]));
         }
     }
@@ -210,7 +210,7 @@ std::uint32_t Guide::view(std::uint32_t region, std::uint32_t outgoing_code) con
     if (views_.empty() || views_[region].count == 0) return kNoView;
     std::uint32_t at = views_[region].first, count = views_[region].count;
     for (; count > 1; count -= count / 2)
-        at += view_code_[at + count / 2] <= outgoing_code ? count / 2 : 0;
+        at += view_begin_[at + count / 2] <= outgoing_code ? count / 2 : 0;
     return region_count() + at;
 }
 

@@ -152,7 +152,7 @@ class Guide {
     const std::uint32_t* by_code(std::uint32_t distribution, std::uint32_t code) const {
         return distribution < region_count()
                    ? &region_code_[distribution][code >> (2 * kDirectionBits - kRegionBits)]
-                   : &view_cell_code_[distribution - region_count()][code >> (2 * kDirectionBits - kViewBits)];
+                   : &view_code_[distribution - region_count()][code >> (2 * kDirectionBits - kViewBits)];
     }
     Range range(const std::uint32_t* entry) const { return {&cells_[entry[0]], entry[1] - entry[0] + 1}; }
     /// Cells of a range lie side by side: most are in one line of cache, or in two.
@@ -191,12 +191,12 @@ class Guide {
     std::vector<Cell> cells_;  ///< each distribution's, then one at which the next would begin: cell c of distribution
                                ///< d is c + d; kFewCells more at the end
     std::vector<GuideTable<kRegionBits>> region_mass_, region_code_;
-    std::vector<GuideTable<kViewBits>> view_mass_, view_cell_code_;
+    std::vector<GuideTable<kViewBits>> view_mass_, view_code_;
     struct Views {
         std::uint32_t first = 0, count = 0;  ///< of the views that a region has
     };
-    std::vector<Views> views_;              ///< per region; empty if none has any
-    std::vector<std::uint32_t> view_code_;  ///< per view: its first Z-order code
+    std::vector<Views> views_;               ///< per region; empty if none has any
+    std::vector<std::uint32_t> view_begin_;  ///< per view: the first Z-order code of where its light leaves to
     std::vector<float> view_fraction_;
     std::vector<std::int16_t> quantum_exponent_;
     std::vector<float> bsdf_fraction_;

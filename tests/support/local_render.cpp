@@ -1,6 +1,5 @@
 #include "tests/support/local_render.h"
 
-#include <algorithm>
 #include <optional>
 
 #include "common/film/guiding_probe.h"
@@ -17,17 +16,6 @@ Box3 guiding_bounds(const Scene& scene) {
     Box3 bounds = scene.bounds();
     bounds.extendBy(scene.camera.origin);
     return bounds;
-}
-
-std::vector<WorkUnit> cut(const Film& film, const PassPlan& pass, int tile) {
-    std::vector<WorkUnit> units;
-    for (int y = 0; y < film.height; y += tile)
-        for (int x = 0; x < film.width; x += tile)
-            for (std::uint32_t chunk = 0; chunk < pass.chunks; ++chunk)
-                units.push_back({pass.index, static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y),
-                                 static_cast<std::uint16_t>(std::min(x + tile, film.width)),
-                                 static_cast<std::uint16_t>(std::min(y + tile, film.height)), chunk});
-    return units;
 }
 
 }  // namespace
@@ -52,7 +40,8 @@ LocalRender render_locally(const Scene& scene, const Job& job) {
         TraceStats stats;
         RecordLog log;
         std::vector<PixelEstimate> pixels;
-        for (const WorkUnit& unit : cut(scene.film, pass, job.farm.tile_size)) {
+        for (const WorkUnit& unit :
+             cut_pass(pass.index, pass.chunks, scene.film.width, scene.film.height, job.farm.tile_size)) {
             render_unit(trace, job, pass, guide, unit, pixels, log, stats);
             film.add(unit, pixels);
             if (pass.record) accumulator.commit(log.records, log.counts, log.caps);
