@@ -213,8 +213,11 @@ class Limit {
         std::array<bool, kMost> told;
         std::array<EmbreeScene::Query, kMost> queries;
         const auto in_parts = [](std::span<const Ray> rays, const auto& trace) {
-            for (; !rays.empty(); rays = rays.subspan(std::min(kMost, rays.size())))
-                trace(rays.first(std::min(kMost, rays.size())));
+            while (!rays.empty()) {
+                const std::size_t part = std::min(rays.size(), EmbreeScene::kMostTogether);
+                trace(rays.first(part));
+                rays = rays.subspan(part);
+            }
         };
         in_parts(mode.rays, [&](std::span<const Ray> rays) {
             for (std::size_t i = 0; i < rays.size(); ++i)
