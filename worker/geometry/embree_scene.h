@@ -7,6 +7,7 @@
 
 #include "common/base/build_options.h"
 #include "common/base/prefetch.h"
+#include "common/base/random_batch.h"
 #include "common/scene/scene.h"
 #include "worker/geometry/hit.h"
 #include "worker/geometry/mask.h"
@@ -73,7 +74,7 @@ class EmbreeScene {
     /// Whether anything lies on the segment or half line.
     bool occluded(const Ray& ray) const;
     /// The same of up to kMostTogether rays, faster than one by one. A ray of negative length is free.
-    static constexpr std::size_t kMostTogether = 64;
+    static constexpr std::size_t kMostTogether = kDrawBatch;
     void occluded(std::span<const Ray> rays, bool* hidden) const;
 
     /// A point of a triangle from its barycentrics: what intersect() reports for a ray through it.

@@ -19,7 +19,7 @@ class PathKernel {
     static constexpr std::uint32_t kBatch = Walk::kBatch;
 
   public:
-    static constexpr std::uint32_t kGroup = 8 * kBatch;
+    static constexpr std::uint32_t kGroup = 4 * kBatch;
 
     /// `log` is where records go.
     PathKernel(const TraceScene& scene, const Guide& guide, const PathSettings& settings, TraceStats& stats,
