@@ -42,6 +42,9 @@ Guide::Guide(const SdTree& tree)
       bsdf_fraction_(tree.bsdf_fraction),
       light_share_(tree.light_share),
       region_depth_(tree.region_count()) {
+    for (int depth = 0; depth <= kMaxSpatialDepth; ++depth)
+        for (int axis = 0; axis < 3; ++axis)
+            region_size_[static_cast<std::size_t>(depth)][axis] = extent_ * power_of_two(-(depth + 2 - axis) / 3);
     build_treelet(tree, 0, 0);
     build_top();
 
@@ -181,22 +184,6 @@ void Guide::regions(const VectorBatch& positions, std::uint32_t count,
     }
     for (std::uint32_t i = 0; i < count; ++i)
         found[i] &= ~kLeafFlag;
-}
-
-Vec3 Guide::jittered(const Vec3& p, std::uint32_t region, const Draw& random) const {
-    const int depth = region_depth_[region];
-    Vec3 moved = p;
-    for (int axis = 0; axis < 3; ++axis)
-        moved[axis] +=
-            extent_ * power_of_two(-(depth + 2 - axis) / 3) * (to_unit(random[static_cast<std::size_t>(axis)]) - 0.5f);
-    return moved;
-}
-
-bool Guide::contains(const Vec3& p) const {
-    // Points of the outermost surfaces may lie a rounding error outside.
-    const float low = -1e-4f * extent_, high = extent_ - low;
-    const Vec3 q = p - origin_;
-    return q.x >= low && q.y >= low && q.z >= low && q.x <= high && q.y <= high && q.z <= high;
 }
 
 float Guide::density(const Cell* cell) {

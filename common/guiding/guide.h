@@ -61,11 +61,20 @@ class Guide {
     /// Those of the first `count` points, in step: what one waits for (memory, how deep the tree is there) another
     /// works through.
     void regions(const VectorBatch& positions, std::uint32_t count, std::array<std::uint32_t, kDrawBatch>& found) const;
-    bool contains(const Vec3& position) const;
+    bool contains(const Vec3& position) const {
+        // Points of the outermost surfaces may lie a rounding error outside.
+        const float low = -1e-4f * extent_, high = extent_ - low;
+        const Vec3 q = position - origin_;
+        return q.x >= low && q.y >= low && q.z >= low && q.x <= high && q.y <= high && q.z <= high;
+    }
 
     /// A point of `region` moved by up to half the region's size along each axis: where the stochastic spatial filter
     /// of the authors' improved program looks for a record's region. Three uniform 32-bit numbers.
-    Vec3 jittered(const Vec3& position, std::uint32_t region, const Draw& random) const;
+    Vec3 jittered(const Vec3& position, std::uint32_t region, const Draw& random) const {
+        const Vec3& size = region_size_[region_depth_[region]];
+        return {position.x + size.x * (to_unit(random[0]) - 0.5f), position.y + size.y * (to_unit(random[1]) - 0.5f),
+                position.z + size.z * (to_unit(random[2]) - 0.5f)};
+    }
 
     /// The distribution (region_count() or more) of light leaving `region` in the direction with this code, or kNoView
     /// where the region has no T2.
@@ -201,7 +210,8 @@ class Guide {
     std::vector<std::int16_t> quantum_exponent_;
     std::vector<float> bsdf_fraction_;
     std::vector<LightShare> light_share_;
-    std::vector<std::uint8_t> region_depth_;  ///< halvings from the cube to the region
+    std::vector<std::uint8_t> region_depth_;                ///< halvings from the cube to the region
+    std::array<Vec3, kMaxSpatialDepth + 1> region_size_{};  ///< per depth, in scene units
 };
 
 }  // namespace treefarm
