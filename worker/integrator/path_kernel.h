@@ -63,8 +63,8 @@ class PathKernel {
   private:
     static constexpr std::uint32_t kBranchVertices = 1u << 28;
 
-    /// How many camera paths walk together. What guided ones without next event fetch ahead is read so soon after that
-    /// half of them need to stay in the cache at a time (docs/architecture.md, "How paths walk").
+    /// How many camera paths walk together: guided ones without next event were slower by whole batches, all others
+    /// faster (docs/architecture.md, "How paths walk").
     static std::uint32_t batch_of(const PathSettings& settings) {
         return kGuided && !settings.next_event ? kBatch / 2 : kBatch;
     }
