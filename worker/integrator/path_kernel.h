@@ -24,7 +24,7 @@ class PathKernel {
     /// `log` is where records go.
     PathKernel(const TraceScene& scene, const Guide& guide, const PathSettings& settings, TraceStats& stats,
                RecordLog* log = nullptr)
-        : stats_(stats), log_(log), walk_(scene, guide, settings, stats), batch_(batch_of(settings)) {
+        : stats_(stats), log_(log), walk_(scene, guide, settings, stats) {
         assert(log || !kRecord);
         std::iota(places_.begin(), places_.end(), std::uint8_t{0});
     }
@@ -36,7 +36,7 @@ class PathKernel {
     /// Adds a camera path. Not when full.
     void add(const PathKey& key, const Ray& ray) {
         assert(!full());
-        if (waiting_ == batch_) walk_waiting();
+        if (waiting_ == batch()) walk_waiting();
         auto& path = walk_[waiting_];
         path.begin(key, ray);
         path.origin = static_cast<std::uint16_t>(count_);
@@ -63,11 +63,9 @@ class PathKernel {
   private:
     static constexpr std::uint32_t kBranchVertices = 1u << 28;
 
-    /// How many camera paths walk together: guided ones without next event were slower by whole batches, all others
-    /// faster (docs/architecture.md, "How paths walk").
-    static std::uint32_t batch_of(const PathSettings& settings) {
-        return kGuided && !settings.next_event ? kBatch / 2 : kBatch;
-    }
+    /// How many camera paths walk together: with next event they were faster by whole batches, guided ones without it
+    /// slower (docs/architecture.md, "How paths walk").
+    std::uint32_t batch() const { return kGuided && !walk_.settings().next_event ? kBatch / 2 : kBatch; }
 
     std::span<const std::uint8_t> places(std::size_t count) const { return {places_.data(), count}; }
 
@@ -134,7 +132,6 @@ class PathKernel {
     TraceStats& stats_;
     RecordLog* log_;
     Walk walk_;
-    const std::uint32_t batch_;
     std::uint32_t count_ = 0, waiting_ = 0;  ///< paths added; those of them that have not walked
     std::array<std::uint8_t, kBatch> places_;
     std::array<PathKey, kGroup> keys_;
