@@ -103,6 +103,31 @@ TEST(SpatialFilter, MovesByUpToHalfARegion) {
     EXPECT_EQ(guide.region(guide.jittered(p, own, middle)), own);
 }
 
+TEST(SpatialFilter, MovesAcrossAWholeRegionAlongEachAxis) {
+    const SdTree tree = test::random_tree(3, 20000, 2000, 1);
+    const Guide guide(tree);
+    std::mt19937 engine(4);
+    std::uniform_real_distribution<float> uniform(0.0f, 1.0f);
+    for (int k = 0; k < 100; ++k) {
+        const Vec3 p = tree.origin + Vec3(uniform(engine), uniform(engine), uniform(engine)) * tree.extent;
+        Vec3 low = tree.origin, size(tree.extent);
+        std::uint32_t at = 0;
+        for (int axis = 0; !tree.nodes[at].is_leaf(); axis = (axis + 1) % 3) {
+            size[axis] /= 2.0f;
+            const bool upper = p[axis] >= low[axis] + size[axis];
+            if (upper) low[axis] += size[axis];
+            at = tree.nodes[at].child[upper];
+        }
+        const std::uint32_t region = tree.nodes[at].child[1];
+        const Vec3 least = guide.jittered(p, region, {0, 0, 0, 0});
+        const Vec3 most = guide.jittered(p, region, {~0u, ~0u, ~0u, 0});
+        for (int axis = 0; axis < 3; ++axis) {
+            EXPECT_NEAR(p[axis] - least[axis], size[axis] / 2.0f, 1e-6f * tree.extent) << "axis " << axis;
+            EXPECT_NEAR(most[axis] - p[axis], size[axis] / 2.0f, 1e-6f * tree.extent) << "axis " << axis;
+        }
+    }
+}
+
 TEST(VarianceTarget, ProbabilityFollowsTheRootOfTheMoment) {
     const SdTree tree = even_tree(1);
     TreeSums sums(0, 1, 4);
