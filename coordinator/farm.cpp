@@ -213,19 +213,20 @@ void Farm::on(int peer, const Want& m) {
     if (!std::exchange(requested_, true)) first_request_seconds_ = clock_.seconds() - pass_began_;
     if (std::erase(not_ready_, peer) > 0 && not_ready_.empty()) broadcast_seconds_ = clock_.seconds() - pass_began_;
     member->credit += m.units;
-    serve(*member);
+    if (!serve(*member)) tell(peer, Work{m.pass, {}});
 }
 
 /// Gives a worker its share of what is left, by its threads: nobody takes all of a short queue. One that got less than
-/// it wants asks again when it has finished something.
-void Farm::serve(Member& member) {
+/// it wants asks again when it has finished something. False if nothing is left.
+bool Farm::serve(Member& member) {
     const std::size_t waiting = ledger_->waiting(), threads = roster_.thread_count();
     const std::size_t share = (waiting * member.hello.threads + threads - 1) / threads;
     const std::size_t count = std::min<std::size_t>(member.credit, share);
     Work work{pass_->plan.index, ledger_->issue(member.peer, count, kShrinkUnitsPerThread * threads)};
-    if (work.units.empty()) return;
+    if (work.units.empty()) return false;
     member.credit -= static_cast<std::uint32_t>(work.units.size());
     tell(member.peer, work);
+    return true;
 }
 
 void Farm::on(int peer, Result&& m) {

@@ -87,7 +87,7 @@ class Farm {
     void refuse(int peer, const Hello& m, const std::string& reason);
     void give_up(Member& member, const std::string& why);
     void announce(int peer);
-    void serve(Member& member);
+    bool serve(Member& member);
     void send_blob(Blob blob, std::uint64_t offset, std::span<const std::uint32_t> chain);
     std::vector<std::uint32_t> chain_of_present();
     std::vector<std::uint32_t> chain_without_scene();

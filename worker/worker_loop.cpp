@@ -120,6 +120,7 @@ class WorkerLoop {
     void on(const Work& m) {
         if (!pass_ || m.pass != pass_->plan().index || !pool_) return;  // of a life that was given up
         credit_ -= std::min(credit_, m.units.size());
+        nothing_left_ = m.units.empty();
         pool_->add(m.units);
     }
 
@@ -223,12 +224,16 @@ class WorkerLoop {
         coming_.reset();
         pass_ = std::move(built);
         credit_ = 0;
+        nothing_left_ = false;
         pool_->begin(pass_);
         last_update_ = clock_.seconds();
     }
 
+    /// From time to time, and at the end. Without a unit for a moment is not the end: the more results, the less time
+    /// has the coordinator to hand out work.
     void send_finished() {
-        if (!pool_->idle() && clock_.seconds() - last_update_ < job_.farm.update_seconds) return;
+        const bool at_end = nothing_left_ && pool_->idle();
+        if (!at_end && clock_.seconds() - last_update_ < job_.farm.update_seconds) return;
         last_update_ = clock_.seconds();
         if (auto result = pass_->close()) {
             result->incarnation = incarnation_;
@@ -288,7 +293,8 @@ class WorkerLoop {
     std::future<std::shared_ptr<PassWork>> pass_task_;
     std::uint32_t pass_task_job_ = 0;
     std::shared_ptr<PassWork> pass_;
-    std::size_t credit_ = 0;  ///< units asked for that have not come
+    std::size_t credit_ = 0;     ///< units asked for that have not come
+    bool nothing_left_ = false;  ///< said the coordinator when it was asked last
 };
 
 }  // namespace

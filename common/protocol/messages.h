@@ -97,6 +97,7 @@ struct Want {
     bool operator==(const Want&) const = default;
 };
 
+/// What a worker gets for its credit. Without units: for now nothing is left, so it had better send what it has.
 struct Work {
     static constexpr Kind kKind = Kind::work;
     std::uint32_t pass = 0;
