@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <string_view>
 #include <thread>
 
 namespace treefarm {
@@ -17,7 +18,14 @@ LaunchEnvironment read_launch_environment() {
             launch.rank = std::atoi(rank);
             break;
         }
+    const char* const here = std::getenv("OMPI_COMM_WORLD_LOCAL_SIZE");
+    const char* const all = std::getenv("OMPI_COMM_WORLD_SIZE");
+    launch.one_host = here && all && std::string_view(here) == all;
     return launch;
+}
+
+void skip_network_search() {
+    setenv("OMPI_MCA_pml", "ob1", /*overwrite=*/0);
 }
 
 unsigned affinity_threads() {

@@ -8,8 +8,13 @@ namespace treefarm {
 struct LaunchEnvironment {
     bool under_mpi = false;  ///< by mpirun or srun --mpi=pmix
     int rank = 0;            ///< what the launcher calls this process; 0 without a launcher
+    bool one_host = false;   ///< mpirun started all processes on this host
 };
 LaunchEnvironment read_launch_environment();
+
+/// For processes of one host, before MPI starts: Open MPI's search for fast networks takes 0.2 s, and ends with shared
+/// memory (ob1). Unless the user chose something else.
+void skip_network_search();
 
 /// Processors that this process may run on.
 unsigned affinity_threads();

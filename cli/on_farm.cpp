@@ -104,6 +104,7 @@ int work(MpiSession& session, unsigned asked, bool quiet) {
 
 int run_on_farm(const LaunchEnvironment& launch, unsigned threads, bool quiet, const FarmTask& task) {
     if (!launch.under_mpi) return run_here(threads, quiet, task);
+    if (launch.one_host) skip_network_search();
     InterruptWatch watch;  // before MPI starts its threads; workers leave when the coordinator says so
     MpiSession session;
     if (session.size() > 1)
