@@ -50,6 +50,9 @@ class ByteWriter {
 
     void put_string(const std::string& text) { put_array(std::span<const char>(text.data(), text.size())); }
 
+    /// So many more bytes are to come: they need not be copied as the whole grows.
+    void reserve(std::size_t more) { bytes_.reserve(bytes_.size() + more); }
+
     std::size_t size() const { return bytes_.size(); }
     Bytes take() { return std::move(bytes_); }
 

@@ -32,20 +32,14 @@ std::uint32_t spp_of(Alike passes) {
     return spp;
 }
 
-/// What one half of all passes that are alike says of their samples.
-struct HalfNoise {
-    std::optional<double> variance;      ///< of one sample: mean of its luminance; nothing if no pixel has two
-    std::vector<std::uint32_t> samples;  ///< of a pixel, in each pass
-};
-
 /// Both halves' in one sweep over the pixels: there is more of them than caches hold. Without the worst pixels: a rare
 /// sample in one half would take all weight from its pass in the other, which does not hold it.
-std::array<HalfNoise, 2> measure_noise(Alike passes) {
+SampleNoise measure_noise(Alike passes) {
     const std::size_t count = passes.front().pixels.size();
-    std::array<HalfNoise, 2> noise;
+    SampleNoise noise{passes.size(), {}};
     std::array<std::vector<double>, 2> variances;
     for (int half = 0; half < 2; ++half) {
-        noise[half].samples.resize(passes.size());
+        noise.half[half].samples.resize(passes.size());
         variances[half].reserve(count);
     }
     for (std::size_t p = 0; p < count; ++p)
@@ -53,7 +47,7 @@ std::array<HalfNoise, 2> measure_noise(Alike passes) {
             double squares = 0, freedom = 0;
             for (std::size_t k = 0; k < passes.size(); ++k) {
                 const Moments& m = passes[k].pixels[p].half[half];
-                noise[half].samples[k] = std::max(noise[half].samples[k], m.n);
+                noise.half[half].samples[k] = std::max(noise.half[half].samples[k], m.n);
                 if (m.n < 2) continue;
                 squares += luminance(m.m2);
                 freedom += m.n - 1;
@@ -61,21 +55,26 @@ std::array<HalfNoise, 2> measure_noise(Alike passes) {
             if (freedom > 0) variances[half].push_back(squares / freedom);
         }
     for (int half = 0; half < 2; ++half)
-        if (!variances[half].empty()) noise[half].variance = trimmed_mean(std::move(variances[half]));
+        if (!variances[half].empty()) noise.half[half].variance = trimmed_mean(std::move(variances[half]));
     return noise;
 }
 
 /// All passes, in groups of those that are alike.
 struct Group {
     Alike passes;
-    std::array<HalfNoise, 2> noise;
+    SampleNoise noise;
 };
+
+SampleNoise noise_of(Alike passes) {
+    const SampleNoise& known = passes.front().noise;
+    return known.passes == passes.size() ? known : measure_noise(passes);
+}
 
 std::vector<Group> group_alike(std::span<const PassResult> passes) {
     std::vector<Group> groups;
     for (std::size_t first = 0; first < passes.size(); first += groups.back().passes.size()) {
         const Alike alike = alike_from(passes, first);
-        groups.push_back({alike, measure_noise(alike)});
+        groups.push_back({alike, noise_of(alike)});
     }
     return groups;
 }
@@ -134,12 +133,12 @@ std::vector<double> inverse_variance_weights(std::span<const PassResult> passes,
     std::size_t first = 0, level_begin = 0;
     for (const Group& group : groups) {
         const std::size_t end = first + group.passes.size();
-        const std::optional<double>& variance = group.noise[half].variance;
+        const std::optional<double>& variance = group.noise.half[half].variance;
         const std::uint32_t spp = spp_of(group.passes);
         apart = apart || group.passes.front().new_technique;
         const bool known = variance && spp >= kMinSamplesForVariance;
         if (known || young_count)
-            std::ranges::copy(group.noise[1 - half].samples, samples.begin() + std::ptrdiff_t(first));
+            std::ranges::copy(group.noise.half[1 - half].samples, samples.begin() + std::ptrdiff_t(first));
         if (known) {
             if (!(*variance > 0)) return fixed_weights(passes, guided);  // a tree without noise: nothing to weigh by
             add_level(levels, {level_begin, end, double(spp), *variance, apart});
@@ -266,6 +265,11 @@ CombinedImage combine_whole(std::span<const PassResult> passes, const std::vecto
 double fixed_weight(std::uint32_t spp, std::uint32_t spp_before, bool guided) {
     // What a pass is worth grows with what its tree was learned from; the first pass, untrained, counts a little.
     return spp * (guided ? std::sqrt(static_cast<double>(std::max(spp_before, 1u))) : 1.0);
+}
+
+void remember_noise(std::span<PassResult> passes) {
+    for (std::size_t first = 0; first < passes.size(); first += passes[first].noise.passes)
+        passes[first].noise = noise_of(alike_from(passes, first));
 }
 
 CombinedImage combine_passes(std::span<const PassResult> passes, Combination method, bool guided) {

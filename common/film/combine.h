@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -13,6 +15,18 @@ namespace treefarm {
 /// passes out, as long as later trees are better.
 inline constexpr std::uint32_t kMinSamplesForVariance = 4;
 
+/// What one half of passes that are alike says of their samples.
+struct HalfNoise {
+    std::optional<double> variance;      ///< of one sample: mean of its luminance; nothing if no pixel has two
+    std::vector<std::uint32_t> samples;  ///< of a pixel, in each pass
+};
+
+/// Both halves of so many passes that have one tree, and sample emitters in one way.
+struct SampleNoise {
+    std::size_t passes = 0;  ///< 0: not measured
+    std::array<HalfNoise, 2> half;
+};
+
 /// One finished pass.
 struct PassResult {
     std::uint32_t spp = 0;              ///< n_k
@@ -21,6 +35,7 @@ struct PassResult {
     bool same_tree = false;             ///< as the pass before it
     bool new_technique = false;         ///< next event began or ended with it
     bool guided = true;                 ///< false where guiding has been given up
+    SampleNoise noise{};                ///< of the passes from this one on that are alike (remember_noise)
 };
 
 /// The image so far, with its own error.
@@ -31,6 +46,10 @@ struct CombinedImage {
     std::vector<Rgb64> half[2];      ///< two independent halves; their average is `mean` where both exist
     std::vector<double> weight;      ///< of each pass, sums to 1 (halves averaged)
 };
+
+/// Measures the noise of passes where that is not done yet, and keeps it with them: combine_passes, called after each
+/// pass, would measure all of them again. Whoever changes a pass forgets its noise.
+void remember_noise(std::span<PassResult> passes);
 
 /// Combines the passes with one scalar weight each (docs/guiding.md, "combining passes"). `guided` says whether the
 /// passes differ in quality: without guiding every sample weighs the same. `last` keeps the passes of the last tree.

@@ -87,6 +87,8 @@ void ProbesSetAside::take_out(std::span<PixelEstimate> pixels, std::uint32_t pas
 void ProbesSetAside::put_back(std::span<PassResult> passes) {
     for (const Probe& probe : std::exchange(probes_, {}))
         passes[probe.place].pixels[probe.pixel] = probe.estimate;
+    for (PassResult& pass : passes)
+        pass.noise = {};
 }
 
 void GuidingProbe::add(std::span<const PixelEstimate> pixels, const TraceStats& stats, std::uint32_t pass) {

@@ -113,6 +113,10 @@ WorkUnit read_unit(ByteReader& reader, std::uint32_t pass) {
 }
 
 void write_result(ByteWriter& writer, const Result& result) {
+    std::size_t bytes = result.update.size();
+    for (const UnitResult& unit : result.units)
+        bytes += kUnitBytes + kPixelBytes * unit.pixels.size();
+    writer.reserve(bytes);
     writer.put(result.incarnation);
     writer.put(result.pass);
     write_stats(writer, result.stats);

@@ -96,6 +96,23 @@ TEST(Combine, SamplesOfOneTreeWeighTheSame) {
     EXPECT_NEAR(weight[0] / (weight[1] + weight[2] + weight[3]), (16 / 4.0) / (32 / pooled), 0.01);
 }
 
+TEST(Combine, RememberedNoiseGivesTheSameImage) {
+    std::vector<PassResult> kept;
+    for (std::uint32_t k = 0; k < 4; ++k) {
+        kept.push_back(make_pass(8 << k, 8 * ((1u << k) - 1), 1.0f, 2.0f / static_cast<float>(1 + k), 200, k));
+        kept.back().same_tree = k == 3;  // joins passes whose noise is known already
+        remember_noise(kept);
+        std::vector<PassResult> forgotten = kept;
+        for (PassResult& pass : forgotten)
+            pass.noise = {};
+        const CombinedImage image = combine_passes(kept, Combination::inverse_variance, true);
+        const CombinedImage again = combine_passes(forgotten, Combination::inverse_variance, true);
+        EXPECT_EQ(image.weight, again.weight);
+        EXPECT_EQ(image.mean, again.mean);
+    }
+    EXPECT_EQ(kept[2].noise.passes, 2u);
+}
+
 TEST(Combine, NoTreeIsTakenForWorseThanTheOneBefore) {
     // By its few samples the second pass is quieter than what comes after it.
     std::vector<PassResult> passes{make_pass(8, 0, 1.0f, 2.0f, 2000, 1), make_pass(8, 8, 1.0f, 0.25f, 2000, 2),

@@ -222,7 +222,10 @@ TEST(GuidingProbe, ProbesComeBackToTheirPass) {
     aside.take_out(passes[1].pixels, kPass, 1);
     for (std::uint32_t p = 0; p < kCount; ++p)
         ASSERT_EQ(passes[1].pixels[p].whole().n, kProbe.holds(p) ? 0u : 8u);
+    remember_noise(passes);
     aside.put_back(passes);
+    for (const PassResult& pass : passes)
+        EXPECT_EQ(pass.noise.passes, 0u) << "it was measured without them";
     for (std::uint32_t p = 0; p < kCount; ++p) {
         ASSERT_EQ(passes[0].pixels[p].whole().n, 4u);
         ASSERT_EQ(passes[1].pixels[p].whole().m2, before[p].whole().m2);
