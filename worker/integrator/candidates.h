@@ -20,12 +20,14 @@ class Candidates {
 
     void clear() { count_ = 0; }
 
-    /// Offers a direction, at most kMost of them.
-    void offer(const ScatterSample& s) {
+    /// Room for the next direction, of at most kMost; offer() makes it one of those that can be taken.
+    ScatterSample& next() { return samples_[count_]; }
+
+    void offer() {
+        const ScatterSample& s = samples_[count_];
         if (!(s.pdf > 0.0f)) return;
         const float weight = average(s.f_cos) * (s.guide_pdf + kUnseen) / s.pdf;
         if (!(weight > 0.0f)) return;
-        samples_[count_] = s;
         // Any choice is unbiased; this one divides by no sum of 0 or infinity.
         weights_[count_++] = std::clamp(weight, 1e-30f, 1e30f);
     }

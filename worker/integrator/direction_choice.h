@@ -8,7 +8,8 @@
 
 namespace treefarm {
 
-/// The directions that a batch of paths takes in a step. Each draws one, or several, of which it takes one.
+/// The directions that a batch of paths takes in a step. Each draws one, or, at its first vertices, several, of which it
+/// takes one.
 template <class Surface, bool kGuided, bool kCoded, bool kViews>
 class DirectionChoice {
   public:
@@ -17,23 +18,24 @@ class DirectionChoice {
     DirectionChoice(const Guide& guide, const PathSettings& settings)
         : guide_(guide), candidates_(kGuided ? settings.candidates : 1), candidate_depth_(settings.candidate_depth) {}
 
-    /// The random numbers of a step; Path::lane says which are a path's.
-    /// `least_depth`: of their vertices.
-    void draw_numbers(std::uint64_t seed, const KeyBatch& keys, std::uint32_t lanes, int least_depth) {
+    /// The random numbers of a step for `paths`, whose Path::lane say which are theirs.
+    void draw_numbers(std::uint64_t seed, const KeyBatch& keys, std::span<const Path> paths,
+                      std::span<const std::uint8_t> alive) {
+        const auto lanes = static_cast<std::uint32_t>(alive.size());
         draw_batch(seed, keys, lanes, 0, Stream::scatter, draws_);
         cosine_hemisphere_batch(draws_, lanes, cosines_);
-        several_ = candidates_ > 1 && least_depth <= candidate_depth_;
-        if (!several_) return;
+        seats_ = 0;
+        if (candidates_ == 1) return;
+        for (std::uint32_t lane = 0; lane < lanes; ++lane) {
+            seat_[lane] = static_cast<std::uint8_t>(seats_);
+            if (paths[alive[lane]].depth > candidate_depth_) continue;
+            seat_keys_.pixel[seats_] = keys.pixel[lane];
+            seat_keys_.sample[seats_] = keys.sample[lane];
+            seat_keys_.vertex[seats_++] = keys.vertex[lane] * Candidates::kMost;
+        }
         seed_ = seed;
-        keys_ = keys;
-        lanes_ = lanes;
-        for (std::uint32_t& vertex : keys_.vertex)
-            vertex *= Candidates::kMost;
-        draw_batch(seed, keys_, lanes, 0, Stream::candidate, picks_);
+        if (several()) draw_batch(seed, seat_keys_, seats_, 0, Stream::candidate, picks_);
     }
-
-    /// Whether the paths of this step choose among several.
-    bool several() const { return several_; }
 
     // What sampling will read is fetched ahead, each time by what the last has brought.
     void prefetch(std::uint32_t region, std::uint32_t lane) const {
@@ -56,69 +58,101 @@ class DirectionChoice {
                     guide_.prefetch_cell(path.guidance.view, draws_.word[1][path.lane]);
     }
 
-    // One: draw(), then convert(), then complete().
-    bool draw(Path& path) { return draw(path, technique(path)); }
-    void convert() { batch_.convert(guide_); }
-    void complete(Path& path) const { batch_.complete(*path.surface, guide_, path.guidance, path.scatter); }
+    // draw() for each path, then convert(), then, if there are several for any, choose(), then complete() for each.
 
-    /// Several, for the paths whose numbers are in `alive`. The density is 0 where none was found.
-    void draw_several(std::span<Path> paths, std::span<const std::uint8_t> alive) {
+    /// False if there is no direction.
+    bool draw(Path& path) {
+        if (chooses(path)) {
+            draw_first(path);
+            return true;
+        }
+        return batch_.draw(*path.surface, guide_, path.guidance, to_unit(draws_.word[0][path.lane]), draws_[path.lane],
+                           cosines_[path.lane], path.scatter);
+    }
+    void convert() { batch_.convert(guide_); }
+    /// Whether any path of this step may choose among several.
+    bool several() const { return seats_ != 0; }
+    /// Draws the others for the paths that choose, and takes one for each. The density is 0 where none was found.
+    void choose(std::span<Path> paths, std::span<const std::uint8_t> alive) {
+        std::array<std::uint8_t, kDrawBatch> choosers;
+        std::uint32_t count = 0;
         for (const std::uint8_t index : alive)
-            offered_[index].clear();
-        for (std::uint32_t candidate = 0; candidate < candidates_; ++candidate) {
-            if (candidate != 0) {
-                draw_batch(seed_, keys_, lanes_, candidate, Stream::candidate, draws_);
-                cosine_hemisphere_batch(draws_, lanes_, cosines_);
-                batch_.clear();
-            }
-            std::array<std::uint8_t, kDrawBatch> drawn;
-            std::uint32_t count = 0;
-            for (const std::uint8_t index : alive) {
-                Path& path = paths[index];
-                const std::uint32_t of = candidates_of(path);
-                if (candidate >= of) continue;
-                // Each from its own part of the techniques' probabilities: a mixture over the candidates like any.
-                const float stratum = (static_cast<float>(candidate) + technique(path)) / static_cast<float>(of);
-                if (draw(path, stratum)) drawn[count++] = index;
-            }
-            convert();
-            for (std::uint32_t i = 0; i < count; ++i) {
-                Path& path = paths[drawn[i]];
-                complete(path);
-                offered_[drawn[i]].offer(path.scatter);
-            }
+            if (chooses(paths[index])) choosers[count++] = index;
+        complete_offers(paths, {choosers.data(), count}, batch_);
+        for (std::uint32_t candidate = 1; candidate < candidates_; ++candidate) {
+            draw_batch(seed_, seat_keys_, seats_, candidate, Stream::candidate, more_draws_);
+            cosine_hemisphere_batch(more_draws_, seats_, more_cosines_);
+            more_.clear();
+            for (std::uint32_t i = 0; i < count; ++i)
+                draw_offer(paths[choosers[i]], candidate, more_, more_draws_, more_cosines_, seat(paths[choosers[i]]));
+            more_.convert(guide_);
+            complete_offers(paths, {choosers.data(), count}, more_);
         }
-        for (const std::uint8_t index : alive) {
-            Path& path = paths[index];
-            const float pick = to_unit(picks_.word[0][path.lane]);
-            if (!offered_[index].take(candidates_of(path), pick, path.scatter)) path.scatter.pdf = 0.0f;
+        for (std::uint32_t i = 0; i < count; ++i) {
+            Path& path = paths[choosers[i]];
+            const float pick = to_unit(picks_.word[0][seat(path)]);
+            if (!offered_[seat(path)].candidates.take(candidates_, pick, path.scatter)) path.scatter.pdf = 0.0f;
         }
+    }
+    void complete(Path& path) const {
+        if (!chooses(path)) batch_.complete(*path.surface, guide_, path.guidance, path.scatter);
     }
 
   private:
-    /// A delta lobe has no density to weigh by.
-    std::uint32_t candidates_of(const Path& path) const {
-        return path.probe || path.depth > candidate_depth_ || path.surface->has_delta() ? 1 : candidates_;
+    /// What a path chooses among.
+    struct Offered {
+        Candidates candidates;
+        bool drawn;  ///< a direction waits to be completed
+    };
+
+    /// Not where there may be a delta lobe, which has no density to weigh by.
+    bool chooses(const Path& path) const {
+        return kGuided && several() && path.depth <= candidate_depth_ && !path.probe && !path.surface->has_delta();
+    }
+    std::uint32_t seat(const Path& path) const { return seat_[path.lane]; }
+
+    void draw_first(Path& path) {
+        offered_[seat(path)].candidates.clear();
+        draw_offer(path, 0, batch_, draws_, cosines_, path.lane);
     }
 
-    float technique(const Path& path) const { return to_unit(draws_.word[0][path.lane]); }
+    /// Each from its own part of the techniques' probabilities: a mixture over the candidates like any.
+    void draw_offer(const Path& path, std::uint32_t candidate, ScatterBatch<kGuided, kCoded, kViews>& batch,
+                    const DrawBatch& draws, const VectorBatch& cosines, std::uint32_t lane) {
+        Offered& offered = offered_[seat(path)];
+        const float technique =
+            (static_cast<float>(candidate) + to_unit(draws.word[0][lane])) / static_cast<float>(candidates_);
+        offered.drawn = batch.draw(*path.surface, guide_, path.guidance, technique, draws[lane], cosines[lane],
+                                   offered.candidates.next());
+    }
 
-    bool draw(Path& path, float technique) {
-        return batch_.draw(*path.surface, guide_, path.guidance, technique, draws_[path.lane], cosines_[path.lane],
-                           path.scatter);
+    void complete_offers(std::span<const Path> paths, std::span<const std::uint8_t> choosers,
+                         const ScatterBatch<kGuided, kCoded, kViews>& batch) {
+        for (const std::uint8_t index : choosers) {
+            const Path& path = paths[index];
+            Offered& offered = offered_[seat(path)];
+            if (!offered.drawn) continue;
+            batch.complete(*path.surface, guide_, path.guidance, offered.candidates.next());
+            offered.candidates.offer();
+        }
     }
 
     const Guide& guide_;
     const std::uint32_t candidates_;
     const int candidate_depth_;
-    bool several_ = false;
-    std::uint64_t seed_ = 0;
-    std::uint32_t lanes_ = 0;
-    KeyBatch keys_;
-    DrawBatch draws_, picks_;
+    DrawBatch draws_;
     VectorBatch cosines_;
     ScatterBatch<kGuided, kCoded, kViews> batch_;
-    std::array<Candidates, kGuided ? kDrawBatch : 0> offered_;
+
+    // Of the paths that may choose among several: each has a seat.
+    std::uint32_t seats_ = 0;
+    std::array<std::uint8_t, kDrawBatch> seat_;  ///< by lane
+    std::uint64_t seed_ = 0;
+    KeyBatch seat_keys_;
+    DrawBatch picks_, more_draws_;
+    VectorBatch more_cosines_;
+    ScatterBatch<kGuided, kCoded, kViews> more_;
+    std::array<Offered, kGuided ? kDrawBatch : 0> offered_;
 };
 
 }  // namespace treefarm

@@ -126,13 +126,10 @@ class PathWalk {
         };
         directions_.start(paths_, {alive_.data(), alive});
         if constexpr (!kConverts) return keep(alive, [&](std::uint8_t path) { return draws(path) && leaves(path); });
-        if constexpr (kGuided)
-            if (directions_.several()) {
-                directions_.draw_several(paths_, {alive_.data(), alive});
-                return keep(alive, [&](std::uint8_t path) { return leave(path); });
-            }
         alive = keep(alive, draws);
         directions_.convert();
+        if constexpr (kGuided)
+            if (directions_.several()) directions_.choose(paths_, {alive_.data(), alive});
         return keep(alive, leaves);
     }
 
@@ -172,17 +169,16 @@ class PathWalk {
     /// The random numbers of a step, for all paths together.
     void draw_numbers(std::uint32_t alive) {
         KeyBatch keys;
-        int least_depth = std::numeric_limits<int>::max(), depth = 0;
+        int depth = 0;
         for (std::uint32_t i = 0; i < alive; ++i) {
             const Path& path = paths_[alive_[i]];
             keys.pixel[i] = path.key.pixel;
             keys.sample[i] = path.key.sample;
             keys.vertex[i] = path.vertex;
-            least_depth = std::min(least_depth, path.depth);
             depth = std::max(depth, path.depth);
         }
         const std::uint64_t seed = paths_[alive_[0]].key.seed;
-        directions_.draw_numbers(seed, keys, alive, least_depth);
+        directions_.draw_numbers(seed, keys, paths_, {alive_.data(), alive});
         emitters_.draw_numbers(seed, keys, alive);
         if (depth > 1 && settings_.roulette.plays(depth - 1))
             draw_batch(seed, keys, alive, ~0u, Stream::roulette, roulette_draws_);  // of the vertex before
