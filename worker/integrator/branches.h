@@ -26,7 +26,7 @@ class Branches {
     /// At the first surface, which has drawn path.scatter: if the other of two ways is open, the path takes the
     /// likelier with certainty, and the lesser may become a branch.
     template <class Surface>
-    void split(PathState<Surface>& path, std::uint8_t index, bool strict_normals) {
+    void split(PathState<Surface>& path, bool strict_normals) {
         const Surface& surface = *path.surface;
         const BsdfSample other = surface.bsdf().other_way(surface.wo(), path.scatter.local);
         if (!(other.pdf > 0.0f)) return;
@@ -41,14 +41,14 @@ class Branches {
         if (is_black(lesser.f_cos) || (strict_normals && dot(surface.ng(), lesser.world) * lesser.local.z <= 0.0f) ||
             !(to_unit(draw(path.key, path.vertex, Stream::branch)[0]) < lesser.effective_pdf))
             return;
-        branches_.push_back({index,
+        branches_.push_back({path.origin,
                              {offset_origin(path.hit, lesser.world), lesser.world},
                              lesser.f_cos * (1.0f / lesser.effective_pdf),
                              lesser.local.z < 0.0f ? surface.eta2() : 1.0f});
     }
 
     struct Branch {
-        std::uint8_t path;
+        std::uint16_t origin;  ///< the camera path that it is part of
         Ray ray;
         Rgb weight;    ///< f |cos| over the probability of being followed
         float spread;  ///< eta^2 where it is refracted
@@ -58,7 +58,7 @@ class Branches {
   private:
     static constexpr float kOften = 4.0f, kLeast = 0x1p-12f;
 
-    std::vector<Branch> branches_;  ///< at most one of each path of a batch
+    std::vector<Branch> branches_;  ///< at most one of each camera path
 };
 
 }  // namespace treefarm

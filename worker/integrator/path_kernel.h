@@ -7,11 +7,10 @@
 
 namespace treefarm {
 
-/// The camera paths of a group, traced: which paths walk, batch after batch, and what their samples come to. One kernel
-/// per thread.
+/// The camera paths of a group, traced: which paths walk when, and what their samples come to. One kernel per thread.
 ///
-/// The copies that paths leave where they are split are few, so they wait until the camera paths of the whole group
-/// are done, and walk together; then their own copies do.
+/// The other ways of paths that were split at glass wait until the camera paths of the whole group are done, and so do
+/// the copies that paths leave where they are split: they are few, and walk together; then their own copies do.
 template <class Surface, bool kGuided, bool kRecord, class Observer = NoObserver>
 class PathKernel {
     using Walk = PathWalk<Surface, kGuided, kRecord, Observer>;
@@ -19,7 +18,7 @@ class PathKernel {
     static constexpr std::uint32_t kBatch = Walk::kBatch;
 
   public:
-    static constexpr std::uint32_t kGroup = 4 * kBatch;
+    static constexpr std::uint32_t kGroup = 8 * kBatch;
 
     /// `log` is where records go.
     PathKernel(const TraceScene& scene, const Guide& guide, const PathSettings& settings, TraceStats& stats,
@@ -36,23 +35,21 @@ class PathKernel {
     /// Adds a camera path. Not when full.
     void add(const PathKey& key, const Ray& ray) {
         assert(!full());
-        if (waiting_ == batch()) walk_waiting();
-        auto& path = walk_[waiting_];
-        path.begin(key, ray);
-        path.origin = static_cast<std::uint16_t>(count_);
-        path.probe = kGuided && walk_.settings().probe.holds(key.pixel);
-        stats_.probe_paths += path.probe;
-        if constexpr (kRecord) walk_.recorder(waiting_).begin_path();
-        walk_.observer().camera(ray);
-        keys_[count_++] = key;
-        ++waiting_;
+        keys_[count_] = key;
+        rays_[count_++] = ray;
     }
 
     /// Traces what was added.
     void trace() {
-        walk_waiting();
+        if (walk_.settings().max_depth == 0) {
+            std::fill_n(radiance_.begin(), count_, Rgb(0.0f));
+            return;
+        }
+        walk_camera_paths();
+        if constexpr (Surface::kTransmits)
+            if (walk_.branches().size() != 0) walk_branches();
         if constexpr (kGuided)
-            if (!walk_.copies().empty()) follow_copies();
+            if (!walk_.copies().empty()) walk_copies();
     }
 
     /// Radiance along the camera ray of the path added as number `path`.
@@ -61,70 +58,114 @@ class PathKernel {
     PhaseClock& clock() { return walk_.clock(); }
 
   private:
+    using Path = typename Walk::Path;
+
     static constexpr std::uint32_t kBranchVertices = 1u << 28;
 
-    /// How many camera paths walk together: with next event they were faster by whole batches, guided ones without it
-    /// slower (docs/architecture.md, "How paths walk").
+    /// Whether a path that ends makes room for the next. Where paths read the tree, a batch that stays full fetches more
+    /// ahead than caches hold; there the next batch waits for the last path (docs/architecture.md, "How paths walk").
+    static constexpr bool kRefills = !kGuided;
+
+    /// How many walk together: guided ones without next event are slower by whole batches.
     std::uint32_t batch() const { return kGuided && !walk_.settings().next_event ? kBatch / 2 : kBatch; }
 
-    std::span<const std::uint8_t> places(std::size_t count) const { return {places_.data(), count}; }
+    /// What a camera path leaves to its branch.
+    struct Legacy {
+        CopyBudget copies;
+        int first_exponent;
+    };
 
-    void walk_waiting() {
-        const std::uint32_t first = count_ - waiting_;
-        if (walk_.settings().max_depth != 0) {
-            walk_.walk(places(waiting_));
-            if constexpr (Surface::kTransmits) follow_branches();
+    /// Walks `count` paths, as many at a time as a batch holds: begin(number, place) sets one up, and end(number, path)
+    /// is told what came of it.
+    template <class Begin, class End>
+    void walk(std::uint32_t count, Begin begin, End end) {
+        std::array<std::uint32_t, kBatch> numbers;  // by place
+        std::uint32_t begun = 0;
+        const auto fill = [&](std::span<const std::uint8_t> places) {
+            const std::uint32_t others = std::min(count - begun, static_cast<std::uint32_t>(places.size()));
+            for (const std::uint8_t place : places.first(others)) {
+                numbers[place] = begun;
+                begin(begun++, place);
+            }
+            return others;
+        };
+        while (begun < count) {
+            const std::uint32_t first = fill(std::span(places_).first(batch()));
+            walk_.walk(std::span(places_).first(first), [&](std::span<const std::uint8_t> ended) {
+                for (const std::uint8_t place : ended)
+                    end(numbers[place], walk_[place]);
+                commit(ended);
+                return kRefills ? fill(ended) : 0;
+            });
         }
-        for (std::uint32_t i = 0; i < waiting_; ++i)
-            radiance_[first + i] = walk_[i].radiance;
-        commit(waiting_);
-        waiting_ = 0;
+    }
+
+    void walk_camera_paths() {
+        walk(
+            count_,
+            [&](std::uint32_t number, std::uint8_t place) {
+                Path& path = walk_[place];
+                path.begin(keys_[number], rays_[number]);
+                path.origin = static_cast<std::uint16_t>(number);
+                path.probe = kGuided && walk_.settings().probe.holds(path.key.pixel);
+                stats_.probe_paths += path.probe;
+                if constexpr (kRecord) walk_.recorder(place).begin_path();
+                walk_.observer().camera(path.ray);
+            },
+            [&](std::uint32_t number, const Path& path) {
+                radiance_[number] = path.radiance;
+                if constexpr (Surface::kTransmits) legacies_[number] = {path.copies, path.first_exponent};
+            });
     }
 
     /// The other ways of paths that were split at their first surface.
-    [[gnu::noinline]] void follow_branches() {
-        Branches& branches = walk_.branches();
-        std::array<std::uint8_t, kBatch> of;
-        for (std::uint32_t i = 0; i < branches.size(); ++i) {
-            const Branches::Branch& branch = branches[i];
-            of[i] = branch.path;
-            walk_[branch.path].resume(branch.ray, branch.weight, branch.spread, kBranchVertices + 1);
-            if constexpr (kRecord) walk_.recorder(branch.path).begin_branch(branch.weight);
-            walk_.observer().branch(branch.ray, branch.weight);
-        }
-        const std::uint32_t count = branches.size();
-        branches.clear();
-        walk_.walk({of.data(), count});
+    [[gnu::noinline]] void walk_branches() {
+        const Branches& branches = walk_.branches();
+        walk(
+            branches.size(),
+            [&](std::uint32_t number, std::uint8_t place) {
+                const Branches::Branch& branch = branches[number];
+                Path& path = walk_[place];
+                path.begin(keys_[branch.origin], branch.ray);
+                path.origin = branch.origin;
+                path.probe = kGuided && walk_.settings().probe.holds(path.key.pixel);
+                path.copies = legacies_[branch.origin].copies;
+                path.first_exponent = legacies_[branch.origin].first_exponent;
+                path.radiance = radiance_[branch.origin];
+                path.resume(branch.ray, branch.weight, branch.spread, kBranchVertices + 1);
+                if constexpr (kRecord) walk_.recorder(place).begin_branch(branch.weight);
+                walk_.observer().branch(branch.ray, branch.weight);
+            },
+            [&](std::uint32_t, const Path& path) { radiance_[path.origin] = path.radiance; });
+        walk_.branches().clear();
     }
 
-    /// As many at a time as a batch holds.
-    [[gnu::noinline]] void follow_copies() {
+    [[gnu::noinline]] void walk_copies() {
         numbers_.fill(0);
         while (!walk_.copies().empty()) {
-            std::span<const PathCopy> left = walk_.copies().next(numbers_);
-            while (!left.empty()) {
-                const auto copies = left.first(std::min<std::size_t>(left.size(), kBatch));
-                left = left.subspan(copies.size());
-                for (std::uint32_t i = 0; i < copies.size(); ++i) {
-                    walk_[i].begin(keys_[copies[i].origin], copies[i]);
-                    if constexpr (kRecord) walk_.recorder(i).begin_path();
-                    walk_.observer().copy(copies[i]);
-                }
-                walk_.walk(places(copies.size()));
-                for (std::uint32_t i = 0; i < copies.size(); ++i)
-                    radiance_[copies[i].origin] += walk_[i].radiance;
-                commit(static_cast<std::uint32_t>(copies.size()));
-            }
+            const std::span<const PathCopy> copies = walk_.copies().next(numbers_);
+            of_copies_.resize(copies.size());
+            walk(
+                static_cast<std::uint32_t>(copies.size()),
+                [&](std::uint32_t number, std::uint8_t place) {
+                    walk_[place].begin(keys_[copies[number].origin], copies[number]);
+                    if constexpr (kRecord) walk_.recorder(place).begin_path();
+                    walk_.observer().copy(copies[number]);
+                },
+                [&](std::uint32_t number, const Path& path) { of_copies_[number] = path.radiance; });
+            // In their own order: the one in which they ended depends on their company.
+            for (std::size_t i = 0; i < copies.size(); ++i)
+                radiance_[copies[i].origin] += of_copies_[i];
         }
     }
 
-    /// Hands over what the paths in the first places learned. What carried no radiance but nonsense teaches nothing.
-    void commit([[maybe_unused]] std::uint32_t count) {
+    /// Hands over what the paths in these places learned. What carried no radiance but nonsense teaches nothing.
+    void commit([[maybe_unused]] std::span<const std::uint8_t> places) {
         if constexpr (kRecord) {
             walk_.clock().start();
-            for (std::uint32_t i = 0; i < count; ++i)
-                if (!walk_[i].probe && is_radiance(walk_[i].radiance))
-                    stats_.records += walk_.recorder(i).commit(*log_);
+            for (const std::uint8_t place : places)
+                if (!walk_[place].probe && is_radiance(walk_[place].radiance))
+                    stats_.records += walk_.recorder(place).commit(*log_);
             walk_.clock().lap(TracePhase::record);
         }
     }
@@ -132,11 +173,14 @@ class PathKernel {
     TraceStats& stats_;
     RecordLog* log_;
     Walk walk_;
-    std::uint32_t count_ = 0, waiting_ = 0;  ///< paths added; those of them that have not walked
+    std::uint32_t count_ = 0;
     std::array<std::uint8_t, kBatch> places_;
     std::array<PathKey, kGroup> keys_;
+    std::array<Ray, kGroup> rays_;
     std::array<Rgb, kGroup> radiance_;
+    std::array<Legacy, Surface::kTransmits ? kGroup : 0> legacies_;
     std::array<std::uint8_t, kGroup> numbers_;  ///< of copies so far
+    std::vector<Rgb> of_copies_;                ///< radiance of each
 };
 
 }  // namespace treefarm

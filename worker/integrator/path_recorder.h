@@ -31,11 +31,10 @@ class PathRecorder {
         outside_ = 0;
     }
 
-    /// What comes is the other way out of the path's first surface, by a delta lobe of this weight: it carries nothing
-    /// for the vertices so far.
+    /// The other way out of a path's first surface, by a delta lobe of this weight.
     void begin_branch(const Rgb& weight) {
+        begin_path();
         add_delta_vertex(weight, {}, 0);
-        vertices_.back().first = true;
     }
 
     /// A direction was sampled: its code and density, f |cos| / density, its bins of the mixture histograms, and the
@@ -94,7 +93,6 @@ class PathRecorder {
             const Rgb arriving = carried;
             carried *= v.weight;
             const Lesson lesson{v.code, v.pdf, average(arriving), finite(average(carried)), v.bins};
-            if (v.first) carried = Rgb(0.0f);
             if (v.target.empty()) continue;
             recorded += v.pdf > 0.0f;
             end = teach(v.rounding, v.target, lesson, log, end);
@@ -114,7 +112,6 @@ class PathRecorder {
         RecordTarget target;
         std::uint32_t code, rounding;
         MixtureBins bins;
-        bool first = false;  ///< carries nothing for those before it
     };
     /// What a direction carried.
     struct Lesson {

@@ -24,7 +24,8 @@ namespace treefarm {
 /// of surface.h.
 ///
 /// Paths walk in step, up to kBatch of them: what one waits for (memory, square roots) another works through, and the
-/// shadow rays of a step are traced together. A path's result does not depend on its company.
+/// shadow rays of a step are traced together. Others may take the places of those that end. A path's result does not
+/// depend on its company.
 template <class Surface, bool kGuided, bool kRecord, class Observer = NoObserver>
 class PathWalk {
   public:
@@ -52,11 +53,21 @@ class PathWalk {
     Path& operator[](std::uint32_t place) { return paths_[place]; }
     PathRecorder& recorder(std::uint32_t place) { return recorders_[place]; }
 
-    /// Traces the paths in these places, at most kBatch, to their ends.
-    void walk(std::span<const std::uint8_t> places) {
+    /// Traces the paths in these places, at most kBatch, to their ends. `follow(places)` is told where some have ended,
+    /// and sets up others in the first of these places; it returns how many.
+    template <class Follow>
+    void walk(std::span<const std::uint8_t> places, Follow follow) {
         std::copy(places.begin(), places.end(), alive_.begin());
-        for (auto alive = static_cast<std::uint32_t>(places.size()); alive != 0;)
+        std::uint32_t enough = kWorthFollowing;
+        for (auto alive = static_cast<std::uint32_t>(places.size()); alive != 0;) {
             alive = step(alive);
+            if (alive != 0 && ended_count_ < enough) continue;
+            const std::uint32_t others = follow(std::span<const std::uint8_t>(ended_.data(), ended_count_));
+            if (others < ended_count_) enough = kBatch + 1;  // no more are to come
+            std::copy_n(ended_.begin(), others, alive_.begin() + alive);
+            alive += others;
+            ended_count_ = 0;
+        }
     }
 
     /// Other ways out of glass, and copies, that the paths left; whoever follows them takes them away.
@@ -68,6 +79,9 @@ class PathWalk {
     PhaseClock& clock() { return clock_; }
 
   private:
+    /// So many paths are set up at once: a few together keep the camera's rays together, too.
+    static constexpr std::uint32_t kWorthFollowing = kBatch / 4;
+
     /// Whether directions have to be converted before a path can leave.
     static constexpr bool kConverts = kGuided || kRecord;
     static constexpr bool kViews = kConverts && Surface::kViews;
@@ -139,7 +153,10 @@ class PathWalk {
         std::uint32_t left = 0;
         for (std::uint32_t i = 0; i < alive; ++i) {
             const std::uint8_t path = alive_[i];
-            if (goes_on(path)) alive_[left++] = path;
+            if (goes_on(path))
+                alive_[left++] = path;
+            else
+                ended_[ended_count_++] = path;
         }
         return left;
     }
@@ -255,7 +272,7 @@ class PathWalk {
         const ScatterSample& s = path.scatter;
         if constexpr (Surface::kTransmits)
             if (s.delta && path.depth == 1 && settings_.split_glass)
-                branches_.split(path, index, settings_.strict_normals);
+                branches_.split(path, settings_.strict_normals);
         if (!(s.pdf > 0.0f) || is_black(s.f_cos)) return end("no direction");
         if (settings_.strict_normals && dot(surface.ng(), s.world) * s.local.z <= 0.0f) return end("normals disagree");
         path.weight = s.f_cos * (1.0f / s.effective_pdf);
@@ -380,6 +397,8 @@ class PathWalk {
     std::vector<typename Surface::Scratch> scratch_;  ///< a path's surface lasts for a step
     std::array<Path, kBatch> paths_;
     std::array<std::uint8_t, kBatch> alive_;
+    std::array<std::uint8_t, kBatch> ended_;  ///< since others were last set up
+    std::uint32_t ended_count_ = 0;
     Branches branches_;
     PathCopies copies_;
     DrawBatch roulette_draws_;
