@@ -78,7 +78,7 @@ std::uint64_t emitter_table_bytes(const Scene& scene, const Emitter& emitter) {
     }
     if (const auto* environment = std::get_if<EnvironmentEmitter>(&emitter.kind)) {
         const TextureImage& image = scene.images[static_cast<std::size_t>(environment->image)];
-        return 4 * static_cast<std::uint64_t>(image.width) * static_cast<std::uint64_t>(image.height + 1);
+        return 6 * static_cast<std::uint64_t>(image.width) * static_cast<std::uint64_t>(image.height + 1);
     }
     return 0;
 }

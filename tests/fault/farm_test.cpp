@@ -166,6 +166,21 @@ TEST_F(FarmTest, AResultThatComesTwiceCountsOnce) {
     EXPECT_EQ(lost_, std::set<int>{1});
 }
 
+/// The end of a pass would otherwise be spent on merging one small result after the other.
+TEST_F(FarmTest, AWorkerWithoutAUnitForAMomentKeepsWhatItHas) {
+    make_workers(3);
+    job_.farm.update_seconds = 3600;
+    std::atomic<std::size_t> results = 0;
+    for (const auto& channel : faulty_)
+        channel->outgoing = [&](Bytes& bytes) {
+            results += is<Result>(bytes);
+            return true;
+        };
+    const RenderResult result = render();
+    expect_truth(result);
+    EXPECT_LE(results, 3 * result.passes.size()) << "one of each worker that got any work";
+}
+
 TEST_F(FarmTest, MissingPiecesOfATreeAreAskedForAgain) {
     make_workers(3);
     std::atomic<int> lost_pieces = 0;

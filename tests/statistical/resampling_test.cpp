@@ -12,6 +12,11 @@
 namespace treefarm {
 namespace {
 
+void offer(Candidates& candidates, const ScatterSample& s) {
+    candidates.next() = s;
+    candidates.offer();
+}
+
 constexpr std::uint32_t kSamples = 400000;
 constexpr float kFraction = 0.4f;
 
@@ -46,7 +51,7 @@ struct Place {
         Candidates candidates;
         const PathKey key{3, i, count};
         for (std::uint32_t c = 0; c < count; ++c)
-            candidates.offer(draw_one(draw(key, c, Stream::scatter)));
+            offer(candidates, draw_one(draw(key, c, Stream::scatter)));
         return candidates.take(count, to_unit(draw(key, 0, Stream::candidate)[0]), s);
     }
 };
@@ -145,24 +150,25 @@ TEST(Resampling, NothingWorthTakingIsNothing) {
     ScatterSample s{};
     EXPECT_FALSE(candidates.take(2, 0.5f, s));
     s.f_cos = Rgb(1.0f);  // without density
-    candidates.offer(s);
+    offer(candidates, s);
     s.f_cos = Rgb(0.0f);  // black
     s.pdf = 1.0f;
-    candidates.offer(s);
+    offer(candidates, s);
     s.pdf = std::numeric_limits<float>::quiet_NaN();
-    candidates.offer(s);
+    offer(candidates, s);
     EXPECT_FALSE(candidates.take(4, 0.5f, s));
 }
 
 TEST(Resampling, ProductsBeyondFloatsStillChoose) {
     for (const float f : {1e-42f, 1e-36f, 1e38f}) {
-        ScatterSample sample;
+        ScatterSample sample{};
+        sample.local = sample.world = Vec3(0.0f);
         sample.f_cos = Rgb(f);
         sample.pdf = 1.0f;
         sample.guide_pdf = f > 1.0f ? 1e6f : 1.0f;
         Candidates candidates;
-        candidates.offer(sample);
-        candidates.offer(sample);
+        offer(candidates, sample);
+        offer(candidates, sample);
         ScatterSample taken;
         ASSERT_TRUE(candidates.take(2, 0.7f, taken));
         EXPECT_NEAR(taken.effective_pdf, 1.0f, 1e-5f) << f;
@@ -176,8 +182,8 @@ TEST(Resampling, NoDirectionWeighsMuchMoreThanAlone) {
     bright.guide_pdf = 1e6f;
     for (const float u : {0.0f, 0.5f, 0.89f, 0.91f, 0x1.fffffep-1f}) {
         Candidates candidates;
-        candidates.offer(bright);
-        candidates.offer(dark);
+        offer(candidates, bright);
+        offer(candidates, dark);
         ScatterSample s;
         ASSERT_TRUE(candidates.take(2, u, s));
         EXPECT_EQ(s.guide_pdf == 0.0f, u > 0.9f) << u;

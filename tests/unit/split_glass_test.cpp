@@ -1,7 +1,9 @@
 // Both ways out of smooth glass where the camera sees it (worker/integrator/branches.h).
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "tests/support/local_render.h"
 #include "tests/support/material_scenes.h"
@@ -162,14 +164,75 @@ TEST(PathRecorder, ABranchCarriesNothingForTheOtherWay) {
     recorder.add_delta_vertex(Rgb(0.9f), {}, 0);
     recorder.add_vertex({0}, 11, 0.5f, Rgb(0.5f), {3}, 0);
     recorder.add_emission(Rgb(1.0f));
+    EXPECT_EQ(recorder.commit(log), 1u);
     recorder.begin_branch(Rgb(0.1f));
     recorder.add_reflected(recorder.vertex_count(), Rgb(100.0f));
     recorder.add_vertex({1}, 22, 4.0f, Rgb(0.25f), {4}, 0);
     recorder.add_emission(Rgb(8.0f));
-    EXPECT_EQ(recorder.commit(log), 2u);
+    EXPECT_EQ(recorder.commit(log), 1u) << "of what was before it nothing is left";
     ASSERT_EQ(log.records.size(), 2u);
-    EXPECT_FLOAT_EQ(log.records[0].value, 8.0f / 4.0f);
-    EXPECT_FLOAT_EQ(log.records[1].value, 1.0f / 0.5f) << "what the branch met is none of it";
+    EXPECT_FLOAT_EQ(log.records[0].value, 1.0f / 0.5f);
+    EXPECT_FLOAT_EQ(log.records[1].value, 8.0f / 4.0f);
+}
+
+/// What of a unit's records does not depend on their order.
+using RecordFacts = std::vector<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t, float, float, int>>;
+
+struct Traced {
+    std::vector<PixelEstimate> pixels;
+    RecordFacts records;
+};
+
+Traced trace(const TraceScene& scene, const Job& job, const PassPlan& pass, const Guide& guide, const WorkUnit& unit) {
+    Traced traced;
+    RecordLog log;
+    log.begin(guide.distribution_count());
+    TraceStats stats;
+    render_unit(scene, job, pass, guide, unit, traced.pixels, log, stats);
+    for (const Record& r : log.records)
+        traced.records.emplace_back(r.distribution, r.code, r.rounding, r.value, r.reflected, r.bin);
+    return traced;
+}
+
+/// Paths take the places of others that have ended, branches walk when all the others are done, and there are more than
+/// fit into a group.
+TEST(PathKernel, APathDoesNotDependOnItsCompany) {
+    Scene scene = test::cornell_box(1.0f, Vec3(0.0f));
+    const std::int32_t glass = test::add_material(scene, ThinDielectricMaterial{1.5f, Rgb(1.0f), Rgb(1.0f)});
+    test::add_shape(scene, test::quad({0.1f, 0.2f, 0.1f}, {0.7f, 0, 0}, {0, 0.5f, 0.5f}), glass);
+    test::set_film(scene, 16, 16);
+    Job job;
+    job.guiding.type = GuidingType::none;
+    PassPlan pass;
+    pass.spp = 8;
+    pass.next_event = true;
+    pass.blocks_per_unit = 64;
+    const Guide guide(initial_tree(scene.bounds(), 1.0f));
+    const TraceScene prepared(scene, job);
+    for (const bool record : {false, true}) {
+        pass.record = record;
+        Traced together = trace(prepared, job, pass, guide, {pass.index, 0, 0, 16, 16, 0});
+        ASSERT_EQ(together.pixels.size(), 256u);
+        RecordFacts alone;
+        int lit = 0;
+        for (std::uint16_t y = 0; y < 16; ++y)
+            for (std::uint16_t x = 0; x < 16; ++x) {
+                const WorkUnit pixel{pass.index, x, y, std::uint16_t(x + 1), std::uint16_t(y + 1), 0};
+                const Traced one = trace(prepared, job, pass, guide, pixel);
+                const PixelEstimate &a = together.pixels[y * 16u + x], &b = one.pixels.front();
+                for (int half = 0; half < 2; ++half) {
+                    ASSERT_EQ(a.half[half].mean, b.half[half].mean) << x << " " << y;
+                    ASSERT_EQ(a.half[half].m2, b.half[half].m2);
+                }
+                lit += a.whole().mean.x > 0;
+                alone.insert(alone.end(), one.records.begin(), one.records.end());
+            }
+        EXPECT_GT(lit, 128);
+        EXPECT_EQ(alone.empty(), !record);
+        std::sort(alone.begin(), alone.end());
+        std::sort(together.records.begin(), together.records.end());
+        EXPECT_EQ(together.records, alone);
+    }
 }
 
 }  // namespace

@@ -8,8 +8,8 @@
 
 namespace treefarm {
 
-/// The directions that a batch of paths takes in a step. Each draws one, or, at its first vertices, several, of which it
-/// takes one.
+/// The directions that a batch of paths takes in a step. Each draws one, or, at its first vertices, several, of which
+/// it takes one.
 template <class Surface, bool kGuided, bool kCoded, bool kViews>
 class DirectionChoice {
   public:
@@ -58,7 +58,7 @@ class DirectionChoice {
                     guide_.prefetch_cell(path.guidance.view, draws_.word[1][path.lane]);
     }
 
-    // draw() for each path, then convert(), then, if there are several for any, choose(), then complete() for each.
+    // draw() for each path, then convert(), then choose(), then complete() for each.
 
     /// False if there is no direction.
     bool draw(Path& path) {
@@ -70,10 +70,10 @@ class DirectionChoice {
                            cosines_[path.lane], path.scatter);
     }
     void convert() { batch_.convert(guide_); }
-    /// Whether any path of this step may choose among several.
-    bool several() const { return seats_ != 0; }
-    /// Draws the others for the paths that choose, and takes one for each. The density is 0 where none was found.
+    /// Draws the other directions of paths that choose among several, and takes one for each. The density is 0 where
+    /// none was found.
     void choose(std::span<Path> paths, std::span<const std::uint8_t> alive) {
+        if (!several()) return;
         std::array<std::uint8_t, kDrawBatch> choosers;
         std::uint32_t count = 0;
         for (const std::uint8_t index : alive)
@@ -99,6 +99,9 @@ class DirectionChoice {
     }
 
   private:
+    /// Whether any path of this step may choose among several.
+    bool several() const { return seats_ != 0; }
+
     /// What a path chooses among.
     struct Offered {
         Candidates candidates;

@@ -62,8 +62,9 @@ class PathKernel {
 
     static constexpr std::uint32_t kBranchVertices = 1u << 28;
 
-    /// Whether a path that ends makes room for the next. Where paths read the tree, a batch that stays full fetches more
-    /// ahead than caches hold; there the next batch waits for the last path (docs/architecture.md, "How paths walk").
+    /// Whether a path that ends makes room for the next. Where paths read the tree, a batch that stays full fetches
+    /// more ahead than caches hold; there the next batch waits for the last path (docs/architecture.md, "How paths
+    /// walk").
     static constexpr bool kRefills = !kGuided;
 
     /// How many walk together: guided ones without next event are slower by whole batches.

@@ -10,6 +10,7 @@
 #include "worker/integrator/direction_choice.h"
 #include "worker/integrator/emission.h"
 #include "worker/integrator/emitter_choice.h"
+#include "worker/integrator/ended_paths.h"
 #include "worker/integrator/mis.h"
 #include "worker/integrator/path_observer.h"
 #include "worker/integrator/path_roulette.h"
@@ -24,8 +25,7 @@ namespace treefarm {
 /// of surface.h.
 ///
 /// Paths walk in step, up to kBatch of them: what one waits for (memory, square roots) another works through, and the
-/// shadow rays of a step are traced together. Others may take the places of those that end. A path's result does not
-/// depend on its company.
+/// shadow rays of a step are traced together. A path's result does not depend on its company.
 template <class Surface, bool kGuided, bool kRecord, class Observer = NoObserver>
 class PathWalk {
   public:
@@ -58,16 +58,9 @@ class PathWalk {
     template <class Follow>
     void walk(std::span<const std::uint8_t> places, Follow follow) {
         std::copy(places.begin(), places.end(), alive_.begin());
-        std::uint32_t enough = kWorthFollowing;
-        for (auto alive = static_cast<std::uint32_t>(places.size()); alive != 0;) {
-            alive = step(alive);
-            if (alive != 0 && ended_count_ < enough) continue;
-            const std::uint32_t others = follow(std::span<const std::uint8_t>(ended_.data(), ended_count_));
-            if (others < ended_count_) enough = kBatch + 1;  // no more are to come
-            std::copy_n(ended_.begin(), others, alive_.begin() + alive);
-            alive += others;
-            ended_count_ = 0;
-        }
+        ended_.clear();
+        for (auto alive = static_cast<std::uint32_t>(places.size()); alive != 0;)
+            alive = ended_.replace(step(alive), alive_, follow);
     }
 
     /// Other ways out of glass, and copies, that the paths left; whoever follows them takes them away.
@@ -79,9 +72,6 @@ class PathWalk {
     PhaseClock& clock() { return clock_; }
 
   private:
-    /// So many paths are set up at once: a few together keep the camera's rays together, too.
-    static constexpr std::uint32_t kWorthFollowing = kBatch / 4;
-
     /// Whether directions have to be converted before a path can leave.
     static constexpr bool kConverts = kGuided || kRecord;
     static constexpr bool kViews = kConverts && Surface::kViews;
@@ -142,8 +132,7 @@ class PathWalk {
         if constexpr (!kConverts) return keep(alive, [&](std::uint8_t path) { return draws(path) && leaves(path); });
         alive = keep(alive, draws);
         directions_.convert();
-        if constexpr (kGuided)
-            if (directions_.several()) directions_.choose(paths_, {alive_.data(), alive});
+        if constexpr (kGuided) directions_.choose(paths_, {alive_.data(), alive});
         return keep(alive, leaves);
     }
 
@@ -156,7 +145,7 @@ class PathWalk {
             if (goes_on(path))
                 alive_[left++] = path;
             else
-                ended_[ended_count_++] = path;
+                ended_.add(path);
         }
         return left;
     }
@@ -245,7 +234,7 @@ class PathWalk {
         observer_.arrive(path.depth, path.found ? &hit : nullptr);
         if (kGuided && path.copied) [[unlikely]]
             path.copied = false;
-        else if (!arrive(path, recorder_of(index)))
+        else if (!arrive(path, kRecord ? &recorders_[index] : nullptr))
             return false;
 
         const Surface& surface = path.surface.emplace(scene_, hit, -ray.direction, scratch_[index]);
@@ -271,8 +260,7 @@ class PathWalk {
         const Surface& surface = *path.surface;
         const ScatterSample& s = path.scatter;
         if constexpr (Surface::kTransmits)
-            if (s.delta && path.depth == 1 && settings_.split_glass)
-                branches_.split(path, settings_.strict_normals);
+            if (s.delta && path.depth == 1 && settings_.split_glass) branches_.split(path, settings_.strict_normals);
         if (!(s.pdf > 0.0f) || is_black(s.f_cos)) return end("no direction");
         if (settings_.strict_normals && dot(surface.ng(), s.world) * s.local.z <= 0.0f) return end("normals disagree");
         path.weight = s.f_cos * (1.0f / s.effective_pdf);
@@ -290,8 +278,6 @@ class PathWalk {
         path.ray = {offset_origin(path.hit, s.world), s.world};
         return true;
     }
-
-    PathRecorder* recorder_of(std::uint32_t index) { return kRecord ? &recorders_[index] : nullptr; }
 
     bool end(const char* why) {
         observer_.end(why);
@@ -316,8 +302,7 @@ class PathWalk {
 
     /// How next event chooses an emitter where the path is: nullptr, by power.
     const LightShare* light_share(const Path& path) const {
-        if constexpr (!kConverts) return nullptr;
-        return kGuided && path.probe ? nullptr : guide_.light_share(path.guidance.region);
+        return !kConverts || (kGuided && path.probe) ? nullptr : guide_.light_share(path.guidance.region);
     }
 
     /// Samples an emitter; whether it is seen is asked for all paths of a step together.
@@ -397,8 +382,7 @@ class PathWalk {
     std::vector<typename Surface::Scratch> scratch_;  ///< a path's surface lasts for a step
     std::array<Path, kBatch> paths_;
     std::array<std::uint8_t, kBatch> alive_;
-    std::array<std::uint8_t, kBatch> ended_;  ///< since others were last set up
-    std::uint32_t ended_count_ = 0;
+    EndedPaths ended_;
     Branches branches_;
     PathCopies copies_;
     DrawBatch roulette_draws_;

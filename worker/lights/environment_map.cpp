@@ -86,7 +86,7 @@ EnvironmentMap::EnvironmentMap(const EnvironmentEmitter& emitter, const TextureI
              emitter.z_axis},
       scale_(emitter.scale),
       columns_(static_cast<std::size_t>(image.height) * (static_cast<std::size_t>(image.width) + 1)),
-      guide_bits_(std::max(0, static_cast<int>(std::bit_width(static_cast<unsigned>(image.width))) - 3)),
+      guide_bits_(std::max(0, static_cast<int>(std::bit_width(static_cast<unsigned>(image.width))) - 2)),
       guide_(static_cast<std::size_t>(image.height) * ((std::size_t{1} << guide_bits_) + 1)) {
     frame_.half_turn = static_cast<float>(frame_.height - 1) + 2.0f * frame_.margin;
     // d(u) d(v) = d(solid angle) / (2 pi^2 sin(theta)).
