@@ -13,7 +13,7 @@ struct LaunchEnvironment {
 LaunchEnvironment read_launch_environment();
 
 /// For processes of one host, before MPI starts: Open MPI's search for fast networks takes 0.2 s, and ends with shared
-/// memory (ob1). Unless the user chose something else.
+/// memory (ob1). Unless the environment or an option of mpirun chose something else.
 void skip_network_search();
 
 /// Processors that this process may run on.

@@ -294,7 +294,7 @@ class WorkerLoop {
     std::uint32_t pass_task_job_ = 0;
     std::shared_ptr<PassWork> pass_;
     std::size_t credit_ = 0;     ///< units asked for that have not come
-    bool nothing_left_ = false;  ///< said the coordinator when it was asked last
+    bool nothing_left_ = false;  ///< the last work that came was none
 };
 
 }  // namespace

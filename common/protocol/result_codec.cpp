@@ -94,6 +94,15 @@ TraceStats read_stats(ByteReader& reader) {
     return s;
 }
 
+/// Bytes of a result, or a little more.
+std::size_t size_bound(const Result& result) {
+    constexpr std::size_t kMostVarint = 10, kMostStats = 512;
+    std::size_t bytes = kMostStats + kInvalidSampleBytes * result.stats.first_invalid.size() + result.update.size();
+    for (const UnitResult& unit : result.units)
+        bytes += kUnitBytes + 2 * sizeof(std::uint32_t) + kMostVarint + kPixelBytes * unit.pixels.size();
+    return bytes;
+}
+
 }  // namespace
 
 void write_unit(ByteWriter& writer, const WorkUnit& unit) {
@@ -113,10 +122,7 @@ WorkUnit read_unit(ByteReader& reader, std::uint32_t pass) {
 }
 
 void write_result(ByteWriter& writer, const Result& result) {
-    std::size_t bytes = result.update.size();
-    for (const UnitResult& unit : result.units)
-        bytes += kUnitBytes + kPixelBytes * unit.pixels.size();
-    writer.reserve(bytes);
+    writer.reserve(size_bound(result));
     writer.put(result.incarnation);
     writer.put(result.pass);
     write_stats(writer, result.stats);

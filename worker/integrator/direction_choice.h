@@ -91,7 +91,9 @@ class DirectionChoice {
         for (std::uint32_t i = 0; i < count; ++i) {
             Path& path = paths[choosers[i]];
             const float pick = to_unit(picks_.word[0][seat(path)]);
-            if (!offered_[seat(path)].candidates.take(candidates_, pick, path.scatter)) path.scatter.pdf = 0.0f;
+            if (offered_[seat(path)].candidates.take(candidates_, pick, path.scatter)) continue;
+            path.scatter.pdf = 0.0f;
+            path.scatter.delta = false;
         }
     }
     void complete(Path& path) const {

@@ -44,6 +44,7 @@ struct PathState {
         depth = 0;
         copies = {};
         copied = false;
+        first_exponent = 0;
         ray = from_camera;
         radiance = scatter_point = Rgb(0.0f);
         throughput = Rgb(1.0f);
