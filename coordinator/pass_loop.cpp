@@ -53,7 +53,7 @@ class PassLoop {
                 result_.interrupted = true;
                 break;
             }
-            keep(plan, report);
+            keep(plan);
             combine(report);
             next = look_ahead(report);
             learn(plan, next, report);
@@ -85,7 +85,7 @@ class PassLoop {
         return true;
     }
 
-    void keep(const PassPlan& plan, PassReport& report) {
+    void keep(const PassPlan& plan) {
         const PassPlan* const before = result_.passes.empty() ? nullptr : &result_.passes.back().plan;
         PassResult pass = finished_pass(plan, before, farm_.take_pixels());
         if (const TraceStats stats = farm_.collector().totals(); stats.probe_paths > 0) {
@@ -93,17 +93,16 @@ class PassLoop {
             // An image of one pass alone has nothing better for them.
             if (!shows_last_tree_only(job_)) set_aside_.take_out(pass.pixels, plan.index, finished_.size());
         }
-        const Timer timer;
         show(std::move(pass), job_, finished_);
-        report.seconds.film = timer.seconds();
         result_.spp = plan.first_sample + plan.spp;
         result_.tree_hash = coming_tree_hash_;
     }
 
     void combine(PassReport& report) {
         Timer timer;
+        remember_noise(finished_, job_.guiding.combination, guided());
         result_.image = combine_passes(finished_, job_.guiding.combination, guided());
-        report.seconds.film += timer.seconds();
+        report.seconds.film = timer.seconds();
         timer.restart();
         state_.error = report.error = estimate_error(result_.image, job_.sampler.seed);
         fill_from_collector(report, farm_.collector());

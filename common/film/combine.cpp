@@ -59,6 +59,11 @@ SampleNoise measure_noise(Alike passes) {
     return noise;
 }
 
+/// Without guiding all samples are alike: none is thrown away.
+bool weighs_by_noise(Combination method, bool guided) {
+    return guided && method == Combination::inverse_variance;
+}
+
 /// All passes, in groups of those that are alike.
 struct Group {
     Alike passes;
@@ -267,7 +272,8 @@ double fixed_weight(std::uint32_t spp, std::uint32_t spp_before, bool guided) {
     return spp * (guided ? std::sqrt(static_cast<double>(std::max(spp_before, 1u))) : 1.0);
 }
 
-void remember_noise(std::span<PassResult> passes) {
+void remember_noise(std::span<PassResult> passes, Combination method, bool guided) {
+    if (!weighs_by_noise(method, guided)) return;
     for (std::size_t first = 0; first < passes.size(); first += passes[first].noise.passes)
         passes[first].noise = noise_of(alike_from(passes, first));
 }
@@ -278,14 +284,13 @@ CombinedImage combine_passes(std::span<const PassResult> passes, Combination met
         passes = passes_of_last_tree(passes);
         guided = false;
     }
-    if (!guided) method = Combination::fixed;  // all samples are alike: none is thrown away
     const std::uint32_t longest = longest_pass(passes).spp;
     if (longest < 2) return combine_whole(passes, fixed_weights(passes, guided));
 
     // Set weights apply to all samples of a pass alike. Variances cross over: what half A reports weighs half B, so
     // that a weight never depends on the samples that it multiplies.
     CombinedImage image;
-    if (method == Combination::inverse_variance) {
+    if (weighs_by_noise(method, guided)) {
         const std::vector<Group> groups = group_alike(passes);
         image = combine_halves(passes, {inverse_variance_weights(passes, groups, 1, guided),
                                         inverse_variance_weights(passes, groups, 0, guided)});

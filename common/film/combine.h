@@ -47,13 +47,13 @@ struct CombinedImage {
     std::vector<double> weight;      ///< of each pass, sums to 1 (halves averaged)
 };
 
-/// Measures the noise of passes where that is not done yet, and keeps it with them: combine_passes, called after each
-/// pass, would measure all of them again. Whoever changes a pass forgets its noise.
-void remember_noise(std::span<PassResult> passes);
-
 /// Combines the passes with one scalar weight each (docs/guiding.md, "combining passes"). `guided` says whether the
 /// passes differ in quality: without guiding every sample weighs the same. `last` keeps the passes of the last tree.
 CombinedImage combine_passes(std::span<const PassResult> passes, Combination method, bool guided);
+
+/// Where combine_passes() would measure the noise of passes: measures what is not known yet and keeps it with them.
+/// Called after each pass, it would otherwise measure all of them again. Whoever changes a pass forgets its noise.
+void remember_noise(std::span<PassResult> passes, Combination method, bool guided);
 
 /// Weight of a pass that is set before it begins (`fixed`): spp sqrt(spp_before); without guiding, spp. Not normalised.
 double fixed_weight(std::uint32_t spp, std::uint32_t spp_before, bool guided);

@@ -149,8 +149,6 @@ PassResult finished_pass(const PassPlan& plan, const PassPlan* before, std::vect
 void show(PassResult pass, const Job& job, std::vector<PassResult>& shown) {
     if (job.budget.strict || (shows_last_tree_only(job) && !pass.same_tree)) shown.clear();
     shown.push_back(std::move(pass));
-    if (job.guiding.type != GuidingType::none && job.guiding.combination == Combination::inverse_variance)
-        remember_noise(shown);
 }
 
 PassChooser passes_of(const Job& job) {

@@ -222,7 +222,7 @@ TEST(GuidingProbe, ProbesComeBackToTheirPass) {
     aside.take_out(passes[1].pixels, kPass, 1);
     for (std::uint32_t p = 0; p < kCount; ++p)
         ASSERT_EQ(passes[1].pixels[p].whole().n, kProbe.holds(p) ? 0u : 8u);
-    remember_noise(passes);
+    remember_noise(passes, Combination::inverse_variance, true);
     aside.put_back(passes);
     for (const PassResult& pass : passes)
         EXPECT_EQ(pass.noise.passes, 0u) << "it was measured without them";

@@ -63,7 +63,8 @@ class DirectionChoice {
     /// False if there is no direction.
     bool draw(Path& path) {
         if (chooses(path)) {
-            draw_first(path);
+            offered_[seat(path)].candidates.clear();
+            draw_offer(path, 0, batch_, draws_, cosines_, path.lane);
             return true;
         }
         return batch_.draw(*path.surface, guide_, path.guidance, to_unit(draws_.word[0][path.lane]), draws_[path.lane],
@@ -101,6 +102,8 @@ class DirectionChoice {
     }
 
   private:
+    using Batch = ScatterBatch<kGuided, kCoded, kViews>;
+
     /// Whether any path of this step may choose among several.
     bool several() const { return seats_ != 0; }
 
@@ -116,14 +119,9 @@ class DirectionChoice {
     }
     std::uint32_t seat(const Path& path) const { return seat_[path.lane]; }
 
-    void draw_first(Path& path) {
-        offered_[seat(path)].candidates.clear();
-        draw_offer(path, 0, batch_, draws_, cosines_, path.lane);
-    }
-
     /// Each from its own part of the techniques' probabilities: a mixture over the candidates like any.
-    void draw_offer(const Path& path, std::uint32_t candidate, ScatterBatch<kGuided, kCoded, kViews>& batch,
-                    const DrawBatch& draws, const VectorBatch& cosines, std::uint32_t lane) {
+    void draw_offer(const Path& path, std::uint32_t candidate, Batch& batch, const DrawBatch& draws,
+                    const VectorBatch& cosines, std::uint32_t lane) {
         Offered& offered = offered_[seat(path)];
         const float technique =
             (static_cast<float>(candidate) + to_unit(draws.word[0][lane])) / static_cast<float>(candidates_);
@@ -131,8 +129,7 @@ class DirectionChoice {
                                    offered.candidates.next());
     }
 
-    void complete_offers(std::span<const Path> paths, std::span<const std::uint8_t> choosers,
-                         const ScatterBatch<kGuided, kCoded, kViews>& batch) {
+    void complete_offers(std::span<const Path> paths, std::span<const std::uint8_t> choosers, const Batch& batch) {
         for (const std::uint8_t index : choosers) {
             const Path& path = paths[index];
             Offered& offered = offered_[seat(path)];
@@ -147,7 +144,7 @@ class DirectionChoice {
     const int candidate_depth_;
     DrawBatch draws_;
     VectorBatch cosines_;
-    ScatterBatch<kGuided, kCoded, kViews> batch_;
+    Batch batch_;
 
     // Of the paths that may choose among several: each has a seat.
     std::uint32_t seats_ = 0;
@@ -156,7 +153,7 @@ class DirectionChoice {
     KeyBatch seat_keys_;
     DrawBatch picks_, more_draws_;
     VectorBatch more_cosines_;
-    ScatterBatch<kGuided, kCoded, kViews> more_;
+    Batch more_;
     std::array<Offered, kGuided ? kDrawBatch : 0> offered_;
 };
 

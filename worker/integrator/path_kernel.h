@@ -62,19 +62,19 @@ class PathKernel {
 
     static constexpr std::uint32_t kBranchVertices = 1u << 28;
 
-    /// Whether a path that ends makes room for the next. Where paths read the tree, a batch that stays full fetches
-    /// more ahead than caches hold; there the next batch waits for the last path (docs/architecture.md, "How paths
-    /// walk").
+    /// Whether a path that ends makes room for the next. Guided ones were slower so: there the next batch waits for the
+    /// last path (docs/architecture.md, "How paths walk").
     static constexpr bool kRefills = !kGuided;
 
     /// How many walk together: guided ones without next event are slower by whole batches.
     std::uint32_t batch() const { return kGuided && !walk_.settings().next_event ? kBatch / 2 : kBatch; }
 
-    /// What a camera path leaves to its branch.
+    /// What splitting at the branch of a camera path goes on from.
     struct Legacy {
         CopyBudget copies;
         int first_exponent;
     };
+    static constexpr bool kInherits = kGuided && Surface::kTransmits;
 
     /// Walks `count` paths, as many at a time as a batch holds: begin(number, place) sets one up, and end(number, path)
     /// is told what came of it.
@@ -115,7 +115,7 @@ class PathKernel {
             },
             [&](std::uint32_t number, const Path& path) {
                 radiance_[number] = path.radiance;
-                if constexpr (Surface::kTransmits) legacies_[number] = {path.copies, path.first_exponent};
+                if constexpr (kInherits) legacies_[number] = {path.copies, path.first_exponent};
             });
     }
 
@@ -130,8 +130,10 @@ class PathKernel {
                 path.begin(keys_[branch.origin], branch.ray);
                 path.origin = branch.origin;
                 path.probe = kGuided && walk_.settings().probe.holds(path.key.pixel);
-                path.copies = legacies_[branch.origin].copies;
-                path.first_exponent = legacies_[branch.origin].first_exponent;
+                if constexpr (kInherits) {
+                    path.copies = legacies_[branch.origin].copies;
+                    path.first_exponent = legacies_[branch.origin].first_exponent;
+                }
                 path.radiance = radiance_[branch.origin];
                 path.resume(branch.ray, branch.weight, branch.spread, kBranchVertices + 1);
                 if constexpr (kRecord) walk_.recorder(place).begin_branch(branch.weight);
@@ -179,7 +181,7 @@ class PathKernel {
     std::array<PathKey, kGroup> keys_;
     std::array<Ray, kGroup> rays_;
     std::array<Rgb, kGroup> radiance_;
-    std::array<Legacy, Surface::kTransmits ? kGroup : 0> legacies_;
+    std::array<Legacy, kInherits ? kGroup : 0> legacies_;
     std::array<std::uint8_t, kGroup> numbers_;  ///< of copies so far
     std::vector<Rgb> of_copies_;                ///< radiance of each
 };
