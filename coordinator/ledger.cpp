@@ -6,20 +6,23 @@ namespace treefarm {
 
 namespace {
 
-/// Pieces below this edge cost more in messages than they save in waiting.
-constexpr int kSmallestEdge = 4;
+/// A piece of fewer camera paths, 2 ms or so, costs more in messages than it saves in waiting.
+constexpr std::uint32_t kLeastPaths = 2048;
+/// Nor does a kernel fill its batches with fewer pixels.
+constexpr std::uint32_t kLeastPixels = 16;
 
 }  // namespace
 
 Ledger::Ledger(const PassPlan& plan, int width, int height, int tile_size)
-    : total_(static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height) * plan.chunks) {
+    : least_pixels_(std::max(kLeastPixels, kLeastPaths / plan.unit_spp())),
+      total_(static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height) * plan.chunks) {
     const std::vector<WorkUnit> units = cut_pass(plan.index, plan.chunks, width, height, tile_size);
     waiting_.assign(units.begin(), units.end());
 }
 
 void Ledger::quarter_front() {
     const WorkUnit unit = waiting_.front();
-    if (unit.x1 - unit.x0 < 2 * kSmallestEdge || unit.y1 - unit.y0 < 2 * kSmallestEdge) return;
+    if (unit.pixel_count() < 4 * least_pixels_ || unit.x1 - unit.x0 < 2 || unit.y1 - unit.y0 < 2) return;
     waiting_.pop_front();
     const auto xm = static_cast<std::uint16_t>((unit.x0 + unit.x1) / 2);
     const auto ym = static_cast<std::uint16_t>((unit.y0 + unit.y1) / 2);

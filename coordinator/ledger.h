@@ -19,7 +19,8 @@ class Ledger {
     Ledger(const PassPlan& plan, int width, int height, int tile_size);
 
     /// Takes up to `count` units for a worker. While fewer than `shrink_below` units are left, each is issued as four
-    /// quarters: towards the end of a pass smaller pieces leave fewer workers waiting for the last one.
+    /// quarters: towards the end of a pass smaller pieces leave fewer workers waiting for the last one. No piece is so
+    /// small that to ask for it takes longer than to trace it.
     std::vector<WorkUnit> issue(int worker, std::size_t count, std::size_t shrink_below);
 
     /// True if the worker has all of these units, each named once.
@@ -42,6 +43,7 @@ class Ledger {
   private:
     void quarter_front();
 
+    const std::uint32_t least_pixels_;  ///< of a piece
     std::deque<WorkUnit> waiting_;
     std::map<WorkUnit, int> holder_;  ///< units that were issued, with the worker that has them
     std::uint64_t total_ = 0;

@@ -190,8 +190,8 @@ RunDirectory::RunDirectory(const Job& job, const RunFacts& facts, const EffectPl
     }
 }
 
-void RunDirectory::write_text(const std::string& name, const std::string& text) const {
-    write_file_atomically(path_ / name, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+void RunDirectory::write_text(const std::string& name, const std::string& text, Outlives outlives) const {
+    write_file_atomically(path_ / name, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}, outlives);
 }
 
 void RunDirectory::write_status(const RenderProgress& progress, double elapsed_seconds) {
@@ -210,14 +210,18 @@ void RunDirectory::write_status(const RenderProgress& progress, double elapsed_s
                          {"workers", progress.workers},
                          {"rays", progress.rays},
                          {"time", std::time(nullptr)}};
-    write_text("status.json", status.dump(2) + "\n");
+    write_text("status.json", status.dump(2) + "\n", Outlives::process);
 }
 
 void RunDirectory::add_pass(const PassReport& report) {
     passes_csv_ += pass_csv_line(report) + "\n";
-    write_text("passes.csv", passes_csv_);
     passes_.push_back(report.plan);
-    write_text("schedule.toml", write_schedule(passes_));
+    write_passes(Outlives::process);
+}
+
+void RunDirectory::write_passes(Outlives outlives) const {
+    write_text("passes.csv", passes_csv_, outlives);
+    write_text("schedule.toml", write_schedule(passes_), outlives);
 }
 
 void RunDirectory::write_image(const RenderResult& result) {
@@ -281,6 +285,7 @@ void RunDirectory::write_summary(RunState state, const RenderResult& result, con
     for (const PassReport& report : result.passes)
         summary["passes"].push_back(pass_json(report));
     if (farm) summary["farm"] = farm_json(*farm);
+    if (!passes_.empty()) write_passes(Outlives::power);
     write_text("summary.json", summary.dump(2) + "\n");
     const Json status = {
         {"state", run_state_name(state)}, {"spp_done", result.spp}, {"elapsed_seconds", elapsed_seconds}};

@@ -6,6 +6,7 @@
 
 #include "common/base/timer.h"
 #include "common/config/job.h"
+#include "common/image/atomic_file.h"
 #include "common/plan/effects.h"
 #include "coordinator/farm.h"
 #include "coordinator/pass_loop.h"
@@ -34,6 +35,8 @@ class RunDirectory {
     const std::filesystem::path& path() const { return path_; }
     std::filesystem::path log_file() const { return path_ / "log.txt"; }
 
+    // What is written while workers wait for an answer does not wait for the disk (atomic_file.h).
+
     /// status.json, at most once a second.
     void write_status(const RenderProgress& progress, double elapsed_seconds);
     /// A line of passes.csv, a table of schedule.toml.
@@ -41,12 +44,13 @@ class RunDirectory {
     /// image.exr, preview.png, and the job's output.file; tree.bin (encode_tree() of the result's tree) if there is one
     /// that learned.
     void write_image(const RenderResult& result);
-    /// summary.json and the last status.json.
+    /// summary.json and the last status.json; passes.csv and schedule.toml once more, to outlive the machine's power.
     void write_summary(RunState state, const RenderResult& result, const Farm* farm, double elapsed_seconds,
                        const std::string& error);
 
   private:
-    void write_text(const std::string& name, const std::string& text) const;
+    void write_text(const std::string& name, const std::string& text, Outlives outlives = Outlives::power) const;
+    void write_passes(Outlives outlives) const;
 
     const Job job_;
     const RunFacts facts_;

@@ -18,8 +18,9 @@ namespace treefarm {
 
 namespace {
 
-/// Units that a worker keeps per thread, so that none waits while more are under way.
-constexpr std::size_t kUnitsPerThread = 3;
+/// Units that a worker keeps per thread, so that none waits while more are under way: so many, and so many camera paths
+/// beside, since small units are done before an answer comes.
+constexpr std::size_t kUnitsPerThread = 3, kPathsPerThread = 8192;
 
 /// A tree or scene of which nothing was heard for so many heartbeats is asked for again.
 constexpr double kPatienceHeartbeats = 5.0;
@@ -241,8 +242,13 @@ class WorkerLoop {
         }
     }
 
+    std::size_t units_per_thread() const {
+        const auto edge = static_cast<std::size_t>(job_.farm.tile_size);
+        return kUnitsPerThread + kPathsPerThread / (edge * edge * pass_->plan().unit_spp());
+    }
+
     void ask_for_work() {
-        const std::size_t depth = kUnitsPerThread * settings_.threads;
+        const std::size_t depth = units_per_thread() * settings_.threads;
         const std::size_t queued = pool_->queued();
         if (queued + credit_ >= depth) return;
         const std::size_t more = depth - queued - credit_;

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "common/base/large_table.h"
 #include "common/base/prefetch.h"
 #include "common/base/random.h"
 #include "common/guiding/sd_tree.h"
@@ -197,10 +198,10 @@ class Guide {
     float extent_ = 1.0f;
     std::vector<std::array<std::uint32_t, 8>> treelets_;
     std::vector<std::uint32_t> top_;  ///< the entries that kTopBits treelets lead to, or the leaf before
-    std::vector<Cell> cells_;  ///< each distribution's, then one at which the next would begin: cell c of distribution
-                               ///< d is c + d; kFewCells more at the end
-    std::vector<GuideTable<kRegionBits>> region_mass_, region_code_;
-    std::vector<GuideTable<kViewBits>> view_mass_, view_code_;
+    LargeTable<Cell> cells_;  ///< each distribution's, then one at which the next would begin: cell c of distribution
+                              ///< d is c + d; kFewCells more at the end
+    LargeTable<GuideTable<kRegionBits>> region_mass_, region_code_;
+    LargeTable<GuideTable<kViewBits>> view_mass_, view_code_;
     struct Views {
         std::uint32_t first = 0, count = 0;  ///< of the views that a region has
     };

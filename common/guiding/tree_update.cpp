@@ -29,7 +29,7 @@ void read_sparse(ByteReader& in, std::size_t limit, const char* what, Visit visi
     }
 }
 
-void write_sparse(ByteWriter& out, const std::vector<std::uint64_t>& values) {
+void write_sparse(ByteWriter& out, std::span<const std::uint64_t> values) {
     std::uint64_t count = 0;
     for (const std::uint64_t v : values)
         count += v != 0;

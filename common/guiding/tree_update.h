@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common/base/bytes.h"
+#include "common/base/large_table.h"
 #include "common/base/prefetch.h"
 #include "common/guiding/sd_tree.h"
 #include "common/math/elementary.h"
@@ -76,7 +77,7 @@ class TreeSums {
         : TreeSums(pass, SumsShape(regions, cells, with_mixture)) {}
 
     std::uint32_t pass() const { return pass_; }
-    const std::vector<std::uint64_t>& cells() const { return cells_; }
+    const LargeTable<std::uint64_t>& cells() const { return cells_; }
     /// Recorded vertices per distribution, those without radiance included.
     const std::vector<std::uint64_t>& counts() const { return counts_; }
     /// The mixture histogram of a distribution; empty where no mixture is learned.
@@ -125,7 +126,7 @@ class TreeSums {
 
     std::uint32_t pass_ = 0;
     SumsShape shape_;
-    std::vector<std::uint64_t> cells_;
+    LargeTable<std::uint64_t> cells_;
     std::vector<std::uint64_t> counts_;
     std::vector<std::uint64_t> mixture_;
     std::vector<std::uint64_t> lights_;

@@ -54,11 +54,11 @@ int write_all(int fd, std::span<const std::uint8_t> bytes) {
     return 0;
 }
 
-int write_and_sync(const fs::path& path, std::span<const std::uint8_t> bytes) {
+int write_whole(const fs::path& path, std::span<const std::uint8_t> bytes, Outlives outlives) {
     Descriptor file(path, O_WRONLY | O_CREAT | O_TRUNC);
     if (!file.valid()) return errno;
     if (const int error = write_all(file.get(), bytes)) return error;
-    if (::fsync(file.get()) != 0) return errno;
+    if (outlives == Outlives::power && ::fsync(file.get()) != 0) return errno;
     return file.close() ? 0 : errno;
 }
 
@@ -70,7 +70,7 @@ void write_special(const fs::path& path, std::span<const std::uint8_t> bytes) {
 
 }  // namespace
 
-void write_file_atomically(const fs::path& path, std::span<const std::uint8_t> bytes) {
+void write_file_atomically(const fs::path& path, std::span<const std::uint8_t> bytes, Outlives outlives) {
     std::error_code none;
     const fs::file_status status = fs::status(path, none);
     if (fs::is_directory(status)) fail(path, "write", EISDIR);
@@ -80,12 +80,13 @@ void write_file_atomically(const fs::path& path, std::span<const std::uint8_t> b
     const fs::path target = fs::exists(status) ? fs::canonical(path, none) : path;
     fs::path temporary = target;
     temporary += ".tmp" + std::to_string(::getpid());
-    int error = write_and_sync(temporary, bytes);
+    int error = write_whole(temporary, bytes, outlives);
     if (error == 0 && ::rename(temporary.c_str(), target.c_str()) != 0) error = errno;
     if (error != 0) {
         ::unlink(temporary.c_str());
         fail(path, "write", error);
     }
+    if (outlives != Outlives::power) return;
     // The rename itself is durable once its folder is; some file systems refuse to sync a folder, which loses nothing.
     const fs::path folder = target.parent_path();
     const Descriptor directory(folder.empty() ? fs::path(".") : folder, O_RDONLY | O_DIRECTORY);

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
 #include "common/config/job.h"
 #include "common/film/guiding_probe.h"
+#include "common/film/work_unit.h"
 
 namespace treefarm {
 
@@ -21,6 +23,9 @@ struct PassPlan {
     bool learn_mixture = false;         ///< teach how often to sample the BSDF (needs a tree that guides)
     std::uint32_t blocks_per_unit = 1;  ///< power of two: sample blocks (of 64) in a work unit
     std::uint32_t chunks = 1;           ///< work units along the samples of a pixel
+
+    /// Samples of a pixel in a work unit, the last chunk's apart.
+    std::uint32_t unit_spp() const { return std::min(spp, blocks_per_unit * kBlockSamples); }
 
     bool operator==(const PassPlan&) const = default;
 };

@@ -236,6 +236,16 @@ TEST(AtomicFile, ReplacesWholeFilesAndLeavesNothingBehind) {
     EXPECT_EQ(std::distance(fs::directory_iterator(path.parent_path()), fs::directory_iterator()), 1);
 }
 
+TEST(AtomicFile, ReplacesWithoutWaitingForTheDisk) {
+    const fs::path path = fresh("status.json");
+    for (const char content : {'1', '2'}) {
+        const std::vector<std::uint8_t> bytes(10, static_cast<std::uint8_t>(content));
+        write_file_atomically(path, bytes, Outlives::process);
+        EXPECT_EQ(slurp(path), std::string(10, content));
+    }
+    EXPECT_EQ(std::distance(fs::directory_iterator(path.parent_path()), fs::directory_iterator()), 1);
+}
+
 TEST(AtomicFile, AFailureKeepsTheOldFile) {
     const fs::path folder = fresh("folder");
     fs::create_directories(folder);

@@ -55,6 +55,18 @@ TEST(Ledger, TinyPiecesAreNotCutFurther) {
     EXPECT_EQ(ledger.issue(1, 10, 100).size(), 1u);
 }
 
+/// Pieces were cut down to 4 x 4 pixels whatever their samples: of a tenth of a millisecond each, they took a tenth of
+/// a second to ask for.
+TEST(Ledger, PiecesOfFewPathsAreNotCut) {
+    for (const auto& [spp, smallest] : {std::pair{1u, 32u * 32u}, {8u, 16u * 16u}, {32u, 8u * 8u}, {64u, 8u * 8u}}) {
+        Ledger ledger({.index = 0, .spp = spp}, 64, 64, 32);
+        std::uint32_t least = 64 * 64;
+        for (const WorkUnit& unit : ledger.issue(1, 1000, 1000))
+            least = std::min(least, unit.pixel_count());
+        EXPECT_EQ(least, smallest) << spp << " spp";
+    }
+}
+
 TEST(Ledger, AcceptsOnlyWhatTheWorkerHasAndOnlyOnce) {
     Ledger ledger(plan(), 64, 32, 32);
     const auto mine = ledger.issue(1, 1, 0);

@@ -31,7 +31,7 @@ RecordTarget moved(const Guide& guide, std::uint32_t region, std::uint32_t outgo
 
 /// What one work unit taught, appended in path order: added to the tree's sums afterwards, away from the path walk.
 struct RecordLog {
-    std::vector<Record> records;        ///< those with radiance
+    LargeTable<Record> records;         ///< those with radiance
     std::vector<std::uint32_t> counts;  ///< recorded vertices per distribution, those without radiance included
     UpdateCaps caps;
     std::vector<Record> drafts;  ///< room for a path's records, of which only some are kept
