@@ -12,11 +12,8 @@ namespace treefarm {
 namespace {
 
 std::uint64_t hash_image(const CombinedImage& image) {
-    ByteWriter writer;
-    for (const Rgb64& mean : image.mean)
-        for (const double value : {mean.x, mean.y, mean.z})
-            writer.put(value);
-    return hash_bytes(writer.take());
+    static_assert(sizeof(Rgb64) == 3 * sizeof(double));
+    return hash_bytes({reinterpret_cast<const std::uint8_t*>(image.mean.data()), image.mean.size() * sizeof(Rgb64)});
 }
 
 class PassLoop {

@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <ctime>
+#include <future>
 #include <nlohmann/json.hpp>
 
 #include "common/base/error.h"
@@ -226,6 +227,9 @@ void RunDirectory::write_passes(Outlives outlives) const {
 
 void RunDirectory::write_image(const RenderResult& result) {
     if (result.passes.empty()) return;
+    std::future<void> preview = std::async(std::launch::async, [&] {
+        write_png(path_ / "preview.png", result_colours(result.image, result.width, result.height));
+    });
     if (job_.guiding.type != GuidingType::none && result.tree.trained) {
         const Bytes tree = encode_tree(result.tree);
         write_file_atomically(path_ / "tree.bin", tree);
@@ -253,7 +257,7 @@ void RunDirectory::write_image(const RenderResult& result) {
     }
     write_exr(path_ / "image.exr", channels, attributes);
     if (!job_.output.file.empty()) write_exr(job_.output.file, channels, attributes);
-    write_png(path_ / "preview.png", result_colours(result.image, result.width, result.height));
+    preview.get();
 }
 
 void RunDirectory::write_summary(RunState state, const RenderResult& result, const Farm* farm, double elapsed_seconds,

@@ -33,7 +33,10 @@ std::optional<Result> PassWork::close() {
         result.stats = std::exchange(stats_, {});
         if (accumulator_) sums = accumulator_->take();
     }
-    if (sums) result.update = sums->encode();
+    if (!sums) return result;
+    result.update = sums->encode();
+    sums->clear();
+    accumulator_->give_back(std::move(*sums));
     return result;
 }
 

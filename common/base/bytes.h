@@ -76,16 +76,14 @@ class ByteReader {
     }
 
     std::uint64_t get_varint() {
-        std::uint64_t value = 0;
-        for (int shift = 0; shift < 64; shift += 7) {
-            require(1);
-            const std::uint8_t byte = bytes_[at_++];
-            if (shift == 63 && byte > 1) break;
-            if (shift > 0 && byte == 0) throw FormatError("a variable-length integer is longer than it need be");
-            value |= static_cast<std::uint64_t>(byte & 0x7f) << shift;
-            if (byte < 0x80) return value;
+        // Where short ones are the rule it is predicted, and the next can be read before this one is.
+        if (remaining() > 0 && bytes_[at_] < 0x80) return bytes_[at_++];
+        std::uint64_t word;
+        if (remaining() >= sizeof word) {
+            std::memcpy(&word, bytes_.data() + at_, sizeof word);
+            if (const std::uint64_t ends = ~word & 0x8080808080808080u) return get_short_varint(word, ends);
         }
-        throw FormatError("a variable-length integer has more than 64 bits");
+        return get_varint_by_bytes();
     }
 
     /// A count of elements that take at least `min_bytes_each` of what remains.
@@ -125,6 +123,35 @@ class ByteReader {
     }
 
   private:
+    /// Of 2 to 8 bytes, at the beginning of `word`; `ends` has the high bit of each byte set that may be the last.
+    std::uint64_t get_short_varint(std::uint64_t word, std::uint64_t ends) {
+        const int high_bit = std::countr_zero(ends);
+        if ((word >> (high_bit - 7)) % 256 == 0) throw_overlong();
+        at_ += static_cast<std::size_t>(high_bit / 8 + 1);
+        word &= (ends & -ends) - 1;
+        // Groups of 7 bits become ones of 14, of 28, and one.
+        word = (word & 0x007f007f007f007fu) | (word & 0x7f007f007f007f00u) >> 1;
+        word = (word & 0x00003fff00003fffu) | (word & 0x3fff00003fff0000u) >> 2;
+        return (word & 0x0fffffffu) | (word & 0x0fffffff00000000u) >> 4;
+    }
+
+    [[gnu::noinline]] std::uint64_t get_varint_by_bytes() {
+        std::uint64_t value = 0;
+        for (int shift = 0; shift < 64; shift += 7) {
+            require(1);
+            const std::uint8_t byte = bytes_[at_++];
+            if (shift == 63 && byte > 1) break;
+            if (shift > 0 && byte == 0) throw_overlong();
+            value |= static_cast<std::uint64_t>(byte & 0x7f) << shift;
+            if (byte < 0x80) return value;
+        }
+        throw FormatError("a variable-length integer has more than 64 bits");
+    }
+
+    [[noreturn]] static void throw_overlong() {
+        throw FormatError("a variable-length integer is longer than it need be");
+    }
+
     void require(std::size_t count) const {
         if (count > remaining())
             throw FormatError("cut short: " + std::to_string(count) + " bytes expected, " +

