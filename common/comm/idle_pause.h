@@ -8,7 +8,7 @@ namespace treefarm {
 
 /// How long to give up the processor when nothing arrives: first not at all, then sleeps that double. Keeps an idle
 /// coordinator under one hundredth of a core without making a busy one late. It never yields: where threads outnumber
-/// processors that may last a time slice of 4 ms, and who sleeps is woken at once.
+/// processors that may last a time slice of 4 ms, and a short sleep does not.
 class IdlePause {
   public:
     /// Something happened: be quick again.

@@ -236,7 +236,7 @@ TEST(AtomicFile, ReplacesWholeFilesAndLeavesNothingBehind) {
     EXPECT_EQ(std::distance(fs::directory_iterator(path.parent_path()), fs::directory_iterator()), 1);
 }
 
-TEST(AtomicFile, ReplacesWithoutWaitingForTheDisk) {
+TEST(AtomicFile, ReplacesFilesThatNeedNotOutliveThePower) {
     const fs::path path = fresh("status.json");
     for (const char content : {'1', '2'}) {
         const std::vector<std::uint8_t> bytes(10, static_cast<std::uint8_t>(content));
