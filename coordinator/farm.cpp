@@ -1,6 +1,8 @@
 #include "coordinator/farm.h"
 
 #include <algorithm>
+#include <chrono>
+#include <thread>
 #include <utility>
 
 #include "common/base/hash.h"
@@ -15,6 +17,9 @@ constexpr double kLostHeartbeats = 10.0;
 
 /// While fewer units are left than this per thread, they are issued in quarters.
 constexpr std::size_t kShrinkUnitsPerThread = 2;
+
+/// While more are left, and all are long, workers have enough to trace.
+constexpr std::size_t kCalmUnitsPerThread = 4;
 
 }  // namespace
 
@@ -107,8 +112,17 @@ void Farm::step() {
     if (gathered_ && roster_.present_count() == 0)
         throw RunError("no worker is left" + (last_failure_.empty() ? "" : ": " + last_failure_));
     beat();
-    if (!busy) channel_.rest(kRestSeconds);
+    if (!busy) rest();
     listened_ = clock_.seconds();
+}
+
+void Farm::rest() {
+    const bool calm = pass_ && not_ready_.empty() && pass_->plan.unit_paths(job_.farm.tile_size) >= kLongUnitPaths &&
+                      ledger_->waiting() > kCalmUnitsPerThread * roster_.thread_count();
+    if (calm && channel_.drained())
+        std::this_thread::sleep_for(std::chrono::duration<double>(kCalmRestSeconds));
+    else
+        channel_.rest(kRestSeconds);
 }
 
 void Farm::beat() {

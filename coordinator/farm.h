@@ -77,6 +77,7 @@ class Farm {
         std::uint64_t tree_hash = 0;
     };
 
+    void rest();
     void take(const Received& received);
     void on(int peer, const Hello& m);
     void on(int peer, const Resend& m);

@@ -1,6 +1,7 @@
 #include "coordinator/pass_loop.h"
 
 #include <algorithm>
+#include <future>
 
 #include "common/base/hash.h"
 #include "common/film/guiding_probe.h"
@@ -96,23 +97,33 @@ class PassLoop {
     }
 
     void combine(PassReport& report) {
+        // The last pass's own figures, and those of the image, while others are being made.
+        std::future<PassVariance> variance =
+            std::async(std::launch::async, [&] { return pass_variance(finished_.back().pixels); });
         Timer timer;
         remember_noise(finished_, job_.guiding.combination, guided());
         result_.image = combine_passes(finished_, job_.guiding.combination, guided());
         report.seconds.film = timer.seconds();
         timer.restart();
-        state_.error = report.error = estimate_error(result_.image, job_.sampler.seed);
         fill_from_collector(report, farm_.collector());
-        report.variance = pass_variance(finished_.back().pixels);
+        std::future<ErrorEstimate> error =
+            std::async(std::launch::async, [&] { return estimate_error(result_.image, job_.sampler.seed); });
+        find_gain(report);
+        report.variance = variance.get();
+        state_.error = report.error = error.get();
         report.seconds.error = timer.seconds();
         farm_.beat();
+    }
+
+    void find_gain(PassReport& report) const {
+        if (report.plan.guided && report.plan.record)
+            report.guiding_gain = probe_.gain(finished_.back().pixels, report.stats, report.plan.index,
+                                              result_.image.mean, static_cast<std::size_t>(result_.width));
     }
 
     /// By one image-wide number: a decision, not a weight, so no pixel is biased by its own samples.
     void judge_guiding(PassReport& report) {
         if (report.plan.guided && report.plan.record) {
-            report.guiding_gain = probe_.gain(finished_.back().pixels, report.stats, report.plan.index,
-                                              result_.image.mean, static_cast<std::size_t>(result_.width));
             if (state_.guiding == Guiding::open)
                 state_.guiding = treefarm::judge_guiding(report.plan, report.guiding_gain);
             if (state_.guiding == Guiding::loses) set_aside_.put_back(finished_);

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <future>
 #include <random>
+#include <thread>
 
 #include "common/base/hash.h"
 #include "common/base/timer.h"
@@ -25,9 +26,8 @@ constexpr std::size_t kUnitsPerThread = 3, kPathsPerThread = 8192;
 /// A tree or scene of which nothing was heard for so many heartbeats is asked for again.
 constexpr double kPatienceHeartbeats = 5.0;
 
-/// No message tells that threads run out of units, or that a guide is built. Both are due soon after one arrived, if
-/// they are small: how long to rest doubles from there on.
-constexpr double kShortestRest = 5e-5, kLongestRest = 2e-3;
+/// While something is due, be it a message or that a thread is done.
+constexpr double kRestSeconds = 2e-3;
 
 template <class T>
 bool ready(const std::future<T>& task) {
@@ -51,9 +51,8 @@ class WorkerLoop {
 
     WorkerEnd run() {
         say_hello();
-        for (double rest = kShortestRest; !end_; rest = std::min(2 * rest, kLongestRest)) {
+        while (!end_) {
             while (const auto message = channel_.poll()) {
-                rest = kShortestRest;
                 silence_.broken();
                 take(*message);
                 if (end_) return *end_;
@@ -68,7 +67,7 @@ class WorkerLoop {
                 log_->error("the coordinator has been silent for {:.0f} s: leaving", silence_.seconds());
                 return WorkerEnd::orphaned;
             }
-            channel_.rest(rest);
+            rest();
         }
         return *end_;
     }
@@ -242,16 +241,28 @@ class WorkerLoop {
         }
     }
 
-    std::size_t units_per_thread() const {
-        const auto edge = static_cast<std::size_t>(job_.farm.tile_size);
-        return kUnitsPerThread + kPathsPerThread / (edge * edge * pass_->plan().unit_spp());
+    std::uint64_t unit_paths() const { return pass_->plan().unit_paths(job_.farm.tile_size); }
+
+    /// Units to hold.
+    std::size_t depth() const { return (kUnitsPerThread + kPathsPerThread / unit_paths()) * settings_.threads; }
+
+    /// What is asked for need not come soon.
+    bool well_stocked() const {
+        return pass_ && pool_ && !nothing_left_ && unit_paths() >= kLongUnitPaths &&
+               pool_->queued() >= 2 * settings_.threads;
+    }
+
+    void rest() {
+        if (well_stocked() && channel_.drained())
+            std::this_thread::sleep_for(std::chrono::duration<double>(kCalmRestSeconds));
+        else
+            channel_.rest(kRestSeconds);
     }
 
     void ask_for_work() {
-        const std::size_t depth = units_per_thread() * settings_.threads;
-        const std::size_t queued = pool_->queued();
-        if (queued + credit_ >= depth) return;
-        const std::size_t more = depth - queued - credit_;
+        const std::size_t queued = pool_->queued(), expected = queued + credit_;
+        if (expected >= depth()) return;
+        const std::size_t more = depth() - expected;
         if (more < std::max<std::size_t>(1, settings_.threads / 2) && queued > 0) return;
         credit_ += more;
         tell(Want{incarnation_, pass_->plan().index, static_cast<std::uint32_t>(more)});

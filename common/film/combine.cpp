@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <future>
 #include <optional>
 #include <utility>
 
+#include "common/base/parallel.h"
 #include "common/film/trimmed_mean.h"
 
 namespace treefarm {
@@ -13,6 +15,9 @@ namespace {
 
 /// Clamps a pixel's variance in stuv_ppg, as the authors' program does.
 constexpr double kVarianceClamp = 1e4;
+
+/// Pixels that are worth a thread.
+constexpr std::size_t kLeastPart = 1024;
 
 /// Passes one after the other that have one tree, and sample emitters in one way.
 using Alike = std::span<const PassResult>;
@@ -32,31 +37,34 @@ std::uint32_t spp_of(Alike passes) {
     return spp;
 }
 
-/// Both halves' in one sweep over the pixels: there is more of them than caches hold. Without the worst pixels: a rare
-/// sample in one half would take all weight from its pass in the other, which does not hold it.
-SampleNoise measure_noise(Alike passes) {
+/// Of one half. Without the worst pixels: a rare sample in one half would take all weight from its pass in the other,
+/// which does not hold it.
+HalfNoise measure_half(Alike passes, std::size_t half) {
     const std::size_t count = passes.front().pixels.size();
-    SampleNoise noise{passes.size(), {}};
-    std::array<std::vector<double>, 2> variances;
-    for (int half = 0; half < 2; ++half) {
-        noise.half[half].samples.resize(passes.size());
-        variances[half].reserve(count);
-    }
-    for (std::size_t p = 0; p < count; ++p)
-        for (int half = 0; half < 2; ++half) {
-            double squares = 0, freedom = 0;
-            for (std::size_t k = 0; k < passes.size(); ++k) {
-                const Moments& m = passes[k].pixels[p].half[half];
-                noise.half[half].samples[k] = std::max(noise.half[half].samples[k], m.n);
-                if (m.n < 2) continue;
-                squares += luminance(m.m2);
-                freedom += m.n - 1;
-            }
-            if (freedom > 0) variances[half].push_back(squares / freedom);
+    constexpr double kNone = -1;
+    std::vector<double> variances(count, kNone);
+    std::vector<std::uint32_t> samples(passes.size());
+    for (std::size_t p = 0; p < count; ++p) {
+        double squares = 0, freedom = 0;
+        for (std::size_t k = 0; k < passes.size(); ++k) {
+            const Moments& m = passes[k].pixels[p].half[half];
+            samples[k] = std::max(samples[k], m.n);
+            if (m.n < 2) continue;
+            squares += luminance(m.m2);
+            freedom += m.n - 1;
         }
-    for (int half = 0; half < 2; ++half)
-        if (!variances[half].empty()) noise.half[half].variance = trimmed_mean(std::move(variances[half]));
+        if (freedom > 0) variances[p] = squares / freedom;
+    }
+    std::erase(variances, kNone);
+    HalfNoise noise{std::nullopt, std::move(samples)};
+    if (!variances.empty()) noise.variance = trimmed_mean(std::move(variances));
     return noise;
+}
+
+SampleNoise measure_noise(Alike passes) {
+    std::future<HalfNoise> other = std::async(std::launch::async, [&] { return measure_half(passes, 1); });
+    HalfNoise first = measure_half(passes, 0);
+    return {passes.size(), {std::move(first), other.get()}};
 }
 
 /// Without guiding all samples are alike: none is thrown away.
@@ -225,14 +233,16 @@ CombinedImage combine_halves(std::span<const PassResult> passes, const std::arra
     for (std::vector<Rgb64>* values : {&image.mean, &image.variance, &image.half[0], &image.half[1]})
         values->resize(count);
     const PassResult& longest = longest_pass(passes);
-    for (std::size_t p = 0; p < count; ++p) {
-        const Estimate a = combine_half(passes, weights[0], 0, p, longest);
-        const Estimate b = combine_half(passes, weights[1], 1, p, longest);
-        image.half[0][p] = a.mean;
-        image.half[1][p] = b.mean;
-        image.mean[p] = (a.mean + b.mean) * 0.5;
-        image.variance[p] = (a.variance + b.variance) * 0.25;
-    }
+    in_parts(count, kLeastPart, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t p = begin; p < end; ++p) {
+            const Estimate a = combine_half(passes, weights[0], 0, p, longest);
+            const Estimate b = combine_half(passes, weights[1], 1, p, longest);
+            image.half[0][p] = a.mean;
+            image.half[1][p] = b.mean;
+            image.mean[p] = (a.mean + b.mean) * 0.5;
+            image.variance[p] = (a.variance + b.variance) * 0.25;
+        }
+    });
     for (std::size_t k = 0; k < passes.size(); ++k)
         image.weight.push_back(0.5 * (weights[0][k] + weights[1][k]));
     return image;
@@ -246,20 +256,22 @@ CombinedImage combine_whole(std::span<const PassResult> passes, const std::vecto
     image.mean.assign(count, Rgb64(0.0));
     image.variance.assign(count, Rgb64(0.0));
     const PassResult& longest = longest_pass(passes);
-    for (std::size_t p = 0; p < count; ++p) {
-        double sum = 0, left_out = 0;
-        for (std::size_t k = 0; k < passes.size(); ++k) {
-            const Moments m = passes[k].pixels[p].whole();
-            (m.n == 0 ? left_out : sum) += weights[k];
-            if (m.n == 0) continue;
-            image.mean[p] += m.mean * weights[k];
-            image.variance[p] +=
-                sample_variance(passes[k].pixels[p], longest.pixels[p]) * (weights[k] * weights[k] / m.n);
+    in_parts(count, kLeastPart, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t p = begin; p < end; ++p) {
+            double sum = 0, left_out = 0;
+            for (std::size_t k = 0; k < passes.size(); ++k) {
+                const Moments m = passes[k].pixels[p].whole();
+                (m.n == 0 ? left_out : sum) += weights[k];
+                if (m.n == 0) continue;
+                image.mean[p] += m.mean * weights[k];
+                image.variance[p] +=
+                    sample_variance(passes[k].pixels[p], longest.pixels[p]) * (weights[k] * weights[k] / m.n);
+            }
+            if (left_out == 0 || !(sum > 0)) continue;
+            image.mean[p] /= sum;
+            image.variance[p] /= sum * sum;
         }
-        if (left_out == 0 || !(sum > 0)) continue;
-        image.mean[p] /= sum;
-        image.variance[p] /= sum * sum;
-    }
+    });
     image.half[0] = image.half[1] = image.mean;
     image.weight = weights;
     return image;

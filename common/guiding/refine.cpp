@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <mutex>
 #include <numeric>
 
+#include "common/base/parallel.h"
 #include "common/guiding/refine_directions.h"
 #include "common/guiding/refine_views.h"
 
@@ -13,6 +15,8 @@ namespace {
 
 /// Beyond this many cells a region no longer splits, so that indices stay below 2^32.
 constexpr std::uint64_t kMaxCells = std::uint64_t{1} << 31;
+/// Regions that are worth a thread.
+constexpr std::size_t kLeastPart = 64;
 
 /// How much a region's tree can gain by finer cells depends on how often it is sampled at all.
 std::uint32_t cell_divisor(const SdTree& tree, std::uint32_t distribution, const RefineSettings& settings) {
@@ -28,6 +32,7 @@ class TreeRefiner {
         : old_(tree), sums_(sums), settings_(settings), report_(report) {}
 
     SdTree run() {
+        refine_regions();
         result_.pass = old_.pass + 1;
         result_.trained = true;
         result_.origin = old_.origin;
@@ -39,13 +44,25 @@ class TreeRefiner {
     }
 
   private:
+    void refine_regions() {
+        refined_.resize(old_.region_count());
+        std::mutex reporting;
+        in_parts(refined_.size(), kLeastPart, [&](std::size_t begin, std::size_t end) {
+            RefineReport report;
+            for (std::size_t r = begin; r < end; ++r)
+                refined_[r] = refine_distribution(old_, sums_, static_cast<std::uint32_t>(r), settings_, report);
+            const std::scoped_lock lock(reporting);
+            report_.directional_depth_capped += report.directional_depth_capped;
+            report_.directional_depth = std::max(report_.directional_depth, report.directional_depth);
+        });
+    }
+
     std::uint32_t copy(std::uint32_t old_node, int depth) {
         const SdTree::Node& node = old_.nodes[old_node];
         if (node.is_leaf()) {
             old_region_ = node.child[1];
             leaf_depth_ = depth;
-            const RefinedDistribution region = refine_distribution(old_, sums_, old_region_, settings_, report_);
-            return split(region, region_weight(), depth);
+            return split(refined_[old_region_], region_weight(), depth);
         }
         const auto index = add_node();
         const std::uint32_t low = copy(node.child[0], depth + 1);
@@ -94,6 +111,7 @@ class TreeRefiner {
     const TreeSums& sums_;
     const RefineSettings& settings_;
     RefineReport& report_;
+    std::vector<RefinedDistribution> refined_;  ///< per region of the old tree
     SdTree result_;
     std::uint32_t old_region_ = 0;  ///< that is being refined
     int leaf_depth_ = 0;            ///< its depth

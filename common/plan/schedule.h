@@ -27,8 +27,20 @@ struct PassPlan {
     /// Samples of a pixel in a work unit, the last chunk's apart.
     std::uint32_t unit_spp() const { return std::min(spp, blocks_per_unit * kBlockSamples); }
 
+    /// Camera paths of a unit of a whole tile.
+    std::uint64_t unit_paths(int tile_size) const {
+        const auto edge = static_cast<std::uint64_t>(tile_size);
+        return edge * edge * unit_spp();
+    }
+
     bool operator==(const PassPlan&) const = default;
 };
+
+/// Units of so many camera paths are long: with two of them before it no thread waits for an answer, and nobody need
+/// look for messages often.
+inline constexpr std::uint64_t kLongUnitPaths = 16384;
+/// Between two looks while all have long units to trace. Each look takes a moment from a thread that traces.
+inline constexpr double kCalmRestSeconds = 8e-3;
 
 /// A pass as the job makes it at this place of the schedule. `last`: no pass comes after it that could learn from it.
 PassPlan make_pass(const Job& job, std::uint32_t index, std::uint32_t first_sample, std::uint32_t spp, bool last);

@@ -13,6 +13,7 @@
 #include "coordinator/result_image.h"
 #include "coordinator/study/cell_record.h"
 #include "coordinator/study/cell_request.h"
+#include "coordinator/study/folder_lock.h"
 
 namespace treefarm {
 
@@ -23,6 +24,9 @@ namespace fs = std::filesystem;
 
 /// So many cells in a row that fail are no accident.
 constexpr int kMostFailures = 3;
+
+/// A study that was killed has left its folder by then.
+constexpr double kFolderPatience = 5.0;
 
 struct Interrupted {};
 
@@ -104,6 +108,7 @@ class StudyRun {
 
     StudyOutcome run() {
         fs::create_directories(directory_);
+        const FolderLock lock(directory_, kFolderPatience, interrupted_);
         begin_description();
         StudyOutcome outcome;
         try {

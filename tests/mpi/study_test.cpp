@@ -1,6 +1,9 @@
 // A study that is killed goes on where it was, and reports the same numbers.
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/file.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <fstream>
@@ -111,6 +114,25 @@ TEST(StudyProgram, AnInterruptIsResumable) {
     const Ending ending = program.wait(kPatience);
     EXPECT_EQ(ending.code, 3) << ending.output;
     EXPECT_NE(ending.output.find("goes on from here"), std::string::npos) << ending.output;
+}
+
+TEST(StudyProgram, TwoDoNotWorkInOneFolder) {
+    const fs::path folder = fresh_folder("study");
+    const fs::path file = write_study(folder), results = folder / "results";
+    fs::create_directories(results);
+    const int fd = ::open(results.c_str(), O_RDONLY | O_CLOEXEC);
+    ASSERT_EQ(::flock(fd, LOCK_EX), 0);
+    Program waiting(study(file, results));
+    EXPECT_FALSE(waiting.wait_until([&] { return !whole_cells(results).empty(); }, 0.5));
+    ::close(fd);
+    EXPECT_EQ(waiting.wait(kPatience).code, 0);
+
+    const int again = ::open(results.c_str(), O_RDONLY | O_CLOEXEC);
+    ASSERT_EQ(::flock(again, LOCK_EX), 0);
+    const Ending ending = Program(study(file, results)).wait(kPatience);
+    ::close(again);
+    EXPECT_EQ(ending.code, 1) << ending.output;
+    EXPECT_NE(ending.output.find("another study is at work"), std::string::npos) << ending.output;
 }
 
 /// A study against a given image: one method, one seed, 20 x 16 pixels, 4 spp.

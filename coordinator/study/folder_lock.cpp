@@ -1,0 +1,33 @@
+#include "coordinator/study/folder_lock.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <chrono>
+#include <thread>
+
+#include "common/base/error.h"
+#include "common/base/timer.h"
+
+namespace treefarm {
+
+FolderLock::FolderLock(const std::filesystem::path& folder, double patience, const std::function<bool()>& interrupted)
+    : fd_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+    const Timer timer;
+    while (fd_ >= 0 && ::flock(fd_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+        if (interrupted() || timer.seconds() > patience) {
+            ::close(fd_);
+            throw RunError(folder.string() +
+                           ": another study is at work in this folder; wait for it, or choose another by --dir");
+        }
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+}
+
+FolderLock::~FolderLock() {
+    if (fd_ >= 0) ::close(fd_);
+}
+
+}  // namespace treefarm

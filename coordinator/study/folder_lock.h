@@ -1,0 +1,22 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+
+namespace treefarm {
+
+/// Keeps a folder for one program at a time, until it is destroyed or its process ends. Not to be moved.
+class FolderLock {
+  public:
+    /// Waits up to `patience` seconds for whoever has the folder: a killed launcher's ranks live on for a moment.
+    /// Throws RunError if it stays taken. Where the file system knows no locks the folder is not kept.
+    FolderLock(const std::filesystem::path& folder, double patience, const std::function<bool()>& interrupted);
+    ~FolderLock();
+    FolderLock(const FolderLock&) = delete;
+    FolderLock& operator=(const FolderLock&) = delete;
+
+  private:
+    int fd_;
+};
+
+}  // namespace treefarm
