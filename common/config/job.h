@@ -35,9 +35,10 @@ inline bool uses_views(GuidingType type) {
     return type == GuidingType::view || type == GuidingType::automatic;
 }
 
-/// Of how many directions a guided vertex takes one, unless the job says it.
-inline int usual_candidates(GuidingType type) {
-    return uses_views(type) ? 2 : 1;
+/// Of how many directions a guided vertex takes one, unless the job says it. Without next event the tree knows where
+/// the light is, and a second direction does not pay for its time.
+inline int usual_candidates(GuidingType type, bool next_event) {
+    return uses_views(type) && next_event ? 2 : 1;
 }
 
 /// What view-dependent vertices teach.

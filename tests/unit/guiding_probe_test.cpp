@@ -113,9 +113,10 @@ TEST(GuidingProbe, SaysWhenItKnowsNothing) {
     EXPECT_EQ(GuidingProbe().gain(pixels(0.5f, 0.5f), stats_of({}), kPass, kImage, kWidth).all, 0) << "no probe yet";
 }
 
-Guiding verdict(std::uint32_t spp, double all, double bulk = 0.65, double coverage = 0.95) {
+Guiding verdict(std::uint32_t spp, double all, double bulk = 0.65, double coverage = 0.95, bool next_event = true) {
     PassPlan pass;
     pass.spp = spp;
+    pass.next_event = next_event;
     return judge_guiding(pass, {all, bulk, coverage});
 }
 
@@ -147,6 +148,17 @@ TEST(GuidingProbe, TheBulkIsThatOfTheLightThatIsFound) {
     EXPECT_EQ(verdict(8, 0.7, 0.67, 0.93), Guiding::loses);
     EXPECT_EQ(verdict(8, 0.7, 0.74, 1.5), Guiding::loses);
     EXPECT_EQ(verdict(8, 0.7, 0.76, 1.5), Guiding::open);
+}
+
+/// The spaceship's, where guiding ends with 1.4 times less error.
+TEST(GuidingProbe, WhereLightIsFoundByChanceItHasToLoseMore) {
+    for (const auto& [spp, all, bulk] :
+         {std::tuple{8, 0.67, 0.72}, {8, 0.8, 0.64}, {16, 0.59, 0.66}, {32, 0.66, 0.67}}) {
+        const auto samples = static_cast<std::uint32_t>(spp);
+        EXPECT_EQ(verdict(samples, all, bulk, 0.9, false), Guiding::open);
+        EXPECT_EQ(verdict(samples, all, bulk, 1.0, true), Guiding::loses);
+    }
+    EXPECT_EQ(verdict(8, 0.7, 0.43, 0.9, false), Guiding::loses);
 }
 
 TEST(GuidingProbe, NobodyProbesOnceTheVerdictIsOut) {

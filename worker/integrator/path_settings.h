@@ -48,8 +48,9 @@ struct PathSettings {
           textured(!scene.plainly_diffuse() && scene.materials().varies()),
           probe(pass.probe ? ProbePixels(scene.film().pixel_count(), pass.index) : ProbePixels()),
           jitter_records(job.guiding.spatial_filter == SpatialFilter::stochastic),
-          candidates(static_cast<std::uint32_t>(job.guiding.candidates == 0 ? usual_candidates(job.guiding.type)
-                                                                            : job.guiding.candidates)),
+          candidates(static_cast<std::uint32_t>(job.guiding.candidates == 0
+                                                    ? usual_candidates(job.guiding.type, pass.next_event)
+                                                    : job.guiding.candidates)),
           candidate_depth(job.guiding.candidate_depth),
           splitting(static_cast<std::uint32_t>(job.guiding.splitting == 0
                                                    ? usual_splitting(job.guiding.type, job.guiding.roulette)
