@@ -12,7 +12,7 @@ namespace treefarm {
 /// How many copies a path may still leave, and which copy it is itself. What is left is shared with each copy, so that
 /// all copies of a camera path are bounded, and none has to know of the others.
 struct CopyBudget {
-    static constexpr std::uint8_t kMost = 64;
+    static constexpr std::uint8_t kMost = 16;
 
     std::uint8_t number = 0;  ///< of the camera path's copies; 0: no copy
     std::uint8_t left = kMost;
