@@ -1,13 +1,8 @@
+#include "common/comm/rest.h"
 #include "common/protocol/messages.h"
 #include "coordinator/farm.h"
 
 namespace treefarm {
-
-namespace {
-
-constexpr double kRestSeconds = 2e-3;
-
-}  // namespace
 
 bool dismiss_workers(Channel& channel, const std::set<int>& lost, double patience) {
     const auto tell_all = [&](const Bytes& bytes) {
@@ -32,7 +27,7 @@ bool dismiss_workers(Channel& channel, const std::set<int>& lost, double patienc
             } catch (const FormatError&) {  // whatever it was, nobody needs it any more
             }
         } else {
-            channel.rest(kRestSeconds);
+            rest(channel);
         }
     }
     const bool orderly = count_gone(false) == workers;

@@ -1,18 +1,16 @@
 #include "coordinator/farm.h"
 
 #include <algorithm>
-#include <chrono>
-#include <thread>
 #include <utility>
 
 #include "common/base/hash.h"
+#include "common/comm/rest.h"
 #include "common/config/job_reader.h"
 
 namespace treefarm {
 
 namespace {
 
-constexpr double kRestSeconds = 2e-3;
 constexpr double kLostHeartbeats = 10.0;
 
 /// While fewer units are left than this per thread, they are issued in quarters.
@@ -112,17 +110,13 @@ void Farm::step() {
     if (gathered_ && roster_.present_count() == 0)
         throw RunError("no worker is left" + (last_failure_.empty() ? "" : ": " + last_failure_));
     beat();
-    if (!busy) rest();
+    if (!busy) rest(channel_, calm());
     listened_ = clock_.seconds();
 }
 
-void Farm::rest() {
-    const bool calm = pass_ && not_ready_.empty() && pass_->plan.unit_paths(job_.farm.tile_size) >= kLongUnitPaths &&
-                      ledger_->waiting() > kCalmUnitsPerThread * roster_.thread_count();
-    if (calm && channel_.drained())
-        std::this_thread::sleep_for(std::chrono::duration<double>(kCalmRestSeconds));
-    else
-        channel_.rest(kRestSeconds);
+bool Farm::calm() const {
+    return pass_ && not_ready_.empty() && pass_->plan.has_long_units(job_.farm.tile_size) &&
+           ledger_->waiting() > kCalmUnitsPerThread * roster_.thread_count();
 }
 
 void Farm::beat() {

@@ -77,7 +77,7 @@ class Farm {
         std::uint64_t tree_hash = 0;
     };
 
-    void rest();
+    bool calm() const;  ///< all workers have enough to trace
     void take(const Received& received);
     void on(int peer, const Hello& m);
     void on(int peer, const Resend& m);

@@ -4,11 +4,11 @@
 #include <chrono>
 #include <future>
 #include <random>
-#include <thread>
 
 #include "common/base/hash.h"
 #include "common/base/timer.h"
 #include "common/comm/broadcast_chain.h"
+#include "common/comm/rest.h"
 #include "common/config/job_reader.h"
 #include "common/protocol/fingerprint.h"
 #include "common/protocol/messages.h"
@@ -25,9 +25,6 @@ constexpr std::size_t kUnitsPerThread = 3, kPathsPerThread = 8192;
 
 /// A tree or scene of which nothing was heard for so many heartbeats is asked for again.
 constexpr double kPatienceHeartbeats = 5.0;
-
-/// While something is due, be it a message or that a thread is done.
-constexpr double kRestSeconds = 2e-3;
 
 template <class T>
 bool ready(const std::future<T>& task) {
@@ -67,7 +64,7 @@ class WorkerLoop {
                 log_->error("the coordinator has been silent for {:.0f} s: leaving", silence_.seconds());
                 return WorkerEnd::orphaned;
             }
-            rest();
+            rest(channel_, well_stocked());
         }
         return *end_;
     }
@@ -241,28 +238,19 @@ class WorkerLoop {
         }
     }
 
-    std::uint64_t unit_paths() const { return pass_->plan().unit_paths(job_.farm.tile_size); }
-
-    /// Units to hold.
-    std::size_t depth() const { return (kUnitsPerThread + kPathsPerThread / unit_paths()) * settings_.threads; }
-
     /// What is asked for need not come soon.
     bool well_stocked() const {
-        return pass_ && pool_ && !nothing_left_ && unit_paths() >= kLongUnitPaths &&
+        return pass_ && pool_ && !nothing_left_ && pass_->plan().has_long_units(job_.farm.tile_size) &&
                pool_->queued() >= 2 * settings_.threads;
     }
 
-    void rest() {
-        if (well_stocked() && channel_.drained())
-            std::this_thread::sleep_for(std::chrono::duration<double>(kCalmRestSeconds));
-        else
-            channel_.rest(kRestSeconds);
-    }
-
     void ask_for_work() {
+        const std::size_t per_thread =
+            kUnitsPerThread + kPathsPerThread / pass_->plan().unit_paths(job_.farm.tile_size);
+        const std::size_t depth = per_thread * settings_.threads;
         const std::size_t queued = pool_->queued(), expected = queued + credit_;
-        if (expected >= depth()) return;
-        const std::size_t more = depth() - expected;
+        if (expected >= depth) return;
+        const std::size_t more = depth - expected;
         if (more < std::max<std::size_t>(1, settings_.threads / 2) && queued > 0) return;
         credit_ += more;
         tell(Want{incarnation_, pass_->plan().index, static_cast<std::uint32_t>(more)});

@@ -35,8 +35,8 @@ inline bool uses_views(GuidingType type) {
     return type == GuidingType::view || type == GuidingType::automatic;
 }
 
-/// Of how many directions a guided vertex takes one, unless the job says it. Without next event the tree knows where
-/// the light is, and a second direction does not pay for its time.
+/// Of how many directions a guided vertex takes one, unless the job says it. Without next event a second one does not
+/// pay for its time (docs/guiding.md has measurements).
 inline int usual_candidates(GuidingType type, bool next_event) {
     return uses_views(type) && next_event ? 2 : 1;
 }

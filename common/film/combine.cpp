@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <future>
 #include <optional>
 #include <utility>
 
@@ -62,9 +61,12 @@ HalfNoise measure_half(Alike passes, std::size_t half) {
 }
 
 SampleNoise measure_noise(Alike passes) {
-    std::future<HalfNoise> other = std::async(std::launch::async, [&] { return measure_half(passes, 1); });
-    HalfNoise first = measure_half(passes, 0);
-    return {passes.size(), {std::move(first), other.get()}};
+    SampleNoise noise{passes.size(), {}};
+    in_parts(2, 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t half = begin; half < end; ++half)
+            noise.half[half] = measure_half(passes, half);
+    });
+    return noise;
 }
 
 /// Without guiding all samples are alike: none is thrown away.

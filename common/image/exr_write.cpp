@@ -11,9 +11,9 @@
 #include <cmath>
 #include <cstring>
 #include <set>
-#include <thread>
 
 #include "common/base/error.h"
+#include "common/base/parallel.h"
 #include "common/image/atomic_file.h"
 #include "common/image/exr.h"
 
@@ -86,8 +86,7 @@ void check_names(const std::filesystem::path& path, const Image& image) {
 
 /// OpenEXR has one pool for all files, without threads to begin with.
 int compression_threads() {
-    constexpr unsigned kMost = 8;  // beyond, memory is what lines wait for
-    const auto threads = static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1u, kMost));
+    const auto threads = static_cast<int>(sweeping_threads());
     if (Imf::globalThreadCount() < threads) Imf::setGlobalThreadCount(threads);
     return threads;
 }

@@ -33,14 +33,14 @@ struct PassPlan {
         return edge * edge * unit_spp();
     }
 
+    /// With two such units before it no thread waits for an answer, and nobody need look for messages often.
+    bool has_long_units(int tile_size) const {
+        constexpr std::uint64_t kLongPaths = 16384;
+        return unit_paths(tile_size) >= kLongPaths;
+    }
+
     bool operator==(const PassPlan&) const = default;
 };
-
-/// Units of so many camera paths are long: with two of them before it no thread waits for an answer, and nobody need
-/// look for messages often.
-inline constexpr std::uint64_t kLongUnitPaths = 16384;
-/// Between two looks while all have long units to trace. Each look takes a moment from a thread that traces.
-inline constexpr double kCalmRestSeconds = 8e-3;
 
 /// A pass as the job makes it at this place of the schedule. `last`: no pass comes after it that could learn from it.
 PassPlan make_pass(const Job& job, std::uint32_t index, std::uint32_t first_sample, std::uint32_t spp, bool last);
