@@ -131,8 +131,15 @@ class PassLoop {
         report.guiding = state_.guiding;
     }
 
+    void judge_splitting(PassReport& report) {
+        report.splitting_gain = splitting_gain(report.stats);
+        if (!splitting_may_pay(report.plan, report.splitting_gain)) state_.splitting = false;
+        report.splitting = state_.splitting;
+    }
+
     NextPass look_ahead(PassReport& report) {
         judge_guiding(report);
+        judge_splitting(report);
         const double before = state_.passes.empty() ? 0.0 : result_.passes.back().seconds.refine;
         const PassSeconds& s = report.seconds;
         const double loading = report.plan.index == 0 ? loading_seconds_ : 0.0;

@@ -112,6 +112,10 @@ std::vector<Column> columns() {
         column("guiding_gain", [](R r) { return r.guiding_gain.all; }),
         column("guiding_gain_bulk", [](R r) { return r.guiding_gain.bulk; }),
         column("unguided_coverage", [](R r) { return r.guiding_gain.coverage; }),
+        column("split", [](R r) { return std::uint64_t{r.plan.split}; }),
+        column("splitting_quietens", [](R r) { return r.splitting_gain.variance; }),
+        column("splitting_rays", [](R r) { return r.splitting_gain.rays; }),
+        column("splitting_found", [](R r) { return r.splitting_gain.found; }),
         column("tree_views", [](R r) { return r.tree.views; }),
         column("tree_cells", [](R r) { return r.tree.cells; }),
         column("spatial_depth", [](R r) { return r.tree.spatial_depth; }),
@@ -224,6 +228,7 @@ std::string pass_summary(const PassReport& r, std::size_t pass_count) {
                             r.guiding == Guiding::loses  ? ": unguided from here on"
                             : r.guiding == Guiding::pays ? ", which hardly find the light: guided to the end"
                                                          : "");
+    if (r.plan.split && !r.splitting) text += "; splitting paths does not pay: none is split from here on";
     for (const ErrorForecast& forecast : {r.halving, r.target})
         if (forecast.trust != Trust::none && forecast.relative_error > 0 && forecast.seconds > 0)
             text += fmt::format("; {:.3g} % in {}", 100 * forecast.relative_error, forecast_text(forecast));

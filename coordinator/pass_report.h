@@ -69,6 +69,8 @@ struct PassReport {
     ErrorEstimate error;              ///< of the image with this pass
     GuidingGain guiding_gain;         ///< of a guided pass that taught, since the first probe pass
     Guiding guiding = Guiding::open;  ///< what is known with this pass
+    SplittingGain splitting_gain;     ///< of a guided pass that taught and may split
+    bool splitting = true;            ///< whether it may pay, with this pass
     double run_seconds = 0;           ///< since the first worker asked for work, with this pass
     ErrorForecast halving;            ///< until the error is half of this
     ErrorForecast target;             ///< until it is budget.error; its relative_error is 0 where there is none

@@ -2,6 +2,13 @@
 
 namespace treefarm {
 
+void SplittingSums::add(const SplittingSums& other) {
+    split_mean += other.split_mean;
+    unsplit_mean += other.unsplit_mean;
+    split_variance += other.split_variance;
+    unsplit_variance += other.unsplit_variance;
+}
+
 void TraceStats::add(const TraceStats& other) {
     paths += other.paths;
     nonzero_paths += other.nonzero_paths;
@@ -11,7 +18,9 @@ void TraceStats::add(const TraceStats& other) {
     records += other.records;
     probe_paths += other.probe_paths;
     probe_rays += other.probe_rays;
+    copy_rays += other.copy_rays;
     invalid_samples += other.invalid_samples;
+    splitting.add(other.splitting);
     for (const InvalidSample& sample : other.first_invalid)
         if (first_invalid.size() < kMaxReported) first_invalid.push_back(sample);
     trace_seconds += other.trace_seconds;

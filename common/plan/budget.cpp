@@ -155,7 +155,10 @@ PassChooser passes_of(const Job& job) {
     PassChooser chooser = has_open_budget(job) ? open_passes(job) : listed_passes(plan_passes(job));
     return [chooser = std::move(chooser), job](const RenderState& state) {
         NextPass next = chooser(state);
-        if (next.pass) set_guiding(*next.pass, job, state.guiding);
+        if (next.pass) {
+            set_guiding(*next.pass, job, state.guiding);
+            set_splitting(*next.pass, job, state.splitting);
+        }
         return next;
     };
 }

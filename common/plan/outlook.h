@@ -28,6 +28,7 @@ struct RenderState {
     double seconds = 0;             ///< spent since the first worker asked for work
     ErrorEstimate error;            ///< of the image so far
     Guiding guiding = Guiding::open;
+    bool splitting = true;  ///< may pay
 
     std::uint32_t spp() const { return passes.empty() ? 0 : passes.back().spp_before + passes.back().spp; }
     /// Of those passes that had the last one's tree.

@@ -24,6 +24,10 @@ constexpr std::uint32_t kLeastJudgedSpp = 4, kLeastTrustedSpp = 8;
 constexpr double kLosingFew = 0.55;
 /// Of the light, by unguided samples: with less nobody knows how noisy they are.
 constexpr double kLeastCoverage = 0.8;
+/// Splitting has to quieten samples at all. It may cost a little more than it shows: copies also teach the tree, which
+/// makes up for it (docs/guiding.md). Shorter passes have no say, nor have those whose unsplit samples find less light.
+constexpr double kLeastQuietened = 1.01, kLeastSplittingGain = 0.9, kLeastFound = 0.99;
+constexpr std::uint32_t kLeastSplitSpp = 16;
 /// Passes that probe: the first ones that have a tree and enough samples to know their variance.
 constexpr std::uint32_t kLeastProbeSpp = 4, kProbePasses = 4;
 /// Samples per pixel by which an open budget is planned.
@@ -69,6 +73,15 @@ Guiding judge_guiding(const PassPlan& pass, const GuidingGain& gain) {
     const bool wins_by_few = gain.all >= (pass.spp < kLeastTrustedSpp ? kLosingFew : kWinningFew);
     const double losing = pass.next_event ? kLosingBulk : kLosingBulkAlone;
     return gain.bulk >= losing * std::min(gain.coverage, 1.0) || wins_by_few ? Guiding::open : Guiding::loses;
+}
+
+void set_splitting(PassPlan& pass, const Job& job, bool pays) {
+    if (job.guiding.splitting == 0) pass.split = pays;
+}
+
+bool splitting_may_pay(const PassPlan& pass, const SplittingGain& gain) {
+    if (pass.spp < kLeastSplitSpp || gain.variance == 0 || gain.found < kLeastFound) return true;
+    return gain.variance >= kLeastQuietened && gain.variance >= kLeastSplittingGain * gain.rays;
 }
 
 PassPlan make_pass(const Job& job, std::uint32_t index, std::uint32_t first_sample, std::uint32_t spp, bool last) {

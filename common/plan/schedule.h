@@ -6,6 +6,7 @@
 
 #include "common/config/job.h"
 #include "common/film/guiding_probe.h"
+#include "common/film/splitting_gain.h"
 #include "common/film/work_unit.h"
 
 namespace treefarm {
@@ -18,6 +19,7 @@ struct PassPlan {
     bool next_event = false;            ///< sample emitters directly
     bool guided = true;                 ///< by the tree, where there is one
     bool probe = false;                 ///< but for some pixels, to see whether it pays (guiding_probe.h)
+    bool split = true;                  ///< paths may be split, if the job lets them
     bool record = false;                ///< teach the tree (the last pass does not)
     double record_weight = 1.0;         ///< 0.5 in kick-start passes
     bool learn_mixture = false;         ///< teach how often to sample the BSDF (needs a tree that guides)
@@ -63,6 +65,12 @@ void set_guiding(PassPlan& pass, const Job& job, Guiding guiding);
 /// What is known after a guided pass that taught, with this gain. Short passes have to say loudly that guiding does not
 /// pay: it gets better with each. Where unguided samples hardly find the light it does, and probes tell no more.
 Guiding judge_guiding(const PassPlan& pass, const GuidingGain& gain);
+
+/// Unless the job says as how many paths one goes on, none is split any more once that was found not to pay.
+void set_splitting(PassPlan& pass, const Job& job, bool pays);
+
+/// Whether it may, after a pass with this gain. Once it does not it is not asked again: nobody splits any more.
+bool splitting_may_pay(const PassPlan& pass, const SplittingGain& gain);
 
 /// Passes double from guiding.spp_unit; when what remains after a pass would be less than twice that pass, the pass
 /// takes the rest. The budget is rounded up to whole units. For an open budget (budget.seconds, budget.error), whose

@@ -15,8 +15,8 @@ constexpr std::int64_t kMostSpp = std::int64_t{1} << 30;
 constexpr std::size_t kMostPasses = 10000;
 
 /// What one [[pass]] may hold.
-constexpr std::string_view kKeys[] = {"spp", "next_event", "record", "guided", "probe"};
-constexpr const char* kKeyAdvice = "a pass has spp, next_event and record, and may have guided and probe";
+constexpr std::string_view kKeys[] = {"spp", "next_event", "record", "guided", "probe", "split"};
+constexpr const char* kKeyAdvice = "a pass has spp, next_event and record, and may have guided, probe and split";
 
 class ScheduleReader {
   public:
@@ -66,6 +66,7 @@ class ScheduleReader {
         set_record(plan, job_, record);
         plan.guided = !pass->contains("guided") || flag(*pass, "guided");
         plan.probe = pass->contains("probe") && flag(*pass, "probe");
+        plan.split = !pass->contains("split") || flag(*pass, "split");
         done_ += *samples;
         passes_.push_back(plan);
     }
@@ -103,7 +104,7 @@ std::string write_schedule(std::span<const PassPlan> passes) {
     for (const PassPlan& pass : passes)
         text += "\n[[pass]]\nspp = " + std::to_string(pass.spp) + "\nnext_event = " + word(pass.next_event) +
                 "\nrecord = " + word(pass.record) + (pass.guided ? "" : "\nguided = false") +
-                (pass.probe ? "\nprobe = true" : "") + "\n";
+                (pass.probe ? "\nprobe = true" : "") + (pass.split ? "" : "\nsplit = false") + "\n";
     return text;
 }
 

@@ -76,6 +76,7 @@ LocalRender render_locally(const Scene& scene, const Job& job) {
             if (state.guiding == Guiding::open) state.guiding = judge_guiding(pass, gain);
             if (state.guiding == Guiding::loses) set_aside.put_back(run.passes);
         }
+        if (!splitting_may_pay(pass, splitting_gain(stats))) state.splitting = false;
         next = choose(state);
         if (!pass.record || !next.pass) continue;
         RefineReport report;

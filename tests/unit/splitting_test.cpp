@@ -5,6 +5,7 @@
 #include <limits>
 #include <map>
 
+#include "common/film/splitting_gain.h"
 #include "common/scene/load.h"
 #include "tests/support/local_render.h"
 #include "tests/support/support.h"
@@ -147,7 +148,8 @@ TEST_F(SplittingInARoom, DoesNotDependOnCompany) {
     Job alone = job_;
     alone.guiding.splitting = 1;
     EXPECT_GT(whole.stats.rays, render(alone, part(0, 0, 24, 16)).stats.rays * 21 / 20) << "the test must split paths";
-    std::uint64_t rays = 0, records = 0;
+    std::uint64_t records = 0;
+    TraceStats stats;
     std::vector<std::uint32_t> counts(whole.log.counts.size());
     for (int y = 0; y < 16; ++y)
         for (int x = 0; x < 24; x += y % 2 ? 1 : 8) {
@@ -159,14 +161,39 @@ TEST_F(SplittingInARoom, DoesNotDependOnCompany) {
                 ASSERT_EQ(a.whole().mean.x, b.whole().mean.x) << i << ", " << y;
                 ASSERT_EQ(a.whole().mean.z, b.whole().mean.z) << i << ", " << y;
             }
-            rays += r.stats.rays;
+            stats.add(r.stats);
             records += r.log.records.size();
             for (std::size_t k = 0; k < counts.size(); ++k)
                 counts[k] += r.log.counts[k];
         }
-    EXPECT_EQ(rays, whole.stats.rays);
+    EXPECT_EQ(stats.rays, whole.stats.rays);
+    EXPECT_EQ(stats.copy_rays, whole.stats.copy_rays);
+    EXPECT_EQ(stats.splitting.split_mean, whole.stats.splitting.split_mean);
+    EXPECT_EQ(stats.splitting.unsplit_mean, whole.stats.splitting.unsplit_mean);
+    EXPECT_EQ(stats.splitting.split_variance, whole.stats.splitting.split_variance);
+    EXPECT_EQ(stats.splitting.unsplit_variance, whole.stats.splitting.unsplit_variance);
     EXPECT_EQ(records, whole.log.records.size());
     EXPECT_EQ(counts, whole.log.counts);
+}
+
+/// What paths say they would be alone is what they are where none is split.
+TEST_F(SplittingInARoom, UnsplitSamplesAreThoseOfPathsThatAreNotSplit) {
+    const Rendered split = render(job_, part(0, 0, 24, 16));
+    const SplittingGain gain = splitting_gain(split.stats);
+    EXPECT_NEAR(gain.found, 1, 0.1);
+    EXPECT_GT(gain.variance, 1.1);
+    EXPECT_GT(gain.rays, 1.05);
+    Job alone = job_;
+    alone.guiding.splitting = 1;
+    const Rendered unsplit = render(alone, part(0, 0, 24, 16));
+    EXPECT_EQ(unsplit.stats.copy_rays, 0u);
+    EXPECT_EQ(splitting_gain(unsplit.stats).variance, 0) << "nothing to compare";
+    double with = 0, without = 0;
+    for (std::size_t p = 0; p < split.pixels.size(); ++p) {
+        with += luminance(split.pixels[p].whole().sample_variance());
+        without += luminance(unsplit.pixels[p].whole().sample_variance());
+    }
+    EXPECT_NEAR(gain.variance, without / with, 0.35 * without / with);
 }
 
 TEST_F(SplittingInARoom, IsToldByDescribeSample) {
@@ -203,12 +230,17 @@ TEST(Splitting, SharesSumToOne) {
     pass.spp = 16;
     pass.blocks_per_unit = 64;
     pass.guided = true;
+    pass.record = true;
     pass.next_event = false;
     std::vector<PixelEstimate> pixels;
     RecordLog log;
     TraceStats stats;
     render_unit(TraceScene(scene, job), job, pass, Guide(tree), {pass.index, 0, 0, 16, 16, 0}, pixels, log, stats);
     EXPECT_GT(stats.rays, 6 * stats.paths + stats.paths / 2) << "the test must split paths: of six edges each";
+    const SplittingGain gain = splitting_gain(stats);
+    EXPECT_NEAR(gain.found, 1, 1e-6) << "alone they carry the same";
+    EXPECT_NEAR(gain.variance, 1, 1e-6) << "of pixels across regions, whose scales differ";
+    EXPECT_EQ(stats.rays - stats.copy_rays, 6 * stats.paths);
     for (const PixelEstimate& pixel : pixels) {
         EXPECT_NEAR(pixel.whole().mean.x, 2 - std::pow(0.5, 5), 1e-5);
         EXPECT_NEAR(pixel.whole().sample_variance().x, 0, 1e-10);

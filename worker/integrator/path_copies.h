@@ -25,6 +25,23 @@ struct CopyBudget {
     }
 };
 
+/// What a path would carry had it not been split: as much as it finds itself, not shared with copies. Luminances.
+class Unsplit {
+  public:
+    /// `found`: by the path itself, so far.
+    void split(std::uint32_t paths, float found) {
+        beside_ = of(found) - found;
+        before_ = found;
+        paths_ *= static_cast<float>(paths);
+    }
+    float of(float found) const { return found + beside_ + (paths_ - 1.0f) * (found - before_); }
+
+  private:
+    float paths_ = 1.0f;   ///< that it goes on as
+    float before_ = 0.0f;  ///< what it had found where it was last split
+    float beside_ = 0.0f;  ///< what it would have found besides until there
+};
+
 /// One of the paths that a path goes on as, from where its ray has arrived.
 struct PathCopy {
     std::uint16_t origin;

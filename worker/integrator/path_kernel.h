@@ -54,6 +54,10 @@ class PathKernel {
 
     /// Radiance along the camera ray of the path added as number `path`.
     const Rgb& radiance(std::uint32_t path) const { return radiance_[path]; }
+    /// What the luminance of path `path` would be without splitting, and in which power of two to count both: that of
+    /// the records of the region where the camera's ray arrived. Of guided paths that record.
+    float unsplit(std::uint32_t path) const { return unsplit_[path]; }
+    int first_exponent(std::uint32_t path) const { return first_exponents_[path]; }
     Observer& observer() { return walk_.observer(); }
     PhaseClock& clock() { return walk_.clock(); }
 
@@ -75,6 +79,7 @@ class PathKernel {
         int first_exponent;
     };
     static constexpr bool kInherits = kGuided && Surface::kTransmits;
+    static constexpr bool kCompares = kGuided && kRecord;
 
     /// Walks `count` paths, as many at a time as a batch holds: begin(number, place) sets one up, and end(number, path)
     /// is told what came of it.
@@ -115,6 +120,10 @@ class PathKernel {
             },
             [&](std::uint32_t number, const Path& path) {
                 radiance_[number] = path.radiance;
+                if constexpr (kCompares) {
+                    unsplit_[number] = path.unsplit.of(luminance(path.radiance));
+                    first_exponents_[number] = path.first_exponent;
+                }
                 if constexpr (kInherits) legacies_[number] = {path.copies, path.first_exponent};
             });
     }
@@ -139,7 +148,12 @@ class PathKernel {
                 if constexpr (kRecord) walk_.recorder(place).begin_branch(branch.weight);
                 walk_.observer().branch(branch.ray, branch.weight);
             },
-            [&](std::uint32_t, const Path& path) { radiance_[path.origin] = path.radiance; });
+            [&](std::uint32_t, const Path& path) {
+                Rgb& radiance = radiance_[path.origin];
+                if constexpr (kCompares)
+                    unsplit_[path.origin] += path.unsplit.of(luminance(path.radiance)) - luminance(radiance);
+                radiance = path.radiance;
+            });
         walk_.branches().clear();
     }
 
@@ -155,7 +169,10 @@ class PathKernel {
                     if constexpr (kRecord) walk_.recorder(place).begin_path();
                     walk_.observer().copy(copies[number]);
                 },
-                [&](std::uint32_t number, const Path& path) { of_copies_[number] = path.radiance; });
+                [&](std::uint32_t number, const Path& path) {
+                    of_copies_[number] = path.radiance;
+                    stats_.copy_rays += static_cast<std::uint32_t>(path.depth - copies[number].depth);
+                });
             // In their own order: the one in which they ended depends on their company.
             for (std::size_t i = 0; i < copies.size(); ++i)
                 radiance_[copies[i].origin] += of_copies_[i];
@@ -182,6 +199,8 @@ class PathKernel {
     std::array<Ray, kGroup> rays_;
     std::array<Rgb, kGroup> radiance_;
     std::array<Legacy, kInherits ? kGroup : 0> legacies_;
+    std::array<float, kCompares ? kGroup : 0> unsplit_;
+    std::array<int, kCompares ? kGroup : 0> first_exponents_;
     std::array<std::uint8_t, kGroup> numbers_;  ///< of copies so far
     std::vector<Rgb> of_copies_;                ///< radiance of each
 };

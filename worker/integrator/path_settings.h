@@ -31,6 +31,7 @@ struct PathSettings {
     std::uint32_t candidates;  ///< directions drawn at a guided vertex, of which one is taken (candidates.h)
     int candidate_depth;       ///< up to here; deeper vertices draw one
     std::uint32_t splitting;   ///< as how many paths one may go on at a vertex
+    bool compare_splitting;    ///< with what paths would be alone
     GuidingTarget target;
     ViewRecords view_records;
     Roulette roulette, unguided_roulette;
@@ -52,9 +53,11 @@ struct PathSettings {
                                                     ? usual_candidates(job.guiding.type, pass.next_event)
                                                     : job.guiding.candidates)),
           candidate_depth(job.guiding.candidate_depth),
-          splitting(static_cast<std::uint32_t>(job.guiding.splitting == 0
+          splitting(static_cast<std::uint32_t>(!pass.split ? 1
+                                               : job.guiding.splitting == 0
                                                    ? usual_splitting(job.guiding.type, job.guiding.roulette)
                                                    : job.guiding.splitting)),
+          compare_splitting(pass.record && splitting > 1),
           target(job.guiding.target),
           view_records(job.guiding.view_records),
           roulette(job.guiding.type == GuidingType::none || !pass.guided ? Roulette::Rule::unguided

@@ -25,6 +25,7 @@ struct PathState {
     int first_exponent;                ///< of the quanta where the camera's ray arrived: how bright it is there
     std::uint16_t origin;              ///< the group's camera path that it is part of
     CopyBudget copies;
+    Unsplit unsplit;
     bool copied;  ///< has just left another: its ray has arrived, and what it met is accounted for
 
     // Where the ray has arrived; left over from before where it met nothing.
@@ -43,6 +44,7 @@ struct PathState {
         vertex = 0;
         depth = 0;
         copies = {};
+        unsplit = {};
         copied = false;
         first_exponent = 0;
         ray = from_camera;

@@ -220,6 +220,7 @@ class PathWalk {
     /// The path goes on as several; it is one of them.
     [[gnu::noinline]] void split(Path& path, std::uint32_t paths) {
         paths = path.copies.split(paths);
+        path.unsplit.split(paths, luminance(path.radiance));
         path.throughput *= 1.0f / static_cast<float>(paths);
         observer_.split(paths, path.throughput);
         for (std::uint32_t i = 1; i < paths; ++i)

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <span>
 
 #include "common/film/pass_film.h"
+#include "common/film/splitting_gain.h"
 #include "common/plan/kernel.h"
 #include "worker/integrator/path_kernel.h"
 #include "worker/integrator/tile_renderer.h"
@@ -69,6 +71,7 @@ void render_with(const TileJob& tile) {
                        tile.pass.first_sample + at.sample};
     };
     std::vector<PixelEstimate> blocks;
+    PairedSamples pairs;
     UnitCursor start{unit, first, last}, end{unit, first, last};
     while (!start.done()) {
         kernel.clear();
@@ -79,11 +82,18 @@ void render_with(const TileJob& tile) {
         kernel.trace();
         kernel.clock().start();
         for (std::uint32_t i = 0; i < kernel.count(); ++i) {
-            if (end.sample % kBlockSamples == 0) blocks.emplace_back();
+            if (end.sample % kBlockSamples == 0) {
+                blocks.emplace_back();
+                pairs.finish(stats.splitting);
+            }
             Rgb radiance = kernel.radiance(i);
             refuse_invalid(radiance, unit, end.x, end.y, end.sample, stats);
             if (!is_black(radiance)) ++stats.nonzero_paths;
             blocks.back().add(key(end).sample, radiance);
+            if (kGuided && kRecord && settings.compare_splitting && !settings.probe.holds(key(end).pixel)) {
+                const double scale = std::ldexp(1.0, -(kernel.first_exponent(i) + kMeanRecordBits));
+                pairs.add(scale * luminance(radiance), scale * kernel.unsplit(i));
+            }
             if (end.advance()) {
                 pixels.push_back(reduce_blocks(blocks));
                 blocks.clear();
@@ -92,6 +102,7 @@ void render_with(const TileJob& tile) {
         kernel.clock().lap(TracePhase::record);
         stats.paths += kernel.count();
     }
+    pairs.finish(stats.splitting);
 }
 
 /// Those that use a tree.

@@ -1,0 +1,52 @@
+#include "common/film/splitting_gain.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace treefarm {
+namespace {
+
+/// 64 bits hold 2^29 pixels of the largest variance there is.
+constexpr double kUnitsPerOne = 4096;
+
+std::uint64_t in_units(double value) {
+    return static_cast<std::uint64_t>(std::llround(std::max(value, 0.0) * kUnitsPerOne));
+}
+
+}  // namespace
+
+void PairedSamples::Sums::add(double value) {
+    value = std::min(value, kMost);
+    first += value;
+    second += value * value;
+}
+
+void PairedSamples::add(double split, double unsplit) {
+    if (!(split >= 0 && unsplit >= 0 && std::isfinite(split) && std::isfinite(unsplit))) return;
+    ++count_;
+    split_.add(split);
+    unsplit_.add(unsplit);
+}
+
+void PairedSamples::finish(SplittingSums& sums) {
+    const double n = count_;
+    const auto variance = [n](const Sums& s) { return (s.second - s.first * s.first / n) / (n - 1); };
+    if (count_ > 1) {
+        sums.split_mean += in_units(split_.first / n);
+        sums.unsplit_mean += in_units(unsplit_.first / n);
+        sums.split_variance += in_units(variance(split_));
+        sums.unsplit_variance += in_units(variance(unsplit_));
+    }
+    *this = {};
+}
+
+SplittingGain splitting_gain(const TraceStats& stats) {
+    const SplittingSums& sums = stats.splitting;
+    if (sums.split_variance == 0 || sums.split_mean == 0) return {};
+    const auto ratio = [](std::uint64_t a, std::uint64_t b) { return static_cast<double>(a) / static_cast<double>(b); };
+    const std::uint64_t split_rays = stats.rays - stats.probe_rays;
+    return {ratio(sums.unsplit_variance, sums.split_variance), ratio(split_rays, split_rays - stats.copy_rays),
+            ratio(sums.unsplit_mean, sums.split_mean)};
+}
+
+}  // namespace treefarm

@@ -1,0 +1,119 @@
+// Whether splitting pays, from samples whose moments are known.
+#include "common/film/splitting_gain.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "common/plan/budget.h"
+#include "common/plan/schedule.h"
+#include "worker/integrator/path_copies.h"
+
+namespace treefarm {
+namespace {
+
+TEST(SplittingGain, ComparesVarianceAndRays) {
+    TraceStats stats;
+    PairedSamples pixel;
+    for (const double s : {0.0, 2.0})
+        pixel.add(1 + 0.5 * (s - 1), s);
+    pixel.finish(stats.splitting);
+    stats.rays = 700;
+    stats.probe_rays = 200;
+    stats.copy_rays = 100;
+    const SplittingGain gain = splitting_gain(stats);
+    EXPECT_NEAR(gain.variance, 4, 1e-3);
+    EXPECT_NEAR(gain.found, 1, 1e-3);
+    EXPECT_DOUBLE_EQ(gain.rays, 500.0 / 400);
+}
+
+TEST(SplittingGain, PixelsAddUpInAnyOrder) {
+    SplittingSums first, second;
+    PairedSamples pixel;
+    for (const int order : {1, -1})
+        for (int i = 0; i < 100; ++i) {
+            const int p = order > 0 ? i : 99 - i;
+            for (int s = 0; s < 5; ++s)
+                pixel.add(0.1 * p + 0.3 * s, 0.2 * p * s);
+            pixel.finish(order > 0 ? first : second);
+        }
+    EXPECT_EQ(first.split_mean, second.split_mean);
+    EXPECT_EQ(first.unsplit_mean, second.unsplit_mean);
+    EXPECT_EQ(first.split_variance, second.split_variance);
+    EXPECT_EQ(first.unsplit_variance, second.unsplit_variance);
+    EXPECT_GT(first.unsplit_variance, 0u);
+}
+
+TEST(SplittingGain, OneSampleHasNoVarianceAndNonsenseIsLeftOut) {
+    SplittingSums sums;
+    PairedSamples pixel;
+    pixel.finish(sums);
+    pixel.add(1, 2);
+    for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), -1.0}) {
+        pixel.add(bad, 1);
+        pixel.add(1, bad);
+    }
+    pixel.finish(sums);
+    EXPECT_EQ(sums.split_mean + sums.unsplit_mean + sums.split_variance + sums.unsplit_variance, 0u);
+    EXPECT_EQ(splitting_gain({}).variance, 0) << "not known";
+}
+
+/// As many pixels of samples as bright as they come do not wrap around.
+TEST(SplittingGain, BrightSamplesAreBounded) {
+    TraceStats stats;
+    PairedSamples pixel;
+    for (const double s : {0.0, 1e300})
+        pixel.add(s, s);
+    pixel.finish(stats.splitting);
+    const double most = PairedSamples::kMost * PairedSamples::kMost / 2;
+    EXPECT_LT(std::ldexp(most, 29) * 4096, std::ldexp(1.0, 64) * 1.001);
+    EXPECT_EQ(stats.splitting.split_variance, static_cast<std::uint64_t>(most * 4096));
+}
+
+TEST(SplittingGain, APathKnowsWhatItWouldCarryAlone) {
+    Unsplit alone;
+    EXPECT_EQ(alone.of(3.0f), 3.0f);
+    Unsplit path;         // finds 1 before it is split in two, then 2 for both, then 3 for all six
+    path.split(2, 1.0f);  // 2 more count as 4
+    path.split(3, 3.0f);  // 3 more count as 18
+    EXPECT_EQ(path.of(6.0f), 1.0f + 4.0f + 18.0f);
+    path.split(1, 6.0f);
+    EXPECT_EQ(path.of(6.0f), 23.0f);
+}
+
+bool may_pay(std::uint32_t spp, SplittingGain gain) {
+    PassPlan pass;
+    pass.spp = spp;
+    return splitting_may_pay(pass, gain);
+}
+
+TEST(SplittingGain, HasToQuietenSamples) {
+    EXPECT_TRUE(may_pay(64, {})) << "not known";
+    EXPECT_TRUE(may_pay(16, {2.0, 1.5, 1.0}));
+    EXPECT_TRUE(may_pay(16, {1.04, 1.05, 1.0})) << "copies teach, too";
+    EXPECT_FALSE(may_pay(16, {1.0, 1.0, 1.0}));
+    EXPECT_FALSE(may_pay(128, {1.016, 1.177, 1.0}));
+    EXPECT_TRUE(may_pay(8, {1.0, 1.0, 1.0})) << "too short to say";
+    EXPECT_TRUE(may_pay(64, {0.6, 1.7, 0.7})) << "unsplit samples have missed light, which makes no noise";
+}
+
+TEST(SplittingGain, WhatTheJobAsksForIsDone) {
+    Job job;
+    PassPlan pass = make_pass(job, 5, 31, 32, false);
+    set_splitting(pass, job, false);
+    EXPECT_FALSE(pass.split);
+    set_splitting(pass, job, true);
+    EXPECT_TRUE(pass.split);
+    job.guiding.splitting = 4;
+    set_splitting(pass, job, false);
+    EXPECT_TRUE(pass.split);
+    job.guiding.splitting = 0;
+    job.budget.spp = 31;
+    RenderState state;
+    state.splitting = false;
+    EXPECT_FALSE(passes_of(job)(state).pass->split);
+}
+
+}  // namespace
+}  // namespace treefarm
