@@ -293,7 +293,7 @@ std::vector<JobKey> make_job_keys() {
     add(integer_key(
         "guiding.splitting", "0 to 32",
         "as how many paths one may go on at a vertex, where the tree expects it to carry several times what its first "
-        "vertex does; 0: 8 where guiding.type is view or auto and roulette adjoint, else 1",
+        "vertex does; 0: 8 where guiding.type is view or auto and roulette adjoint, as long as it pays, else 1",
         [](auto& j) -> auto& { return j.guiding.splitting; }, 0, 32));
 
     add(integer_key(
