@@ -133,7 +133,8 @@ class PassLoop {
 
     void judge_splitting(PassReport& report) {
         report.splitting_gain = splitting_gain(report.stats);
-        if (!splitting_may_pay(report.plan, report.splitting_gain)) state_.splitting = false;
+        if (job_.guiding.splitting == 0 && !splitting_may_pay(report.plan, report.splitting_gain))
+            state_.splitting = false;
         report.splitting = state_.splitting;
     }
 

@@ -58,6 +58,12 @@ struct UnitCursor {
     }
 };
 
+/// Of the power of two that a region of such quanta expects of its light.
+inline int brightness_exponent(int quantum_exponent, const PathSettings& settings) {
+    const int record = quantum_exponent + kMeanRecordBits;
+    return settings.target == GuidingTarget::variance ? record / 2 : record;
+}
+
 template <class Surface, bool kGuided, bool kRecord>
 void render_with(const TileJob& tile) {
     const auto& [scene, job, pass, guide, unit, pixels, log, stats] = tile;
@@ -91,7 +97,7 @@ void render_with(const TileJob& tile) {
             if (!is_black(radiance)) ++stats.nonzero_paths;
             blocks.back().add(key(end).sample, radiance);
             if (kGuided && kRecord && settings.compare_splitting && !settings.probe.holds(key(end).pixel)) {
-                const double scale = std::ldexp(1.0, -(kernel.first_exponent(i) + kMeanRecordBits));
+                const double scale = std::ldexp(1.0, -brightness_exponent(kernel.first_exponent(i), settings));
                 pairs.add(scale * luminance(radiance), scale * kernel.unsplit(i));
             }
             if (end.advance()) {
