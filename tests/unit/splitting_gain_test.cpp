@@ -91,7 +91,7 @@ bool may_pay(std::uint32_t spp, SplittingGain gain) {
 TEST(SplittingGain, HasToQuietenSamples) {
     EXPECT_TRUE(may_pay(64, {})) << "not known";
     EXPECT_TRUE(may_pay(16, {2.0, 1.5, 1.0}));
-    EXPECT_TRUE(may_pay(16, {1.04, 1.05, 1.0})) << "copies teach, too";
+    EXPECT_TRUE(may_pay(16, {1.04, 1.05, 1.0})) << "whole renders gain more by it";
     EXPECT_FALSE(may_pay(16, {1.0, 1.0, 1.0}));
     EXPECT_FALSE(may_pay(128, {1.016, 1.177, 1.0}));
     EXPECT_TRUE(may_pay(8, {1.0, 1.0, 1.0})) << "too short to say";
