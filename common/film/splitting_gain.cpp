@@ -6,7 +6,7 @@
 namespace treefarm {
 namespace {
 
-/// 64 bits hold 2^29 pixels of the largest variance there is.
+/// 64 bits hold almost 2^29 pixels of the largest variance there is.
 constexpr double kUnitsPerOne = 4096;
 
 std::uint64_t in_units(double value) {
