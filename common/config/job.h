@@ -35,12 +35,6 @@ inline bool uses_views(GuidingType type) {
     return type == GuidingType::view || type == GuidingType::automatic;
 }
 
-/// Of how many directions a guided vertex takes one, unless the job says it. Without next event a second one does not
-/// pay for its time (docs/guiding.md has measurements).
-inline int usual_candidates(GuidingType type, bool next_event) {
-    return uses_views(type) && next_event ? 2 : 1;
-}
-
 /// What view-dependent vertices teach.
 enum class ViewRecords : std::uint8_t {
     radiance,  ///< their view the radiance that arrives, their region nothing: as published
@@ -129,7 +123,7 @@ struct Job {
         GuidingTarget target = GuidingTarget::radiance;
         GuidingRoulette roulette = GuidingRoulette::adjoint;
         int splitting = 0;        ///< as how many paths one may go on at a vertex; 0: as the type says
-        int candidates = 0;       ///< directions drawn at a guided vertex, of which one is taken; 0: as the type says
+        int candidates = 1;       ///< directions drawn at a guided vertex, of which one is taken
         int candidate_depth = 1;  ///< up to which depth
         LightSelection light_selection = LightSelection::usual;
         ViewRecords view_records = ViewRecords::product;

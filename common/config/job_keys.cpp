@@ -252,10 +252,9 @@ std::vector<JobKey> make_job_keys() {
                                                          {"fixed", Combination::fixed},
                                                          {"last", Combination::last}}));
     add(integer_key(
-        "guiding.candidates", "0 to 4",
-        "directions drawn at a guided vertex, of which one is taken by the product of BSDF and learned light; 0: 2 "
-        "where guiding.type is view or auto, in passes with next event, else 1",
-        [](auto& j) -> auto& { return j.guiding.candidates; }, 0, 4));
+        "guiding.candidates", "1 to 4",
+        "directions drawn at a guided vertex, of which one is taken by the product of BSDF and learned light",
+        [](auto& j) -> auto& { return j.guiding.candidates; }, 1, 4));
     add(integer_key(
         "guiding.candidate_depth", "1 and more", "vertices from the camera that draw so many; deeper ones draw one",
         [](auto& j) -> auto& { return j.guiding.candidate_depth; }, 1, kMaxInt));

@@ -163,14 +163,6 @@ TEST(Job, TheImprovedProgramLeavesNextEventToTheScene) {
     EXPECT_FALSE(job.integrator.split_glass);
 }
 
-TEST(Job, ASecondDirectionIsDrawnWherePassesHaveNextEvent) {
-    for (const GuidingType type : {GuidingType::view, GuidingType::automatic}) {
-        EXPECT_EQ(usual_candidates(type, true), 2);
-        EXPECT_EQ(usual_candidates(type, false), 1);
-    }
-    EXPECT_EQ(usual_candidates(GuidingType::ppg, true), 1);
-}
-
 TEST(Job, LaterLayersWin) {
     Job job;
     apply_layer(job, std::vector<Setting>{{"guiding.preset", "paper", {}}, {"budget.spp", "127", {}}});

@@ -7,12 +7,17 @@
 
 namespace treefarm {
 
+/// Of the power of two of a region's light, by that of its records: those are of L / p, or of L^2 / p.
+inline int light_exponent(int record_exponent, GuidingTarget target) {
+    return target == GuidingTarget::variance ? record_exponent / 2 : record_exponent;
+}
+
 /// Of the light about a path's end over that about its first vertex, by the mean records of their regions.
 template <class Surface>
 float brightness(const PathState<Surface>& path, const Guide& guide, const PathSettings& settings) {
     if (!settings.roulette.needs_brightness()) return 1.0f;
     const int exponent = guide.quantum_exponent(path.guidance.region) - path.first_exponent;
-    return power_of_two(std::clamp(settings.target == GuidingTarget::variance ? exponent / 2 : exponent, -60, 60));
+    return power_of_two(std::clamp(light_exponent(exponent, settings.target), -60, 60));
 }
 
 /// As how many paths it goes on from where it has arrived.

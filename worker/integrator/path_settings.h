@@ -49,9 +49,7 @@ struct PathSettings {
           textured(!scene.plainly_diffuse() && scene.materials().varies()),
           probe(pass.probe ? ProbePixels(scene.film().pixel_count(), pass.index) : ProbePixels()),
           jitter_records(job.guiding.spatial_filter == SpatialFilter::stochastic),
-          candidates(static_cast<std::uint32_t>(job.guiding.candidates == 0
-                                                    ? usual_candidates(job.guiding.type, pass.next_event)
-                                                    : job.guiding.candidates)),
+          candidates(static_cast<std::uint32_t>(job.guiding.candidates)),
           candidate_depth(job.guiding.candidate_depth),
           splitting(static_cast<std::uint32_t>(!pass.split ? 1
                                                : job.guiding.splitting == 0

@@ -8,6 +8,7 @@
 #include "common/film/splitting_gain.h"
 #include "common/plan/kernel.h"
 #include "worker/integrator/path_kernel.h"
+#include "worker/integrator/path_roulette.h"
 #include "worker/integrator/tile_renderer.h"
 
 namespace treefarm {
@@ -58,12 +59,6 @@ struct UnitCursor {
     }
 };
 
-/// Of the power of two that a region of such quanta expects of its light.
-inline int brightness_exponent(int quantum_exponent, const PathSettings& settings) {
-    const int record = quantum_exponent + kMeanRecordBits;
-    return settings.target == GuidingTarget::variance ? record / 2 : record;
-}
-
 template <class Surface, bool kGuided, bool kRecord>
 void render_with(const TileJob& tile) {
     const auto& [scene, job, pass, guide, unit, pixels, log, stats] = tile;
@@ -97,7 +92,8 @@ void render_with(const TileJob& tile) {
             if (!is_black(radiance)) ++stats.nonzero_paths;
             blocks.back().add(key(end).sample, radiance);
             if (kGuided && kRecord && settings.compare_splitting && !settings.probe.holds(key(end).pixel)) {
-                const double scale = std::ldexp(1.0, -brightness_exponent(kernel.first_exponent(i), settings));
+                const int record = kernel.first_exponent(i) + kMeanRecordBits;
+                const double scale = std::ldexp(1.0, -light_exponent(record, settings.target));
                 pairs.add(scale * luminance(radiance), scale * kernel.unsplit(i));
             }
             if (end.advance()) {
