@@ -6,7 +6,7 @@
 namespace treefarm {
 namespace {
 
-/// Progress from one tree to the next is the progress before to this power (docs/guiding.md, "error"); a change of what
+/// Progress from one tree to the next is the progress before to this power (docs/error.md, "error"); a change of what
 /// a sample costs ends sooner.
 constexpr double kFading = 0.75;
 constexpr double kCostFading = 0.35;

@@ -25,8 +25,8 @@ constexpr double kLosingFew = 0.55;
 /// Of the light, by unguided samples: with less nobody knows how noisy they are.
 constexpr double kLeastCoverage = 0.8;
 /// Splitting has to quieten samples at all. It may cost a little more than it shows: whole renders gain more by it,
-/// whose trees its copies also teach (docs/guiding.md). Shorter passes have no say, nor have those whose unsplit
-/// samples find less light.
+/// whose trees its copies also teach (docs/guiding-measured.md). Shorter passes have no say, nor have those whose
+/// unsplit samples find less light.
 constexpr double kLeastQuietened = 1.01, kLeastSplittingGain = 0.9, kLeastFound = 0.99;
 constexpr std::uint32_t kLeastSplitSpp = 16;
 /// Passes that probe: the first ones that have a tree and enough samples to know their variance.

@@ -1,4 +1,4 @@
-// Whether renders know their error (docs/guiding.md, "error"): a hundred small ones of a scene, the mean of the others
+// Whether renders know their error (docs/error.md, "error"): a hundred small ones of a scene, the mean of the others
 // as the truth of each.
 #include <gtest/gtest.h>
 
