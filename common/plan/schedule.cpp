@@ -24,11 +24,16 @@ constexpr std::uint32_t kLeastJudgedSpp = 4, kLeastTrustedSpp = 8;
 constexpr double kLosingFew = 0.55;
 /// Of the light, by unguided samples: with less nobody knows how noisy they are.
 constexpr double kLeastCoverage = 0.8;
-/// Splitting has to quieten samples at all. It may cost a little more than it shows: whole renders gain more by it,
-/// whose trees its copies also teach (docs/guiding-measured.md). Shorter passes have no say, nor have those whose
-/// unsplit samples find less light.
-constexpr double kLeastQuietened = 1.01, kLeastSplittingGain = 0.9, kLeastFound = 0.99;
+/// Splitting has to quieten samples at all. Shorter passes have no say, nor have those whose unsplit samples find less
+/// light.
+constexpr double kLeastQuietened = 1.01, kLeastFound = 0.99;
 constexpr std::uint32_t kLeastSplitSpp = 16;
+/// It may cost a little more than it shows: whole renders gain more by it, whose trees its copies also teach, without
+/// next event most (docs/guiding-measured.md).
+constexpr double kLeastSplittingGain = 0.97, kLeastSplittingGainAlone = 0.9;
+/// With next event renders that never split are quieter than unsplit samples show, which are a copy's and play roulette
+/// with its share of the throughput. And a copy's ray takes longer than others do.
+constexpr double kShownGain = 2.2, kCopyRayCost = 1.4;
 /// Passes that probe: the first ones that have a tree and enough samples to know their variance.
 constexpr std::uint32_t kLeastProbeSpp = 4, kProbePasses = 4;
 /// Samples per pixel by which an open budget is planned.
@@ -82,7 +87,10 @@ void set_splitting(PassPlan& pass, const Job& job, bool pays) {
 
 bool splitting_may_pay(const PassPlan& pass, const SplittingGain& gain) {
     if (pass.spp < kLeastSplitSpp || gain.variance == 0 || gain.found < kLeastFound) return true;
-    return gain.variance >= kLeastQuietened && gain.variance >= kLeastSplittingGain * gain.rays;
+    if (gain.variance < kLeastQuietened) return false;
+    if (!pass.next_event) return gain.variance >= kLeastSplittingGainAlone * gain.rays;
+    const double quieter = 1 + (gain.variance - 1) / kShownGain, slower = 1 + (gain.rays - 1) * kCopyRayCost;
+    return quieter >= kLeastSplittingGain * slower;
 }
 
 PassPlan make_pass(const Job& job, std::uint32_t index, std::uint32_t first_sample, std::uint32_t spp, bool last) {

@@ -82,9 +82,10 @@ TEST(SplittingGain, APathKnowsWhatItWouldCarryAlone) {
     EXPECT_EQ(path.of(6.0f), 23.0f);
 }
 
-bool may_pay(std::uint32_t spp, SplittingGain gain) {
+bool may_pay(std::uint32_t spp, SplittingGain gain, bool next_event = false) {
     PassPlan pass;
     pass.spp = spp;
+    pass.next_event = next_event;
     return splitting_may_pay(pass, gain);
 }
 
@@ -96,6 +97,16 @@ TEST(SplittingGain, HasToQuietenSamples) {
     EXPECT_FALSE(may_pay(128, {1.016, 1.177, 1.0}));
     EXPECT_TRUE(may_pay(8, {1.0, 1.0, 1.0})) << "too short to say";
     EXPECT_TRUE(may_pay(64, {0.6, 1.7, 0.7})) << "unsplit samples have missed light, which makes no noise";
+}
+
+TEST(SplittingGain, HasToShowMoreWithNextEvent) {
+    EXPECT_TRUE(may_pay(64, {1.47, 1.23, 1.0}));
+    EXPECT_FALSE(may_pay(64, {1.47, 1.23, 1.0}, true)) << "the ajar door";
+    EXPECT_TRUE(may_pay(64, {1.25, 1.09, 1.0}, true)) << "cbox";
+    EXPECT_TRUE(may_pay(16, {1.03, 1.013, 1.0}, true)) << "the matte room";
+    EXPECT_FALSE(may_pay(16, {1.0, 1.0, 1.0}, true));
+    EXPECT_TRUE(may_pay(8, {1.0, 1.5, 1.0}, true)) << "too short to say";
+    EXPECT_TRUE(may_pay(64, {1.0, 1.5, 0.7}, true)) << "unsplit samples have missed light, which makes no noise";
 }
 
 TEST(SplittingGain, WhatTheJobAsksForIsDone) {
