@@ -28,8 +28,8 @@ constexpr double kLeastCoverage = 0.8;
 /// light.
 constexpr double kLeastQuietened = 1.01, kLeastFound = 0.99;
 constexpr std::uint32_t kLeastSplitSpp = 16;
-/// It may cost a little more than it shows: whole renders gain more by it, whose trees its copies also teach, without
-/// next event most (docs/guiding-measured.md).
+/// It may cost a little more than it shows: whole renders gain more by it, without next event most
+/// (docs/guiding-measured.md).
 constexpr double kLeastSplittingGain = 0.97, kLeastSplittingGainAlone = 0.9;
 /// With next event renders that never split are quieter than unsplit samples show, which are a copy's and play roulette
 /// with its share of the throughput. And a copy's ray takes longer than others do.
