@@ -5,6 +5,7 @@
 #include <thread>
 
 #include "cli/launch.h"
+#include "common/base/host.h"
 #include "common/comm/in_process_channel.h"
 #include "common/scene/scene_codec.h"
 #include "coordinator/pass_loop.h"
@@ -26,8 +27,8 @@ SdTree learn_tree(const RenderRequest& request, const std::vector<PassPlan>& pla
     std::thread worker([&] {
         WorkerSettings settings;
         settings.threads = affinity_threads();
-        settings.host = host_name();
-        settings.fingerprint = request.fingerprint;
+        settings.host = this_host().name;
+        settings.fingerprint = request.fingerprint.hash();
         run_worker(*channels[1], settings, make_path_renderer, log);
     });
     const auto send_away = [&] {
@@ -35,7 +36,7 @@ SdTree learn_tree(const RenderRequest& request, const std::vector<PassPlan>& pla
         worker.join();
     };
     try {
-        Farm farm(*channels[0], request.job, encode_scene(request.scene), request.fingerprint, log);
+        Farm farm(*channels[0], request.job, encode_scene(request.scene), request.fingerprint.hash(), log);
         bool enough = false;
         PassHooks hooks;
         hooks.interrupted = [&] { return enough; };

@@ -18,6 +18,11 @@ LaunchEnvironment read_launch_environment() {
             launch.rank = std::atoi(rank);
             break;
         }
+    for (const char* name : {"OMPI_COMM_WORLD_SIZE", "SLURM_STEP_NUM_TASKS"})
+        if (const char* size = std::getenv(name); size && launch.under_mpi) {
+            launch.size = std::atoi(size);
+            break;
+        }
     const char* const here = std::getenv("OMPI_COMM_WORLD_LOCAL_SIZE");
     const char* const all = std::getenv("OMPI_COMM_WORLD_SIZE");
     launch.one_host = here && all && std::string_view(here) == all;
@@ -37,12 +42,6 @@ unsigned affinity_threads() {
 
 unsigned host_processors() {
     return static_cast<unsigned>(std::max(1L, sysconf(_SC_NPROCESSORS_ONLN)));
-}
-
-std::string host_name() {
-    char name[256] = "";
-    gethostname(name, sizeof name - 1);
-    return name;
 }
 
 }  // namespace treefarm

@@ -8,6 +8,7 @@ namespace treefarm {
 struct LaunchEnvironment {
     bool under_mpi = false;  ///< by mpirun or srun --mpi=pmix
     int rank = 0;            ///< what the launcher calls this process; 0 without a launcher
+    int size = 0;            ///< processes of the job; 0: not known
     bool one_host = false;   ///< mpirun started all processes on this host
 };
 LaunchEnvironment read_launch_environment();
@@ -21,7 +22,5 @@ unsigned affinity_threads();
 
 /// Processors of this host.
 unsigned host_processors();
-
-std::string host_name();
 
 }  // namespace treefarm

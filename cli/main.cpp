@@ -12,10 +12,10 @@
 #include "cli/plan.h"
 #include "cli/render.h"
 #include "cli/study.h"
+#include "cli/this_build.h"
 #include "common/base/error.h"
 #include "common/base/float_traps.h"
 #include "common/config/parse_text.h"
-#include "common/protocol/fingerprint.h"
 
 namespace treefarm {
 
@@ -50,7 +50,7 @@ int run(int argc, char** argv) {
     const LaunchEnvironment launch = read_launch_environment();
     int exit_code = 0;
     CLI::App app("Path-guided rendering on one machine or many", "treefarm");
-    app.set_version_flag("--version", std::string("treefarm ") + kProgramVersion);
+    app.set_version_flag("--version", [] { return "treefarm " + this_build().text(); });
     app.require_subcommand(1);
     add_render_command(app, launch, joined(argc, argv), exit_code);
     add_plan_command(app, launch, exit_code);

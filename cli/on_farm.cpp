@@ -1,15 +1,21 @@
 #include "cli/on_farm.h"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
+#include <future>
 #include <thread>
 
 #include "cli/interrupt.h"
+#include "cli/this_build.h"
 #include "common/base/error.h"
+#include "common/base/host.h"
+#include "common/base/timer.h"
 #include "common/comm/in_process_channel.h"
 #include "common/comm/mpi_channel.h"
-#include "common/protocol/fingerprint.h"
 #include "coordinator/farm.h"
 #include "worker/worker_loop.h"
 
@@ -21,16 +27,21 @@ namespace {
 constexpr double kDismissSeconds = 5.0;
 constexpr double kFinalizeSeconds = 10.0;
 
+/// How often workers hear from a coordinator that reads the scene.
+constexpr double kReadingBeatSeconds = 1.0;
+
 WorkerSettings worker_settings(unsigned threads) {
-    return {threads, host_name(), own_fingerprint().hash(), 30.0};
+    const Host host = this_host();
+    return {.threads = threads, .host = host.name, .fingerprint = this_build().hash(), .memory = host.available_bytes};
 }
 
 /// Coordinator and one worker in this process.
-int run_here(unsigned threads, bool quiet, const FarmTask& task) {
+int run_here(const FarmOptions& options, const FarmTask& task) {
     task.prepare();
     InterruptWatch watch;
     auto channels = make_in_process_channels(2);
-    std::thread worker([&channel = *channels[1], threads = threads > 0 ? threads : affinity_threads(), quiet] {
+    std::thread worker([&channel = *channels[1], quiet = options.quiet,
+                        threads = options.threads > 0 ? options.threads : affinity_threads()] {
         const Log log = make_log("worker", {}, quiet);
         try {
             run_worker(channel, worker_settings(threads), make_path_renderer, log);
@@ -68,19 +79,42 @@ CoordinatorEnd guarded(const std::function<CoordinatorEnd()>& act) {
     }
 }
 
+/// Sends every worker away and leaves: a signal came while the scene was being read, which nothing can break off.
+[[noreturn]] void leave_reading(MpiSession& session) {
+    dismiss_workers(session.channel(), {}, kDismissSeconds);
+    std::fputs("treefarm: interrupted while the input was being read\n", stderr);
+    session.finish(false, 3, kFinalizeSeconds);
+    std::_Exit(3);
+}
+
+/// The input is read aside, so that workers hear from this process however long that takes.
+void prepare(MpiSession& session, const FarmTask& task, InterruptWatch& watch) {
+    std::future<void> reading = std::async(std::launch::async, task.prepare);
+    const Timer clock;
+    double last_beat = -kReadingBeatSeconds;
+    while (reading.wait_for(std::chrono::milliseconds(10)) != std::future_status::ready) {
+        if (watch.interrupted()) leave_reading(session);
+        if (clock.seconds() - last_beat < kReadingBeatSeconds) continue;
+        last_beat = clock.seconds();
+        tell_workers(session.channel(), Heartbeat{});
+    }
+    reading.get();
+}
+
 int coordinate(MpiSession& session, const FarmTask& task, InterruptWatch& watch) {
     const CoordinatorEnd end = guarded([&] {
-        task.prepare();
+        prepare(session, task, watch);
         return task.coordinate(session.channel(), [&] { return watch.interrupted(); });
     });
     session.finish(dismiss_workers(session.channel(), end.lost, kDismissSeconds), end.code, kFinalizeSeconds);
     return end.code;
 }
 
-int work(MpiSession& session, unsigned asked, bool quiet) {
+int work(MpiSession& session, const FarmOptions& options) {
+    const unsigned asked = options.threads;
     const unsigned share = affinity_threads() / static_cast<unsigned>(std::max(1, session.workers_on_host()));
     const unsigned threads = asked > 0 ? asked : std::max(1u, share);
-    const Log log = make_log("worker " + std::to_string(session.rank()), {}, quiet);
+    const Log log = make_log("worker " + std::to_string(session.rank()), {}, options.quiet);
     std::vector<std::string> warnings;
     warn_if_crowded(asked, warnings);
     if (affinity_threads() < host_processors() / static_cast<unsigned>(std::max(1, session.workers_on_host())))
@@ -100,16 +134,32 @@ int work(MpiSession& session, unsigned asked, bool quiet) {
     }
 }
 
+std::string missing_processes(const LaunchEnvironment& launch, double seconds) {
+    const std::string all = launch.size > 0 ? "the " + std::to_string(launch.size) : "all";
+    char limit[32] = "";
+    std::snprintf(limit, sizeof limit, "%g", seconds);
+    return "treefarm: rank " + std::to_string(launch.rank) + ": " + all +
+           " processes of this job did not come together in " + limit +
+           " s: one died or left at its start (it may have said why above), or a host is out of reach; start again, "
+           "with --start-seconds if they need longer\n";
+}
+
 }  // namespace
 
-int run_on_farm(const LaunchEnvironment& launch, unsigned threads, bool quiet, const FarmTask& task) {
-    if (!launch.under_mpi) return run_here(threads, quiet, task);
+void add_start_seconds(CLI::App& command, FarmOptions& options) {
+    command
+        .add_option("--start-seconds", options.start_seconds,
+                    "under mpirun: in which all processes have to come together (default: 25)")
+        ->check(CLI::Range(1.0, 1e6));
+}
+
+int run_on_farm(const LaunchEnvironment& launch, const FarmOptions& options, const FarmTask& task) {
+    if (!launch.under_mpi) return run_here(options, task);
     if (launch.one_host) skip_network_search();
     InterruptWatch watch;  // before MPI starts its threads; workers leave when the coordinator says so
-    MpiSession session;
-    if (session.size() > 1)
-        return session.rank() == 0 ? coordinate(session, task, watch) : work(session, threads, quiet);
-    const int code = guarded([&]() -> CoordinatorEnd { return {run_here(threads, quiet, task), {}}; }).code;
+    MpiSession session(options.start_seconds, missing_processes(launch, options.start_seconds));
+    if (session.size() > 1) return session.rank() == 0 ? coordinate(session, task, watch) : work(session, options);
+    const int code = guarded([&]() -> CoordinatorEnd { return {run_here(options, task), {}}; }).code;
     session.finish(true, code, kFinalizeSeconds);
     return code;
 }

@@ -8,6 +8,10 @@
 #include "cli/launch.h"
 #include "common/comm/channel.h"
 
+namespace CLI {
+class App;
+}
+
 namespace treefarm {
 
 /// How the coordinator's part ended.
@@ -22,10 +26,19 @@ struct FarmTask {
     std::function<CoordinatorEnd(Channel&, const std::function<bool()>& interrupted)> coordinate;
 };
 
-/// Runs the task over all processes of the MPI job, or over coordinator and one worker in this process. `threads`: that
-/// trace in each worker, 0: its processors. Returns the exit code; InputError and RunError leave it in one process
-/// only.
-int run_on_farm(const LaunchEnvironment& launch, unsigned threads, bool quiet, const FarmTask& task);
+/// How this program's part in the farm is run.
+struct FarmOptions {
+    unsigned threads = 0;  ///< that trace in each worker; 0: its processors
+    bool quiet = false;
+    double start_seconds = 25.0;  ///< in which all processes of an MPI job have to come together
+};
+
+/// --start-seconds
+void add_start_seconds(CLI::App& command, FarmOptions& options);
+
+/// Runs the task over all processes of the MPI job, or over coordinator and one worker in this process. Returns the
+/// exit code; InputError and RunError leave it in one process only.
+int run_on_farm(const LaunchEnvironment& launch, const FarmOptions& options, const FarmTask& task);
 
 /// Warns where more threads were asked for than processors are there.
 void warn_if_crowded(unsigned threads, std::vector<std::string>& warnings);

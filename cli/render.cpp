@@ -6,7 +6,6 @@
 #include <memory>
 
 #include "cli/debug_sample.h"
-#include "cli/on_farm.h"
 
 namespace treefarm {
 
@@ -28,14 +27,14 @@ int render(const LaunchEnvironment& launch, const RenderOptions& options) {
     FarmTask task;
     task.prepare = [&] {
         request = read_request(options);
-        warn_if_crowded(options.threads, request.warnings);
-        request.progress_bar = !options.quiet && isatty(STDERR_FILENO);
+        warn_if_crowded(options.farm.threads, request.warnings);
+        request.progress_bar = !options.farm.quiet && isatty(STDERR_FILENO);
     };
     task.coordinate = [&](Channel& channel, const std::function<bool()>& interrupted) -> CoordinatorEnd {
         const RenderOutcome outcome = run_render(channel, request, interrupted);
         return {exit_code_of(outcome), outcome.lost_peers};
     };
-    return run_on_farm(launch, options.threads, options.quiet, task);
+    return run_on_farm(launch, options.farm, task);
 }
 
 /// A sample is traced in one process.
@@ -64,9 +63,10 @@ void add_render_command(CLI::App& app, const LaunchEnvironment& launch, const st
         ->allow_extra_args(false);
     command->add_flag("--lenient", options->lenient, "replace what the scene reader does not know instead of refusing");
     command->add_option("--run-dir", options->run_directory, "where results go (default: runs/<scene>-<time>)");
-    command->add_option("--threads", options->threads, "tracing threads of each process (default: its processors)")
+    command->add_option("--threads", options->farm.threads, "tracing threads of each process (default: its processors)")
         ->check(CLI::Range(1u, 4096u));
-    command->add_flag("--quiet", options->quiet, "only errors on the terminal");
+    command->add_flag("--quiet", options->farm.quiet, "only errors on the terminal");
+    add_start_seconds(*command, options->farm);
     command->add_option("--debug-sample", options->debug_sample,
                         "pass,x,y,sample: trace this sample and tell its story");
     command->callback([options, launch, &exit_code] {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "cli/launch.h"
+#include "cli/on_farm.h"
 #include "coordinator/render_run.h"
 
 namespace CLI {
@@ -25,8 +26,7 @@ struct RenderOptions {
     std::vector<std::string> defines;  ///< -D name=value
     bool lenient = false;
     std::string run_directory;  ///< --run-dir
-    unsigned threads = 0;       ///< 0: one per processor
-    bool quiet = false;
+    FarmOptions farm;
     std::string debug_sample;  ///< "pass,x,y,sample"
     std::string command;       ///< as it was typed
 };

@@ -1,12 +1,12 @@
 #include <utility>
 
 #include "cli/render.h"
+#include "cli/this_build.h"
 #include "common/config/check_job.h"
 #include "common/config/job_keys.h"
 #include "common/config/job_reader.h"
 #include "common/config/parse_text.h"
 #include "common/plan/schedule_file.h"
-#include "common/protocol/fingerprint.h"
 #include "common/scene/load.h"
 
 namespace treefarm {
@@ -111,8 +111,8 @@ RenderRequest read_request(const RenderOptions& options) {
     request.plan.warnings = request.warnings;  // what the reader had to replace belongs to the plan, too
     request.command = options.command;
     request.debug_command = debug_command(options);
-    request.fingerprint = own_fingerprint().hash();
-    request.quiet = options.quiet;
+    request.fingerprint = this_build();
+    request.quiet = options.farm.quiet;
     return request;
 }
 

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "cli/on_farm.h"
+#include "cli/this_build.h"
 #include "coordinator/study/study_run.h"
 #include "report/price_list.h"
 #include "report/study_page.h"
@@ -16,9 +17,8 @@ namespace {
 struct StudyOptions {
     std::string input;
     std::string directory;
-    unsigned threads = 0;
+    FarmOptions farm;
     bool dry_run = false;
-    bool quiet = false;
     std::string command;
 };
 
@@ -34,24 +34,24 @@ int exit_code_of(RunState state) {
 
 int study(const LaunchEnvironment& launch, const StudyOptions& options) {
     if (options.dry_run) {
-        if (launch.rank == 0) list_cells(read_study_for(options), std::cout);
+        if (launch.rank == 0) list_cells(read_study_for(options), this_build(), std::cout);
         return 0;
     }
     Study study;
     FarmTask task;
-    const Log log = make_log("study", {}, options.quiet);
+    const Log log = make_log("study", {}, options.farm.quiet);
     task.prepare = [&] {
         study = read_study_for(options);
         std::vector<std::string> warnings;
-        warn_if_crowded(options.threads, warnings);
+        warn_if_crowded(options.farm.threads, warnings);
         for (const std::string& warning : warnings)
             log->warn("{}", warning);
     };
     task.coordinate = [&](Channel& channel, const std::function<bool()>& interrupted) -> CoordinatorEnd {
-        const StudyOutcome outcome = run_study(channel, study, options.command, log, interrupted);
+        const StudyOutcome outcome = run_study(channel, study, options.command, this_build(), log, interrupted);
         return {exit_code_of(outcome.state), outcome.lost_peers};
     };
-    const int code = run_on_farm(launch, options.threads, options.quiet, task);
+    const int code = run_on_farm(launch, options.farm, task);
     if (code == 0 && launch.rank == 0) log->info("report: {}", write_study_report(study.directory).string());
     return code;
 }
@@ -84,10 +84,11 @@ void add_study_command(CLI::App& app, const LaunchEnvironment& launch, const std
     CLI::App* command = app.add_subcommand("study", "Renders a matrix of methods, scenes and seeds, and compares them");
     command->add_option("input", options->input, "study file (.toml)")->required();
     command->add_option("--dir", options->directory, "where results go (default: directory in the file)");
-    command->add_option("--threads", options->threads, "tracing threads of each process (default: its processors)")
+    command->add_option("--threads", options->farm.threads, "tracing threads of each process (default: its processors)")
         ->check(CLI::Range(1u, 4096u));
+    add_start_seconds(*command, options->farm);
     command->add_flag("--dry-run", options->dry_run, "list the cells, and which are done; render nothing");
-    command->add_flag("--quiet", options->quiet, "only errors on the terminal");
+    command->add_flag("--quiet", options->farm.quiet, "only errors on the terminal");
     command->callback([options, launch, &exit_code] { exit_code = study(launch, *options); });
 }
 

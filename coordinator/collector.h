@@ -38,7 +38,9 @@ class Collector {
     double film_seconds() const { return film_seconds_; }    ///< adding pixels
 
   private:
-    void check_samples(const UnitResult& result) const;
+    // Throw FormatError where a result cannot be: what is merged cannot be taken out again.
+    void check_pixels(const UnitResult& result) const;
+    void check_stats(const Result& result) const;
 
     PassPlan plan_;
     PassFilm film_;

@@ -5,12 +5,7 @@
 namespace treefarm {
 
 bool dismiss_workers(Channel& channel, const std::set<int>& lost, double patience) {
-    const auto tell_all = [&](const Bytes& bytes) {
-        const auto payload = std::make_shared<const Bytes>(bytes);
-        for (int peer = 1; peer < channel.peer_count(); ++peer)
-            channel.send(peer, payload);
-    };
-    tell_all(encode(Quit{}));
+    tell_workers(channel, Quit{});
     std::set<int> gone;
     const auto count_gone = [&](bool lost_ones) {
         int count = 0;
@@ -31,7 +26,7 @@ bool dismiss_workers(Channel& channel, const std::set<int>& lost, double patienc
         }
     }
     const bool orderly = count_gone(false) == workers;
-    tell_all(encode(Leave{orderly}));
+    tell_workers(channel, Leave{orderly});
     return orderly;
 }
 

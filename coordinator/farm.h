@@ -23,6 +23,7 @@ struct FarmLimits {
     double gather = 20.0;  ///< how long the start waits for workers that have not said hello
     double lost = 2.0;     ///< least silence after which a worker is given up; ten heartbeats if that is longer
     double dismiss = 5.0;  ///< how long the end waits for good-byes
+    double grace = 15.0;   ///< how long nobody at all may be there, where somebody may come back
 };
 
 /// A job's place among those of one allocation.
@@ -39,15 +40,15 @@ class Farm {
     Farm(Channel& channel, const Job& job, Bytes scene, std::uint64_t fingerprint, const Log& log,
          const FarmLimits& limits = {}, const JobTurn& turn = {});
 
-    /// Waits for the workers' hellos and sends them the scene. Throws RunError if none can be used. `interrupted` is
+    /// Waits for the workers' hellos; nothing large is sent yet. Throws RunError if none can be used. `interrupted` is
     /// asked now and then; true ends the wait.
     void gather(const std::function<bool()>& interrupted);
 
-    /// Announces a pass and sends its tree along the chain of those present.
+    /// Announces a pass and sends its tree along the chain of those present; before the first one, the scene.
     void begin_pass(const PassPlan& plan, const SdTree& tree, Bytes encoded_tree, int width, int height);
 
     /// Takes what has arrived, hands out work, watches for silence; rests if nothing happened. Throws RunError when no
-    /// worker is left.
+    /// worker is left, and none has come back within FarmLimits::grace.
     void step();
 
     bool pass_complete() const { return collector_ && collector_->film().complete(); }
@@ -63,10 +64,14 @@ class Farm {
     std::set<int> lost_peers() const;
     /// Sends heartbeats that are due: call it between long computations.
     void beat();
+    /// Runs a computation of any length aside, while workers go on hearing from here. What it throws leaves this.
+    void beat_during(const std::function<void()>& work);
     /// Units that were issued again.
     std::uint64_t reissued_units() const { return reissued_units_; }
     /// Results that came from lost lives and were dropped.
     std::uint64_t dropped_results() const { return dropped_results_; }
+    /// Messages that were no messages, or said what cannot be.
+    std::uint64_t bad_messages() const { return bad_messages_; }
     /// Of all workers since the start, as their heartbeats say.
     std::uint64_t rays_traced() const;
 
@@ -79,6 +84,9 @@ class Farm {
 
     bool calm() const;  ///< all workers have enough to trace
     void take(const Received& received);
+    void on_bad_message(int peer, const std::string& why);
+    void watch_for_silence();
+    bool may_come_back() const;  ///< somebody who is not there now
     void on(int peer, const Hello& m);
     void on(int peer, const Resend& m);
     void on(int peer, const Want& m);
@@ -86,10 +94,12 @@ class Farm {
     void on(int peer, const Failure& m);
     Member* hear(int peer, std::uint64_t incarnation);
     void refuse(int peer, const Hello& m, const std::string& reason);
-    void give_up(Member& member, const std::string& why);
+    void give_up(Member& member, MemberState state, const std::string& why);
     void announce(int peer);
     bool serve(Member& member);
+    BlobName name_of(Blob blob) const;
     void send_blob(Blob blob, std::uint64_t offset, std::span<const std::uint32_t> chain);
+    void send_directly(Blob blob, std::uint64_t offset, int peer);
     std::vector<std::uint32_t> chain_of_present();
     std::vector<std::uint32_t> chain_without_scene();
 
@@ -109,17 +119,28 @@ class Farm {
     JobTurn turn_;
     const Timer clock_;
     Roster roster_;
-    bool gathered_ = false;
+    bool scene_sent_ = false;  ///< whoever comes from now on gets it at once
     std::optional<OpenPass> pass_;
     std::unique_ptr<Ledger> ledger_;
     std::unique_ptr<Collector> collector_;
     std::vector<int> not_ready_;  ///< peers that have not yet asked for work of this pass
     bool requested_ = false;      ///< somebody has
     double pass_began_ = 0, first_request_seconds_ = 0, broadcast_seconds_ = 0, last_beat_ = 0;
-    double listened_ = 0;  ///< when step() last looked for messages
+    double listened_ = 0;                                       ///< when step() last looked for messages
+    std::optional<double> alone_since_;                         ///< nobody has been there since
+    std::map<std::pair<int, BlobName>, double> sent_directly_;  ///< when
     std::string last_failure_;
-    std::uint64_t reissued_units_ = 0, dropped_results_ = 0;
+    std::uint64_t reissued_units_ = 0, dropped_results_ = 0, bad_messages_ = 0;
 };
+
+/// Sends every worker one message, whoever is there.
+template <class M>
+void tell_workers(Channel& channel, const M& message) {
+    const auto payload = std::make_shared<const Bytes>(encode(message));
+    for (int peer = 1; peer < channel.peer_count(); ++peer)
+        channel.send(peer, payload);
+    channel.drained();  // they move only when they are looked at
+}
 
 /// Sends every worker away, those included that never said hello, and waits up to `patience` seconds for the good-byes
 /// of those not known as lost. Returns whether all went in order, so that the message layer can be shut down.

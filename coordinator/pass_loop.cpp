@@ -177,7 +177,7 @@ class PassLoop {
         report.seconds.all = seconds;
         report.spp_done = result_.spp;
         report.workers = farm_.roster().present_count();
-        report.threads = farm_.roster().thread_count();
+        report.threads = static_cast<std::uint32_t>(farm_.roster().thread_count());
         count_idle(report);
         result_.passes.push_back(report);
         if (hooks_.on_pass) hooks_.on_pass(report, result_.image);

@@ -22,7 +22,7 @@ class RenderRun {
           directory_(request.job, {request.command, hash_bytes(scene_), request.fingerprint}, request.plan),
           log_(make_log("treefarm", directory_.log_file(), request.quiet)),
           bar_(request.progress_bar),
-          farm_(channel, request.job, std::move(scene_), request.fingerprint, log_, {}, request.turn) {}
+          farm_(channel, request.job, std::move(scene_), request.fingerprint.hash(), log_, {}, request.turn) {}
 
     RenderOutcome run() {
         log_->debug("{}", request_.command);

@@ -8,6 +8,7 @@
 #include "common/comm/channel.h"
 #include "common/config/job.h"
 #include "common/plan/effects.h"
+#include "common/protocol/fingerprint.h"
 #include "common/scene/scene.h"
 #include "coordinator/run_directory.h"
 
@@ -23,8 +24,8 @@ struct RenderRequest {
     std::string command;                ///< as it was typed
     std::string debug_command;  ///< reproduces a sample when " pass,x,y,sample" and, for an open budget, --schedule are
                                 ///< appended
-    std::uint64_t fingerprint = 0;  ///< of this process
-    bool quiet = false;             ///< only errors on the terminal
+    Fingerprint fingerprint;    ///< of this process
+    bool quiet = false;         ///< only errors on the terminal
     bool progress_bar = false;
     JobTurn turn;  ///< among the jobs of a study
     /// After each pass, with the image so far; what it takes counts as the render's time. May be empty.

@@ -6,7 +6,10 @@ namespace treefarm {
 
 Member& Roster::admit(int peer, const Hello& hello, double now) {
     Member& member = members_[peer];
+    const Member before = member;
     member = Member{};
+    member.lives = before.lives + 1;
+    member.bad_messages = before.bad_messages;
     member.peer = peer;
     member.hello = hello;
     member.last_heard = now;
@@ -49,8 +52,8 @@ std::size_t Roster::present_count() const {
         members_.begin(), members_.end(), [](const auto& m) { return m.second.state == MemberState::present; }));
 }
 
-std::uint32_t Roster::thread_count() const {
-    std::uint32_t threads = 0;
+std::uint64_t Roster::thread_count() const {
+    std::uint64_t threads = 0;
     for (const auto& [peer, member] : members_)
         if (member.state == MemberState::present) threads += member.hello.threads;
     return threads;

@@ -14,6 +14,7 @@ enum class MemberState : std::uint8_t {
     lost,     ///< was silent for too long, or failed: what it still sends is dropped
     refused,  ///< never took part
     left,     ///< said good-bye
+    barred,   ///< said what was wrong, or that it cannot go on: it may not come back to this job
 };
 
 /// One life of one worker process.
@@ -23,8 +24,11 @@ struct Member {
     MemberState state = MemberState::present;
     double last_heard = 0;     ///< seconds of the coordinator's clock
     std::uint32_t credit = 0;  ///< units that it asked for and has not got
-    bool asked_back = false;   ///< a lost one that spoke again was told to rejoin, or must not
-    Heartbeat progress;        ///< the last one
+    bool asked_back = false;   ///< a lost one that spoke again was told to rejoin
+    // Of all lives of this peer.
+    std::uint32_t lives = 0;
+    std::uint32_t bad_messages = 0;  ///< that were refused
+    Heartbeat progress;              ///< the last one
 };
 
 /// Who is there, by peer and incarnation. Open MPI tells nobody about dead processes, so silence is the only sign.
@@ -50,7 +54,7 @@ class Roster {
     std::vector<Member*> present();
     std::size_t present_count() const;
     /// Of all present.
-    std::uint32_t thread_count() const;
+    std::uint64_t thread_count() const;
     const std::map<int, Member>& members() const { return members_; }
 
   private:

@@ -15,7 +15,6 @@
 #include "common/image/png.h"
 #include "common/plan/plan_text.h"
 #include "common/plan/schedule_file.h"
-#include "common/protocol/fingerprint.h"
 #include "coordinator/result_image.h"
 
 namespace treefarm {
@@ -115,6 +114,14 @@ Json pass_json(const PassReport& r) {
               {"max_worker", r.seconds.trace.max_worker}}}};
 }
 
+Json build_json(const Fingerprint& build) {
+    return {{"source", build.source},
+            {"options", build.options},
+            {"compiler", build.compiler},
+            {"embree", build.embree},
+            {"program", hash_text(build.program)}};
+}
+
 const char* member_state_name(MemberState state) {
     switch (state) {
         case MemberState::present:
@@ -125,6 +132,8 @@ const char* member_state_name(MemberState state) {
             return "refused";
         case MemberState::left:
             return "left";
+        case MemberState::barred:
+            return "barred";
     }
     return "";
 }
@@ -135,9 +144,12 @@ Json farm_json(const Farm& farm) {
         workers.push_back({{"worker", peer},
                            {"host", member.hello.host},
                            {"threads", member.hello.threads},
-                           {"state", member_state_name(member.state)}});
-    return {
-        {"workers", workers}, {"reissued_units", farm.reissued_units()}, {"dropped_results", farm.dropped_results()}};
+                           {"state", member_state_name(member.state)},
+                           {"bad_messages", member.bad_messages}});
+    return {{"workers", workers},
+            {"reissued_units", farm.reissued_units()},
+            {"dropped_results", farm.dropped_results()},
+            {"bad_messages", farm.bad_messages()}};
 }
 
 /// A run replaces what an earlier run left. A folder that holds something else is none of ours: it might be a person's.
@@ -243,6 +255,7 @@ void RunDirectory::write_image(const RenderResult& result) {
     const PassReport& last = result.passes.back();
     Attributes attributes = {
         {"treefarm.version", kProgramVersion},
+        {"treefarm.build", facts_.fingerprint.text()},
         {"treefarm.spp", std::to_string(result.spp)},
         {"treefarm.job", write_job(job_)},
         {"treefarm.scene_hash", hash_text(facts_.scene_hash)},
@@ -271,7 +284,8 @@ void RunDirectory::write_summary(RunState state, const RenderResult& result, con
                     {"command", facts_.command},
                     {"scene", job_.scene.file},
                     {"scene_hash", hash_text(facts_.scene_hash)},
-                    {"fingerprint", hash_text(facts_.fingerprint)},
+                    {"fingerprint", hash_text(facts_.fingerprint.hash())},
+                    {"build", build_json(facts_.fingerprint)},
                     {"width", result.width},
                     {"height", result.height},
                     {"spp", result.spp},

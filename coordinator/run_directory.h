@@ -8,6 +8,7 @@
 #include "common/config/job.h"
 #include "common/image/atomic_file.h"
 #include "common/plan/effects.h"
+#include "common/protocol/fingerprint.h"
 #include "coordinator/farm.h"
 #include "coordinator/pass_loop.h"
 
@@ -21,7 +22,7 @@ const char* run_state_name(RunState state);
 struct RunFacts {
     std::string command;  ///< that started it
     std::uint64_t scene_hash = 0;
-    std::uint64_t fingerprint = 0;
+    Fingerprint fingerprint;
 };
 
 /// The folder of one run: job.toml, plan.txt, plan.json, log.txt, status.json, passes.csv, schedule.toml, image.exr,

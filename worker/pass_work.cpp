@@ -18,6 +18,7 @@ void PassWork::deliver(UnitResult unit, RecordLog& log, TraceStats stats) {
         stats.splat_seconds += thread_cpu_seconds() - start;
     }
     const std::scoped_lock lock(units_lock_);
+    bundle_bytes_ += unit.pixels.size() * sizeof(PixelEstimate);
     units_.push_back(std::move(unit));
     stats_.add(stats);
 }
@@ -30,6 +31,7 @@ std::optional<Result> PassWork::close() {
         const std::unique_lock bundle(bundle_);
         if (units_.empty()) return std::nullopt;
         result.units = std::exchange(units_, {});
+        bundle_bytes_ = 0;
         result.stats = std::exchange(stats_, {});
         if (accumulator_) sums = accumulator_->take();
     }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -28,12 +29,16 @@ class PassWork {
     /// caller's to fill in. Waits for deliveries that are under way, not for tracing.
     std::optional<Result> close();
 
+    /// Of the pixels in the open bundle.
+    std::size_t bundle_bytes() const { return bundle_bytes_; }
+
   private:
     const PassPlan plan_;
     const Guide guide_;
     std::shared_mutex bundle_;  ///< shared: adding to the open bundle; exclusive: closing it
     std::mutex units_lock_;
     std::vector<UnitResult> units_;
+    std::atomic<std::size_t> bundle_bytes_{0};
     TraceStats stats_;
     std::optional<Accumulator> accumulator_;  ///< of passes that record
 };

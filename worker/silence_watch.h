@@ -11,25 +11,21 @@ class SilenceWatch {
     explicit SilenceWatch(double limit_seconds) : limit_(limit_seconds) {}
 
     /// Something was heard.
-    void broken() {
-        heard_ = true;
-        seconds_ = 0;
-    }
+    void broken() { seconds_ = 0; }
 
     /// Called every turn of the loop, with the time. While the process was stopped, or starved, nobody could be heard:
-    /// long turns count as short ones. Before it speaks for the first time the coordinator reads the scene, in silence.
+    /// long turns count as short ones.
     bool too_long(double now) {
-        constexpr double kLongestTurnSeconds = 0.5, kFirstContactFactor = 20.0;
+        constexpr double kLongestTurnSeconds = 0.5;
         seconds_ += std::min(now - turned_, kLongestTurnSeconds);
         turned_ = now;
-        return seconds_ > limit_ * (heard_ ? 1.0 : kFirstContactFactor);
+        return seconds_ > limit_;
     }
 
     double seconds() const { return seconds_; }
 
   private:
     double limit_;
-    bool heard_ = false;  ///< ever
     double seconds_ = 0, turned_ = 0;
 };
 

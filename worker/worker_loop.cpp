@@ -4,6 +4,7 @@
 #include <chrono>
 #include <future>
 #include <random>
+#include <set>
 
 #include "common/base/hash.h"
 #include "common/base/timer.h"
@@ -25,6 +26,16 @@ constexpr std::size_t kUnitsPerThread = 3, kPathsPerThread = 8192;
 
 /// A tree or scene of which nothing was heard for so many heartbeats is asked for again.
 constexpr double kPatienceHeartbeats = 5.0;
+
+/// Messages taken in before anything else is done again.
+constexpr int kMostLooks = 256;
+
+/// Pixels that are sent without waiting for the next update: many threads fill much memory in that time, and no message
+/// may be as long as one that is refused (mpi_channel.h).
+constexpr std::size_t kBundleBytes = std::size_t{64} << 20;
+
+/// Of what is told of a failure.
+constexpr std::size_t kMostFailureBytes = 4096;
 
 template <class T>
 bool ready(const std::future<T>& task) {
@@ -49,9 +60,13 @@ class WorkerLoop {
     WorkerEnd run() {
         say_hello();
         while (!end_) {
-            while (const auto message = channel_.poll()) {
-                silence_.broken();
-                take(*message);
+            int looks = 0;  // a flood must not keep this loop from its other duties
+            for (auto message = channel_.poll(); message;
+                 message = ++looks < kMostLooks ? channel_.poll() : std::nullopt) {
+                if (message->peer == 0)
+                    take(message->bytes);
+                else
+                    take_from_worker(*message);
                 if (end_) return *end_;
             }
             try {
@@ -77,11 +92,12 @@ class WorkerLoop {
 
     void say_hello() {
         incarnation_ = draw_incarnation();
-        tell(Hello{incarnation_, settings_.fingerprint, settings_.threads, job_number_, scene_hash_, settings_.host,
-                   kProgramVersion});
+        tell(Hello{incarnation_, settings_.fingerprint, settings_.threads, job_number_, scene_hash_, settings_.memory,
+                   settings_.host, kProgramVersion});
     }
 
-    void take(const Received& received) {
+    void take(const Bytes& bytes) {
+        silence_.broken();
         try {
             std::visit(
                 Overloads{[&](const Welcome& m) { on(m); },
@@ -91,16 +107,34 @@ class WorkerLoop {
                           [&](const Quit&) { on_quit(); },
                           [&](const Leave& m) { end_ = m.finalize ? WorkerEnd::orderly : WorkerEnd::disorderly; },
                           [&](const auto&) { throw FormatError("a message that workers send, not receive"); }},
-                decode(received.bytes));
+                decode(bytes));
         } catch (const std::exception& error) {
-            fail("message from peer " + std::to_string(received.peer) + ": " + error.what());
+            fail(std::string("message from the coordinator: ") + error.what());
         }
+    }
+
+    /// Orders come from the coordinator alone. Other workers pass pieces of scene and trees on, and nothing else.
+    void take_from_worker(const Received& received) {
+        std::string wrong = "it gives orders, which only the coordinator may";
+        try {
+            const Message message = decode(received.bytes);
+            if (const auto* chunk = std::get_if<Chunk>(&message)) {
+                chain_.take(*chunk, clock_.seconds(), received.peer);
+                return;
+            }
+        } catch (const std::exception& error) {
+            wrong = error.what();
+        }
+        if (ignored_.insert(received.peer).second)
+            log_->warn("what worker {} says is ignored: {}", received.peer, wrong);
     }
 
     void on(const Welcome& m) {
         heartbeat_seconds_ = m.heartbeat_seconds;
         keep_scene_ = m.keep_scene;
         coming_scene_hash_ = m.scene_hash;
+        coming_scene_bytes_ = m.scene_bytes;
+        if (m.scene_hash != scene_hash_) chain_.expect(scene_name(), m.scene_bytes, clock_.seconds());
         if (m.job == job_text_ && m.scene_hash == scene_hash_) return;  // what traces is there, or being built
         job_ = Job{};
         apply_layer(job_, parse_job_settings(m.job, "job from the coordinator"));
@@ -180,10 +214,23 @@ class WorkerLoop {
         ask_for_work();
     }
 
+    BlobName scene_name() const { return {Blob::scene, job_number_, 0}; }
+
+    /// Some worker along the chain may have put in something of its own; then the coordinator is asked.
+    bool is_what_was_announced(const BlobName& name, const Bytes& bytes, std::uint64_t hash, std::uint64_t total) {
+        if (hash_bytes(bytes) == hash) return true;
+        if (!chain_.mistrust(name, total, clock_.seconds()))
+            throw FormatError(std::string(name.blob == Blob::tree ? "the tree" : "the scene") +
+                              " arrived from the coordinator with a wrong hash");
+        log_->warn("a {} was changed on its way: asking the coordinator", name.blob == Blob::tree ? "tree" : "scene");
+        return false;
+    }
+
     /// Scene and job there: build what traces, aside, once the one before is out of the way; built: start the threads.
     void prepare_renderer() {
         if (coming_scene_hash_ != 0) {  // 0: not welcomed yet
-            if (auto scene = chain_.collect({Blob::scene, job_number_, 0})) {
+            auto scene = chain_.collect(scene_name());
+            if (scene && is_what_was_announced(scene_name(), *scene, coming_scene_hash_, coming_scene_bytes_)) {
                 scene_ = std::make_shared<const Bytes>(std::move(*scene));
                 scene_hash_ = coming_scene_hash_;
                 build_renderer_ = true;
@@ -206,8 +253,9 @@ class WorkerLoop {
     /// Tree arrived: build the guide, aside; guide built: start the pass.
     void prepare_pass() {
         if (coming_ && !pass_task_.valid()) {
-            if (auto tree = chain_.collect({Blob::tree, job_number_, coming_->plan.index})) {
-                if (hash_bytes(*tree) != coming_->tree_hash) throw FormatError("the tree arrived with a wrong hash");
+            const BlobName name{Blob::tree, job_number_, coming_->plan.index};
+            auto tree = chain_.collect(name);
+            if (tree && is_what_was_announced(name, *tree, coming_->tree_hash, coming_->tree_bytes)) {
                 pass_task_job_ = job_number_;
                 pass_task_ = std::async(std::launch::async, [plan = coming_->plan, bytes = std::move(*tree),
                                                              filter = job_.guiding.directional_filter] {
@@ -229,8 +277,8 @@ class WorkerLoop {
     /// From time to time, and at the end. Without a unit for a moment is not the end: the more results, the less time
     /// has the coordinator to hand out work.
     void send_finished() {
-        const bool at_end = nothing_left_ && pool_->idle();
-        if (!at_end && clock_.seconds() - last_update_ < job_.farm.update_seconds) return;
+        const bool at_end = nothing_left_ && pool_->idle(), enough = pass_->bundle_bytes() >= kBundleBytes;
+        if (!at_end && !enough && clock_.seconds() - last_update_ < job_.farm.update_seconds) return;
         last_update_ = clock_.seconds();
         if (auto result = pass_->close()) {
             result->incarnation = incarnation_;
@@ -264,7 +312,8 @@ class WorkerLoop {
     }
 
     /// Tells the coordinator once, then waits to be dismissed.
-    void fail(const std::string& text) {
+    void fail(const std::string& whole) {
+        const std::string text = whole.substr(0, kMostFailureBytes);
         log_->error("{}", text);
         if (failed_) return;
         failed_ = true;
@@ -285,11 +334,12 @@ class WorkerLoop {
     double last_beat_ = 0, last_update_ = 0;
     bool quitting_ = false, said_bye_ = false, failed_ = false;
     std::optional<WorkerEnd> end_;
+    std::set<int> ignored_;  ///< other workers that said what only the coordinator may; told once
 
     std::uint32_t job_number_ = 0;
     std::string job_text_;  ///< of job_; empty: none yet
     std::shared_ptr<const Bytes> scene_;
-    std::uint64_t scene_hash_ = 0, coming_scene_hash_ = 0;
+    std::uint64_t scene_hash_ = 0, coming_scene_hash_ = 0, coming_scene_bytes_ = 0;
     bool keep_scene_ = false;
     bool build_renderer_ = false;  ///< scene and job are there, and nothing was made of them yet
     std::future<RenderUnit> renderer_task_;

@@ -14,6 +14,7 @@ struct WorkerSettings {
     std::string host;
     std::uint64_t fingerprint = 0;
     double silence_seconds = 30.0;  ///< a coordinator silent for so long is gone
+    std::uint64_t memory = 0;       ///< bytes that the host can still give; 0: not known
 };
 
 /// How a worker's part ended.

@@ -29,42 +29,74 @@ void ChainReceiver::begin_job(std::uint32_t job) {
     job_ = job;
     assemblies_.clear();
     latest_collected_.clear();
+    mistrusted_.clear();
 }
 
-std::optional<BlobName> ChainReceiver::take(const Chunk& chunk, double now) {
-    if (!chunk.chain.empty()) {
-        Chunk onward = chunk;
-        onward.chain.erase(onward.chain.begin());
-        const auto next = static_cast<int>(chunk.chain.front());
-        if (next <= 0 || next >= channel_.peer_count() || next == channel_.self())
-            throw FormatError("a broadcast chain with a peer that is not there");
-        channel_.send(next, share(encode(onward)));
+void ChainReceiver::pass_on(const Chunk& chunk) {
+    if (chunk.chain.empty()) return;
+    const std::uint32_t next = chunk.chain.front();
+    const auto peers = static_cast<std::uint32_t>(channel_.peer_count());
+    if (next == 0 || next >= peers || next == static_cast<std::uint32_t>(channel_.self()) ||
+        chunk.chain.size() >= peers)
+        return;  // no chain that the coordinator made; who waits for the piece asks for it
+    Chunk onward = chunk;
+    onward.chain.erase(onward.chain.begin());
+    channel_.send(static_cast<int>(next), share(encode(onward)));
+}
+
+bool ChainReceiver::has_room_for(const BlobName& name, std::size_t bytes) const {
+    // A piece may overtake the word that announces it. More than a few are somebody's invention.
+    constexpr std::size_t kMostNames = 8, kMostBytes = std::size_t{16} << 20;
+    std::size_t names = 1;
+    for (const auto& [other, assembly] : assemblies_) {
+        if (assembly.announced) {
+            if (other == name) return true;
+            continue;
+        }
+        bytes += assembly.bytes.size();
+        names += other != name;
     }
+    return names <= kMostNames && bytes <= kMostBytes;
+}
+
+std::optional<BlobName> ChainReceiver::take(const Chunk& chunk, double now, int from) {
+    pass_on(chunk);
     if (chunk.job != job_) return std::nullopt;
     const BlobName name{chunk.blob, chunk.job, chunk.epoch};
+    if (from != 0 && mistrusted_.contains(name)) return std::nullopt;
     const auto latest = latest_collected_.find(name.blob);
     if (latest != latest_collected_.end() && name.epoch <= latest->second) return std::nullopt;
+    if (!has_room_for(name, chunk.bytes.size())) return std::nullopt;
 
     Assembly& assembly = assemblies_[name];
-    if (assembly.total && *assembly.total != chunk.total)
-        throw FormatError("a blob that changes its length on the way");
+    if (assembly.total && *assembly.total != chunk.total) return std::nullopt;
+    if (!assembly.total) assembly.last_heard = now;
     assembly.total = chunk.total;
-    assembly.last_heard = now;
     if (chunk.offset > assembly.bytes.size()) {
         if (!assembly.asked) ask(name, assembly, now);
         return std::nullopt;
     }
     if (chunk.offset < assembly.bytes.size()) return std::nullopt;  // a second copy
     assembly.asked = false;
+    assembly.last_heard = now;  // not for copies: those must not keep a blob waiting for the rest
     assembly.bytes.insert(assembly.bytes.end(), chunk.bytes.begin(), chunk.bytes.end());
     return assembly.complete() ? std::optional(name) : std::nullopt;
 }
 
 void ChainReceiver::expect(const BlobName& name, std::uint64_t total, double now) {
     Assembly& assembly = assemblies_[name];
-    if (assembly.total && *assembly.total != total) throw FormatError("a blob that changes its length on the way");
+    if (assembly.total && *assembly.total != total) assembly = {};  // what came before the announcement is not it
     if (!assembly.total) assembly.last_heard = now;
     assembly.total = total;
+    assembly.announced = true;
+}
+
+bool ChainReceiver::mistrust(const BlobName& name, std::uint64_t total, double now) {
+    if (!mistrusted_.insert(name).second) return false;
+    latest_collected_.erase(name.blob);
+    expect(name, total, now);
+    ask(name, assemblies_[name], now);
+    return true;
 }
 
 std::optional<Bytes> ChainReceiver::collect(const BlobName& name) {

@@ -2,6 +2,7 @@
 
 #include <map>
 #include <optional>
+#include <set>
 #include <vector>
 
 #include "common/comm/channel.h"
@@ -35,11 +36,16 @@ class ChainReceiver {
     /// From now on only pieces of this job are kept; those of others, still on their way, are passed on.
     void begin_job(std::uint32_t job);
 
-    /// Takes a piece at time `now` (seconds of any clock); returns the blob's name when that completed it.
-    std::optional<BlobName> take(const Chunk& chunk, double now);
+    /// Takes a piece that peer `from` passed on, at time `now` (seconds of any clock); returns the blob's name when
+    /// that completed it. A piece that does not fit what the coordinator announced is dropped: any peer can send one.
+    std::optional<BlobName> take(const Chunk& chunk, double now, int from = 0);
 
-    /// Says that this blob is on its way, so that silence is noticed even if no piece ever comes.
+    /// The coordinator's word that this blob is on its way: silence is noticed even if no piece ever comes.
     void expect(const BlobName& name, std::uint64_t total, double now);
+
+    /// Asks the coordinator for a blob that was handed out and turned out to be wrong; from now on only the
+    /// coordinator's own pieces of it count. False if it was wrong although they all came from there.
+    bool mistrust(const BlobName& name, std::uint64_t total, double now);
 
     /// Hands out a complete blob, once, and forgets older ones of its kind; nothing if it is not complete.
     std::optional<Bytes> collect(const BlobName& name);
@@ -55,15 +61,19 @@ class ChainReceiver {
         std::optional<std::uint64_t> total;
         Bytes bytes;  ///< grows with what arrives: a length is never trusted with memory
         double last_heard = 0;
-        bool asked = false;  ///< a resend is under way
+        bool asked = false;      ///< a resend is under way
+        bool announced = false;  ///< `total` is the coordinator's word
         bool complete() const { return total && bytes.size() == *total; }
     };
+    void pass_on(const Chunk& chunk);
+    bool has_room_for(const BlobName& name, std::size_t bytes) const;
     void ask(const BlobName& name, Assembly& assembly, double now);
 
     Channel& channel_;
     std::map<BlobName, Assembly> assemblies_;
     std::uint32_t job_ = 0;
     std::map<Blob, std::uint32_t> latest_collected_;  ///< epochs; late pieces of these are passed on, not kept
+    std::set<BlobName> mistrusted_;                   ///< only the coordinator's own pieces of these count
 };
 
 }  // namespace treefarm

@@ -106,15 +106,18 @@ class MpiChannel final : public Channel {
         Bytes bytes;
         MPI_Request request = MPI_REQUEST_NULL;
         bool last = true;
+        bool cut = false;  ///< of a message that is too long: received into no room at all
     };
     struct Inbox {
         std::list<Part> parts;  ///< in the order in which they were sent; requests must not move
         Bytes assembled;
+        std::size_t coming = 0;  ///< bytes of the message whose parts are being received
+        bool too_long = false;   ///< the message that is being assembled
     };
 
     void sweep_outgoing() {
         std::erase_if(outgoing_, [&](Outgoing& out) {
-            if (!test(out.request, out.peer)) return false;
+            if (!treefarm::test(out.request, out.peer)) return false;
             pause_.reset();
             return true;
         });
@@ -128,24 +131,39 @@ class MpiChannel final : public Channel {
             if (!there) return;
             int count = 0;
             check(MPI_Get_count(&status, MPI_BYTE, &count), "MPI_Get_count", status.MPI_SOURCE);
-            Part& part = inboxes_[status.MPI_SOURCE].parts.emplace_back();
-            part.bytes.resize(static_cast<std::size_t>(count));
-            part.last = status.MPI_TAG == tag_last;
+            Inbox& inbox = inboxes_[status.MPI_SOURCE];
+            Part& part = inbox.parts.emplace_back();
+            part.last = status.MPI_TAG != tag_more;
+            inbox.coming += static_cast<std::size_t>(count);
+            part.cut = inbox.coming > kLongestMessage;
+            if (part.last) inbox.coming = 0;
+            if (!part.cut) part.bytes.resize(static_cast<std::size_t>(count));
             ++receiving_;
-            check(MPI_Irecv(part.bytes.data(), count, MPI_BYTE, status.MPI_SOURCE, status.MPI_TAG, communicator_,
-                            &part.request),
+            check(MPI_Irecv(part.bytes.data(), static_cast<int>(part.bytes.size()), MPI_BYTE, status.MPI_SOURCE,
+                            status.MPI_TAG, communicator_, &part.request),
                   "MPI_Irecv", status.MPI_SOURCE);
             pause_.reset();
         }
     }
 
+    bool test(Part& part, int peer) {
+        if (!part.cut) return treefarm::test(part.request, peer);
+        int done = 0;  // with MPI_ERR_TRUNCATE
+        (void)MPI_Test(&part.request, &done, MPI_STATUS_IGNORE);
+        return done != 0 || part.request == MPI_REQUEST_NULL;
+    }
+
     /// Parts of a peer may finish out of order; they are handed on in order.
     std::optional<Received> progress(int peer, Inbox& inbox) {
-        while (!inbox.parts.empty() && test(inbox.parts.front().request, peer)) {
+        while (!inbox.parts.empty() && test(inbox.parts.front(), peer)) {
             Part part = std::move(inbox.parts.front());
             inbox.parts.pop_front();
             --receiving_;
-            if (inbox.assembled.empty())
+            inbox.too_long |= part.cut;
+            if (inbox.too_long) {  // whoever takes it finds no message in it
+                inbox.assembled = {};
+                if (part.last) inbox.too_long = false;
+            } else if (inbox.assembled.empty())
                 inbox.assembled = std::move(part.bytes);
             else
                 inbox.assembled.insert(inbox.assembled.end(), part.bytes.begin(), part.bytes.end());
@@ -176,10 +194,11 @@ int count_workers_on_host(MPI_Comm communicator) {
     return workers;
 }
 
-/// Leaves the process unless it is told in time that all went well.
+/// Leaves the process, with a word on standard error if there is one, unless it is told in time that all went well.
 class Deadline {
   public:
-    Deadline(double seconds, int exit_code) : thread_([this, seconds, exit_code] { wait(seconds, exit_code); }) {}
+    Deadline(double seconds, int exit_code, const std::string& complaint = "")
+        : complaint_(complaint), thread_([this, seconds, exit_code] { wait(seconds, exit_code); }) {}
     ~Deadline() {
         {
             const std::scoped_lock lock(mutex_);
@@ -192,9 +211,12 @@ class Deadline {
   private:
     void wait(double seconds, int exit_code) {
         std::unique_lock lock(mutex_);
-        if (!changed_.wait_for(lock, std::chrono::duration<double>(seconds), [&] { return met_; })) _exit(exit_code);
+        if (changed_.wait_for(lock, std::chrono::duration<double>(seconds), [&] { return met_; })) return;
+        if (!complaint_.empty()) (void)!::write(STDERR_FILENO, complaint_.data(), complaint_.size());
+        _exit(exit_code);
     }
 
+    const std::string complaint_;
     std::mutex mutex_;
     std::condition_variable changed_;
     bool met_ = false;
@@ -210,7 +232,8 @@ class MpiSession::Impl {
     std::unique_ptr<MpiChannel> channel;
 };
 
-MpiSession::MpiSession() : impl_(std::make_unique<Impl>()) {
+MpiSession::MpiSession(double patience, const std::string& complaint) : impl_(std::make_unique<Impl>()) {
+    const Deadline deadline(patience, 1, complaint);
     int provided = 0;
     check(MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided), "MPI_Init_thread", -1);
     check(MPI_Comm_set_errhandler(MPI_COMM_WORLD, MPI_ERRORS_RETURN), "MPI_Comm_set_errhandler", -1);

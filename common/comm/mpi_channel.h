@@ -7,12 +7,17 @@
 
 namespace treefarm {
 
+/// Longer messages are refused, and take no memory: what a worker sends is far shorter (worker_loop.cpp).
+inline constexpr std::size_t kLongestMessage = std::size_t{1} << 30;
+
 /// The message-passing layer of this process, from MPI_Init to its end. Only point-to-point messages are used after the
-/// start, and nothing ever blocks on a peer: Open MPI does not report a dead one (docs/architecture.md, "faults").
+/// start, and nothing ever blocks on a peer: Open MPI does not report a dead one (docs/protocol.md, "on MPI").
 class MpiSession {
   public:
     /// Starts MPI for one talking thread; its errors come back as RunError with the call and the peer in the message.
-    MpiSession();
+    /// MPI waits for every process of the job here, and for ever for one that died or left: where they have not all
+    /// come after `patience` seconds, `complaint` goes to standard error and the process leaves with code 1.
+    MpiSession(double patience, const std::string& complaint);
     /// Does nothing to MPI: a process that is unwinding must not wait for its peers in MPI_Finalize.
     ~MpiSession();
     MpiSession(const MpiSession&) = delete;

@@ -342,6 +342,9 @@ std::vector<JobKey> make_job_keys() {
     add(boolean_key(
         "farm.robust", "Embree tests watertight: no ray slips through an edge that two triangles share; slower",
         [](auto& j) -> auto& { return j.farm.robust; }));
+    add(boolean_key(
+        "farm.memory_check", "refuse to begin where a host has less memory than its processes are expected to take",
+        [](auto& j) -> auto& { return j.farm.memory_check; }));
 
     add(text_key(
         "output.directory", "the run directory; empty: runs/<scene>-<time>",

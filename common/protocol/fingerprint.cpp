@@ -2,6 +2,8 @@
 
 #include <immintrin.h>
 
+#include <filesystem>
+#include <fstream>
 #include <vector>
 
 #include "common/base/bytes.h"
@@ -28,6 +30,18 @@ std::uint64_t probe_mathematics() {
     return hash_bytes(values.take());
 }
 
+/// Of this very program; 0 where the system does not show it.
+std::uint64_t hash_program() {
+    const std::filesystem::path self = "/proc/self/exe";
+    std::error_code error;
+    const std::uintmax_t size = std::filesystem::file_size(self, error);
+    if (error) return 0;
+    Bytes bytes(size);
+    std::ifstream(self, std::ios::binary)
+        .read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size));
+    return hash_bytes(bytes);
+}
+
 std::string compiled_for() {
     std::string text = "gcc-compatible " __VERSION__;
 #ifdef __AVX2__
@@ -44,15 +58,22 @@ std::string compiled_for() {
 
 }  // namespace
 
-Fingerprint own_fingerprint() {
+Fingerprint own_fingerprint(const std::string& source, const std::string& options, const std::string& embree) {
     constexpr std::uint32_t kStickyFlags = 0x3f;  // exceptions that happened to occur do not change results
-    return {kProgramVersion, compiled_for(), _mm_getcsr() & ~kStickyFlags, probe_mathematics()};
+    return {kProgramVersion,    source, options, embree, compiled_for(), hash_program(), _mm_getcsr() & ~kStickyFlags,
+            probe_mathematics()};
+}
+
+std::string Fingerprint::text() const {
+    return version + " (" + source + ")\n" + options + ", " + compiler + ", Embree " + embree + "\nprogram " +
+           hash_text(program) + ", fingerprint " + hash_text(hash());
 }
 
 std::uint64_t Fingerprint::hash() const {
     ByteWriter writer;
-    writer.put_string(version);
-    writer.put_string(compiler);
+    for (const std::string& text : {version, source, options, embree, compiler})
+        writer.put_string(text);
+    writer.put(program);
     writer.put(float_control);
     writer.put(probes);
     return hash_bytes(writer.take());

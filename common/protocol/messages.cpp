@@ -9,12 +9,12 @@ namespace treefarm {
 
 template <class Archive>
 void serialize(Archive& a, Hello& m) {
-    a(m.incarnation, m.fingerprint, m.threads, m.job, m.scene_hash, m.host, m.version);
+    a(m.incarnation, m.fingerprint, m.threads, m.job, m.scene_hash, m.memory, m.host, m.version);
 }
 
 template <class Archive>
 void serialize(Archive& a, Welcome& m) {
-    a(m.worker, m.heartbeat_seconds, m.job, m.scene_hash, m.keep_scene);
+    a(m.worker, m.heartbeat_seconds, m.job, m.scene_hash, m.scene_bytes, m.keep_scene);
 }
 
 template <class Archive>
@@ -73,17 +73,38 @@ void serialize(Archive& a, Leave& m) {
 
 namespace {
 
+void check_length(const std::string& text, std::size_t most, const char* what) {
+    if (text.size() > most) throw FormatError(std::string(what) + " of " + std::to_string(text.size()) + " bytes");
+}
+
+void check(const Hello& m) {
+    if (m.threads > kMostThreads) throw FormatError("a worker of " + std::to_string(m.threads) + " threads");
+    check_length(m.host, kMostNameBytes, "a host's name");
+    check_length(m.version, kMostNameBytes, "a version");
+}
+
 void check(const Resend& m) {
     if (m.blob > Blob::tree) throw FormatError("a blob of unknown kind");
 }
 
 void check(const Welcome& m) {
     if (!(m.heartbeat_seconds > 0 && m.heartbeat_seconds < 1e6)) throw FormatError("an absurd heartbeat");
+    check_length(m.job, kMostJobBytes, "a job");
+}
+
+void check(const Refuse& m) {
+    check_length(m.reason, kMostTextBytes, "a reason");
+}
+
+void check(const Failure& m) {
+    check_length(m.text, kMostTextBytes, "a failure");
 }
 
 void check(const PassBegin& m) {
     const PassPlan& plan = m.plan;
-    if (plan.spp == 0 || plan.chunks == 0 || !std::has_single_bit(plan.blocks_per_unit))
+    const std::uint64_t unit_spp = std::uint64_t{kBlockSamples} * plan.blocks_per_unit;
+    if (plan.spp == 0 || !std::has_single_bit(plan.blocks_per_unit) ||
+        plan.chunks != (plan.spp + unit_spp - 1) / unit_spp || !(plan.record_weight >= 0 && plan.record_weight <= 1))
         throw FormatError("an absurd pass");
 }
 

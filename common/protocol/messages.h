@@ -15,6 +15,12 @@
 
 namespace treefarm {
 
+/// Bounds of what one message may say: more is no message of ours.
+inline constexpr std::uint32_t kMostThreads = 1u << 16;  ///< of one worker
+inline constexpr std::size_t kMostNameBytes = 1024;      ///< a host's name, a version
+inline constexpr std::size_t kMostTextBytes = 64 << 10;  ///< a reason, a failure
+inline constexpr std::size_t kMostJobBytes = 16 << 20;   ///< a job as text
+
 /// The messages between coordinator and workers (docs/protocol.md is the grammar). An incarnation is a random number
 /// that a worker draws when it starts: together with its peer number it names one life of one process, so that what an
 /// earlier life still had under way is recognised and dropped.
@@ -26,6 +32,7 @@ struct Hello {
     std::uint32_t threads = 0;      ///< that trace
     std::uint32_t job = 0;          ///< which one it speaks of: that of the last rejoin, 0 before any
     std::uint64_t scene_hash = 0;   ///< of the scene it holds, from an earlier life or job; 0: none
+    std::uint64_t memory = 0;       ///< bytes that its host can still give; 0: not known
     std::string host;
     std::string version;  ///< of the program
 
@@ -38,6 +45,7 @@ struct Welcome {
     double heartbeat_seconds = 1.0;  ///< how often each side says that it lives
     std::string job;                 ///< TOML text of the resolved job
     std::uint64_t scene_hash = 0;    ///< of the encoded scene; it is sent unless the worker holds it
+    std::uint64_t scene_bytes = 0;   ///< so that a scene of which no piece ever comes is missed
     bool keep_scene = false;         ///< other jobs may follow
 
     bool operator==(const Welcome&) const = default;

@@ -1,12 +1,8 @@
 #include "coordinator/study/cell_request.h"
 
-#include <filesystem>
-#include <fstream>
-
 #include "common/base/hash.h"
 #include "common/config/check_job.h"
 #include "common/config/job_reader.h"
-#include "common/protocol/fingerprint.h"
 #include "common/scene/scene_codec.h"
 
 namespace treefarm {
@@ -22,18 +18,6 @@ Job scene_job(const Study& study, const StudyScene& scene) {
     return job;
 }
 
-/// Of this very program: another build renders anew, whatever its version.
-std::uint64_t program_hash() {
-    const std::filesystem::path self = "/proc/self/exe";
-    std::error_code error;
-    const std::uintmax_t size = std::filesystem::file_size(self, error);
-    if (error) return 0;
-    std::vector<std::uint8_t> bytes(size);
-    std::ifstream(self, std::ios::binary)
-        .read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size));
-    return hash_bytes(bytes);
-}
-
 }  // namespace
 
 LoadedScene load_study_scene(const Study& study, const StudyScene& scene) {
@@ -42,7 +26,7 @@ LoadedScene load_study_scene(const Study& study, const StudyScene& scene) {
 }
 
 RenderRequest study_request(const Study& study, const StudyScene& scene, const LoadedScene& loaded,
-                            std::span<const Setting> method, std::span<const Setting> more) {
+                            std::span<const Setting> method, std::span<const Setting> more, const Fingerprint& build) {
     RenderRequest request;
     apply_layer(request.job, scene_layer(loaded.settings, {study.job, scene.settings, method, more}));
     apply_layer(request.job, study.job);
@@ -56,7 +40,7 @@ RenderRequest study_request(const Study& study, const StudyScene& scene, const L
     for (const Warning& warning : loaded.warnings)
         request.warnings.push_back(warning.text());
     request.plan.warnings = request.warnings;
-    request.fingerprint = own_fingerprint().hash();
+    request.fingerprint = build;
     request.quiet = true;
     return request;
 }
@@ -68,11 +52,10 @@ std::vector<Setting> cell_settings(const Study& study, const StudyCell& cell) {
 }
 
 std::uint64_t request_key(const RenderRequest& request, const std::string& more) {
-    static const std::uint64_t program = program_hash();
     Job job = request.job;
     job.output = {};
     const std::string text = write_job(job) + hash_text(hash_bytes(encode_scene(request.scene))) +
-                             hash_text(request.fingerprint) + hash_text(program) + more;
+                             hash_text(request.fingerprint.hash()) + more;
     return hash_bytes({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
 }
 

@@ -53,10 +53,10 @@ struct ReadyCell {
 };
 
 ReadyCell ready_cell(const Study& study, const StudyCell& cell, const LoadedScene& loaded,
-                     const std::string& reference_key) {
+                     const std::string& reference_key, const Fingerprint& build) {
     ReadyCell ready;
     ready.request = study_request(study, study.scenes[cell.scene], loaded, study.methods[cell.method].settings,
-                                  cell_settings(study, cell));
+                                  cell_settings(study, cell), build);
     ready.folder = fs::path(study.directory) / "cells" /
                    folder_name(cell_words(study, cell), request_key(ready.request, reference_key));
     return ready;
@@ -79,7 +79,7 @@ void check_given(const RgbImage& image, const Film& film, const Location& place)
 
 /// A reference that is given, or the request that renders one.
 std::string reference_key(const Study& study, const StudyScene& scene, const LoadedScene& loaded, Reference& reference,
-                          RenderRequest& request) {
+                          RenderRequest& request, const Fingerprint& build) {
     if (!scene.reference.empty()) {
         const ExrRgb given = read_exr_rgb(scene.reference);
         check_given(given.image, loaded.scene.film, scene.reference_place);
@@ -88,7 +88,7 @@ std::string reference_key(const Study& study, const StudyScene& scene, const Loa
         const auto* bytes = reinterpret_cast<const std::uint8_t*>(given.image.pixels.data());
         return hash_text(hash_bytes({bytes, given.image.pixels.size() * sizeof(Rgb)}));
     }
-    request = study_request(study, scene, loaded, study.reference.settings, {});
+    request = study_request(study, scene, loaded, study.reference.settings, {}, build);
     const std::uint64_t key = request_key(request, "reference");
     reference.file = (fs::path(study.directory) / "references" / folder_name(scene.name, key) / "image.exr").string();
     return hash_text(key);
@@ -96,11 +96,12 @@ std::string reference_key(const Study& study, const StudyScene& scene, const Loa
 
 class StudyRun {
   public:
-    StudyRun(Channel& channel, const Study& study, const std::string& command, const Log& log,
+    StudyRun(Channel& channel, const Study& study, const std::string& command, const Fingerprint& build, const Log& log,
              const std::function<bool()>& interrupted)
         : channel_(channel),
           study_(study),
           command_(command),
+          build_(build),
           log_(log),
           interrupted_(interrupted),
           directory_(study.directory),
@@ -151,11 +152,11 @@ class StudyRun {
         const LoadedScene loaded = load_study_scene(study_, study_.scenes[scene]);
         Reference reference;
         RenderRequest reference_request;
-        reference.key = reference_key(study_, study_.scenes[scene], loaded, reference, reference_request);
+        reference.key = reference_key(study_, study_.scenes[scene], loaded, reference, reference_request, build_);
         std::vector<ReadyCell> ready;
         for (const StudyCell& cell : cells_)
             if (cell.scene == scene) {
-                ready.push_back(ready_cell(study_, cell, loaded, reference.key));
+                ready.push_back(ready_cell(study_, cell, loaded, reference.key, build_));
                 describe(cell, ready.back());
             }
         prepare_reference(scene, reference, reference_request);
@@ -246,6 +247,7 @@ class StudyRun {
     Channel& channel_;
     const Study& study_;
     const std::string command_;
+    const Fingerprint& build_;
     const Log log_;
     const std::function<bool()>& interrupted_;
     const fs::path directory_;
@@ -258,25 +260,25 @@ class StudyRun {
 
 }  // namespace
 
-StudyOutcome run_study(Channel& channel, const Study& study, const std::string& command, const Log& log,
-                       const std::function<bool()>& interrupted) {
-    return StudyRun(channel, study, command, log, interrupted).run();
+StudyOutcome run_study(Channel& channel, const Study& study, const std::string& command, const Fingerprint& build,
+                       const Log& log, const std::function<bool()>& interrupted) {
+    return StudyRun(channel, study, command, build, log, interrupted).run();
 }
 
-void list_cells(const Study& study, std::ostream& out) {
+void list_cells(const Study& study, const Fingerprint& build, std::ostream& out) {
     std::size_t done = 0, number = 0;
     const std::vector<StudyCell> cells = study_cells(study);
     for (std::size_t scene = 0; scene < study.scenes.size(); ++scene) {
         const LoadedScene loaded = load_study_scene(study, study.scenes[scene]);
         Reference reference;
         RenderRequest request;
-        const std::string key = reference_key(study, study.scenes[scene], loaded, reference, request);
+        const std::string key = reference_key(study, study.scenes[scene], loaded, reference, request, build);
         out << "reference of " << study.scenes[scene].name << ": " << reference.file
             << (!study.scenes[scene].reference.empty() || fs::exists(reference.mark()) ? " (there)\n"
                                                                                        : " (to be rendered)\n");
         for (const StudyCell& cell : cells) {
             if (cell.scene != scene) continue;
-            const ReadyCell ready = ready_cell(study, cell, loaded, key);
+            const ReadyCell ready = ready_cell(study, cell, loaded, key, build);
             done += ready.done();
             out << "cell " << ++number << " of " << cells.size() << ": " << cell_words(study, cell)
                 << (ready.done() ? " (done)\n" : "\n");

@@ -11,10 +11,10 @@
 #include <utility>
 
 #include "common/base/hash.h"
-#include "common/base/random.h"
 #include "common/comm/in_process_channel.h"
 #include "coordinator/farm.h"
 #include "coordinator/pass_loop.h"
+#include "tests/support/fake_work.h"
 #include "worker/worker_loop.h"
 
 namespace treefarm::test {
@@ -38,32 +38,8 @@ inline Log quiet_log() {
     return std::make_shared<spdlog::logger>("test");
 }
 
-/// A renderer without a scene: radiance and records come straight from the keyed generator.
 inline RenderUnit fake_renderer(const Job& job) {
-    return [job](const PassPlan& pass, const Guide& guide, const WorkUnit& unit, std::vector<PixelEstimate>& pixels,
-                 RecordLog& log, TraceStats& stats) {
-        const std::uint32_t run = kBlockSamples * pass.blocks_per_unit;
-        const std::uint32_t first = run * unit.chunk, last = std::min(first + run, pass.spp);
-        for (std::uint32_t y = unit.y0; y < unit.y1; ++y)
-            for (std::uint32_t x = unit.x0; x < unit.x1; ++x) {
-                std::vector<PixelEstimate> blocks;
-                for (std::uint32_t sample = first; sample < last; ++sample) {
-                    if (sample % kBlockSamples == 0) blocks.emplace_back();
-                    const PathKey key{job.sampler.seed, y * kWidth + x, pass.first_sample + sample};
-                    const Draw d = draw(key, 0, Stream::scatter);
-                    const float value = to_unit(d[0]);
-                    blocks.back().add(sample, Rgb(value, value * value, 1.0f));
-                    ++stats.paths;
-                    stats.rays += 2;
-                    if (!pass.record) continue;
-                    const std::uint32_t region = guide.region({to_unit(d[1]), to_unit(d[2]), 0.5f});
-                    ++log.counts[region];
-                    ++stats.records;
-                    if (value > 0.5f) log.records.push_back({region, d[3] & d[1], d[2], value});
-                }
-                pixels.push_back(reduce_blocks(blocks));
-            }
-    };
+    return fake_renderer(job.sampler.seed, kWidth);
 }
 
 inline MakeRenderer make_fake() {
@@ -163,6 +139,7 @@ class FarmTest : public ::testing::Test {
         }
         reissued_ = farm.reissued_units();
         dropped_ = farm.dropped_results();
+        bad_messages_ = farm.bad_messages();
         lost_ = farm.lost_peers();
         if (!stay_) leave(lost_, limits);
         return result;
@@ -212,7 +189,7 @@ class FarmTest : public ::testing::Test {
     std::vector<MakeRenderer> renderers_;
     std::vector<WorkerEnd> ends_;
     std::vector<std::thread> threads_;
-    std::uint64_t reissued_ = 0, dropped_ = 0;
+    std::uint64_t reissued_ = 0, dropped_ = 0, bad_messages_ = 0;
     std::set<int> lost_;
     bool orderly_ = false;
 };

@@ -42,6 +42,63 @@ TEST_F(FarmTest, AWorkerThatDiesIsReplaced) {
     EXPECT_EQ(ends_[0], WorkerEnd::disorderly);
 }
 
+/// Whoever stands first in the chain passes the scene on: dead or stopped before it has, it must starve nobody. That it
+/// is gone is not even noticed here.
+TEST_F(FarmTest, ADeadHeadOfTheChainStarvesNobody) {
+    const std::function<bool(const Bytes&)> moments[] = {
+        [](const Bytes& b) { return is<Welcome>(b); },
+        [](const Bytes& b) { return is<Chunk>(b); },
+        [pieces = 0](const Bytes& b) mutable { return is<Chunk>(b) && ++pieces == 2; },
+        [](const Bytes& b) { return is<PassBegin>(b); },
+    };
+    for (const auto& moment : moments) {
+        channels_.clear();
+        faulty_.clear();
+        make_workers(3);
+        settings_[0].silence_seconds = 1.0;
+        faulty_[0]->incoming = [&, dies = moment](Bytes& bytes) mutable {
+            if (dies(bytes)) faulty_[0]->cut = true;
+            return !faulty_[0]->cut;
+        };
+        expect_truth(render({.gather = 20, .lost = 20, .dismiss = 0.5}));
+    }
+}
+
+TEST_F(FarmTest, WhenAllAreSilentForAWhileTheFarmWaitsForThem) {
+    make_workers(2);
+    std::atomic<bool> dark = false;
+    std::thread mend;
+    int results = 0;
+    const auto darken = [&](Bytes& bytes) {
+        if (is<Result>(bytes) && ++results == 2) {
+            dark = faulty_[0]->cut = faulty_[1]->cut = true;
+            mend = std::thread([&] {
+                std::this_thread::sleep_for(std::chrono::milliseconds(1200));  // four times the limit
+                faulty_[0]->cut = faulty_[1]->cut = false;
+            });
+        }
+        return true;
+    };
+    faulty_[0]->outgoing = darken;
+    expect_truth(render(kShort));
+    mend.join();
+    EXPECT_TRUE(lost_.empty()) << "they are back";
+}
+
+TEST_F(FarmTest, WhenNobodyComesBackTheRunEnds) {
+    make_workers(2);
+    for (WorkerSettings& settings : settings_)
+        settings.silence_seconds = 1.0;
+    int results = 0;
+    faulty_[0]->outgoing = [&](Bytes& bytes) {
+        if (is<Result>(bytes) && ++results == 2) faulty_[0]->cut = faulty_[1]->cut = true;
+        return true;
+    };
+    FarmLimits limits = kShort;
+    limits.grace = 0.5;
+    EXPECT_THROW(render(limits), RunError);
+}
+
 TEST_F(FarmTest, AWorkerThatWasThoughtLostJoinsAgain) {
     make_workers(2);
     int results = 0;
@@ -124,6 +181,23 @@ TEST_F(FarmTest, ACoordinatorThatWasBusyGivesNobodyUp) {
     EXPECT_TRUE(farm.lost_peers().empty());
     EXPECT_EQ(farm.reissued_units(), 0u);
     EXPECT_TRUE(orderly_);
+}
+
+/// Combining, refining and writing a large image may take longer than workers wait for a sign.
+TEST_F(FarmTest, WorkersHearFromACoordinatorThatComputes) {
+    make_workers(2);
+    for (WorkerSettings& settings : settings_)
+        settings.silence_seconds = 0.3;
+    for (std::size_t w = 0; w < 2; ++w)
+        start_worker(w);
+    Farm farm(*channels_[0], job_, kScene, kFingerprint, quiet_log());
+    farm.gather([] { return false; });
+    farm.beat_during([] { std::this_thread::sleep_for(std::chrono::milliseconds(1000)); });
+    EXPECT_THROW(farm.beat_during([] { throw RunError("what it computes may fail"); }), RunError);
+    leave({}, {.dismiss = 20});
+    EXPECT_TRUE(orderly_);
+    for (const WorkerEnd end : ends_)
+        EXPECT_EQ(end, WorkerEnd::orderly);
 }
 
 TEST_F(FarmTest, ACorruptResultCostsTheWorkerItsPlace) {

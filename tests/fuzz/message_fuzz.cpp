@@ -49,8 +49,8 @@ std::vector<std::string> fuzz::seeds() {
     PassBegin begin;
     begin.plan.spp = 4;
     begin.plan.chunks = begin.plan.blocks_per_unit = 1;
-    const std::vector<Message> messages = {Hello{1, 2, 3, 4, 5, "host", "0.1"},
-                                           Welcome{4, 0.5, "[budget]\nspp = 4\n", 5, true},
+    const std::vector<Message> messages = {Hello{1, 2, 3, 4, 5, 6, "host", "0.1"},
+                                           Welcome{4, 0.5, "[budget]\nspp = 4\n", 5, 77, true},
                                            Refuse{"fingerprints differ"},
                                            Chunk{Blob::tree, 1, 5, 100, 10, {2, 3}, {9, 8, 7}},
                                            Resend{Blob::scene, 1, 0, 42},

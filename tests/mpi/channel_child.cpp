@@ -52,7 +52,7 @@ int send_and_compare(Channel& channel) {
 
 int main() {
     using namespace treefarm;
-    MpiSession session;
+    MpiSession session(60, "the processes did not come together\n");
     Channel& channel = session.channel();
     if (session.rank() == 0) {
         echo(channel, std::size(kSizes) * static_cast<std::size_t>(session.size() - 1));

@@ -34,7 +34,7 @@ Result sample_result() {
 PassBegin sample_pass() {
     PassBegin begin;
     begin.plan = {.index = 2,
-                  .spp = 68,
+                  .spp = 500,
                   .first_sample = 60,
                   .next_event = true,
                   .record = false,
@@ -48,8 +48,8 @@ PassBegin sample_pass() {
 }
 
 std::vector<Message> samples() {
-    return {Hello{1, 2, 3, 4, 5, "host", "0.1"},
-            Welcome{4, 0.5, "scene.file = 'x'", 5, true},
+    return {Hello{1, 2, 3, 4, 5, 6, "host", "0.1"},
+            Welcome{4, 0.5, "scene.file = 'x'", 5, 77, true},
             Refuse{"fingerprints differ"},
             Chunk{Blob::tree, 1, 5, 100, 10, {2, 3}, {9, 8, 7}},
             Resend{Blob::scene, 1, 0, 42},
@@ -84,12 +84,12 @@ TEST(Protocol, EveryMessageRoundTrips) {
 }
 
 TEST(Protocol, FieldsArriveAsTheyWereSent) {
-    EXPECT_EQ(std::get<Hello>(decode(encode(Hello{1, 2, 3, 4, 5, "host", "0.1"}))),
-              (Hello{1, 2, 3, 4, 5, "host", "0.1"}));
+    EXPECT_EQ(std::get<Hello>(decode(encode(Hello{1, 2, 3, 4, 5, 6, "host", "0.1"}))),
+              (Hello{1, 2, 3, 4, 5, 6, "host", "0.1"}));
     const auto chunk = std::get<Chunk>(samples()[3]);
     EXPECT_EQ(std::get<Chunk>(decode(encode(chunk))), chunk);
     const auto begin = std::get<PassBegin>(decode(encode(sample_pass())));
-    EXPECT_EQ(begin.plan.spp, 68u);
+    EXPECT_EQ(begin.plan.spp, 500u);
     EXPECT_EQ(begin.plan.chunks, 4u);
     EXPECT_TRUE(begin.plan.next_event);
     EXPECT_FALSE(begin.plan.record);
@@ -224,6 +224,18 @@ TEST(Fingerprint, IsStableAndSensitive) {
     other = own;
     other.probes ^= 1;
     EXPECT_NE(other.hash(), own.hash());
+    // Two builds of one version.
+    EXPECT_NE(own.program, 0u);
+    other = own;
+    other.program ^= 1;
+    EXPECT_NE(other.hash(), own.hash());
+    for (const auto part :
+         {&Fingerprint::source, &Fingerprint::options, &Fingerprint::embree, &Fingerprint::compiler}) {
+        other = own;
+        other.*part += "x";
+        EXPECT_NE(other.hash(), own.hash());
+        EXPECT_NE(other.text(), own.text());
+    }
 }
 
 }  // namespace

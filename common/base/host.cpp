@@ -1,0 +1,97 @@
+#include "common/base/host.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <optional>
+#include <sstream>
+
+namespace treefarm {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::uint64_t kUnlimited = std::numeric_limits<std::uint64_t>::max();
+
+std::optional<std::uint64_t> read_number(const fs::path& path) {
+    std::string word;
+    std::uint64_t value = 0;
+    if (!(std::ifstream(path) >> word)) return std::nullopt;
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+    if (error != std::errc() || end != word.data() + word.size()) return std::nullopt;  // "max"
+    return value;
+}
+
+/// The number behind `key` in a file of lines "key[:] number ...".
+std::optional<std::uint64_t> find_number(const fs::path& path, const std::string& key) {
+    std::ifstream file(path);
+    for (std::string line; std::getline(file, line);) {
+        std::istringstream words(line);
+        std::string name;
+        std::uint64_t value = 0;
+        if (words >> name >> value && name == key) return value;
+    }
+    return std::nullopt;
+}
+
+/// What a group may still take; files that it only caches can be dropped.
+std::uint64_t left_of_group(const fs::path& folder, const char* limit_file, const char* usage_file,
+                            const char* cached) {
+    const auto limit = read_number(folder / limit_file);
+    if (!limit) return kUnlimited;
+    const std::uint64_t usage = read_number(folder / usage_file).value_or(0);
+    const std::uint64_t cache = std::min(usage, find_number(folder / "memory.stat", cached).value_or(0));
+    return *limit - std::min(*limit, usage - cache);
+}
+
+/// The least that is left of the group `path` and those above it, below `root`.
+std::uint64_t left_of_groups(const fs::path& root, const fs::path& path, const char* limit_file, const char* usage_file,
+                             const char* cached) {
+    std::uint64_t least = left_of_group(root, limit_file, usage_file, cached);  // a container sees its own as the root
+    fs::path folder = root;
+    for (const fs::path& part : path.relative_path()) {
+        folder /= part;
+        least = std::min(least, left_of_group(folder, limit_file, usage_file, cached));
+    }
+    return least;
+}
+
+/// Of the control groups of this process, version 2 and 1 (/proc/self/cgroup has lines number:controllers:path).
+std::uint64_t left_of_control_groups() {
+    const fs::path root = "/sys/fs/cgroup";
+    std::uint64_t least = kUnlimited;
+    std::ifstream groups("/proc/self/cgroup");
+    for (std::string line; std::getline(groups, line);) {
+        const std::size_t first = line.find(':'), second = line.find(':', first + 1);
+        if (first == std::string::npos || second == std::string::npos) continue;
+        const std::string controllers = line.substr(first + 1, second - first - 1);
+        const fs::path path = line.substr(second + 1);
+        if (controllers.empty())
+            least = std::min(least, left_of_groups(root, path, "memory.max", "memory.current", "inactive_file"));
+        else if (("," + controllers + ",").find(",memory,") != std::string::npos)
+            least = std::min(least, left_of_groups(root / "memory", path, "memory.limit_in_bytes",
+                                                   "memory.usage_in_bytes", "total_inactive_file"));
+    }
+    return least;
+}
+
+}  // namespace
+
+Host this_host() {
+    Host host;
+    char name[256] = "";
+    gethostname(name, sizeof name - 1);
+    host.name = name;
+    const auto kilobytes = find_number("/proc/meminfo", "MemAvailable:");
+    const std::uint64_t available = kilobytes ? *kilobytes * 1024 : kUnlimited;
+    const std::uint64_t least = std::min(available, left_of_control_groups());
+    host.available_bytes = least == kUnlimited ? 0 : std::max<std::uint64_t>(1, least);
+    return host;
+}
+
+}  // namespace treefarm

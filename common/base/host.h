@@ -1,0 +1,18 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace treefarm {
+
+/// The machine that a process runs on.
+struct Host {
+    std::string name;
+    std::uint64_t available_bytes = 0;  ///< memory that can still be had here; 0: not known
+};
+
+/// This one, now. Memory is what the kernel says is available, or what is left of a control group's limit if that is
+/// less: in a container or a Slurm job the group is what ends a process.
+Host this_host();
+
+}  // namespace treefarm

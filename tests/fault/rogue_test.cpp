@@ -1,0 +1,217 @@
+#include <limits>
+
+#include "tests/fault/farm_fixture.h"
+
+// A peer that says what it must not: it loses its place, and nothing else is different.
+
+namespace treefarm::test {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+struct Lie {
+    const char* name;
+    std::function<void(Result&)> tell;
+};
+
+std::ostream& operator<<(std::ostream& out, const Lie& lie) {
+    return out << lie.name;
+}
+
+Moments& moments(Result& r) {
+    return r.units.back().pixels.back().half[0];
+}
+
+class ResultThatCannotBe : public FarmTest, public ::testing::WithParamInterface<Lie> {};
+
+TEST_P(ResultThatCannotBe, CostsTheWorkerItsPlaceAndIsCounted) {
+    make_workers(2);
+    std::atomic<bool> sent = false;
+    renderers_[1] = make_patient(sent);
+    faulty_[0]->outgoing = [&](Bytes& bytes) {
+        if (!is<Result>(bytes) || sent.exchange(true)) return true;
+        auto result = std::get<Result>(decode(bytes));
+        GetParam().tell(result);
+        bytes = encode(result);
+        return true;
+    };
+    expect_truth(render());
+    EXPECT_EQ(lost_, std::set<int>{1});
+    EXPECT_EQ(bad_messages_, 1u);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Lies, ResultThatCannotBe,
+    ::testing::Values(Lie{"a mean that is no number", [](Result& r) { moments(r).mean.x = kNan; }},
+                      Lie{"an infinite mean", [](Result& r) { moments(r).mean.y = kInfinity; }},
+                      Lie{"a negative mean", [](Result& r) { moments(r).mean.z = -1e-6; }},
+                      Lie{"deviations that are no number", [](Result& r) { moments(r).m2.y = kNan; }},
+                      Lie{"negative deviations", [](Result& r) { moments(r).m2.x = -1; }},
+                      Lie{"samples in the wrong half",
+                          [](Result& r) {
+                              for (PixelEstimate& pixel : r.units[0].pixels) {
+                                  pixel.half[0].n += pixel.half[1].n;
+                                  pixel.half[1].n = 0;
+                              }
+                          }},
+                      Lie{"seconds that are no number", [](Result& r) { r.stats.trace_seconds = kNan; }},
+                      Lie{"negative seconds", [](Result& r) { r.stats.splat_seconds = -1; }},
+                      Lie{"endless seconds", [](Result& r) { r.stats.phase_seconds[2] = kInfinity; }},
+                      Lie{"more paths than were asked for", [](Result& r) { ++r.stats.paths; }},
+                      Lie{"more paths with light than paths",
+                          [](Result& r) { r.stats.nonzero_paths = r.stats.paths + 1; }},
+                      Lie{"probes in a pass without", [](Result& r) { r.stats.probe_paths = r.stats.paths + 1; }},
+                      Lie{"an invalid sample outside the film",
+                          [](Result& r) {
+                              r.stats.first_invalid.push_back({r.pass, 60000, 0, 0, {0, 0, 0}});
+                          }},
+                      Lie{"thousands of invalid samples",
+                          [](Result& r) {
+                              r.stats.first_invalid.resize(5000, {r.pass, 0, 0, 0, {0, 0, 0}});
+                          }},
+                      Lie{"work of another pass", [](Result& r) { r.pass += 1; }}),
+    [](const auto& info) { return "Lie" + std::to_string(info.index); });
+
+/// What a rogue may send to anybody at any time: well-formed, and none of its business.
+std::vector<Bytes> orders() {
+    PassBegin pass;
+    pass.plan = {.index = 99, .spp = 4, .record = true};
+    pass.tree_bytes = 5;
+    return {encode(Leave{false}),
+            encode(Quit{}),
+            encode(Rejoin{0}),
+            encode(Rejoin{7}),
+            encode(Work{0, {{0, 60000, 60000, 60001, 60001, 9}}}),
+            encode(pass),
+            encode(Refuse{"go away"}),
+            encode(Welcome{1, 1e5, "farm.heartbeat_seconds = 3000\n", 9, 9, false}),
+            Bytes{1, 2, 3}};
+}
+
+TEST_F(FarmTest, WorkersTakeOrdersFromTheCoordinatorAlone) {
+    make_workers(3);
+    std::atomic<int> times = 0;
+    faulty_[2]->outgoing = [&](Bytes& bytes) {
+        if ((is<Want>(bytes) || is<Result>(bytes)) && times++ < 20)
+            for (const Bytes& order : orders())
+                for (const int peer : {1, 2})
+                    channels_[3]->send(peer, std::make_shared<const Bytes>(order));
+        return true;
+    };
+    expect_truth(render());
+    EXPECT_GT(times, 2);
+    EXPECT_TRUE(lost_.empty());
+    EXPECT_TRUE(orderly_);
+    for (const WorkerEnd end : ends_)
+        EXPECT_EQ(end, WorkerEnd::orderly);
+}
+
+TEST_F(FarmTest, OrdersToTheCoordinatorCostTheirSenderItsPlace) {
+    for (const Bytes& order : orders()) {
+        channels_.clear();
+        faulty_.clear();
+        make_workers(2);
+        std::atomic<bool> sent = false;
+        renderers_[1] = make_patient(sent);
+        faulty_[0]->outgoing = [&](Bytes& bytes) {
+            if (is<Want>(bytes) && !sent.exchange(true)) channels_[1]->send(0, std::make_shared<const Bytes>(order));
+            return true;
+        };
+        expect_truth(render());
+        EXPECT_EQ(lost_, std::set<int>{1});
+        EXPECT_EQ(bad_messages_, 1u);
+    }
+}
+
+/// Threads are summed over workers.
+TEST_F(FarmTest, HellosThatOverflowASumAreHarmless) {
+    for (const std::uint32_t threads : {0xffffffffu, 0x80000000u, kMostThreads}) {
+        channels_.clear();
+        faulty_.clear();
+        make_workers(3);
+        int hellos = 0;
+        faulty_[0]->outgoing = faulty_[1]->outgoing = [&](Bytes& bytes) {
+            if (!is<Hello>(bytes)) return true;
+            auto hello = std::get<Hello>(decode(bytes));
+            hello.threads = threads;
+            bytes = encode(hello);
+            ++hellos;
+            return true;
+        };
+        expect_truth(render({.gather = 0.5, .lost = 20, .dismiss = 20}));
+        EXPECT_GE(hellos, 2);
+    }
+}
+
+TEST_F(FarmTest, AWorkerWithEndlessWishesGetsItsShare) {
+    make_workers(2);
+    faulty_[0]->outgoing = [&](Bytes& bytes) {
+        if (!is<Want>(bytes)) return true;
+        auto want = std::get<Want>(decode(bytes));
+        want.units = 0xffffffff;
+        bytes = encode(want);
+        channels_[1]->send(0, std::make_shared<const Bytes>(bytes));
+        return true;
+    };
+    expect_truth(render());
+    EXPECT_TRUE(lost_.empty());
+}
+
+TEST_F(FarmTest, ATreeThatIsChangedOnItsWayIsAskedForAgain) {
+    make_workers(3);
+    std::atomic<int> changed = 0;
+    faulty_[0]->outgoing = [&](Bytes& bytes) {  // the head of the chain, to the one behind it
+        if (!is<Chunk>(bytes)) return true;
+        auto chunk = std::get<Chunk>(decode(bytes));
+        chunk.bytes[chunk.bytes.size() / 2] ^= 1;
+        bytes = encode(chunk);
+        ++changed;
+        return true;
+    };
+    expect_truth(render());
+    EXPECT_GT(changed, 3);
+    EXPECT_TRUE(lost_.empty());
+    EXPECT_TRUE(orderly_);
+}
+
+TEST_F(FarmTest, AskingForTheSceneForEverTakesNoMemory) {
+    make_workers(2);
+    job_.farm.heartbeat_seconds = 0.2;
+    std::atomic<int> asked = 0;
+    std::atomic<std::size_t> received = 0;
+    faulty_[0]->outgoing = [&](Bytes& bytes) {
+        if (is<Want>(bytes) && asked == 0)
+            for (; asked < 5000; ++asked)
+                channels_[1]->send(0, std::make_shared<const Bytes>(encode(Resend{Blob::scene, 0, 0, 0})));
+        return true;
+    };
+    faulty_[0]->incoming = [&](Bytes& bytes) {
+        received += bytes.size();
+        return true;
+    };
+    expect_truth(render());
+    EXPECT_EQ(asked, 5000);
+    EXPECT_LT(received, 20 * kScene.size());
+}
+
+TEST_F(FarmTest, AFloodOfMessagesDoesNotStopTheRender) {
+    make_workers(2);
+    std::atomic<bool> over = false;
+    std::thread flood;
+    faulty_[0]->outgoing = [&](Bytes& bytes) {
+        if (is<Want>(bytes) && !flood.joinable())
+            flood = std::thread([&, bytes] {
+                const auto beat = std::make_shared<const Bytes>(encode(Heartbeat{1, 2, 3}));
+                for (int k = 0; k < 2'000'000 && !over; ++k)
+                    channels_[1]->send(0, beat);
+            });
+        return true;
+    };
+    expect_truth(render());
+    over = true;
+    flood.join();
+}
+
+}  // namespace
+}  // namespace treefarm::test

@@ -1,0 +1,164 @@
+#!/usr/bin/env python3
+"""Kills processes of a small farm at random moments of start-up, passes and end, over shared memory and TCP.
+
+usage: random_kills.py TREEFARM SCENE [--count N] [--seed S] [--only N]
+
+Passes if no render hangs: one whose process died inside MPI_Init ends with the message that says so, any other gives the
+bits of the undisturbed render. Prints a line per kill that went otherwise, and a table. One after the other: a kill is
+only at a moment of the render if that render has the machine.
+"""
+import argparse
+import collections
+import glob
+import json
+import os
+import random
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+
+START_SECONDS = 8  # all processes together, here
+HANG_SECONDS = 30  # after the kill, beyond what an undisturbed render takes
+WORKERS = {"a worker": [2], "two workers": [1, 3], "the head of the chain": [1]}
+TRANSPORTS = {"vader": [], "tcp": ["--mca", "btl", "tcp,self"]}
+
+
+def environment():
+    return {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
+            "OMPI_MCA_oob_tcp_if_include": "lo", "OMPI_MCA_btl_tcp_if_include": "lo"}
+
+
+def command(arguments, folder, transport):
+    return ["mpirun", "--oversubscribe", "--bind-to", "none", "--enable-recovery", "--mca", "mpi_yield_when_idle", "1",
+            "-n", "4", *TRANSPORTS[transport], arguments.treefarm, "render", arguments.scene, "-D", "size=64",
+            "--spp", "508", "--threads", "1", "--run-dir", folder, "--start-seconds", str(START_SECONDS)] + [
+            word for key in ("heartbeat_seconds=0.2", "update_seconds=0.05", "tile_size=16")
+            for word in ("--set", "farm." + key)]
+
+
+def ranks_of(mpirun):
+    """Processes by rank, as soon as they run this program."""
+    found = {}
+    try:
+        children = open(f"/proc/{mpirun}/task/{mpirun}/children").read().split()
+    except OSError:
+        return found
+    for child in children:
+        try:
+            variables = open(f"/proc/{child}/environ", "rb").read().split(b"\0")
+        except OSError:
+            continue
+        for variable in variables:
+            if variable.startswith(b"OMPI_COMM_WORLD_RANK="):
+                found[int(variable.split(b"=")[1])] = int(child)
+    return found
+
+
+def summary_of(folder):
+    try:
+        return json.load(open(os.path.join(folder, "summary.json")))
+    except (OSError, ValueError):
+        return {}
+
+
+def sweep():
+    """What killed processes of Open MPI leave behind, of those that are gone."""
+    for path in glob.glob("/dev/shm/vader_segment.*"):
+        name = os.path.basename(path).split(".")
+        if not any(part.isdigit() and os.path.exists(f"/proc/{part}") for part in name):
+            os.remove(path)
+
+
+def run(arguments, folder, transport, victims, delay):
+    """Outcome of one render, and what it printed."""
+    log = open(os.path.join(folder + ".txt"), "w+")
+    process = subprocess.Popen(command(arguments, folder, transport), stdout=log, stderr=log, stdin=subprocess.DEVNULL,
+                               env=environment(), start_new_session=True)
+    began = time.monotonic()
+    killed = []
+    if victims:
+        while process.poll() is None and len(ranks_of(process.pid)) < 4 and time.monotonic() - began < 20:
+            time.sleep(0.002)
+        time.sleep(delay)
+        ranks = ranks_of(process.pid)
+        for victim in victims:
+            try:
+                os.kill(ranks[victim], signal.SIGKILL)
+                killed.append(victim)
+            except (KeyError, ProcessLookupError):
+                pass  # it had already left
+    hung = False
+    try:
+        process.wait(arguments.calm + HANG_SECONDS)
+    except subprocess.TimeoutExpired:
+        hung = True
+        os.killpg(process.pid, signal.SIGKILL)
+        process.wait()
+    log.seek(0)
+    return hung, killed, log.read()
+
+
+def judge(folder, truth, hung, killed, text):
+    if hung:
+        return "HANGS"
+    summary = summary_of(folder)
+    if summary.get("state") == "done":
+        same = (summary["image_hash"], summary["tree_hash"]) == truth
+        return ("same bits" if killed else "same bits, nobody killed") if same else "OTHER BITS"
+    if "did not come together" in text:
+        return "told of a death in MPI_Init"
+    return "ENDS WITHOUT AN IMAGE: " + summary.get("error", "no summary")
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("treefarm")
+    parser.add_argument("scene")
+    parser.add_argument("--count", type=int, default=40)
+    parser.add_argument("--seed", type=int, default=1)
+    arguments = parser.parse_args()
+    if not shutil.which("mpirun"):
+        print("skipped: no mpirun")
+        return 77
+    home = tempfile.mkdtemp(prefix="treefarm-kills-")
+    arguments.calm = 60
+    began = time.monotonic()
+    folder = os.path.join(home, "calm")
+    hung, _, text = run(arguments, folder, "vader", [], 0)
+    arguments.calm = time.monotonic() - began
+    summary = summary_of(folder)
+    if hung or summary.get("state") != "done":
+        print(f"the undisturbed render failed:\n{text}")
+        return 1
+    truth = (summary["image_hash"], summary["tree_hash"])
+    print(f"undisturbed: {arguments.calm:.1f} s, image {truth[0]}, tree {truth[1]}", flush=True)
+
+    draw = random.Random(arguments.seed)
+    table = collections.Counter()
+    bad = 0
+    for number in range(arguments.count):
+        who, transport = draw.choice(list(WORKERS)), draw.choice(list(TRANSPORTS))
+        start_up = draw.random() < 0.4  # half a second holds MPI_Init, hellos, scene and first tree
+        delay = draw.uniform(0, 0.5) if start_up else draw.uniform(0.5, arguments.calm)
+        folder = os.path.join(home, str(number))
+        outcome = judge(folder, truth, *run(arguments, folder, transport, WORKERS[who], delay))
+        table[(who, transport, "start-up" if start_up else "later", outcome)] += 1
+        if outcome.isupper() or outcome.split(":")[0].isupper():
+            bad += 1
+            print(f"{number}: {who}, {transport}, after {delay:.3f} s: {outcome}; see {folder}.txt", flush=True)
+        else:
+            shutil.rmtree(folder, ignore_errors=True)
+        sweep()
+    for (who, transport, moment, outcome), count in sorted(table.items()):
+        print(f"{count:4}  {who:22}  {transport:5}  {moment:8}  {outcome}")
+    print(f"{arguments.count - bad} passed, {bad} failed")
+    if bad == 0:
+        shutil.rmtree(home, ignore_errors=True)
+    return 1 if bad else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
