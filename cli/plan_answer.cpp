@@ -100,9 +100,11 @@ std::string answer_text(const Job& job, const PlanAnswer& answer) {
         if (expected.reached)
             text += probe.state.error.rmse > 0 ? "the probe has come so far already\n" : "no noise was seen\n";
     }
-    return text + fmt::format("by a probe of {} spp in {} passes{}; the intervals are where most renders end up\n\n",
-                              probe.state.spp(), probe.state.passes.size(),
-                              answer.pixel_ratio > 1 ? " on a smaller film" : "");
+    return text +
+           fmt::format(
+               "by a probe of {} spp in {} passes{}; the intervals are where most renders end up, and narrower after a "
+               "longer one (--probe 30)\n\n",
+               probe.state.spp(), probe.state.passes.size(), answer.pixel_ratio > 1 ? " on a smaller film" : "");
 }
 
 nlohmann::ordered_json answer_json(const PlanAnswer& answer) {

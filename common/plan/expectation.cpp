@@ -18,6 +18,8 @@ constexpr double kSpeedSpread = 0.15;
 constexpr double kSpeedSpreadPerDoubling = 0.02;
 /// Of an error that has no interval of its own.
 constexpr double kUnknownSpread = 2.0;
+/// An error whose interval ends so far above it, relative, has rare samples.
+constexpr double kWide = 0.1;
 /// So many more trees have learned what there is to learn.
 constexpr int kManyTrees = 10;
 
@@ -35,9 +37,12 @@ Doubt doubt_of(const RenderState& state, double spp) {
     const double doublings = std::max(0.0, std::log2(spp / std::max(1u, state.spp())));
     const double spread = (1 + kSpread) * (1 + kSpreadPerDoubling * doublings);
     Doubt doubt;
-    const auto squared = [&](double bound) { return bound * bound / error.mse(); };
-    doubt.low = (error.has_interval ? squared(error.low) : 1 / kUnknownSpread) / spread;
-    doubt.high = (error.has_interval ? squared(error.high) : kUnknownSpread) * spread;
+    // The error's interval is of this very image; the variance of a sample, which decides, is known better. But where
+    // it is wide, rare samples are, which a probe has hardly seen: they only make a render longer.
+    const double low = error.has_interval ? error.low / error.rmse : 1 / kUnknownSpread;
+    const double high = error.has_interval ? error.high / error.rmse : kUnknownSpread;
+    doubt.low = low / spread;
+    doubt.high = (high > 1 + kWide ? high * high : high) * spread;
     doubt.speed = (1 + kSpeedSpread) * (1 + kSpeedSpreadPerDoubling * doublings);
     // What the trees to come will bring is a guess: it may be nothing, or what the last ones brought, all over again.
     const Outlook outlook(state);
