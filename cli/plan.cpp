@@ -25,7 +25,7 @@ struct PlanOptions {
 };
 
 /// Larger films are probed at this many pixels: noise per pixel hardly depends on their number, time does.
-constexpr double kProbePixels = 512 * 512;
+constexpr double kProbePixels = 1 << 17;
 
 /// The request on a smaller film, and by how much it is smaller.
 std::pair<RenderRequest, double> smaller_request(const PlanOptions& options, const RenderRequest& whole) {

@@ -1,5 +1,7 @@
 #include "cli/probe.h"
 
+#include <algorithm>
+
 #include "cli/on_farm.h"
 #include "common/scene/scene_codec.h"
 #include "coordinator/pass_loop.h"
@@ -8,17 +10,17 @@ namespace treefarm {
 
 namespace {
 
-/// Fewer samples tell neither an interval of the error nor what a tree brings.
-constexpr std::uint32_t kLeastSpp = 15;
-/// They are not waited for longer than so many times the usual time.
-constexpr double kMostPatience = 6;
+/// Fewer samples tell neither an interval of the error nor what a tree brings; but they are not waited for longer than
+/// so many seconds.
+constexpr std::uint32_t kLeastSpp = 31;
+constexpr double kPatienceSeconds = 30;
 
 /// Whether the probe should end here rather than with another pass.
 bool is_enough(const RenderState& state, const PassPlan& next, double limit) {
     if (state.passes.empty()) return false;
     const PassFacts& last = state.passes.back();
     const double coming = state.seconds + last.overhead_seconds + last.collect_seconds / last.spp * next.spp;
-    return coming > limit * (state.spp() < kLeastSpp ? kMostPatience : 1.0);
+    return coming > (state.spp() < kLeastSpp ? std::max(limit, kPatienceSeconds) : limit);
 }
 
 }  // namespace
