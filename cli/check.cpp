@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/option_values.h"
 #include "common/scene/inspect.h"
 #include "common/scene/load.h"
 #include "common/scene/validate.h"
@@ -107,8 +108,7 @@ void add_check_command(CLI::App& app, const LaunchEnvironment& launch, int& exit
     CLI::App* command = app.add_subcommand("check", "Tells what in a scene is risky, with places");
     command->add_option("scene", options->scene, "Mitsuba scene (.xml)")->required();
     command->add_flag("--json", options->json, "print JSON instead of lines");
-    command->add_option("-D", options->defines, "name=value: gives $name in the scene a value")
-        ->allow_extra_args(false);
+    add_texts_option(*command, "-D", options->defines, "name=value: gives $name in the scene a value");
     command->add_flag("--lenient", options->lenient, "replace what the scene reader does not know instead of refusing");
     command->callback([options, launch, &exit_code] {
         if (launch.rank == 0) exit_code = run_check(*options, std::cout);  // under mpirun one process is enough

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "cli/compare_output.h"
+#include "cli/option_values.h"
 #include "common/base/error.h"
 #include "common/image/exr.h"
 #include "common/image/png.h"
@@ -156,24 +157,19 @@ void add_compare_command(CLI::App& app, const LaunchEnvironment& launch, int& ex
     command->add_option("IMAGE", options->image, "EXR image")->required();
     command->add_option("REFERENCE", options->reference, "EXR image of the same size")->required();
     command->add_flag("--json", options->json, "print JSON instead of a table");
-    command->add_option("--difference", options->difference,
-                        "write a PNG of the signed relative difference (blue: too dark, red: too bright)");
-    command->add_option("--error-map", options->error_map,
-                        "write FLIP per pixel, as false colour to a .png, as channel Y to an .exr");
-    command
-        ->add_option("--flip-ppd", options->flip_ppd,
-                     "pixels per degree of visual angle for FLIP (67: a 4K screen 0.7 m wide, 0.7 m away)")
-        ->check(CLI::Range(kLeastPpd, kGreatestPpd));
-    command->add_option("--block", options->block, "side of the blocks of the block test, in pixels (16)")
-        ->check(CLI::Range(1, 65536));
-    command
-        ->add_option("--reference-spp", options->reference_spp,
-                     "samples per pixel of a reference without variance channels: its noise is taken from the image's")
-        ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 40));
-    command
-        ->add_option("--reference-error", options->reference_error,
-                     "standard deviation of a relative error that all of the reference shares, e.g. 0.001")
-        ->check(CLI::Range(0.0, 1.0));
+    add_text_option(*command, "--difference", options->difference,
+                    "write a PNG of the signed relative difference (blue: too dark, red: too bright)");
+    add_text_option(*command, "--error-map", options->error_map,
+                    "write FLIP per pixel, as false colour to a .png, as channel Y to an .exr");
+    add_number_option(*command, "--flip-ppd", options->flip_ppd, {kLeastPpd, kGreatestPpd, "pixels per degree", "67"},
+                      "pixels per degree of visual angle for FLIP (67: a 4K screen 0.7 m wide, 0.7 m away)");
+    add_integer_option(*command, "--block", options->block, {1, 65536, "pixels", "16"},
+                       "side of the blocks of the block test, in pixels (16)");
+    add_integer_option(
+        *command, "--reference-spp", options->reference_spp, {1, 1099511627776, "samples per pixel", "4096"},
+        "samples per pixel of a reference without variance channels: its noise is taken from the image's");
+    add_number_option(*command, "--reference-error", options->reference_error, {0, 1, "a share", "0.001"},
+                      "standard deviation of a relative error that all of the reference shares, e.g. 0.001");
     command->callback([options, launch, &exit_code] {
         if (launch.rank == 0) exit_code = run_compare(*options, std::cout);  // under mpirun one process is enough
     });

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "cli/inspect_output.h"
+#include "cli/option_values.h"
 #include "common/image/atomic_file.h"
 #include "common/image/png.h"
 #include "common/metrics/false_colour.h"
@@ -113,18 +114,16 @@ void add_inspect_command(CLI::App& app, const LaunchEnvironment& launch, int& ex
     CLI::App* command = app.add_subcommand("inspect", "Shows the tree that a run learned");
     command->add_option("run", options->directory, "run directory of a guided render")->required();
     command->add_flag("--json", options->json, "print JSON instead of text");
-    command->add_option("--pixel", options->pixels, "X,Y: pictures of what is learned where this pixel sees a surface")
-        ->allow_extra_args(false);
-    command->add_option("--point", options->points, "x,y,z or x,y,z:nx,ny,nz: the same at a point of the scene")
-        ->allow_extra_args(false);
+    add_texts_option(*command, "--pixel", options->pixels,
+                     "X,Y: pictures of what is learned where this pixel sees a surface");
+    add_texts_option(*command, "--point", options->points, "x,y,z or x,y,z:nx,ny,nz: the same at a point of the scene");
     command->add_flag("--maps", options->maps, "pictures over the film: regions, mixtures, memory");
-    command->add_option("--size", options->size, "squares along a side of the direction square (default: 64)")
-        ->check(CLI::Range(16, 256));
-    command->add_option("--spp", options->spp, "paths that find the truth, per square (default: 256)")
-        ->check(CLI::Range(1u, 1u << 20));
-    command->add_option("--threads", options->threads, "tracing threads (default: the processors)")
-        ->check(CLI::Range(1u, 4096u));
-    command->add_option("-o,--output", options->output, "folder of the pictures (default: inspect in the run's)");
+    add_integer_option(*command, "--size", options->size, {16, 256, "squares, a power of two", "64"},
+                       "squares along a side of the direction square (default: 64)");
+    add_integer_option(*command, "--spp", options->spp, {1, 1 << 20, "paths per square", "256"},
+                       "paths that find the truth, per square (default: 256)");
+    add_threads_option(*command, options->threads, "tracing threads (default: the processors)");
+    add_text_option(*command, "-o,--output", options->output, "folder of the pictures (default: inspect in the run's)");
     command->callback([options, launch, &exit_code] {
         if (launch.rank != 0) return;  // under mpirun one process is enough
         inspect_run(*options, std::cout);

@@ -8,7 +8,36 @@
 #include <string_view>
 #include <thread>
 
+#include "common/base/error.h"
+
 namespace treefarm {
+
+namespace {
+
+int number_in(const char* name) {
+    const char* const text = std::getenv(name);
+    return text ? std::atoi(text) : 0;
+}
+
+bool is_set(const char* name) {
+    return std::getenv(name) != nullptr;
+}
+
+/// srun without PMIx, or with PMI-2, and MPICH's mpiexec give numbers that Open MPI does not read. In a batch script
+/// SLURM_PROCID is set, too, but no step.
+void find_lone_tasks(LaunchEnvironment& launch) {
+    if (is_set("PMI_RANK") && number_in("PMI_SIZE") > 1) {
+        launch.lone_tasks = number_in("PMI_SIZE");
+        launch.lone_task = number_in("PMI_RANK");
+    } else if (is_set("SLURM_STEP_ID") && is_set("SLURM_PROCID")) {
+        const int tasks = number_in(is_set("SLURM_STEP_NUM_TASKS") ? "SLURM_STEP_NUM_TASKS" : "SLURM_NTASKS");
+        launch.lone_tasks = std::max(1, tasks);
+        launch.lone_task = number_in("SLURM_PROCID");
+    }
+    launch.by_slurm = is_set("SLURM_STEP_ID");
+}
+
+}  // namespace
 
 LaunchEnvironment read_launch_environment() {
     LaunchEnvironment launch;
@@ -26,7 +55,20 @@ LaunchEnvironment read_launch_environment() {
     const char* const here = std::getenv("OMPI_COMM_WORLD_LOCAL_SIZE");
     const char* const all = std::getenv("OMPI_COMM_WORLD_SIZE");
     launch.one_host = here && all && std::string_view(here) == all;
+    if (!launch.under_mpi) find_lone_tasks(launch);
     return launch;
+}
+
+bool is_separate_world(const LaunchEnvironment& launch) {
+    if (launch.lone_tasks <= 1) return false;
+    if (launch.lone_task > 0) return true;
+    const std::string count = std::to_string(launch.lone_tasks);
+    throw InputError(
+        Location{launch.by_slurm ? "srun" : "mpiexec", 0, 0},
+        "started " + count + " tasks that do not know of each other: each would render all of it, into the same folder",
+        launch.by_slurm ? "write srun --mpi=pmix treefarm ..., or, in an allocation, mpirun -n " + count +
+                              " treefarm ...; to render in one process, srun -n 1"
+                        : "use Open MPI's: mpirun -n " + count + " treefarm ...");
 }
 
 void skip_network_search() {

@@ -10,8 +10,15 @@ struct LaunchEnvironment {
     int rank = 0;            ///< what the launcher calls this process; 0 without a launcher
     int size = 0;            ///< processes of the job; 0: not known
     bool one_host = false;   ///< mpirun started all processes on this host
+    int lone_tasks = 1;      ///< more than 1: of a launcher that MPI cannot talk to, so each is an MPI world of its own
+    int lone_task = 0;       ///< which of them this is
+    bool by_slurm = false;   ///< they were started by srun
 };
 LaunchEnvironment read_launch_environment();
+
+/// Whether this is one of several tasks that would all render the same into one folder. The first of them throws
+/// InputError with what to type; the others need only leave.
+bool is_separate_world(const LaunchEnvironment& launch);
 
 /// For processes of one host, before MPI starts: Open MPI's search for fast networks takes 0.2 s, and ends with shared
 /// memory (ob1). Unless the environment or an option of mpirun chose something else.

@@ -1,21 +1,25 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <iostream>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "cli/check.h"
 #include "cli/compare.h"
 #include "cli/inspect.h"
+#include "cli/keys.h"
 #include "cli/launch.h"
+#include "cli/option_values.h"
 #include "cli/plan.h"
 #include "cli/render.h"
 #include "cli/study.h"
 #include "cli/this_build.h"
+#include "cli/usage.h"
 #include "common/base/error.h"
 #include "common/base/float_traps.h"
-#include "common/config/parse_text.h"
 
 namespace treefarm {
 
@@ -28,22 +32,18 @@ std::string joined(int argc, char** argv) {
     return line;
 }
 
-/// Under mpirun one process speaks for all; the others leave without a sign, lest it be killed before it has spoken.
-int fail(const LaunchEnvironment& launch, const std::string& message, int exit_code) {
-    if (launch.rank != 0) return 0;
-    std::fprintf(stderr, "treefarm: %s\n", message.c_str());
-    return exit_code;
-}
+/// How long a rank lets the first one speak for all. mpirun ends the others then; what only one of them has to say
+/// would be lost without it.
+constexpr std::chrono::seconds kFirstRankSpeaks{1};
 
-/// What to say about a first word that is no command; "" if it is one, or an option.
-std::string unknown_command(const CLI::App& app, const std::string& word) {
-    std::vector<std::string> commands;
-    for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
-        commands.push_back(command->get_name());
-    if (word.starts_with('-') || std::find(commands.begin(), commands.end(), word) != commands.end()) return "";
-    const std::string nearest = nearest_word(word, commands);
-    return "no command is called " + in_quotes(word) + "; " +
-           (nearest.empty() ? "see treefarm --help" : "did you mean " + in_quotes(nearest) + "?");
+int fail(const LaunchEnvironment& launch, const std::string& message, int exit_code) {
+    if (launch.rank == 0) {
+        std::fprintf(stderr, "treefarm: %s\n", message.c_str());
+        return exit_code;
+    }
+    std::this_thread::sleep_for(kFirstRankSpeaks);
+    std::fprintf(stderr, "treefarm: rank %d: %s\n", launch.rank, message.c_str());
+    return exit_code;
 }
 
 int run(int argc, char** argv) {
@@ -59,15 +59,21 @@ int run(int argc, char** argv) {
     add_inspect_command(app, launch, exit_code);
     add_study_command(app, launch, joined(argc, argv), exit_code);
     add_report_command(app, launch);
-    if (argc > 1)
-        if (const std::string message = unknown_command(app, argv[1]); !message.empty())
+    add_keys_command(app, launch, exit_code);
+    app.footer(std::string("treefarm COMMAND --help tells the options of a command and their defaults, treefarm keys "
+                           "those of a job.\n") +
+               kExitCodesText);
+    const std::vector<std::string> arguments(argv + std::min(argc, 1), argv + argc);
+    if (!arguments.empty())
+        if (const std::string message = unknown_command(app, arguments[0]); !message.empty())
             return fail(launch, message, 2);
+    if (const std::string message = malformed_argument(arguments); !message.empty()) return fail(launch, message, 2);
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& done) {  // --help, --version
         return launch.rank == 0 ? app.exit(done) : 0;
     } catch (const CLI::ParseError& error) {
-        return fail(launch, error.what() + std::string("; see treefarm --help"), 2);
+        return fail(launch, usage_message(app, error, arguments), 2);
     } catch (const InputError& error) {
         return fail(launch, error.what(), 2);
     } catch (const std::exception& error) {

@@ -1,6 +1,5 @@
 #include "cli/on_farm.h"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -10,6 +9,7 @@
 #include <thread>
 
 #include "cli/interrupt.h"
+#include "cli/option_values.h"
 #include "cli/this_build.h"
 #include "common/base/error.h"
 #include "common/base/host.h"
@@ -147,10 +147,8 @@ std::string missing_processes(const LaunchEnvironment& launch, double seconds) {
 }  // namespace
 
 void add_start_seconds(CLI::App& command, FarmOptions& options) {
-    command
-        .add_option("--start-seconds", options.start_seconds,
-                    "under mpirun: in which all processes have to come together (default: 25)")
-        ->check(CLI::Range(1.0, 1e6));
+    add_number_option(command, "--start-seconds", options.start_seconds, {1, 1e6, "seconds", "60"},
+                      "under mpirun: in which all processes have to come together (default: 25)");
 }
 
 int run_on_farm(const LaunchEnvironment& launch, const FarmOptions& options, const FarmTask& task) {

@@ -1,9 +1,13 @@
 #include "cli/plan.h"
 
 #include <CLI/CLI.hpp>
+#include <cmath>
+#include <cstdio>
 #include <iostream>
 #include <memory>
 
+#include "cli/option_values.h"
+#include "cli/plan_answer.h"
 #include "cli/render.h"
 #include "common/plan/plan_text.h"
 
@@ -11,28 +15,85 @@ namespace treefarm {
 
 namespace {
 
-int run_plan(const RenderOptions& options, bool json, std::ostream& out) {
-    const RenderRequest request = read_request(options);
+struct PlanOptions {
+    RenderOptions render;
+    bool json = false;
+    bool no_probe = false;
+    std::optional<double> probe_seconds;
+
+    bool asks() const { return render.spp || render.seconds || render.error; }
+};
+
+/// Larger films are probed at this many pixels: noise per pixel hardly depends on their number, time does.
+constexpr double kProbePixels = 1 << 17;
+
+/// The request on a smaller film, and by how much it is smaller.
+std::pair<RenderRequest, double> smaller_request(const PlanOptions& options, const RenderRequest& whole) {
+    const double width = whole.scene.film.width, height = whole.scene.film.height;
+    const double scale = std::sqrt(kProbePixels / (width * height));
+    if (scale >= 1) return {whole, 1.0};
+    RenderOptions smaller = options.render;
+    const auto pixels = [&](double side) { return std::to_string(static_cast<int>(std::ceil(scale * side))); };
+    smaller.set.push_back("image.width=" + pixels(width));
+    smaller.set.push_back("image.height=" + pixels(height));
+    RenderRequest request = read_request(smaller);
+    const double ratio = width * height / (static_cast<double>(request.scene.film.width) * request.scene.film.height);
+    return {std::move(request), ratio};
+}
+
+void print(const PlanOptions& options, const RenderRequest& request, const PlanAnswer* answer, std::ostream& out) {
     const std::string& scene = request.job.scene.file;
-    out << (json ? plan_json(request.plan, scene) : plan_text(request.plan, scene));
+    if (!options.json) {
+        if (answer != nullptr)
+            out << answer_text(request.job, *answer);
+        else if (options.asks())
+            out << "seconds and error are not known without a probe (leave --no-probe away)\n\n";
+        out << plan_text(request.plan, scene);
+        return;
+    }
+    nlohmann::ordered_json json = nlohmann::ordered_json::parse(plan_json(request.plan, scene));
+    if (answer != nullptr) json["expected"] = answer_json(*answer);
+    out << json.dump(2) << "\n";
+}
+
+int run_plan(const PlanOptions& options, std::ostream& out) {
+    const RenderRequest request = read_request(options.render);
+    if (!options.asks() || options.no_probe) {
+        print(options, request, nullptr, out);
+        return 0;
+    }
+    const auto [probed, pixel_ratio] = smaller_request(options, request);
+    const double seconds = options.probe_seconds.value_or(kProbeSeconds);
+    if (!options.json) std::fprintf(stderr, "treefarm: probing for %.3g s\n", seconds);
+    Probe probe = run_probe(probed, seconds, options.render.threads);
+    if (probe.interrupted) {
+        std::fprintf(stderr, "treefarm: interrupted: nothing is known yet\n");
+        return 3;
+    }
+    const PlanAnswer answer = answer_by_probe(request.job, std::move(probe), pixel_ratio);
+    print(options, request, &answer, out);
     return 0;
 }
 
 }  // namespace
 
 void add_plan_command(CLI::App& app, const LaunchEnvironment& launch, int& exit_code) {
-    const auto options = std::make_shared<RenderOptions>();
-    const auto json = std::make_shared<bool>(false);
+    const auto options = std::make_shared<PlanOptions>();
+    RenderOptions& render = options->render;
     CLI::App* command = app.add_subcommand("plan", "Tells what a render would simulate, why, and what it costs");
-    command->add_option("input", options->input, "Mitsuba scene (.xml) or job (.toml)")->required();
-    command->add_flag("--json", *json, "print JSON instead of a table");
-    command->add_option("--spp", options->spp, "samples per pixel");
-    command->add_option("--set", options->set, "key=value: sets a key of the job")->allow_extra_args(false);
-    command->add_option("-D", options->defines, "name=value: gives $name in the scene a value")
-        ->allow_extra_args(false);
-    command->add_flag("--lenient", options->lenient, "replace what the scene reader does not know instead of refusing");
-    command->callback([options, json, launch, &exit_code] {
-        if (launch.rank == 0) exit_code = run_plan(*options, *json, std::cout);  // under mpirun one process is enough
+    command->add_option("input", render.input, "Mitsuba scene (.xml) or job (.toml)")->required();
+    command->add_flag("--json", options->json, "print JSON instead of a table");
+    add_samples_option(*command, render.spp, "what seconds and error would these samples per pixel come to?");
+    add_seconds_option(*command, "--seconds", render.seconds, "what samples and error would this time come to?");
+    add_error_option(*command, render.error, "what samples and time would this error take? 0.05, or 5%");
+    add_seconds_option(*command, "--probe", options->probe_seconds, "how long to render to answer that (default: 5)");
+    command->add_flag("--no-probe", options->no_probe, "render nothing to answer that: no seconds and no error");
+    add_threads_option(*command, render.threads, "tracing threads of the probe (default: the processors)");
+    add_texts_option(*command, "--set", render.set, "key=value: sets a key of the job (treefarm keys lists them)");
+    add_texts_option(*command, "-D", render.defines, "name=value: gives $name in the scene a value");
+    command->add_flag("--lenient", render.lenient, "replace what the scene reader does not know instead of refusing");
+    command->callback([options, launch, &exit_code] {
+        if (launch.rank == 0) exit_code = run_plan(*options, std::cout);  // under mpirun one process is enough
     });
 }
 

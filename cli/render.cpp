@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "cli/debug_sample.h"
+#include "cli/option_values.h"
 
 namespace treefarm {
 
@@ -23,6 +24,7 @@ int exit_code_of(const RenderOutcome& outcome) {
 }
 
 int render(const LaunchEnvironment& launch, const RenderOptions& options) {
+    if (is_separate_world(launch)) return 2;
     RenderRequest request;
     FarmTask task;
     task.prepare = [&] {
@@ -53,22 +55,21 @@ void add_render_command(CLI::App& app, const LaunchEnvironment& launch, const st
     options->command = command_line;
     CLI::App* command = app.add_subcommand("render", "Renders a scene, under mpirun on all its processes");
     command->add_option("input", options->input, "Mitsuba scene (.xml) or job (.toml)")->required();
-    command->add_option("-o,--output", options->output, "also write the image to this EXR file");
-    command->add_option("--spp", options->spp, "samples per pixel, rounded up to whole passes' units");
-    command->add_option("--seconds", options->seconds, "seconds of rendering");
-    command->add_option("--error", options->error, "stop at this RMSE / mean luminance: 0.05 is 5 %");
-    command->add_option("--schedule", options->schedule, "repeat the passes of this schedule.toml");
-    command->add_option("--set", options->set, "key=value: sets a key of the job")->allow_extra_args(false);
-    command->add_option("-D", options->defines, "name=value: gives $name in the scene a value")
-        ->allow_extra_args(false);
+    add_text_option(*command, "-o,--output", options->output, "also write the image to this EXR file");
+    add_samples_option(*command, options->spp, "samples per pixel, rounded up to whole passes' units (default: 64)");
+    add_seconds_option(*command, "--seconds", options->seconds, "seconds of rendering; 2min and 1h, too");
+    add_error_option(*command, options->error, "stop at this RMSE / mean luminance: 0.05, or 5%");
+    add_text_option(*command, "--schedule", options->schedule, "repeat the passes of this schedule.toml");
+    add_texts_option(*command, "--set", options->set, "key=value: sets a key of the job (treefarm keys lists them)");
+    add_texts_option(*command, "-D", options->defines, "name=value: gives $name in the scene a value");
     command->add_flag("--lenient", options->lenient, "replace what the scene reader does not know instead of refusing");
-    command->add_option("--run-dir", options->run_directory, "where results go (default: runs/<scene>-<time>)");
-    command->add_option("--threads", options->farm.threads, "tracing threads of each process (default: its processors)")
-        ->check(CLI::Range(1u, 4096u));
+    add_text_option(*command, "--run-dir", options->run_directory, "where results go (default: runs/<scene>-<time>)");
+    add_threads_option(*command, options->farm.threads, "tracing threads of each process (default: its processors)");
     command->add_flag("--quiet", options->farm.quiet, "only errors on the terminal");
     add_start_seconds(*command, options->farm);
-    command->add_option("--debug-sample", options->debug_sample,
-                        "pass,x,y,sample: trace this sample and tell its story");
+    add_text_option(*command, "--debug-sample", options->debug_sample,
+                    "pass,x,y,sample: trace this sample and tell its story");
+    command->footer(std::string(kDefaultsText) + "\n" + kExitCodesText);
     command->callback([options, launch, &exit_code] {
         exit_code = options->debug_sample.empty() ? render(launch, *options) : debug(launch, *options);
     });

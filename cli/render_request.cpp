@@ -1,5 +1,6 @@
 #include <utility>
 
+#include "cli/input_kind.h"
 #include "cli/render.h"
 #include "cli/this_build.h"
 #include "common/config/check_job.h"
@@ -53,6 +54,22 @@ std::vector<Setting> command_line_layer(const RenderOptions& options) {
     return layer;
 }
 
+/// A budget that --set gives and another one makes void would be ignored in silence.
+void check_budget_keys(const std::vector<Setting>& line, const RenderOptions& options, RenderRequest& request) {
+    const Job::Budget& budget = request.job.budget;
+    const char* const open = budget.seconds > 0 ? "budget.seconds" : budget.error > 0 ? "budget.error" : nullptr;
+    for (const Setting& setting : line) {
+        if (!setting.key.starts_with("budget.") || !setting.where.file.starts_with("--set")) continue;
+        if (!options.schedule.empty() && setting.key != "budget.strict")
+            throw InputError(setting.where, "--schedule says how long to render", "leave one of them away");
+        if (setting.key == "budget.spp" && open != nullptr)
+            throw InputError(setting.where, std::string(open) + " decides how many samples there are",
+                             "to cap them, --set budget.max_spp=N; to have them instead, --spp N");
+        if (setting.key == "budget.max_spp" && open == nullptr)
+            request.warnings.push_back("budget.max_spp has no effect without --seconds or --error");
+    }
+}
+
 /// The passes of a schedule file instead of the job's budget.
 void replay(const std::string& file, RenderRequest& request) {
     request.schedule = parse_schedule(read_settings_text(file, "schedule"), file, request.job);
@@ -73,8 +90,7 @@ std::string shell_quoted(const std::string& word) {
 }  // namespace
 
 RenderRequest read_request(const RenderOptions& options) {
-    if (options.input.empty())
-        throw InputError(Location{"input", 0, 0}, "the name is empty", "give a Mitsuba scene (.xml) or job (.toml)");
+    require_scene_or_job(options.input);
     const std::filesystem::path input(options.input);
     std::vector<Setting> file_layer;
     if (input.extension() == ".toml")
@@ -96,6 +112,7 @@ RenderRequest read_request(const RenderOptions& options) {
     apply_layer(request.job, file_layer);
     apply_layer(request.job, line_layer);
     check_job(request.job);
+    check_budget_keys(line_layer, options, request);
     request.scene = std::move(loaded.scene);
     if (!options.schedule.empty()) replay(options.schedule, request);
     request.plan = plan_effects(request.scene, request.job);

@@ -4,7 +4,9 @@
 #include <iostream>
 #include <memory>
 
+#include "cli/input_kind.h"
 #include "cli/on_farm.h"
+#include "cli/option_values.h"
 #include "cli/this_build.h"
 #include "coordinator/study/study_run.h"
 #include "report/price_list.h"
@@ -23,6 +25,7 @@ struct StudyOptions {
 };
 
 Study read_study_for(const StudyOptions& options) {
+    require_study_file(options.input);
     Study study = read_study(options.input);
     if (!options.directory.empty()) study.directory = options.directory;
     return study;
@@ -37,6 +40,7 @@ int study(const LaunchEnvironment& launch, const StudyOptions& options) {
         if (launch.rank == 0) list_cells(read_study_for(options), this_build(), std::cout);
         return 0;
     }
+    if (is_separate_world(launch)) return 2;
     Study study;
     FarmTask task;
     const Log log = make_log("study", {}, options.farm.quiet);
@@ -64,9 +68,9 @@ void add_report_command(CLI::App& app, const LaunchEnvironment& launch) {
     const auto benches = std::make_shared<std::vector<std::string>>();
     CLI::App* command = app.add_subcommand("report", "Writes the reports of studies, or of what is done of them");
     command->add_option("folder", *folders, "folders that treefarm study wrote")->required();
-    command->add_option("--price-list", *prices,
-                        "also write what each method costs and buys, as Markdown, to this file");
-    command->add_option("--bench", *benches, "in that file, also what this JSON file of a benchmark says")
+    add_text_option(*command, "--price-list", *prices,
+                    "also write what each method costs and buys, as Markdown, to this file");
+    add_texts_option(*command, "--bench", *benches, "in that file, also what this JSON file of a benchmark says")
         ->needs("--price-list");
     command->callback([folders, benches, prices, launch] {
         if (launch.rank != 0) return;
@@ -83,12 +87,12 @@ void add_study_command(CLI::App& app, const LaunchEnvironment& launch, const std
     options->command = command_line;
     CLI::App* command = app.add_subcommand("study", "Renders a matrix of methods, scenes and seeds, and compares them");
     command->add_option("input", options->input, "study file (.toml)")->required();
-    command->add_option("--dir", options->directory, "where results go (default: directory in the file)");
-    command->add_option("--threads", options->farm.threads, "tracing threads of each process (default: its processors)")
-        ->check(CLI::Range(1u, 4096u));
+    add_text_option(*command, "--dir", options->directory, "where results go (default: directory in the file)");
+    add_threads_option(*command, options->farm.threads, "tracing threads of each process (default: its processors)");
     add_start_seconds(*command, options->farm);
     command->add_flag("--dry-run", options->dry_run, "list the cells, and which are done; render nothing");
     command->add_flag("--quiet", options->farm.quiet, "only errors on the terminal");
+    command->footer(kExitCodesText);
     command->callback([options, launch, &exit_code] { exit_code = study(launch, *options); });
 }
 

@@ -5,6 +5,7 @@
 
 #include "common/config/effect_switches.h"
 #include "common/config/parse_text.h"
+#include "common/config/quantities.h"
 
 namespace treefarm {
 namespace {
@@ -49,6 +50,24 @@ JobKey number_key(const char* name, const char* range, const char* doc, Member m
                 const auto value = static_cast<std::decay_t<decltype(member(job))>>(*number);
                 if (!std::isfinite(value) || !in_range(value)) return false;
                 member(job) = value;
+                return true;
+            },
+            [=](const Job& job) { return number_text(member(job)); },
+            {}};
+}
+
+/// 0 or a number from `low` to `high`, which `read` understands with units, too.
+template <class Member>
+JobKey quantity_key(const char* name, const char* range, const char* doc, Member member,
+                    std::optional<double> (*read)(std::string_view), double low, double high) {
+    return {name,
+            ValueKind::number_or_text,
+            range,
+            doc,
+            [=](Job& job, const std::string& text) {
+                const auto value = read(text);
+                if (!value || (*value != 0.0 && !(*value >= low && *value <= high))) return false;
+                member(job) = *value;
                 return true;
             },
             [=](const Job& job) { return number_text(member(job)); },
@@ -298,16 +317,15 @@ std::vector<JobKey> make_job_keys() {
     add(integer_key(
         "budget.spp", "1 to 2^30", "samples per pixel in all passes, unless `budget.seconds` or `budget.error` is set",
         [](auto& j) -> auto& { return j.budget.spp; }, 1, kMaxSpp));
-    add(number_key(
-        "budget.seconds", "0, or more up to 10^8",
+    add(quantity_key(
+        "budget.seconds", "0, or 0.001 to 10^8; or with a unit in quotes: \"90s\", \"2min\", \"1h\"",
         "seconds of rendering, from when the first worker asks for work until the last pass is whole; 0: no such "
         "budget",
-        [](auto& j) -> auto& { return j.budget.seconds; }, [](double v) { return v >= 0.0 && v <= 1e8; }));
-    add(number_key(
-        "budget.error", "0, or 10^-6 to 10",
-        "estimated RMSE / mean luminance at which to stop: 0.05 is 5 %; 0: no such budget",
-        [](auto& j) -> auto& { return j.budget.error; },
-        [](double v) { return v == 0.0 || (v >= 1e-6 && v <= 10.0); }));
+        [](auto& j) -> auto& { return j.budget.seconds; }, &parse_duration, kLeastSeconds, kMostSeconds));
+    add(quantity_key(
+        "budget.error", "0, or 10^-6 to 1; or in percent, in quotes: \"5%\"",
+        "estimated RMSE / mean luminance at which to stop: 0.05 or \"5%\"; 0: no such budget",
+        [](auto& j) -> auto& { return j.budget.error; }, &parse_share, kLeastError, kGreatestError));
     add(integer_key(
         "budget.max_spp", "1 to 2^30",
         "samples per pixel at which `budget.seconds` and `budget.error` end at the latest",

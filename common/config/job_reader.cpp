@@ -10,6 +10,7 @@
 #include "common/config/job_keys.h"
 #include "common/config/parse_text.h"
 #include "common/config/presets.h"
+#include "common/config/toml_kind.h"
 #include "common/config/toml_settings.h"
 
 namespace treefarm {
@@ -78,6 +79,7 @@ std::vector<Setting> parse_job_settings(const std::string& toml, const std::stri
     std::vector<Setting> settings;
     try {
         const toml::table table = toml::parse(toml, std::string_view(name));
+        require_kind(table, name, TomlKind::job);
         settings = read_settings(table, name);
     } catch (const toml::parse_error& error) {
         throw InputError(toml_place(error.source(), name), "this is not TOML: " + one_line(error.description()),

@@ -5,6 +5,7 @@
 #include "common/config/parse_text.h"
 #include "common/config/study.h"
 #include "common/config/study_rules.h"
+#include "common/config/toml_kind.h"
 #include "common/config/toml_settings.h"
 
 namespace treefarm {
@@ -20,6 +21,7 @@ class StudyReader {
     explicit StudyReader(const std::filesystem::path& path) : path_(path), file_(path.string()) {}
 
     Study read(const toml::table& table) {
+        require_kind(table, file_, TomlKind::study);
         for (const auto& [key, node] : table)
             if (std::find(std::begin(kKeys), std::end(kKeys), key.str()) == std::end(kKeys))
                 throw InputError(place(key.source()), "unknown key " + in_quotes(key.str()),
@@ -166,11 +168,17 @@ class StudyReader {
                              "write seeds = 8 or seeds = [1, 2, 3]");
     }
 
+    static std::string value_or_type(const toml::node& node) {
+        if (const auto value = node.value_exact<std::int64_t>()) return std::to_string(*value);
+        if (const auto value = node.value_exact<double>()) return number_text(*value);
+        return toml_type_name(node);
+    }
+
     std::int64_t integer(const toml::node& node, const std::string& what, std::int64_t least,
                          std::int64_t greatest) const {
         const auto value = node.value_exact<std::int64_t>();
         if (!value || *value < least || *value > greatest)
-            throw InputError(place(node.source()), what + " is not allowed here",
+            throw InputError(place(node.source()), what + " is " + value_or_type(node) + ", which is not allowed",
                              "give an integer from " + std::to_string(least) + " to " + std::to_string(greatest));
         return *value;
     }
@@ -190,7 +198,7 @@ class StudyReader {
         Job job;
         apply_layer(job, study_.budget);
         if (key.str() != "spp" && job.budget.seconds <= 0 && job.budget.error <= 0)
-            throw InputError(place(node.source()), "a budget of nothing", cure);
+            throw InputError(place(node.source()), "a budget of 0 renders nothing", cure);
     }
 
     void read_reference(const toml::table& table) {

@@ -1,6 +1,7 @@
 #include "common/scene/load.h"
 
 #include "common/config/parse_text.h"
+#include "common/scene/foreign_format.h"
 #include "common/scene/mitsuba/read_mitsuba.h"
 
 namespace treefarm {
@@ -13,7 +14,7 @@ void require_xml(const std::filesystem::path& path) {
     throw InputError({path.string()},
                      extension.empty() ? "the scene file has no extension"
                                        : "scenes of kind " + in_quotes(extension) + " cannot be read",
-                     "give a Mitsuba scene (.xml)");
+                     foreign_format_cure(extension));
 }
 
 LoadedScene loaded(SceneReading&& reading) {

@@ -63,7 +63,8 @@ TEST_F(Malformed, Files) {
     EXPECT_EQ(message_of_file("none.xml"), "there is no file \"none.xml\"; check the path");
     write("scene.pbrt", "");
     EXPECT_EQ(message_of_file("scene.pbrt"),
-              "scene.pbrt: scenes of kind \".pbrt\" cannot be read; give a Mitsuba scene (.xml)");
+              "scene.pbrt: scenes of kind \".pbrt\" cannot be read; look for a Mitsuba version of it, or bring it into "
+              "Blender and export it as a Mitsuba scene (.xml) with the add-on mitsuba-blender");
     std::filesystem::create_directories(folder_ / "folder.xml");
     EXPECT_EQ(message_of_file("folder.xml"), "\"folder.xml\" is not a file; check the path");
     write("empty.xml", "");

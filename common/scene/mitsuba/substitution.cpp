@@ -1,5 +1,6 @@
 #include "common/scene/mitsuba/substitution.h"
 
+#include <algorithm>
 #include <string_view>
 #include <vector>
 
@@ -10,6 +11,19 @@ namespace {
 
 constexpr std::size_t kMaxAttributeBytes = std::size_t{1} << 24;
 constexpr std::size_t kMaxReplacedBytes = std::size_t{1} << 26;
+
+/// A name of the scene that is near, else what may have been meant.
+std::string cure_of_unused(const std::string& name, const std::string& value, const std::vector<std::string>& used) {
+    for (const char* size : {"width", "height"})
+        if (name == size && std::find(used.begin(), used.end(), name) == used.end())
+            return "the image's " + name + " is --set image." + name + "=" + value;
+    const std::string nearest = nearest_word(name, used);
+    if (!nearest.empty()) return "did you mean $" + nearest + "?";
+    std::string known;
+    for (const std::string& other : used)
+        known += (known.empty() ? "$" : ", $") + other;
+    return used.empty() ? "remove it: the scene has no $names" : "remove it, or choose from " + known;
+}
 
 }  // namespace
 
@@ -58,9 +72,8 @@ void Parameters::require_all_used(const Location& scene) const {
         if (parameter.used) used.push_back(name);
     for (const auto& [name, parameter] : parameters_) {
         if (parameter.used) continue;
-        const std::string nearest = nearest_word(name, used);
         throw InputError({scene.file}, "the scene does not use $" + name + ", which was given a value",
-                         nearest.empty() ? "remove it" : "did you mean " + nearest + "?");
+                         cure_of_unused(name, parameters_.at(name).value, used));
     }
 }
 

@@ -1,0 +1,74 @@
+#include "cli/option_advice.h"
+
+#include <algorithm>
+#include <string_view>
+#include <vector>
+
+#include "common/config/job_keys.h"
+
+namespace treefarm {
+
+namespace {
+
+/// Options by the names that other renderers give them, and what there is instead.
+struct Foreign {
+    std::vector<std::string_view> options;
+    const char* advice;
+};
+
+const std::vector<Foreign>& foreign_options() {
+    static const std::vector<Foreign> table = {
+        {{"--resume", "--continue", "--restart", "--checkpoint"},
+         "a render cannot be gone on from in this version, but one that was interrupted keeps its finished passes; "
+         "treefarm study goes on where it was"},
+        {{"--denoise", "--denoiser", "--denoising", "--oidn"},
+         "there is no denoiser in this version; image.exr holds what one needs of noise (variance.*, halfA.*, "
+         "halfB.*)"},
+        {{"--crop", "--cropwindow", "--pixelbounds", "--region", "--border"},
+         "whole images only in this version; for a quick look, --set image.width=N --set image.height=N"},
+        {{"--camera", "--sensor", "--view"},
+         "a scene has one camera; write $name in its transform and choose with -D name=value"},
+        {{"--frames", "--frame", "--frame-start", "--frame-end", "--frame-jump", "--frameRange", "--animation"},
+         "one image a render; start one for each frame, with $name in the scene and -D name=value"},
+        {{"--output-format", "--format", "--render-format", "--file-format"},
+         "-o writes an EXR; preview.png is in the run directory"},
+        {{"--resolution", "--res", "--size", "--film-size"}, "write --set image.width=N --set image.height=N"},
+        {{"--samples", "--sample-count", "--samples-per-pixel", "--num-samples", "--pixelsamples"}, "write --spp N"},
+        {{"--time", "--time-limit", "--timelimit", "--timeout", "--halttime", "--duration"}, "write --seconds N"},
+        {{"--noise", "--noise-threshold", "--noise-level", "--target-error", "--quality"}, "write --error 5%"},
+        {{"--nthreads", "--num-threads", "--jobs", "--cores", "-j", "-t"}, "write --threads N"},
+        {{"--output-dir", "--outdir", "--out-dir", "--render-output"}, "write --run-dir FOLDER"},
+        {{"--outfile", "--out", "--output-file"}, "write -o FILE.exr"},
+        {{"--define"}, "write -D name=value"},
+        {{"--gpu", "--device", "--cycles-device", "--cuda", "--optix"}, "it renders on processors only"},
+        {{"--aov", "--aovs", "--passes", "--layers"},
+         "there are no further layers in this version; image.exr holds colour, variance.* and two halves"},
+        {{"--exposure", "--tonemap", "--tone-map", "--gamma", "--colorspace"},
+         "image.exr is linear, for a viewer to show; preview.png has exposure 0 and sRGB"},
+        {{"--spectral", "--mode", "--variant", "-m"}, "it renders linear sRGB colours only"},
+        {{"--hosts", "--hostfile", "--nodes", "--workers", "--ranks", "-n", "-np"},
+         "mpirun takes it: mpirun -n 9 treefarm render ... has one coordinator and eight workers"},
+    };
+    return table;
+}
+
+/// Whether an option is a key of the job, or the last part of one: "--guiding.type", "--max-depth".
+bool names_key(const std::string& option, const std::string& key) {
+    std::string name = option.substr(std::min(option.find_first_not_of('-'), option.size()));
+    std::replace(name.begin(), name.end(), '-', '_');
+    return !name.empty() && (key == name || key.ends_with("." + name));
+}
+
+}  // namespace
+
+std::string option_advice(const std::string& option, const std::string& command) {
+    if (command != "render" && command != "plan") return "";
+    for (const Foreign& foreign : foreign_options())
+        if (std::find(foreign.options.begin(), foreign.options.end(), option) != foreign.options.end())
+            return foreign.advice;
+    for (const JobKey& key : job_keys())
+        if (names_key(option, key.name)) return "it is a key of the job: write --set " + key.name + "=VALUE";
+    return "";
+}
+
+}  // namespace treefarm

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace treefarm {
+
+// Options whose values are checked where they are typed. What is wrong leaves CLI::App::parse as an InputError that
+// names the option, the value, why it will not do, and what to type.
+
+/// For the end of a command's help.
+inline constexpr const char* kExitCodesText =
+    "Exit codes: 0 done, 1 the run failed, 2 bad usage or input, 3 interrupted, 4 done, but --error was not reached,\n"
+    "5 check found something";
+inline constexpr const char* kDefaultsText =
+    "Settings come from the scene, a job, --set and the options above, later ones over earlier ones; treefarm keys "
+    "lists\n"
+    "them with their defaults, and the run directory's job.toml says what they were";
+
+/// Allowed numbers of an option, and how to speak of them.
+struct NumberRange {
+    double low = 0, high = 0;
+    const char* meaning = "";  ///< "samples per pixel"
+    const char* example = "";  ///< "64"
+};
+
+/// A number within the range; throws InputError.
+double checked_number(const std::string& option, const std::string& text, const NumberRange& range);
+/// A whole number within the range (at most 2^53); throws InputError.
+std::int64_t checked_integer(const std::string& option, const std::string& text, const NumberRange& range);
+
+/// --spp
+std::uint32_t checked_samples(const std::string& text);
+/// --seconds and its like: with a unit (s, min, h), too
+double checked_seconds(const std::string& option, const std::string& text);
+/// --error: in percent, too
+double checked_error(const std::string& text);
+/// --threads
+unsigned checked_threads(const std::string& text);
+
+/// A name of a file or folder, or another text that cannot be empty.
+CLI::Option* add_text_option(CLI::App& command, const std::string& names, std::string& value, const std::string& help);
+/// The same, any number of times: --set a=1 --set b=2.
+CLI::Option* add_texts_option(CLI::App& command, const std::string& names, std::vector<std::string>& values,
+                              const std::string& help);
+
+CLI::Option* add_samples_option(CLI::App& command, std::optional<std::uint32_t>& spp, const std::string& help);
+CLI::Option* add_seconds_option(CLI::App& command, const std::string& name, std::optional<double>& seconds,
+                                const std::string& help);
+CLI::Option* add_error_option(CLI::App& command, std::optional<double>& error, const std::string& help);
+CLI::Option* add_threads_option(CLI::App& command, unsigned& threads, const std::string& help);
+
+/// Any other whole number.
+template <class T>
+CLI::Option* add_integer_option(CLI::App& command, const std::string& name, T& value, const NumberRange& range,
+                                const std::string& help) {
+    return command
+        .add_option_function<std::string>(
+            name,
+            [&value, name, range](const std::string& text) {
+                value = static_cast<T>(checked_integer(name, text, range));
+            },
+            help)
+        ->type_name("N");
+}
+
+/// Any other number.
+CLI::Option* add_number_option(CLI::App& command, const std::string& name, double& value, const NumberRange& range,
+                               const std::string& help);
+
+}  // namespace treefarm

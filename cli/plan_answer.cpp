@@ -1,0 +1,139 @@
+#include "cli/plan_answer.h"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <cmath>
+
+#include "coordinator/pass_report.h"
+
+namespace treefarm {
+
+namespace {
+
+std::string percent_text(double error) {
+    return fmt::format("{:.3g}", 100 * error);
+}
+
+std::string spp_text(const Expected& spp) {
+    if (spp.low == spp.high) return count_text(spp.value) + " spp";
+    return fmt::format("about {} spp [{}, {}]", count_text(spp.value), count_text(spp.low), count_text(spp.high));
+}
+
+std::string seconds_text(const Expected& seconds) {
+    if (seconds.low == seconds.high) return duration_text(seconds.value);
+    return fmt::format("{} [{}, {}]", duration_text(seconds.value), duration_text(seconds.low),
+                       duration_text(seconds.high));
+}
+
+std::string error_text(const Expected& error) {
+    if (error.low == error.high) return percent_text(error.value) + " %";
+    return fmt::format("{} % [{}, {}]", percent_text(error.value), percent_text(error.low), percent_text(error.high));
+}
+
+std::string machine_text(const Probe& probe) {
+    return fmt::format("on this machine ({} {})", probe.threads, probe.threads == 1 ? "thread" : "threads");
+}
+
+std::string question_text(const Job& job, bool out_of_time) {
+    const Job::Budget& budget = job.budget;
+    if (budget.error > 0 && !out_of_time) return percent_text(budget.error) + " % error";
+    return budget.seconds > 0 ? duration_text(budget.seconds) : count_text(budget.spp) + " spp";
+}
+
+nlohmann::ordered_json figure_json(const Expected& figure) {
+    return {{"value", figure.value}, {"low", figure.low}, {"high", figure.high}};
+}
+
+/// "1,840" -> three figures of it, so that a forecast does not look like a count.
+double rounded(double count) {
+    if (count < 1000) return std::round(count);
+    const double unit = std::pow(10.0, std::floor(std::log10(count)) - 2);
+    return std::round(count / unit) * unit;
+}
+
+Expectation expected_of(const Job& job, const RenderState& state, bool by_error) {
+    if (by_error) return expect_error(state, job, job.budget.error);
+    if (job.budget.seconds > 0) return expect_after_seconds(state, job, job.budget.seconds);
+    return expect_after_spp(state, job, job.budget.spp);
+}
+
+}  // namespace
+
+PlanAnswer answer_by_probe(const Job& job, Probe probe, double pixel_ratio) {
+    PlanAnswer answer;
+    for (PassFacts& pass : probe.state.passes) {
+        pass.collect_seconds *= pixel_ratio;
+        pass.overhead_seconds *= pixel_ratio;
+        pass.trace_core_seconds *= pixel_ratio;
+        pass.record_core_seconds *= pixel_ratio;
+    }
+    probe.state.seconds *= pixel_ratio;
+    answer.expected = expected_of(job, probe.state, job.budget.error > 0);
+    if (job.budget.error > 0 && job.budget.seconds > 0 && answer.expected.known &&
+        answer.expected.seconds.value > job.budget.seconds) {
+        answer.out_of_time = true;
+        answer.expected = expected_of(job, probe.state, false);
+    }
+    answer.probe = std::move(probe);
+    answer.pixel_ratio = pixel_ratio;
+    return answer;
+}
+
+std::string answer_text(const Job& job, const PlanAnswer& answer) {
+    const Probe& probe = answer.probe;
+    const Expectation& expected = answer.expected;
+    const std::string question = question_text(job, answer.out_of_time);
+    std::string text = question + ": ";
+    if (!expected.known) {
+        text += "not known: " + expected.unknown + "\n";
+    } else {
+        const bool by_error = job.budget.error > 0 && !answer.out_of_time;
+        if (by_error)
+            text += spp_text(expected.spp) + ", " + seconds_text(expected.seconds);
+        else if (job.budget.seconds > 0)
+            text += spp_text(expected.spp) + ", error " + error_text(expected.error);
+        else
+            text += "about " + seconds_text(expected.seconds) + ", error " + error_text(expected.error);
+        text += " " + machine_text(probe) + "\n";
+        if (answer.out_of_time)
+            text += fmt::format("the {} % asked for would take longer\n", percent_text(job.budget.error));
+        if (expected.reached)
+            text += probe.state.error.rmse > 0 ? "the probe has come so far already\n" : "no noise was seen\n";
+    }
+    return text +
+           fmt::format(
+               "by a probe of {} spp in {} passes{}; the intervals are where most renders end up, and narrower after a "
+               "longer one (--probe 30)\n\n",
+               probe.state.spp(), probe.state.passes.size(), answer.pixel_ratio > 1 ? " on a smaller film" : "");
+}
+
+nlohmann::ordered_json answer_json(const PlanAnswer& answer) {
+    const Expectation& expected = answer.expected;
+    nlohmann::ordered_json json = {{"known", expected.known}};
+    if (expected.known) {
+        json["spp"] = figure_json(expected.spp);
+        json["seconds"] = figure_json(expected.seconds);
+        json["error"] = figure_json(expected.error);
+        json["out_of_time"] = answer.out_of_time;
+    } else {
+        json["why"] = expected.unknown;
+    }
+    json["threads"] = answer.probe.threads;
+    json["probe"] = {{"spp", answer.probe.state.spp()},
+                     {"passes", answer.probe.state.passes.size()},
+                     {"pixel_ratio", answer.pixel_ratio},
+                     {"whole_render", answer.probe.complete}};
+    return json;
+}
+
+std::string count_text(double count) {
+    if (!(count < 1e15)) return "very many";
+    std::string digits = fmt::format("{:.0f}", rounded(count));
+    for (std::size_t at = digits.size(); at > 3;) {
+        at -= 3;
+        digits.insert(at, ",");
+    }
+    return digits;
+}
+
+}  // namespace treefarm

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "cli/probe.h"
+#include "common/plan/expectation.h"
+
+namespace treefarm {
+
+/// What a render is expected to take and to give, by a probe.
+struct PlanAnswer {
+    Probe probe;
+    Expectation expected;
+    bool out_of_time = false;  ///< --seconds ends the render before --error is reached
+    double pixel_ratio = 1;    ///< of the render's film over the probe's
+};
+
+/// By the budget of the request's job.
+PlanAnswer answer_by_probe(const Job& job, Probe probe, double pixel_ratio);
+
+/// "5 % error: about 1,840 spp [1,500, 2,300], 2:10 min [1:40 min, 2:50 min] on this machine (2 threads)", and a line
+/// about the probe.
+std::string answer_text(const Job& job, const PlanAnswer& answer);
+nlohmann::ordered_json answer_json(const PlanAnswer& answer);
+
+/// "1,840".
+std::string count_text(double count);
+
+}  // namespace treefarm

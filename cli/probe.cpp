@@ -1,0 +1,57 @@
+#include "cli/probe.h"
+
+#include <algorithm>
+
+#include "cli/on_farm.h"
+#include "common/scene/scene_codec.h"
+#include "coordinator/pass_loop.h"
+
+namespace treefarm {
+
+namespace {
+
+/// Fewer samples tell neither an interval of the error nor what a tree brings; but they are not waited for longer than
+/// so many seconds.
+constexpr std::uint32_t kLeastSpp = 31;
+constexpr double kPatienceSeconds = 30;
+
+/// Whether the probe should end here rather than with another pass.
+bool is_enough(const RenderState& state, const PassPlan& next, double limit) {
+    if (state.passes.empty()) return false;
+    const PassFacts& last = state.passes.back();
+    const double coming = state.seconds + last.overhead_seconds + last.collect_seconds / last.spp * next.spp;
+    return coming > (state.spp() < kLeastSpp ? std::max(limit, kPatienceSeconds) : limit);
+}
+
+}  // namespace
+
+Probe run_probe(const RenderRequest& request, double seconds, unsigned threads) {
+    Probe probe;
+    probe.threads = threads > 0 ? threads : affinity_threads();
+    const Film& film = request.scene.film;
+    FarmTask task;
+    task.prepare = [] {};
+    task.coordinate = [&](Channel& channel, const std::function<bool()>& interrupted) -> CoordinatorEnd {
+        const Log log = make_log("treefarm", {}, true);
+        Farm farm(channel, request.job, encode_scene(request.scene), request.fingerprint.hash(), log);
+        farm.gather(interrupted);
+        const PassChooser own = passes_of(request.job);
+        const PassChooser first = [&](const RenderState& state) {
+            probe.state = state;
+            NextPass next = own(state);
+            probe.complete = !next.pass;
+            if (next.pass && is_enough(state, *next.pass, seconds)) next.pass.reset();
+            return next;
+        };
+        PassHooks hooks;
+        hooks.interrupted = interrupted;
+        probe.interrupted =
+            run_passes(farm, request.job, first, first_tree(request.scene, request.job), film.width, film.height, hooks)
+                .interrupted;
+        return {0, farm.lost_peers()};
+    };
+    run_on_farm(LaunchEnvironment{}, {.threads = threads, .quiet = true}, task);
+    return probe;
+}
+
+}  // namespace treefarm

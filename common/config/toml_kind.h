@@ -1,0 +1,17 @@
+#pragma once
+
+#include <toml++/toml.h>
+
+#include <cstdint>
+#include <string>
+
+namespace treefarm {
+
+/// What a TOML file of ours is for.
+enum class TomlKind : std::uint8_t { job, study };
+
+/// Throws InputError where a file is plainly of another kind than the command takes, and names the command that takes
+/// it.
+void require_kind(const toml::table& table, const std::string& file, TomlKind wanted);
+
+}  // namespace treefarm

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <string>
+
+#include "common/config/job.h"
+#include "common/plan/outlook.h"
+
+namespace treefarm {
+
+/// A figure that is expected, and where it is most likely to be found.
+struct Expected {
+    double value = 0, low = 0, high = 0;
+};
+
+/// What a render will have taken and given in the end, by the passes that are done.
+struct Expectation {
+    bool known = false;
+    bool reached = false;   ///< by those passes: nothing more is needed
+    std::string unknown;    ///< why it is not known
+    Expected spp, seconds;  ///< in all
+    Expected error;         ///< rmse / mean luminance
+};
+
+/// Until the error is `relative_error`.
+Expectation expect_error(const RenderState& state, const Job& job, double relative_error);
+
+/// After so many seconds of rendering.
+Expectation expect_after_seconds(const RenderState& state, const Job& job, double seconds);
+
+/// After so many samples per pixel.
+Expectation expect_after_spp(const RenderState& state, const Job& job, double spp);
+
+}  // namespace treefarm
