@@ -10,6 +10,20 @@
 
 namespace treefarm {
 
+namespace {
+
+/// NO_COLOR: no-color.org. A terminal without a name, or a dumb one, understands no escape sequences.
+TerminalKind read_terminal(bool under_mpi) {
+    const char* const name = std::getenv("TERM");
+    const char* const no_colour = std::getenv("NO_COLOR");
+    TerminalKind terminal;
+    terminal.live = !under_mpi && isatty(STDERR_FILENO) && name && *name && std::string_view(name) != "dumb";
+    terminal.colour = terminal.live && !(no_colour && *no_colour);
+    return terminal;
+}
+
+}  // namespace
+
 LaunchEnvironment read_launch_environment() {
     LaunchEnvironment launch;
     for (const char* name : {"OMPI_COMM_WORLD_RANK", "PMIX_RANK"})
@@ -21,6 +35,7 @@ LaunchEnvironment read_launch_environment() {
     const char* const here = std::getenv("OMPI_COMM_WORLD_LOCAL_SIZE");
     const char* const all = std::getenv("OMPI_COMM_WORLD_SIZE");
     launch.one_host = here && all && std::string_view(here) == all;
+    launch.terminal = read_terminal(launch.under_mpi);
     return launch;
 }
 

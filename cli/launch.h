@@ -2,6 +2,8 @@
 
 #include <string>
 
+#include "common/base/terminal.h"
+
 namespace treefarm {
 
 /// How this process was started, as the launcher's environment says. The only place that reads the environment.
@@ -9,6 +11,7 @@ struct LaunchEnvironment {
     bool under_mpi = false;  ///< by mpirun or srun --mpi=pmix
     int rank = 0;            ///< what the launcher calls this process; 0 without a launcher
     bool one_host = false;   ///< mpirun started all processes on this host
+    TerminalKind terminal;   ///< standard error; nothing is drawn through mpirun
 };
 LaunchEnvironment read_launch_environment();
 

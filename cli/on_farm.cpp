@@ -26,12 +26,12 @@ WorkerSettings worker_settings(unsigned threads) {
 }
 
 /// Coordinator and one worker in this process.
-int run_here(unsigned threads, bool quiet, const FarmTask& task) {
+int run_here(unsigned threads, const Voice& voice, const FarmTask& task) {
     task.prepare();
     InterruptWatch watch;
     auto channels = make_in_process_channels(2);
-    std::thread worker([&channel = *channels[1], threads = threads > 0 ? threads : affinity_threads(), quiet] {
-        const Log log = make_log("worker", {}, quiet);
+    std::thread worker([&channel = *channels[1], threads = threads > 0 ? threads : affinity_threads(), &voice] {
+        const Log log = make_log("worker", {}, voice.console, voice.loudness);
         try {
             run_worker(channel, worker_settings(threads), make_path_renderer, log);
         } catch (const std::exception& error) {  // the coordinator notices the silence
@@ -77,10 +77,10 @@ int coordinate(MpiSession& session, const FarmTask& task, InterruptWatch& watch)
     return end.code;
 }
 
-int work(MpiSession& session, unsigned asked, bool quiet) {
+int work(MpiSession& session, unsigned asked, const Voice& voice) {
     const unsigned share = affinity_threads() / static_cast<unsigned>(std::max(1, session.workers_on_host()));
     const unsigned threads = asked > 0 ? asked : std::max(1u, share);
-    const Log log = make_log("worker " + std::to_string(session.rank()), {}, quiet);
+    const Log log = make_log("worker " + std::to_string(session.rank()), {}, voice.console, voice.loudness);
     std::vector<std::string> warnings;
     warn_if_crowded(asked, warnings);
     if (affinity_threads() < host_processors() / static_cast<unsigned>(std::max(1, session.workers_on_host())))
@@ -102,14 +102,20 @@ int work(MpiSession& session, unsigned asked, bool quiet) {
 
 }  // namespace
 
-int run_on_farm(const LaunchEnvironment& launch, unsigned threads, bool quiet, const FarmTask& task) {
-    if (!launch.under_mpi) return run_here(threads, quiet, task);
+Voice make_voice(const LaunchEnvironment& launch, bool quiet, bool verbose) {
+    return {std::make_shared<Console>(launch.terminal, !quiet), quiet     ? Loudness::quiet
+                                                                : verbose ? Loudness::verbose
+                                                                          : Loudness::normal};
+}
+
+int run_on_farm(const LaunchEnvironment& launch, unsigned threads, const Voice& voice, const FarmTask& task) {
+    if (!launch.under_mpi) return run_here(threads, voice, task);
     if (launch.one_host) skip_network_search();
     InterruptWatch watch;  // before MPI starts its threads; workers leave when the coordinator says so
     MpiSession session;
     if (session.size() > 1)
-        return session.rank() == 0 ? coordinate(session, task, watch) : work(session, threads, quiet);
-    const int code = guarded([&]() -> CoordinatorEnd { return {run_here(threads, quiet, task), {}}; }).code;
+        return session.rank() == 0 ? coordinate(session, task, watch) : work(session, threads, voice);
+    const int code = guarded([&]() -> CoordinatorEnd { return {run_here(threads, voice, task), {}}; }).code;
     session.finish(true, code, kFinalizeSeconds);
     return code;
 }

@@ -6,9 +6,17 @@
 #include <vector>
 
 #include "cli/launch.h"
+#include "common/base/console.h"
 #include "common/comm/channel.h"
 
 namespace treefarm {
+
+/// Where this process speaks, and how much it says.
+struct Voice {
+    ConsolePtr console;
+    Loudness loudness = Loudness::normal;
+};
+Voice make_voice(const LaunchEnvironment& launch, bool quiet, bool verbose);
 
 /// How the coordinator's part ended.
 struct CoordinatorEnd {
@@ -25,7 +33,7 @@ struct FarmTask {
 /// Runs the task over all processes of the MPI job, or over coordinator and one worker in this process. `threads`: that
 /// trace in each worker, 0: its processors. Returns the exit code; InputError and RunError leave it in one process
 /// only.
-int run_on_farm(const LaunchEnvironment& launch, unsigned threads, bool quiet, const FarmTask& task);
+int run_on_farm(const LaunchEnvironment& launch, unsigned threads, const Voice& voice, const FarmTask& task);
 
 /// Warns where more threads were asked for than processors are there.
 void warn_if_crowded(unsigned threads, std::vector<std::string>& warnings);

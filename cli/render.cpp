@@ -1,12 +1,11 @@
 #include "cli/render.h"
 
-#include <unistd.h>
-
 #include <CLI/CLI.hpp>
 #include <memory>
 
 #include "cli/debug_sample.h"
 #include "cli/on_farm.h"
+#include "common/base/reading_notice.h"
 
 namespace treefarm {
 
@@ -26,16 +25,19 @@ int exit_code_of(const RenderOutcome& outcome) {
 int render(const LaunchEnvironment& launch, const RenderOptions& options) {
     RenderRequest request;
     FarmTask task;
+    const Voice voice = make_voice(launch, options.quiet, options.verbose);
     task.prepare = [&] {
+        const ReadingNotice notice(voice.console, std::filesystem::path(options.input).stem().string());
         request = read_request(options);
         warn_if_crowded(options.threads, request.warnings);
-        request.progress_bar = !options.quiet && isatty(STDERR_FILENO);
+        request.console = voice.console;
+        request.loudness = voice.loudness;
     };
     task.coordinate = [&](Channel& channel, const std::function<bool()>& interrupted) -> CoordinatorEnd {
         const RenderOutcome outcome = run_render(channel, request, interrupted);
         return {exit_code_of(outcome), outcome.lost_peers};
     };
-    return run_on_farm(launch, options.threads, options.quiet, task);
+    return run_on_farm(launch, options.threads, voice, task);
 }
 
 /// A sample is traced in one process.
@@ -66,7 +68,9 @@ void add_render_command(CLI::App& app, const LaunchEnvironment& launch, const st
     command->add_option("--run-dir", options->run_directory, "where results go (default: runs/<scene>-<time>)");
     command->add_option("--threads", options->threads, "tracing threads of each process (default: its processors)")
         ->check(CLI::Range(1u, 4096u));
-    command->add_flag("--quiet", options->quiet, "only errors on the terminal");
+    command->add_flag("-q,--quiet", options->quiet, "only errors on the terminal");
+    command->add_flag("-v,--verbose", options->verbose, "every figure of each pass on the terminal")
+        ->excludes("--quiet");
     command->add_option("--debug-sample", options->debug_sample,
                         "pass,x,y,sample: trace this sample and tell its story");
     command->callback([options, launch, &exit_code] {

@@ -27,6 +27,7 @@ struct RenderOptions {
     std::string run_directory;  ///< --run-dir
     unsigned threads = 0;       ///< 0: one per processor
     bool quiet = false;
+    bool verbose = false;
     std::string debug_sample;  ///< "pass,x,y,sample"
     std::string command;       ///< as it was typed
 };

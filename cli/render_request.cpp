@@ -112,7 +112,6 @@ RenderRequest read_request(const RenderOptions& options) {
     request.command = options.command;
     request.debug_command = debug_command(options);
     request.fingerprint = own_fingerprint().hash();
-    request.quiet = options.quiet;
     return request;
 }
 

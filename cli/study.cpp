@@ -19,6 +19,7 @@ struct StudyOptions {
     unsigned threads = 0;
     bool dry_run = false;
     bool quiet = false;
+    bool verbose = false;
     std::string command;
 };
 
@@ -39,7 +40,8 @@ int study(const LaunchEnvironment& launch, const StudyOptions& options) {
     }
     Study study;
     FarmTask task;
-    const Log log = make_log("study", {}, options.quiet);
+    const Voice voice = make_voice(launch, options.quiet, options.verbose);
+    const Log log = make_log("treefarm", {}, voice.console, voice.loudness);
     task.prepare = [&] {
         study = read_study_for(options);
         std::vector<std::string> warnings;
@@ -48,10 +50,11 @@ int study(const LaunchEnvironment& launch, const StudyOptions& options) {
             log->warn("{}", warning);
     };
     task.coordinate = [&](Channel& channel, const std::function<bool()>& interrupted) -> CoordinatorEnd {
-        const StudyOutcome outcome = run_study(channel, study, options.command, log, interrupted);
+        const StudyOutcome outcome =
+            run_study(channel, study, {options.command, voice.console, voice.loudness, log}, interrupted);
         return {exit_code_of(outcome.state), outcome.lost_peers};
     };
-    const int code = run_on_farm(launch, options.threads, options.quiet, task);
+    const int code = run_on_farm(launch, options.threads, voice, task);
     if (code == 0 && launch.rank == 0) log->info("report: {}", write_study_report(study.directory).string());
     return code;
 }
@@ -87,7 +90,9 @@ void add_study_command(CLI::App& app, const LaunchEnvironment& launch, const std
     command->add_option("--threads", options->threads, "tracing threads of each process (default: its processors)")
         ->check(CLI::Range(1u, 4096u));
     command->add_flag("--dry-run", options->dry_run, "list the cells, and which are done; render nothing");
-    command->add_flag("--quiet", options->quiet, "only errors on the terminal");
+    command->add_flag("-q,--quiet", options->quiet, "only errors on the terminal");
+    command->add_flag("-v,--verbose", options->verbose, "every figure of each pass on the terminal")
+        ->excludes("--quiet");
     command->callback([options, launch, &exit_code] { exit_code = study(launch, *options); });
 }
 
