@@ -11,6 +11,9 @@ namespace treefarm {
 
 namespace {
 
+/// What is prepared faster is not worth a word.
+constexpr double kPreparingSeconds = 1.0;
+
 /// A whole percentage that says 100 only at the end.
 std::string percent(double fraction) {
     return fmt::format("{} %", static_cast<int>(100 * std::clamp(fraction, 0.0, 1.0) + 1e-6));
@@ -51,6 +54,13 @@ RenderWords render_words(const RenderProgress& p, const Job::Budget& budget, con
     return words;
 }
 
+RenderWords preparing_words(double seconds) {
+    RenderWords words;
+    words.how_far = "preparing the scene";
+    words.since_begin = fmt::format("{:.0f} s so far", seconds);
+    return words;
+}
+
 Status render_status(const RenderWords& w) {
     Status status;
     status.fraction = w.fraction;
@@ -66,6 +76,11 @@ Progress::Progress(ConsolePtr console, const Job::Budget& budget, StatusFrame fr
       left_(budget) {}
 
 void Progress::update(const RenderProgress& progress) {
+    if (progress.run_seconds <= 0) {
+        if (const double seconds = clock_.seconds(); seconds > kPreparingSeconds)
+            console_->status(frame_(preparing_words(seconds)));
+        return;
+    }
     console_->status(frame_(render_words(progress, budget_, left_.at(progress))));
 }
 

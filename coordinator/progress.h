@@ -20,6 +20,9 @@ struct RenderWords {
 };
 RenderWords render_words(const RenderProgress& progress, const Job::Budget& budget, const TimeLeft& left);
 
+/// Before the first worker asks for work: scene and tree are on their way, or being prepared.
+RenderWords preparing_words(double seconds);
+
 /// A render that stands for itself. What is rendered as a part of something more frames its words otherwise.
 Status render_status(const RenderWords& words);
 using StatusFrame = std::function<Status(const RenderWords&)>;
@@ -40,6 +43,7 @@ class Progress {
     const Job::Budget budget_;
     const StatusFrame frame_;
     TimeLeftClock left_;
+    const Timer clock_;
 };
 
 }  // namespace treefarm

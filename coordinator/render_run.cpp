@@ -133,9 +133,9 @@ class RenderRun {
         if (last.error.rmse > 0 && std::isfinite(last.halving.seconds))
             log_->info("half this error ({:.3g} %) would take {}{} more, {:.0f} spp", 100 * last.halving.relative_error,
                        trust_words(last.halving.trust), rough_duration_text(last.halving.seconds), last.halving.spp);
-        log_->info(
-            "{}", join_fields({fmt::format("{} spp", result_.spp), duration_text(elapsed), brief_error_text(last.error),
-                               "image " + hash_text(result_.image_hash), image_file().string()}));
+        log_->info("{}", join_fields({fmt::format("{} spp", result_.spp), duration_text(last.run_seconds),
+                                      brief_error_text(last.error), "image " + hash_text(result_.image_hash),
+                                      image_file().string()}));
         if (missed_target())
             log_->warn("the error is above the {:.3g} % asked for: {}; the image is kept",
                        100 * request_.job.budget.error, why_missed());

@@ -33,6 +33,11 @@ constexpr double kFolderPatience = 5.0;
 
 struct Interrupted {};
 
+/// "1 scene", "2 scenes".
+std::string counted(std::size_t number, const std::string& what) {
+    return std::to_string(number) + " " + what + (number == 1 ? "" : "s");
+}
+
 std::string cell_words(const Study& study, const StudyCell& cell) {
     return study.scenes[cell.scene].name + "." + study.methods[cell.method].name + "." + std::to_string(cell.seed);
 }
@@ -71,8 +76,8 @@ class StudyRun {
         fs::create_directories(directory_);
         const FolderLock lock(directory_, kFolderPatience, interrupted_);
         begin_description();
-        log_->info("{} cells: {} scenes, {} methods; results in {}", cells_.size(), study_.scenes.size(),
-                   study_.methods.size(), study_.directory);
+        log_->info("{}: {}, {}; results in {}", counted(cells_.size(), "cell"), counted(study_.scenes.size(), "scene"),
+                   counted(study_.methods.size(), "method"), study_.directory);
         StudyOutcome outcome;
         try {
             for (std::size_t scene = 0; scene < study_.scenes.size(); ++scene)

@@ -102,6 +102,12 @@ TEST(Progress, TowardsAnError) {
     EXPECT_NEAR(status.fraction, 0.3, 1e-9);
 }
 
+TEST(Progress, BeforeTheFirstRay) {
+    const Status status = render_status(preparing_words(3.1));
+    EXPECT_EQ(status.line, "preparing the scene   3 s so far");
+    EXPECT_EQ(status_text(status, 79), status.line);
+}
+
 TEST(StudyProgress, CountsCellsAndTheirTime) {
     StudyProgress study(4);
     study.begin_cell("box.auto.1");
