@@ -22,7 +22,7 @@ const Location kHere{"--debug-sample", 0, 0};
 SdTree learn_tree(const RenderRequest& request, const std::vector<PassPlan>& plans, std::uint32_t pass) {
     SdTree tree = first_tree(request.scene, request.job);
     if (pass == 0 || request.job.guiding.type == GuidingType::none) return tree;
-    const Log log = make_log("treefarm", {}, true);
+    const Log log = make_log("treefarm", {}, request.console, Loudness::quiet);
     auto channels = make_in_process_channels(2);
     std::thread worker([&] {
         WorkerSettings settings;

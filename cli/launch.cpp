@@ -29,12 +29,23 @@ void find_lone_tasks(LaunchEnvironment& launch) {
     if (is_set("PMI_RANK") && number_in("PMI_SIZE") > 1) {
         launch.lone_tasks = number_in("PMI_SIZE");
         launch.lone_task = number_in("PMI_RANK");
-    } else if (is_set("SLURM_STEP_ID") && is_set("SLURM_PROCID")) {
+    } else if (const char* kind = std::getenv("ENVIRONMENT");
+               is_set("SLURM_PROCID") && (is_set("SLURM_STEP_ID") || !kind || std::string_view(kind) != "BATCH")) {
         const int tasks = number_in(is_set("SLURM_STEP_NUM_TASKS") ? "SLURM_STEP_NUM_TASKS" : "SLURM_NTASKS");
         launch.lone_tasks = std::max(1, tasks);
         launch.lone_task = number_in("SLURM_PROCID");
     }
-    launch.by_slurm = is_set("SLURM_STEP_ID");
+    launch.by_slurm = is_set("SLURM_PROCID");
+}
+
+/// NO_COLOR: no-color.org. A terminal without a name, or a dumb one, understands no escape sequences.
+TerminalKind read_terminal(bool under_mpi) {
+    const char* const name = std::getenv("TERM");
+    const char* const no_colour = std::getenv("NO_COLOR");
+    TerminalKind terminal;
+    terminal.live = !under_mpi && isatty(STDERR_FILENO) && name && *name && std::string_view(name) != "dumb";
+    terminal.colour = terminal.live && !(no_colour && *no_colour);
+    return terminal;
 }
 
 }  // namespace
@@ -56,6 +67,7 @@ LaunchEnvironment read_launch_environment() {
     const char* const all = std::getenv("OMPI_COMM_WORLD_SIZE");
     launch.one_host = here && all && std::string_view(here) == all;
     if (!launch.under_mpi) find_lone_tasks(launch);
+    launch.terminal = read_terminal(launch.under_mpi);
     return launch;
 }
 

@@ -2,6 +2,8 @@
 
 #include <string>
 
+#include "common/base/terminal.h"
+
 namespace treefarm {
 
 /// How this process was started, as the launcher's environment says. The only place that reads the environment.
@@ -13,6 +15,7 @@ struct LaunchEnvironment {
     int lone_tasks = 1;      ///< more than 1: of a launcher that MPI cannot talk to, so each is an MPI world of its own
     int lone_task = 0;       ///< which of them this is
     bool by_slurm = false;   ///< they were started by srun
+    TerminalKind terminal;   ///< standard error; nothing is drawn through mpirun
 };
 LaunchEnvironment read_launch_environment();
 

@@ -36,19 +36,19 @@ WorkerSettings worker_settings(unsigned threads) {
 }
 
 /// Coordinator and one worker in this process.
-int run_here(const FarmOptions& options, const FarmTask& task) {
+int run_here(const FarmOptions& options, const Voice& voice, const FarmTask& task) {
     task.prepare();
     InterruptWatch watch;
     auto channels = make_in_process_channels(2);
-    std::thread worker([&channel = *channels[1], quiet = options.quiet,
-                        threads = options.threads > 0 ? options.threads : affinity_threads()] {
-        const Log log = make_log("worker", {}, quiet);
-        try {
-            run_worker(channel, worker_settings(threads), make_path_renderer, log);
-        } catch (const std::exception& error) {  // the coordinator notices the silence
-            log->error("{}", error.what());
-        }
-    });
+    std::thread worker(
+        [&channel = *channels[1], threads = options.threads > 0 ? options.threads : affinity_threads(), &voice] {
+            const Log log = make_log("worker", {}, voice.console, voice.loudness);
+            try {
+                run_worker(channel, worker_settings(threads), make_path_renderer, log);
+            } catch (const std::exception& error) {  // the coordinator notices the silence
+                log->error("{}", error.what());
+            }
+        });
     const auto send_away = [&] {
         dismiss_workers(*channels[0], {}, kDismissSeconds);
         worker.join();
@@ -110,11 +110,11 @@ int coordinate(MpiSession& session, const FarmTask& task, InterruptWatch& watch)
     return end.code;
 }
 
-int work(MpiSession& session, const FarmOptions& options) {
+int work(MpiSession& session, const FarmOptions& options, const Voice& voice) {
     const unsigned asked = options.threads;
     const unsigned share = affinity_threads() / static_cast<unsigned>(std::max(1, session.workers_on_host()));
     const unsigned threads = asked > 0 ? asked : std::max(1u, share);
-    const Log log = make_log("worker " + std::to_string(session.rank()), {}, options.quiet);
+    const Log log = make_log("worker " + std::to_string(session.rank()), {}, voice.console, voice.loudness);
     std::vector<std::string> warnings;
     warn_if_crowded(asked, warnings);
     if (affinity_threads() < host_processors() / static_cast<unsigned>(std::max(1, session.workers_on_host())))
@@ -146,18 +146,28 @@ std::string missing_processes(const LaunchEnvironment& launch, double seconds) {
 
 }  // namespace
 
-void add_start_seconds(CLI::App& command, FarmOptions& options) {
+void add_farm_options(CLI::App& command, FarmOptions& options) {
+    add_threads_option(command, options.threads, "tracing threads of each process (default: its processors)");
+    command.add_flag("-q,--quiet", options.quiet, "only errors on the terminal");
+    command.add_flag("-v,--verbose", options.verbose, "every figure of each pass on the terminal")->excludes("--quiet");
     add_number_option(command, "--start-seconds", options.start_seconds, {1, 1e6, "seconds", "60"},
                       "under mpirun: in which all processes have to come together (default: 25)");
 }
 
-int run_on_farm(const LaunchEnvironment& launch, const FarmOptions& options, const FarmTask& task) {
-    if (!launch.under_mpi) return run_here(options, task);
+Voice make_voice(const LaunchEnvironment& launch, const FarmOptions& options) {
+    return {std::make_shared<Console>(launch.terminal, !options.quiet), options.quiet     ? Loudness::quiet
+                                                                        : options.verbose ? Loudness::verbose
+                                                                                          : Loudness::normal};
+}
+
+int run_on_farm(const LaunchEnvironment& launch, const FarmOptions& options, const Voice& voice, const FarmTask& task) {
+    if (!launch.under_mpi) return run_here(options, voice, task);
     if (launch.one_host) skip_network_search();
     InterruptWatch watch;  // before MPI starts its threads; workers leave when the coordinator says so
     MpiSession session(options.start_seconds, missing_processes(launch, options.start_seconds));
-    if (session.size() > 1) return session.rank() == 0 ? coordinate(session, task, watch) : work(session, options);
-    const int code = guarded([&]() -> CoordinatorEnd { return {run_here(options, task), {}}; }).code;
+    if (session.size() > 1)
+        return session.rank() == 0 ? coordinate(session, task, watch) : work(session, options, voice);
+    const int code = guarded([&]() -> CoordinatorEnd { return {run_here(options, voice, task), {}}; }).code;
     session.finish(true, code, kFinalizeSeconds);
     return code;
 }

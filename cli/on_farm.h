@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cli/launch.h"
+#include "common/base/console.h"
 #include "common/comm/channel.h"
 
 namespace CLI {
@@ -28,17 +29,25 @@ struct FarmTask {
 
 /// How this program's part in the farm is run.
 struct FarmOptions {
-    unsigned threads = 0;  ///< that trace in each worker; 0: its processors
-    bool quiet = false;
+    unsigned threads = 0;         ///< that trace in each worker; 0: its processors
+    bool quiet = false;           ///< only errors on the terminal
+    bool verbose = false;         ///< every figure of each pass
     double start_seconds = 25.0;  ///< in which all processes of an MPI job have to come together
 };
 
-/// --start-seconds
-void add_start_seconds(CLI::App& command, FarmOptions& options);
+/// --threads, --quiet, --verbose, --start-seconds
+void add_farm_options(CLI::App& command, FarmOptions& options);
+
+/// Where this process speaks, and how much it says.
+struct Voice {
+    ConsolePtr console;
+    Loudness loudness = Loudness::normal;
+};
+Voice make_voice(const LaunchEnvironment& launch, const FarmOptions& options);
 
 /// Runs the task over all processes of the MPI job, or over coordinator and one worker in this process. Returns the
 /// exit code; InputError and RunError leave it in one process only.
-int run_on_farm(const LaunchEnvironment& launch, const FarmOptions& options, const FarmTask& task);
+int run_on_farm(const LaunchEnvironment& launch, const FarmOptions& options, const Voice& voice, const FarmTask& task);
 
 /// Warns where more threads were asked for than processors are there.
 void warn_if_crowded(unsigned threads, std::vector<std::string>& warnings);

@@ -32,7 +32,7 @@ Probe run_probe(const RenderRequest& request, double seconds, unsigned threads) 
     FarmTask task;
     task.prepare = [] {};
     task.coordinate = [&](Channel& channel, const std::function<bool()>& interrupted) -> CoordinatorEnd {
-        const Log log = make_log("treefarm", {}, true);
+        const Log log = make_log("treefarm", {}, request.console, Loudness::quiet);
         Farm farm(channel, request.job, encode_scene(request.scene), request.fingerprint.hash(), log);
         farm.gather(interrupted);
         const PassChooser own = passes_of(request.job);
@@ -50,7 +50,7 @@ Probe run_probe(const RenderRequest& request, double seconds, unsigned threads) 
                 .interrupted;
         return {0, farm.lost_peers()};
     };
-    run_on_farm(LaunchEnvironment{}, {.threads = threads, .quiet = true}, task);
+    run_on_farm(LaunchEnvironment{}, {.threads = threads}, {request.console, Loudness::quiet}, task);
     return probe;
 }
 

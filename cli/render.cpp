@@ -1,12 +1,11 @@
 #include "cli/render.h"
 
-#include <unistd.h>
-
 #include <CLI/CLI.hpp>
 #include <memory>
 
 #include "cli/debug_sample.h"
 #include "cli/option_values.h"
+#include "common/base/reading_notice.h"
 
 namespace treefarm {
 
@@ -27,16 +26,19 @@ int render(const LaunchEnvironment& launch, const RenderOptions& options) {
     if (is_separate_world(launch)) return 2;
     RenderRequest request;
     FarmTask task;
+    const Voice voice = make_voice(launch, options.farm);
     task.prepare = [&] {
+        const ReadingNotice notice(voice.console, std::filesystem::path(options.input).stem().string());
         request = read_request(options);
         warn_if_crowded(options.farm.threads, request.warnings);
-        request.progress_bar = !options.farm.quiet && isatty(STDERR_FILENO);
+        request.console = voice.console;
+        request.loudness = voice.loudness;
     };
     task.coordinate = [&](Channel& channel, const std::function<bool()>& interrupted) -> CoordinatorEnd {
         const RenderOutcome outcome = run_render(channel, request, interrupted);
         return {exit_code_of(outcome), outcome.lost_peers};
     };
-    return run_on_farm(launch, options.farm, task);
+    return run_on_farm(launch, options.farm, voice, task);
 }
 
 /// A sample is traced in one process.
@@ -64,9 +66,7 @@ void add_render_command(CLI::App& app, const LaunchEnvironment& launch, const st
     add_texts_option(*command, "-D", options->defines, "name=value: gives $name in the scene a value");
     command->add_flag("--lenient", options->lenient, "replace what the scene reader does not know instead of refusing");
     add_text_option(*command, "--run-dir", options->run_directory, "where results go (default: runs/<scene>-<time>)");
-    add_threads_option(*command, options->farm.threads, "tracing threads of each process (default: its processors)");
-    command->add_flag("--quiet", options->farm.quiet, "only errors on the terminal");
-    add_start_seconds(*command, options->farm);
+    add_farm_options(*command, options->farm);
     add_text_option(*command, "--debug-sample", options->debug_sample,
                     "pass,x,y,sample: trace this sample and tell its story");
     command->footer(std::string(kDefaultsText) + "\n" + kExitCodesText);

@@ -129,7 +129,6 @@ RenderRequest read_request(const RenderOptions& options) {
     request.command = options.command;
     request.debug_command = debug_command(options);
     request.fingerprint = this_build();
-    request.quiet = options.farm.quiet;
     return request;
 }
 

@@ -43,7 +43,8 @@ int study(const LaunchEnvironment& launch, const StudyOptions& options) {
     if (is_separate_world(launch)) return 2;
     Study study;
     FarmTask task;
-    const Log log = make_log("study", {}, options.farm.quiet);
+    const Voice voice = make_voice(launch, options.farm);
+    const Log log = make_log("treefarm", {}, voice.console, voice.loudness);
     task.prepare = [&] {
         study = read_study_for(options);
         std::vector<std::string> warnings;
@@ -52,10 +53,11 @@ int study(const LaunchEnvironment& launch, const StudyOptions& options) {
             log->warn("{}", warning);
     };
     task.coordinate = [&](Channel& channel, const std::function<bool()>& interrupted) -> CoordinatorEnd {
-        const StudyOutcome outcome = run_study(channel, study, options.command, this_build(), log, interrupted);
+        const StudyOutcome outcome =
+            run_study(channel, study, {options.command, this_build(), voice.console, voice.loudness, log}, interrupted);
         return {exit_code_of(outcome.state), outcome.lost_peers};
     };
-    const int code = run_on_farm(launch, options.farm, task);
+    const int code = run_on_farm(launch, options.farm, voice, task);
     if (code == 0 && launch.rank == 0) log->info("report: {}", write_study_report(study.directory).string());
     return code;
 }
@@ -88,10 +90,8 @@ void add_study_command(CLI::App& app, const LaunchEnvironment& launch, const std
     CLI::App* command = app.add_subcommand("study", "Renders a matrix of methods, scenes and seeds, and compares them");
     command->add_option("input", options->input, "study file (.toml)")->required();
     add_text_option(*command, "--dir", options->directory, "where results go (default: directory in the file)");
-    add_threads_option(*command, options->farm.threads, "tracing threads of each process (default: its processors)");
-    add_start_seconds(*command, options->farm);
+    add_farm_options(*command, options->farm);
     command->add_flag("--dry-run", options->dry_run, "list the cells, and which are done; render nothing");
-    command->add_flag("--quiet", options->farm.quiet, "only errors on the terminal");
     command->footer(kExitCodesText);
     command->callback([options, launch, &exit_code] { exit_code = study(launch, *options); });
 }

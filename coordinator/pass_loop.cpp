@@ -183,6 +183,13 @@ class PassLoop {
         if (hooks_.on_pass) hooks_.on_pass(report, result_.image);
     }
 
+    /// Reading in the scene, before the first pass, is not rendering.
+    double run_seconds() const {
+        if (!result_.passes.empty()) return clock_.seconds() - loading_seconds_;
+        const double loading = farm_.first_request_seconds();
+        return loading > 0 ? std::max(0.0, clock_.seconds() - loading) : 0.0;
+    }
+
     void tell_progress(const PassPlan& plan, const NextPass& chosen) {
         if (!hooks_.on_progress) return;
         const Ledger& ledger = farm_.ledger();
@@ -197,6 +204,11 @@ class PassLoop {
         progress.error = state_.error;
         progress.workers = farm_.roster().present_count();
         progress.rays = farm_.rays_traced();
+        progress.run_seconds = run_seconds();
+        if (!result_.passes.empty()) {
+            progress.target = result_.passes.back().target;
+            progress.target_since = result_.passes.back().run_seconds;
+        }
         hooks_.on_progress(progress);
     }
 

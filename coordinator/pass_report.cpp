@@ -214,27 +214,6 @@ std::string pass_csv_line(const PassReport& report) {
     return join_columns([&](const Column& c) { return c.value(report); });
 }
 
-std::string pass_summary(const PassReport& r, std::size_t pass_count) {
-    std::string text = fmt::format(
-        "pass {}{}: {} spp in {:.2f} s ({:.2f} core-s), {:.2f} Mrays/s, stuv {:.4g}, ttuv {:.4g} core-s, {}",
-        r.plan.index + 1, pass_count > 0 ? fmt::format(" of {}", pass_count) : "", r.plan.spp, r.seconds.all,
-        r.core_seconds(), 1e-6 * r.rays_per_second(), r.variance.stuv, r.ttuv(), error_text(r.error));
-    if (r.efficiency() > 0) text += fmt::format(", efficiency {:.3g}", r.efficiency());
-    text += fmt::format(", {:.1f} % of paths see light", 100 * r.nonzero_share());
-    if (r.tree.regions > 1)
-        text += fmt::format("; tree {} nodes, {:.1f} MB", r.tree.nodes, 1e-6 * static_cast<double>(r.tree.memory));
-    if (r.guiding_gain.all > 0)
-        text += fmt::format("; guided samples are worth {:.3g} unguided ones{}", r.guiding_gain.all,
-                            r.guiding == Guiding::loses  ? ": unguided from here on"
-                            : r.guiding == Guiding::pays ? ", which hardly find the light: guided to the end"
-                                                         : "");
-    if (r.plan.split && !r.splitting) text += "; splitting paths does not pay: none is split from here on";
-    for (const ErrorForecast& forecast : {r.halving, r.target})
-        if (forecast.trust != Trust::none && forecast.relative_error > 0 && forecast.seconds > 0)
-            text += fmt::format("; {:.3g} % in {}", 100 * forecast.relative_error, forecast_text(forecast));
-    return text;
-}
-
 const char* trust_name(Trust trust) {
     switch (trust) {
         case Trust::none:
@@ -247,39 +226,6 @@ const char* trust_name(Trust trust) {
             return "firm";
     }
     return "";
-}
-
-std::string forecast_text(const ErrorForecast& forecast) {
-    const std::string time = duration_text(forecast.seconds);
-    switch (forecast.trust) {
-        case Trust::none:
-            break;
-        case Trust::learning:
-            return "at most " + time + " (still learning)";
-        case Trust::noisy:
-            return "roughly " + time + " (the error itself is not known well)";
-        case Trust::firm:
-            return "about " + time;
-    }
-    return "an unknown time";
-}
-
-std::string duration_text(double seconds) {
-    if (!(seconds < 1e9)) return "a very long time";
-    if (seconds < 9.5) return fmt::format("{:.2g} s", seconds);
-    const auto whole = static_cast<long>(seconds + 0.5);
-    if (whole < 60) return fmt::format("{} s", whole);
-    if (whole < 3600) return fmt::format("{}:{:02} min", whole / 60, whole % 60);
-    return fmt::format("{}:{:02} h", whole / 3600, whole % 3600 / 60);
-}
-
-std::string error_text(const ErrorEstimate& error) {
-    if (!error.known) return "error not known yet";
-    if (error.rmse == 0) return error.mean > 0 ? "no noise seen" : "no light found yet";
-    std::string text = fmt::format("error {:.3g} %", 100 * error.relative());
-    if (error.has_interval)
-        text += fmt::format(" [{:.3g}, {:.3g}]", 100 * error.relative_low(), 100 * error.relative_high());
-    return text;
 }
 
 }  // namespace treefarm

@@ -98,19 +98,7 @@ void count_idle(PassReport& report);
 std::string pass_csv_header();
 std::string pass_csv_line(const PassReport& report);
 
-/// One line for a person. `pass_count`: 0 where it is not known.
-std::string pass_summary(const PassReport& report, std::size_t pass_count);
-
-/// "1.2 s", "12 s", "3:05 min", "2:30 h".
-std::string duration_text(double seconds);
-
 /// "firm", "noisy", "learning", or empty.
 const char* trust_name(Trust trust);
-
-/// "about 12 s", "at most 12 s (still learning)".
-std::string forecast_text(const ErrorForecast& forecast);
-
-/// "error 4.2 % [4.0, 4.4]", or that it is not known, or that there is none to be seen.
-std::string error_text(const ErrorEstimate& error);
 
 }  // namespace treefarm

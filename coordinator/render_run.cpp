@@ -7,7 +7,7 @@
 #include "common/base/hash.h"
 #include "common/plan/plan_text.h"
 #include "common/scene/scene_codec.h"
-#include "coordinator/progress.h"
+#include "coordinator/pass_text.h"
 
 namespace treefarm {
 
@@ -20,8 +20,8 @@ class RenderRun {
           interrupted_(interrupted),
           scene_(encode_scene(request.scene)),
           directory_(request.job, {request.command, hash_bytes(scene_), request.fingerprint}, request.plan),
-          log_(make_log("treefarm", directory_.log_file(), request.quiet)),
-          bar_(request.progress_bar),
+          log_(make_log("treefarm", directory_.log_file(), request.console, request.loudness)),
+          progress_(request.console, request.job.budget, request.status_frame),
           farm_(channel, request.job, std::move(scene_), request.fingerprint.hash(), log_, {}, request.turn) {}
 
     RenderOutcome run() {
@@ -35,7 +35,7 @@ class RenderRun {
         try {
             render();
             outcome.state = result_.interrupted ? RunState::interrupted : RunState::done;
-            bar_.clear();
+            progress_.clear();
             directory_.write_image(result_);
         } catch (const InputError&) {
             throw;
@@ -55,7 +55,7 @@ class RenderRun {
   private:
     /// Keeps what the finished passes gave, where that can still be written.
     std::string fail(const std::string& error) {
-        bar_.clear();
+        progress_.clear();
         log_->error("{}", error);
         try {
             directory_.write_image(result_);
@@ -70,8 +70,9 @@ class RenderRun {
         const std::vector<PassPlan>& replayed = request_.schedule;
         const PassChooser passes = replayed.empty() ? passes_of(request_.job) : listed_passes(replayed);
         const Film& film = request_.scene.film;
-        log_->info("{} x {} pixels, {}, {} triangles; results in {}", film.width, film.height, budget_text(passes({})),
-                   request_.scene.triangle_count(), directory_.path().string());
+        log_->info("rendering {}, {} x {}, {}; results in {}", scene_name(), film.width, film.height,
+                   budget_text(passes({})), directory_.path().string());
+        log_->debug("{} triangles", request_.scene.triangle_count());
         farm_.gather(interrupted_);
         log_->debug("{} workers with {} threads", farm_.roster().present_count(), farm_.roster().thread_count());
         PassHooks hooks;
@@ -79,7 +80,7 @@ class RenderRun {
         hooks.on_progress = [this](const RenderProgress& progress) {
             const double elapsed = clock_.seconds();
             pass_count_ = progress.pass_count;
-            bar_.update(progress, elapsed);
+            progress_.update(progress);
             directory_.write_status(progress, elapsed);
         };
         hooks.on_failure = [this](RenderResult finished) { result_ = std::move(finished); };
@@ -94,16 +95,18 @@ class RenderRun {
     std::string budget_text(const NextPass& first) const {
         if (first.pass_count > 0) return fmt::format("{} spp in {} passes", first.spp_total, first.pass_count);
         const Job::Budget& budget = request_.job.budget;
-        std::string text = fmt::format("at most {} spp", budget.max_spp);
-        if (budget.seconds > 0) text += fmt::format(", {} s", budget.seconds);
-        if (budget.error > 0) text += fmt::format(", until the error is {:.3g} %", 100 * budget.error);
+        std::string text = budget.error > 0 ? fmt::format("until the error is {:.3g} %", 100 * budget.error) : "";
+        if (budget.seconds > 0) text += fmt::format("{}{} s", text.empty() ? "for " : ", at most ", budget.seconds);
+        if (budget.max_spp != Job::Budget{}.max_spp) text += fmt::format(", at most {} spp", budget.max_spp);
         return text;
     }
 
+    std::string scene_name() const { return std::filesystem::path(request_.job.scene.file).stem().string(); }
+
     void tell(const PassReport& pass) {
-        bar_.clear();
         directory_.add_pass(pass);
-        log_->info("{}", pass_summary(pass, pass_count_));
+        log_->info("{}", pass_line(pass, pass_count_));
+        log_->debug("{}", pass_summary(pass, pass_count_));
         for (const InvalidSample& sample : pass.stats.first_invalid)
             log_->warn("radiance ({}, {}, {}) counts as black; reproduce with: {} {},{},{},{}{}", sample.rgb[0],
                        sample.rgb[1], sample.rgb[2], request_.debug_command, sample.pass, sample.x, sample.y,
@@ -125,14 +128,23 @@ class RenderRun {
         }
         if (state == RunState::interrupted) log_->warn("interrupted: kept the {} spp of finished passes", result_.spp);
         const PassReport& last = result_.passes.back();
-        log_->info("{} spp in {:.2f} s, {}; image {} tree {}", result_.spp, elapsed, error_text(last.error),
-                   hash_text(result_.image_hash), hash_text(result_.tree_hash));
+        log_->debug("{} spp in {:.2f} s, {}; image {} tree {}", result_.spp, elapsed, error_text(last.error),
+                    hash_text(result_.image_hash), hash_text(result_.tree_hash));
         if (last.error.rmse > 0 && std::isfinite(last.halving.seconds))
-            log_->info("half this error ({:.3g} %) would take {} more, {:.0f} spp", 100 * last.halving.relative_error,
-                       forecast_text(last.halving), last.halving.spp);
+            log_->info("half this error ({:.3g} %) would take {}{} more, {:.0f} spp", 100 * last.halving.relative_error,
+                       trust_words(last.halving.trust), rough_duration_text(last.halving.seconds), last.halving.spp);
+        log_->info("{}", join_fields({fmt::format("{} spp", result_.spp), duration_text(last.run_seconds),
+                                      brief_error_text(last.error), "image " + hash_text(result_.image_hash),
+                                      image_file().string()}));
         if (missed_target())
             log_->warn("the error is above the {:.3g} % asked for: {}; the image is kept",
                        100 * request_.job.budget.error, why_missed());
+    }
+
+    /// Where a person looks for it.
+    std::filesystem::path image_file() const {
+        const std::string& asked = request_.job.output.file;
+        return asked.empty() ? directory_.path() / "image.exr" : std::filesystem::path(asked);
     }
 
     bool missed_target() const {
@@ -159,7 +171,7 @@ class RenderRun {
     const Timer clock_;
     RunDirectory directory_;
     const Log log_;
-    ProgressBar bar_;
+    Progress progress_;
     Farm farm_;
     std::size_t pass_count_ = 0;  ///< 0: not known
     RenderResult result_;

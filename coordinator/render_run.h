@@ -10,6 +10,7 @@
 #include "common/plan/effects.h"
 #include "common/protocol/fingerprint.h"
 #include "common/scene/scene.h"
+#include "coordinator/progress.h"
 #include "coordinator/run_directory.h"
 
 namespace treefarm {
@@ -25,9 +26,10 @@ struct RenderRequest {
     std::string debug_command;  ///< reproduces a sample when " pass,x,y,sample" and, for an open budget, --schedule are
                                 ///< appended
     Fingerprint fingerprint;    ///< of this process
-    bool quiet = false;         ///< only errors on the terminal
-    bool progress_bar = false;
-    JobTurn turn;  ///< among the jobs of a study
+    ConsolePtr console = std::make_shared<Console>(TerminalKind{}, false);
+    Loudness loudness = Loudness::normal;  ///< of the log on the console
+    StatusFrame status_frame;              ///< how the console says how far it is; empty: as render_status does
+    JobTurn turn;                          ///< among the jobs of a study
     /// After each pass, with the image so far; what it takes counts as the render's time. May be empty.
     std::function<void(const PassReport&, const CombinedImage&)> on_pass;
 };

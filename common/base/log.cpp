@@ -1,19 +1,69 @@
 #include "common/base/log.h"
 
+#include <spdlog/pattern_formatter.h>
+#include <spdlog/sinks/base_sink.h>
 #include <spdlog/sinks/basic_file_sink.h>
-#include <spdlog/sinks/stdout_color_sinks.h>
+
+#include <utility>
 
 namespace treefarm {
 
-Log make_log(const std::string& who, const std::filesystem::path& file, bool quiet) {
-    std::vector<spdlog::sink_ptr> sinks;
-    auto terminal = std::make_shared<spdlog::sinks::stderr_color_sink_mt>();
-    terminal->set_level(quiet ? spdlog::level::err : spdlog::level::info);
-    terminal->set_pattern("%n: %^%l%$: %v");
-    sinks.push_back(std::move(terminal));
+namespace {
+
+std::string payload(const spdlog::details::log_msg& message) {
+    return without_controls(std::string(message.payload.data(), message.payload.size()));
+}
+
+class ConsoleSink final : public spdlog::sinks::base_sink<spdlog::details::null_mutex> {
+  public:
+    explicit ConsoleSink(ConsolePtr console) : console_(std::move(console)) {}
+
+  private:
+    void sink_it_(const spdlog::details::log_msg& message) override {
+        std::string before;
+        if (message.level >= spdlog::level::warn) {
+            const bool error = message.level >= spdlog::level::err;
+            before = std::string(message.logger_name.data(), message.logger_name.size()) + ": " +
+                     coloured(error ? "error" : "warning", error ? "\x1b[1;31m" : "\x1b[1;33m") + ": ";
+        }
+        console_->line(before + payload(message));
+    }
+    void flush_() override {}
+
+    std::string coloured(const std::string& word, const char* colour) const {
+        return console_->kind().colour ? colour + word + "\x1b[m" : word;
+    }
+
+    const ConsolePtr console_;
+};
+
+/// The message in log.txt: on one line, whatever is in it.
+class CleanMessage final : public spdlog::custom_flag_formatter {
+  public:
+    void format(const spdlog::details::log_msg& message, const std::tm&, spdlog::memory_buf_t& to) override {
+        const std::string text = payload(message);
+        to.append(text.data(), text.data() + text.size());
+    }
+    std::unique_ptr<custom_flag_formatter> clone() const override { return std::make_unique<CleanMessage>(); }
+};
+
+spdlog::level::level_enum least_level(Loudness loudness) {
+    return loudness == Loudness::quiet    ? spdlog::level::err
+           : loudness == Loudness::normal ? spdlog::level::info
+                                          : spdlog::level::debug;
+}
+
+}  // namespace
+
+Log make_log(const std::string& who, const std::filesystem::path& file, const ConsolePtr& console, Loudness loudness) {
+    auto terminal = std::make_shared<ConsoleSink>(console);
+    terminal->set_level(least_level(loudness));
+    std::vector<spdlog::sink_ptr> sinks = {std::move(terminal)};
     if (!file.empty()) {
         auto text = std::make_shared<spdlog::sinks::basic_file_sink_mt>(file.string(), false);
-        text->set_pattern("%Y-%m-%d %H:%M:%S.%e %n %l: %v");
+        auto formatter = std::make_unique<spdlog::pattern_formatter>();
+        formatter->add_flag<CleanMessage>('*').set_pattern("%Y-%m-%d %H:%M:%S.%e %n %l: %*");
+        text->set_formatter(std::move(formatter));
         sinks.push_back(std::move(text));
     }
     auto log = std::make_shared<spdlog::logger>(who, sinks.begin(), sinks.end());

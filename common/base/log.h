@@ -5,12 +5,14 @@
 #include <filesystem>
 #include <memory>
 
+#include "common/base/console.h"
+
 namespace treefarm {
 
 using Log = std::shared_ptr<spdlog::logger>;
 
-/// A log that writes to the terminal (standard error; unless quiet) and, where `file` is not empty, to a file.
-/// `who` stands at the start of each line: "coordinator", "worker 3".
-Log make_log(const std::string& who, const std::filesystem::path& file, bool quiet);
+/// A log that writes to the console, as much as `loudness` says, and, where `file` is not empty, everything to a file.
+/// `who` ("treefarm", "worker 3") stands before warnings and errors; plain information stands alone.
+Log make_log(const std::string& who, const std::filesystem::path& file, const ConsolePtr& console, Loudness loudness);
 
 }  // namespace treefarm

@@ -41,7 +41,6 @@ RenderRequest study_request(const Study& study, const StudyScene& scene, const L
         request.warnings.push_back(warning.text());
     request.plan.warnings = request.warnings;
     request.fingerprint = build;
-    request.quiet = true;
     return request;
 }
 

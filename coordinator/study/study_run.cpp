@@ -3,17 +3,20 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "common/base/hash.h"
+#include "common/base/reading_notice.h"
 #include "common/config/parse_text.h"
 #include "common/image/atomic_file.h"
 #include "common/image/exr.h"
+#include "coordinator/pass_text.h"
 #include "coordinator/result_image.h"
 #include "coordinator/study/cell_record.h"
 #include "coordinator/study/cell_request.h"
 #include "coordinator/study/folder_lock.h"
+#include "coordinator/study/reference.h"
+#include "coordinator/study/study_progress.h"
 
 namespace treefarm {
 
@@ -30,16 +33,10 @@ constexpr double kFolderPatience = 5.0;
 
 struct Interrupted {};
 
-/// What cells of a scene are measured against.
-struct Reference {
-    std::string file;
-    std::string key;  ///< of its pixels or of what renders it
-    RgbImage image;   ///< empty until it is needed
-    Json about;
-
-    /// One that was rendered is whole when this file stands beside it; an interrupted one has an image, too.
-    fs::path mark() const { return fs::path(file).parent_path() / "reference.json"; }
-};
+/// "1 scene", "2 scenes".
+std::string counted(std::size_t number, const std::string& what) {
+    return std::to_string(number) + " " + what + (number == 1 ? "" : "s");
+}
 
 std::string cell_words(const Study& study, const StudyCell& cell) {
     return study.scenes[cell.scene].name + "." + study.methods[cell.method].name + "." + std::to_string(cell.seed);
@@ -62,55 +59,25 @@ ReadyCell ready_cell(const Study& study, const StudyCell& cell, const LoadedScen
     return ready;
 }
 
-/// Throws InputError unless cells of this film can be measured against it.
-void check_given(const RgbImage& image, const Film& film, const Location& place) {
-    if (image.width != film.width || image.height != film.height)
-        throw InputError(place,
-                         fmt::format("the reference has {} x {} pixels, the scene {} x {}", image.width, image.height,
-                                     film.width, film.height),
-                         "set image.width and image.height, or render another reference");
-    const auto finite = [](const Rgb& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); };
-    const auto bad =
-        image.pixels.size() - static_cast<std::size_t>(std::count_if(image.pixels.begin(), image.pixels.end(), finite));
-    if (bad > 0)
-        throw InputError(place, fmt::format("the reference has {} pixels that are no finite numbers", bad),
-                         "render another reference");
-}
-
-/// A reference that is given, or the request that renders one.
-std::string reference_key(const Study& study, const StudyScene& scene, const LoadedScene& loaded, Reference& reference,
-                          RenderRequest& request, const Fingerprint& build) {
-    if (!scene.reference.empty()) {
-        const ExrRgb given = read_exr_rgb(scene.reference);
-        check_given(given.image, loaded.scene.film, scene.reference_place);
-        reference.file = scene.reference;
-        reference.image = given.image;
-        const auto* bytes = reinterpret_cast<const std::uint8_t*>(given.image.pixels.data());
-        return hash_text(hash_bytes({bytes, given.image.pixels.size() * sizeof(Rgb)}));
-    }
-    request = study_request(study, scene, loaded, study.reference.settings, {}, build);
-    const std::uint64_t key = request_key(request, "reference");
-    reference.file = (fs::path(study.directory) / "references" / folder_name(scene.name, key) / "image.exr").string();
-    return hash_text(key);
-}
-
 class StudyRun {
   public:
-    StudyRun(Channel& channel, const Study& study, const std::string& command, const Fingerprint& build, const Log& log,
+    StudyRun(Channel& channel, const Study& study, const StudyContext& context,
              const std::function<bool()>& interrupted)
         : channel_(channel),
           study_(study),
-          command_(command),
-          build_(build),
-          log_(log),
+          context_(context),
+          log_(context.log),
           interrupted_(interrupted),
           directory_(study.directory),
-          cells_(study_cells(study)) {}
+          cells_(study_cells(study)),
+          progress_(cells_.size()) {}
 
     StudyOutcome run() {
         fs::create_directories(directory_);
         const FolderLock lock(directory_, kFolderPatience, interrupted_);
         begin_description();
+        log_->info("{}: {}, {}; results in {}", counted(cells_.size(), "cell"), counted(study_.scenes.size(), "scene"),
+                   counted(study_.methods.size(), "method"), study_.directory);
         StudyOutcome outcome;
         try {
             for (std::size_t scene = 0; scene < study_.scenes.size(); ++scene)
@@ -127,7 +94,7 @@ class StudyRun {
 
   private:
     void begin_description() {
-        description_ = {{"study", study_.file}, {"command", command_}, {"baseline", study_.baseline}};
+        description_ = {{"study", study_.file}, {"command", context_.command}, {"baseline", study_.baseline}};
         for (const Setting& setting : study_.budget)
             description_["budget"][setting.key] = setting.value;
         description_["scenes"] = Json::array();
@@ -149,23 +116,29 @@ class StudyRun {
     }
 
     void run_scene(std::size_t scene) {
-        const LoadedScene loaded = load_study_scene(study_, study_.scenes[scene]);
+        const LoadedScene loaded = load(study_.scenes[scene]);
         Reference reference;
         RenderRequest reference_request;
-        reference.key = reference_key(study_, study_.scenes[scene], loaded, reference, reference_request, build_);
+        reference.key =
+            reference_key(study_, study_.scenes[scene], loaded, reference, reference_request, context_.build);
         std::vector<ReadyCell> ready;
         for (const StudyCell& cell : cells_)
             if (cell.scene == scene) {
-                ready.push_back(ready_cell(study_, cell, loaded, reference.key, build_));
+                ready.push_back(ready_cell(study_, cell, loaded, reference.key, context_.build));
                 describe(cell, ready.back());
             }
         prepare_reference(scene, reference, reference_request);
         description_["scenes"][scene]["reference"] = reference.about;
         write_json(directory_ / "study.json", description_);
-        warm_up(ready);
+        warm_up(scene, ready);
         std::size_t k = 0;
         for (const StudyCell& cell : cells_)
             if (cell.scene == scene) run_cell(cell, ready[k++], reference);
+    }
+
+    LoadedScene load(const StudyScene& scene) const {
+        const ReadingNotice notice(context_.console, scene.name);
+        return load_study_scene(study_, scene);
     }
 
     void describe(const StudyCell& cell, const ReadyCell& ready) {
@@ -182,6 +155,9 @@ class StudyRun {
             if (!fs::exists(reference.mark())) {
                 log_->info("{}: rendering the reference", of.name);
                 const fs::path folder = fs::path(reference.file).parent_path();
+                request.status_frame = [&of](const RenderWords& w) {
+                    return aside_status("reference of " + of.name, w);
+                };
                 if (render(request, folder).state != RunState::done)
                     throw RunError("the reference of " + of.name + " could not be rendered: see " +
                                    (folder / "log.txt").string());
@@ -201,7 +177,10 @@ class StudyRun {
         if (interrupted_()) throw Interrupted();
         fs::remove_all(folder);
         request.job.output.directory = folder.string();
-        request.command = command_;
+        request.command = context_.command;
+        request.console = context_.console;
+        // A study has a line per cell: what happens within stands in the cell's log.txt.
+        request.loudness = context_.loudness == Loudness::verbose ? Loudness::verbose : Loudness::quiet;
         ++turn_.number;
         request.turn = turn_;
         const RenderOutcome outcome = run_render(channel_, request, interrupted_);
@@ -211,15 +190,21 @@ class StudyRun {
     }
 
     /// Caches, clocks and the worker's memory are as they will be.
-    void warm_up(std::vector<ReadyCell>& ready) {
+    void warm_up(std::size_t scene, std::vector<ReadyCell>& ready) {
         const bool needed = std::any_of(ready.begin(), ready.end(), [](const ReadyCell& c) { return !c.done(); });
-        for (int k = 0; needed && k < study_.warmup; ++k)
-            render(ready[static_cast<std::size_t>(k) % ready.size()].request, directory_ / "warmup");
+        const std::string name = "warm-up of " + study_.scenes[scene].name;
+        for (int k = 0; needed && k < study_.warmup; ++k) {
+            RenderRequest& request = ready[static_cast<std::size_t>(k) % ready.size()].request;
+            request.status_frame = [&name](const RenderWords& w) { return aside_status(name, w); };
+            render(request, directory_ / "warmup");
+        }
     }
 
     void run_cell(const StudyCell& cell, ReadyCell& ready, const Reference& reference) {
-        ++number_;
+        progress_.begin_cell(cell_words(study_, cell));
         if (ready.done()) return;
+        const Timer timer;
+        ready.request.status_frame = [this](const RenderWords& words) { return progress_.cell_status(words); };
         std::vector<MeasuredPass> passes;
         const int width = reference.image.width, height = reference.image.height;
         ready.request.on_pass = [&](const PassReport& report, const CombinedImage& image) {
@@ -235,34 +220,36 @@ class StudyRun {
         Json record = render_record(passes, reference.image);
         tell(cell, record);
         write_json(ready.folder / "cell.json", record);
+        progress_.end_cell(timer.seconds());
     }
 
     void tell(const StudyCell& cell, const Json& record) const {
         const Json& last = record["passes"].back();
-        log_->info("cell {} of {}: {}: {} spp in {:.2f} s, RMSE {:.3g} % of the mean", number_, cells_.size(),
-                   cell_words(study_, cell), last["spp_done"].get<int>(), last["run_seconds"].get<double>(),
-                   100 * last["measured"]["rmse_over_mean"].get<double>());
+        log_->info(
+            "{}", join_fields({progress_.cell_name(), cell_words(study_, cell),
+                               fmt::format("{} spp", last["spp_done"].get<int>()),
+                               duration_text(last["run_seconds"].get<double>()),
+                               fmt::format("error {:.3g} %", 100 * last["measured"]["rmse_over_mean"].get<double>())}));
     }
 
     Channel& channel_;
     const Study& study_;
-    const std::string command_;
-    const Fingerprint& build_;
+    const StudyContext& context_;
     const Log log_;
     const std::function<bool()>& interrupted_;
     const fs::path directory_;
     const std::vector<StudyCell> cells_;
     Json description_;
     JobTurn turn_;
-    std::size_t number_ = 0;
+    StudyProgress progress_;
     int failures_ = 0;
 };
 
 }  // namespace
 
-StudyOutcome run_study(Channel& channel, const Study& study, const std::string& command, const Fingerprint& build,
-                       const Log& log, const std::function<bool()>& interrupted) {
-    return StudyRun(channel, study, command, build, log, interrupted).run();
+StudyOutcome run_study(Channel& channel, const Study& study, const StudyContext& context,
+                       const std::function<bool()>& interrupted) {
+    return StudyRun(channel, study, context, interrupted).run();
 }
 
 void list_cells(const Study& study, const Fingerprint& build, std::ostream& out) {

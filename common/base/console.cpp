@@ -1,0 +1,63 @@
+#include "common/base/console.h"
+
+#include <unistd.h>
+
+#include <cerrno>
+
+namespace treefarm {
+
+namespace {
+
+constexpr double kRedrawSeconds = 0.2;
+constexpr double kLineSeconds = 10;
+constexpr const char* kWipe = "\r\x1b[K";
+
+}  // namespace
+
+Console::Console(TerminalKind kind, bool shows_status, int descriptor)
+    : kind_(kind),
+      shows_status_(shows_status),
+      descriptor_(descriptor),
+      pace_(kind.live ? Pace(0, kRedrawSeconds) : Pace(kLineSeconds, kLineSeconds)) {}
+
+/// In one piece where the system takes it so: processes of mpirun share a terminal. Nobody is told of what cannot be
+/// written: a render does not end because nobody looks on.
+void Console::write(const std::string& text) const {
+    for (std::size_t done = 0; done < text.size();) {
+        const ssize_t count = ::write(descriptor_, text.data() + done, text.size() - done);
+        if (count < 0 && errno != EINTR) return;
+        if (count > 0) done += static_cast<std::size_t>(count);
+    }
+}
+
+/// Asks for the width each time, so that it follows whoever resizes. The last column stays free: a terminal that has
+/// filled it may go on to the next line.
+std::string Console::drawn_status() const {
+    return "\r" + status_text(status_, terminal_columns(descriptor_) - 1) + "\x1b[K";
+}
+
+void Console::line(const std::string& text) {
+    const std::lock_guard lock(mutex_);
+    write((drawn_ ? kWipe : "") + text + "\n" + (drawn_ ? drawn_status() : ""));
+}
+
+void Console::status(const Status& status) {
+    if (!shows_status_) return;
+    const std::lock_guard lock(mutex_);
+    if (!pace_.due(clock_.seconds())) return;
+    if (!kind_.live) {
+        write(without_controls(status.line) + "\n");
+        return;
+    }
+    status_ = status;
+    drawn_ = true;
+    write(drawn_status());
+}
+
+void Console::end_status() {
+    const std::lock_guard lock(mutex_);
+    if (drawn_) write(kWipe);
+    drawn_ = false;
+}
+
+}  // namespace treefarm

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+
+namespace treefarm {
+
+/// What the reader of a stream can show. cli/launch.cpp finds it out; the rest of the program is told.
+struct TerminalKind {
+    bool live = false;    ///< a terminal on which a line can be drawn again, by escape sequences
+    bool colour = false;  ///< ... and words can have a colour
+};
+
+/// Columns of the terminal behind this descriptor, as of now; 80 where nobody knows.
+int terminal_columns(int descriptor);
+
+/// Columns that a UTF-8 text takes: none for marks that combine, two for East Asian characters and the like.
+int text_columns(const std::string& text);
+
+/// The text's beginning, as far as it fits into so many columns.
+std::string cut_to_columns(const std::string& text, int columns);
+
+/// The text with a question mark for each control character: names and messages from elsewhere move no cursor.
+std::string without_controls(std::string text);
+
+}  // namespace treefarm

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "common/config/study.h"
+#include "common/image/image.h"
+#include "coordinator/study/cell_request.h"
+
+namespace treefarm {
+
+/// What cells of a scene are measured against.
+struct Reference {
+    std::string file;
+    std::string key;  ///< of its pixels or of what renders it
+    RgbImage image;   ///< empty until it is needed
+    nlohmann::ordered_json about;
+
+    /// One that was rendered is whole when this file stands beside it; an interrupted one has an image, too.
+    std::filesystem::path mark() const { return std::filesystem::path(file).parent_path() / "reference.json"; }
+};
+
+/// A reference that is given, or the request that renders one.
+std::string reference_key(const Study& study, const StudyScene& scene, const LoadedScene& loaded, Reference& reference,
+                          RenderRequest& request, const Fingerprint& build);
+
+}  // namespace treefarm
