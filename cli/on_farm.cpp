@@ -103,6 +103,7 @@ int work(MpiSession& session, unsigned asked, bool quiet) {
 }  // namespace
 
 int run_on_farm(const LaunchEnvironment& launch, unsigned threads, bool quiet, const FarmTask& task) {
+    ignore_broken_pipes();
     if (!launch.under_mpi) return run_here(threads, quiet, task);
     if (launch.one_host) skip_network_search();
     InterruptWatch watch;  // before MPI starts its threads; workers leave when the coordinator says so

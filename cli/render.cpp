@@ -64,6 +64,8 @@ void add_render_command(CLI::App& app, const LaunchEnvironment& launch, const st
         ->allow_extra_args(false);
     command->add_flag("--lenient", options->lenient, "replace what the scene reader does not know instead of refusing");
     command->add_option("--run-dir", options->run_directory, "where results go (default: runs/<scene>-<time>)");
+    command->add_flag("--overwrite", options->overwrite,
+                      "replace the render that the folder holds, once this one is done");
     command->add_option("--threads", options->threads, "tracing threads of each process (default: its processors)")
         ->check(CLI::Range(1u, 4096u));
     command->add_flag("--quiet", options->quiet, "only errors on the terminal");

@@ -25,6 +25,7 @@ struct RenderOptions {
     std::vector<std::string> defines;  ///< -D name=value
     bool lenient = false;
     std::string run_directory;  ///< --run-dir
+    bool overwrite = false;     ///< --overwrite
     unsigned threads = 0;       ///< 0: one per processor
     bool quiet = false;
     std::string debug_sample;  ///< "pass,x,y,sample"

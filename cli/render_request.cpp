@@ -96,6 +96,8 @@ RenderRequest read_request(const RenderOptions& options) {
     apply_layer(request.job, file_layer);
     apply_layer(request.job, line_layer);
     check_job(request.job);
+    // --set scene.file=... is relative to the current folder, a name in job.toml to that of job.toml.
+    request.job.scene.file = std::filesystem::absolute(request.job.scene.file).lexically_normal().string();
     request.scene = std::move(loaded.scene);
     if (!options.schedule.empty()) replay(options.schedule, request);
     request.plan = plan_effects(request.scene, request.job);
@@ -112,6 +114,7 @@ RenderRequest read_request(const RenderOptions& options) {
     request.command = options.command;
     request.debug_command = debug_command(options);
     request.fingerprint = own_fingerprint().hash();
+    request.overwrite = options.overwrite;
     request.quiet = options.quiet;
     return request;
 }

@@ -18,6 +18,7 @@ struct StudyOptions {
     std::string directory;
     unsigned threads = 0;
     bool dry_run = false;
+    bool overwrite = false;
     bool quiet = false;
     std::string command;
 };
@@ -48,7 +49,7 @@ int study(const LaunchEnvironment& launch, const StudyOptions& options) {
             log->warn("{}", warning);
     };
     task.coordinate = [&](Channel& channel, const std::function<bool()>& interrupted) -> CoordinatorEnd {
-        const StudyOutcome outcome = run_study(channel, study, options.command, log, interrupted);
+        const StudyOutcome outcome = run_study(channel, study, options.command, options.overwrite, log, interrupted);
         return {exit_code_of(outcome.state), outcome.lost_peers};
     };
     const int code = run_on_farm(launch, options.threads, options.quiet, task);
@@ -87,6 +88,7 @@ void add_study_command(CLI::App& app, const LaunchEnvironment& launch, const std
     command->add_option("--threads", options->threads, "tracing threads of each process (default: its processors)")
         ->check(CLI::Range(1u, 4096u));
     command->add_flag("--dry-run", options->dry_run, "list the cells, and which are done; render nothing");
+    command->add_flag("--overwrite", options->overwrite, "replace the other study that the folder holds");
     command->add_flag("--quiet", options->quiet, "only errors on the terminal");
     command->callback([options, launch, &exit_code] { exit_code = study(launch, *options); });
 }

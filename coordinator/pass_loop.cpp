@@ -12,11 +12,6 @@ namespace treefarm {
 
 namespace {
 
-std::uint64_t hash_image(const CombinedImage& image) {
-    static_assert(sizeof(Rgb64) == 3 * sizeof(double));
-    return hash_bytes({reinterpret_cast<const std::uint8_t*>(image.mean.data()), image.mean.size() * sizeof(Rgb64)});
-}
-
 class PassLoop {
   public:
     PassLoop(Farm& farm, const Job& job, const PassChooser& choose, SdTree tree, int width, int height,
@@ -31,11 +26,11 @@ class PassLoop {
         try {
             render_passes();
         } catch (...) {
-            result_.image_hash = hash_image(result_.image);
+            result_.image_hash = hash_image(*result_.image);
             if (hooks_.on_failure) hooks_.on_failure(std::move(result_));
             throw;
         }
-        result_.image_hash = hash_image(result_.image);
+        result_.image_hash = hash_image(*result_.image);
         return std::move(result_);
     }
 
@@ -102,12 +97,12 @@ class PassLoop {
             std::async(std::launch::async, [&] { return pass_variance(finished_.back().pixels); });
         Timer timer;
         remember_noise(finished_, job_.guiding.combination, guided());
-        result_.image = combine_passes(finished_, job_.guiding.combination, guided());
+        result_.image = std::make_shared<CombinedImage>(combine_passes(finished_, job_.guiding.combination, guided()));
         report.seconds.film = timer.seconds();
         timer.restart();
         fill_from_collector(report, farm_.collector());
         std::future<ErrorEstimate> error =
-            std::async(std::launch::async, [&] { return estimate_error(result_.image, job_.sampler.seed); });
+            std::async(std::launch::async, [&] { return estimate_error(*result_.image, job_.sampler.seed); });
         find_gain(report);
         report.variance = variance.get();
         state_.error = report.error = error.get();
@@ -118,7 +113,7 @@ class PassLoop {
     void find_gain(PassReport& report) const {
         if (report.plan.guided && report.plan.record)
             report.guiding_gain = probe_.gain(finished_.back().pixels, report.stats, report.plan.index,
-                                              result_.image.mean, static_cast<std::size_t>(result_.width));
+                                              result_.image->mean, static_cast<std::size_t>(result_.width));
     }
 
     /// By one image-wide number: a decision, not a weight, so no pixel is biased by its own samples.
@@ -165,7 +160,7 @@ class PassLoop {
     void learn(const PassPlan& plan, const NextPass& next_pass, PassReport& report) {
         if (!plan.record || !next_pass.pass) return;
         const Timer timer;
-        const auto pixels = static_cast<double>(result_.image.mean.size());
+        const auto pixels = static_cast<double>(result_.image->mean.size());
         result_.tree =
             learner_.learn(result_.tree, farm_.collector().sums(), refine_settings(job_, pixels, plan, *next_pass.pass),
                            plan.learn_mixture, report.refine);
@@ -180,7 +175,8 @@ class PassLoop {
         report.threads = farm_.roster().thread_count();
         count_idle(report);
         result_.passes.push_back(report);
-        if (hooks_.on_pass) hooks_.on_pass(report, result_.image);
+        if (hooks_.on_pass) hooks_.on_pass(report, *result_.image);
+        if (hooks_.on_result) hooks_.on_result(result_);
     }
 
     void tell_progress(const PassPlan& plan, const NextPass& chosen) {
@@ -216,6 +212,11 @@ class PassLoop {
 };
 
 }  // namespace
+
+std::uint64_t hash_image(const CombinedImage& image) {
+    static_assert(sizeof(Rgb64) == 3 * sizeof(double));
+    return hash_bytes({reinterpret_cast<const std::uint8_t*>(image.mean.data()), image.mean.size() * sizeof(Rgb64)});
+}
 
 SdTree first_tree(const Scene& scene, const Job& job) {
     Box3 bounds = scene.bounds();

@@ -24,6 +24,7 @@ struct RenderRequest {
     std::string debug_command;  ///< reproduces a sample when " pass,x,y,sample" and, for an open budget, --schedule are
                                 ///< appended
     std::uint64_t fingerprint = 0;  ///< of this process
+    bool overwrite = false;         ///< an earlier run in the folder may be replaced
     bool quiet = false;             ///< only errors on the terminal
     bool progress_bar = false;
     JobTurn turn;  ///< among the jobs of a study

@@ -10,10 +10,11 @@
 #include "common/config/parse_text.h"
 #include "common/image/atomic_file.h"
 #include "common/image/exr.h"
+#include "coordinator/folder_lock.h"
 #include "coordinator/result_image.h"
 #include "coordinator/study/cell_record.h"
 #include "coordinator/study/cell_request.h"
-#include "coordinator/study/folder_lock.h"
+#include "coordinator/study/study_folder.h"
 
 namespace treefarm {
 
@@ -96,11 +97,12 @@ std::string reference_key(const Study& study, const StudyScene& scene, const Loa
 
 class StudyRun {
   public:
-    StudyRun(Channel& channel, const Study& study, const std::string& command, const Log& log,
+    StudyRun(Channel& channel, const Study& study, const std::string& command, bool overwrite, const Log& log,
              const std::function<bool()>& interrupted)
         : channel_(channel),
           study_(study),
           command_(command),
+          overwrite_(overwrite),
           log_(log),
           interrupted_(interrupted),
           directory_(study.directory),
@@ -109,6 +111,10 @@ class StudyRun {
     StudyOutcome run() {
         fs::create_directories(directory_);
         const FolderLock lock(directory_, kFolderPatience, interrupted_);
+        if (lock.refused())
+            throw RunError(directory_.string() +
+                           ": another study is at work in this folder; wait for it, or choose another by --dir");
+        check_study_folder(directory_, study_, overwrite_);
         begin_description();
         StudyOutcome outcome;
         try {
@@ -143,7 +149,7 @@ class StudyRun {
     }
 
     void write_json(const fs::path& path, const Json& json) const {
-        const std::string text = json.dump(1) + "\n";
+        const std::string text = json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
         write_file_atomically(path, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
     }
 
@@ -246,6 +252,7 @@ class StudyRun {
     Channel& channel_;
     const Study& study_;
     const std::string command_;
+    const bool overwrite_;
     const Log log_;
     const std::function<bool()>& interrupted_;
     const fs::path directory_;
@@ -258,9 +265,9 @@ class StudyRun {
 
 }  // namespace
 
-StudyOutcome run_study(Channel& channel, const Study& study, const std::string& command, const Log& log,
+StudyOutcome run_study(Channel& channel, const Study& study, const std::string& command, bool overwrite, const Log& log,
                        const std::function<bool()>& interrupted) {
-    return StudyRun(channel, study, command, log, interrupted).run();
+    return StudyRun(channel, study, command, overwrite, log, interrupted).run();
 }
 
 void list_cells(const Study& study, std::ostream& out) {

@@ -18,7 +18,8 @@ struct StudyOutcome {
 ///   references/NAME/image.exr     those that were rendered
 ///   cells/NAME/                   a run directory each, with cell.json: written last, so a cell with one is whole
 /// A folder's name holds a hash of all that decides its content, so a changed study finds what still holds.
-StudyOutcome run_study(Channel& channel, const Study& study, const std::string& command, const Log& log,
+/// Throws InputError where the folder holds a render, or another study and `overwrite` is not set.
+StudyOutcome run_study(Channel& channel, const Study& study, const std::string& command, bool overwrite, const Log& log,
                        const std::function<bool()>& interrupted);
 
 /// Lists the cells in the order in which they would run, and which of them are there.
