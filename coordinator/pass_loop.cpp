@@ -12,6 +12,11 @@ namespace treefarm {
 
 namespace {
 
+std::uint64_t hash_image(const CombinedImage& image) {
+    static_assert(sizeof(Rgb64) == 3 * sizeof(double));
+    return hash_bytes({reinterpret_cast<const std::uint8_t*>(image.mean.data()), image.mean.size() * sizeof(Rgb64)});
+}
+
 class PassLoop {
   public:
     PassLoop(Farm& farm, const Job& job, const PassChooser& choose, SdTree tree, int width, int height,
@@ -26,11 +31,9 @@ class PassLoop {
         try {
             render_passes();
         } catch (...) {
-            result_.image_hash = hash_image(*result_.image);
             if (hooks_.on_failure) hooks_.on_failure(std::move(result_));
             throw;
         }
-        result_.image_hash = hash_image(*result_.image);
         return std::move(result_);
     }
 
@@ -44,6 +47,7 @@ class PassLoop {
             broadcast(plan, report);
             if (!collect(plan, next, report)) {
                 result_.interrupted = true;
+                if (hooks_.on_interruption) hooks_.on_interruption(result_);
                 break;
             }
             keep(plan);
@@ -103,7 +107,9 @@ class PassLoop {
         fill_from_collector(report, farm_.collector());
         std::future<ErrorEstimate> error =
             std::async(std::launch::async, [&] { return estimate_error(*result_.image, job_.sampler.seed); });
+        std::future<std::uint64_t> hash = std::async(std::launch::async, [&] { return hash_image(*result_.image); });
         find_gain(report);
+        result_.image_hash = hash.get();
         report.variance = variance.get();
         state_.error = report.error = error.get();
         report.seconds.error = timer.seconds();
@@ -212,11 +218,6 @@ class PassLoop {
 };
 
 }  // namespace
-
-std::uint64_t hash_image(const CombinedImage& image) {
-    static_assert(sizeof(Rgb64) == 3 * sizeof(double));
-    return hash_bytes({reinterpret_cast<const std::uint8_t*>(image.mean.data()), image.mean.size() * sizeof(Rgb64)});
-}
 
 SdTree first_tree(const Scene& scene, const Job& job) {
     Box3 bounds = scene.bounds();

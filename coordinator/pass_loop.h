@@ -33,8 +33,9 @@ struct PassHooks {
     std::function<void(const RenderProgress&)> on_progress;  ///< called often
     /// After each pass, with the image so far.
     std::function<void(const PassReport&, const CombinedImage&)> on_pass;
-    std::function<void(const RenderResult&)> on_result;  ///< then, with all there is so far but its image_hash
-    std::function<void(RenderResult)> on_failure;        ///< the finished passes, before the error leaves
+    std::function<void(const RenderResult&)> on_result;        ///< then, with all there is so far
+    std::function<void(const RenderResult&)> on_interruption;  ///< at once: what takes time comes later
+    std::function<void(RenderResult)> on_failure;              ///< the finished passes, before the error leaves
 };
 
 /// What came out. After an interruption: of the passes that were whole by then, possibly none.
@@ -49,9 +50,6 @@ struct RenderResult {
     std::uint64_t image_hash = 0;  ///< of the combined means
     std::uint64_t tree_hash = 0;   ///< of the encoded tree that guided the last pass
 };
-
-/// RenderResult::image_hash.
-std::uint64_t hash_image(const CombinedImage& image);
 
 /// The tree before the first pass: over the scene and the camera, as in the authors' program; record units by the
 /// brightest emitter.

@@ -92,6 +92,9 @@ class RenderRun {
             tell_news();
         };
         hooks.on_result = [this](const RenderResult& so_far) { directory_.write_image(so_far); };
+        hooks.on_interruption = [this](const RenderResult& finished) {
+            directory_.write_interruption(finished, &farm_, clock_.seconds());
+        };
         hooks.on_failure = [this](RenderResult finished) { result_ = std::move(finished); };
         hooks.on_pass = [this](const PassReport& pass, const CombinedImage& image) {
             tell(pass);

@@ -63,8 +63,7 @@ std::string job_without_output(Job job) {
 }
 
 std::vector<std::uint8_t> encode_image(const fs::path& path, const CombinedImage& image, int width, int height,
-                                       Attributes attributes) {
-    attributes["treefarm.image_hash"] = hash_text(hash_image(image));
+                                       const Attributes& attributes) {
     return encode_exr(path, result_channels(image, width, height), attributes);
 }
 
@@ -143,7 +142,7 @@ void RunDirectory::add_pass(const PassReport& report) {
     put_text("schedule.toml", write_schedule(passes_), kPassPace);
 }
 
-/// All of image.exr's header but the hash of its pixels.
+/// image.exr's header.
 Attributes RunDirectory::image_attributes(const RenderResult& result) const {
     const PassReport& last = result.passes.back();
     Attributes attributes = {
@@ -151,6 +150,7 @@ Attributes RunDirectory::image_attributes(const RenderResult& result) const {
         {"treefarm.spp", std::to_string(result.spp)},
         {"treefarm.job", job_toml_},
         {"treefarm.scene_hash", hash_text(facts_.scene_hash)},
+        {"treefarm.image_hash", hash_text(result.image_hash)},
         {"treefarm.tree_hash", hash_text(result.tree_hash)},
         {"treefarm.passes", passes_csv_},
         {"treefarm.schedule", write_schedule(passes_)},
@@ -175,12 +175,14 @@ void RunDirectory::write_image(const RenderResult& result) {
          attributes = image_attributes(result)] {
             write_bytes("image.exr", encode_image(path() / "image.exr", *image, width, height, attributes),
                         Outlives::power);
+            const std::lock_guard lock(on_disk_mutex_);
             on_disk_ = image;
         },
         kPassPace);
 }
 
 bool RunDirectory::image_is_on_disk(const RenderResult& result) const {
+    const std::lock_guard lock(on_disk_mutex_);
     std::error_code none;
     return on_disk_.lock() == result.image && fs::exists(path() / "image.exr", none);
 }
@@ -199,7 +201,12 @@ std::vector<LastFile> RunDirectory::last_files(const RenderResult& result, Outli
                                         image_attributes(result));
             return *encoded;
         };
-        if (!image_is_on_disk(result)) add("image.exr", [=, this] { write_bytes("image.exr", image(), outlives); });
+        if (!image_is_on_disk(result))
+            add("image.exr", [=, this, &result] {
+                write_bytes("image.exr", image(), outlives);
+                const std::lock_guard lock(on_disk_mutex_);
+                on_disk_ = result.image;
+            });
         if (!job_.output.file.empty())
             files.push_back(
                 {job_.output.file, [=, this] { write_file_atomically(job_.output.file, image(), outlives); }});
@@ -224,29 +231,37 @@ std::vector<LastFile> RunDirectory::last_files(const RenderResult& result, Outli
     return files;
 }
 
+/// Those that tell of the end.
+std::vector<LastFile> RunDirectory::end_files(const RenderResult& result, const Farm* farm, const RunEnd& end,
+                                              Outlives outlives) const {
+    return {{(path() / "summary.json").string(),
+             [=, this, &result, &end] {
+                 write_text("summary.json", summary_json(job_, facts_, result, farm, end), outlives);
+             }},
+            {(path() / "status.json").string(), [=, this, &result, &end] {
+                 write_text("status.json", status_json(end.state, result.spp, end.elapsed_seconds), outlives);
+             }}};
+}
+
+void RunDirectory::write_interruption(const RenderResult& result, const Farm* farm, double elapsed_seconds) {
+    if (!result.passes.empty() && !image_is_on_disk(result)) return;
+    const RunEnd end{RunState::interrupted, "", elapsed_seconds, ""};
+    std::vector<LastFile> files = end_files(result, farm, end, Outlives::process);
+    write_last_files(files, 0.0);
+}
+
 std::vector<std::string> RunDirectory::finish(const RenderResult& result, const Farm* farm, RunEnd& end) {
     writer_.stop();
-    // A run that was interrupted may be killed two seconds later (mpirun does): what tells of it does not wait for the
-    // disk, nor for what takes longer to write.
-    const bool hurry = end.state != RunState::done;
+    // One that may be killed soon does not wait for the disk, nor for what takes longer to write.
+    const bool hurry = end.state == RunState::interrupted;
     const Outlives outlives = hurry ? Outlives::process : Outlives::power;
     std::vector<LastFile> files = last_files(result, outlives, end);
-    const auto tell = [&] {
-        return std::vector<LastFile>{
-            {(path() / "summary.json").string(),
-             [&] { write_text("summary.json", summary_json(job_, facts_, result, farm, end), outlives); }},
-            {(path() / "status.json").string(),
-             [&] { write_text("status.json", status_json(end.state, result.spp, end.elapsed_seconds), outlives); }}};
-    };
-    if (hurry && (result.passes.empty() || image_is_on_disk(result) || try_to_write(files.front()))) {
-        std::vector<LastFile> early = tell();
-        write_last_files(early, 0.0);
-    }
+    if (hurry && !files.empty() && try_to_write(files.front())) write_interruption(result, farm, end.elapsed_seconds);
     std::vector<std::string> failures = write_last_files(files, kResultPatience);
     for (const std::string& failure : failures)
         end.error += (end.error.empty() ? "" : "; ") + failure;
     if (!failures.empty()) end.state = RunState::failed;
-    std::vector<LastFile> last = tell();
+    std::vector<LastFile> last = end_files(result, farm, end, outlives);
     for (const std::string& failure : write_last_files(last, kSummaryPatience)) {
         end.state = RunState::failed;
         failures.push_back(failure);

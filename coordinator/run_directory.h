@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <span>
 #include <string>
 #include <vector>
@@ -50,6 +51,10 @@ class RunDirectory {
     /// What went wrong with files since the last call, for a person.
     std::vector<std::string> take_news() { return writer_.take_news(); }
 
+    /// summary.json and status.json of a run that was interrupted, if its image is on disk: finish() may come too late,
+    /// since mpirun kills its ranks two seconds after a signal.
+    void write_interruption(const RenderResult& result, const Farm* farm, double elapsed_seconds);
+
     /// What a run leaves: image.exr, the job's output.file, tree.bin (encode_tree() of the result's tree) if there is
     /// one that learned, preview.png, passes.csv, schedule.toml, summary.json and the last status.json, each on its own
     /// and tried again for some seconds. `end` says how the run ended; where files cannot be written it becomes failed,
@@ -65,6 +70,8 @@ class RunDirectory {
     void put_text(const std::string& name, std::string text, Pace pace);
     Attributes image_attributes(const RenderResult& result) const;
     std::vector<LastFile> last_files(const RenderResult& result, Outlives outlives, RunEnd& end);
+    std::vector<LastFile> end_files(const RenderResult& result, const Farm* farm, const RunEnd& end,
+                                    Outlives outlives) const;
     bool image_is_on_disk(const RenderResult& result) const;
 
     const Job job_;
@@ -78,8 +85,9 @@ class RunDirectory {
     double next_preview_ = 0;
     std::shared_ptr<const CombinedImage> newest_ = std::make_shared<CombinedImage>();  ///< for previews
     std::uint32_t newest_spp_ = 0;
-    std::atomic<double> preview_seconds_ = 0;     ///< of a core, that the last one took the writer
-    std::weak_ptr<const CombinedImage> on_disk_;  ///< whose image.exr is whole; the writer's, until it is stopped
+    std::atomic<double> preview_seconds_ = 0;  ///< of a core, that the last one took the writer
+    mutable std::mutex on_disk_mutex_;
+    std::weak_ptr<const CombinedImage> on_disk_;  ///< whose image.exr is whole
     FileWriter writer_;                           ///< last: it ends first
 };
 

@@ -87,10 +87,10 @@ TEST(RunDirectory, ADiskThatFillsForAWhileChangesNothing) {
     const SmallDisk disk(4096);
     if (!disk.mounted()) GTEST_SKIP() << kNoDisk;
     const auto calm = fresh_folder("calm");
-    ASSERT_EQ(Program(render(calm, "2032")).wait(kSoon).code, 0);
+    ASSERT_EQ(Program(render(calm, "508")).wait(kSoon).code, 0);
 
     const fs::path folder = disk.path() / "run";
-    Program program(render(folder, "2032"));
+    Program program(render(folder, "508"));
     ASSERT_TRUE(program.wait_until([&] { return passes_done(folder) >= 1; }, kSoon));
     disk.fill();
     program.wait_until([] { return false; }, 2.5);
@@ -184,7 +184,7 @@ TEST(RunDirectory, AKilledRenderLeavesTheLastImage) {
 
 TEST(RunDirectory, APreviewComesBeforeTheFirstPass) {
     const auto folder = fresh_folder("run");
-    Program program(render(folder, kForever, {"--set", "guiding.spp_unit=65536", "--set", "farm.tile_size=8"}));
+    Program program(render(folder, kForever, {"--set", "guiding.spp_unit=4096", "--set", "farm.tile_size=8"}));
     ASSERT_TRUE(program.wait_until(
         [&] {
             if (!fs::exists(folder / "preview.png")) return false;
