@@ -1,32 +1,35 @@
 #include "cli/interrupt.h"
 
 #include <pthread.h>
-#include <signal.h>
 
 namespace treefarm {
 
 namespace {
 
-sigset_t watched_signals() {
-    sigset_t set;
-    sigemptyset(&set);
-    sigaddset(&set, SIGINT);
-    sigaddset(&set, SIGTERM);
-    return set;
+bool is_ignored(int number) {
+    struct sigaction action {};
+    return sigaction(number, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
 }
 
 }  // namespace
 
+void ignore_broken_pipes() {
+    signal(SIGPIPE, SIG_IGN);
+}
+
 InterruptWatch::InterruptWatch() {
-    const sigset_t set = watched_signals();
-    pthread_sigmask(SIG_BLOCK, &set, nullptr);
+    sigemptyset(&watched_);
+    sigaddset(&watched_, SIGINT);
+    sigaddset(&watched_, SIGTERM);
+    // A blocked signal is kept even if it is ignored.
+    if (!is_ignored(SIGHUP)) sigaddset(&watched_, SIGHUP);
+    pthread_sigmask(SIG_BLOCK, &watched_, nullptr);
 }
 
 bool InterruptWatch::interrupted() {
     if (seen_) return true;
-    const sigset_t set = watched_signals();
     const timespec now{};
-    seen_ = sigtimedwait(&set, nullptr, &now) > 0;
+    seen_ = sigtimedwait(&watched_, nullptr, &now) > 0;
     return seen_;
 }
 

@@ -1,9 +1,14 @@
 #pragma once
 
+#include <signal.h>
+
 namespace treefarm {
 
-/// SIGINT and SIGTERM as something to ask about. Blocks them for this thread and the threads it starts from now on; no
-/// handler, no global state.
+/// A reader that closes (`treefarm render ... | head`) ends nothing from now on: writing to it fails instead.
+void ignore_broken_pipes();
+
+/// SIGINT, SIGTERM and SIGHUP as something to ask about. Blocks them for this thread and the threads it starts from now
+/// on; no handler, no global state. A SIGHUP that was ignored before stays so: nohup.
 class InterruptWatch {
   public:
     InterruptWatch();
@@ -11,6 +16,7 @@ class InterruptWatch {
     bool interrupted();
 
   private:
+    sigset_t watched_;
     bool seen_ = false;
 };
 

@@ -1,11 +1,9 @@
 #include "cli/on_farm.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
-#include <future>
 #include <thread>
 
 #include "cli/interrupt.h"
@@ -13,10 +11,10 @@
 #include "cli/this_build.h"
 #include "common/base/error.h"
 #include "common/base/host.h"
-#include "common/base/timer.h"
 #include "common/comm/in_process_channel.h"
 #include "common/comm/mpi_channel.h"
 #include "coordinator/farm.h"
+#include "coordinator/pulse.h"
 #include "worker/worker_loop.h"
 
 namespace treefarm {
@@ -26,9 +24,6 @@ namespace {
 /// How long the end waits for workers, and MPI_Finalize for everybody.
 constexpr double kDismissSeconds = 5.0;
 constexpr double kFinalizeSeconds = 10.0;
-
-/// How often workers hear from a coordinator that reads the scene.
-constexpr double kReadingBeatSeconds = 1.0;
 
 WorkerSettings worker_settings(unsigned threads) {
     const Host host = this_host();
@@ -89,16 +84,11 @@ CoordinatorEnd guarded(const std::function<CoordinatorEnd()>& act) {
 
 /// The input is read aside, so that workers hear from this process however long that takes.
 void prepare(MpiSession& session, const FarmTask& task, InterruptWatch& watch) {
-    std::future<void> reading = std::async(std::launch::async, task.prepare);
-    const Timer clock;
-    double last_beat = -kReadingBeatSeconds;
-    while (reading.wait_for(std::chrono::milliseconds(10)) != std::future_status::ready) {
+    Pulse pulse(session.channel());
+    run_aside(task.prepare, [&] {
         if (watch.interrupted()) leave_reading(session);
-        if (clock.seconds() - last_beat < kReadingBeatSeconds) continue;
-        last_beat = clock.seconds();
-        tell_workers(session.channel(), Heartbeat{});
-    }
-    reading.get();
+        pulse.beat();
+    });
 }
 
 int coordinate(MpiSession& session, const FarmTask& task, InterruptWatch& watch) {
@@ -161,6 +151,7 @@ Voice make_voice(const LaunchEnvironment& launch, const FarmOptions& options) {
 }
 
 int run_on_farm(const LaunchEnvironment& launch, const FarmOptions& options, const Voice& voice, const FarmTask& task) {
+    ignore_broken_pipes();
     if (!launch.under_mpi) return run_here(options, voice, task);
     if (launch.one_host) skip_network_search();
     InterruptWatch watch;  // before MPI starts its threads; workers leave when the coordinator says so

@@ -66,6 +66,8 @@ void add_render_command(CLI::App& app, const LaunchEnvironment& launch, const st
     add_texts_option(*command, "-D", options->defines, "name=value: gives $name in the scene a value");
     command->add_flag("--lenient", options->lenient, "replace what the scene reader does not know instead of refusing");
     add_text_option(*command, "--run-dir", options->run_directory, "where results go (default: runs/<scene>-<time>)");
+    command->add_flag("--overwrite", options->overwrite,
+                      "replace the render that the folder holds, once this one is done");
     add_farm_options(*command, options->farm);
     add_text_option(*command, "--debug-sample", options->debug_sample,
                     "pass,x,y,sample: trace this sample and tell its story");

@@ -26,6 +26,7 @@ struct RenderOptions {
     std::vector<std::string> defines;  ///< -D name=value
     bool lenient = false;
     std::string run_directory;  ///< --run-dir
+    bool overwrite = false;     ///< --overwrite
     FarmOptions farm;
     std::string debug_sample;  ///< "pass,x,y,sample"
     std::string command;       ///< as it was typed

@@ -113,6 +113,8 @@ RenderRequest read_request(const RenderOptions& options) {
     apply_layer(request.job, line_layer);
     check_job(request.job);
     check_budget_keys(line_layer, options, request);
+    // --set scene.file=... is relative to the current folder, a name in job.toml to that of job.toml.
+    request.job.scene.file = std::filesystem::absolute(request.job.scene.file).lexically_normal().string();
     request.scene = std::move(loaded.scene);
     if (!options.schedule.empty()) replay(options.schedule, request);
     request.plan = plan_effects(request.scene, request.job);
@@ -129,6 +131,7 @@ RenderRequest read_request(const RenderOptions& options) {
     request.command = options.command;
     request.debug_command = debug_command(options);
     request.fingerprint = this_build();
+    request.overwrite = options.overwrite;
     return request;
 }
 

@@ -21,6 +21,7 @@ struct StudyOptions {
     std::string directory;
     FarmOptions farm;
     bool dry_run = false;
+    bool overwrite = false;
     std::string command;
 };
 
@@ -53,8 +54,9 @@ int study(const LaunchEnvironment& launch, const StudyOptions& options) {
             log->warn("{}", warning);
     };
     task.coordinate = [&](Channel& channel, const std::function<bool()>& interrupted) -> CoordinatorEnd {
-        const StudyOutcome outcome =
-            run_study(channel, study, {options.command, this_build(), voice.console, voice.loudness, log}, interrupted);
+        const StudyOutcome outcome = run_study(
+            channel, study, {options.command, this_build(), voice.console, voice.loudness, options.overwrite, log},
+            interrupted);
         return {exit_code_of(outcome.state), outcome.lost_peers};
     };
     const int code = run_on_farm(launch, options.farm, voice, task);
@@ -91,6 +93,7 @@ void add_study_command(CLI::App& app, const LaunchEnvironment& launch, const std
     command->add_option("input", options->input, "study file (.toml)")->required();
     add_text_option(*command, "--dir", options->directory, "where results go (default: directory in the file)");
     add_farm_options(*command, options->farm);
+    command->add_flag("--overwrite", options->overwrite, "replace the other study that the folder holds");
     command->add_flag("--dry-run", options->dry_run, "list the cells, and which are done; render nothing");
     command->footer(kExitCodesText);
     command->callback([options, launch, &exit_code] { exit_code = study(launch, *options); });

@@ -1,13 +1,12 @@
 #include "coordinator/farm.h"
 
 #include <algorithm>
-#include <chrono>
-#include <future>
 #include <utility>
 
 #include "common/base/hash.h"
 #include "common/comm/rest.h"
 #include "common/config/job_reader.h"
+#include "coordinator/pulse.h"
 
 namespace treefarm {
 
@@ -173,10 +172,7 @@ void Farm::beat() {
 }
 
 void Farm::beat_during(const std::function<void()>& work) {
-    std::future<void> done = std::async(std::launch::async, work);
-    while (done.wait_for(std::chrono::milliseconds(20)) != std::future_status::ready)
-        beat();
-    done.get();
+    run_aside(work, [this] { beat(); });
 }
 
 /// Gives a worker its share of what is left, by its threads: nobody takes all of a short queue. One that got less than

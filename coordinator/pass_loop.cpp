@@ -31,11 +31,9 @@ class PassLoop {
         try {
             render_passes();
         } catch (...) {
-            result_.image_hash = hash_image(result_.image);
             if (hooks_.on_failure) hooks_.on_failure(std::move(result_));
             throw;
         }
-        result_.image_hash = hash_image(result_.image);
         return std::move(result_);
     }
 
@@ -49,12 +47,13 @@ class PassLoop {
             broadcast(plan, report);
             if (!collect(plan, next, report)) {
                 result_.interrupted = true;
+                if (hooks_.on_interruption) hooks_.on_interruption(result_);
                 break;
             }
             keep(plan);
-            combine(report);
+            farm_.beat_during([&] { combine(report); });
             next = look_ahead(report);
-            learn(plan, next, report);
+            farm_.beat_during([&] { learn(plan, next, report); });
             finish(report, timer.seconds());
         }
     }
@@ -102,23 +101,24 @@ class PassLoop {
             std::async(std::launch::async, [&] { return pass_variance(finished_.back().pixels); });
         Timer timer;
         remember_noise(finished_, job_.guiding.combination, guided());
-        result_.image = combine_passes(finished_, job_.guiding.combination, guided());
+        result_.image = std::make_shared<CombinedImage>(combine_passes(finished_, job_.guiding.combination, guided()));
         report.seconds.film = timer.seconds();
         timer.restart();
         fill_from_collector(report, farm_.collector());
         std::future<ErrorEstimate> error =
-            std::async(std::launch::async, [&] { return estimate_error(result_.image, job_.sampler.seed); });
+            std::async(std::launch::async, [&] { return estimate_error(*result_.image, job_.sampler.seed); });
+        std::future<std::uint64_t> hash = std::async(std::launch::async, [&] { return hash_image(*result_.image); });
         find_gain(report);
+        result_.image_hash = hash.get();
         report.variance = variance.get();
         state_.error = report.error = error.get();
         report.seconds.error = timer.seconds();
-        farm_.beat();
     }
 
     void find_gain(PassReport& report) const {
         if (report.plan.guided && report.plan.record)
             report.guiding_gain = probe_.gain(finished_.back().pixels, report.stats, report.plan.index,
-                                              result_.image.mean, static_cast<std::size_t>(result_.width));
+                                              result_.image->mean, static_cast<std::size_t>(result_.width));
     }
 
     /// By one image-wide number: a decision, not a weight, so no pixel is biased by its own samples.
@@ -165,12 +165,11 @@ class PassLoop {
     void learn(const PassPlan& plan, const NextPass& next_pass, PassReport& report) {
         if (!plan.record || !next_pass.pass) return;
         const Timer timer;
-        const auto pixels = static_cast<double>(result_.image.mean.size());
+        const auto pixels = static_cast<double>(result_.image->mean.size());
         result_.tree =
             learner_.learn(result_.tree, farm_.collector().sums(), refine_settings(job_, pixels, plan, *next_pass.pass),
                            plan.learn_mixture, report.refine);
         report.seconds.refine = timer.seconds();
-        farm_.beat();
     }
 
     void finish(PassReport& report, double seconds) {
@@ -180,7 +179,8 @@ class PassLoop {
         report.threads = static_cast<std::uint32_t>(farm_.roster().thread_count());
         count_idle(report);
         result_.passes.push_back(report);
-        if (hooks_.on_pass) hooks_.on_pass(report, result_.image);
+        if (hooks_.on_pass) hooks_.on_pass(report, *result_.image);
+        if (hooks_.on_result) hooks_.on_result(result_);
     }
 
     /// Reading in the scene, before the first pass, is not rendering.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <vector>
 
 #include "common/film/combine.h"
@@ -35,12 +36,15 @@ struct PassHooks {
     std::function<void(const RenderProgress&)> on_progress;  ///< called often
     /// After each pass, with the image so far.
     std::function<void(const PassReport&, const CombinedImage&)> on_pass;
-    std::function<void(RenderResult)> on_failure;  ///< the finished passes, before the error leaves
+    std::function<void(const RenderResult&)> on_result;        ///< then, with all there is so far
+    std::function<void(const RenderResult&)> on_interruption;  ///< at once: what takes time comes later
+    std::function<void(RenderResult)> on_failure;              ///< the finished passes, before the error leaves
 };
 
 /// What came out. After an interruption: of the passes that were whole by then, possibly none.
 struct RenderResult {
-    CombinedImage image;  ///< empty if no pass was finished
+    /// Never null; empty if no pass was finished. Each pass makes a new one, so who keeps one needs no copy.
+    std::shared_ptr<const CombinedImage> image = std::make_shared<CombinedImage>();
     int width = 0, height = 0;
     std::uint32_t spp = 0;
     bool interrupted = false;

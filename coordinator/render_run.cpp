@@ -7,6 +7,7 @@
 #include "common/base/hash.h"
 #include "common/plan/plan_text.h"
 #include "common/scene/scene_codec.h"
+#include "coordinator/memory_check.h"
 #include "coordinator/pass_text.h"
 
 namespace treefarm {
@@ -19,7 +20,9 @@ class RenderRun {
         : request_(request),
           interrupted_(interrupted),
           scene_(encode_scene(request.scene)),
-          directory_(request.job, {request.command, hash_bytes(scene_), request.fingerprint}, request.plan),
+          directory_(request.job,
+                     {request.command, hash_bytes(scene_), request.fingerprint, request.plan.approximations},
+                     request.plan, {request.overwrite, interrupted}),
           log_(make_log("treefarm", directory_.log_file(), request.console, request.loudness)),
           progress_(request.console, request.job.budget, request.status_frame),
           farm_(channel, request.job, std::move(scene_), request.fingerprint.hash(), log_, {}, request.turn) {}
@@ -30,40 +33,44 @@ class RenderRun {
             log_->warn("{}", warning);
         for (const Approximation& approximation : request_.plan.approximations)
             log_->warn("{}", approximation_text(approximation));
-        RenderOutcome outcome;
-        std::string error;
+        RunEnd end;
         try {
             render();
-            outcome.state = result_.interrupted ? RunState::interrupted : RunState::done;
-            progress_.clear();
-            directory_.write_image(result_);
-        } catch (const InputError&) {
+            end.state = result_.interrupted ? RunState::interrupted : RunState::done;
+        } catch (const InputError& error) {
+            end.error = error.what();
+            finish(end);
             throw;
         } catch (const std::bad_alloc&) {
-            error = fail("not enough memory; render a smaller image, or on a machine that has more");
-            outcome.state = RunState::failed;
+            end.error = "not enough memory; render a smaller image, or on a machine that has more";
         } catch (const std::exception& failure) {
-            error = fail(failure.what());
-            outcome.state = RunState::failed;
+            end.error = failure.what();
         }
-        report(outcome.state, error);
-        outcome.missed_target = outcome.state == RunState::done && missed_target();
+        progress_.clear();
+        if (!end.error.empty()) log_->error("{}", end.error);
+        finish(end);
+        report(end);
+        RenderOutcome outcome;
+        outcome.state = end.state;
+        outcome.missed_target = end.state == RunState::done && missed_target();
         outcome.lost_peers = farm_.lost_peers();
         return outcome;
     }
 
   private:
     /// Keeps what the finished passes gave, where that can still be written.
-    std::string fail(const std::string& error) {
-        progress_.clear();
-        log_->error("{}", error);
-        try {
-            directory_.write_image(result_);
-            if (!result_.passes.empty()) log_->info("kept the {} spp of finished passes", result_.spp);
-        } catch (const std::exception& again) {
-            if (again.what() != error) log_->error("{}", again.what());
+    void finish(RunEnd& end) {
+        end.elapsed_seconds = clock_.seconds();
+        tell_news();
+        for (const std::string& failure : directory_.finish(result_, &farm_, end))
+            log_->error("{}", failure);
+    }
+
+    /// Of files that could not be written.
+    void tell_news() {
+        for (const std::string& news : directory_.take_news()) {
+            log_->warn("{}", news);
         }
-        return error;
     }
 
     void render() {
@@ -74,14 +81,22 @@ class RenderRun {
                    budget_text(passes({})), directory_.path().string());
         log_->debug("{} triangles", request_.scene.triangle_count());
         farm_.gather(interrupted_);
+        if (request_.job.farm.memory_check)
+            check_memory(request_.plan.memory, this_host(), farm_.roster(), request_.job.scene.file);
         log_->debug("{} workers with {} threads", farm_.roster().present_count(), farm_.roster().thread_count());
         PassHooks hooks;
         hooks.interrupted = interrupted_;
-        hooks.on_progress = [this](const RenderProgress& progress) {
+        hooks.on_progress = [this, &film](const RenderProgress& progress) {
             const double elapsed = clock_.seconds();
             pass_count_ = progress.pass_count;
             progress_.update(progress);
             directory_.write_status(progress, elapsed);
+            directory_.write_preview(farm_.collector().film().pixels(), film.width, film.height, elapsed);
+            tell_news();
+        };
+        hooks.on_result = [this](const RenderResult& so_far) { directory_.write_image(so_far); };
+        hooks.on_interruption = [this](const RenderResult& finished) {
+            directory_.write_interruption(finished, &farm_, clock_.seconds());
         };
         hooks.on_failure = [this](RenderResult finished) { result_ = std::move(finished); };
         hooks.on_pass = [this](const PassReport& pass, const CombinedImage& image) {
@@ -118,18 +133,23 @@ class RenderRun {
                        pass.caps.capped_records, pass.caps.saturated_cells, pass.caps.outside_positions);
     }
 
-    void report(RunState state, const std::string& error) {
-        const double elapsed = clock_.seconds();
-        directory_.write_summary(state, result_, &farm_, elapsed, error);
-        if (state == RunState::failed) return;
+    void report(const RunEnd& end) {
+        if (directory_.has_previous())
+            log_->warn("an earlier run's files lie aside in {}, until a run in this folder is done",
+                       (directory_.path() / "previous*").string());
+        if (end.state == RunState::failed) {
+            if (!result_.passes.empty()) log_->info("the finished passes have {} spp", result_.spp);
+            return;
+        }
         if (result_.passes.empty()) {
             log_->warn("interrupted before the first pass was finished: there is no image");
             return;
         }
-        if (state == RunState::interrupted) log_->warn("interrupted: kept the {} spp of finished passes", result_.spp);
+        if (end.state == RunState::interrupted)
+            log_->warn("interrupted: kept the {} spp of finished passes", result_.spp);
         const PassReport& last = result_.passes.back();
-        log_->debug("{} spp in {:.2f} s, {}; image {} tree {}", result_.spp, elapsed, error_text(last.error),
-                    hash_text(result_.image_hash), hash_text(result_.tree_hash));
+        log_->debug("{} spp in {:.2f} s, {}; image {} tree {}", result_.spp, end.elapsed_seconds,
+                    error_text(last.error), hash_text(result_.image_hash), hash_text(result_.tree_hash));
         if (last.error.rmse > 0 && std::isfinite(last.halving.seconds))
             log_->info("half this error ({:.3g} %) would take {}{} more, {:.0f} spp", 100 * last.halving.relative_error,
                        trust_words(last.halving.trust), rough_duration_text(last.halving.seconds), last.halving.spp);
@@ -180,6 +200,9 @@ class RenderRun {
 }  // namespace
 
 RenderOutcome run_render(Channel& channel, const RenderRequest& request, const std::function<bool()>& interrupted) {
+    // Before any file is touched: what this process alone takes. With the workers', once they have said what they have.
+    if (request.job.farm.memory_check)
+        check_memory(request.plan.memory, this_host(), Roster(0), request.job.scene.file);
     return RenderRun(channel, request, interrupted).run();
 }
 

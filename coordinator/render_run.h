@@ -26,6 +26,7 @@ struct RenderRequest {
     std::string debug_command;  ///< reproduces a sample when " pass,x,y,sample" and, for an open budget, --schedule are
                                 ///< appended
     Fingerprint fingerprint;    ///< of this process
+    bool overwrite = false;     ///< an earlier run in the folder may be replaced
     ConsolePtr console = std::make_shared<Console>(TerminalKind{}, false);
     Loudness loudness = Loudness::normal;  ///< of the log on the console
     StatusFrame status_frame;              ///< how the console says how far it is; empty: as render_status does

@@ -2,262 +2,154 @@
 
 #include <unistd.h>
 
-#include <chrono>
-#include <ctime>
-#include <future>
-#include <nlohmann/json.hpp>
+#include <algorithm>
+#include <cerrno>
+#include <thread>
+#include <utility>
 
-#include "common/base/error.h"
 #include "common/base/hash.h"
 #include "common/config/job_reader.h"
 #include "common/config/parse_text.h"
-#include "common/image/atomic_file.h"
 #include "common/image/png.h"
 #include "common/plan/plan_text.h"
 #include "common/plan/schedule_file.h"
+#include "common/protocol/fingerprint.h"
+#include "coordinator/folder_content.h"
+#include "coordinator/preview.h"
 #include "coordinator/result_image.h"
 
 namespace treefarm {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
+namespace fs = std::filesystem;
 
-std::string time_stamp() {
-    const std::time_t now = std::time(nullptr);
-    std::tm local{};
-    localtime_r(&now, &local);
-    char text[32];
-    std::strftime(text, sizeof text, "%Y%m%d-%H%M%S", &local);
-    return text;
-}
+constexpr double kStatusSeconds = 1.0;
+/// A preview may take one part in so many of the time, of all processors.
+constexpr double kPreviewShare = 200.0;
+/// Of a core, for a pixel: what the first preview is expected to take.
+constexpr double kPreviewSecondsPerPixel = 4e-8;
+/// Tables and images of short passes share a writing.
+constexpr Pace kPassPace{0.0, 20.0};
+/// How long the end tries to write what it could not, and then what says so.
+constexpr double kResultPatience = 4.0, kSummaryPatience = 1.0;
 
-std::filesystem::path choose_path(const Job& job) {
-    if (!job.output.directory.empty()) return job.output.directory;
-    const std::string name = std::filesystem::path(job.scene.file).stem().string() + "-" + time_stamp();
-    std::filesystem::path path = std::filesystem::path("runs") / name;
-    for (int k = 2; std::filesystem::exists(path); ++k)  // two runs in one second
-        path = std::filesystem::path("runs") / (name + "-" + std::to_string(k));
-    return path;
+double processors() {
+    return std::max(1u, std::thread::hardware_concurrency());
 }
 
 void check_output_file(const std::string& file) {
     if (file.empty()) return;
-    const std::filesystem::path path(file), folder = path.has_parent_path() ? path.parent_path() : ".";
+    const fs::path path(file), folder = path.has_parent_path() ? path.parent_path() : ".";
     if (path.extension() != ".exr")
         throw InputError(Location{file, 0, 0}, "the image is written as EXR", "give it a name that ends in .exr");
-    if (!std::filesystem::is_directory(folder))
+    if (!fs::is_directory(folder))
         throw InputError(Location{file, 0, 0}, "there is no folder " + folder.string(), "make it first");
-    if (std::filesystem::is_directory(path)) throw InputError(Location{file, 0, 0}, "is a folder", "name a file");
+    if (fs::is_directory(path)) throw InputError(Location{file, 0, 0}, "is a folder", "name a file");
     if (access(folder.c_str(), W_OK) != 0)  // now, not after hours of rendering
         throw InputError(Location{file, 0, 0}, "nothing can be written in " + folder.string(),
                          "choose another place or change its permissions");
 }
 
-/// Null where something is not known. What is infinite becomes null by itself.
-Json error_json(const ErrorEstimate& error) {
-    if (!error.known) return nullptr;
-    const auto end = [&](double value) { return error.has_interval ? Json(value) : Json(); };
-    return {{"relative", error.relative()},
-            {"low", end(error.relative_low())},
-            {"high", end(error.relative_high())},
-            {"rmse", error.rmse},
-            {"rmse_low", end(error.low)},
-            {"rmse_high", end(error.high)},
-            {"mean", error.mean}};
+/// The job, for a run directory: the output file is found wanting before a folder is made.
+const Job& checked(const Job& job) {
+    check_output_file(job.output.file);
+    return job;
 }
 
-Json forecast_json(const ErrorForecast& forecast) {
-    return {{"relative_error", forecast.relative_error},
-            {"spp", forecast.spp},
-            {"seconds", forecast.seconds},
-            {"trust", trust_name(forecast.trust)}};
+std::string job_without_output(Job job) {
+    job.output = {};
+    return write_job(job);
 }
 
-Json pass_json(const PassReport& r) {
-    return {{"pass", r.plan.index},
-            {"spp", r.plan.spp},
-            {"spp_done", r.spp_done},
-            {"seconds", r.seconds.all},
-            {"phase_seconds", r.seconds.phases()},
-            {"run_seconds", r.run_seconds},
-            {"core_seconds", r.core_seconds()},
-            {"stuv", r.variance.stuv},
-            {"stuv_trimmed", r.variance.stuv_trimmed},
-            {"stuv_ppg", r.variance.stuv_ppg},
-            {"ttuv", r.ttuv()},
-            {"image_error", error_json(r.error)},
-            {"efficiency", r.efficiency()},
-            {"halving", forecast_json(r.halving)},
-            {"rays_per_second", r.rays_per_second()},
-            {"nonzero_share", r.nonzero_share()},
-            {"invalid_samples", r.stats.invalid_samples},
-            {"tree_nodes", r.tree.nodes},
-            {"tree_regions", r.tree.regions},
-            {"guided", r.plan.guided},
-            {"guiding_gain", r.guiding_gain.all},
-            {"guiding_gain_bulk", r.guiding_gain.bulk},
-            {"unguided_coverage", r.guiding_gain.coverage},
-            {"split", r.plan.split},
-            {"splitting_quietens", r.splitting_gain.variance},
-            {"splitting_rays", r.splitting_gain.rays},
-            {"splitting_found", r.splitting_gain.found},
-            {"tree_views", r.tree.views},
-            {"tree_cells", r.tree.cells},
-            {"tree_bytes", r.tree.bytes},
-            {"tree_memory", r.tree.memory},
-            {"update_bytes", r.update_bytes},
-            {"trace_seconds",
-             {{"min", r.seconds.trace.min},
-              {"mean", r.seconds.trace.mean},
-              {"max", r.seconds.trace.max},
-              {"max_worker", r.seconds.trace.max_worker}}}};
-}
-
-Json build_json(const Fingerprint& build) {
-    return {{"source", build.source},
-            {"options", build.options},
-            {"compiler", build.compiler},
-            {"embree", build.embree},
-            {"program", hash_text(build.program)}};
-}
-
-const char* member_state_name(MemberState state) {
-    switch (state) {
-        case MemberState::present:
-            return "present";
-        case MemberState::lost:
-            return "lost";
-        case MemberState::refused:
-            return "refused";
-        case MemberState::left:
-            return "left";
-        case MemberState::barred:
-            return "barred";
-    }
-    return "";
-}
-
-Json farm_json(const Farm& farm) {
-    Json workers = Json::array();
-    for (const auto& [peer, member] : farm.roster().members())
-        workers.push_back({{"worker", peer},
-                           {"host", member.hello.host},
-                           {"threads", member.hello.threads},
-                           {"state", member_state_name(member.state)},
-                           {"bad_messages", member.bad_messages}});
-    return {{"workers", workers},
-            {"reissued_units", farm.reissued_units()},
-            {"dropped_results", farm.dropped_results()},
-            {"bad_messages", farm.bad_messages()}};
-}
-
-/// A run replaces what an earlier run left. A folder that holds something else is none of ours: it might be a person's.
-void check_run_directory(const std::filesystem::path& path) {
-    std::error_code error;
-    if (!std::filesystem::is_directory(path, error) || std::filesystem::is_empty(path, error)) return;
-    if (std::filesystem::exists(path / "passes.csv", error)) return;
-    throw InputError(Location{path.string(), 0, 0}, "is no run directory, but a folder that holds other files",
-                     "name an empty or a new one with --run-dir");
-}
-
-/// What `treefarm inspect` drew of the tree of an earlier run.
-void remove_pictures(const std::filesystem::path& folder) {
-    if (!std::filesystem::is_directory(folder)) return;
-    for (const auto& entry : std::filesystem::directory_iterator(folder))
-        if (entry.path().extension() == ".png" || entry.path().filename() == "inspect.json")
-            std::filesystem::remove(entry.path());
+std::vector<std::uint8_t> encode_image(const fs::path& path, const CombinedImage& image, int width, int height,
+                                       const Attributes& attributes) {
+    return encode_exr(path, result_channels(image, width, height), attributes);
 }
 
 }  // namespace
 
-const char* run_state_name(RunState state) {
-    switch (state) {
-        case RunState::running:
-            return "running";
-        case RunState::done:
-            return "done";
-        case RunState::interrupted:
-            return "interrupted";
-        case RunState::failed:
-            return "failed";
-    }
-    return "";
-}
-
-RunDirectory::RunDirectory(const Job& job, const RunFacts& facts, const EffectPlan& plan)
-    : job_(job), facts_(facts), approximations_(plan.approximations), path_(choose_path(job)) {
-    check_output_file(job.output.file);
-    check_run_directory(path_);
+RunDirectory::RunDirectory(const Job& job, RunFacts facts, const EffectPlan& plan, const RunDirectoryOptions& options)
+    : job_(checked(job)),
+      job_toml_(job_without_output(job)),
+      facts_(std::move(facts)),
+      folder_(job, options.overwrite, options.interrupted),
+      plan_text_(plan_text(plan, job.scene.file)),
+      plan_json_(plan_json(plan, job.scene.file)),
+      passes_csv_(pass_csv_header() + "\n") {
     try {
-        std::filesystem::create_directories(path_);
-        // A run that ends early must not stand beside the image or the log of another.
-        for (const char* stale :
-             {"summary.json", "status.json", "image.exr", "preview.png", "log.txt", "schedule.toml", "tree.bin"})
-            std::filesystem::remove(path_ / stale);
-        remove_pictures(path_ / "inspect");
-        write_text("job.toml", write_job(job));
-        write_text("plan.txt", plan_text(plan, job.scene.file));
-        write_text("plan.json", plan_json(plan, job.scene.file));
-        passes_csv_ = pass_csv_header() + "\n";
-        write_text("passes.csv", passes_csv_);
+        write_text("status.json", status_json(RunState::running, 0, 0.0), Outlives::process);
+        write_text("job.toml", job_toml_, Outlives::power);
+        write_text("plan.txt", plan_text_, Outlives::power);
+        write_text("plan.json", plan_json_, Outlives::power);
+        write_text("passes.csv", passes_csv_, Outlives::power);
     } catch (const std::exception& error) {  // better now than after the render
-        throw InputError(Location{path_.string(), 0, 0}, std::string("cannot be the run directory: ") + error.what(),
+        throw InputError(Location{path().string(), 0, 0}, std::string("cannot be the run directory: ") + error.what(),
                          "name another with --run-dir");
     }
 }
 
+void RunDirectory::write_bytes(const std::string& name, std::span<const std::uint8_t> bytes, Outlives outlives) const {
+    try {
+        write_file_atomically(path() / name, bytes, outlives);
+    } catch (const FileError& error) {
+        std::error_code none;
+        if (error.code() != ENOENT || fs::exists(path(), none)) throw;
+        fs::create_directories(path(), none);
+        write_file_atomically(path() / name, bytes, outlives);
+    }
+}
+
 void RunDirectory::write_text(const std::string& name, const std::string& text, Outlives outlives) const {
-    write_file_atomically(path_ / name, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}, outlives);
+    write_bytes(name, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}, outlives);
+}
+
+void RunDirectory::put_text(const std::string& name, std::string text, Pace pace) {
+    writer_.put(
+        name, [this, name, text = std::move(text)] { write_text(name, text, Outlives::process); }, pace);
 }
 
 void RunDirectory::write_status(const RenderProgress& progress, double elapsed_seconds) {
-    if (elapsed_seconds - last_status_ < 1.0) return;
+    if (elapsed_seconds - last_status_ < kStatusSeconds) return;
     last_status_ = elapsed_seconds;
-    const double left = progress.fraction > 0 ? elapsed_seconds * (1 - progress.fraction) / progress.fraction : 0.0;
-    const Json status = {{"state", run_state_name(RunState::running)},
-                         {"pass", progress.pass},
-                         {"passes", progress.pass_count},
-                         {"spp_done", progress.spp_done},
-                         {"spp", progress.spp_total},
-                         {"fraction", progress.fraction},
-                         {"elapsed_seconds", elapsed_seconds},
-                         {"seconds_left", left},
-                         {"image_error", error_json(progress.error)},
-                         {"workers", progress.workers},
-                         {"rays", progress.rays},
-                         {"time", std::time(nullptr)}};
-    write_text("status.json", status.dump(2) + "\n", Outlives::process);
+    put_text("status.json", status_json(progress, elapsed_seconds), {});
+}
+
+void RunDirectory::write_preview(std::span<const PixelEstimate> film, int width, int height, double elapsed_seconds) {
+    const std::size_t count = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+    if (film.size() != count) return;
+    if (next_preview_ == 0)
+        next_preview_ =
+            std::max(1.0, kPreviewShare * kPreviewSecondsPerPixel * static_cast<double>(count) / processors());
+    if (elapsed_seconds < next_preview_) return;
+    const Timer timer;
+    auto pass = std::make_shared<const PartialPass>(partial_pass(film));
+    writer_.put("preview.png", [this, image = newest_, spp = newest_spp_, pass, width, height] {
+        const double before = thread_cpu_seconds();
+        write_bytes("preview.png", encode_png(preview_image(*image, spp, *pass, width, height)), Outlives::process);
+        preview_seconds_ = thread_cpu_seconds() - before;
+    });
+    const double cost =
+        timer.seconds() +
+        std::max(preview_seconds_.load(), kPreviewSecondsPerPixel * static_cast<double>(count)) / processors();
+    next_preview_ = elapsed_seconds + std::max(1.0, kPreviewShare * cost);
 }
 
 void RunDirectory::add_pass(const PassReport& report) {
     passes_csv_ += pass_csv_line(report) + "\n";
     passes_.push_back(report.plan);
-    write_passes(Outlives::process);
+    put_text("passes.csv", passes_csv_, kPassPace);
+    put_text("schedule.toml", write_schedule(passes_), kPassPace);
 }
 
-void RunDirectory::write_passes(Outlives outlives) const {
-    write_text("passes.csv", passes_csv_, outlives);
-    write_text("schedule.toml", write_schedule(passes_), outlives);
-}
-
-void RunDirectory::write_image(const RenderResult& result) {
-    if (result.passes.empty()) return;
-    std::future<void> preview = std::async(std::launch::async, [&] {
-        write_png(path_ / "preview.png", result_colours(result.image, result.width, result.height));
-    });
-    if (job_.guiding.type != GuidingType::none && result.tree.trained) {
-        const Bytes tree = encode_tree(result.tree);
-        write_file_atomically(path_ / "tree.bin", tree);
-        tree_file_hash_ = hash_text(hash_bytes(tree));
-    }
-    const Image channels = result_channels(result.image, result.width, result.height);
+/// image.exr's header.
+Attributes RunDirectory::image_attributes(const RenderResult& result) const {
     const PassReport& last = result.passes.back();
     Attributes attributes = {
         {"treefarm.version", kProgramVersion},
         {"treefarm.build", facts_.fingerprint.text()},
         {"treefarm.spp", std::to_string(result.spp)},
-        {"treefarm.job", write_job(job_)},
+        {"treefarm.job", job_toml_},
         {"treefarm.scene_hash", hash_text(facts_.scene_hash)},
         {"treefarm.image_hash", hash_text(result.image_hash)},
         {"treefarm.tree_hash", hash_text(result.tree_hash)},
@@ -272,46 +164,114 @@ void RunDirectory::write_image(const RenderResult& result) {
         attributes["treefarm.error_low"] = number_text(last.error.relative_low());
         attributes["treefarm.error_high"] = number_text(last.error.relative_high());
     }
-    write_exr(path_ / "image.exr", channels, attributes);
-    if (!job_.output.file.empty()) write_exr(job_.output.file, channels, attributes);
-    preview.get();
+    return attributes;
 }
 
-void RunDirectory::write_summary(RunState state, const RenderResult& result, const Farm* farm, double elapsed_seconds,
-                                 const std::string& error) {
-    Json summary = {{"state", run_state_name(state)},
-                    {"version", kProgramVersion},
-                    {"command", facts_.command},
-                    {"scene", job_.scene.file},
-                    {"scene_hash", hash_text(facts_.scene_hash)},
-                    {"fingerprint", hash_text(facts_.fingerprint.hash())},
-                    {"build", build_json(facts_.fingerprint)},
-                    {"width", result.width},
-                    {"height", result.height},
-                    {"spp", result.spp},
-                    {"seconds", elapsed_seconds},
-                    {"image_hash", result.spp > 0 ? hash_text(result.image_hash) : ""},
-                    {"tree_hash", result.spp > 0 ? hash_text(result.tree_hash) : ""},
-                    {"tree_file_hash", tree_file_hash_},
-                    {"image_error", result.passes.empty() ? Json() : error_json(result.passes.back().error)},
-                    {"halving", result.passes.empty() ? Json() : forecast_json(result.passes.back().halving)},
-                    {"pass_weights", result.image.weight}};
-    if (job_.budget.error > 0 && !result.passes.empty())
-        summary["target"] = {{"relative_error", job_.budget.error},
-                             {"reached", !misses_target(job_, result.passes.back().error)}};
-    if (!error.empty()) summary["error"] = error;
-    summary["approximations"] = Json::array();
-    for (const Approximation& approximation : approximations_)
-        summary["approximations"].push_back(approximation_text(approximation));
-    summary["passes"] = Json::array();
-    for (const PassReport& report : result.passes)
-        summary["passes"].push_back(pass_json(report));
-    if (farm) summary["farm"] = farm_json(*farm);
-    if (!passes_.empty()) write_passes(Outlives::power);
-    write_text("summary.json", summary.dump(2) + "\n");
-    const Json status = {
-        {"state", run_state_name(state)}, {"spp_done", result.spp}, {"elapsed_seconds", elapsed_seconds}};
-    write_text("status.json", status.dump(2) + "\n");
+void RunDirectory::write_image(const RenderResult& result) {
+    newest_ = result.image;
+    newest_spp_ = result.spp;
+    writer_.put(
+        "image.exr",
+        [this, image = result.image, width = result.width, height = result.height,
+         attributes = image_attributes(result)] {
+            write_bytes("image.exr", encode_image(path() / "image.exr", *image, width, height, attributes),
+                        Outlives::power);
+            const std::lock_guard lock(on_disk_mutex_);
+            on_disk_ = image;
+        },
+        kPassPace);
+}
+
+bool RunDirectory::image_is_on_disk(const RenderResult& result) const {
+    const std::lock_guard lock(on_disk_mutex_);
+    std::error_code none;
+    return on_disk_.lock() == result.image && fs::exists(path() / "image.exr", none);
+}
+
+/// Of those that hold results, in the order of their worth.
+std::vector<LastFile> RunDirectory::last_files(const RenderResult& result, Outlives outlives, RunEnd& end) {
+    std::vector<LastFile> files;
+    const auto add = [&](const std::string& name, std::function<void()> write) {
+        files.push_back({(path() / name).string(), std::move(write)});
+    };
+    if (!result.passes.empty()) {
+        const auto encoded = std::make_shared<std::vector<std::uint8_t>>();  // once for both files
+        const auto image = [this, encoded, &result]() -> const std::vector<std::uint8_t>& {
+            if (encoded->empty())
+                *encoded = encode_image(path() / "image.exr", *result.image, result.width, result.height,
+                                        image_attributes(result));
+            return *encoded;
+        };
+        if (!image_is_on_disk(result))
+            add("image.exr", [=, this, &result] {
+                write_bytes("image.exr", image(), outlives);
+                const std::lock_guard lock(on_disk_mutex_);
+                on_disk_ = result.image;
+            });
+        if (!job_.output.file.empty())
+            files.push_back(
+                {job_.output.file, [=, this] { write_file_atomically(job_.output.file, image(), outlives); }});
+        add("passes.csv", [=, this] { write_text("passes.csv", passes_csv_, outlives); });
+        add("schedule.toml", [=, this] { write_text("schedule.toml", write_schedule(passes_), outlives); });
+        if (job_.guiding.type != GuidingType::none && result.tree.trained)
+            add("tree.bin", [=, this, &result, &end] {
+                const Bytes tree = encode_tree(result.tree);
+                write_bytes("tree.bin", tree, outlives);
+                end.tree_file_hash = hash_text(hash_bytes(tree));
+            });
+        add("preview.png", [=, this, &result] {
+            write_bytes("preview.png", encode_png(result_colours(*result.image, result.width, result.height)),
+                        outlives);
+        });
+    }
+    // Only where the folder vanished: they were written at the start.
+    for (const auto& [name, text] :
+         {std::pair("job.toml", &job_toml_), std::pair("plan.txt", &plan_text_), std::pair("plan.json", &plan_json_)})
+        if (std::error_code none; !fs::exists(path() / name, none))
+            add(name, [=, this, name = std::string(name), text = text] { write_text(name, *text, outlives); });
+    return files;
+}
+
+/// Those that tell of the end.
+std::vector<LastFile> RunDirectory::end_files(const RenderResult& result, const Farm* farm, const RunEnd& end,
+                                              Outlives outlives) const {
+    return {{(path() / "summary.json").string(),
+             [=, this, &result, &end] {
+                 write_text("summary.json", summary_json(job_, facts_, result, farm, end), outlives);
+             }},
+            {(path() / "status.json").string(), [=, this, &result, &end] {
+                 write_text("status.json", status_json(end.state, result.spp, end.elapsed_seconds), outlives);
+             }}};
+}
+
+void RunDirectory::write_interruption(const RenderResult& result, const Farm* farm, double elapsed_seconds) {
+    if (!result.passes.empty() && !image_is_on_disk(result)) return;
+    const RunEnd end{RunState::interrupted, "", elapsed_seconds, ""};
+    std::vector<LastFile> files = end_files(result, farm, end, Outlives::process);
+    write_last_files(files, 0.0);
+}
+
+std::vector<std::string> RunDirectory::finish(const RenderResult& result, const Farm* farm, RunEnd& end) {
+    writer_.stop();
+    // One that may be killed soon does not wait for the disk, nor for what takes longer to write.
+    const bool hurry = end.state == RunState::interrupted;
+    const Outlives outlives = hurry ? Outlives::process : Outlives::power;
+    std::vector<LastFile> files = last_files(result, outlives, end);
+    if (hurry && !files.empty() && try_to_write(files.front())) write_interruption(result, farm, end.elapsed_seconds);
+    std::vector<std::string> failures = write_last_files(files, kResultPatience);
+    for (const std::string& failure : failures)
+        end.error += (end.error.empty() ? "" : "; ") + failure;
+    if (!failures.empty()) end.state = RunState::failed;
+    std::vector<LastFile> last = end_files(result, farm, end, outlives);
+    for (const std::string& failure : write_last_files(last, kSummaryPatience)) {
+        end.state = RunState::failed;
+        failures.push_back(failure);
+    }
+    if (hurry)
+        for (const std::string_view name : run_file_names())
+            make_durable(path() / name);
+    if (end.state == RunState::done) folder_.remove_previous();
+    return failures;
 }
 
 }  // namespace treefarm

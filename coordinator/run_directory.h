@@ -1,66 +1,94 @@
 #pragma once
 
+#include <atomic>
 #include <filesystem>
-#include <map>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <span>
 #include <string>
+#include <vector>
 
-#include "common/base/timer.h"
 #include "common/config/job.h"
 #include "common/image/atomic_file.h"
+#include "common/image/exr.h"
 #include "common/plan/effects.h"
-#include "common/protocol/fingerprint.h"
-#include "coordinator/farm.h"
+#include "coordinator/file_writer.h"
+#include "coordinator/last_files.h"
 #include "coordinator/pass_loop.h"
+#include "coordinator/run_folder.h"
+#include "coordinator/run_report.h"
 
 namespace treefarm {
 
-/// How a run ended.
-enum class RunState : std::uint8_t { running, done, interrupted, failed };
-const char* run_state_name(RunState state);
-
-/// What a run is, for its files.
-struct RunFacts {
-    std::string command;  ///< that started it
-    std::uint64_t scene_hash = 0;
-    Fingerprint fingerprint;
+/// How a run directory comes about.
+struct RunDirectoryOptions {
+    bool overwrite = false;             ///< an earlier run there may be put aside
+    std::function<bool()> interrupted;  ///< ends the wait for a folder that is in use; may be empty
 };
 
 /// The folder of one run: job.toml, plan.txt, plan.json, log.txt, status.json, passes.csv, schedule.toml, image.exr,
 /// preview.png, tree.bin, summary.json. Every file is replaced as a whole or appended to by lines, so that a reader
-/// never sees half of one. Throws RunError where a file cannot be written.
+/// never sees half of one. While it renders all are written beside it, and none that cannot be written ends it; a
+/// folder that vanished is made again.
 class RunDirectory {
   public:
-    /// Makes the folder (runs/<scene>-<time> if the job names none) and writes job.toml, plan.txt and plan.json.
-    RunDirectory(const Job& job, const RunFacts& facts, const EffectPlan& plan);
+    /// Makes the folder and writes what is known before the render. Throws InputError where that cannot be.
+    RunDirectory(const Job& job, RunFacts facts, const EffectPlan& plan, const RunDirectoryOptions& options = {});
 
-    const std::filesystem::path& path() const { return path_; }
-    std::filesystem::path log_file() const { return path_ / "log.txt"; }
-
-    // What is written while workers wait for an answer does not wait for the disk (atomic_file.h).
+    const std::filesystem::path& path() const { return folder_.path(); }
+    std::filesystem::path log_file() const { return path() / "log.txt"; }
 
     /// status.json, at most once a second.
     void write_status(const RenderProgress& progress, double elapsed_seconds);
+    /// preview.png, at most once a second, and so seldom that it takes half a percent of the time: finished passes, and
+    /// what has come of the pass in hand.
+    void write_preview(std::span<const PixelEstimate> film, int width, int height, double elapsed_seconds);
     /// A line of passes.csv, a table of schedule.toml.
     void add_pass(const PassReport& report);
-    /// image.exr, preview.png, and the job's output.file; tree.bin (encode_tree() of the result's tree) if there is one
-    /// that learned.
+    /// image.exr of the passes so far.
     void write_image(const RenderResult& result);
-    /// summary.json and the last status.json; passes.csv and schedule.toml once more, to outlive the machine's power.
-    void write_summary(RunState state, const RenderResult& result, const Farm* farm, double elapsed_seconds,
-                       const std::string& error);
+    /// What went wrong with files since the last call, for a person.
+    std::vector<std::string> take_news() { return writer_.take_news(); }
+
+    /// summary.json and status.json of a run that was interrupted, if its image is on disk: finish() may come too late,
+    /// since mpirun kills its ranks two seconds after a signal.
+    void write_interruption(const RenderResult& result, const Farm* farm, double elapsed_seconds);
+
+    /// What a run leaves: image.exr, the job's output.file, tree.bin (encode_tree() of the result's tree) if there is
+    /// one that learned, preview.png, passes.csv, schedule.toml, summary.json and the last status.json, each on its own
+    /// and tried again for some seconds. `end` says how the run ended; where files cannot be written it becomes failed,
+    /// and they are returned, each with the reason.
+    std::vector<std::string> finish(const RenderResult& result, const Farm* farm, RunEnd& end);
+
+    /// An earlier run lies aside in it.
+    bool has_previous() const { return folder_.has_previous(); }
 
   private:
-    void write_text(const std::string& name, const std::string& text, Outlives outlives = Outlives::power) const;
-    void write_passes(Outlives outlives) const;
+    void write_bytes(const std::string& name, std::span<const std::uint8_t> bytes, Outlives outlives) const;
+    void write_text(const std::string& name, const std::string& text, Outlives outlives) const;
+    void put_text(const std::string& name, std::string text, Pace pace);
+    Attributes image_attributes(const RenderResult& result) const;
+    std::vector<LastFile> last_files(const RenderResult& result, Outlives outlives, RunEnd& end);
+    std::vector<LastFile> end_files(const RenderResult& result, const Farm* farm, const RunEnd& end,
+                                    Outlives outlives) const;
+    bool image_is_on_disk(const RenderResult& result) const;
 
     const Job job_;
+    const std::string job_toml_;  ///< without its output: whoever repeats a run must not replace it
     const RunFacts facts_;
-    const std::vector<Approximation> approximations_;
-    std::filesystem::path path_;
+    RunFolder folder_;
+    const std::string plan_text_, plan_json_;
     std::string passes_csv_;
-    std::string tree_file_hash_;    ///< of tree.bin; "" without one
     std::vector<PassPlan> passes_;  ///< the finished ones
     double last_status_ = -1e9;
+    double next_preview_ = 0;
+    std::shared_ptr<const CombinedImage> newest_ = std::make_shared<CombinedImage>();  ///< for previews
+    std::uint32_t newest_spp_ = 0;
+    std::atomic<double> preview_seconds_ = 0;  ///< of a core, that the last one took the writer
+    mutable std::mutex on_disk_mutex_;
+    std::weak_ptr<const CombinedImage> on_disk_;  ///< whose image.exr is whole
+    FileWriter writer_;                           ///< last: it ends first
 };
 
 }  // namespace treefarm

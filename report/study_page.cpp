@@ -57,7 +57,8 @@ std::string viewer(const StudyResults& results, const SceneResult& scene) {
                          cells.front()->folder / "image.exr"));
     }
     images.push_back(viewer_image("reference", scene.reference_rendered ? "rendered" : "given", scene.reference_file));
-    std::string json = images.dump();  // text in a script ends at "</"
+    std::string json =
+        images.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);  // text in a script ends at "</"
     for (std::size_t at = 0; (at = json.find("</", at)) != std::string::npos; at += 3)
         json.replace(at, 2, "<\\/");
     return "<div class=\"viewer\"><script type=\"application/json\">" + json + "</script></div>\n";

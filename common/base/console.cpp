@@ -4,6 +4,8 @@
 
 #include <cerrno>
 
+#include "common/base/printable.h"
+
 namespace treefarm {
 
 namespace {
@@ -18,7 +20,7 @@ Console::Console(TerminalKind kind, bool shows_status, int descriptor)
     : kind_(kind),
       shows_status_(shows_status),
       descriptor_(descriptor),
-      pace_(kind.live ? Pace(0, kRedrawSeconds) : Pace(kLineSeconds, kLineSeconds)) {}
+      pace_(kind.live ? StatusPace(0, kRedrawSeconds) : StatusPace(kLineSeconds, kLineSeconds)) {}
 
 /// In one piece where the system takes it so: processes of mpirun share a terminal. Nobody is told of what cannot be
 /// written: a render does not end because nobody looks on.
@@ -46,7 +48,7 @@ void Console::status(const Status& status) {
     const std::lock_guard lock(mutex_);
     if (!pace_.due(clock_.seconds())) return;
     if (!kind_.live) {
-        write(without_controls(status.line) + "\n");
+        write(printable(status.line) + "\n");
         return;
     }
     status_ = status;

@@ -44,7 +44,7 @@ class Console {
     const int descriptor_;
     const Timer clock_;
     std::mutex mutex_;
-    Pace pace_;
+    StatusPace pace_;
     Status status_;
     bool drawn_ = false;
 };

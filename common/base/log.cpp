@@ -1,17 +1,22 @@
 #include "common/base/log.h"
 
+#include <fcntl.h>
 #include <spdlog/pattern_formatter.h>
 #include <spdlog/sinks/base_sink.h>
-#include <spdlog/sinks/basic_file_sink.h>
+#include <unistd.h>
 
+#include <mutex>
 #include <utility>
+
+#include "common/base/printable.h"
 
 namespace treefarm {
 
 namespace {
 
+/// Without what could forge lines or steer a terminal.
 std::string payload(const spdlog::details::log_msg& message) {
-    return without_controls(std::string(message.payload.data(), message.payload.size()));
+    return printable({message.payload.data(), message.payload.size()});
 }
 
 class ConsoleSink final : public spdlog::sinks::base_sink<spdlog::details::null_mutex> {
@@ -37,14 +42,38 @@ class ConsoleSink final : public spdlog::sinks::base_sink<spdlog::details::null_
     const ConsolePtr console_;
 };
 
-/// The message in log.txt: on one line, whatever is in it.
-class CleanMessage final : public spdlog::custom_flag_formatter {
+/// The flag %*: the message on one line, whatever is in it.
+class PrintableMessage final : public spdlog::custom_flag_formatter {
   public:
     void format(const spdlog::details::log_msg& message, const std::tm&, spdlog::memory_buf_t& to) override {
         const std::string text = payload(message);
         to.append(text.data(), text.data() + text.size());
     }
-    std::unique_ptr<custom_flag_formatter> clone() const override { return std::make_unique<CleanMessage>(); }
+    std::unique_ptr<custom_flag_formatter> clone() const override { return std::make_unique<PrintableMessage>(); }
+};
+
+/// Appends lines to a file, which is opened for each: after a disk was full, or its folder was removed and made again,
+/// the log goes on. A line that cannot be written is lost; the terminal has it.
+class AppendingSink final : public spdlog::sinks::base_sink<std::mutex> {
+  public:
+    explicit AppendingSink(std::filesystem::path file) : file_(std::move(file)) {
+        auto formatter = std::make_unique<spdlog::pattern_formatter>();
+        formatter->add_flag<PrintableMessage>('*').set_pattern("%Y-%m-%d %H:%M:%S.%e %n %l: %*");
+        set_formatter(std::move(formatter));
+    }
+
+  private:
+    void sink_it_(const spdlog::details::log_msg& message) override {
+        spdlog::memory_buf_t line;
+        formatter_->format(message, line);
+        const int fd = ::open(file_.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
+        if (fd < 0) return;
+        [[maybe_unused]] const ssize_t written = ::write(fd, line.data(), line.size());
+        ::close(fd);
+    }
+    void flush_() override {}
+
+    const std::filesystem::path file_;
 };
 
 spdlog::level::level_enum least_level(Loudness loudness) {
@@ -59,13 +88,7 @@ Log make_log(const std::string& who, const std::filesystem::path& file, const Co
     auto terminal = std::make_shared<ConsoleSink>(console);
     terminal->set_level(least_level(loudness));
     std::vector<spdlog::sink_ptr> sinks = {std::move(terminal)};
-    if (!file.empty()) {
-        auto text = std::make_shared<spdlog::sinks::basic_file_sink_mt>(file.string(), false);
-        auto formatter = std::make_unique<spdlog::pattern_formatter>();
-        formatter->add_flag<CleanMessage>('*').set_pattern("%Y-%m-%d %H:%M:%S.%e %n %l: %*");
-        text->set_formatter(std::move(formatter));
-        sinks.push_back(std::move(text));
-    }
+    if (!file.empty()) sinks.push_back(std::make_shared<AppendingSink>(file));
     auto log = std::make_shared<spdlog::logger>(who, sinks.begin(), sinks.end());
     log->set_level(spdlog::level::debug);
     log->flush_on(spdlog::level::info);

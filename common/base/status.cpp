@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/base/printable.h"
 #include "common/base/terminal.h"
 
 namespace treefarm {
@@ -30,7 +31,7 @@ std::string join_fields(const std::vector<std::string>& fields) {
 std::string status_text(const Status& status, int columns) {
     std::vector<std::string> fields;
     for (const std::string& field : status.fields)
-        if (!field.empty()) fields.push_back(without_controls(field));
+        if (!field.empty()) fields.push_back(printable(field));
     const auto room = [&] { return columns - text_columns(join_fields(fields)); };
     const bool has_bar = status.fraction >= 0;
     while (fields.size() > status.essential && room() < (has_bar ? kUsualBar + kBarFrame : 0))

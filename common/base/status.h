@@ -21,9 +21,9 @@ std::string status_text(const Status& status, int columns);
 std::string join_fields(const std::vector<std::string>& fields);
 
 /// When to say again how far something is: after `first` seconds, then every `apart` seconds.
-class Pace {
+class StatusPace {
   public:
-    Pace(double first, double apart) : next_(first), apart_(apart) {}
+    StatusPace(double first, double apart) : next_(first), apart_(apart) {}
     /// Whether it is time, `now` seconds after the start. Then it is not again for a while.
     bool due(double now) {
         if (now < next_) return false;

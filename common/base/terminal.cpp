@@ -65,10 +65,4 @@ std::string cut_to_columns(const std::string& text, int columns) {
     return text;
 }
 
-std::string without_controls(std::string text) {
-    std::replace_if(
-        text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }, '?');
-    return text;
-}
-
 }  // namespace treefarm

@@ -19,7 +19,4 @@ int text_columns(const std::string& text);
 /// The text's beginning, as far as it fits into so many columns.
 std::string cut_to_columns(const std::string& text, int columns);
 
-/// The text with a question mark for each control character: names and messages from elsewhere move no cursor.
-std::string without_controls(std::string text);
-
 }  // namespace treefarm

@@ -7,6 +7,8 @@
 #include <cstdlib>
 #include <vector>
 
+#include "common/base/printable.h"
+
 namespace treefarm {
 namespace {
 
@@ -122,10 +124,7 @@ std::string path_in_quotes(std::string_view path) {
 }
 
 std::string one_line(std::string_view text) {
-    std::string result(text);
-    for (char& c : result)
-        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
-    return result;
+    return printable(text);
 }
 
 }  // namespace treefarm

@@ -1,13 +1,13 @@
 #include "common/image/atomic_file.h"
 
 #include <fcntl.h>
+#include <sys/random.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
 #include <string>
-
-#include "common/base/error.h"
 
 namespace treefarm {
 
@@ -16,14 +16,15 @@ namespace fs = std::filesystem;
 namespace {
 
 [[noreturn]] void fail(const fs::path& path, const char* action, int error) {
-    throw RunError(path.string() + ": cannot " + action + " (" + std::strerror(error) +
-                   "); check that the folder exists, is writable and has space");
+    throw FileError(path.string() + ": cannot " + action + " (" + std::strerror(error) +
+                        "); check that the folder exists, is writable and has space",
+                    error);
 }
 
 /// Closes on every way out.
 class Descriptor {
   public:
-    Descriptor(const fs::path& path, int flags) : fd_(::open(path.c_str(), flags | O_CLOEXEC, 0644)) {}
+    Descriptor(const fs::path& path, int flags, mode_t mode = 0) : fd_(::open(path.c_str(), flags | O_CLOEXEC, mode)) {}
     ~Descriptor() {
         if (fd_ >= 0) ::close(fd_);
     }
@@ -54,12 +55,38 @@ int write_all(int fd, std::span<const std::uint8_t> bytes) {
     return 0;
 }
 
-int write_whole(const fs::path& path, std::span<const std::uint8_t> bytes, Outlives outlives) {
-    Descriptor file(path, O_WRONLY | O_CREAT | O_TRUNC);
+constexpr char kTemporaryMark[] = ".tmp-";
+constexpr std::size_t kTemporaryLetters = 12;
+
+/// Beside `target`: the same folder is the same file system, so that renaming replaces in one step.
+fs::path temporary_name(const fs::path& target) {
+    constexpr char letters[] = "abcdefghijklmnopqrstuvwxyz012345";  // 32
+    std::uint8_t random[kTemporaryLetters] = {};
+    if (::getrandom(random, sizeof random, 0) != static_cast<ssize_t>(sizeof random)) fail(target, "write", errno);
+    std::string end = kTemporaryMark;
+    for (const std::uint8_t byte : random)
+        end += letters[byte % 32];
+    return fs::path(target) += end;
+}
+
+int write_whole(const fs::path& path, std::span<const std::uint8_t> bytes, Outlives outlives,
+                const fs::file_status& old) {
+    const bool replaces = fs::exists(old);
+    const auto mode = replaces ? static_cast<mode_t>(old.permissions() & fs::perms::all) : mode_t{0666};
+    // O_EXCL opens neither a file nor a link that is there.
+    Descriptor file(path, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW, mode);
     if (!file.valid()) return errno;
+    if (replaces) ::fchmod(file.get(), mode);  // some file systems have no permissions to set, which loses nothing
     if (const int error = write_all(file.get(), bytes)) return error;
     if (outlives == Outlives::power && ::fsync(file.get()) != 0) return errno;
     return file.close() ? 0 : errno;
+}
+
+/// The rename itself is durable once its folder is; some file systems refuse to sync a folder, which loses nothing.
+void sync_folder(const fs::path& file) {
+    const fs::path folder = file.parent_path();
+    const Descriptor directory(folder.empty() ? fs::path(".") : folder, O_RDONLY | O_DIRECTORY);
+    if (directory.valid()) ::fsync(directory.get());
 }
 
 void write_special(const fs::path& path, std::span<const std::uint8_t> bytes) {
@@ -78,19 +105,27 @@ void write_file_atomically(const fs::path& path, std::span<const std::uint8_t> b
 
     // A symbolic link stays one: its target is replaced.
     const fs::path target = fs::exists(status) ? fs::canonical(path, none) : path;
-    fs::path temporary = target;
-    temporary += ".tmp" + std::to_string(::getpid());
-    int error = write_whole(temporary, bytes, outlives);
+    const fs::path temporary = temporary_name(target);
+    int error = write_whole(temporary, bytes, outlives, status);
     if (error == 0 && ::rename(temporary.c_str(), target.c_str()) != 0) error = errno;
     if (error != 0) {
-        ::unlink(temporary.c_str());
+        if (error != EEXIST) ::unlink(temporary.c_str());
         fail(path, "write", error);
     }
-    if (outlives != Outlives::power) return;
-    // The rename itself is durable once its folder is; some file systems refuse to sync a folder, which loses nothing.
-    const fs::path folder = target.parent_path();
-    const Descriptor directory(folder.empty() ? fs::path(".") : folder, O_RDONLY | O_DIRECTORY);
-    if (directory.valid()) ::fsync(directory.get());
+    if (outlives == Outlives::power) sync_folder(target);
+}
+
+void make_durable(const fs::path& path) {
+    {
+        const Descriptor file(path, O_RDONLY);
+        if (file.valid()) ::fsync(file.get());
+    }
+    sync_folder(path);
+}
+
+bool is_temporary_of(const std::string& candidate, const std::string& name) {
+    const std::string start = name + kTemporaryMark;
+    return candidate.starts_with(start) && candidate.size() == start.size() + kTemporaryLetters;
 }
 
 }  // namespace treefarm

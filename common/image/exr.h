@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <map>
@@ -40,8 +41,12 @@ struct ExrRgb {
 /// exists.
 ExrRgb read_exr_rgb(const std::filesystem::path& path, const std::string& layer = "");
 
-/// Writes all channels with one type (half: values beyond +-65504 are clamped, not turned into infinities), scan lines,
-/// ZIP (lossless), atomically. The same image gives the same bytes. Throws RunError.
+/// An EXR file of all channels with one type (half: values beyond +-65504 are clamped, not turned into infinities),
+/// scan lines, lossless. The same image gives the same bytes. `path` is for messages. Throws RunError.
+std::vector<std::uint8_t> encode_exr(const std::filesystem::path& path, const Image& image,
+                                     const Attributes& attributes = {}, PixelType type = PixelType::float32);
+
+/// Writes what encode_exr() gives, atomically. Throws RunError.
 void write_exr(const std::filesystem::path& path, const Image& image, const Attributes& attributes = {},
                PixelType type = PixelType::float32);
 

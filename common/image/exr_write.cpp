@@ -35,7 +35,7 @@ class MemoryStream : public Imf::OStream {
     std::uint64_t tellp() override { return at_; }
     void seekp(std::uint64_t position) override { at_ = static_cast<std::size_t>(position); }
 
-    const std::vector<std::uint8_t>& bytes() const { return bytes_; }
+    std::vector<std::uint8_t> take() { return std::move(bytes_); }
 
   private:
     std::vector<std::uint8_t> bytes_;
@@ -123,7 +123,8 @@ void write_pixels(Imf::OStream& stream, const Image& image, const Attributes& at
 
 }  // namespace
 
-void write_exr(const std::filesystem::path& path, const Image& image, const Attributes& attributes, PixelType type) {
+std::vector<std::uint8_t> encode_exr(const std::filesystem::path& path, const Image& image,
+                                     const Attributes& attributes, PixelType type) {
     check(path, image);
     check_names(path, image);
     MemoryStream stream(path.c_str());
@@ -132,7 +133,11 @@ void write_exr(const std::filesystem::path& path, const Image& image, const Attr
     } catch (const std::exception& error) {
         throw RunError(path.string() + ": cannot encode the image (" + error.what() + ")");
     }
-    write_file_atomically(path, stream.bytes());
+    return stream.take();
+}
+
+void write_exr(const std::filesystem::path& path, const Image& image, const Attributes& attributes, PixelType type) {
+    write_file_atomically(path, encode_exr(path, image, attributes, type));
 }
 
 }  // namespace treefarm

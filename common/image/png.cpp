@@ -1,11 +1,13 @@
 #include "common/image/png.h"
 
 #include <algorithm>
-#include <cmath>
+#include <array>
+#include <limits>
 
 #include "common/base/error.h"
 #include "common/image/atomic_file.h"
 #include "common/image/encoded_image.h"
+#include "common/image/png_encode.h"
 #include "common/image/srgb.h"
 #include "common/image/stb.h"
 
@@ -17,24 +19,52 @@ namespace {
     throw InputError(Location{path.string()}, what, cure);
 }
 
-std::uint8_t to_byte(float linear) {
-    const float clamped = linear > 0.0f ? std::min(linear, 1.0f) : 0.0f;  // NaN fails the comparison
-    return static_cast<std::uint8_t>(std::lround(srgb_encode(clamped) * 255.0f));
-}
+/// Linear values in [0, 1] to 8-bit sRGB without a power per value. `first` tells for each of so many equal steps the
+/// byte of its lower end; `begin` where each byte begins.
+struct ByteTable {
+    static constexpr std::size_t kSteps = 4096;
+    std::array<std::uint8_t, kSteps + 1> first{};
+    std::array<float, 257> begin{};
+
+    ByteTable() {
+        for (std::size_t byte = 1; byte < 256; ++byte)
+            begin[byte] = srgb_decode((static_cast<float>(byte) - 0.5f) / 255.0f);
+        begin[256] = std::numeric_limits<float>::infinity();
+        std::size_t byte = 0;
+        for (std::size_t step = 0; step <= kSteps; ++step) {
+            while (begin[byte + 1] <= static_cast<float>(step) / kSteps)
+                ++byte;
+            first[step] = static_cast<std::uint8_t>(byte);
+        }
+    }
+
+    std::uint8_t of(float linear) const {
+        const float clamped = linear > 0.0f ? std::min(linear, 1.0f) : 0.0f;  // NaN fails the comparison
+        std::size_t byte = first[static_cast<std::size_t>(clamped * kSteps)];
+        while (begin[byte + 1] <= clamped)
+            ++byte;
+        return static_cast<std::uint8_t>(byte);
+    }
+};
 
 }  // namespace
 
-void write_png(const std::filesystem::path& path, const RgbImage& image, float exposure) {
-    std::vector<std::uint8_t> rgb;
-    rgb.reserve(image.pixels.size() * 3);
+std::vector<std::uint8_t> encode_png(const RgbImage& image, float exposure) {
+    static const ByteTable table;
+    std::vector<std::uint8_t> rgb(3 * image.pixels.size());
+    std::uint8_t* next = rgb.data();
     for (const Rgb& pixel : image.pixels)
         for (int c = 0; c < 3; ++c)
-            rgb.push_back(to_byte(pixel[c] * exposure));
-    const std::vector<std::uint8_t> png = stb::encode_png(image.width, image.height, rgb);
+            *next++ = table.of(pixel[c] * exposure);
+    std::vector<std::uint8_t> png = encode_png(image.width, image.height, rgb);
     if (png.empty())
-        throw RunError(path.string() + ": an image of " + std::to_string(image.width) + " x " +
-                       std::to_string(image.height) + " pixels cannot be encoded as PNG");
-    write_file_atomically(path, png);
+        throw RunError("an image of " + std::to_string(image.width) + " x " + std::to_string(image.height) +
+                       " pixels cannot be encoded as PNG; make it smaller");
+    return png;
+}
+
+void write_png(const std::filesystem::path& path, const RgbImage& image, float exposure) {
+    write_file_atomically(path, encode_png(image, exposure));
 }
 
 Image read_ldr(const std::filesystem::path& path, Encoding encoding) {

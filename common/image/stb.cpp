@@ -20,22 +20,9 @@
 #define STBI_ONLY_PNG
 #define STBI_ONLY_JPEG
 #include <stb/stb_image.h>
-#define STB_IMAGE_WRITE_STATIC
-#define STB_IMAGE_WRITE_IMPLEMENTATION
-#define STBI_WRITE_NO_STDIO
-#include <stb/stb_image_write.h>
 #pragma GCC diagnostic pop
 
 namespace treefarm::stb {
-
-namespace {
-
-void append(void* context, void* data, int size) {
-    const auto* bytes = static_cast<const std::uint8_t*>(data);
-    static_cast<std::vector<std::uint8_t>*>(context)->assign(bytes, bytes + size);
-}
-
-}  // namespace
 
 std::optional<Size> image_size(std::span<const std::uint8_t> bytes) {
     Size size;
@@ -93,15 +80,6 @@ std::optional<Stored> decode_as_stored(std::span<const std::uint8_t> bytes, std:
     }
     if (!done) return std::nullopt;
     return result;
-}
-
-std::vector<std::uint8_t> encode_png(int width, int height, std::span<const std::uint8_t> rgb) {
-    std::vector<std::uint8_t> png;
-    if (width < 1 || height < 1 || rgb.size() % 3 != 0 ||
-        rgb.size() / 3 != static_cast<std::size_t>(width) * static_cast<std::size_t>(height) || rgb.size() > 0x7fffffff)
-        return png;
-    if (!stbi_write_png_to_func(&append, &png, width, height, 3, rgb.data(), width * 3)) png.clear();
-    return png;
 }
 
 }  // namespace treefarm::stb

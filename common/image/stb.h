@@ -34,7 +34,4 @@ std::optional<Decoded> decode(std::span<const std::uint8_t> bytes, std::string& 
 
 std::optional<Stored> decode_as_stored(std::span<const std::uint8_t> bytes, std::string& why);
 
-/// A PNG of 8-bit RGB triples, row by row; empty if the size and the data do not agree or memory runs out.
-std::vector<std::uint8_t> encode_png(int width, int height, std::span<const std::uint8_t> rgb);
-
 }  // namespace treefarm::stb

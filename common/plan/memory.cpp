@@ -147,8 +147,10 @@ MemoryPlan expected_memory(const Scene& scene, const Job& job) {
     plan.worker.push_back({"tree", tree.guide_bytes() + tree.sum_bytes(), tree_text});
     const std::uint64_t scene_bytes = geometry_bytes(scene) + texture_bytes(scene);
     plan.coordinator.push_back({"scene", 2 * scene_bytes, "as values and packed for workers"});
-    plan.coordinator.push_back({"film", pixels * ((passes + 1) * sizeof(PixelEstimate) + 4 * sizeof(Rgb64)),
-                                count_text(pixels, "pixels, ") + count_text(passes, "passes")});
+    // Passes, the one in hand, the image; that of the pass before while it is written, its 12 channels and their file.
+    plan.coordinator.push_back(
+        {"film", pixels * ((passes + 1) * sizeof(PixelEstimate) + 2 * 4 * sizeof(Rgb64) + 2 * 12 * sizeof(float)),
+         count_text(pixels, "pixels, ") + count_text(passes, "passes")});
     plan.coordinator.push_back({"tree", 2 * tree.sum_bytes(), tree_text + ", before and after refinement"});
     return plan;
 }

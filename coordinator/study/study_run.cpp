@@ -10,12 +10,14 @@
 #include "common/config/parse_text.h"
 #include "common/image/atomic_file.h"
 #include "common/image/exr.h"
+#include "coordinator/folder_lock.h"
 #include "coordinator/pass_text.h"
+#include "coordinator/pulse.h"
 #include "coordinator/result_image.h"
 #include "coordinator/study/cell_record.h"
 #include "coordinator/study/cell_request.h"
-#include "coordinator/study/folder_lock.h"
 #include "coordinator/study/reference.h"
+#include "coordinator/study/study_folder.h"
 #include "coordinator/study/study_progress.h"
 
 namespace treefarm {
@@ -64,6 +66,7 @@ class StudyRun {
     StudyRun(Channel& channel, const Study& study, const StudyContext& context,
              const std::function<bool()>& interrupted)
         : channel_(channel),
+          pulse_(channel),
           study_(study),
           context_(context),
           log_(context.log),
@@ -75,6 +78,10 @@ class StudyRun {
     StudyOutcome run() {
         fs::create_directories(directory_);
         const FolderLock lock(directory_, kFolderPatience, interrupted_);
+        if (lock.refused())
+            throw RunError(directory_.string() +
+                           ": another study is at work in this folder; wait for it, or choose another by --dir");
+        check_study_folder(directory_, study_, context_.overwrite);
         begin_description();
         log_->info("{}: {}, {}; results in {}", counted(cells_.size(), "cell"), counted(study_.scenes.size(), "scene"),
                    counted(study_.methods.size(), "method"), study_.directory);
@@ -111,7 +118,7 @@ class StudyRun {
     }
 
     void write_json(const fs::path& path, const Json& json) const {
-        const std::string text = json.dump(1) + "\n";
+        const std::string text = json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
         write_file_atomically(path, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
     }
 
@@ -136,9 +143,11 @@ class StudyRun {
             if (cell.scene == scene) run_cell(cell, ready[k++], reference);
     }
 
-    LoadedScene load(const StudyScene& scene) const {
+    LoadedScene load(const StudyScene& scene) {
         const ReadingNotice notice(context_.console, scene.name);
-        return load_study_scene(study_, scene);
+        LoadedScene loaded;
+        run_aside([&] { loaded = load_study_scene(study_, scene); }, [&] { pulse_.beat(); });
+        return loaded;
     }
 
     void describe(const StudyCell& cell, const ReadyCell& ready) {
@@ -217,7 +226,8 @@ class StudyRun {
                 throw RunError("too many cells failed; the same command tries them again");
             return;
         }
-        Json record = render_record(passes, reference.image);
+        Json record;
+        run_aside([&] { record = render_record(passes, reference.image); }, [&] { pulse_.beat(); });
         tell(cell, record);
         write_json(ready.folder / "cell.json", record);
         progress_.end_cell(timer.seconds());
@@ -233,6 +243,7 @@ class StudyRun {
     }
 
     Channel& channel_;
+    Pulse pulse_;
     const Study& study_;
     const StudyContext& context_;
     const Log log_;

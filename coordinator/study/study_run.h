@@ -19,7 +19,8 @@ struct StudyContext {
     Fingerprint build;    ///< of this program
     ConsolePtr console;
     Loudness loudness = Loudness::normal;
-    Log log;  ///< on that console
+    bool overwrite = false;  ///< the other study that its folder holds
+    Log log;                 ///< on that console
 };
 
 /// Runs a study's cells that are not there yet, in one allocation of workers, and leaves in its folder:

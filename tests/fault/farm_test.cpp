@@ -400,7 +400,7 @@ TEST_F(FarmTest, AnInterruptionKeepsWholePasses) {
     EXPECT_TRUE(result.interrupted);
     EXPECT_EQ(result.spp, 12u);
     EXPECT_EQ(result.passes.size(), 2u);
-    EXPECT_EQ(result.image.mean.size(), static_cast<std::size_t>(kWidth * kHeight));
+    EXPECT_EQ(result.image->mean.size(), static_cast<std::size_t>(kWidth * kHeight));
 }
 
 }  // namespace

@@ -104,19 +104,23 @@ void require(bool condition, const char* what) {
     std::abort();
 }
 
+fuzz::Known what_a_rogue_knows(int peer) {
+    fuzz::Known known;
+    known.incarnation = static_cast<std::uint64_t>(peer);
+    known.fingerprint = kBuild;
+    known.scene_hash = 1;
+    known.scene = known.tree = Bytes(10);
+    known.width = known.height = kSize;
+    return known;
+}
+
 Outcome run(std::span<const std::uint8_t> input) {
     fuzz::Script script(input);
     ScriptedChannel channel;
     const Log log = std::make_shared<spdlog::logger>("fuzz");
     Farm farm(channel, fuzz_job(), kScene, kBuild, log, {.gather = 0, .lost = 1e9});
     for (int peer = 1; peer <= kRogues; ++peer)
-        channel.known[peer] = {.incarnation = static_cast<std::uint64_t>(peer),
-                               .fingerprint = kBuild,
-                               .scene_hash = 1,
-                               .scene = Bytes(10),
-                               .tree = Bytes(10),
-                               .width = kSize,
-                               .height = kSize};
+        channel.known[peer] = what_a_rogue_knows(peer);
     channel.inbox.push_back({kWorker, encode(Hello{9, kBuild, 2, 0, 0, 0, "here", "0"})});
     farm.step();
     std::uint64_t messages = 0;

@@ -27,6 +27,8 @@ class Program {
     Program& operator=(const Program&) = delete;
 
     pid_t pid() const { return pid_; }
+    /// What it has printed so far.
+    const std::filesystem::path& output() const { return output_; }
     bool running();
     void signal(int number);
     /// Waits for `condition` while the program runs; false if it ended, or `seconds` passed, before.

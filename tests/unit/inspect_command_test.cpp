@@ -36,7 +36,8 @@ class InspectCommand : public testing::Test {
     }
 
     void render(const std::string& arguments) {
-        const test::Ended ended = test::run_treefarm("render --quiet --threads 2 --run-dir " + run_ + " " + arguments);
+        const test::Ended ended =
+            test::run_treefarm("render --quiet --threads 2 --overwrite --run-dir " + run_ + " " + arguments);
         ASSERT_EQ(ended.code, 0) << ended.output;
     }
 

@@ -40,6 +40,23 @@ TEST(Png, SrgbIsItsOwnInverse) {
     EXPECT_NEAR(srgb_decode(0.5f), 0.21404114f, 1e-6f);  // ((0.5 + 0.055) / 1.055)^2.4
 }
 
+TEST(Png, EveryValueBecomesTheNearestByte) {
+    const fs::path path = fresh("ramp.png");
+    RgbImage image(500, 200);
+    const auto count = static_cast<float>(image.pixels.size());
+    for (std::size_t p = 0; p < image.pixels.size(); ++p) {
+        const float x = static_cast<float>(p) / count;
+        image.pixels[p] = Rgb(x, 0.01f * x, x * x);
+    }
+    write_png(path, image);
+    const Image read = read_ldr(path, Encoding::linear);
+    ASSERT_EQ(read.data.size(), 3 * image.pixels.size());
+    for (std::size_t c = 0; c < 3; ++c)
+        for (std::size_t p = 0; p < image.pixels.size(); ++p)
+            ASSERT_NEAR(255 * read.channel(c)[p], 255 * srgb_encode(image.pixels[p][static_cast<int>(c)]), 0.501)
+                << "pixel " << p << ", channel " << c;
+}
+
 TEST(Png, WritesSrgbWithExposureAndReadsItBack) {
     const fs::path path = fresh("a.png");
     RgbImage image(3, 2);

@@ -53,7 +53,7 @@ TEST(Status, CutsBetweenCharacters) {
 }
 
 TEST(Status, TheFirstLineComesAfterAWhileAndThenNotOften) {
-    Pace pace(10, 10);
+    StatusPace pace(10, 10);
     int said = 0;
     for (int tenth = 0; tenth < 99; ++tenth)
         said += pace.due(0.1 * tenth);

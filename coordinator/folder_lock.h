@@ -9,14 +9,17 @@ namespace treefarm {
 class FolderLock {
   public:
     /// Waits up to `patience` seconds for whoever has the folder: a killed launcher's ranks live on for a moment.
-    /// Throws RunError if it stays taken. Where the file system knows no locks the folder is not kept.
     FolderLock(const std::filesystem::path& folder, double patience, const std::function<bool()>& interrupted);
     ~FolderLock();
     FolderLock(const FolderLock&) = delete;
     FolderLock& operator=(const FolderLock&) = delete;
 
+    /// Another program has it. Where the file system knows no locks nobody is known to have it.
+    bool refused() const { return refused_; }
+
   private:
     int fd_;
+    bool refused_ = false;
 };
 
 }  // namespace treefarm

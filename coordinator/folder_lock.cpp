@@ -1,4 +1,4 @@
-#include "coordinator/study/folder_lock.h"
+#include "coordinator/folder_lock.h"
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -8,7 +8,6 @@
 #include <chrono>
 #include <thread>
 
-#include "common/base/error.h"
 #include "common/base/timer.h"
 
 namespace treefarm {
@@ -17,10 +16,9 @@ FolderLock::FolderLock(const std::filesystem::path& folder, double patience, con
     : fd_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
     const Timer timer;
     while (fd_ >= 0 && ::flock(fd_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
-        if (interrupted() || timer.seconds() > patience) {
-            ::close(fd_);
-            throw RunError(folder.string() +
-                           ": another study is at work in this folder; wait for it, or choose another by --dir");
+        if (timer.seconds() > patience || (interrupted && interrupted())) {
+            refused_ = true;
+            return;
         }
         std::this_thread::sleep_for(std::chrono::milliseconds(20));
     }

@@ -1,0 +1,199 @@
+#include "coordinator/run_report.h"
+
+#include <unistd.h>
+
+#include <nlohmann/json.hpp>
+
+#include "common/base/hash.h"
+#include "common/plan/plan_text.h"
+
+namespace treefarm {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Null where something is not known. What is infinite becomes null by itself.
+Json error_json(const ErrorEstimate& error) {
+    if (!error.known) return nullptr;
+    const auto end = [&](double value) { return error.has_interval ? Json(value) : Json(); };
+    return {{"relative", error.relative()},
+            {"low", end(error.relative_low())},
+            {"high", end(error.relative_high())},
+            {"rmse", error.rmse},
+            {"rmse_low", end(error.low)},
+            {"rmse_high", end(error.high)},
+            {"mean", error.mean}};
+}
+
+Json forecast_json(const ErrorForecast& forecast) {
+    return {{"relative_error", forecast.relative_error},
+            {"spp", forecast.spp},
+            {"seconds", forecast.seconds},
+            {"trust", trust_name(forecast.trust)}};
+}
+
+Json pass_json(const PassReport& r) {
+    return {{"pass", r.plan.index},
+            {"spp", r.plan.spp},
+            {"spp_done", r.spp_done},
+            {"seconds", r.seconds.all},
+            {"phase_seconds", r.seconds.phases()},
+            {"run_seconds", r.run_seconds},
+            {"core_seconds", r.core_seconds()},
+            {"stuv", r.variance.stuv},
+            {"stuv_trimmed", r.variance.stuv_trimmed},
+            {"stuv_ppg", r.variance.stuv_ppg},
+            {"ttuv", r.ttuv()},
+            {"image_error", error_json(r.error)},
+            {"efficiency", r.efficiency()},
+            {"halving", forecast_json(r.halving)},
+            {"rays_per_second", r.rays_per_second()},
+            {"nonzero_share", r.nonzero_share()},
+            {"invalid_samples", r.stats.invalid_samples},
+            {"tree_nodes", r.tree.nodes},
+            {"tree_regions", r.tree.regions},
+            {"guided", r.plan.guided},
+            {"guiding_gain", r.guiding_gain.all},
+            {"guiding_gain_bulk", r.guiding_gain.bulk},
+            {"unguided_coverage", r.guiding_gain.coverage},
+            {"split", r.plan.split},
+            {"splitting_quietens", r.splitting_gain.variance},
+            {"splitting_rays", r.splitting_gain.rays},
+            {"splitting_found", r.splitting_gain.found},
+            {"tree_views", r.tree.views},
+            {"tree_cells", r.tree.cells},
+            {"tree_bytes", r.tree.bytes},
+            {"tree_memory", r.tree.memory},
+            {"update_bytes", r.update_bytes},
+            {"trace_seconds",
+             {{"min", r.seconds.trace.min},
+              {"mean", r.seconds.trace.mean},
+              {"max", r.seconds.trace.max},
+              {"max_worker", r.seconds.trace.max_worker}}}};
+}
+
+Json build_json(const Fingerprint& build) {
+    return {{"source", build.source},
+            {"options", build.options},
+            {"compiler", build.compiler},
+            {"embree", build.embree},
+            {"program", hash_text(build.program)}};
+}
+
+const char* member_state_name(MemberState state) {
+    switch (state) {
+        case MemberState::present:
+            return "present";
+        case MemberState::lost:
+            return "lost";
+        case MemberState::refused:
+            return "refused";
+        case MemberState::left:
+            return "left";
+        case MemberState::barred:
+            return "barred";
+    }
+    return "";
+}
+
+/// What a reader needs to tell a run that lives from one that was killed.
+void add_writer(Json& status) {
+    char host[256] = "";
+    gethostname(host, sizeof host - 1);
+    status["pid"] = getpid();
+    status["host"] = host;
+    status["time"] = std::time(nullptr);
+}
+
+std::string text_of(const Json& json) {
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+Json farm_json(const Farm& farm) {
+    Json workers = Json::array();
+    for (const auto& [peer, member] : farm.roster().members())
+        workers.push_back({{"worker", peer},
+                           {"host", member.hello.host},
+                           {"threads", member.hello.threads},
+                           {"state", member_state_name(member.state)},
+                           {"bad_messages", member.bad_messages}});
+    return {{"workers", workers},
+            {"reissued_units", farm.reissued_units()},
+            {"dropped_results", farm.dropped_results()},
+            {"bad_messages", farm.bad_messages()}};
+}
+
+}  // namespace
+
+const char* run_state_name(RunState state) {
+    switch (state) {
+        case RunState::running:
+            return "running";
+        case RunState::done:
+            return "done";
+        case RunState::interrupted:
+            return "interrupted";
+        case RunState::failed:
+            return "failed";
+    }
+    return "";
+}
+
+std::string status_json(const RenderProgress& progress, double elapsed_seconds) {
+    const double left = progress.fraction > 0 ? elapsed_seconds * (1 - progress.fraction) / progress.fraction : 0.0;
+    Json status = {{"state", run_state_name(RunState::running)},
+                   {"pass", progress.pass},
+                   {"passes", progress.pass_count},
+                   {"spp_done", progress.spp_done},
+                   {"spp", progress.spp_total},
+                   {"fraction", progress.fraction},
+                   {"elapsed_seconds", elapsed_seconds},
+                   {"seconds_left", left},
+                   {"image_error", error_json(progress.error)},
+                   {"workers", progress.workers},
+                   {"rays", progress.rays}};
+    add_writer(status);
+    return text_of(status);
+}
+
+std::string status_json(RunState state, std::uint32_t spp_done, double elapsed_seconds) {
+    Json status = {{"state", run_state_name(state)}, {"spp_done", spp_done}, {"elapsed_seconds", elapsed_seconds}};
+    add_writer(status);
+    return text_of(status);
+}
+
+std::string summary_json(const Job& job, const RunFacts& facts, const RenderResult& result, const Farm* farm,
+                         const RunEnd& end) {
+    Json summary = {{"state", run_state_name(end.state)},
+                    {"version", kProgramVersion},
+                    {"command", facts.command},
+                    {"scene", job.scene.file},
+                    {"scene_hash", hash_text(facts.scene_hash)},
+                    {"fingerprint", hash_text(facts.fingerprint.hash())},
+                    {"build", build_json(facts.fingerprint)},
+                    {"width", result.width},
+                    {"height", result.height},
+                    {"spp", result.spp},
+                    {"seconds", end.elapsed_seconds},
+                    {"image_hash", result.spp > 0 ? hash_text(result.image_hash) : ""},
+                    {"tree_hash", result.spp > 0 ? hash_text(result.tree_hash) : ""},
+                    {"tree_file_hash", end.tree_file_hash},
+                    {"image_error", result.passes.empty() ? Json() : error_json(result.passes.back().error)},
+                    {"halving", result.passes.empty() ? Json() : forecast_json(result.passes.back().halving)},
+                    {"pass_weights", result.image->weight}};
+    if (job.budget.error > 0 && !result.passes.empty())
+        summary["target"] = {{"relative_error", job.budget.error},
+                             {"reached", !misses_target(job, result.passes.back().error)}};
+    if (!end.error.empty()) summary["error"] = end.error;
+    summary["approximations"] = Json::array();
+    for (const Approximation& approximation : facts.approximations)
+        summary["approximations"].push_back(approximation_text(approximation));
+    summary["passes"] = Json::array();
+    for (const PassReport& report : result.passes)
+        summary["passes"].push_back(pass_json(report));
+    if (farm) summary["farm"] = farm_json(*farm);
+    return text_of(summary);
+}
+
+}  // namespace treefarm

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <ctime>
+#include <string>
+#include <vector>
+
+#include "common/config/job.h"
+#include "common/plan/approximation.h"
+#include "common/protocol/fingerprint.h"
+#include "coordinator/farm.h"
+#include "coordinator/pass_loop.h"
+
+namespace treefarm {
+
+/// How a run ended.
+enum class RunState : std::uint8_t { running, done, interrupted, failed };
+const char* run_state_name(RunState state);
+
+/// What a run is, for its files.
+struct RunFacts {
+    std::string command;  ///< that started it
+    std::uint64_t scene_hash = 0;
+    Fingerprint fingerprint;
+    std::vector<Approximation> approximations;
+};
+
+/// How a run came out.
+struct RunEnd {
+    RunState state = RunState::failed;
+    std::string error;  ///< "" if nothing went wrong
+    double elapsed_seconds = 0;
+    std::string tree_file_hash;  ///< of tree.bin; "" without one
+};
+
+/// The files status.json and summary.json. What is no UTF-8 in names of files and hosts is replaced.
+std::string status_json(const RenderProgress& progress, double elapsed_seconds);
+/// Before the first pass, and after the last.
+std::string status_json(RunState state, std::uint32_t spp_done, double elapsed_seconds);
+std::string summary_json(const Job& job, const RunFacts& facts, const RenderResult& result, const Farm* farm,
+                         const RunEnd& end);
+
+}  // namespace treefarm

@@ -1,0 +1,34 @@
+#include "coordinator/study/study_folder.h"
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "common/base/printable.h"
+#include "coordinator/folder_content.h"
+
+namespace treefarm {
+
+namespace {
+
+/// The name of the study file that study.json was made from; "" if it does not say.
+std::string study_file_name(const std::filesystem::path& folder) {
+    std::ifstream file(folder / "study.json", std::ios::binary);
+    const nlohmann::json json = nlohmann::json::parse(file, nullptr, false);
+    if (!json.is_object() || !json.contains("study") || !json["study"].is_string()) return "";
+    return std::filesystem::path(json["study"].get<std::string>()).filename().string();
+}
+
+}  // namespace
+
+void check_study_folder(const std::filesystem::path& folder, const Study& study, bool overwrite) {
+    const Location where{folder.string(), 0, 0};
+    if (folder_content(folder) == FolderContent::render)
+        throw InputError(where, "holds a render (" + render_words(folder) + "), which a study does not replace",
+                         "name another folder with --dir");
+    const std::string there = study_file_name(folder), own = std::filesystem::path(study.file).filename().string();
+    if (!there.empty() && there != own && !overwrite)
+        throw InputError(where, "holds another study (" + printable(there) + ")",
+                         "name another folder with --dir, or replace its description and reports with --overwrite");
+}
+
+}  // namespace treefarm

@@ -1,0 +1,151 @@
+// Whose a folder is, and what becomes of what it holds.
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "common/image/exr.h"
+#include "tests/mpi/program.h"
+#include "tests/support/support.h"
+
+namespace treefarm::test {
+namespace {
+
+namespace fs = std::filesystem;
+using Words = std::vector<std::string>;
+
+constexpr double kSoon = 120;  ///< seconds; what is meant is "not never"
+constexpr char kForever[] = "1000000";
+
+Words render(const fs::path& folder, const std::string& spp, const Words& options = {}) {
+    return Words{TREEFARM_PROGRAM,
+                 "render",
+                 own_scene("cornell-box.xml"),
+                 "--run-dir",
+                 folder.string(),
+                 "-D",
+                 "size=64",
+                 "--spp",
+                 spp,
+                 "--threads",
+                 "1",
+                 "--set",
+                 "farm.update_seconds=0.05"} +
+           options;
+}
+
+std::string read_text(const fs::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    std::stringstream text;
+    text << file.rdbuf();
+    return text.str();
+}
+
+std::string spp_of(const fs::path& image) {
+    return fs::exists(image) ? read_exr(image).attributes.at("treefarm.spp") : "none";
+}
+
+TEST(RunFolder, ARenderIsNotReplacedInSilence) {
+    const auto folder = fresh_folder("run");
+    ASSERT_EQ(Program(render(folder, "7")).wait(kSoon).code, 0);
+    const std::string image = read_text(folder / "image.exr");
+    const Ending refused = Program(render(folder, "3")).wait(kSoon);
+    EXPECT_EQ(refused.code, 2) << refused.output;
+    EXPECT_NE(refused.output.find("holds a render (done, 7 spp)"), std::string::npos) << refused.output;
+    EXPECT_NE(refused.output.find("--overwrite"), std::string::npos) << refused.output;
+    EXPECT_EQ(read_text(folder / "image.exr"), image);
+
+    Program broken(render(folder, kForever, {"--overwrite", "--set", "guiding.spp_unit=65536"}));
+    ASSERT_TRUE(broken.wait_until([&] { return fs::exists(folder / "previous" / "image.exr"); }, kSoon));
+    broken.signal(SIGINT);
+    const Ending ending = broken.wait(kSoon);
+    EXPECT_EQ(ending.code, 3) << ending.output;
+    EXPECT_NE(ending.output.find("previous"), std::string::npos) << "says where the earlier run is";
+    EXPECT_EQ(read_text(folder / "previous" / "image.exr"), image);
+    EXPECT_FALSE(fs::exists(folder / "image.exr")) << "no image of another run beside this one's log";
+
+    ASSERT_EQ(Program(render(folder, "3", {"--overwrite"})).wait(kSoon).code, 0);
+    EXPECT_EQ(spp_of(folder / "image.exr"), "3");
+    for (const char* name : {"previous", "previous-2"})
+        EXPECT_FALSE(fs::exists(folder / name)) << name;
+}
+
+TEST(RunFolder, IsOneRendersAtATime) {
+    const auto folder = fresh_folder("run");
+    Program first(render(folder, kForever));
+    ASSERT_TRUE(first.wait_until([&] { return passes_done(folder) >= 1; }, kSoon));
+    const std::string job = read_text(folder / "job.toml");
+    const Ending second = Program(render(folder, "7", {"--overwrite", "--set", "sampler.seed=2"})).wait(kSoon);
+    EXPECT_EQ(second.code, 2) << second.output;
+    EXPECT_NE(second.output.find("at work in this folder (process " + std::to_string(first.pid())), std::string::npos)
+        << second.output;
+    EXPECT_EQ(read_text(folder / "job.toml"), job);
+    first.signal(SIGINT);
+    EXPECT_EQ(first.wait(kSoon).code, 3);
+}
+
+TEST(RunFolder, ItsJobRepeatsTheRunElsewhere) {
+    const auto place = fresh_folder("place"), folder = place / "run";
+    fs::copy_file(own_scene("cornell-box.xml"), place / "box.xml");
+    const std::string here = "cd " + place.string() + " && " + TREEFARM_PROGRAM + " render ";
+    const Ending first =
+        Program(Words{"sh", "-c", here + "box.xml -D size=32 --seconds 0.5 -o out.exr --run-dir run"}).wait(kSoon);
+    ASSERT_EQ(first.code, 0) << first.output;
+    const std::string image = read_text(folder / "image.exr");
+    const Ending again = Program(Words{"sh", "-c", here + "run/job.toml --schedule run/schedule.toml"}).wait(kSoon);
+    ASSERT_EQ(again.code, 0) << again.output;
+    EXPECT_EQ(read_text(folder / "image.exr"), image) << "the record is untouched";
+    int runs = 0;
+    for (const auto& entry : fs::directory_iterator(place / "runs")) {
+        ++runs;
+        EXPECT_EQ(read_summary(entry.path())["image_hash"], read_summary(folder)["image_hash"]);
+        EXPECT_EQ(entry.path().filename().string().find("box-"), 0u);
+    }
+    EXPECT_EQ(runs, 1);
+
+    std::ofstream(place / "job.toml")
+        << "[scene]\nfile = \"box.xml\"\n[budget]\nspp = 3\n[image]\nwidth = 16\nheight = 16\n";
+    ASSERT_EQ(Program(Words{"sh", "-c", here + "job.toml --run-dir a"}).wait(kSoon).code, 0);
+    ASSERT_EQ(Program(Words{"sh", "-c", here + "job.toml --set scene.file=box.xml --run-dir b"}).wait(kSoon).code, 0);
+    for (const char* name : {"a", "b"}) {
+        const Ending repeated =
+            Program(Words{"sh", "-c", here + name + "/job.toml --run-dir again-" + name}).wait(kSoon);
+        EXPECT_EQ(repeated.code, 0) << repeated.output;
+    }
+}
+
+TEST(RunFolder, AStudysFolderIsNotForRenders) {
+    const auto place = fresh_folder("place"), folder = place / "study";
+    const auto write_study = [&](const std::string& name) {
+        std::ofstream(place / name) << "seeds = 1\nwarmup = 0\n[budget]\nspp = 3\n[job]\nimage.width = 16\n"
+                                    << "image.height = 16\n[scene.box]\nfile = \"" << own_scene("cornell-box.xml")
+                                    << "\"\n[reference]\nbudget.spp = 3\nsampler.seed = 99\n";
+        return (place / name).string();
+    };
+    const auto study = [&](const std::string& name, const fs::path& directory, const Words& options = {}) {
+        return Program(Words{TREEFARM_PROGRAM, "study", write_study(name), "--dir", directory.string()} + options)
+            .wait(kSoon);
+    };
+    ASSERT_EQ(study("one.toml", folder).code, 0);
+    for (const Words& options : {Words{}, Words{"--overwrite"}}) {
+        const Ending refused = Program(render(folder, "3", options)).wait(kSoon);
+        EXPECT_EQ(refused.code, 2) << refused.output;
+        EXPECT_NE(refused.output.find("holds a study"), std::string::npos) << refused.output;
+    }
+    const Ending other = study("two.toml", folder);
+    EXPECT_EQ(other.code, 2) << other.output;
+    EXPECT_NE(other.output.find("holds another study (one.toml); name another folder with --dir"), std::string::npos)
+        << other.output;
+    EXPECT_EQ(study("one.toml", folder).code, 0) << "the same study goes on";
+    EXPECT_EQ(study("two.toml", folder, {"--overwrite"}).code, 0);
+
+    const auto run = place / "run";
+    ASSERT_EQ(Program(render(run, "3")).wait(kSoon).code, 0);
+    const Ending into_run = study("one.toml", run, {"--overwrite"});
+    EXPECT_EQ(into_run.code, 2) << into_run.output;
+    EXPECT_NE(into_run.output.find("holds a render (done, 3 spp)"), std::string::npos) << into_run.output;
+}
+
+}  // namespace
+}  // namespace treefarm::test
