@@ -77,8 +77,8 @@ TEST(Terminal, ProgressFollowsANewWidth) {
     const Shown shown = watch(render({"--seconds", "3"}), 80, kTerminal, [&](TerminalProgram& program, Shown& so_far) {
         if (resized || so_far.redraws() < 5) return;
         resized = true;
-        program.resize(40);
-        so_far.screen.resize(40);
+        program.resize(50);
+        so_far.screen.resize(50);
     });
     ASSERT_TRUE(resized);
     EXPECT_EQ(shown.code, 0);
