@@ -34,7 +34,7 @@ std::string joined(int argc, char** argv) {
 
 /// How long a rank lets the first one speak for all. mpirun ends the others then; what only one of them has to say
 /// would be lost without it.
-constexpr std::chrono::seconds kFirstRankSpeaks{1};
+constexpr std::chrono::seconds kFirstRankSpeaks{3};
 
 int fail(const LaunchEnvironment& launch, const std::string& message, int exit_code) {
     if (launch.rank == 0) {

@@ -37,37 +37,20 @@ JobKey integer_key(const char* name, const char* range, const char* doc, Member 
     return integer_key(name, range, doc, member, low, high, low);
 }
 
-/// A number accepted by `in_range`.
+/// A number accepted by `in_range`; `read` understands it with a unit, too.
 template <class Member, class Check>
-JobKey number_key(const char* name, const char* range, const char* doc, Member member, Check in_range) {
+JobKey number_key(const char* name, const char* range, const char* doc, Member member, Check in_range,
+                  std::optional<double> (*read)(std::string_view) = &parse_number) {
     return {name,
-            ValueKind::number,
+            read == &parse_number ? ValueKind::number : ValueKind::number_or_text,
             range,
             doc,
             [=](Job& job, const std::string& text) {
-                const auto number = parse_number(text);
+                const auto number = read(text);
                 if (!number) return false;
                 const auto value = static_cast<std::decay_t<decltype(member(job))>>(*number);
                 if (!std::isfinite(value) || !in_range(value)) return false;
                 member(job) = value;
-                return true;
-            },
-            [=](const Job& job) { return number_text(member(job)); },
-            {}};
-}
-
-/// 0 or a number from `low` to `high`, which `read` understands with units, too.
-template <class Member>
-JobKey quantity_key(const char* name, const char* range, const char* doc, Member member,
-                    std::optional<double> (*read)(std::string_view), double low, double high) {
-    return {name,
-            ValueKind::number_or_text,
-            range,
-            doc,
-            [=](Job& job, const std::string& text) {
-                const auto value = read(text);
-                if (!value || (*value != 0.0 && !(*value >= low && *value <= high))) return false;
-                member(job) = *value;
                 return true;
             },
             [=](const Job& job) { return number_text(member(job)); },
@@ -317,15 +300,17 @@ std::vector<JobKey> make_job_keys() {
     add(integer_key(
         "budget.spp", "1 to 2^30", "samples per pixel in all passes, unless `budget.seconds` or `budget.error` is set",
         [](auto& j) -> auto& { return j.budget.spp; }, 1, kMaxSpp));
-    add(quantity_key(
+    add(number_key(
         "budget.seconds", "0, or 0.001 to 10^8; or with a unit in quotes: \"90s\", \"2min\", \"1h\"",
         "seconds of rendering, from when the first worker asks for work until the last pass is whole; 0: no such "
         "budget",
-        [](auto& j) -> auto& { return j.budget.seconds; }, &parse_duration, kLeastSeconds, kMostSeconds));
-    add(quantity_key(
+        [](auto& j) -> auto& { return j.budget.seconds; },
+        [](double v) { return v == 0.0 || (v >= kLeastSeconds && v <= kMostSeconds); }, &parse_duration));
+    add(number_key(
         "budget.error", "0, or 10^-6 to 1; or in percent, in quotes: \"5%\"",
         "estimated RMSE / mean luminance at which to stop: 0.05 or \"5%\"; 0: no such budget",
-        [](auto& j) -> auto& { return j.budget.error; }, &parse_share, kLeastError, kGreatestError));
+        [](auto& j) -> auto& { return j.budget.error; },
+        [](double v) { return v == 0.0 || (v >= kLeastError && v <= kGreatestError); }, &parse_share));
     add(integer_key(
         "budget.max_spp", "1 to 2^30",
         "samples per pixel at which `budget.seconds` and `budget.error` end at the latest",

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <nlohmann/json.hpp>
 
 #include "tests/support/command.h"
 #include "tests/support/support.h"
@@ -181,6 +182,46 @@ TEST_F(WrongFiles, FormatsOfOthersSayHowToConvert) {
     write("study.json", "{}");
     expect_refusal("render " + folder_.string(), {"is the folder of a study", "treefarm report"});
     std::filesystem::remove(folder_ / "study.json");
+}
+
+TEST_F(WrongFiles, FilesOfSettingsCheckNumbersToo) {
+    const auto job = [&](const std::string& line) {
+        return "plan " + write("job.toml", "scene.file = \"" + box() + "\"\n" + line + "\n");
+    };
+    for (const char* line : {"budget.error = \"5%\"", "budget.seconds = \"2min\"", "budget.error = 0.05"})
+        EXPECT_EQ(test::run_treefarm(job(line)).code, 0) << line;
+    for (const char* line :
+         {"budget.error = 5", "budget.error = \"five\"", "budget.seconds = -1", "budget.seconds = inf"})
+        expect_refusal(job(line), {"job.toml:2:", "is not allowed; allowed: 0, or "});
+    for (const char* line : {"warmup = -1", "seeds = 0", "seeds = 2.5", "seeds = [-1]"})
+        expect_refusal(
+            "study --dry-run " + write("study.toml", std::string(line) + "\nbudget.spp = 1\n[scene.a]\nfile = \"" +
+                                                         box() + "\"\n[reference]\nsampler.seed = 9\n"),
+            {"study.toml:1:", "which is not allowed; give an integer from "});
+}
+
+TEST(Keys, AreListedWithDefaultAndMeaning) {
+    const test::Ended all = test::run_treefarm("keys");
+    EXPECT_EQ(all.code, 0);
+    EXPECT_NE(all.output.find("budget.spp = 64\n    samples per pixel"), std::string::npos) << all.output;
+    const test::Ended some = test::run_treefarm("keys SPP_UNIT");
+    EXPECT_TRUE(some.output.starts_with("guiding.spp_unit = 1\n")) << some.output;
+    EXPECT_NE(some.output.find("    allowed: 1 to 65536\n"), std::string::npos);
+    const nlohmann::json json = nlohmann::json::parse(test::run_treefarm("keys sampler --json").output);
+    ASSERT_EQ(json.size(), 1u);
+    EXPECT_EQ(json[0]["key"], "sampler.seed");
+    EXPECT_EQ(json[0]["type"], "integer");
+    EXPECT_EQ(json[0]["default"], "0");
+    expect_refusal("keys sampler.sed", {"did you mean sampler.seed?"});
+}
+
+TEST(Help, ListsExitCodesAndWhereDefaultsAre) {
+    for (const char* command : {"", "render "}) {
+        const test::Ended help = test::run_treefarm(command + std::string("--help"));
+        EXPECT_EQ(help.code, 0);
+        EXPECT_NE(help.output.find("Exit codes: 0 done, 1 the run failed, 2 bad usage"), std::string::npos);
+        EXPECT_NE(help.output.find("treefarm keys"), std::string::npos);
+    }
 }
 
 TEST_F(WrongFiles, JobsAndStudiesAreToldApart) {
