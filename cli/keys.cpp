@@ -75,7 +75,7 @@ void print_json(const std::vector<const JobKey*>& keys, std::ostream& out) {
                         {"allowed", key->range},
                         {"default", default_of(*key)},
                         {"meaning", key->doc}});
-    out << json.dump(2) << "\n";
+    out << json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) << "\n";
 }
 
 }  // namespace

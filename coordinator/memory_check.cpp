@@ -54,8 +54,8 @@ void check_memory(const MemoryPlan& plan, const Host& own, const Roster& roster,
         if (need.available > 0 && need.bytes > need.available)
             throw InputError(
                 Location{scene, 0, 0},
-                fmt::format("{} on {} are expected to take {} of memory, of which {} can be had", who(need), name,
-                            gigabytes(need.bytes), gigabytes(need.available)),
+                fmt::format("{} of memory are expected to be taken on {}, by {}, and {} can be had",
+                            gigabytes(need.bytes), name, who(need), gigabytes(need.available)),
                 "render a smaller image (--set image.width=...), start fewer workers a host with more threads each, or "
                 "go on regardless with --set farm.memory_check=false; treefarm plan lists what takes it");
 }

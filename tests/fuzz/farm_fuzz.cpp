@@ -54,6 +54,11 @@ class ScriptedChannel final : public Channel {
     std::uint64_t bytes_sent() const override { return sent_; }
     std::uint64_t bytes_received() const override { return received_; }
 
+    /// The worker has heard nothing of the tree for too long.
+    void complain() {
+        if (begin_.tree_bytes != tree_.size()) say(Resend{Blob::tree, 0, begin_.plan.index, tree_.size()});
+    }
+
     std::deque<Received> inbox;
     std::map<int, fuzz::Known> known;
 
@@ -142,6 +147,7 @@ Outcome run(std::span<const std::uint8_t> input) {
         // Who holds work and never delivers it is a matter of the clock, not of messages: they leave.
         for (int peer = 1; peer <= kRogues; ++peer)
             channel.inbox.push_back({peer, Bytes{1, 2, 3}});
+        channel.complain();  // a rogue before it in the chain does not pass anything on
         for (int step = 0; step < 1000 && !farm.pass_complete(); ++step)
             farm.step();
         require(farm.pass_complete(), "the pass did not end");

@@ -51,12 +51,12 @@ TEST(MemoryCheck, SumsOverTheProcessesOfAHost) {
     EXPECT_EQ(refusal(each, own, {hello("a", 1), hello("a", 1)}), "") << "what workers of this host saw is older";
     EXPECT_EQ(refusal(each, own, {hello("b", 3 * kGigabyte), hello("c", 3 * kGigabyte)}), "");
     const std::string here = refusal(each, own, {hello("a", 1), hello("a", 1), hello("a", 1)});
-    EXPECT_NE(here.find("the coordinator and 3 workers on a"), std::string::npos) << here;
+    EXPECT_NE(here.find("on a, by the coordinator and 3 workers"), std::string::npos) << here;
     EXPECT_NE(here.find("12 GB"), std::string::npos) << here;
     EXPECT_NE(here.find("10 GB"), std::string::npos) << here;
     EXPECT_NE(here.find("farm.memory_check=false"), std::string::npos) << here;
     const std::string there = refusal(each, own, {hello("b", 5 * kGigabyte), hello("b", 6 * kGigabyte)});
-    EXPECT_NE(there.find("2 workers on b"), std::string::npos) << there;
+    EXPECT_NE(there.find("on b, by 2 workers"), std::string::npos) << there;
     EXPECT_NE(there.find("5 GB can be had"), std::string::npos) << there;
 }
 
