@@ -139,6 +139,7 @@ class WorkerLoop {
         job_ = Job{};
         apply_layer(job_, parse_job_settings(m.job, "job from the coordinator"));
         job_text_ = m.job;
+        drop_work();  // what traces from now on knows nothing of a pass that went on
         retire_pool();
         build_renderer_ = scene_ && m.scene_hash == scene_hash_;
     }

@@ -1,5 +1,6 @@
 #include <limits>
 
+#include "common/config/job_reader.h"
 #include "tests/fault/farm_fixture.h"
 
 // A peer that says what it must not: it loses its place, and nothing else is different.
@@ -211,6 +212,38 @@ TEST_F(FarmTest, AFloodOfMessagesDoesNotStopTheRender) {
     expect_truth(render());
     over = true;
     flood.join();
+}
+
+/// Found by fuzz_worker: work of the pass before met threads that knew of no pass.
+TEST_F(FarmTest, AWelcomeToAnotherJobEndsThePassOfTheOneBefore) {
+    make_workers(1);
+    start_worker(0);
+    const auto say = [&](const auto& message) {
+        channels_[0]->send(1, std::make_shared<const Bytes>(encode(message)));
+    };
+    const Bytes tree = encode_tree(initial_tree(Box3(Vec3(0.0f), Vec3(1.0f)), 1.0f));
+    PassBegin begin;
+    begin.plan = {.spp = 2, .record = true};
+    begin.tree_bytes = tree.size();
+    begin.tree_hash = hash_bytes(tree);
+    say(Welcome{1, 0.5, write_job(job_), hash_bytes(kScene), kScene.size(), true});
+    say(Chunk{Blob::scene, 0, 0, kScene.size(), 0, {}, kScene});
+    say(begin);
+    say(Chunk{Blob::tree, 0, 0, tree.size(), 0, {}, tree});
+    const auto wants = [&] {
+        const auto message = channels_[0]->poll();
+        return message && is<Want>(message->bytes);
+    };
+    for (int k = 0; k < 20'000 && !wants(); ++k)
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    job_.sampler.seed = 1;
+    say(Welcome{1, 0.5, write_job(job_), hash_bytes(kScene), kScene.size(), true});
+    for (int k = 0; k < 100; ++k) {
+        say(Work{0, {{0, 0, 0, 4, 4, 0}}});
+        std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+    leave({}, {.dismiss = 20});
+    EXPECT_TRUE(orderly_);
 }
 
 }  // namespace
