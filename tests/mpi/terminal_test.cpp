@@ -112,11 +112,11 @@ TEST(Terminal, QuietSaysNothing) {
 
 TEST(Terminal, ColoursGoByTheEnvironment) {
     // 5 spp become more: a warning, of which one word has a colour.
-    const auto warned = render({"--spp", "5", "--set", "guiding.spp_unit=4"});
+    const auto warned = [] { return render({"--spp", "5", "--set", "guiding.spp_unit=4"}); };
     const std::string colour = "\x1b[1;33m";
-    EXPECT_EQ(count(watch(warned, 80).bytes, colour), 1u);
-    EXPECT_EQ(count(watch(warned, 80, {"TERM=xterm", "NO_COLOR="}).bytes, colour), 1u);
-    const std::string without = watch(warned, 80, {"TERM=xterm", "NO_COLOR=1"}).bytes;
+    EXPECT_EQ(count(watch(warned(), 80).bytes, colour), 1u);
+    EXPECT_EQ(count(watch(warned(), 80, {"TERM=xterm", "NO_COLOR="}).bytes, colour), 1u);
+    const std::string without = watch(warned(), 80, {"TERM=xterm", "NO_COLOR=1"}).bytes;
     EXPECT_EQ(count(without, "\x1b[") - count(without, "\x1b[K"), 0u) << without;
     EXPECT_EQ(count(without, "warning: "), 1u) << without;
 }
