@@ -66,7 +66,7 @@ LaunchEnvironment read_launch_environment() {
     const char* const here = std::getenv("OMPI_COMM_WORLD_LOCAL_SIZE");
     const char* const all = std::getenv("OMPI_COMM_WORLD_SIZE");
     launch.one_host = here && all && std::string_view(here) == all;
-    if (!launch.under_mpi) find_lone_tasks(launch);
+    if (!launch.under_mpi && !isatty(STDIN_FILENO)) find_lone_tasks(launch);  // a person has a shell, not many tasks
     launch.terminal = read_terminal(launch.under_mpi);
     return launch;
 }

@@ -32,8 +32,8 @@ std::string joined(int argc, char** argv) {
     return line;
 }
 
-/// How long a rank lets the first one speak for all. mpirun ends the others then; what only one of them has to say
-/// would be lost without it.
+/// How long other ranks let rank 0 speak for all: where all have the same bad option mpirun ends them in that time. One
+/// that still lives has something of its own to say.
 constexpr std::chrono::seconds kFirstRankSpeaks{3};
 
 int fail(const LaunchEnvironment& launch, const std::string& message, int exit_code) {

@@ -38,8 +38,10 @@ int run_here(const FarmOptions& options, const Voice& voice, const FarmTask& tas
     std::thread worker(
         [&channel = *channels[1], threads = options.threads > 0 ? options.threads : affinity_threads(), &voice] {
             const Log log = make_log("worker", {}, voice.console, voice.loudness);
+            WorkerSettings settings = worker_settings(threads);
+            settings.silence_seconds = 1e9;  // nobody is gone who is in the same process
             try {
-                run_worker(channel, worker_settings(threads), make_path_renderer, log);
+                run_worker(channel, settings, make_path_renderer, log);
             } catch (const std::exception& error) {  // the coordinator notices the silence
                 log->error("{}", error.what());
             }
@@ -76,9 +78,9 @@ CoordinatorEnd guarded(const std::function<CoordinatorEnd()>& act) {
 
 /// Sends every worker away and leaves: a signal came while the scene was being read, which nothing can break off.
 [[noreturn]] void leave_reading(MpiSession& session) {
-    dismiss_workers(session.channel(), {}, kDismissSeconds);
+    const bool orderly = dismiss_workers(session.channel(), {}, kDismissSeconds);
     std::fputs("treefarm: interrupted while the input was being read\n", stderr);
-    session.finish(false, 3, kFinalizeSeconds);
+    session.finish(orderly, 3, kFinalizeSeconds);
     std::_Exit(3);
 }
 

@@ -23,7 +23,7 @@ struct CoordinatorEnd {
 
 /// What the coordinator does, between the start of the workers and their dismissal.
 struct FarmTask {
-    std::function<void()> prepare;  ///< reads and checks the input; in one process a signal breaks it off
+    std::function<void()> prepare;  ///< reads and checks the input; without mpirun a signal breaks it off
     std::function<CoordinatorEnd(Channel&, const std::function<bool()>& interrupted)> coordinate;
 };
 

@@ -66,7 +66,8 @@ void Farm::begin_pass(const PassPlan& plan, const SdTree& tree, Bytes encoded_tr
     first_request_seconds_ = broadcast_seconds_ = 0;
     requested_ = false;
     not_ready_.clear();
-    sent_directly_.clear();
+    copied_.clear();
+    askers_.clear();
     for (Member* member : roster_.present()) {
         member->credit = 0;
         not_ready_.push_back(member->peer);
@@ -90,13 +91,30 @@ void Farm::send_blob(Blob blob, std::uint64_t offset, std::span<const std::uint3
     send_along_chain(channel_, name_of(blob), blob == Blob::tree ? pass_->tree : scene_, offset, chain);
 }
 
-void Farm::send_directly(Blob blob, std::uint64_t offset, int peer) {
-    // What is on its way takes memory here until it is there: nobody gets it twice at a time, however often he asks.
-    double& last = sent_directly_.try_emplace({peer, name_of(blob)}, -1e9).first->second;
-    if (clock_.seconds() - last < kResendHeartbeats * job_.farm.heartbeat_seconds) return;
+/// What is on its way takes memory here until it is there: nobody gets it twice at a time, however often he asks.
+bool Farm::may_have_copy(Blob blob, int peer) {
+    double& last = copied_.try_emplace({peer, name_of(blob)}, -1e9).first->second;
+    if (clock_.seconds() - last < kResendHeartbeats * job_.farm.heartbeat_seconds) return false;
     last = clock_.seconds();
-    const std::uint32_t only[] = {static_cast<std::uint32_t>(peer)};
-    send_blob(blob, offset, only);
+    return true;
+}
+
+/// Those behind a worker that died in the chain ask at about the same time: one chain of them all gets one copy, not
+/// each its own.
+void Farm::serve_askers() {
+    for (auto& [blob, askers] : askers_) {
+        if (askers.offsets.empty() || clock_.seconds() - askers.since < limits_.asking) continue;
+        std::vector<std::uint32_t> chain;
+        std::uint64_t offset = ~std::uint64_t{0};
+        for (const auto& [peer, from] : askers.offsets) {
+            const Member* member = roster_.find(peer);
+            if (!member || member->state != MemberState::present || !may_have_copy(blob, peer)) continue;
+            chain.push_back(static_cast<std::uint32_t>(peer));
+            offset = std::min(offset, from);
+        }
+        askers.offsets.clear();
+        send_blob(blob, offset, chain);
+    }
 }
 
 std::vector<std::uint32_t> Farm::chain_of_present() {
@@ -123,6 +141,7 @@ void Farm::step() {
         busy = true;
         take(*message);
     }
+    serve_askers();
     watch_for_silence();
     beat();
     if (!busy) rest(channel_, calm());

@@ -24,6 +24,7 @@ struct FarmLimits {
     double lost = 2.0;     ///< least silence after which a worker is given up; ten heartbeats if that is longer
     double dismiss = 5.0;  ///< how long the end waits for good-byes
     double grace = 15.0;   ///< how long nobody at all may be there, where somebody may come back
+    double asking = 0.2;   ///< in which workers that ask for the same tree or scene are served together
 };
 
 /// A job's place among those of one allocation.
@@ -72,7 +73,7 @@ class Farm {
     std::uint64_t dropped_results() const { return dropped_results_; }
     /// Messages that were no messages, or said what cannot be.
     std::uint64_t bad_messages() const { return bad_messages_; }
-    /// Of all workers since the start, as their heartbeats say.
+    /// Of all workers in their present lives, as their heartbeats say.
     std::uint64_t rays_traced() const;
 
   private:
@@ -99,7 +100,8 @@ class Farm {
     bool serve(Member& member);
     BlobName name_of(Blob blob) const;
     void send_blob(Blob blob, std::uint64_t offset, std::span<const std::uint32_t> chain);
-    void send_directly(Blob blob, std::uint64_t offset, int peer);
+    bool may_have_copy(Blob blob, int peer);
+    void serve_askers();
     std::vector<std::uint32_t> chain_of_present();
     std::vector<std::uint32_t> chain_without_scene();
 
@@ -126,9 +128,15 @@ class Farm {
     std::vector<int> not_ready_;  ///< peers that have not yet asked for work of this pass
     bool requested_ = false;      ///< somebody has
     double pass_began_ = 0, first_request_seconds_ = 0, broadcast_seconds_ = 0, last_beat_ = 0;
-    double listened_ = 0;                                       ///< when step() last looked for messages
-    std::optional<double> alone_since_;                         ///< nobody has been there since
-    std::map<std::pair<int, BlobName>, double> sent_directly_;  ///< when
+    double listened_ = 0;                                ///< when step() last looked for messages
+    std::optional<double> alone_since_;                  ///< nobody has been there since
+    std::map<std::pair<int, BlobName>, double> copied_;  ///< when a worker got a copy of its own
+    /// Who asked for what, from which byte on, and since when somebody waits.
+    struct Askers {
+        std::map<int, std::uint64_t> offsets;
+        double since = 0;
+    };
+    std::map<Blob, Askers> askers_;
     std::string last_failure_;
     std::uint64_t reissued_units_ = 0, dropped_results_ = 0, bad_messages_ = 0;
 };

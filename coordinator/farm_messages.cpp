@@ -102,10 +102,11 @@ void Farm::on(int peer, const Hello& m) {
     tell(peer, Welcome{static_cast<std::uint32_t>(peer), job_.farm.heartbeat_seconds, job_text_, scene_hash_,
                        scene_.size(), turn_.number > 0});
     if (!scene_sent_) return;
-    if (m.scene_hash != scene_hash_) send_directly(Blob::scene, 0, peer);
+    const std::uint32_t only[] = {static_cast<std::uint32_t>(peer)};
+    if (m.scene_hash != scene_hash_ && may_have_copy(Blob::scene, peer)) send_blob(Blob::scene, 0, only);
     if (!pass_) return;
     announce(peer);
-    send_directly(Blob::tree, 0, peer);
+    if (may_have_copy(Blob::tree, peer)) send_blob(Blob::tree, 0, only);
 }
 
 void Farm::refuse(int peer, const Hello& m, const std::string& reason) {
@@ -121,7 +122,9 @@ void Farm::on(int peer, const Resend& m) {
     if (m.job != turn_.number) return;
     if (m.blob == Blob::tree && (!pass_ || m.epoch != pass_->plan.index)) return;
     log_->debug("worker {} asks again for a {} from byte {}", peer, m.blob == Blob::tree ? "tree" : "scene", m.offset);
-    send_directly(m.blob, m.offset, peer);
+    Askers& askers = askers_[m.blob];
+    if (askers.offsets.empty()) askers.since = clock_.seconds();
+    askers.offsets.try_emplace(peer, m.offset);
 }
 
 void Farm::on(int peer, const Want& m) {

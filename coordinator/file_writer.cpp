@@ -27,6 +27,12 @@ void FileWriter::put(const std::string& name, Write write, Pace pace) {
     changed_.notify_one();
 }
 
+void FileWriter::forget(const std::string& name) {
+    std::unique_lock lock(mutex_);
+    if (const auto slot = slots_.find(name); slot != slots_.end()) slot->second.write = {};
+    idle_.wait(lock, [&] { return writing_ != name; });
+}
+
 std::vector<std::string> FileWriter::take_news() {
     const std::lock_guard lock(mutex_);
     return std::exchange(news_, {});
@@ -67,6 +73,7 @@ void FileWriter::work() {
 
 void FileWriter::run(Slots::iterator slot, std::unique_lock<std::mutex>& lock) {
     Write write = std::exchange(slot->second.write, {});
+    writing_ = slot->first;
     lock.unlock();
     const Timer timer;
     int kind = 0;
@@ -86,6 +93,8 @@ void FileWriter::run(Slots::iterator slot, std::unique_lock<std::mutex>& lock) {
     const double seconds = timer.seconds();
     if (message.empty()) write = {};  // an image may be what it holds: not to be freed under the lock
     lock.lock();
+    writing_.clear();
+    idle_.notify_all();
     Slot& done = slot->second;
     done.failed = !message.empty();
     if (!done.failed) {

@@ -34,6 +34,9 @@ class FileWriter {
     /// In the place of what still waits under this name. It is called in the writer's thread, possibly several times.
     void put(const std::string& name, Write write, Pace pace = {});
 
+    /// What waits under this name is not written, and waited for where it is being written.
+    void forget(const std::string& name);
+
     /// What there is to tell since the last call: each kind of trouble (an errno) once, and that all is written again.
     std::vector<std::string> take_news();
 
@@ -56,14 +59,15 @@ class FileWriter {
     void tell_recovery();
 
     std::mutex mutex_;
-    std::condition_variable changed_;
+    std::condition_variable changed_, idle_;
     const Timer clock_;
     Slots slots_;
     std::set<int> told_;    ///< kinds of trouble
     bool trouble_ = false;  ///< told, and not over
     std::vector<std::string> news_;
     bool stopping_ = false;
-    std::thread thread_;  ///< last: it uses the others
+    std::string writing_;  ///< the name; empty: none
+    std::thread thread_;   ///< last: it uses the others
 };
 
 }  // namespace treefarm

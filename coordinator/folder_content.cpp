@@ -8,6 +8,7 @@
 #include "common/base/printable.h"
 #include "common/config/parse_text.h"
 #include "common/image/atomic_file.h"
+#include "coordinator/folder_lock.h"
 
 namespace treefarm {
 
@@ -59,7 +60,7 @@ bool holds_nothing(const fs::path& folder) {
     const std::vector<fs::path> previous = previous_runs(folder);
     std::error_code error;
     for (const auto& entry : fs::directory_iterator(folder, error))
-        if (!is_leftover(entry.path().filename().string()) &&
+        if (entry.path().filename() != kLockFileName && !is_leftover(entry.path().filename().string()) &&
             std::find(previous.begin(), previous.end(), entry.path()) == previous.end())
             return false;
     return true;
@@ -88,8 +89,7 @@ std::vector<fs::path> previous_runs(const fs::path& folder) {
 FolderContent folder_content(const fs::path& folder) {
     std::error_code error;
     if (!fs::is_directory(folder, error)) return has(folder) ? FolderContent::other : FolderContent::nothing;
-    for (const char* sign : {"study.json", "cells", "references", "warmup"})
-        if (has(folder / sign)) return FolderContent::study;
+    if (has(folder / "study.json") || has(folder / "cells")) return FolderContent::study;
     if (has(folder / "passes.csv") || !text_of(read_object(folder / "status.json"), "state").empty())
         return FolderContent::render;
     return holds_nothing(folder) ? FolderContent::nothing : FolderContent::other;

@@ -91,8 +91,6 @@ class PassLoop {
             if (!shows_last_tree_only(job_)) set_aside_.take_out(pass.pixels, plan.index, finished_.size());
         }
         show(std::move(pass), job_, finished_);
-        result_.spp = plan.first_sample + plan.spp;
-        result_.tree_hash = coming_tree_hash_;
     }
 
     void combine(PassReport& report) {
@@ -101,15 +99,15 @@ class PassLoop {
             std::async(std::launch::async, [&] { return pass_variance(finished_.back().pixels); });
         Timer timer;
         remember_noise(finished_, job_.guiding.combination, guided());
-        result_.image = std::make_shared<CombinedImage>(combine_passes(finished_, job_.guiding.combination, guided()));
+        coming_.image = std::make_shared<CombinedImage>(combine_passes(finished_, job_.guiding.combination, guided()));
         report.seconds.film = timer.seconds();
         timer.restart();
         fill_from_collector(report, farm_.collector());
         std::future<ErrorEstimate> error =
-            std::async(std::launch::async, [&] { return estimate_error(*result_.image, job_.sampler.seed); });
-        std::future<std::uint64_t> hash = std::async(std::launch::async, [&] { return hash_image(*result_.image); });
+            std::async(std::launch::async, [&] { return estimate_error(*coming_.image, job_.sampler.seed); });
+        std::future<std::uint64_t> hash = std::async(std::launch::async, [&] { return hash_image(*coming_.image); });
         find_gain(report);
-        result_.image_hash = hash.get();
+        coming_.image_hash = hash.get();
         report.variance = variance.get();
         state_.error = report.error = error.get();
         report.seconds.error = timer.seconds();
@@ -118,7 +116,7 @@ class PassLoop {
     void find_gain(PassReport& report) const {
         if (report.plan.guided && report.plan.record)
             report.guiding_gain = probe_.gain(finished_.back().pixels, report.stats, report.plan.index,
-                                              result_.image->mean, static_cast<std::size_t>(result_.width));
+                                              coming_.image->mean, static_cast<std::size_t>(result_.width));
     }
 
     /// By one image-wide number: a decision, not a weight, so no pixel is biased by its own samples.
@@ -165,8 +163,8 @@ class PassLoop {
     void learn(const PassPlan& plan, const NextPass& next_pass, PassReport& report) {
         if (!plan.record || !next_pass.pass) return;
         const Timer timer;
-        const auto pixels = static_cast<double>(result_.image->mean.size());
-        result_.tree =
+        const auto pixels = static_cast<double>(coming_.image->mean.size());
+        coming_.tree =
             learner_.learn(result_.tree, farm_.collector().sums(), refine_settings(job_, pixels, plan, *next_pass.pass),
                            plan.learn_mixture, report.refine);
         report.seconds.refine = timer.seconds();
@@ -174,11 +172,18 @@ class PassLoop {
 
     void finish(PassReport& report, double seconds) {
         report.seconds.all = seconds;
-        report.spp_done = result_.spp;
+        report.spp_done = report.plan.first_sample + report.plan.spp;
         report.workers = farm_.roster().present_count();
         report.threads = static_cast<std::uint32_t>(farm_.roster().thread_count());
         count_idle(report);
+        // All at once: whatever fails before leaves the pass before, whole.
         result_.passes.push_back(report);
+        result_.image = std::move(coming_.image);
+        result_.image_hash = coming_.image_hash;
+        result_.spp = report.spp_done;
+        result_.tree_hash = coming_tree_hash_;
+        if (coming_.tree) result_.tree = std::move(*coming_.tree);
+        coming_ = {};
         if (hooks_.on_pass) hooks_.on_pass(report, *result_.image);
         if (hooks_.on_result) hooks_.on_result(result_);
     }
@@ -222,6 +227,12 @@ class PassLoop {
     GuidingProbe probe_;
     ProbesSetAside set_aside_;
     std::uint64_t coming_tree_hash_ = 0;
+    /// Of a pass that is being finished.
+    struct {
+        std::shared_ptr<const CombinedImage> image;
+        std::uint64_t image_hash = 0;
+        std::optional<SdTree> tree;  ///< that it taught
+    } coming_;
     const Timer clock_;
     double loading_seconds_ = 0;  ///< until the first worker had scene and tree and asked for work
     RenderState state_;

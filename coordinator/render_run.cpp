@@ -14,6 +14,11 @@ namespace treefarm {
 
 namespace {
 
+/// Later jobs of a study take the place of the first in the memory of all processes.
+bool checks_memory(const RenderRequest& request) {
+    return request.job.farm.memory_check && request.turn.number <= 1;
+}
+
 class RenderRun {
   public:
     RenderRun(Channel& channel, const RenderRequest& request, const std::function<bool()>& interrupted)
@@ -37,9 +42,9 @@ class RenderRun {
         try {
             render();
             end.state = result_.interrupted ? RunState::interrupted : RunState::done;
-        } catch (const InputError& error) {
-            end.error = error.what();
-            finish(end);
+        } catch (const InputError&) {
+            progress_.clear();
+            directory_.give_back();
             throw;
         } catch (const std::bad_alloc&) {
             end.error = "not enough memory; render a smaller image, or on a machine that has more";
@@ -81,7 +86,7 @@ class RenderRun {
                    budget_text(passes({})), directory_.path().string());
         log_->debug("{} triangles", request_.scene.triangle_count());
         farm_.gather(interrupted_);
-        if (request_.job.farm.memory_check)
+        if (checks_memory(request_))
             check_memory(request_.plan.memory, this_host(), farm_.roster(), request_.job.scene.file);
         log_->debug("{} workers with {} threads", farm_.roster().present_count(), farm_.roster().thread_count());
         PassHooks hooks;
@@ -201,8 +206,7 @@ class RenderRun {
 
 RenderOutcome run_render(Channel& channel, const RenderRequest& request, const std::function<bool()>& interrupted) {
     // Before any file is touched: what this process alone takes. With the workers', once they have said what they have.
-    if (request.job.farm.memory_check)
-        check_memory(request.plan.memory, this_host(), Roster(0), request.job.scene.file);
+    if (checks_memory(request)) check_memory(request.plan.memory, this_host(), Roster(0), request.job.scene.file);
     return RenderRun(channel, request, interrupted).run();
 }
 

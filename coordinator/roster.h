@@ -11,7 +11,7 @@ namespace treefarm {
 
 enum class MemberState : std::uint8_t {
     present,  ///< takes part
-    lost,     ///< was silent for too long, or failed: what it still sends is dropped
+    lost,     ///< was silent for too long: what it still sends is dropped
     refused,  ///< never took part
     left,     ///< said good-bye
     barred,   ///< said what was wrong, or that it cannot go on: it may not come back to this job
@@ -22,12 +22,11 @@ struct Member {
     int peer = 0;
     Hello hello;
     MemberState state = MemberState::present;
-    double last_heard = 0;     ///< seconds of the coordinator's clock
-    std::uint32_t credit = 0;  ///< units that it asked for and has not got
-    bool asked_back = false;   ///< a lost one that spoke again was told to rejoin
-    // Of all lives of this peer.
-    std::uint32_t lives = 0;
-    std::uint32_t bad_messages = 0;  ///< that were refused
+    double last_heard = 0;           ///< seconds of the coordinator's clock
+    std::uint32_t credit = 0;        ///< units that it asked for and has not got
+    bool asked_back = false;         ///< a lost one that spoke again was told to rejoin
+    std::uint32_t lives = 0;         ///< of this peer, with this one
+    std::uint32_t bad_messages = 0;  ///< of all its lives, that were refused
     Heartbeat progress;              ///< the last one
 };
 

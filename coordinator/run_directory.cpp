@@ -30,7 +30,7 @@ constexpr double kPreviewShare = 200.0;
 /// Of a core, for a pixel: what the first preview is expected to take.
 constexpr double kPreviewSecondsPerPixel = 4e-8;
 /// Tables and images of short passes share a writing.
-constexpr Pace kPassPace{0.0, 20.0};
+constexpr Pace kPassPace{0.0, 3.0};
 /// How long the end tries to write what it could not, and then what says so.
 constexpr double kResultPatience = 4.0, kSummaryPatience = 1.0;
 
@@ -55,6 +55,12 @@ void check_output_file(const std::string& file) {
 const Job& checked(const Job& job) {
     check_output_file(job.output.file);
     return job;
+}
+
+/// Larger ones no viewer opens, nor does the format hold them.
+bool has_preview(std::size_t pixels) {
+    constexpr std::size_t kMostPixels = std::size_t{1} << 28;
+    return pixels <= kMostPixels;
 }
 
 std::string job_without_output(Job job) {
@@ -117,7 +123,7 @@ void RunDirectory::write_status(const RenderProgress& progress, double elapsed_s
 
 void RunDirectory::write_preview(std::span<const PixelEstimate> film, int width, int height, double elapsed_seconds) {
     const std::size_t count = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-    if (film.size() != count) return;
+    if (film.size() != count || !has_preview(count)) return;
     if (next_preview_ == 0)
         next_preview_ =
             std::max(1.0, kPreviewShare * kPreviewSecondsPerPixel * static_cast<double>(count) / processors());
@@ -219,10 +225,11 @@ std::vector<LastFile> RunDirectory::last_files(const RenderResult& result, Outli
                 write_bytes("tree.bin", tree, outlives);
                 end.tree_file_hash = hash_text(hash_bytes(tree));
             });
-        add("preview.png", [=, this, &result] {
-            write_bytes("preview.png", encode_png(result_colours(*result.image, result.width, result.height)),
-                        outlives);
-        });
+        if (has_preview(result.image->mean.size()))
+            add("preview.png", [=, this, &result] {
+                write_bytes("preview.png", encode_png(result_colours(*result.image, result.width, result.height)),
+                            outlives);
+            });
     }
     // Only where the folder vanished: they were written at the start.
     for (const auto& [name, text] :
@@ -246,9 +253,15 @@ std::vector<LastFile> RunDirectory::end_files(const RenderResult& result, const 
 
 void RunDirectory::write_interruption(const RenderResult& result, const Farm* farm, double elapsed_seconds) {
     if (!result.passes.empty() && !image_is_on_disk(result)) return;
+    writer_.forget("status.json");  // "running" must not come after it
     const RunEnd end{RunState::interrupted, "", elapsed_seconds, ""};
     std::vector<LastFile> files = end_files(result, farm, end, Outlives::process);
     write_last_files(files, 0.0);
+}
+
+void RunDirectory::give_back() {
+    writer_.stop();
+    folder_.give_back();
 }
 
 std::vector<std::string> RunDirectory::finish(const RenderResult& result, const Farm* farm, RunEnd& end) {
@@ -257,7 +270,8 @@ std::vector<std::string> RunDirectory::finish(const RenderResult& result, const 
     const bool hurry = end.state == RunState::interrupted;
     const Outlives outlives = hurry ? Outlives::process : Outlives::power;
     std::vector<LastFile> files = last_files(result, outlives, end);
-    if (hurry && !files.empty() && try_to_write(files.front())) write_interruption(result, farm, end.elapsed_seconds);
+    if (hurry && (image_is_on_disk(result) || (!files.empty() && try_to_write(files.front()))))
+        write_interruption(result, farm, end.elapsed_seconds);
     std::vector<std::string> failures = write_last_files(files, kResultPatience);
     for (const std::string& failure : failures)
         end.error += (end.error.empty() ? "" : "; ") + failure;
@@ -267,9 +281,11 @@ std::vector<std::string> RunDirectory::finish(const RenderResult& result, const 
         end.state = RunState::failed;
         failures.push_back(failure);
     }
-    if (hurry)
+    if (hurry) {
         for (const std::string_view name : run_file_names())
             make_durable(path() / name);
+        if (!job_.output.file.empty()) make_durable(job_.output.file);
+    }
     if (end.state == RunState::done) folder_.remove_previous();
     return failures;
 }

@@ -63,6 +63,8 @@ class RunDirectory {
 
     /// An earlier run lies aside in it.
     bool has_previous() const { return folder_.has_previous(); }
+    /// Nothing comes of this run: the folder is left as it was found.
+    void give_back();
 
   private:
     void write_bytes(const std::string& name, std::span<const std::uint8_t> bytes, Outlives outlives) const;

@@ -51,6 +51,13 @@ fs::path make_folder(const Job& job) {
     return path;
 }
 
+/// A run's own files, and what treefarm inspect drew of it.
+std::vector<std::string> moved_names() {
+    std::vector<std::string> names(run_file_names().begin(), run_file_names().end());
+    names.emplace_back("inspect");
+    return names;
+}
+
 }  // namespace
 
 RunFolder::RunFolder(const Job& job, bool overwrite, const std::function<bool()>& interrupted)
@@ -95,15 +102,23 @@ void RunFolder::remove_leftovers() const {
 }
 
 /// What is not a run's own file stays where it is.
-void RunFolder::put_aside() const {
-    fs::path aside;
-    for (int k = 1; aside.empty() || !fs::create_directory(aside); ++k)
-        aside = path_ / previous_name(k);
-    std::vector<std::string> names(run_file_names().begin(), run_file_names().end());
-    names.emplace_back("inspect");  // what treefarm inspect drew of it
+void RunFolder::put_aside() {
+    for (int k = 1; aside_.empty() || !fs::create_directory(aside_); ++k)
+        aside_ = path_ / previous_name(k);
+    const std::vector<std::string> names = moved_names();
     // Its signs last: broken off half way, the folder still holds a render.
     for (auto name = names.rbegin(); name != names.rend(); ++name)
-        if (fs::exists(fs::symlink_status(path_ / *name))) fs::rename(path_ / *name, aside / *name);
+        if (fs::exists(fs::symlink_status(path_ / *name))) fs::rename(path_ / *name, aside_ / *name);
+}
+
+void RunFolder::give_back() const {
+    std::error_code ignored;
+    for (const std::string& name : moved_names()) {
+        fs::remove(path_ / name, ignored);
+        if (!aside_.empty()) fs::rename(aside_ / name, path_ / name, ignored);
+    }
+    if (!aside_.empty()) fs::remove(aside_, ignored);
+    fs::remove(path_, ignored);  // if nothing is in it
 }
 
 bool RunFolder::has_previous() const {

@@ -18,6 +18,8 @@ class RunFolder {
     RunFolder(const Job& job, bool overwrite, const std::function<bool()>& interrupted);
 
     const std::filesystem::path& path() const { return path_; }
+    /// Removes the files of this run, and puts back those that it put aside.
+    void give_back() const;
     /// An earlier run lies aside.
     bool has_previous() const;
     /// Removes what lies aside: something better is there.
@@ -26,9 +28,9 @@ class RunFolder {
   private:
     void check(bool overwrite) const;
     void remove_leftovers() const;
-    void put_aside() const;
+    void put_aside();
 
-    std::filesystem::path path_;
+    std::filesystem::path path_, aside_;
     FolderLock lock_;
 };
 

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "common/base/hash.h"
+#include "common/base/host.h"
 #include "common/plan/plan_text.h"
 
 namespace treefarm {
@@ -99,10 +100,8 @@ const char* member_state_name(MemberState state) {
 
 /// What a reader needs to tell a run that lives from one that was killed.
 void add_writer(Json& status) {
-    char host[256] = "";
-    gethostname(host, sizeof host - 1);
     status["pid"] = getpid();
-    status["host"] = host;
+    status["host"] = host_name();
     status["time"] = std::time(nullptr);
 }
 

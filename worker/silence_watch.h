@@ -22,6 +22,9 @@ class SilenceWatch {
         return seconds_ > limit_;
     }
 
+    /// A coordinator that speaks more rarely may be silent for longer.
+    void allow(double seconds) { limit_ = std::max(limit_, seconds); }
+
     double seconds() const { return seconds_; }
 
   private:

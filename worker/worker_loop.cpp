@@ -27,6 +27,9 @@ constexpr std::size_t kUnitsPerThread = 3, kPathsPerThread = 8192;
 /// A tree or scene of which nothing was heard for so many heartbeats is asked for again.
 constexpr double kPatienceHeartbeats = 5.0;
 
+/// Of a coordinator that is gone.
+constexpr double kSilentHeartbeats = 10.0;
+
 /// Messages taken in before anything else is done again.
 constexpr int kMostLooks = 256;
 
@@ -131,6 +134,7 @@ class WorkerLoop {
 
     void on(const Welcome& m) {
         heartbeat_seconds_ = m.heartbeat_seconds;
+        silence_.allow(kSilentHeartbeats * m.heartbeat_seconds);
         keep_scene_ = m.keep_scene;
         coming_scene_hash_ = m.scene_hash;
         coming_scene_bytes_ = m.scene_bytes;

@@ -39,24 +39,26 @@ std::optional<std::uint64_t> find_number(const fs::path& path, const std::string
     return std::nullopt;
 }
 
-/// What a group may still take; files that it only caches can be dropped.
+/// What a group may still take; files that it only caches can be dropped. `prefix` of their names in memory.stat.
 std::uint64_t left_of_group(const fs::path& folder, const char* limit_file, const char* usage_file,
-                            const char* cached) {
+                            const char* prefix) {
     const auto limit = read_number(folder / limit_file);
     if (!limit) return kUnlimited;
     const std::uint64_t usage = read_number(folder / usage_file).value_or(0);
-    const std::uint64_t cache = std::min(usage, find_number(folder / "memory.stat", cached).value_or(0));
-    return *limit - std::min(*limit, usage - cache);
+    std::uint64_t cache = 0;
+    for (const char* kind : {"inactive_file", "active_file"})
+        cache += find_number(folder / "memory.stat", std::string(prefix) + kind).value_or(0);
+    return *limit - std::min(*limit, usage - std::min(usage, cache));
 }
 
 /// The least that is left of the group `path` and those above it, below `root`.
 std::uint64_t left_of_groups(const fs::path& root, const fs::path& path, const char* limit_file, const char* usage_file,
-                             const char* cached) {
-    std::uint64_t least = left_of_group(root, limit_file, usage_file, cached);  // a container sees its own as the root
+                             const char* prefix) {
+    std::uint64_t least = left_of_group(root, limit_file, usage_file, prefix);  // a container sees its own as the root
     fs::path folder = root;
     for (const fs::path& part : path.relative_path()) {
         folder /= part;
-        least = std::min(least, left_of_group(folder, limit_file, usage_file, cached));
+        least = std::min(least, left_of_group(folder, limit_file, usage_file, prefix));
     }
     return least;
 }
@@ -72,21 +74,25 @@ std::uint64_t left_of_control_groups() {
         const std::string controllers = line.substr(first + 1, second - first - 1);
         const fs::path path = line.substr(second + 1);
         if (controllers.empty())
-            least = std::min(least, left_of_groups(root, path, "memory.max", "memory.current", "inactive_file"));
+            least = std::min(least, left_of_groups(root, path, "memory.max", "memory.current", ""));
         else if (("," + controllers + ",").find(",memory,") != std::string::npos)
             least = std::min(least, left_of_groups(root / "memory", path, "memory.limit_in_bytes",
-                                                   "memory.usage_in_bytes", "total_inactive_file"));
+                                                   "memory.usage_in_bytes", "total_"));
     }
     return least;
 }
 
 }  // namespace
 
-Host this_host() {
-    Host host;
+std::string host_name() {
     char name[256] = "";
     gethostname(name, sizeof name - 1);
-    host.name = name;
+    return name;
+}
+
+Host this_host() {
+    Host host;
+    host.name = host_name();
     const auto kilobytes = find_number("/proc/meminfo", "MemAvailable:");
     const std::uint64_t available = kilobytes ? *kilobytes * 1024 : kUnlimited;
     const std::uint64_t least = std::min(available, left_of_control_groups());

@@ -5,6 +5,9 @@
 
 namespace treefarm {
 
+/// This machine's name.
+std::string host_name();
+
 /// The machine that a process runs on.
 struct Host {
     std::string name;

@@ -129,11 +129,14 @@ class StudyRun {
         reference.key =
             reference_key(study_, study_.scenes[scene], loaded, reference, reference_request, context_.build);
         std::vector<ReadyCell> ready;
-        for (const StudyCell& cell : cells_)
-            if (cell.scene == scene) {
-                ready.push_back(ready_cell(study_, cell, loaded, reference.key, context_.build));
-                describe(cell, ready.back());
-            }
+        const auto make_ready = [&] {  // packs and hashes the scene for each
+            for (const StudyCell& cell : cells_)
+                if (cell.scene == scene) {
+                    ready.push_back(ready_cell(study_, cell, loaded, reference.key, context_.build));
+                    describe(cell, ready.back());
+                }
+        };
+        run_aside(make_ready, [&] { pulse_.beat(); });
         prepare_reference(scene, reference, reference_request);
         description_["scenes"][scene]["reference"] = reference.about;
         write_json(directory_ / "study.json", description_);

@@ -123,7 +123,7 @@ Outcome run(std::span<const std::uint8_t> input) {
     fuzz::Script script(input);
     ScriptedChannel channel;
     const Log log = std::make_shared<spdlog::logger>("fuzz");
-    Farm farm(channel, fuzz_job(), kScene, kBuild, log, {.gather = 0, .lost = 1e9});
+    Farm farm(channel, fuzz_job(), kScene, kBuild, log, {.gather = 0, .lost = 1e9, .asking = 0});
     for (int peer = 1; peer <= kRogues; ++peer)
         channel.known[peer] = what_a_rogue_knows(peer);
     channel.inbox.push_back({kWorker, encode(Hello{9, kBuild, 2, 0, 0, 0, "here", "0"})});
