@@ -10,7 +10,7 @@
 #include "cli/this_build.h"
 #include "coordinator/study/study_run.h"
 #include "report/price_list.h"
-#include "report/study_page.h"
+#include "report/study_report.h"
 
 namespace treefarm {
 
@@ -60,8 +60,22 @@ int study(const LaunchEnvironment& launch, const StudyOptions& options) {
         return {exit_code_of(outcome.state), outcome.lost_peers};
     };
     const int code = run_on_farm(launch, options.farm, voice, task);
-    if (code == 0 && launch.rank == 0) log->info("report: {}", write_study_report(study.directory).string());
+    if (code == 0 && launch.rank == 0) {
+        const WrittenReport report = write_study_report(study.directory);
+        for (const std::string& answer : report.answers)
+            log->info("{}", answer);
+        if (!report.warning.empty()) log->warn("{}", report.warning);
+        log->info("report: {}", report.page.string());
+    }
     return code;
+}
+
+/// The page's path for scripts, what it says for people.
+void tell(const WrittenReport& report) {
+    for (const std::string& answer : report.answers)
+        std::cerr << answer << "\n";
+    if (!report.warning.empty()) std::cerr << "warning: " << report.warning << "\n";
+    std::cout << report.page.string() << "\n";
 }
 
 }  // namespace
@@ -79,7 +93,7 @@ void add_report_command(CLI::App& app, const LaunchEnvironment& launch) {
     command->callback([folders, benches, prices, launch] {
         if (launch.rank != 0) return;
         for (const std::string& folder : *folders)
-            std::cout << write_study_report(folder).string() << "\n";
+            tell(write_study_report(folder));
         if (!prices->empty())
             write_price_list({folders->begin(), folders->end()}, {benches->begin(), benches->end()}, *prices);
     });
