@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "common/base/hash.h"
+#include "common/base/host.h"
 #include "common/plan/plan_text.h"
 
 namespace treefarm {
@@ -97,12 +98,25 @@ const char* member_state_name(MemberState state) {
     return "";
 }
 
-/// What a reader needs to tell a run that lives from one that was killed.
-void add_writer(Json& status) {
+std::string host_name() {
     char host[256] = "";
     gethostname(host, sizeof host - 1);
+    return host;
+}
+
+/// UTC, to the minute.
+std::string time_text(std::time_t time) {
+    std::tm parts{};
+    gmtime_r(&time, &parts);
+    char text[32] = "";
+    std::strftime(text, sizeof text, "%Y-%m-%d %H:%M", &parts);
+    return text;
+}
+
+/// What a reader needs to tell a run that lives from one that was killed.
+void add_writer(Json& status) {
     status["pid"] = getpid();
-    status["host"] = host;
+    status["host"] = host_name();
     status["time"] = std::time(nullptr);
 }
 
@@ -172,6 +186,9 @@ std::string summary_json(const Job& job, const RunFacts& facts, const RenderResu
                     {"scene_hash", hash_text(facts.scene_hash)},
                     {"fingerprint", hash_text(facts.fingerprint.hash())},
                     {"build", build_json(facts.fingerprint)},
+                    {"host", host_name()},
+                    {"processor", processor_name()},
+                    {"started", time_text(std::time(nullptr) - static_cast<std::time_t>(end.elapsed_seconds))},
                     {"width", result.width},
                     {"height", result.height},
                     {"spp", result.spp},

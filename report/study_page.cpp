@@ -219,9 +219,11 @@ std::string study_page(const StudyResults& results) {
     if (const std::string warning = busy_warning(results); !warning.empty())
         html += "<p class=\"warning\">" + html_text(warning) + "</p>\n";
     html += thread_warning(results);
-    html += fmt::format("<p class=\"note\">{} {}: {} of {} cells, {} each. {}</p>\n",
-                        results.has_references ? "Study" : "Renders", html_text(results.study), results.cells.size(),
-                        results.planned, html_text(budget_list(results)), html_text(provenance_text(results.cells)));
+    const std::string what = results.has_references
+                                 ? fmt::format("Study {}: {} of {} cells, {} each. ", results.study,
+                                               results.cells.size(), results.planned, budget_list(results))
+                                 : "Renders " + results.study + ". ";
+    html += "<p class=\"note\">" + html_text(what + provenance_text(results.cells)) + "</p>\n";
     html += method_table(results);
     for (const SceneResult& scene : results.scenes)
         html += scene_parts(results, scene);

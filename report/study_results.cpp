@@ -150,8 +150,9 @@ StudyResults StudyResults::of_budget(const std::string& budget) const {
 
 StudyResults read_study_results(const std::filesystem::path& folder) {
     if (!std::filesystem::exists(folder / "study.json"))
-        throw InputError(Location{folder.string()}, "is no folder of a study: it holds no study.json",
-                         "give the folder that treefarm study wrote");
+        throw InputError(Location{folder.string()},
+                         "holds neither a study (study.json) nor a render that ended (summary.json)",
+                         "give a folder that treefarm study or treefarm render wrote");
     StudyResults results;
     results.folder = folder;
     try {

@@ -1,12 +1,16 @@
 // What a report answers: who won, whether chance can have made it, what 5 % costs; from results made up here.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <fstream>
 
+#include "common/base/error.h"
+#include "report/figure_export.h"
 #include "report/figure_text.h"
 #include "report/gain.h"
 #include "report/processor_share.h"
+#include "report/run_results.h"
 #include "report/study_charts.h"
 #include "report/study_page.h"
 #include "report/study_tables.h"
@@ -175,6 +179,61 @@ TEST(Charts, ShowWhatWasMeasuredNotTheirIntervals) {
     expect_part(svg, "guided ends at 3.96 %");
     expect_no_part(svg, "GNUPLOT");
     expect_no_part(svg, "<title>");
+}
+
+/// A run directory with what a report reads of it.
+std::filesystem::path run_folder(const std::string& name, const std::string& type, int seed, double error) {
+    const auto folder = std::filesystem::path(testing::TempDir()) / ("report_run_" + std::to_string(getpid())) / name;
+    std::filesystem::create_directories(folder);
+    std::ofstream(folder / "job.toml") << "[guiding]\ntype = '" << type << "'\n\n[sampler]\nseed = " << seed << "\n";
+    std::ofstream(folder / "summary.json")
+        << R"({"scene": "/a/room.xml", "width": 8, "height": 6, "build": {"source": "abc"}, "host": "node7",
+               "farm": {"workers": [{"threads": 2}, {"threads": 2}]}, "passes": [)"
+        << R"({"pass": 0, "spp": 1, "spp_done": 1, "run_seconds": 1, "core_seconds": 3, "image_error": null,
+               "nonzero_share": 1, "tree_nodes": 1, "tree_memory": 1, "phase_seconds": {"collect": 1}},)"
+        << R"({"pass": 1, "spp": 3, "spp_done": 4, "run_seconds": 4, "core_seconds": 9, "image_error": {"relative": )"
+        << error << R"(, "low": null, "high": null}, "nonzero_share": 1, "tree_nodes": 1, "tree_memory": 1,
+               "phase_seconds": {"collect": 3}}]})";
+    return folder;
+}
+
+TEST(Runs, MakeAStudyWithoutReferences) {
+    const std::vector<std::filesystem::path> folders = {
+        run_folder("a", "none", 1, 0.08), run_folder("b", "ppg", 1, 0.04),   run_folder("c", "none", 2, 0.081),
+        run_folder("d", "ppg", 2, 0.041), run_folder("e", "none", 3, 0.082), run_folder("f", "ppg", 3, 0.041)};
+    const StudyResults results = read_run_results(folders);
+    ASSERT_EQ(results.methods.size(), 2u);
+    EXPECT_EQ(results.baseline, "type = none");
+    EXPECT_EQ(results.of("room 8 x 6", "type = ppg").size(), 3u) << "seeds are repetitions";
+    EXPECT_EQ(results.cells[0].passes.back().core_seconds, 12) << "since the render began";
+    EXPECT_EQ(results.cells[0].made.threads, 4);
+    expect_part(answers(results, clocks()[0])[0],
+                "room 8 x 6: type = ppg won: 3.95 [3.81, 4.1] times as fast as type = none (to equal estimated RMSE");
+    expect_part(study_page(results), "No reference: errors are those that the renders estimated");
+    const std::vector<std::filesystem::path> twice = {folders[0], run_folder("again", "none", 1, 0.08)};
+    EXPECT_EQ(read_run_results(twice).methods.size(), 2u) << "the same render twice is no second seed";
+    std::filesystem::remove(folders[0] / "summary.json");
+    EXPECT_THROW(read_run_results(folders), InputError);
+}
+
+TEST(Export, WritesFiguresForAPaper) {
+    const auto folder = std::filesystem::path(testing::TempDir()) / ("report_figures_" + std::to_string(getpid()));
+    const ExportedFigures exported =
+        export_figures(study(seeds("room", 3, 0.08, 0.04)), {figure_width("84mm"), "Times", 8}, folder);
+    EXPECT_EQ(exported.figures, 7) << "three measures by two clocks, and the estimates";
+    const auto text = [&](const std::string& name) {
+        std::ifstream file(folder / name, std::ios::binary);
+        return std::string(std::istreambuf_iterator<char>(file), {});
+    };
+    const std::string name = "room_rmse_over_mean_over_seconds_seconds___4";
+    expect_part(text(name + ".svg"), "width=\"317\"");  // 84 mm at 96 dots per inch
+    expect_part(text(name + ".svg"), "Times");
+    expect_part(text(name + ".csv"), "pass,plain,1,1,0.16,,\n");
+    if (exported.with_pdf) EXPECT_TRUE(text(name + ".pdf").starts_with("%PDF"));
+    EXPECT_THROW(figure_width("wide"), InputError);
+    EXPECT_THROW(figure_width("3.3 feet"), InputError);
+    EXPECT_THROW(figure_width("0in"), InputError);
+    std::filesystem::remove_all(folder);
 }
 
 TEST(Page, BeginsWithItsAnswer) {
