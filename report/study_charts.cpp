@@ -188,7 +188,7 @@ Picture convergence_chart(const StudyResults& results, const SceneResult& scene,
         fmt::format("set xlabel '{} of rendering'\nset ylabel {}\n", clock.name, gnuplot_quoted(measure.name));
     add_legend(picture, results, 1);
     picture.script += fmt::format("plot {}[{}:{}] {}*x**-0.5 with lines dt 2 lc rgb '#888888' title 'slope -1/2'{}",
-                                  bands, times.low, times.high, errors.high * std::sqrt(times.low), lines);
+                                  bands, times.low / 1.1, times.high * 1.1, errors.high * std::sqrt(times.low), lines);
     return picture;
 }
 

@@ -87,7 +87,7 @@ std::string price(const StudyResults& results, const SceneResult& scene, const s
 std::string verdict(const StudyResults& results, std::span<const SceneResult> scenes, const Clock& clock) {
     const Measure& measure = results.measured_by.front();
     const std::vector<Rival> rivals = ranking(results, scenes, measure, clock);
-    if (rivals.size() < 2) return "There are no two methods to compare.";
+    if (rivals.size() < 2) return "There is one method only, and nothing to compare it with.";
     const std::string& best = rivals.front().name;
     const auto lead = [&](const std::string& over) { return gain(results, scenes, best, over, measure, clock); };
     const Interval next = lead(rivals[1].name);
