@@ -51,6 +51,19 @@ bool contradict(const Interval& a, const Interval& b) {
     return differs_from_one(a) && differs_from_one(b) && (a.mean > 1) != (b.mean > 1);
 }
 
+/// The accuracies that some method reached, and the next: beyond that all would be extrapolated.
+std::vector<double> targets_of(const StudyResults& results, const SceneResult& scene, const Measure& measure) {
+    std::vector<double> targets;
+    for (const double target : kTargets) {
+        targets.push_back(target);
+        const bool reached = std::any_of(results.cells.begin(), results.cells.end(), [&](const CellResult& cell) {
+            return cell.scene == scene.name && !time_to(curve_of(cell, measure), target).extrapolated;
+        });
+        if (!reached) break;
+    }
+    return targets;
+}
+
 }  // namespace
 
 std::string final_table(const StudyResults& results, const SceneResult& scene, const Clock& clock) {
@@ -108,14 +121,15 @@ std::string figures_table(const StudyResults& results, const SceneResult& scene)
 std::string time_table(const StudyResults& results, const SceneResult& scene, const Measure& measure,
                        const Clock& clock) {
     const bool of_cores = &clock != &clocks().front();
+    const std::vector<double> targets = targets_of(results, scene, measure);
     std::vector<std::vector<std::string>> rows = {{"method"}};
-    for (const double target : kTargets)
+    for (const double target : targets)
         rows[0].push_back("to " + percent_text(target));
     for (const MethodResult& method : results.methods) {
         const auto [base, own] = paired(results.of(scene.name, results.baseline), results.of(scene.name, method.name));
         if (own.empty()) continue;
         std::vector<std::string> row = {html_text(method.name)};
-        for (const double target : kTargets) {
+        for (const double target : targets) {
             bool beyond = false;
             const auto time = [&](const CellResult& cell) {
                 const Crossing at = time_to(curve_of(cell, measure, clock), target);

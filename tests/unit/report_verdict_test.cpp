@@ -211,6 +211,11 @@ TEST(Verdict, EachBudgetHasItsOwn) {
     expect_part(budget_table(results, kRoom, clocks()[0]), "<th>seconds = 4</th><th>seconds = 16</th>");
 }
 
+TEST(Tables, EndWithTheFirstAccuracyThatNobodyReached) {
+    const std::string html = time_table(study(seeds("room", 3, 0.08, 0.04)), kRoom, measures()[0], clocks()[0]);
+    expect_part(html, "<th>to 5 %</th><th>to 2 %</th></tr>");
+}
+
 TEST(Runs, MakeAStudyWithoutReferences) {
     const std::vector<std::filesystem::path> folders = {
         run_folder("a", "none", 1, 0.08), run_folder("b", "ppg", 1, 0.04),   run_folder("c", "none", 2, 0.081),
