@@ -78,8 +78,9 @@ std::string price(const StudyResults& results, const SceneResult& scene, const s
     }
     if (times.empty()) return "";
     if (reached) return fmt::format("5 % error took {} {}", method, time_text(geometric_mean(times), of_cores));
-    return fmt::format("{} came down to {} error in {}, not to 5 %", method, percent_text(geometric_mean(errors).mean),
-                       time_text(geometric_mean(ends).mean, of_cores));
+    return fmt::format("{} came down to {} error in {}, not {}to 5 %", method,
+                       percent_text(geometric_mean(errors).mean), time_text(geometric_mean(ends).mean, of_cores),
+                       geometric_mean(errors).mean <= kTarget ? "with every seed " : "");
 }
 
 }  // namespace
