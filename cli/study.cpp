@@ -9,8 +9,10 @@
 #include "cli/option_values.h"
 #include "cli/this_build.h"
 #include "coordinator/study/study_run.h"
+#include "report/figure_export.h"
 #include "report/price_list.h"
-#include "report/study_page.h"
+#include "report/run_results.h"
+#include "report/study_report.h"
 
 namespace treefarm {
 
@@ -23,6 +25,13 @@ struct StudyOptions {
     bool dry_run = false;
     bool overwrite = false;
     std::string command;
+};
+
+struct ReportOptions {
+    std::vector<std::string> folders;
+    std::string output, figures, width, prices;
+    std::vector<std::string> benches;
+    FigureStyle style;
 };
 
 Study read_study_for(const StudyOptions& options) {
@@ -60,28 +69,77 @@ int study(const LaunchEnvironment& launch, const StudyOptions& options) {
         return {exit_code_of(outcome.state), outcome.lost_peers};
     };
     const int code = run_on_farm(launch, options.farm, voice, task);
-    if (code == 0 && launch.rank == 0) log->info("report: {}", write_study_report(study.directory).string());
+    if (code == 0 && launch.rank == 0) {
+        const WrittenReport report = write_study_report(study.directory);
+        for (const std::string& answer : report.answers)
+            log->info("{}", answer);
+        if (!report.warning.empty()) log->warn("{}", report.warning);
+        log->info("report: {}", report.page.string());
+    }
     return code;
+}
+
+/// The page's path for scripts, what it says for people.
+void tell(const WrittenReport& report) {
+    for (const std::string& answer : report.answers)
+        std::cerr << answer << "\n";
+    if (!report.warning.empty()) std::cerr << "warning: " << report.warning << "\n";
+    std::cout << report.page.string() << "\n";
+}
+
+/// Into a folder of their own where there are several results.
+void export_figures_of(const StudyResults& results, const ReportOptions& options, bool several) {
+    if (options.figures.empty()) return;
+    std::filesystem::path folder = options.figures;
+    if (several) folder /= results.folder.filename();
+    const ExportedFigures exported = export_figures(results, options.style, folder);
+    std::cerr << exported.figures << " figures in " << folder.string()
+              << (exported.with_pdf ? "" : "; no PDF: this gnuplot has no pdfcairo (install gnuplot-nox)") << "\n";
+}
+
+void report(ReportOptions& options) {
+    if (!options.width.empty()) options.style.width_inches = figure_width(options.width);
+    std::vector<std::filesystem::path> runs, studies;
+    for (const std::string& folder : options.folders) {
+        const bool is_run =
+            !std::filesystem::exists(std::filesystem::path(folder) / "study.json") && is_run_folder(folder);
+        (is_run ? runs : studies).push_back(folder);
+    }
+    const bool several = studies.size() + !runs.empty() > 1;
+    for (const std::filesystem::path& folder : studies) {
+        tell(write_study_report(folder));
+        export_figures_of(read_study_results(folder), options, several);
+    }
+    if (!runs.empty()) {
+        const StudyResults results = read_run_results(runs);
+        tell(write_page(results,
+                        options.output.empty() ? runs.front() / "report.html" : std::filesystem::path(options.output)));
+        export_figures_of(results, options, several);
+    }
+    if (!options.prices.empty())
+        write_price_list(studies, {options.benches.begin(), options.benches.end()}, options.prices);
 }
 
 }  // namespace
 
 void add_report_command(CLI::App& app, const LaunchEnvironment& launch) {
-    const auto folders = std::make_shared<std::vector<std::string>>();
-    const auto prices = std::make_shared<std::string>();
-    const auto benches = std::make_shared<std::vector<std::string>>();
-    CLI::App* command = app.add_subcommand("report", "Writes the reports of studies, or of what is done of them");
-    command->add_option("folder", *folders, "folders that treefarm study wrote")->required();
-    add_text_option(*command, "--price-list", *prices,
-                    "also write what each method costs and buys, as Markdown, to this file");
-    add_texts_option(*command, "--bench", *benches, "in that file, also what this JSON file of a benchmark says")
-        ->needs("--price-list");
-    command->callback([folders, benches, prices, launch] {
-        if (launch.rank != 0) return;
-        for (const std::string& folder : *folders)
-            std::cout << write_study_report(folder).string() << "\n";
-        if (!prices->empty())
-            write_price_list({folders->begin(), folders->end()}, {benches->begin(), benches->end()}, *prices);
+    const auto options = std::make_shared<ReportOptions>();
+    CLI::App* command = app.add_subcommand("report", "Writes the reports of studies, or one of single renders");
+    command->add_option("folder", options->folders, "folders that treefarm study or treefarm render wrote")->required();
+    add_text_option(*command, "-o,--output", options->output,
+                    "the page of single renders (default: report.html in the folder of the first)");
+    CLI::Option* exported = add_text_option(*command, "--export", options->figures,
+                                            "also write the charts as SVG, PDF and CSV files into this folder");
+    add_text_option(*command, "--width", options->width, "of exported charts: 3.3in (default), 84mm")->needs(exported);
+    add_text_option(*command, "--font", options->style.font, "of exported charts (default: Helvetica)")
+        ->needs(exported);
+    CLI::Option* prices = add_text_option(*command, "--price-list", options->prices,
+                                          "also write what each method costs and buys, as Markdown, to this file");
+    add_texts_option(*command, "--bench", options->benches,
+                     "in that file, also what this JSON file of a benchmark says")
+        ->needs(prices);
+    command->callback([options, launch] {
+        if (launch.rank == 0) report(*options);
     });
 }
 

@@ -98,6 +98,15 @@ const char* member_state_name(MemberState state) {
     return "";
 }
 
+/// UTC, to the minute.
+std::string time_text(std::time_t time) {
+    std::tm parts{};
+    gmtime_r(&time, &parts);
+    char text[32] = "";
+    std::strftime(text, sizeof text, "%Y-%m-%d %H:%M", &parts);
+    return text;
+}
+
 /// What a reader needs to tell a run that lives from one that was killed.
 void add_writer(Json& status) {
     status["pid"] = getpid();
@@ -171,6 +180,9 @@ std::string summary_json(const Job& job, const RunFacts& facts, const RenderResu
                     {"scene_hash", hash_text(facts.scene_hash)},
                     {"fingerprint", hash_text(facts.fingerprint.hash())},
                     {"build", build_json(facts.fingerprint)},
+                    {"host", host_name()},
+                    {"processor", processor_name()},
+                    {"started", time_text(std::time(nullptr) - static_cast<std::time_t>(end.elapsed_seconds))},
                     {"width", result.width},
                     {"height", result.height},
                     {"spp", result.spp},

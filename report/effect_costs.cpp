@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 
 #include "common/base/error.h"
+#include "report/figure_text.h"
 #include "report/html.h"
-#include "report/study_tables.h"
 
 namespace treefarm {
 

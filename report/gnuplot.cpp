@@ -6,12 +6,16 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <sstream>
 
 #include "common/base/error.h"
+#include "common/image/atomic_file.h"
+#include "report/html.h"
 
 namespace treefarm {
 
@@ -61,22 +65,83 @@ int run_gnuplot(const std::filesystem::path& script, const std::filesystem::path
     return WIFEXITED(status) ? WEXITSTATUS(status) : 128;
 }
 
-}  // namespace
+/// Without `<title>` elements: gnuplot's are names of plots, and a browser shows them as tooltips.
+std::string without_titles(std::string svg) {
+    constexpr std::string_view begin = "<title>", end = "</title>";
+    for (std::size_t at = 0; (at = svg.find(begin, at)) != std::string::npos;) {
+        const std::size_t to = svg.find(end, at);
+        if (to == std::string::npos) break;
+        svg.erase(at, to + end.size() - at);
+    }
+    return svg;
+}
 
-std::string draw_svg(const std::string& script, const std::string& name, int width, int height) {
+/// What the picture shows, for readers that cannot see it, instead of gnuplot's own words.
+std::string described(const std::string& drawn, const Picture& picture) {
+    std::string svg = without_titles(drawn);
+    const std::size_t from = svg.find("<desc>"), to = svg.find("</desc>");
+    if (from != std::string::npos && to != std::string::npos) svg.erase(from, to + 7 - from);
+    const std::string id = html_text(picture.name);
+    const std::size_t tag_end = svg.find('>');
+    if (tag_end == std::string::npos) return svg;
+    svg.insert(tag_end + 1, fmt::format("\n<title id=\"{0}-title\">{1}</title>\n<desc id=\"{0}-desc\">{2}</desc>\n", id,
+                                        html_text(picture.title), html_text(picture.description)));
+    svg.insert(tag_end, fmt::format(" role=\"img\" aria-labelledby=\"{0}-title\" aria-describedby=\"{0}-desc\"", id));
+    return svg;
+}
+
+/// What gnuplot draws on a terminal; nothing where it fails, with its words in `messages`.
+std::optional<std::string> drawn(const Picture& picture, const std::string& terminal, std::string& messages) {
     const TemporaryFolder folder;
-    const std::filesystem::path file = folder / "plot.gp", picture = folder / "plot.svg", log = folder / "log.txt";
-    std::ofstream(file) << fmt::format(
-        "set encoding utf8\nset terminal svg size {},{} dynamic background 'white' name '{}' font 'sans-serif,13'\n"
-        "set output '{}'\n{}\nunset output\n",
-        width, height, name, picture.string(), script);
+    const std::filesystem::path file = folder / "plot.gp", out = folder / "plot", log = folder / "log.txt";
+    std::ofstream(file) << fmt::format("set encoding utf8\nset terminal {}\nset output '{}'\n{}\nunset output\n",
+                                       terminal, out.string(), picture.script);
     const int code = run_gnuplot(file, log);
     if (code == 127) throw RunError("plots need gnuplot, which is not there: install gnuplot-nox");
-    if (code != 0) throw RunError("gnuplot failed: " + read_text(log));
-    const std::string svg = read_text(picture);
-    const std::size_t begin = svg.find("<svg");
-    if (begin == std::string::npos) throw RunError("gnuplot drew nothing: " + read_text(log));
-    return svg.substr(begin);
+    messages = read_text(log);
+    if (code != 0) return std::nullopt;
+    return read_text(out);
+}
+
+std::string drawn_svg(const Picture& picture, int width, int height, const std::string& font, double font_size) {
+    std::string messages;
+    const auto svg = drawn(picture,
+                           fmt::format("svg size {},{} dynamic background 'white' name '{}' font {} fontscale 1", width,
+                                       height, picture.name, gnuplot_quoted(fmt::format("{},{:g}", font, font_size))),
+                           messages);
+    const std::size_t begin = svg ? svg->find("<svg") : std::string::npos;
+    if (begin == std::string::npos) throw RunError("gnuplot failed: " + messages);
+    return described(svg->substr(begin), picture);
+}
+
+void write_file(const std::filesystem::path& path, const std::string& bytes) {
+    write_file_atomically(path, {reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
+}
+
+}  // namespace
+
+std::string draw_svg(const Picture& picture) {
+    return picture.script.empty() ? "" : drawn_svg(picture, picture.width, picture.height, "sans-serif", 13);
+}
+
+bool write_figure(const Picture& picture, const FigureStyle& style, const std::filesystem::path& folder) {
+    constexpr double kPixelsPerInch = 96, kPointsPerInch = 72;
+    const double height = style.width_inches * picture.height / picture.width;
+    const auto pixels = [&](double inches) { return static_cast<int>(std::lround(inches * kPixelsPerInch)); };
+    write_file(folder / (picture.name + ".svg"),
+               "<?xml version=\"1.0\" encoding=\"utf-8\"?>\n" +
+                   drawn_svg(picture, pixels(style.width_inches), pixels(height), style.font,
+                             style.font_points * kPixelsPerInch / kPointsPerInch));
+    write_file(folder / (picture.name + ".csv"), picture.data);
+    std::string messages;
+    const auto pdf = drawn(picture,
+                           fmt::format("pdfcairo size {:.3f}in,{:.3f}in font {}", style.width_inches, height,
+                                       gnuplot_quoted(fmt::format("{},{:g}", style.font, style.font_points))),
+                           messages);
+    if (!pdf && messages.find("unknown or ambiguous terminal") != std::string::npos) return false;
+    if (!pdf) throw RunError("gnuplot failed: " + messages);
+    write_file(folder / (picture.name + ".pdf"), *pdf);
+    return true;
 }
 
 std::string gnuplot_quoted(const std::string& text) {

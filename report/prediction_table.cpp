@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "report/figure_text.h"
 #include "report/html.h"
-#include "report/study_tables.h"
 
 namespace treefarm {
 

@@ -27,16 +27,16 @@ double log_interpolate(const CurvePoint& a, const CurvePoint& b, double share) {
 
 Interval geometric_mean(std::span<const double> values) {
     const auto n = static_cast<double>(values.size());
-    if (values.empty()) return {kNan, kNan, kNan};
+    if (values.empty()) return {kNan, kNan, kNan, 0};
     double sum = 0, squares = 0;
     for (const double value : values)
         sum += std::log(value);
     const double mean = sum / n;
     for (const double value : values)
         squares += (std::log(value) - mean) * (std::log(value) - mean);
-    if (values.size() < 2) return {std::exp(mean), kNan, kNan};
+    if (values.size() < 2) return {std::exp(mean), kNan, kNan, 1};
     const double half = t_quantile(values.size() - 1) * std::sqrt(squares / (n - 1) / n);
-    return {std::exp(mean), std::exp(mean - half), std::exp(mean + half)};
+    return {std::exp(mean), std::exp(mean - half), std::exp(mean + half), values.size()};
 }
 
 Interval geometric_ratio(std::span<const double> a, std::span<const double> b) {

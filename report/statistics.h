@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -8,6 +9,7 @@ namespace treefarm {
 /// A mean with its 95 % interval; low and high are NaN where one value says nothing of its spread.
 struct Interval {
     double mean = 0, low = 0, high = 0;
+    std::size_t values = 0;  ///< that it is made of
 };
 
 /// Geometric mean of positive values, with the interval of Student's t on their logarithms. NaN for no values.

@@ -5,7 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "report/gnuplot.h"
+#include "report/figure_text.h"
+#include "report/gain.h"
 
 namespace treefarm {
 
@@ -14,6 +15,7 @@ namespace {
 /// Okabe and Ito's colours (2008), which the colour-blind tell apart.
 constexpr const char* kColours[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000"};
 constexpr int kGridPoints = 25;
+constexpr int kPlotHeight = 340, kLegendLine = 18, kLetterWidth = 8, kKeyWidth = 60;
 
 const char* colour(std::size_t k) {
     return kColours[k % std::size(kColours)];
@@ -24,116 +26,191 @@ std::string block(const std::string& name, const std::string& lines) {
     return "$" + name + " << EOD\n" + lines + "EOD\n";
 }
 
-/// Mean and interval over the seeds, at times that all of them cover.
-std::string band(const std::vector<std::vector<CurvePoint>>& curves) {
+std::string csv_quoted(const std::string& text) {
+    return text.find_first_of(",\"") == std::string::npos ? text : '"' + text + '"';
+}
+
+/// What an axis must show.
+struct Range {
+    double low = INFINITY, high = 0;
+    void include(double value) {
+        low = std::min(low, value);
+        high = std::max(high, value);
+    }
+};
+
+/// A logarithmic axis a little longer than its range, with enough marks on it: 1, 2, 5 where it spans few decades.
+/// `unit` is a format: %% for a percent sign.
+std::string log_axis(const char* axis, const Range& range, const char* unit) {
+    const double low = range.low / 1.25, high = range.high * 1.25;
+    const bool is_long = high / low > 1000;
+    std::string marks;
+    for (int decade = static_cast<int>(std::floor(std::log10(low))); std::pow(10, decade) <= high; ++decade)
+        for (const int digit : {1, 2, 5}) {
+            const double at = digit * std::pow(10, decade);
+            if (at < low || at > high || (is_long && digit > 1)) continue;
+            marks += fmt::format("{}'{:g}{}' {:g}", marks.empty() ? "" : ", ", at, unit, at);
+        }
+    return fmt::format("set {0}range [{1:g}:{2:g}]\nset {0}tics ({3})\n", axis, low, high, marks);
+}
+
+/// Mean and interval over the seeds, at times that all of them cover; without an interval where seeds are too few.
+std::vector<std::pair<double, Interval>> band(const std::vector<std::vector<CurvePoint>>& curves) {
     double first = 0, last = INFINITY;
     for (const auto& curve : curves) {
-        if (curve.empty()) return "";
+        if (curve.empty()) return {};
         first = std::max(first, curve.front().seconds);
         last = std::min(last, curve.back().seconds);
     }
-    if (!(last > first)) return "";
-    std::string lines;
+    if (!(last > first)) return {};
+    std::vector<std::pair<double, Interval>> points;
     for (int k = 0; k < kGridPoints; ++k) {
         const double seconds = first * std::pow(last / first, k / (kGridPoints - 1.0));
         std::vector<double> errors;
         for (const auto& curve : curves)
             errors.push_back(error_at(curve, seconds));
-        const Interval at = geometric_mean(errors);
-        const bool spread = std::isfinite(at.low);
-        lines += fmt::format("{} {} {} {}\n", seconds, at.mean, spread ? at.low : at.mean, spread ? at.high : at.mean);
+        Interval at = geometric_mean(errors);
+        if (at.values < kLeastSeeds) at.low = at.high = at.mean;
+        points.emplace_back(seconds, at);
     }
-    return lines;
+    return points;
 }
 
-std::string file_name(const std::string& kind, const SceneResult& scene) {
-    std::string name = kind;
-    for (const char c : scene.name)
-        name += std::isalnum(static_cast<unsigned char>(c)) ? c : '_';
+std::string file_name(const std::string& kind, const StudyResults& results, const SceneResult& scene) {
+    std::string name = scene.name + "_" + kind;
+    if (results.budgets.size() == 1 && !results.cells.empty()) name += "_" + results.budgets.front();
+    for (char& c : name)
+        if (!std::isalnum(static_cast<unsigned char>(c))) c = '_';
     return name;
 }
 
-const std::string kLogAxes =
-    "set logscale xy\nset format x '%g'\nset format y '%g %%'\nset grid xtics ytics lc rgb '#dddddd'\nset key "
-    "noenhanced\n";
+/// A legend below, and the height that it takes.
+void add_legend(Picture& picture, const StudyResults& results, std::size_t more) {
+    std::size_t longest = 10;
+    for (const MethodResult& method : results.methods)
+        longest = std::max(longest, method.name.size());
+    const int columns = std::max(1, picture.width / (kLetterWidth * static_cast<int>(longest) + kKeyWidth));
+    const int lines = (static_cast<int>(results.methods.size() + more) + columns - 1) / columns;
+    picture.height = kPlotHeight + kLegendLine * lines;
+    picture.script += "set key below center horizontal noenhanced\n";
+}
+
+const std::string kLogAxes = "set logscale xy\nset grid xtics ytics lc rgb '#dddddd'\n";
+
+/// What one method contributes to a picture of errors over time.
+struct MethodCurves {
+    std::string points, band, csv;
+};
+
+MethodCurves method_curves(const Cells& cells, const std::string& method, const Measure& measure, const Clock& clock,
+                           Range& times, Range& errors) {
+    MethodCurves of;
+    std::vector<std::vector<CurvePoint>> curves;
+    for (const CellResult* cell : cells) {
+        curves.push_back(curve_of(*cell, measure, clock));
+        for (const CurvePoint& point : curves.back()) {
+            of.points += fmt::format("{} {}\n", point.seconds, 100 * point.error);
+            of.csv += fmt::format("pass,{},{},{},{},,\n", csv_quoted(method), cell->seed, point.seconds, point.error);
+            times.include(point.seconds);
+            errors.include(100 * point.error);
+        }
+    }
+    for (const auto& [seconds, at] : band(curves)) {
+        of.band += fmt::format("{} {} {} {}\n", seconds, 100 * at.mean, 100 * at.low, 100 * at.high);
+        of.csv += fmt::format("mean,{},,{},{},{},{}\n", csv_quoted(method), seconds, at.mean, at.low, at.high);
+    }
+    return of;
+}
 
 /// Points of all methods under logarithmic axes with the diagonal on which both would agree.
-std::string agreement_chart(const StudyResults& results, const std::vector<std::string>& lines, const std::string& axes,
-                            const std::string& name) {
+Picture agreement_chart(Picture picture, const StudyResults& results,
+                        const std::vector<std::vector<std::pair<double, double>>>& points, const std::string& labels,
+                        const char* unit) {
     std::string data, plots;
-    for (std::size_t m = 0; m < lines.size(); ++m) {
-        if (lines[m].empty()) continue;
-        data += block("m" + std::to_string(m), lines[m]);
+    Range range;
+    for (std::size_t m = 0; m < points.size(); ++m) {
+        std::string lines;
+        for (const auto& [x, y] : points[m]) {
+            lines += fmt::format("{} {}\n", x, y);
+            picture.data += fmt::format("{},{},{}\n", csv_quoted(results.methods[m].name), x, y);
+            range.include(x);
+            range.include(y);
+        }
+        if (lines.empty()) continue;
+        data += block("m" + std::to_string(m), lines);
         plots += fmt::format(", $m{} using 1:2 with points pt 7 ps 0.5 lc rgb '{}' title {}", m, colour(m),
                              gnuplot_quoted(results.methods[m].name));
     }
-    if (data.empty()) return "";
-    return draw_svg(kLogAxes + data + axes +
-                        "set key top left\nset size square\nplot x with lines lc rgb '#999999' dt 2 title 'agreement'" +
-                        plots,
-                    name, 460, 420);
+    if (data.empty()) return picture;
+    picture.script = kLogAxes + data + log_axis("x", range, unit) + log_axis("y", range, unit) + labels;
+    add_legend(picture, results, 1);
+    picture.script += "plot x with lines lc rgb '#999999' dt 2 title 'agreement'" + plots;
+    return picture;
 }
 
 }  // namespace
 
-std::string convergence_chart(const StudyResults& results, const SceneResult& scene, const Measure& measure) {
-    std::string data, bands, lines;
-    double first = INFINITY, last = 0, top = 0;
+Picture convergence_chart(const StudyResults& results, const SceneResult& scene, const Measure& measure,
+                          const Clock& clock) {
+    Picture picture;
+    picture.name = file_name(std::string(measure.key) + "_over_" + clock.key, results, scene);
+    picture.title = fmt::format("{}: {} over {}", scene.name, measure.name, clock.name);
+    picture.data = "kind,method,seed," + std::string(clock.key) + ",error,low,high\n";
+    std::string data, bands, lines, ends;
+    Range times, errors;
     for (std::size_t m = 0; m < results.methods.size(); ++m) {
-        std::vector<std::vector<CurvePoint>> curves;
-        std::string points;
-        for (const CellResult* cell : results.of(scene.name, results.methods[m].name)) {
-            curves.push_back(curve_of(*cell, measure));
-            for (const CurvePoint& point : curves.back()) {
-                points += fmt::format("{} {}\n", point.seconds, point.error);
-                first = std::min(first, point.seconds);
-                last = std::max(last, point.seconds);
-                top = std::max(top, point.error);
-            }
-        }
-        if (points.empty()) continue;
-        data += block(fmt::format("points{}", m), points);
-        lines += fmt::format(", $points{} using 1:(100*$2) with points pt 7 ps 0.35 lc rgb '{}' {}", m, colour(m),
-                             "notitle");
-        const std::string mean = band(curves);
-        if (mean.empty()) {
-            lines += fmt::format(", NaN with lines lc rgb '{}' title {}", colour(m),
-                                 gnuplot_quoted(results.methods[m].name));
+        const std::string& method = results.methods[m].name;
+        const Cells cells = results.of(scene.name, method);
+        const MethodCurves of = method_curves(cells, method, measure, clock, times, errors);
+        if (of.points.empty()) continue;
+        std::vector<double> last;
+        for (const CellResult* cell : cells)
+            last.push_back(measure.value(cell->passes.back()));
+        ends += fmt::format("; {} ends at {}", method, percent_text(geometric_mean(last).mean));
+        picture.data += of.csv;
+        data += block(fmt::format("points{}", m), of.points);
+        lines += fmt::format(", $points{} using 1:2 with points pt 7 ps 0.35 lc rgb '{}' notitle", m, colour(m));
+        const std::string title = gnuplot_quoted(method);
+        if (of.band.empty()) {
+            lines += fmt::format(", NaN with lines lc rgb '{}' title {}", colour(m), title);
             continue;
         }
-        data += block(fmt::format("band{}", m), mean);
+        data += block(fmt::format("band{}", m), of.band);
         bands += fmt::format(
-            "$band{0} using 1:(100*$3):(100*$4) with filledcurves fc rgb '{1}' fs transparent solid 0.15 noborder "
-            "notitle, ",
-            m, colour(m));
-        lines += fmt::format(", $band{} using 1:(100*$2) with lines lw 2 lc rgb '{}' title {}", m, colour(m),
-                             gnuplot_quoted(results.methods[m].name));
+            "$band{} using 1:3:4 with filledcurves fc rgb '{}' fs transparent solid 0.12 noborder notitle, ", m,
+            colour(m));
+        lines += fmt::format(", $band{} using 1:2 with lines lw 2 lc rgb '{}' title {}", m, colour(m), title);
     }
-    if (data.empty()) return "";
-    const std::string guide = fmt::format("[{}:{}] {}*x**-0.5 with lines dt 2 lc rgb '#888888' title 'slope -1/2'",
-                                          first, last, 100 * top * std::sqrt(first));
-    return draw_svg(
-        kLogAxes + data +
-            fmt::format("set xlabel 'seconds of rendering'\nset ylabel {}\nset key outside right\nplot {}{}{}",
-                        gnuplot_quoted(measure.name), bands, guide, lines),
-        file_name(measure.key, scene), 860, 420);
+    if (data.empty()) return picture;
+    picture.description = "A line per method on logarithmic axes" + ends + ".";
+    picture.script =
+        kLogAxes + data + log_axis("x", times, "") + log_axis("y", errors, " %%") +
+        fmt::format("set xlabel '{} of rendering'\nset ylabel {}\n", clock.name, gnuplot_quoted(measure.name));
+    add_legend(picture, results, 1);
+    picture.script += fmt::format("plot {}[{}:{}] {}*x**-0.5 with lines dt 2 lc rgb '#888888' title 'slope -1/2'{}",
+                                  bands, times.low / 1.1, times.high * 1.1, errors.high * std::sqrt(times.low), lines);
+    return picture;
 }
 
-std::string estimate_chart(const StudyResults& results, const SceneResult& scene) {
-    std::vector<std::string> lines(results.methods.size());
+Picture estimate_chart(const StudyResults& results, const SceneResult& scene) {
+    std::vector<std::vector<std::pair<double, double>>> points(results.methods.size());
     for (std::size_t m = 0; m < results.methods.size(); ++m)
         for (const CellResult* cell : results.of(scene.name, results.methods[m].name))
             for (const PassRow& row : cell->passes)
                 if (row.estimate > 0)
-                    lines[m] += fmt::format("{} {}\n", 100 * row.estimate, 100 * row.measured.at("rmse_over_mean"));
-    return agreement_chart(
-        results, lines, "set format x '%g %%'\nset xlabel 'estimated RMSE / mean'\nset ylabel 'measured RMSE / mean'\n",
-        file_name("estimate", scene));
+                    points[m].emplace_back(100 * row.estimate, 100 * row.measured.at("rmse_over_mean"));
+    Picture picture;
+    picture.name = file_name("estimated_error", results, scene);
+    picture.title = scene.name + ": estimated against measured error";
+    picture.description = "A point per pass on logarithmic axes; on the diagonal the estimate is right.";
+    picture.data = "method,estimated_percent,measured_percent\n";
+    return agreement_chart(std::move(picture), results, points,
+                           "set xlabel 'estimated RMSE / mean'\nset ylabel 'measured RMSE / mean'\n", " %%");
 }
 
-std::string forecast_chart(const StudyResults& results, const SceneResult& scene) {
-    std::vector<std::string> lines(results.methods.size());
-    const Measure& measure = measures().front();
+Picture forecast_chart(const StudyResults& results, const SceneResult& scene) {
+    std::vector<std::vector<std::pair<double, double>>> points(results.methods.size());
+    const Measure& measure = results.measured_by.front();
     for (std::size_t m = 0; m < results.methods.size(); ++m)
         for (const CellResult* cell : results.of(scene.name, results.methods[m].name)) {
             const std::vector<CurvePoint> curve = curve_of(*cell, measure);
@@ -141,44 +218,17 @@ std::string forecast_chart(const StudyResults& results, const SceneResult& scene
                 const Crossing actual = time_to(curve, 0.5 * measure.value(row));
                 const bool trusted = row.halving.trust == "firm" || row.halving.trust == "noisy";
                 if (trusted && std::isfinite(row.halving.seconds) && !actual.extrapolated)
-                    lines[m] += fmt::format("{} {}\n", row.run_seconds + row.halving.seconds, actual.seconds);
+                    points[m].emplace_back(row.run_seconds + row.halving.seconds, actual.seconds);
             }
         }
-    return agreement_chart(results, lines,
-                           "set format y '%g'\nset xlabel 'forecast: half the error at [s]'\nset ylabel 'measured: "
-                           "half the error at [s]'\n",
-                           file_name("forecast", scene));
-}
-
-std::string phase_chart(const StudyResults& results, const SceneResult& scene) {
-    constexpr const char* phases[] = {"broadcast", "collect", "refine", "film", "error"};
-    std::string lines = "method";
-    for (const char* phase : phases)
-        lines += std::string(" ") + phase;
-    lines += '\n';
-    for (const MethodResult& method : results.methods) {
-        const auto cells = results.of(scene.name, method.name);
-        if (cells.empty()) continue;
-        lines += gnuplot_quoted(method.name);
-        for (const char* phase : phases) {
-            double sum = 0;
-            for (const CellResult* cell : cells)
-                for (const PassRow& row : cell->passes)
-                    sum += row.phases.at(phase);
-            lines += fmt::format(" {}", sum / static_cast<double>(cells.size()));
-        }
-        lines += '\n';
-    }
-    std::string plot;
-    for (std::size_t k = 0; k < std::size(phases); ++k)
-        plot += fmt::format("{}$phases using {}{} title '{}' lc rgb '{}'", k ? ", " : "plot ", k + 2,
-                            k == 0 ? ":xtic(1)" : "", phases[k], colour(k));
-    return draw_svg(
-        block("phases", lines) +
-            "set style data histograms\nset style histogram rowstacked\nset style fill solid 0.8\nset boxwidth 0.7\n"
-            "set yrange [0:*]\nset ylabel 'seconds'\nset xtics rotate by -20 noenhanced\nset key outside right\n" +
-            plot,
-        file_name("phases", scene), 860, 320);
+    Picture picture;
+    picture.name = file_name("forecast_of_half_the_error", results, scene);
+    picture.title = scene.name + ": when half the error was forecast, and when it came";
+    picture.description = "A point per forecast on logarithmic axes; on the diagonal it is right.";
+    picture.data = "method,forecast_seconds,measured_seconds\n";
+    return agreement_chart(std::move(picture), results, points,
+                           "set xlabel 'half the error: forecast [s]'\nset ylabel 'half the error: measured [s]'\n",
+                           "");
 }
 
 }  // namespace treefarm

@@ -20,7 +20,7 @@ std::string quoted(const std::string& text) {
 }
 
 std::string header(const char* more) {
-    std::string line = std::string("scene,method,seed,repetition,") + more +
+    std::string line = std::string("scene,method,budget,seed,repetition,") + more +
                        "spp,threads,run_seconds,core_seconds,estimated_error,halving_seconds,stuv,ttuv,nonzero_share,"
                        "tree_nodes,tree_memory";
     for (const char* error : kErrors)
@@ -29,7 +29,8 @@ std::string header(const char* more) {
 }
 
 std::string names(const CellResult& cell) {
-    return fmt::format("{},{},{},{}", quoted(cell.scene), quoted(cell.method), cell.seed, cell.repetition);
+    return fmt::format("{},{},{},{},{}", quoted(cell.scene), quoted(cell.method), quoted(cell.budget), cell.seed,
+                       cell.repetition);
 }
 
 std::string figures(const PassRow& row) {

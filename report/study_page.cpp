@@ -4,26 +4,23 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <set>
 
-#include "common/image/atomic_file.h"
-#include "common/image/exr.h"
 #include "report/effect_costs.h"
+#include "report/figure_text.h"
 #include "report/html.h"
 #include "report/page_assets.h"
 #include "report/prediction_table.h"
+#include "report/processor_share.h"
 #include "report/study_charts.h"
-#include "report/study_csv.h"
 #include "report/study_tables.h"
 #include "report/tree_pictures.h"
+#include "report/verdict.h"
+#include "report/viewer_data.h"
 
 namespace treefarm {
 
 namespace {
-
-/// Images in the page are no larger than this, in pixels.
-constexpr int kLongestSide = 640;
 
 /// A reference is good for errors of so many times its own.
 constexpr double kReferenceMargin = 3;
@@ -33,38 +30,19 @@ std::string section(const std::string& title, const std::string& note, const std
     return "<h3>" + title + "</h3>\n" + (note.empty() ? "" : "<p class=\"note\">" + note + "</p>\n") + content;
 }
 
-nlohmann::json viewer_image(const std::string& name, const std::string& caption, const std::filesystem::path& file) {
-    const RgbImage image = reduced(read_exr_rgb(file).image, kLongestSide);
-    return {{"name", name},
-            {"caption", caption},
-            {"width", image.width},
-            {"height", image.height},
-            {"rgbe", base64_rgbe(image)}};
-}
-
-/// Each method's image of the first seed, and the reference.
-std::string viewer(const StudyResults& results, const SceneResult& scene) {
-    nlohmann::json images = nlohmann::json::array();
-    for (const MethodResult& method : results.methods) {
-        const auto cells = results.of(scene.name, method.name);
-        if (cells.empty()) continue;
-        const PassRow& last = cells.front()->passes.back();
-        images.push_back(
-            viewer_image(method.name,
-                         fmt::format("{:.3g} s, {} spp, root of relMSE {:.3g} % (trimmed {:.3g} %), FLIP {:.3g}",
-                                     last.run_seconds, last.spp_done, 100 * measures()[1].value(last),
-                                     100 * measures()[2].value(last), cells.front()->flip),
-                         cells.front()->folder / "image.exr"));
-    }
-    images.push_back(viewer_image("reference", scene.reference_rendered ? "rendered" : "given", scene.reference_file));
-    std::string json =
-        images.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);  // text in a script ends at "</"
-    for (std::size_t at = 0; (at = json.find("</", at)) != std::string::npos; at += 3)
-        json.replace(at, 2, "<\\/");
-    return "<div class=\"viewer\"><script type=\"application/json\">" + json + "</script></div>\n";
+/// The same by every clock; the switch on top of the page shows one of them.
+template <class Make>
+std::string by_clock(Make make) {
+    std::string html;
+    for (const Clock& clock : clocks())
+        if (const std::string part = make(clock); !part.empty())
+            html += fmt::format("<div class=\"of-{}\">\n{}</div>\n", clock.key, part);
+    return html;
 }
 
 std::string reference_note(const StudyResults& results, const SceneResult& scene) {
+    if (!results.has_references)
+        return "<p class=\"note\">No reference: errors are those that the renders estimated of themselves.</p>\n";
     std::string note = "Reference: " + html_text(scene.reference_file) +
                        (scene.reference_rendered ? ", rendered by another method and seed" : ", given");
     if (!std::isfinite(scene.reference_error))
@@ -82,28 +60,54 @@ std::string reference_note(const StudyResults& results, const SceneResult& scene
     return html;
 }
 
+std::string charts(const StudyResults& results, const SceneResult& scene) {
+    std::string html = by_clock([&](const Clock& clock) {
+        std::string pictures;
+        for (const Measure& measure : results.measured_by)
+            if (const std::string svg = draw_svg(convergence_chart(results, scene, measure, clock)); !svg.empty())
+                pictures += "<div>" + svg + "</div>\n";
+        return pictures.empty() ? "" : "<div class=\"charts\">\n" + pictures + "</div>\n";
+    });
+    return section("Error over time",
+                   "Line: geometric mean over seeds; band: its 95 % interval, from three seeds on; points: passes.",
+                   html);
+}
+
+std::string predictions(const StudyResults& results, const SceneResult& scene) {
+    if (!results.has_references) return "";
+    std::string pictures;
+    for (const Picture& picture : {estimate_chart(results, scene), forecast_chart(results, scene)})
+        if (!picture.script.empty()) pictures += "<div>" + draw_svg(picture) + "</div>\n";
+    return section("Predicted against actual",
+                   "Every pass of every cell: the error that it claimed, and when it said that half of it (or the "
+                   "error asked for) would be reached. \"At most\" is said while the tree still learns fast, "
+                   "\"roughly\" where the error itself is not known well; the pictures leave out the bounds.",
+                   prediction_table(results, scene) + "<div class=\"charts\">\n" + pictures + "</div>\n");
+}
+
+/// Of one budget.
 std::string scene_part(const StudyResults& results, const SceneResult& scene) {
-    if (std::none_of(results.cells.begin(), results.cells.end(),
-                     [&](const CellResult& cell) { return cell.scene == scene.name; }))
-        return "";
-    std::string html = "<h2>" + html_text(scene.name) + "</h2>\n" + reference_note(results, scene);
-    html += section("At the end of the budget",
-                    "Gain: how many times as efficient as the baseline, the ratio of squared error times seconds, with "
-                    "its 95 % interval over pairs of seeds. A claim needs both columns.",
-                    final_table(results, scene));
-    html += section("Images",
-                    "First seed. Wheel zooms, dragging moves, in all pictures at once. In false colour: mean "
-                    "of |a - b| / (b + 0.01) over channels; black 0, white 1 at exposure 0.",
-                    viewer(results, scene));
-    for (const Measure& measure : measures()) {
-        html += section(std::string("Error over time: ") + measure.name,
-                        "Line: geometric mean over seeds; band: its 95 % interval; points: passes.",
-                        convergence_chart(results, scene, measure));
-        html += section(std::string("Time to an error: ") + measure.name,
-                        "With 95 % interval over seeds, and how many times as fast as the baseline. ~ and grey: beyond "
-                        "what was rendered, extrapolated as the inverse square root of time from the last pass.",
-                        time_table(results, scene, measure));
-    }
+    std::string html =
+        section("At the end of the budget",
+                "Gain: how many times as fast as the baseline to an equal error, the ratio of squared error times "
+                "time, with its 95 % interval over pairs of seeds. A claim needs more than one column.",
+                by_clock([&](const Clock& clock) { return final_table(results, scene, clock); }));
+    html += charts(results, scene);
+    for (const Measure& measure : results.measured_by)
+        html += section(
+            std::string("Time to an error: ") + measure.name,
+            "Geometric mean with its 95 % interval over seeds, and how many times as fast as the baseline. ~ and grey: "
+            "beyond what was rendered, extrapolated as the inverse square root of time from the last pass.",
+            by_clock([&](const Clock& clock) { return time_table(results, scene, measure, clock); }));
+    html +=
+        section("Images",
+                "First seed. Wheel zooms, dragging moves, in all pictures at once; so do + and - and the arrows. In "
+                "false colour: mean of |a - b| / (b + 0.01) over channels; black 0, white 1 at exposure 0.",
+                viewer_data(results, scene));
+    html += section("Further figures",
+                    "Means over seeds. Share of the processors: core-seconds over seconds x threads while workers "
+                    "traced; below 80 % something else had them, or workers waited for each other.",
+                    figures_table(results, scene));
     html += section("Nonzero paths and memory per pass",
                     "Share of camera paths that carried radiance; the tree on a worker, sampling form and sums.",
                     pass_table(results, scene));
@@ -111,19 +115,34 @@ std::string scene_part(const StudyResults& results, const SceneResult& scene) {
                     "What treefarm inspect drew: learned distributions beside the true ones on the direction square "
                     "(logarithmic, three decades below white), and over the film.",
                     tree_pictures(results, scene));
-    html += section("Where the time went", "Seconds of the coordinator's clock, mean over seeds; collect: tracing.",
-                    phase_chart(results, scene));
+    html += section("Where the time went",
+                    "Of the seconds of the coordinator's clock, mean over seeds; collect: workers trace.",
+                    phase_table(results, scene));
     html += section("Workers", "Thread-seconds tracing and recording, mean over seeds.", worker_table(results, scene));
-    html += section("Predicted against actual",
-                    "Every pass of every cell: the error that it claimed, and when it said that half of it (or the "
-                    "error asked for) would be reached. \"At most\" is said while the tree still learns fast, "
-                    "\"roughly\" where the error itself is not known well; the pictures leave out the bounds.",
-                    prediction_table(results, scene) + "<div class=\"pair\">" + estimate_chart(results, scene) +
-                        forecast_chart(results, scene) + "</div>\n");
+    html += predictions(results, scene);
     return html + section("Effect plans",
                           "What was simulated. Core-seconds with the effect over those without, where the study has "
                           "methods that differ only by that switch: 95 % interval over pairs of seeds.",
                           plan_tables(results, scene));
+}
+
+bool has_cells(const StudyResults& results, const SceneResult& scene) {
+    return std::any_of(results.cells.begin(), results.cells.end(),
+                       [&](const CellResult& cell) { return cell.scene == scene.name; });
+}
+
+std::string scene_parts(const StudyResults& results, const SceneResult& scene) {
+    if (!has_cells(results, scene)) return "";
+    std::string html = "<h2>" + html_text(scene.name) + "</h2>\n" + reference_note(results, scene);
+    if (results.budgets.size() == 1) return html + scene_part(results, scene);
+    html += section("Budget by budget", "Error at the end, and gain over the baseline by it.",
+                    by_clock([&](const Clock& clock) { return budget_table(results, scene, clock); }));
+    for (const std::string& budget : results.budgets) {
+        const StudyResults part = results.of_budget(budget);
+        if (!has_cells(part, scene)) continue;
+        html += "<h2>" + html_text(scene.name + ", " + budget) + "</h2>\n" + scene_part(part, scene);
+    }
+    return html;
 }
 
 std::string method_table(const StudyResults& results) {
@@ -149,32 +168,66 @@ std::string thread_warning(const StudyResults& results) {
            "compare.</p>\n";
 }
 
-void write_text(const std::filesystem::path& path, const std::string& text) {
-    write_file_atomically(path, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+/// The answer to the page's title.
+std::string answer_part(const StudyResults& results) {
+    return "<div class=\"answer\">\n" + by_clock([&](const Clock& clock) {
+               std::string html;
+               for (const std::string& line : answers(results, clock)) {
+                   const std::size_t colon = line.find(": ");
+                   html +=
+                       "<p><b>" + html_text(line.substr(0, colon)) + "</b>" + html_text(line.substr(colon)) + "</p>\n";
+               }
+               return html;
+           }) +
+           "</div>\n";
+}
+
+/// Two buttons that need no script: the style sheet shows what belongs to the one that is pressed.
+std::string clock_inputs(const Clock& chosen) {
+    std::string html;
+    for (const Clock& clock : clocks())
+        html +=
+            fmt::format("<input type=\"radio\" name=\"clock\" id=\"by-{}\" class=\"clock\" autocomplete=\"off\"{}>\n",
+                        clock.key, &clock == &chosen ? " checked" : "");
+    return html;
+}
+
+std::string clock_labels() {
+    std::string html = "<p class=\"switch\">Time in";
+    for (const Clock& clock : clocks())
+        html += fmt::format(" <label for=\"by-{}\">{}</label>", clock.key, clock.name);
+    return html + "</p>\n";
+}
+
+std::string budget_list(const StudyResults& results) {
+    std::string text;
+    for (const std::string& budget : results.budgets)
+        text += (text.empty() ? "" : "; ") + budget;
+    return text;
 }
 
 }  // namespace
 
 std::string study_page(const StudyResults& results) {
-    std::string html = "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>" +
-                       html_text(results.folder.filename().string()) +
-                       "</title><link rel=\"icon\" href=\"data:,\"><style>\n" + kPageStyle +
-                       "</style></head><body>\n<h1>What accuracy costs</h1>\n";
-    html += fmt::format("<p>Study {}: {} of {} cells, {} each, by {} threads.</p>\n", html_text(results.study),
-                        results.cells.size(), results.planned, html_text(results.budget),
-                        results.cells.front().passes.back().threads);
-    html += thread_warning(results) + method_table(results);
+    std::string html =
+        "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
+        "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"><title>" +
+        html_text(results.folder.filename().string()) +
+        ": what accuracy costs</title><link rel=\"icon\" href=\"data:,\"><style>\n" + kPageStyle +
+        "</style></head><body>\n<h1>What accuracy costs</h1>\n";
+    html += clock_inputs(main_clock(results)) + "<main>\n" + answer_part(results) + clock_labels();
+    if (const std::string warning = busy_warning(results); !warning.empty())
+        html += "<p class=\"warning\">" + html_text(warning) + "</p>\n";
+    html += thread_warning(results);
+    const std::string what = results.has_references
+                                 ? fmt::format("Study {}: {} of {} cells, {} each. ", results.study,
+                                               results.cells.size(), results.planned, budget_list(results))
+                                 : "Renders " + results.study + ". ";
+    html += "<p class=\"note\">" + html_text(what + provenance_text(results.cells)) + "</p>\n";
+    html += method_table(results);
     for (const SceneResult& scene : results.scenes)
-        html += scene_part(results, scene);
-    return html + "<script>\n" + kViewerScript + "</script>\n</body></html>\n";
-}
-
-std::filesystem::path write_study_report(const std::filesystem::path& folder) {
-    const StudyResults results = read_study_results(folder);
-    write_text(folder / "cells.csv", cells_csv(results));
-    write_text(folder / "passes.csv", passes_csv(results));
-    write_text(folder / "report.html", study_page(results));
-    return folder / "report.html";
+        html += scene_parts(results, scene);
+    return html + "</main>\n<script>\n" + kViewerScript + "</script>\n</body></html>\n";
 }
 
 }  // namespace treefarm

@@ -69,27 +69,42 @@ PassRow read_pass(const Json& json) {
     return row;
 }
 
-CellResult read_cell(const Json& place, const std::filesystem::path& folder) {
+CellResult read_cell(const Json& place, const std::filesystem::path& folder, const std::string& budget) {
     const Json json = read_json(folder / "cell.json");
-    CellResult cell{place.at("scene"),
-                    place.at("method"),
-                    place.at("seed"),
-                    place.at("repetition"),
-                    folder,
-                    json.at("width"),
-                    json.at("height"),
-                    number(json.at("flip")),
-                    {}};
+    CellResult cell;
+    cell.scene = place.at("scene");
+    cell.method = place.at("method");
+    cell.seed = place.at("seed");
+    cell.repetition = place.at("repetition");
+    cell.folder = folder;
+    cell.width = json.at("width");
+    cell.height = json.at("height");
+    cell.flip = number(json.at("flip"));
+    cell.budget = budget;
+    cell.made = read_provenance(folder);
     for (const Json& pass : json.at("passes"))
         cell.passes.push_back(read_pass(pass));
     return cell;
 }
 
+/// Each budget's text; folders of earlier versions have one, and no list of its values.
+std::vector<std::string> read_budgets(const Json& budget) {
+    std::vector<std::string> budgets;
+    for (const auto& [key, values] : budget.items()) {
+        const std::string name = key.substr(key.find('.') + 1) + " = ";
+        if (values.is_string()) budgets.push_back(name + values.get<std::string>());
+        if (values.is_array())
+            for (const Json& value : values)
+                budgets.push_back(name + value.get<std::string>());
+    }
+    if (budgets.empty()) throw InputError(Location{"study.json"}, "names no budget", "run the study again");
+    return budgets;
+}
+
 void read_description(const Json& json, StudyResults& results) {
     results.study = json.at("study");
     results.baseline = json.at("baseline");
-    for (const auto& [key, value] : json.at("budget").items())
-        results.budget = key + " = " + value.get<std::string>();
+    results.budgets = read_budgets(json.at("budget"));
     for (const Json& scene : json.at("scenes")) {
         SceneResult of{scene.at("name"), scene.at("file"), "", std::numeric_limits<double>::quiet_NaN(), false};
         if (scene.contains("reference")) {
@@ -126,10 +141,18 @@ std::vector<const CellResult*> StudyResults::of(const std::string& scene, const 
     return found;
 }
 
+StudyResults StudyResults::of_budget(const std::string& budget) const {
+    StudyResults part = *this;
+    part.budgets = {budget};
+    std::erase_if(part.cells, [&](const CellResult& cell) { return cell.budget != budget; });
+    return part;
+}
+
 StudyResults read_study_results(const std::filesystem::path& folder) {
     if (!std::filesystem::exists(folder / "study.json"))
-        throw InputError(Location{folder.string()}, "is no folder of a study: it holds no study.json",
-                         "give the folder that treefarm study wrote");
+        throw InputError(Location{folder.string()},
+                         "holds neither a study (study.json) nor a render that ended (summary.json)",
+                         "give a folder that treefarm study or treefarm render wrote");
     StudyResults results;
     results.folder = folder;
     try {
@@ -137,7 +160,10 @@ StudyResults read_study_results(const std::filesystem::path& folder) {
         read_description(json, results);
         for (const Json& place : json.at("cells")) {
             const std::filesystem::path cell = folder / "cells" / place.at("folder").get<std::string>();
-            if (std::filesystem::exists(cell / "cell.json")) results.cells.push_back(read_cell(place, cell));
+            if (std::filesystem::exists(cell / "cell.json")) {
+                const std::size_t budget = place.value("budget", std::size_t{0});
+                results.cells.push_back(read_cell(place, cell, results.budgets.at(budget)));
+            }
         }
     } catch (const Json::exception& error) {
         throw InputError(Location{folder.string()}, std::string("what a study left is damaged: ") + error.what(),
@@ -156,10 +182,17 @@ const std::vector<Measure>& measures() {
     return all;
 }
 
-std::vector<CurvePoint> curve_of(const CellResult& cell, const Measure& measure) {
+const std::vector<Clock>& clocks() {
+    static const std::vector<Clock> all = {
+        {"seconds", "seconds", [](const PassRow& row) { return row.run_seconds; }},
+        {"core_seconds", "core-seconds", [](const PassRow& row) { return row.core_seconds; }}};
+    return all;
+}
+
+std::vector<CurvePoint> curve_of(const CellResult& cell, const Measure& measure, const Clock& clock) {
     std::vector<CurvePoint> curve;
     for (const PassRow& row : cell.passes)
-        if (measure.value(row) > 0 && row.run_seconds > 0) curve.push_back({row.run_seconds, measure.value(row)});
+        if (measure.value(row) > 0 && clock.value(row) > 0) curve.push_back({clock.value(row), measure.value(row)});
     return curve;
 }
 

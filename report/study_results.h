@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "report/provenance.h"
 #include "report/statistics.h"
 
 namespace treefarm {
@@ -40,6 +41,8 @@ struct CellResult {
     int width = 0, height = 0;
     double flip = 0;
     std::vector<PassRow> passes;
+    std::string budget;  ///< "seconds = 2"
+    Provenance made;
 };
 
 struct SceneResult {
@@ -53,22 +56,6 @@ struct MethodResult {
     std::map<std::string, std::string> settings;
 };
 
-/// A study as far as it has come.
-struct StudyResults {
-    std::filesystem::path folder;
-    std::string study, baseline, budget, version_note;
-    std::vector<SceneResult> scenes;
-    std::vector<MethodResult> methods;
-    std::size_t planned = 0;        ///< cells
-    std::vector<CellResult> cells;  ///< those that are done, in order
-
-    /// Cells of a scene and method, by repetition.
-    std::vector<const CellResult*> of(const std::string& scene, const std::string& method) const;
-};
-
-/// Reads the folder that `treefarm study` left. Throws InputError where it is none, or damaged.
-StudyResults read_study_results(const std::filesystem::path& folder);
-
 /// How errors are measured in tables and plots.
 struct Measure {
     const char* key;
@@ -78,6 +65,37 @@ struct Measure {
 /// RMSE / mean; the root of relMSE; the same without the worst 0.1 % of the pixels. A claim needs both of the latter.
 const std::vector<Measure>& measures();
 
-std::vector<CurvePoint> curve_of(const CellResult& cell, const Measure& measure);
+/// What time is counted in.
+struct Clock {
+    const char* key;
+    const char* name;  ///< for people, in the plural
+    double (*value)(const PassRow&);
+};
+/// Seconds, which other programs on the machine lengthen, and core-seconds, which they hardly do.
+const std::vector<Clock>& clocks();
+
+/// A study as far as it has come.
+struct StudyResults {
+    std::filesystem::path folder;
+    std::string study, baseline;
+    std::vector<std::string> budgets;               ///< "seconds = 2", in the study's order
+    std::vector<Measure> measured_by = measures();  ///< the first decides who won
+    bool has_references = true;                     ///< without, errors are those that renders claim of themselves
+    std::vector<SceneResult> scenes;
+    std::vector<MethodResult> methods;
+    std::size_t planned = 0;        ///< cells
+    std::vector<CellResult> cells;  ///< those that are done, in order
+
+    /// Cells of a scene and method, by repetition.
+    std::vector<const CellResult*> of(const std::string& scene, const std::string& method) const;
+
+    /// The same with the cells of one budget only.
+    StudyResults of_budget(const std::string& budget) const;
+};
+
+/// Reads the folder that `treefarm study` left. Throws InputError where it is none, or damaged.
+StudyResults read_study_results(const std::filesystem::path& folder);
+
+std::vector<CurvePoint> curve_of(const CellResult& cell, const Measure& measure, const Clock& clock = clocks().front());
 
 }  // namespace treefarm

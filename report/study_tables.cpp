@@ -5,15 +5,16 @@
 #include <algorithm>
 #include <cmath>
 
+#include "report/figure_text.h"
+#include "report/gain.h"
 #include "report/html.h"
+#include "report/processor_share.h"
 
 namespace treefarm {
 
 namespace {
 
 constexpr double kTargets[] = {0.10, 0.05, 0.02, 0.01, 0.005};
-
-using Cells = std::vector<const CellResult*>;
 
 template <class Get>
 std::vector<double> values(const Cells& cells, Get get) {
@@ -31,110 +32,144 @@ double mean(const Cells& cells, Get get) {
     return sum / static_cast<double>(cells.size());
 }
 
-/// Cells of both methods that share a repetition.
-std::pair<Cells, Cells> paired(const Cells& a, const Cells& b) {
-    std::pair<Cells, Cells> pairs;
-    for (const CellResult* one : a)
-        for (const CellResult* other : b)
-            if (one->repetition == other->repetition) {
-                pairs.first.push_back(one);
-                pairs.second.push_back(other);
-            }
-    return pairs;
+/// A figure and what stands below it in a narrow column.
+std::string two_lines(const std::string& first, const std::string& second) {
+    return first + "<br><small>" + second + "</small>";
 }
 
-std::string seconds_text(double seconds) {
-    if (!std::isfinite(seconds)) return "?";
-    if (seconds < 120) return fmt::format("{:.3g} s", seconds);
-    if (seconds < 7200) return fmt::format("{:.3g} min", seconds / 60);
-    return seconds < 360'000 ? fmt::format("{:.3g} h", seconds / 3600) : fmt::format("{:.3g} d", seconds / 86400);
+/// gain_text() for a narrow column.
+std::string gain_cell(const Interval& gain) {
+    if (!std::isfinite(gain.mean)) return "?";
+    const std::string text = gain_text(gain);
+    const std::size_t blank = text.find(' ');
+    if (blank == std::string::npos) return "&times;" + text;
+    return two_lines("&times;" + text.substr(0, blank), text.substr(blank + 1));
 }
 
-std::string percent(double share) {
-    return fmt::format("{:.3g} %", 100 * share);
-}
-
-/// Both ends beyond 1 on opposite sides: the choice of measure decides who wins.
+/// Beyond 1 on opposite sides: the choice of measure decides who wins.
 bool contradict(const Interval& a, const Interval& b) {
-    return (a.low > 1 && b.high < 1) || (a.high < 1 && b.low > 1);
+    return differs_from_one(a) && differs_from_one(b) && (a.mean > 1) != (b.mean > 1);
+}
+
+/// The accuracies that some method reached, and the next: beyond that all would be extrapolated.
+std::vector<double> targets_of(const StudyResults& results, const SceneResult& scene, const Measure& measure) {
+    std::vector<double> targets;
+    for (const double target : kTargets) {
+        targets.push_back(target);
+        const bool reached = std::any_of(results.cells.begin(), results.cells.end(), [&](const CellResult& cell) {
+            return cell.scene == scene.name && !time_to(curve_of(cell, measure), target).extrapolated;
+        });
+        if (!reached) break;
+    }
+    return targets;
 }
 
 }  // namespace
 
-std::string interval_text(const Interval& interval) {
-    if (!std::isfinite(interval.mean)) return "?";
-    std::string text = fmt::format("{:.3g}", interval.mean);
-    if (std::isfinite(interval.low)) text += fmt::format(" [{:.3g}, {:.3g}]", interval.low, interval.high);
-    return text;
-}
-
-Interval gain_over_baseline(const StudyResults& results, const SceneResult& scene, const MethodResult& method,
-                            const Measure& measure) {
-    const auto [base, own] = paired(results.of(scene.name, results.baseline), results.of(scene.name, method.name));
-    const auto cost = [&](const CellResult& cell) {
-        const PassRow& last = cell.passes.back();
-        return measure.value(last) * measure.value(last) * last.run_seconds;
-    };
-    return geometric_ratio(values(base, cost), values(own, cost));
-}
-
-std::string final_table(const StudyResults& results, const SceneResult& scene) {
-    std::vector<std::vector<std::string>> rows = {{"method", "seeds", "spp", "seconds", "core-seconds", "RMSE / mean",
-                                                   "root of relMSE", "trimmed", "MAPE", "FLIP", "outliers",
-                                                   "gain by relMSE", "gain, trimmed"}};
+std::string final_table(const StudyResults& results, const SceneResult& scene, const Clock& clock) {
+    std::vector<std::vector<std::string>> rows = {{"method", "seeds", "spp", clock.name}};
+    for (const Measure& measure : results.measured_by) {
+        rows[0].push_back(measure.name);
+        rows[0].push_back("gain by it");
+    }
     bool doubtful = false;
     for (const MethodResult& method : results.methods) {
         const Cells cells = results.of(scene.name, method.name);
         if (cells.empty()) continue;
         const auto last = [](auto get) { return [get](const CellResult& cell) { return get(cell.passes.back()); }; };
-        const auto figure = [&](const char* key) {
-            return mean(cells, last([key](const PassRow& row) { return row.measured.at(key); }));
-        };
-        const auto error = [&](const Measure& measure) {
-            return percent(geometric_mean(values(cells, last(measure.value))).mean);
-        };
-        const Interval gain = gain_over_baseline(results, scene, method, measures()[1]);
-        const Interval trimmed = gain_over_baseline(results, scene, method, measures()[2]);
-        doubtful = doubtful || contradict(gain, trimmed);
         rows.push_back({html_text(method.name), std::to_string(cells.size()),
                         fmt::format("{:.4g}", mean(cells, last([](const PassRow& r) { return double(r.spp_done); }))),
-                        fmt::format("{:.3g}", mean(cells, last([](const PassRow& r) { return r.run_seconds; }))),
-                        fmt::format("{:.3g}", mean(cells, last([](const PassRow& r) { return r.core_seconds; }))),
-                        error(measures()[0]), error(measures()[1]), error(measures()[2]), percent(figure("mape")),
-                        fmt::format("{:.3g}", mean(cells, [](const CellResult& cell) { return cell.flip; })),
-                        fmt::format("{:.3g}", figure("outliers")), interval_text(gain), interval_text(trimmed)});
+                        fmt::format("{:.3g}", mean(cells, last(clock.value)))});
+        std::vector<Interval> gains;
+        for (const Measure& measure : results.measured_by) {
+            gains.push_back(gain(results, {&scene, 1}, method.name, results.baseline, measure, clock));
+            rows.back().push_back(percent_text(geometric_mean(values(cells, last(measure.value))).mean));
+            rows.back().push_back(method.name == results.baseline ? "baseline" : gain_cell(gains.back()));
+            doubtful = doubtful || contradict(gains.front(), gains.back()) ||
+                       (gains.size() > 1 && contradict(gains[1], gains.back()));
+        }
     }
     std::string html = html_table(rows);
     if (doubtful)
-        html +=
-            "<p class=\"warning\">By trimmed and by untrimmed error different methods win: claim neither alone.</p>\n";
+        html += "<p class=\"warning\">By different measures different methods win: claim none of them alone.</p>\n";
     return html;
 }
 
-std::string time_table(const StudyResults& results, const SceneResult& scene, const Measure& measure) {
+std::string figures_table(const StudyResults& results, const SceneResult& scene) {
+    std::vector<std::vector<std::string>> rows = {
+        {"method", "seconds", "core-seconds", "share of the processors", "MAPE", "FLIP", "outliers"}};
+    for (const MethodResult& method : results.methods) {
+        const Cells cells = results.of(scene.name, method.name);
+        if (cells.empty()) continue;
+        const auto last = [](auto get) { return [get](const CellResult& cell) { return get(cell.passes.back()); }; };
+        const auto measured = [&](const char* key) {
+            return mean(cells, last([key](const PassRow& row) { return row.measured.at(key); }));
+        };
+        const double share = mean(cells, processor_share);
+        rows.push_back({html_text(method.name), fmt::format("{:.3g}", mean(cells, last(clocks()[0].value))),
+                        fmt::format("{:.3g}", mean(cells, last(clocks()[1].value))),
+                        std::isfinite(share) ? fmt::format("{:.0f} %", 100 * share) : "?"});
+        if (!results.has_references) continue;
+        rows.back().push_back(percent_text(measured("mape")));
+        rows.back().push_back(fmt::format("{:.3g}", mean(cells, [](const CellResult& cell) { return cell.flip; })));
+        rows.back().push_back(fmt::format("{:.3g}", measured("outliers")));
+    }
+    rows[0].resize(rows.back().size());
+    return html_table(rows);
+}
+
+std::string time_table(const StudyResults& results, const SceneResult& scene, const Measure& measure,
+                       const Clock& clock) {
+    const bool of_cores = &clock != &clocks().front();
+    const std::vector<double> targets = targets_of(results, scene, measure);
     std::vector<std::vector<std::string>> rows = {{"method"}};
-    for (const double target : kTargets)
-        rows[0].push_back("time to " + percent(target));
+    for (const double target : targets)
+        rows[0].push_back("to " + percent_text(target));
     for (const MethodResult& method : results.methods) {
         const auto [base, own] = paired(results.of(scene.name, results.baseline), results.of(scene.name, method.name));
         if (own.empty()) continue;
         std::vector<std::string> row = {html_text(method.name)};
-        for (const double target : kTargets) {
+        for (const double target : targets) {
             bool beyond = false;
             const auto time = [&](const CellResult& cell) {
-                const Crossing at = time_to(curve_of(cell, measure), target);
+                const Crossing at = time_to(curve_of(cell, measure, clock), target);
                 beyond = beyond || at.extrapolated;
                 return at.seconds;
             };
             const std::vector<double> a = values(base, time), b = values(own, time);
-            const Interval seconds = geometric_mean(b);
-            std::string text = (beyond ? "~" : "") + seconds_text(seconds.mean);
-            if (std::isfinite(seconds.low))
-                text += " [" + seconds_text(seconds.low) + ", " + seconds_text(seconds.high) + "]";
-            text += "<br>&times;" + interval_text(geometric_ratio(a, b));
-            row.push_back(beyond ? "<span class=\"beyond\">" + text + "</span>" : text);
+            const std::string seconds = time_text(geometric_mean(b), of_cores);
+            const std::size_t interval = seconds.find(" [");
+            std::string text = interval == std::string::npos
+                                   ? seconds
+                                   : two_lines(seconds.substr(0, interval), seconds.substr(interval + 1));
+            if (method.name != results.baseline) text += "<br>" + gain_cell(geometric_ratio(a, b));
+            row.push_back(beyond ? "<span class=\"beyond\">~" + text + "</span>" : text);
         }
         rows.push_back(row);
+    }
+    return html_table(rows);
+}
+
+std::string budget_table(const StudyResults& results, const SceneResult& scene, const Clock& clock) {
+    const Measure& measure = results.measured_by.front();
+    std::vector<std::vector<std::string>> rows = {{"method"}};
+    for (const MethodResult& method : results.methods)
+        rows.push_back({html_text(method.name)});
+    for (const std::string& budget : results.budgets) {
+        const StudyResults part = results.of_budget(budget);
+        rows[0].push_back(html_text(budget));
+        for (std::size_t m = 0; m < results.methods.size(); ++m) {
+            const std::string& method = results.methods[m].name;
+            const Cells cells = part.of(scene.name, method);
+            std::string text;
+            if (!cells.empty())
+                text = percent_text(geometric_mean(values(cells, [&](const CellResult& cell) {
+                                        return measure.value(cell.passes.back());
+                                    })).mean);
+            if (!cells.empty() && method != results.baseline)
+                text += "<br>" + gain_cell(gain(part, {&scene, 1}, method, results.baseline, measure, clock));
+            rows[m + 1].push_back(text);
+        }
     }
     return html_table(rows);
 }
@@ -158,11 +193,37 @@ std::string pass_table(const StudyResults& results, const SceneResult& scene) {
                 return mean(with, [&](const CellResult& cell) { return get(cell.passes[pass]); });
             };
             rows[pass + 1].push_back(
-                with.empty() ? "" : percent(figure([](const PassRow& row) { return row.nonzero_share; })));
+                with.empty() ? "" : percent_text(figure([](const PassRow& row) { return row.nonzero_share; })));
             rows[pass + 1].push_back(with.empty() ? "" : fmt::format("{:.3g}", 1e-6 * figure([](const PassRow& row) {
                                                                                    return row.tree_memory;
                                                                                })));
         }
+    }
+    return html_table(rows);
+}
+
+std::string phase_table(const StudyResults& results, const SceneResult& scene) {
+    constexpr const char* phases[] = {"broadcast", "collect", "refine", "film", "error"};
+    std::vector<std::vector<std::string>> rows = {{"method"}};
+    rows[0].insert(rows[0].end(), std::begin(phases), std::end(phases));
+    for (const MethodResult& method : results.methods) {
+        const Cells cells = results.of(scene.name, method.name);
+        if (cells.empty()) continue;
+        std::vector<double> seconds;
+        double all = 0;
+        for (const char* phase : phases) {
+            seconds.push_back(mean(cells, [&](const CellResult& cell) {
+                double sum = 0;
+                for (const PassRow& row : cell.passes)
+                    if (const auto at = row.phases.find(phase); at != row.phases.end()) sum += at->second;
+                return sum;
+            }));
+            all += seconds.back();
+        }
+        rows.push_back({html_text(method.name)});
+        for (const double part : seconds)
+            rows.back().push_back(
+                two_lines(fmt::format("{:.1f} %", all > 0 ? 100 * part / all : 0.0), fmt::format("{:.3g} s", part)));
     }
     return html_table(rows);
 }

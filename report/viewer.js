@@ -59,7 +59,8 @@ class Viewer {
             i => { this.split = +i.value; this.draw(); });
     control('exposure', 'input', {type: 'range', className: 'exposure', min: -8, max: 8, step: 0.25, value: 0},
             i => { this.stops = +i.value; this.develop(); });
-    control('error in false colour', 'input', {type: 'checkbox', className: 'errors'},
+    if (this.images.some(image => image.name === 'reference'))
+      control('error in false colour', 'input', {type: 'checkbox', className: 'errors'},
             i => { this.errors = i.checked; this.develop(); });
     add(controls, 'button', {textContent: 'whole image', className: 'reset'}).addEventListener('click', () => {
       this.zoom = 1; this.x = this.y = 0; this.draw();
@@ -70,7 +71,11 @@ class Viewer {
       this.follow(made);
       return made;
     };
+    this.element.addEventListener('keydown', event => this.press(event));
     this.big = canvas(add(this.element, 'div', {className: 'big'}), 720);
+    this.big.tabIndex = 0;
+    this.big.setAttribute('role', 'img');
+    this.big.setAttribute('aria-label', 'Two images under a slider');
     const grid = add(this.element, 'div', {className: 'grid'});
     this.small = this.images.map(image => {
       const figure = add(grid, 'figure');
@@ -98,6 +103,24 @@ class Viewer {
       this.y -= event.movementY / canvas.clientHeight / this.zoom;
       this.draw();
     });
+  }
+
+  // The big picture's keys: what wheel and dragging do, and the slider's.
+  press(event) {
+    if (event.target !== this.big) return;
+    const step = 0.1 / this.zoom, zoomBy = factor => {
+      const next = Math.min(64, Math.max(1, this.zoom * factor));
+      this.x += 0.5 / this.zoom - 0.5 / next;
+      this.y += 0.5 / this.zoom - 0.5 / next;
+      this.zoom = next;
+    };
+    const keys = {
+      '+': () => zoomBy(1.25), '-': () => zoomBy(0.8), ArrowLeft: () => { this.x -= step; },
+      ArrowRight: () => { this.x += step; }, ArrowUp: () => { this.y -= step; }, ArrowDown: () => { this.y += step; }};
+    if (!(event.key in keys)) return;
+    event.preventDefault();
+    keys[event.key]();
+    this.draw();
   }
 
   // Radiance, or its relative error against the reference, to the screen's bytes.

@@ -100,4 +100,13 @@ Host this_host() {
     return host;
 }
 
+std::string processor_name() {
+    std::ifstream file("/proc/cpuinfo");
+    for (std::string line; std::getline(file, line);) {
+        const std::size_t colon = line.find(": ");
+        if (colon != std::string::npos && line.starts_with("model name")) return line.substr(colon + 2);
+    }
+    return "";
+}
+
 }  // namespace treefarm

@@ -18,4 +18,7 @@ struct Host {
 /// less: in a container or a Slurm job the group is what ends a process.
 Host this_host();
 
+/// What /proc/cpuinfo calls the processor here; "" where it does not.
+std::string processor_name();
+
 }  // namespace treefarm

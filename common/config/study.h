@@ -35,7 +35,7 @@ struct Study {
     std::string file;
     std::string directory;             ///< absolute or relative to the current folder
     std::vector<Setting> job;          ///< keys of all cells
-    std::vector<Setting> budget;       ///< the one that all cells share: equal time, samples or error
+    std::vector<Setting> budgets;      ///< of one kind (time, samples or error); every method has a cell of each
     std::vector<StudyScene> scenes;    ///< in the file's order
     std::vector<StudyMethod> methods;  ///< with every combination of [vary]
     std::vector<std::uint64_t> seeds;
@@ -49,10 +49,12 @@ struct StudyCell {
     std::size_t scene = 0, method = 0;  ///< indices
     std::uint64_t seed = 0;
     std::size_t repetition = 0;  ///< index of the seed
+    std::size_t budget = 0;      ///< index
 };
 
-/// All cells in the order in which they run: scene by scene, within it seed by seed, within that all methods. Each
-/// repetition begins with the next method, so that a machine that drifts, or a neighbour of a cell, favours nobody.
+/// All cells in the order in which they run: scene by scene, within it seed by seed, budget by budget, within that all
+/// methods. Each repetition begins with the next method, so that a machine that drifts, or a neighbour of a cell,
+/// favours nobody.
 std::vector<StudyCell> study_cells(const Study& study);
 
 /// Reads a study file. Throws InputError with file:line:column.

@@ -185,20 +185,35 @@ class StudyReader {
 
     void read_budget(const toml::table& table) {
         const toml::table* budget = section(table, "budget");
-        const char* cure = "write one of seconds (equal time), spp (equal samples), error (equal error)";
+        const char* cure =
+            "write one of seconds (equal time), spp (equal samples), error (equal error); a list for several: [1, 2, "
+            "4]";
         if (budget == nullptr || budget->size() != 1)
             throw InputError(budget ? place(budget->source()) : Location{file_, 1, 1},
-                             "a study has one budget for all cells", cure);
+                             "a study has one kind of budget for all cells", cure);
         const auto first = budget->cbegin();
         const toml::key& key = first->first;
         const toml::node& node = first->second;
         if (key.str() != "seconds" && key.str() != "spp" && key.str() != "error")
             throw InputError(place(key.source()), "unknown budget " + in_quotes(key.str()), cure);
-        study_.budget = {read_setting("budget." + std::string(key.str()), place(key.source()), node, file_)};
+        const toml::array* list = node.as_array();
+        if (list != nullptr && list->empty()) throw InputError(place(node.source()), "a list without budgets", cure);
+        if (list == nullptr) add_budget(std::string(key.str()), place(key.source()), node, cure);
+        for (std::size_t k = 0; list != nullptr && k < list->size(); ++k)
+            add_budget(std::string(key.str()), place(list->get(k)->source()), *list->get(k), cure);
+    }
+
+    void add_budget(const std::string& key, const Location& where, const toml::node& node, const char* cure) {
+        const Setting setting = read_setting("budget." + key, where, node, file_);
         Job job;
-        apply_layer(job, study_.budget);
-        if (key.str() != "spp" && job.budget.seconds <= 0 && job.budget.error <= 0)
+        apply_layer(job, std::vector<Setting>{setting});
+        if (key != "spp" && job.budget.seconds <= 0 && job.budget.error <= 0)
             throw InputError(place(node.source()), "a budget of 0 renders nothing", cure);
+        for (const Setting& other : study_.budgets)
+            if (other.value == setting.value)
+                throw InputError(place(node.source()), "the budget " + setting.value + " is listed twice",
+                                 "name each once");
+        study_.budgets.push_back(setting);
     }
 
     void read_reference(const toml::table& table) {

@@ -45,7 +45,7 @@ RenderRequest study_request(const Study& study, const StudyScene& scene, const L
 }
 
 std::vector<Setting> cell_settings(const Study& study, const StudyCell& cell) {
-    std::vector<Setting> settings = study.budget;
+    std::vector<Setting> settings = {study.budgets[cell.budget]};
     settings.push_back({"sampler.seed", std::to_string(cell.seed), Location{study.file}});
     return settings;
 }

@@ -41,7 +41,9 @@ std::string counted(std::size_t number, const std::string& what) {
 }
 
 std::string cell_words(const Study& study, const StudyCell& cell) {
-    return study.scenes[cell.scene].name + "." + study.methods[cell.method].name + "." + std::to_string(cell.seed);
+    const std::string budget = study.budgets.size() > 1 ? "." + study.budgets[cell.budget].value : "";
+    return study.scenes[cell.scene].name + "." + study.methods[cell.method].name + budget + "." +
+           std::to_string(cell.seed);
 }
 
 /// A cell's request with its folder.
@@ -102,8 +104,8 @@ class StudyRun {
   private:
     void begin_description() {
         description_ = {{"study", study_.file}, {"command", context_.command}, {"baseline", study_.baseline}};
-        for (const Setting& setting : study_.budget)
-            description_["budget"][setting.key] = setting.value;
+        for (const Setting& setting : study_.budgets)
+            description_["budget"][setting.key].push_back(setting.value);
         description_["scenes"] = Json::array();
         for (const StudyScene& scene : study_.scenes)
             description_["scenes"].push_back({{"name", scene.name}, {"file", scene.file}});
@@ -158,7 +160,8 @@ class StudyRun {
                                          {"scene", study_.scenes[cell.scene].name},
                                          {"method", study_.methods[cell.method].name},
                                          {"seed", cell.seed},
-                                         {"repetition", cell.repetition}});
+                                         {"repetition", cell.repetition},
+                                         {"budget", cell.budget}});
     }
 
     void prepare_reference(std::size_t scene, Reference& reference, RenderRequest& request) {

@@ -82,7 +82,39 @@ def wheel(browser):
     browser.call("POST", "/actions", {"actions": [{"type": "wheel", "id": "wheel", "actions": [scroll]}]})
 
 
+def fits(browser, page):
+    """The page is as wide as its window, tables scroll in their own boxes, and letters of charts can be read."""
+    for width in (400, 800, 1280):
+        browser.call("POST", "/goog/cdp/execute", {"cmd": "Emulation.setDeviceMetricsOverride", "params": {
+            "width": width, "height": 900, "deviceScaleFactor": 1, "mobile": False}})
+        browser.call("POST", "/url", {"url": "file://" + page})
+        check(browser.run("return document.documentElement.scrollWidth <= innerWidth"), f"wider than {width} px")
+        letters = browser.run("return Math.min(...[...document.querySelectorAll('svg text')]"
+                              ".map(t => t.getBoundingClientRect().height).filter(h => h > 0))")
+        check(letters >= 9, f"letters of {letters} px in charts at {width} px")
+        if width == 1280:
+            wide = browser.run("return [...document.querySelectorAll('.wide')].filter(d => d.scrollWidth > d.clientWidth)"
+                               ".map(d => d.textContent.slice(0, 60))")
+            check(not wide, f"tables are cut at {width} px: {wide}")
+    browser.call("POST", "/goog/cdp/execute", {"cmd": "Emulation.clearDeviceMetricsOverride", "params": {}})
+
+
+def switches(browser, page):
+    """One of the two clocks is shown, charts and tables alike, and the other on demand."""
+    browser.call("POST", "/url", {"url": "file://" + page})
+    shown = ("return ['seconds', 'core_seconds'].map(key => [...document.querySelectorAll('.of-' + key)]"
+             ".filter(d => d.clientHeight > 0).length)")
+    for key, at in (("seconds", 0), ("core_seconds", 1)):
+        browser.run(f"document.querySelector('label[for=by-{key}]').click();")
+        counts = browser.run(shown)
+        check(counts[at] >= 4 and counts[1 - at] == 0, f"by {key} the page shows {counts}")
+    first = browser.run("return document.querySelector('.answer').textContent")
+    check("who won" in first or " won" in first, f"the page begins with {first}")
+
+
 def look_at(browser, page, screenshot):
+    fits(browser, page)
+    switches(browser, page)
     browser.call("POST", "/url", {"url": "file://" + page})
     check(browser.run("return document.querySelectorAll('svg').length") >= 5, "charts are missing")
     check(browser.run("return performance.getEntriesByType('resource').length") == 0, "the page loads something")

@@ -183,7 +183,12 @@ TEST(StudyProgram, MeasuresAgainstAGivenImage) {
                 std::log(last["measured"]["rmse_over_mean"].get<double>() / last["estimate"]["relative"].get<double>()),
                 0.0, 0.7)
                 << name;
+            const nlohmann::json summary = read_summary(results / "cells" / name);
+            for (const char* where : {"host", "started"})
+                EXPECT_FALSE(summary.value(where, "").empty()) << where;
+            EXPECT_TRUE(summary.contains("processor"));
         }
+        EXPECT_NE(ending.output.find("box: There is one method only"), std::string::npos) << ending.output;
         EXPECT_TRUE(fs::exists(results / "report.html"));
         EXPECT_FALSE(fs::exists(results / "references"));
     }

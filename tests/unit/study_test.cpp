@@ -42,7 +42,7 @@ TEST(Study, ReadsItsMatrix) {
     EXPECT_EQ(study.scenes[0].settings.at(0).key, "image.width");
     EXPECT_EQ(study.seeds, (std::vector<std::uint64_t>{5, 7}));
     EXPECT_EQ(study.directory, "runs/study");
-    EXPECT_EQ(study.budget.at(0).key, "budget.spp");
+    EXPECT_EQ(study.budgets.at(0).key, "budget.spp");
 }
 
 TEST(Study, VariesKeysInEveryCombination) {
@@ -73,6 +73,23 @@ TEST(Study, InterleavesMethods) {
         EXPECT_EQ(at.size(), 3u) << "method " << method << " stands at every place of a repetition";
 }
 
+TEST(Study, TakesSeveralBudgets) {
+    const Study study =
+        parse("seeds = 2\n" + kScene +
+              "[method.a]\n[method.b]\n[budget]\nseconds = [1, 2.5]\n[reference]\nsampler.seed = 1000\n");
+    ASSERT_EQ(study.budgets.size(), 2u);
+    EXPECT_EQ(study.budgets[1].key, "budget.seconds");
+    EXPECT_EQ(study.budgets[1].value, "2.5");
+    const std::vector<StudyCell> cells = study_cells(study);
+    ASSERT_EQ(cells.size(), 8u);
+    for (std::size_t k = 0; k < cells.size(); ++k)
+        EXPECT_EQ(cells[k].budget, k / 2 % 2) << "a repetition holds every budget with every method";
+    expect_complaint(kScene + "[budget]\nspp = []\n", "study.toml:4:7: a list without budgets");
+    expect_complaint(kScene + "[budget]\nspp = [4, 8, 4]\n", "study.toml:4:14: the budget 4 is listed twice");
+    expect_complaint(kScene + "[budget]\nseconds = [4, 0]\n", "study.toml:4:15: ");
+    expect_complaint(kScene + "[budget]\nerror = [0.1, \"x\"]\n", "study.toml:4:15: ");
+}
+
 TEST(Study, SaysWhatIsWrongAndWhere) {
     expect_complaint("sceens = 1\n", "study.toml:1:1: unknown key \"sceens\"");
     expect_complaint("[budget]\nspp = 4\n", "a study without scenes");
@@ -85,7 +102,7 @@ TEST(Study, SaysWhatIsWrongAndWhere) {
     expect_complaint(kScene + "[method.a]\nimage.width = 3\n" + kRest, "image.width has another place");
     expect_complaint(kScene + "[job]\nsampler.seed = 3\n" + kRest, "sampler.seed has another place");
     expect_complaint(kScene + "[job]\noutput.file = \"a.exr\"\n" + kRest, "output.file has another place");
-    expect_complaint(kScene + "[budget]\nspp = 4\nseconds = 3\n", "one budget for all cells");
+    expect_complaint(kScene + "[budget]\nspp = 4\nseconds = 3\n", "one kind of budget for all cells");
     expect_complaint(kScene + "[budget]\nspp = 0\n[reference]\nsampler.seed = 1000\n", "study.toml:4:7: ");
     expect_complaint(kScene + "[budget]\nspp = 4\n", "scene.box has no reference");
     expect_complaint(kScene + "[budget]\nspp = 4\n[reference]\nsampler.seed = 2\n", "share a seed");

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "report/gnuplot.h"
+#include "report/study_results.h"
+
+namespace treefarm {
+
+/// Inches of a width such as "3.3in", "84mm", "8.4 cm". Throws InputError for other text, and beyond 1 to 40 inches.
+double figure_width(const std::string& text);
+
+/// What was exported.
+struct ExportedFigures {
+    int figures = 0;
+    bool with_pdf = true;  ///< false: this gnuplot cannot make them
+};
+
+/// Writes every chart of the page as SVG, PDF and CSV into a folder, which is made. Throws RunError where gnuplot or a
+/// file fails.
+ExportedFigures export_figures(const StudyResults& results, const FigureStyle& style,
+                               const std::filesystem::path& folder);
+
+}  // namespace treefarm

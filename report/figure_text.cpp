@@ -1,0 +1,62 @@
+#include "report/figure_text.h"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <cmath>
+
+namespace treefarm {
+
+namespace {
+
+/// Intervals that are wider say only that nothing is known.
+constexpr double kWidest = 10;
+
+bool has_interval(const Interval& interval) {
+    return interval.values >= kLeastSeeds && std::isfinite(interval.low);
+}
+
+}  // namespace
+
+bool differs_from_one(const Interval& ratio) {
+    return has_interval(ratio) && (ratio.low > 1 || ratio.high < 1);
+}
+
+std::string interval_text(const Interval& interval) {
+    if (!std::isfinite(interval.mean)) return "?";
+    std::string text = fmt::format("{:.3g}", interval.mean);
+    if (has_interval(interval)) text += fmt::format(" [{:.3g}, {:.3g}]", interval.low, interval.high);
+    return text;
+}
+
+std::string gain_text(const Interval& ratio) {
+    if (!std::isfinite(ratio.mean)) return "?";
+    if (ratio.values < kLeastSeeds) return interval_text(ratio) + " (" + seeds_text(ratio.values) + ": cannot tell)";
+    if (differs_from_one(ratio)) return interval_text(ratio);
+    const bool is_wide = ratio.high > kWidest * ratio.low;
+    return (is_wide ? fmt::format("{:.3g}", ratio.mean) : interval_text(ratio)) + " (cannot tell)";
+}
+
+std::string time_text(double seconds, bool of_cores) {
+    const char* of = of_cores ? "core-" : "";
+    if (!std::isfinite(seconds)) return "?";
+    if (seconds < 120) return fmt::format("{:.3g} {}s", seconds, of);
+    if (seconds < 7200) return fmt::format("{:.3g} {}min", seconds / 60, of);
+    return seconds < 360'000 ? fmt::format("{:.3g} {}h", seconds / 3600, of)
+                             : fmt::format("{:.3g} {}d", seconds / 86400, of);
+}
+
+std::string time_text(const Interval& seconds, bool of_cores) {
+    const std::string text = time_text(seconds.mean, of_cores);
+    if (!has_interval(seconds) || seconds.high > kWidest * seconds.low) return text;
+    return text + " [" + time_text(seconds.low, of_cores) + ", " + time_text(seconds.high, of_cores) + "]";
+}
+
+std::string percent_text(double share) {
+    return fmt::format("{:.3g} %", 100 * share);
+}
+
+std::string seeds_text(std::size_t seeds) {
+    return fmt::format("{} seed{}", seeds, seeds == 1 ? "" : "s");
+}
+
+}  // namespace treefarm

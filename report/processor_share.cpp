@@ -1,0 +1,41 @@
+#include "report/processor_share.h"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <cmath>
+#include <limits>
+
+namespace treefarm {
+
+double processor_share(const CellResult& cell) {
+    double offered = 0;
+    for (const PassRow& row : cell.passes)
+        if (const auto collect = row.phases.find("collect"); collect != row.phases.end())
+            offered += collect->second * row.threads;
+    if (!(offered > 0)) return std::numeric_limits<double>::quiet_NaN();
+    return cell.passes.back().core_seconds / offered;
+}
+
+bool was_busy(const StudyResults& results) {
+    return !busy_warning(results).empty();
+}
+
+std::string busy_warning(const StudyResults& results) {
+    const CellResult* least = nullptr;
+    std::size_t busy = 0;
+    for (const CellResult& cell : results.cells) {
+        const double share = processor_share(cell);
+        if (!(share < kLeastProcessorShare)) continue;
+        ++busy;
+        if (least == nullptr || share < processor_share(*least)) least = &cell;
+    }
+    if (least == nullptr) return "";
+    return fmt::format(
+        "Beside a busy processor: in {} of {} renders workers had less than {:.0f} % of their processors (least: "
+        "{:.0f} %, {}, {}, seed {}). Seconds are not the methods' own then: compare core-seconds, or render again on "
+        "a machine that does nothing else, with no more threads than cores.",
+        busy, results.cells.size(), 100 * kLeastProcessorShare, 100 * processor_share(*least), least->scene,
+        least->method, least->seed);
+}
+
+}  // namespace treefarm

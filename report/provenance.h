@@ -1,0 +1,27 @@
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+
+namespace treefarm {
+
+struct CellResult;
+
+/// Where, when and by what a render was made. Empty or 0: its summary.json does not say.
+struct Provenance {
+    std::string source;     ///< what the program was built from, as git describes it
+    std::string host;       ///< the coordinator's
+    std::string processor;  ///< of that host
+    std::string started;    ///< UTC, "2026-11-25 21:22"
+    int workers = 0;
+    int threads = 0;  ///< of all workers
+};
+
+/// Of the render in a run directory.
+Provenance read_provenance(const std::filesystem::path& folder);
+
+/// "Rendered by treefarm COMMIT on HOST (PROCESSOR), from ... to ..., by 2 workers with 2 threads."
+std::string provenance_text(std::span<const CellResult> cells);
+
+}  // namespace treefarm

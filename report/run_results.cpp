@@ -1,0 +1,179 @@
+#include "report/run_results.h"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "common/base/error.h"
+
+namespace treefarm {
+
+namespace {
+
+using Json = nlohmann::json;
+using Settings = std::map<std::string, std::string>;
+
+/// A render as its folder tells of it.
+struct Run {
+    CellResult cell;
+    std::string scene_file;
+    Settings settings;  ///< keys of job.toml but for the seed, the budget and the image's size
+};
+
+double number(const Json& json, const char* key) {
+    const auto at = json.find(key);
+    return at != json.end() && at->is_number() ? at->get<double>() : std::numeric_limits<double>::quiet_NaN();
+}
+
+/// job.toml as this program writes it: [section] lines, then key = value.
+Settings read_settings(const std::filesystem::path& file) {
+    Settings settings;
+    std::ifstream in(file);
+    std::string section;
+    for (std::string line; std::getline(in, line);) {
+        const std::size_t equals = line.find(" = ");
+        if (line.starts_with('[') && line.ends_with(']')) section = line.substr(1, line.size() - 2) + ".";
+        if (equals != std::string::npos) settings[section + line.substr(0, equals)] = line.substr(equals + 3);
+    }
+    return settings;
+}
+
+PassRow read_pass(const Json& json, double core_seconds_before, int threads) {
+    PassRow row;
+    row.pass = json.at("pass");
+    row.spp = json.at("spp");
+    row.spp_done = json.at("spp_done");
+    row.threads = threads;
+    row.run_seconds = json.at("run_seconds");
+    row.core_seconds = core_seconds_before + json.at("core_seconds").get<double>();
+    const Json error = json.value("image_error", Json());
+    row.estimate = number(error, "relative");
+    row.estimate_low = number(error, "low");
+    row.estimate_high = number(error, "high");
+    row.halving = row.target = {std::numeric_limits<double>::quiet_NaN(), ""};
+    row.nonzero_share = json.at("nonzero_share");
+    row.tree_nodes = json.at("tree_nodes");
+    row.tree_memory = json.at("tree_memory");
+    for (const auto& [phase, seconds] : json.at("phase_seconds").items())
+        row.phases[phase] = seconds.get<double>();
+    return row;
+}
+
+Run read_run(const std::filesystem::path& folder) {
+    const Location where{folder.string()};
+    std::ifstream file(folder / "summary.json", std::ios::binary);
+    try {
+        const Json json = Json::parse(file);
+        Run run;
+        run.cell.folder = folder;
+        run.cell.made = read_provenance(folder);
+        run.cell.width = json.at("width");
+        run.cell.height = json.at("height");
+        run.scene_file = json.at("scene");
+        double core_seconds = 0;
+        for (const Json& pass : json.at("passes")) {
+            run.cell.passes.push_back(read_pass(pass, core_seconds, run.cell.made.threads));
+            core_seconds = run.cell.passes.back().core_seconds;
+        }
+        if (run.cell.passes.empty() || !(run.cell.passes.back().estimate > 0))
+            throw InputError(where, "ended before its error was known", "leave it out, or render more samples");
+        run.settings = read_settings(folder / "job.toml");
+        if (const auto seed = run.settings.find("sampler.seed"); seed != run.settings.end())
+            run.cell.seed = std::strtoull(seed->second.c_str(), nullptr, 10);
+        std::erase_if(run.settings, [](const auto& setting) {
+            return setting.first == "sampler.seed" || setting.first.starts_with("budget.") ||
+                   setting.first.starts_with("image.");
+        });
+        return run;
+    } catch (const Json::exception& error) {
+        throw InputError(where, std::string("what a render left is damaged: ") + error.what(),
+                         "render it again, or leave it out");
+    }
+}
+
+/// The keys in which runs differ.
+std::set<std::string> differing_keys(const std::vector<Run>& runs) {
+    std::set<std::string> keys;
+    for (const Run& run : runs)
+        for (const Run& other : runs) {
+            if (other.scene_file != run.scene_file) continue;
+            for (const auto& [key, value] : run.settings)
+                if (const auto at = other.settings.find(key); at == other.settings.end() || at->second != value)
+                    keys.insert(key);
+        }
+    return keys;
+}
+
+Settings chosen(const Settings& settings, const std::set<std::string>& keys) {
+    Settings some;
+    for (const auto& [key, value] : settings)
+        if (keys.contains(key)) some[key] = value;
+    return some;
+}
+
+std::string method_name(const Settings& settings) {
+    std::string name;
+    for (const auto& [key, value] : settings) {
+        std::string plain = value;
+        std::erase_if(plain, [](char c) { return c == '"' || c == '\''; });
+        name += (name.empty() ? "" : ", ") + key.substr(key.find('.') + 1) + " = " + plain;
+    }
+    return name.empty() ? "render" : name;
+}
+
+/// Adds a scene or a method that is not there yet.
+template <class Named>
+void add_once(std::vector<Named>& list, Named one) {
+    if (std::none_of(list.begin(), list.end(), [&](const Named& there) { return there.name == one.name; }))
+        list.push_back(std::move(one));
+}
+
+}  // namespace
+
+bool is_run_folder(const std::filesystem::path& folder) {
+    return std::filesystem::exists(folder / "summary.json");
+}
+
+StudyResults read_run_results(std::span<const std::filesystem::path> folders) {
+    std::vector<Run> runs;
+    for (const std::filesystem::path& folder : folders)
+        runs.push_back(read_run(folder));
+    const std::set<std::string> keys = differing_keys(runs);
+    StudyResults results;
+    results.folder = folders.front();
+    results.budgets = {"a budget of its own"};
+    results.has_references = false;
+    results.measured_by = {
+        {"estimated_error", "estimated RMSE / mean", [](const PassRow& row) { return row.estimate; }}};
+    results.planned = runs.size();
+    std::vector<std::uint64_t> seeds;
+    for (Run& run : runs) {
+        CellResult& cell = run.cell;
+        results.study += (results.study.empty() ? "" : ", ") + cell.folder.string();
+        cell.budget = results.budgets.front();
+        cell.scene =
+            fmt::format("{} {} x {}", std::filesystem::path(run.scene_file).stem().string(), cell.width, cell.height);
+        const Settings settings = chosen(run.settings, keys);
+        cell.method = method_name(settings);
+        const auto at = std::find(seeds.begin(), seeds.end(), cell.seed);
+        cell.repetition = static_cast<std::size_t>(at - seeds.begin());
+        if (at == seeds.end()) seeds.push_back(cell.seed);
+        for (const CellResult* other : results.of(cell.scene, cell.method))
+            if (other->repetition == cell.repetition) {  // the same render twice
+                cell.method += " (" + cell.folder.filename().string() + ")";
+                break;
+            }
+        add_once(results.scenes, SceneResult{cell.scene, run.scene_file, "", NAN, false});
+        add_once(results.methods, MethodResult{cell.method, settings});
+        results.cells.push_back(std::move(cell));
+    }
+    results.baseline = results.methods.front().name;
+    return results;
+}
+
+}  // namespace treefarm
