@@ -16,6 +16,7 @@
 #include "common/base/error.h"
 #include "common/base/timer.h"
 #include "common/comm/idle_pause.h"
+#include "common/comm/launcher_watch.h"
 
 namespace treefarm {
 
@@ -212,7 +213,10 @@ class Deadline {
     void wait(double seconds, int exit_code) {
         std::unique_lock lock(mutex_);
         if (changed_.wait_for(lock, std::chrono::duration<double>(seconds), [&] { return met_; })) return;
-        if (!complaint_.empty()) (void)!::write(STDERR_FILENO, complaint_.data(), complaint_.size());
+        if (!complaint_.empty()) {
+            end_launcher_that_stays(complaint_);
+            (void)!::write(STDERR_FILENO, complaint_.data(), complaint_.size());
+        }
         _exit(exit_code);
     }
 
