@@ -296,10 +296,9 @@ TEST_F(Malformed, SensorsAndFilms) {
 TEST_F(Malformed, Integrators) {
     for (const char* line :
          {"<integrator type=\"ao\"/>",
-          "<integrator type=\"path\"><integer name=\"maxDepht\" value=\"3\"/></integrator>",
           "<integrator type=\"path\"><integer name=\"maxDepth\" value=\"0\"/></integrator>",
-          "<integrator type=\"guided_path\"/>",
-          "<integrator type=\"guided_path\"><string name=\"budgetType\" value=\"seconds\"/></integrator>",
+          "<integrator type=\"guided_path\"><float name=\"budget\" value=\"0\"/></integrator>",
+          "<integrator type=\"guided_path\"><string name=\"budgetType\" value=\"hours\"/></integrator>",
           "<integrator type=\"guided_path\"><string name=\"budgetType\" value=\"spp\"/><float name=\"budget\" "
           "value=\"0.5\"/></integrator>"})
         EXPECT_EQ(message_of(line).substr(0, 8), "s.xml:3:") << line << " -> " << message_of(line);
@@ -309,10 +308,9 @@ TEST_F(Malformed, Integrators) {
     };
     EXPECT_EQ(guided(""), "no error");
     for (const char* property :
-         {"<string name=\"nee\" value=\"sometimes\"/>", "<string name=\"spatialFilter\" value=\"stochastic\"/>",
-          "<string name=\"directionalFilter\" value=\"box\"/>",
-          "<string name=\"bsdfSamplingFractionLoss\" value=\"kl\"/>",
-          "<integer name=\"sdTreeMaxMemory\" value=\"100\"/>", "<float name=\"dTreeThreshold\" value=\"0\"/>",
+         {"<string name=\"nee\" value=\"sometimes\"/>", "<string name=\"spatialFilter\" value=\"gauss\"/>",
+          "<string name=\"directionalFilter\" value=\"stochastic\"/>",
+          "<string name=\"bsdfSamplingFractionLoss\" value=\"l2\"/>", "<float name=\"dTreeThreshold\" value=\"0\"/>",
           "<float name=\"bsdfSamplingFraction\" value=\"2\"/>", "<integer name=\"sTreeThreshold\" value=\"-3\"/>"})
         EXPECT_EQ(guided(property).substr(0, 8), "s.xml:3:") << property << " -> " << guided(property);
 }
