@@ -74,7 +74,9 @@ std::vector<Setting> scene_layer(std::span<const Setting> scene,
         });
     };
     std::vector<Setting> layer(scene.begin(), scene.end());
-    const auto drop = [&](std::string_view key) { std::erase_if(layer, [&](const Setting& s) { return s.key == key; }); };
+    const auto drop = [&](std::string_view key) {
+        std::erase_if(layer, [&](const Setting& s) { return s.key == key; });
+    };
     if (chosen({"guiding.type", "guiding.preset"})) drop("guiding.preset");
     // It would win over samples that the job asks for.
     if (chosen({"budget.spp", "budget.seconds", "budget.error"})) drop("budget.seconds");

@@ -83,7 +83,8 @@ std::optional<stb::Size> check_tga(std::span<const std::uint8_t> bytes, std::str
     const std::uint32_t width = little(bytes, 12, 2), height = little(bytes, 14, 2);
     if (width == 0 || height == 0) return refuse(why, kMalformed);
     const std::uint32_t colours = little(bytes, 5, 2), colour_bits = bytes[7];
-    if (has_palette && (colours == 0 || (colour_bits != 15 && colour_bits != 16 && colour_bits != 24 && colour_bits != 32)))
+    if (has_palette &&
+        (colours == 0 || (colour_bits != 15 && colour_bits != 16 && colour_bits != 24 && colour_bits != 32)))
         return refuse(why, kMalformed);
     const std::size_t begin =
         18 + std::size_t{bytes[0]} + (has_palette ? (little(bytes, 3, 2) + colours) * ((colour_bits + 7) / 8) : 0);

@@ -15,9 +15,8 @@ using Layer = std::map<char, std::string>;
 
 /// 'R' for "R", "layer.r" and "layer.red", and so on; 0 for other channels.
 char meaning_of(std::string_view component) {
-    constexpr std::array<std::pair<std::string_view, char>, 8> kNames = {{{"r", 'R'}, {"g", 'G'}, {"b", 'B'},
-                                                                          {"a", 'A'}, {"y", 'Y'}, {"red", 'R'},
-                                                                          {"green", 'G'}, {"blue", 'B'}}};
+    constexpr std::array<std::pair<std::string_view, char>, 8> kNames = {
+        {{"r", 'R'}, {"g", 'G'}, {"b", 'B'}, {"a", 'A'}, {"y", 'Y'}, {"red", 'R'}, {"green", 'G'}, {"blue", 'B'}}};
     std::string name(component);
     std::transform(name.begin(), name.end(), name.begin(),
                    [](char c) { return static_cast<char>('A' <= c && c <= 'Z' ? c - 'A' + 'a' : c); });

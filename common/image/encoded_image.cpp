@@ -72,7 +72,8 @@ void read_header(EncodedImage& image, const std::filesystem::path& path, std::st
         image.width = size->width;
         image.height = size->height;
     } else {
-        why = "is neither PNG nor JPEG nor Radiance HDR nor OpenEXR nor BMP, TGA, PPM or PFM, damaged, or absurdly large";
+        why =
+            "is neither PNG nor JPEG nor Radiance HDR nor OpenEXR nor BMP, TGA, PPM or PFM, damaged, or absurdly large";
     }
 }
 

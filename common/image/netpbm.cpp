@@ -67,9 +67,9 @@ std::optional<NetpbmHeader> read_netpbm_header(std::span<const std::uint8_t> byt
     }
     Words words(text.substr(2));
     const bool sized = words.next(header.width) && words.next(header.height) && header.width > 0 && header.height > 0;
-    const bool scaled = header.floats ? words.next(header.scale) && std::isfinite(header.scale) && header.scale != 0.0
-                                      : words.next(header.max_value) && header.max_value > 0 &&
-                                            header.max_value <= 65535;
+    const bool scaled = header.floats
+                            ? words.next(header.scale) && std::isfinite(header.scale) && header.scale != 0.0
+                            : words.next(header.max_value) && header.max_value > 0 && header.max_value <= 65535;
     header.data_begin = 2 + words.at() + 1;
     if (!sized || !scaled)
         why = "its header is malformed";
@@ -94,8 +94,8 @@ std::vector<float> netpbm_floats(std::span<const std::uint8_t> bytes, const Netp
     if (!header.floats) {
         values.reserve(data.size() / 2);
         for (std::size_t i = 0; i + 1 < data.size(); i += 2)
-            values.push_back(std::min(1.0f, static_cast<float>(data[i] << 8 | data[i + 1]) /
-                                                static_cast<float>(header.max_value)));
+            values.push_back(
+                std::min(1.0f, static_cast<float>(data[i] << 8 | data[i + 1]) / static_cast<float>(header.max_value)));
         return values;
     }
     // Rows run from the bottom to the top.

@@ -83,9 +83,8 @@ StoredImage read_encoded(const std::filesystem::path& path) {
 
 StoredImage read_from_exr(const std::filesystem::path& path) {
     const std::vector<std::string> chosen = choose_color_channels(path, exr_channel_names(path));
-    const ExrImage file = read_exr(path, [&](const std::string& name) {
-        return std::find(chosen.begin(), chosen.end(), name) != chosen.end();
-    });
+    const ExrImage file = read_exr(
+        path, [&](const std::string& name) { return std::find(chosen.begin(), chosen.end(), name) != chosen.end(); });
     StoredImage image;
     image.width = file.image.width;
     image.height = file.image.height;

@@ -23,8 +23,8 @@ struct MtlMaterial {
     Location diffuse_map_where;
 };
 
-/// Reads the materials of an MTL file: newmtl, Kd, Ks, Ns, Ke, illum and map_Kd; other statements are skipped. Malformed numbers
-/// throw InputError at their line and column. `asked_from` is where the file's name stands.
+/// Reads the materials of an MTL file: newmtl, Kd, Ks, Ns, Ke, illum and map_Kd; other statements are skipped.
+/// Malformed numbers throw InputError at their line and column. `asked_from` is where the file's name stands.
 std::vector<MtlMaterial> read_mtl(const std::filesystem::path& path, const Location& asked_from);
 
 /// The same from memory; `file` is the name for messages.

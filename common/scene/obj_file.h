@@ -23,7 +23,7 @@ struct ObjFile {
     std::vector<Vec3> positions;
     std::vector<Vec3> normals;  ///< as written: not normalised
     std::vector<Vec2> uvs;
-    std::vector<Corner> corners;  ///< three per triangle
+    std::vector<Corner> corners;            ///< three per triangle
     std::vector<std::string> materials;     ///< names of usemtl, each once
     std::vector<std::int32_t> material_of;  ///< of each triangle: index in `materials`, or -1 before any usemtl
     std::vector<std::string> libraries;     ///< what mtllib names; not read here

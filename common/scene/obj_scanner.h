@@ -8,7 +8,8 @@
 
 namespace treefarm {
 
-/// Walks over the words of an OBJ or MTL file, statement by statement. A backslash at the end of a line continues the statement.
+/// Walks over the words of an OBJ or MTL file, statement by statement. A backslash at the end of a line continues the
+/// statement.
 class ObjScanner {
   public:
     ObjScanner(std::string_view text, const std::string& file) : text_(text), file_(file) {}

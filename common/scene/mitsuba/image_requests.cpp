@@ -110,10 +110,10 @@ TextureImage make_image(const StoredImage& file, const Decoding& decoding, const
                              " values of the image are infinite and were set to 65504, the largest half",
                          "numbers");
     if (repairs.impossible > 0)
-        diagnostics.warn(where,
-                         std::to_string(repairs.impossible) +
-                             " values of the image are negative or no numbers and were set to 0",
-                         "numbers");
+        diagnostics.warn(
+            where,
+            std::to_string(repairs.impossible) + " values of the image are negative or no numbers and were set to 0",
+            "numbers");
     if (decoding.as_floats) expand_to_floats(image);
     return image;
 }

@@ -34,8 +34,7 @@ void read_other(IntegratorSettings& settings, const std::string& type) {
                                 "the integrator " + in_quotes(type) +
                                     " is replaced by path tracing as the job sets it: the same image, "
                                     "but for what that integrator leaves out or blurs");
-    if (!properties.has("max_depth") && type == "vpl")
-        settings.set("integrator.max_depth", "5", properties.where());
+    if (!properties.has("max_depth") && type == "vpl") settings.set("integrator.max_depth", "5", properties.where());
     if (!properties.has("max_depth") && type.starts_with("prb"))
         settings.set("integrator.max_depth", "6", properties.where());
     settings.read_common();

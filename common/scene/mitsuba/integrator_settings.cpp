@@ -5,21 +5,24 @@
 namespace treefarm::mitsuba {
 
 void IntegratorSettings::read_integer(const char* name, const char* key) {
-    if (properties_.has(name)) set_by(name, key, std::to_string(properties_.integer(name, 0)));
+    const std::int64_t value = properties_.integer(name, 0);
+    if (properties_.has(name)) set_by(name, key, std::to_string(value));
 }
 
 void IntegratorSettings::read_number(const char* name, const char* key) {
-    if (properties_.has(name)) set_by(name, key, number_text(properties_.number(name, 0.0)));
+    const double value = properties_.number(name, 0.0);
+    if (properties_.has(name)) set_by(name, key, number_text(value));
 }
 
 void IntegratorSettings::read_boolean(const char* name, const char* key) {
-    if (properties_.has(name)) set_by(name, key, properties_.boolean(name, false) ? "true" : "false");
+    const bool value = properties_.boolean(name, false);
+    if (properties_.has(name)) set_by(name, key, value ? "true" : "false");
 }
 
 void IntegratorSettings::read_words(const char* name, const char* key,
                                     const std::vector<std::pair<std::string, std::string>>& words) {
-    if (!properties_.has(name)) return;
     const std::string value = properties_.text(name, "");
+    if (!properties_.has(name)) return;
     std::string allowed;
     for (const auto& [word, translated] : words) {
         if (word == value) return set_by(name, key, translated);

@@ -29,8 +29,7 @@ class IntegratorSettings {
     void read_number(const char* name, const char* key);
     void read_boolean(const char* name, const char* key);
     /// A property that is one of some words, and the value of the key for each; other words throw InputError.
-    void read_words(const char* name, const char* key,
-                    const std::vector<std::pair<std::string, std::string>>& words);
+    void read_words(const char* name, const char* key, const std::vector<std::pair<std::string, std::string>>& words);
 
     /// What every integrator has: how long paths are, strict normals, hidden emitters.
     void read_common();

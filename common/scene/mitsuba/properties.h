@@ -29,8 +29,8 @@ struct Child {
 /// version 0 only get a warning, as Mitsuba 0.6 gives it.
 class Properties {
   public:
-    /// Wrong attributes, repeated properties and unknown elements throw InputError (or warn, when lenient). In a file of
-    /// version 0 the last one of repeated properties holds, with a warning.
+    /// Wrong attributes, repeated properties and unknown elements throw InputError (or warn, when lenient). In a file
+    /// of version 0 the last one of repeated properties holds, with a warning.
     Properties(const XmlElement& object, const SceneDocument& document, Diagnostics& diagnostics);
 
     const XmlElement& element() const { return object_; }
@@ -59,8 +59,8 @@ class Properties {
     /// The tag of the value of this name ("float", "string"...), or "".
     std::string tag_of(const std::string& name) const;
 
-    /// The object of a tag that stands for the property `name`, or nullptr. A second one throws InputError, or holds in a
-    /// file of version 0.
+    /// The object of a tag that stands for the property `name`, or nullptr. A second one throws InputError, or holds in
+    /// a file of version 0.
     const XmlElement* named_child(const std::string& tag, const std::string& name);
     /// The objects of a tag, in their order.
     std::vector<Child> children(const std::string& tag);

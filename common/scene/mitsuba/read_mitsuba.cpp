@@ -53,8 +53,7 @@ SceneReading read(const SceneDocument& document, Diagnostics diagnostics, const 
     root.ignore_prefix("kd_");
     root.ignore({"allow_thread_reordering", "compact_acceleration_structures"});
     if (const char* robust = "embree_use_robust_intersections"; root.has(robust))
-        reading.settings.push_back(
-            {"farm.robust", root.boolean(robust, false) ? "true" : "false", root.where(robust)});
+        reading.settings.push_back({"farm.robust", root.boolean(robust, false) ? "true" : "false", root.where(robust)});
     diagnostics.attempt([&] { root.finish(); });
     materials.textures().images().read(remove_unused(scene), scene, diagnostics);
 

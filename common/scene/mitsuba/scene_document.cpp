@@ -65,9 +65,9 @@ class Expander {
             throw InputError(element.where, "the scene has more than " + std::to_string(kMaxElements) + " elements",
                              "include fewer files");
         if (is_older_ && (element.tag == "camera" || element.tag == "luminaire"))
-            throw InputError(element.where,
-                             "the file is of Mitsuba 0.4 or older, whose <" + element.tag + "> is not read",
-                             "open it in Mitsuba 0.5 or 0.6, which bring it to their version: 0.5, 0.6, 2 and 3 are read");
+            throw InputError(
+                element.where, "the file is of Mitsuba 0.4 or older, whose <" + element.tag + "> is not read",
+                "open it in Mitsuba 0.5 or 0.6, which bring it to their version: 0.5, 0.6, 2 and 3 are read");
         element.version = version;
         element.is_0_5 = is_0_5_;
         // From version 2 on a spectrum that names a plugin is an object, of the same kind as a texture.

@@ -65,7 +65,8 @@ void ShapeReader::read_shape(const XmlElement& element, std::int32_t group) {
                 bsdf ? materials_.read(*bsdf) : materials_.read_default(emitter != nullptr, element.where);
     if (group != kNone) {
         const auto refuse = [&](const Location& where) {
-            diagnostics_.unsupported(where, "a shape in a shapegroup has an emitter", "take the shape out of the group");
+            diagnostics_.unsupported(where, "a shape in a shapegroup has an emitter",
+                                     "take the shape out of the group");
         };
         if (emitter) refuse(emitter->where);
         emitter = nullptr;
