@@ -71,14 +71,14 @@ struct Repairs {
     std::size_t infinite = 0, impossible = 0;
 };
 
-/// Infinite values become the largest half, those that no light and no surface has become 0.
-Repairs repair(std::vector<float>& values, bool signed_values) {
+/// Infinite light becomes the largest half, values that no light and no surface has become 0.
+Repairs repair(std::vector<float>& values, const Decoding& decoding) {
     Repairs repairs;
     for (float& value : values) {
-        if (std::isinf(value) && (value > 0.0f || signed_values)) {
-            value = std::copysign(kLargestHalf, value);
+        if (std::isinf(value) && value > 0.0f && decoding.is_light) {
+            value = kLargestHalf;
             ++repairs.infinite;
-        } else if (!std::isfinite(value) || (value < 0.0f && !signed_values)) {
+        } else if (!std::isfinite(value) || (value < 0.0f && !decoding.signed_values)) {
             value = 0.0f;
             ++repairs.impossible;
         }
@@ -103,7 +103,7 @@ TextureImage make_image(const StoredImage& file, const Decoding& decoding, const
         for (float& value : image.floats)
             value = value > 0.0f ? static_cast<float>(decoded(double(value), gamma)) : value;
     }
-    const Repairs repairs = repair(image.floats, decoding.signed_values);
+    const Repairs repairs = repair(image.floats, decoding);
     if (repairs.infinite > 0)
         diagnostics.warn(where,
                          std::to_string(repairs.infinite) +
@@ -112,7 +112,7 @@ TextureImage make_image(const StoredImage& file, const Decoding& decoding, const
     if (repairs.impossible > 0)
         diagnostics.warn(
             where,
-            std::to_string(repairs.impossible) + " values of the image are negative or no numbers and were set to 0",
+            std::to_string(repairs.impossible) + " values of the image are negative or not finite and were set to 0",
             "numbers");
     if (decoding.as_floats) expand_to_floats(image);
     return image;
