@@ -121,6 +121,8 @@ RenderRequest read_request(const RenderOptions& options) {
     request.plan.passes_guessed |= !request.schedule.empty();
     for (const Warning& warning : loaded.warnings)
         request.warnings.push_back(warning.text());
+    for (const Warning& note : loaded.notes)
+        request.notes.push_back(note.text());
     const PassPlan last = plan_passes(request.job).back();
     if (const std::uint32_t spp = last.first_sample + last.spp;
         !request.plan.passes_guessed && spp != static_cast<std::uint32_t>(request.job.budget.spp))

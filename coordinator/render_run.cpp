@@ -36,6 +36,8 @@ class RenderRun {
         log_->debug("{}", request_.command);
         for (const std::string& warning : request_.warnings)
             log_->warn("{}", warning);
+        for (const std::string& note : request_.notes)
+            log_->info("{}", note);
         for (const Approximation& approximation : request_.plan.approximations)
             log_->warn("{}", approximation_text(approximation));
         RunEnd end;

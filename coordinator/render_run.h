@@ -21,6 +21,7 @@ struct RenderRequest {
     Scene scene;                        ///< without the effects that the job forces off
     EffectPlan plan;                    ///< of both
     std::vector<std::string> warnings;  ///< of the readers, for the log
+    std::vector<std::string> notes;     ///< the same, of what is no fault
     std::vector<PassPlan> schedule;     ///< --schedule: these passes; empty: the job's own
     std::string command;                ///< as it was typed
     std::string debug_command;  ///< reproduces a sample when " pass,x,y,sample" and, for an open budget, --schedule are

@@ -66,12 +66,20 @@ void apply_layer(Job& job, std::span<const Setting> layer) {
 
 std::vector<Setting> scene_layer(std::span<const Setting> scene,
                                  std::initializer_list<std::span<const Setting>> above) {
-    const bool chosen = std::any_of(above.begin(), above.end(), [](std::span<const Setting> layer) {
-        return std::any_of(layer.begin(), layer.end(),
-                           [](const Setting& s) { return s.key == "guiding.type" || s.key == "guiding.preset"; });
-    });
+    const auto chosen = [&](std::initializer_list<std::string_view> keys) {
+        return std::any_of(above.begin(), above.end(), [&](std::span<const Setting> layer) {
+            return std::any_of(layer.begin(), layer.end(), [&](const Setting& s) {
+                return std::find(keys.begin(), keys.end(), s.key) != keys.end();
+            });
+        });
+    };
     std::vector<Setting> layer(scene.begin(), scene.end());
-    if (chosen) std::erase_if(layer, [](const Setting& s) { return s.key == "guiding.preset"; });
+    const auto drop = [&](std::string_view key) {
+        std::erase_if(layer, [&](const Setting& s) { return s.key == key; });
+    };
+    if (chosen({"guiding.type", "guiding.preset"})) drop("guiding.preset");
+    // It would win over samples that the job asks for.
+    if (chosen({"budget.spp", "budget.seconds", "budget.error"})) drop("budget.seconds");
     return layer;
 }
 

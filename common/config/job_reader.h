@@ -20,7 +20,8 @@ void apply_setting(Job& job, const std::string& key, const std::string& value, c
 void apply_layer(Job& job, std::span<const Setting> layer);
 
 /// What a scene sets for jobs with these layers above it. Its integrator may stand for a preset (`guided_path`: paper);
-/// where a layer chooses guiding.type or a preset, guiding is the job's, and the scene's preset does not hold.
+/// where a layer chooses guiding.type or a preset, guiding is the job's, and the scene's preset does not hold. Where
+/// one has a budget, the scene's seconds do not hold.
 std::vector<Setting> scene_layer(std::span<const Setting> scene, std::initializer_list<std::span<const Setting>> above);
 
 /// The text of a TOML file that a person names; `kind` is "job" or "schedule", for messages. Throws InputError.

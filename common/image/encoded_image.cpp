@@ -5,9 +5,11 @@
 #include <span>
 
 #include "common/base/error.h"
+#include "common/image/bitmap_check.h"
 #include "common/image/hdr.h"
 #include "common/image/image.h"
 #include "common/image/jpeg_check.h"
+#include "common/image/netpbm.h"
 #include "common/image/read_bytes.h"
 #include "common/image/stb.h"
 
@@ -27,9 +29,38 @@ std::optional<stb::Size> size_by_stb(std::span<const std::uint8_t> bytes) {
     return stb::image_size(bytes);
 }
 
+/// Nothing for other formats.
+std::optional<ImageFormat> plain_format(std::span<const std::uint8_t> bytes, const std::filesystem::path& path) {
+    if (is_netpbm(bytes)) return ImageFormat::netpbm;
+    if (is_bmp(bytes)) return ImageFormat::bmp;
+    std::string extension = path.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](char c) { return static_cast<char>('A' <= c && c <= 'Z' ? c - 'A' + 'a' : c); });
+    const bool is_other = begins_with(bytes, kPng) || begins_with(bytes, kJpeg) || is_hdr(bytes);
+    if (is_tga(bytes) || (extension == ".tga" && !is_other)) return ImageFormat::tga;
+    return std::nullopt;
+}
+
+/// Size of a file whose pixels must all be there.
+void read_plain_header(EncodedImage& image, std::string& why) {
+    if (image.format == ImageFormat::netpbm) {
+        if (const auto header = read_netpbm_header(image.bytes, why)) {
+            image.width = header->width;
+            image.height = header->height;
+        }
+    } else if (const auto size =
+                   image.format == ImageFormat::bmp ? check_bmp(image.bytes, why) : check_tga(image.bytes, why)) {
+        image.width = size->width;
+        image.height = size->height;
+    }
+}
+
 /// Format and claimed size from the header.
-void read_header(EncodedImage& image, std::string& why) {
-    if (is_hdr(image.bytes)) {
+void read_header(EncodedImage& image, const std::filesystem::path& path, std::string& why) {
+    if (const auto format = plain_format(image.bytes, path)) {
+        image.format = *format;
+        read_plain_header(image, why);
+    } else if (is_hdr(image.bytes)) {
         image.format = ImageFormat::hdr;
         if (const auto header = read_hdr_header(image.bytes, why)) {
             image.width = header->width;
@@ -41,7 +72,8 @@ void read_header(EncodedImage& image, std::string& why) {
         image.width = size->width;
         image.height = size->height;
     } else {
-        why = "is neither PNG nor JPEG nor Radiance HDR nor OpenEXR, damaged, or absurdly large";
+        why =
+            "is neither PNG nor JPEG nor Radiance HDR nor OpenEXR nor BMP, TGA, PPM or PFM, damaged, or absurdly large";
     }
 }
 
@@ -54,6 +86,11 @@ std::size_t most_pixels_per_byte(ImageFormat format) {
         case ImageFormat::jpeg:
             return 1024;  // a block takes a bit or more, and its 8 x 8 values stand for 128 pixels at most on average
                           // over the planes
+        case ImageFormat::tga:
+            return 128;  // a packet of two bytes
+        case ImageFormat::bmp:
+        case ImageFormat::netpbm:
+            return 8;
         case ImageFormat::hdr:
             break;
     }
@@ -87,8 +124,9 @@ EncodedImage read_encoded_image(const std::filesystem::path& path, const std::st
     std::string why = begins_with(image.bytes, kJpeg) ? jpeg_fault(image.bytes) : "";
     const std::string again = "it is damaged or cut short; save it again";
     if (!why.empty()) refuse("cannot be decoded (" + why + ")", again);
-    read_header(image, why);
-    if (!why.empty()) refuse(image.format == ImageFormat::hdr ? "cannot be decoded (" + why + ")" : why, cure);
+    read_header(image, path, why);
+    const bool is_known = image.format != ImageFormat::png;  // of the others, PNG stands for what is none of them
+    if (!why.empty()) refuse(is_known ? "cannot be decoded (" + why + ")" : why, is_known ? again : cure);
     const std::string claim =
         "claims " + std::to_string(image.width) + " x " + std::to_string(image.height) + " pixels";
     const std::size_t pixels = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);

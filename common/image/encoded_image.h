@@ -8,9 +8,9 @@
 
 namespace treefarm {
 
-enum class ImageFormat { png, jpeg, hdr };
+enum class ImageFormat { png, jpeg, hdr, bmp, tga, netpbm };
 
-/// The bytes of a PNG, JPEG or Radiance HDR file that are worth decoding.
+/// The bytes of a PNG, JPEG, Radiance HDR, BMP, TGA, PGM, PPM or PFM file that are worth decoding.
 struct EncodedImage {
     ImageFormat format = ImageFormat::png;
     int width = 0, height = 0;   ///< as the file claims, pixels

@@ -28,6 +28,9 @@ struct ExrImage {
 /// InputError that names the file: missing, not EXR, damaged, cut short, too large, subsampled, no such channel.
 ExrImage read_exr(const std::filesystem::path& path, const std::function<bool(const std::string&)>& wanted = {});
 
+/// The names of a file's channels, in its (alphabetical) order. Throws InputError like read_exr.
+std::vector<std::string> exr_channel_names(const std::filesystem::path& path);
+
 /// The file can be opened and begins like an OpenEXR file.
 bool is_exr_file(const std::filesystem::path& path);
 

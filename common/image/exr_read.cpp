@@ -95,6 +95,24 @@ ExrImage read_checked(const std::filesystem::path& path, const std::function<boo
     return result;
 }
 
+/// What `read` returns; what OpenEXR throws as an InputError.
+template <class Read>
+auto guarded(const std::filesystem::path& path, Read read) {
+    // OpenEXR keeps these limits per process; they are always the same, and checked before it allocates by the header.
+    Imf::Header::setMaxImageSize(kMaxImageSide, kMaxImageSide);
+    Imf::Header::setMaxTileSize(kMaxImageSide, kMaxImageSide);
+    try {
+        return read();
+    } catch (const InputError&) {
+        throw;
+    } catch (const std::bad_alloc&) {
+        refuse(path, "does not fit into the memory", "crop it, or check whether the file is damaged");
+    } catch (const std::exception& error) {
+        refuse(path, std::string("cannot be read (") + error.what() + ")",
+               "it is damaged, cut short or larger than " + std::to_string(kMaxImageSide) + " pixels on a side");
+    }
+}
+
 }  // namespace
 
 bool is_exr_file(const std::filesystem::path& path) {
@@ -105,19 +123,19 @@ bool is_exr_file(const std::filesystem::path& path) {
 ExrImage read_exr(const std::filesystem::path& path, const std::function<bool(const std::string&)>& wanted) {
     check_is_exr(path);
     check_exr_header(path);
-    // OpenEXR keeps these limits per process; they are always the same, and checked before it allocates by the header.
-    Imf::Header::setMaxImageSize(kMaxImageSide, kMaxImageSide);
-    Imf::Header::setMaxTileSize(kMaxImageSide, kMaxImageSide);
-    try {
-        return read_checked(path, wanted);
-    } catch (const InputError&) {
-        throw;
-    } catch (const std::bad_alloc&) {
-        refuse(path, "does not fit into the memory", "crop it, or check whether the file is damaged");
-    } catch (const std::exception& error) {
-        refuse(path, std::string("cannot be read (") + error.what() + ")",
-               "it is damaged, cut short or larger than " + std::to_string(kMaxImageSide) + " pixels on a side");
-    }
+    return guarded(path, [&] { return read_checked(path, wanted); });
+}
+
+std::vector<std::string> exr_channel_names(const std::filesystem::path& path) {
+    check_is_exr(path);
+    check_exr_header(path);
+    return guarded(path, [&] {
+        std::vector<std::string> names;
+        const Imf::InputFile file(path.c_str());
+        for (auto it = file.header().channels().begin(); it != file.header().channels().end(); ++it)
+            names.emplace_back(it.name());
+        return names;
+    });
 }
 
 ExrRgb read_exr_rgb(const std::filesystem::path& path, const std::string& layer) {

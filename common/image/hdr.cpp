@@ -49,6 +49,9 @@ class Decoder {
     }
 
     bool copy_line(std::string& why) {
+        // A mantissa of a pixel that is not black is above 127: 1, 1, 1 says how often the last pixel is repeated.
+        for (std::size_t at = 0; at < line_.size() && at + 3 < data_.size(); at += 4)
+            if (data_[at] == 1 && data_[at + 1] == 1 && data_[at + 2] == 1) return refuse(why, kOldHdrRuns);
         if (data_.size() < line_.size()) return refuse(why, "it is cut short");
         line_.assign(data_.begin(), data_.begin() + static_cast<std::ptrdiff_t>(line_.size()));
         data_ = data_.subspan(line_.size());

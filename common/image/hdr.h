@@ -16,6 +16,9 @@ struct HdrHeader {
     std::size_t data_begin = 0;  ///< offset of the first pixel
 };
 
+/// Why files with runs of whole pixels, as Radiance wrote them before 1991, are not decoded.
+inline constexpr const char* kOldHdrRuns = "it is packed by Radiance's old run-length code, which is not read";
+
 /// The bytes begin like a Radiance HDR file.
 bool is_hdr(std::span<const std::uint8_t> bytes);
 

@@ -69,7 +69,8 @@ void write_png(const std::filesystem::path& path, const RgbImage& image, float e
 
 Image read_ldr(const std::filesystem::path& path, Encoding encoding) {
     const EncodedImage file = read_encoded_image(path, "give a PNG or JPEG file");
-    if (file.format == ImageFormat::hdr) refuse(path, "is neither PNG nor JPEG", "convert it to PNG");
+    if (file.format != ImageFormat::png && file.format != ImageFormat::jpeg)
+        refuse(path, "is neither PNG nor JPEG", "convert it to PNG");
     std::string why;
     const auto decoded = stb::decode(file.bytes, why);
     if (!decoded) refuse(path, "cannot be decoded (" + why + ")", "it is damaged or cut short; save it again");

@@ -19,6 +19,8 @@
 #define STBI_NO_STDIO
 #define STBI_ONLY_PNG
 #define STBI_ONLY_JPEG
+#define STBI_ONLY_BMP
+#define STBI_ONLY_TGA
 #include <stb/stb_image.h>
 #pragma GCC diagnostic pop
 

@@ -1,17 +1,20 @@
 #include "common/image/stored_image.h"
 
+#include <algorithm>
 #include <cstring>
 
 #include "common/base/error.h"
+#include "common/image/color_channels.h"
 #include "common/image/encoded_image.h"
 #include "common/image/exr.h"
 #include "common/image/hdr.h"
+#include "common/image/netpbm.h"
 #include "common/image/stb.h"
 
 namespace treefarm {
 namespace {
 
-constexpr const char* kCure = "give a PNG, JPEG, OpenEXR or Radiance HDR file";
+constexpr const char* kCure = "give a PNG, JPEG, OpenEXR, Radiance HDR, BMP, TGA, PPM or PFM file";
 
 [[noreturn]] void refuse(const std::filesystem::path& path, const std::string& what, const std::string& cure) {
     throw InputError(Location{path.string()}, what, cure);
@@ -55,6 +58,15 @@ StoredImage read_encoded(const std::filesystem::path& path) {
             image.channels = channel_names(3);
             image.floats = std::move(*floats);
         }
+    } else if (file.format == ImageFormat::netpbm) {
+        if (const auto header = read_netpbm_header(file.bytes, why)) {
+            image.channels = channel_names(header->channels);
+            image.integers = !header->floats;
+            if (header->floats || header->max_value > 255)
+                image.floats = netpbm_floats(file.bytes, *header);
+            else
+                image.bytes = netpbm_bytes(file.bytes, *header);
+        }
     } else if (auto pixels = stb::decode_as_stored(file.bytes, why)) {
         image.channels = channel_names(pixels->channels);
         image.bytes = std::move(pixels->bytes);
@@ -62,26 +74,25 @@ StoredImage read_encoded(const std::filesystem::path& path) {
         image.integers = true;
         if (file.format == ImageFormat::png) image.gamma = png_gamma(file.bytes);
     }
-    if (!why.empty()) refuse(path, "cannot be decoded (" + why + ")", "it is damaged or cut short; save it again");
+    const bool is_whole = why == kOldHdrRuns;
+    if (!why.empty())
+        refuse(path, "cannot be decoded (" + why + ")",
+               is_whole ? "save it again with a program of today" : "it is damaged or cut short; save it again");
     return image;
 }
 
 StoredImage read_from_exr(const std::filesystem::path& path) {
-    const ExrImage file = read_exr(path, [](const std::string& name) {
-        return name == "R" || name == "G" || name == "B" || name == "Y" || name == "A";
-    });
+    const std::vector<std::string> chosen = choose_color_channels(path, exr_channel_names(path));
+    const ExrImage file = read_exr(
+        path, [&](const std::string& name) { return std::find(chosen.begin(), chosen.end(), name) != chosen.end(); });
     StoredImage image;
     image.width = file.image.width;
     image.height = file.image.height;
-    const bool rgb = file.image.find("R") && file.image.find("G") && file.image.find("B");
-    if (!rgb && !file.image.find("Y"))
-        refuse(path, "has neither the channels R, G, B nor Y", "check which channels it has (exrheader)");
-    image.channels = rgb ? std::vector<std::string>{"R", "G", "B"} : std::vector<std::string>{"Y"};
-    if (file.image.find("A")) image.channels.emplace_back("A");
-    const std::size_t count = image.channels.size();
+    image.channels = channel_names(static_cast<int>(chosen.size()));
+    const std::size_t count = chosen.size();
     image.floats.resize(file.image.pixel_count() * count);
     for (std::size_t c = 0; c < count; ++c) {
-        const auto values = file.image.channel(*file.image.find(image.channels[c]));
+        const auto values = file.image.channel(*file.image.find(chosen[c]));
         for (std::size_t i = 0; i < values.size(); ++i)
             image.floats[i * count + c] = values[i];
     }

@@ -17,7 +17,8 @@ struct StoredImage {
     double gamma = 0.0;                 ///< exponent that a PNG file says to decode its values with; 0: it does not
 };
 
-/// Reads PNG, JPEG, OpenEXR or Radiance HDR, told apart by their first bytes. Throws InputError that names the file:
+/// Reads PNG, JPEG, OpenEXR, Radiance HDR, BMP, TGA, PGM, PPM or PFM, told apart by their first bytes (TGA also by its
+/// last ones, or its name). Throws InputError that names the file:
 /// missing, another format, damaged, too large, no channels R, G, B or Y.
 StoredImage read_stored_image(const std::filesystem::path& path);
 

@@ -18,7 +18,8 @@ void require_xml(const std::filesystem::path& path) {
 }
 
 LoadedScene loaded(SceneReading&& reading) {
-    return {std::move(reading.scene), std::move(reading.settings), std::move(reading.warnings)};
+    return {std::move(reading.scene), std::move(reading.settings), std::move(reading.warnings),
+            std::move(reading.notes)};
 }
 
 }  // namespace

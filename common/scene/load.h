@@ -17,6 +17,7 @@ struct LoadedScene {
     Scene scene;
     std::vector<Setting> settings;  ///< what its integrator and sampler ask of the job: the layer above the defaults
     std::vector<Warning> warnings;
+    std::vector<Warning> notes;  ///< worth knowing, and no fault
 };
 
 /// Reads a scene file by its extension: .xml is Mitsuba's format. A width or height above 0 replaces the film's; the

@@ -9,87 +9,11 @@
 
 #include "common/config/parse_text.h"
 #include "common/scene/input_file.h"
+#include "common/scene/obj_scanner.h"
 #include "common/scene/triangulate.h"
 
 namespace treefarm {
 namespace {
-
-bool is_blank(char c) {
-    return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
-}
-
-/// Walks over the words of a file, statement by statement. A backslash at the end of a line continues the statement.
-class Scanner {
-  public:
-    Scanner(std::string_view text, const std::string& file) : text_(text), file_(file) {}
-
-    /// The keyword of the next statement; false at the end of the file.
-    bool next_statement(std::string_view& keyword) {
-        while (true) {
-            std::string_view rest;
-            while (in_statement_ && next_word(rest)) {
-            }
-            while (at_ < text_.size() && text_[at_] == '\n')
-                new_line();
-            if (at_ >= text_.size()) return false;
-            in_statement_ = true;
-            if (next_word(keyword)) return true;
-        }
-    }
-
-    /// The next word of this statement; false at its end.
-    bool next_word(std::string_view& word) {
-        skip_blanks();
-        if (at_ >= text_.size() || text_[at_] == '\n') return false;
-        if (text_[at_] == '#') {
-            at_ = std::min(text_.find('\n', at_), text_.size());
-            return false;
-        }
-        word_at_ = at_;
-        while (at_ < text_.size() && !is_blank(text_[at_]) && text_[at_] != '\n' && text_[at_] != '#' &&
-               !at_continuation())
-            ++at_;
-        word = text_.substr(word_at_, at_ - word_at_);
-        return true;
-    }
-
-    /// Where the last word stands.
-    Location where() const { return {file_, line_, static_cast<int>(word_at_ - line_start_) + 1}; }
-
-  private:
-    bool at_continuation() const {
-        if (text_[at_] != '\\') return false;
-        std::size_t end = at_ + 1;
-        while (end < text_.size() && is_blank(text_[end]))
-            ++end;
-        return end >= text_.size() || text_[end] == '\n';
-    }
-
-    void skip_blanks() {
-        while (at_ < text_.size()) {
-            if (is_blank(text_[at_])) {
-                ++at_;
-            } else if (at_continuation()) {
-                at_ = std::min(text_.find('\n', at_), text_.size());
-                if (at_ < text_.size()) new_line();
-            } else {
-                return;
-            }
-        }
-    }
-
-    void new_line() {
-        ++at_;
-        ++line_;
-        line_start_ = at_;
-    }
-
-    std::string_view text_;
-    const std::string& file_;
-    std::size_t at_ = 0, word_at_ = 0, line_start_ = 0;
-    int line_ = 1;
-    bool in_statement_ = false;
-};
 
 /// A positive index may point ahead in the file: the largest of each list is checked at the end.
 struct LargestIndex {
@@ -112,10 +36,12 @@ class Reader {
                 read_uv();
             else if (keyword == "f")
                 read_face();
-            else if (keyword == "g" || keyword == "usemtl")
+            else if (keyword == "g")
                 ++group_;
+            else if (keyword == "usemtl")
+                use_material();
             else if (keyword == "mtllib")
-                obj_.names_materials = true;
+                obj_.libraries.push_back(scanner_.rest());
             else if (!is_ignored(keyword))
                 throw InputError(scanner_.where(), in_quotes(keyword) + " is no statement of an OBJ file",
                                  "repair the file, or check that it is an OBJ file");
@@ -211,6 +137,14 @@ class Reader {
         return result;
     }
 
+    void use_material() {
+        ++group_;
+        const std::string name = scanner_.rest();
+        const auto found = std::find(obj_.materials.begin(), obj_.materials.end(), name);
+        material_ = static_cast<std::int32_t>(found - obj_.materials.begin());
+        if (found == obj_.materials.end()) obj_.materials.push_back(name);
+    }
+
     void read_face() {
         face_.clear();
         const Location where = scanner_.where();
@@ -223,6 +157,7 @@ class Reader {
         const auto add = [&](std::size_t a, std::size_t b, std::size_t c) {
             for (const std::size_t i : {a, b, c})
                 obj_.corners.push_back(face_[i]);
+            obj_.material_of.push_back(material_);
         };
         if (face_.size() == 3) {
             add(0, 1, 2);
@@ -230,9 +165,7 @@ class Reader {
         }
         polygon_.clear();
         for (const ObjFile::Corner& corner : face_) {
-            if (corner.position >= obj_.positions.size())
-                throw InputError(where, "a face of more than three corners uses a vertex that only follows later",
-                                 "put the vertices before the faces");
+            if (corner.position >= obj_.positions.size()) return refuse_late_vertex(where);
             polygon_.push_back(obj_.positions[corner.position]);
         }
         triangles_.clear();
@@ -243,9 +176,21 @@ class Reader {
             add(a, b, c);
     }
 
-    Scanner scanner_;
+    /// A polygon is cut by its vertices. One that is not there yet follows later, or never: the rest of the file tells.
+    void refuse_late_vertex(const Location& where) {
+        std::size_t count = obj_.positions.size();
+        std::string_view keyword;
+        while (scanner_.next_statement(keyword))
+            if (keyword == "v") ++count;
+        check(largest_position_, count, "vertex");
+        throw InputError(where, "a face of more than three corners uses a vertex that only follows later",
+                         "put the vertices before the faces");
+    }
+
+    ObjScanner scanner_;
     ObjFile obj_;
     std::uint32_t group_ = 0;
+    std::int32_t material_ = -1;
     LargestIndex largest_position_, largest_uv_, largest_normal_;
     std::vector<ObjFile::Corner> face_;
     std::vector<Vec3> polygon_;

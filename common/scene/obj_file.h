@@ -23,8 +23,10 @@ struct ObjFile {
     std::vector<Vec3> positions;
     std::vector<Vec3> normals;  ///< as written: not normalised
     std::vector<Vec2> uvs;
-    std::vector<Corner> corners;   ///< three per triangle
-    bool names_materials = false;  ///< there is a material library; it is not read
+    std::vector<Corner> corners;            ///< three per triangle
+    std::vector<std::string> materials;     ///< names of usemtl, each once
+    std::vector<std::int32_t> material_of;  ///< of each triangle: index in `materials`, or -1 before any usemtl
+    std::vector<std::string> libraries;     ///< what mtllib names; not read here
 };
 
 /// Reads an OBJ file. Malformed numbers, NaN and indices of nothing throw InputError at their line and column. Faces of

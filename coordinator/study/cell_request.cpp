@@ -39,6 +39,8 @@ RenderRequest study_request(const Study& study, const StudyScene& scene, const L
     request.plan = plan_effects(request.scene, request.job);
     for (const Warning& warning : loaded.warnings)
         request.warnings.push_back(warning.text());
+    for (const Warning& note : loaded.notes)
+        request.notes.push_back(note.text());
     request.plan.warnings = request.warnings;
     request.fingerprint = build;
     return request;

@@ -100,7 +100,7 @@ TEST_F(MitsubaAnalytic, CylindersThatAreNoneAreRefused) {
     refused("<point name=\"p1\" x=\"0\" y=\"0\" z=\"0\"/>");
     refused("<float name=\"radius\" value=\"0\"/>");
     refused("<float name=\"radius\" value=\"nan\"/>");
-    refused("<point name=\"p2\" x=\"0\" y=\"0\" z=\"1\"/>");
+    EXPECT_THROW(shape<Cylinder>("cylinder", "<point name=\"p2\" x=\"0\" y=\"0\" z=\"1\"/>", "3.0.0"), InputError);
 }
 
 TEST_F(MitsubaAnalytic, SpherePoleAndMeridianTurnWithIt) {

@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <limits>
+
 #include "common/image/exr.h"
 #include "common/scene/mitsuba/blackbody.h"
 #include "common/scene/mitsuba/daylight.h"
@@ -244,6 +247,20 @@ TEST_F(MitsubaEmitters, TheKitchensSunAgreesWithMitsubas) {
         EXPECT_NEAR(ours[c] / theirs[c], 1.0, 0.01);
         EXPECT_NEAR(sky[c] / their_sky[c], 1.45, 0.1);
     }
+}
+
+/// The sun of a picture that was written as half floats.
+TEST_F(MitsubaEmitters, InfiniteLightStaysTheBrightest) {
+    Image image{2, 1, {}, {}};
+    RgbImage rgb(2, 1, Rgb(0.5f));
+    rgb.pixels[1] = Rgb(std::numeric_limits<float>::infinity());
+    add_rgb_layer(image, "", rgb);
+    write_exr(folder_ / "sun.exr", image);
+    const auto loaded =
+        load_with_sensor("<emitter type=\"envmap\"><string name=\"filename\" value=\"sun.exr\"/></emitter>", "3.0.0");
+    EXPECT_EQ(loaded.scene.images.at(0).floats, (std::vector<float>{0.5f, 0.5f, 0.5f, 65504.0f, 65504.0f, 65504.0f}));
+    EXPECT_TRUE(std::any_of(loaded.warnings.begin(), loaded.warnings.end(),
+                            [](const Warning& w) { return w.text().find("65504") != std::string::npos; }));
 }
 
 }  // namespace

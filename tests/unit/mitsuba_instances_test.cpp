@@ -65,11 +65,14 @@ TEST_F(MitsubaInstances, WhatCannotBePlaced) {
     expect_refused("<shape type=\"cube\" id=\"c\"/><shape type=\"instance\"><ref id=\"c\"/></shape>",
                    "places no shapegroup");
     expect_refused("<shape type=\"instance\"><ref id=\"none\"/></shape>", "\"none\"");
-    expect_refused("<shape type=\"shapegroup\" id=\"e\"/>", "has no shapes");
-    expect_refused(
-        kGroup + "<shape type=\"shapegroup\" id=\"n\"><shape type=\"instance\"><ref id=\"g\"/></shape></shape>",
-        "within a shapegroup");
-    expect_refused("<shape type=\"shapegroup\" id=\"g\"><shape type=\"cube\"><emitter type=\"area\"/></shape></shape>",
+    const auto placed = [](const char* id) {
+        return "<shape type=\"instance\"><ref id=\"" + std::string(id) + "\"/></shape>";
+    };
+    expect_refused("<shape type=\"shapegroup\" id=\"e\"/>" + placed("e"), "has no shapes");
+    expect_refused(kGroup + "<shape type=\"shapegroup\" id=\"n\">" + placed("g") + "</shape>" + placed("n"),
+                   "within a shapegroup");
+    expect_refused("<shape type=\"shapegroup\" id=\"g\"><shape type=\"cube\"><emitter type=\"area\"/></shape></shape>" +
+                       placed("g"),
                    "has an emitter");
     expect_refused(kGroup + "<shape type=\"instance\"><ref id=\"g\"/><bsdf type=\"diffuse\"/></shape>", "bsdf");
     expect_refused(kGroup +

@@ -33,6 +33,11 @@ class Diagnostics {
             warnings_.push_back({where, what});
     }
 
+    /// What is no fault, for the log of a render.
+    void note(const Location& where, const std::string& what) {
+        if (!checks_) notes_.push_back({where, what});
+    }
+
     /// Nothing unless the scene is being checked.
     void find(Finding finding) {
         // What several shapes refer to is read several times where it is refused.
@@ -51,6 +56,7 @@ class Diagnostics {
     }
 
     std::vector<Warning>& warnings() { return warnings_; }
+    std::vector<Warning>& notes() { return notes_; }
     std::vector<Finding>& findings() { return findings_; }
 
     /// Added to every position in the world, in double, before it becomes a float (read_mitsuba.cpp). 0 within groups,
@@ -59,7 +65,7 @@ class Diagnostics {
 
   private:
     bool lenient_, checks_;
-    std::vector<Warning> warnings_;
+    std::vector<Warning> warnings_, notes_;
     std::vector<Finding> findings_;
     std::set<std::string> seen_;
 };

@@ -63,15 +63,27 @@ void expand_to_floats(TextureImage& image) {
         image.floats.insert(image.floats.end(), 3, value);
 }
 
-/// Values that no light and no surface has become 0; returns how many there were.
-std::size_t remove_impossible(std::vector<float>& values, bool signed_values) {
-    std::size_t count = 0;
-    for (float& value : values)
-        if (!std::isfinite(value) || (value < 0.0f && !signed_values)) {
+/// The largest half-precision number: what an infinite value was before a program wrote it as half.
+constexpr float kLargestHalf = 65504.0f;
+
+/// How many values were changed.
+struct Repairs {
+    std::size_t infinite = 0, impossible = 0;
+};
+
+/// Infinite light becomes the largest half, values that no light and no surface has become 0.
+Repairs repair(std::vector<float>& values, const Decoding& decoding) {
+    Repairs repairs;
+    for (float& value : values) {
+        if (std::isinf(value) && value > 0.0f && decoding.is_light) {
+            value = kLargestHalf;
+            ++repairs.infinite;
+        } else if (!std::isfinite(value) || (value < 0.0f && !decoding.signed_values)) {
             value = 0.0f;
-            ++count;
+            ++repairs.impossible;
         }
-    return count;
+    }
+    return repairs;
 }
 
 TextureImage make_image(const StoredImage& file, const Decoding& decoding, const Location& where,
@@ -91,10 +103,17 @@ TextureImage make_image(const StoredImage& file, const Decoding& decoding, const
         for (float& value : image.floats)
             value = value > 0.0f ? static_cast<float>(decoded(double(value), gamma)) : value;
     }
-    if (const std::size_t count = remove_impossible(image.floats, decoding.signed_values); count > 0)
+    const Repairs repairs = repair(image.floats, decoding);
+    if (repairs.infinite > 0)
         diagnostics.warn(where,
-                         std::to_string(count) + " values of the image are negative or not finite and were set to 0",
+                         std::to_string(repairs.infinite) +
+                             " values of the image are infinite and were set to 65504, the largest half",
                          "numbers");
+    if (repairs.impossible > 0)
+        diagnostics.warn(
+            where,
+            std::to_string(repairs.impossible) + " values of the image are negative or not finite and were set to 0",
+            "numbers");
     if (decoding.as_floats) expand_to_floats(image);
     return image;
 }

@@ -19,9 +19,10 @@ struct Decoding {
     bool file_gamma = false;  ///< kAuto listens to a PNG file's own gamma, as Mitsuba 0.6 does
     std::string channel;      ///< "r", "g", "b", "a" or "y" alone; "": all but alpha
     bool signed_values = false;  ///< negative floats are kept
+    bool is_light = false;       ///< infinite floats are kept, as the largest half
     bool as_floats = false;      ///< three channels of linear floats, whatever the file has
 
-    auto key() const { return std::tie(gamma, file_gamma, channel, signed_values, as_floats); }
+    auto key() const { return std::tie(gamma, file_gamma, channel, signed_values, is_light, as_floats); }
     bool operator<(const Decoding& other) const { return key() < other.key(); }
 };
 

@@ -2,143 +2,44 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "common/config/parse_text.h"
+#include "common/scene/mitsuba/guided_path.h"
+#include "common/scene/mitsuba/integrator_settings.h"
 
 namespace treefarm::mitsuba {
 namespace {
 
 constexpr std::array<std::string_view, 4> kIntegrators = {"path", "volpath", "direct", "guided_path"};
 
-class IntegratorReader {
-  public:
-    IntegratorReader(Properties& properties, std::vector<Setting>& settings, Diagnostics& diagnostics)
-        : properties_(properties), settings_(settings), diagnostics_(diagnostics) {}
+/// How light is transported; whether something guides is the job's business.
+void read_path(IntegratorSettings& settings) {
+    settings.set("integrator.next_event", "always", settings.properties().where());
+    settings.read_common();
+}
 
-    void read_path() {
-        set("guiding.type", "none", properties_.where());
-        set("integrator.next_event", "always", properties_.where());
-        read_common();
-    }
+/// Light that comes straight from an emitter: paths of two edges, whatever the numbers of samples are.
+void read_direct(IntegratorSettings& settings) {
+    const Location& where = settings.properties().where();
+    settings.set("integrator.next_event", "always", where);
+    settings.set("integrator.max_depth", "2", where);
+    settings.properties().ignore({"shading_samples", "emitter_samples", "bsdf_samples"});
+    settings.read_flags();
+}
 
-    /// Light that comes straight from an emitter: paths of two edges, whatever the numbers of samples are.
-    void read_direct() {
-        set("guiding.type", "none", properties_.where());
-        set("integrator.next_event", "always", properties_.where());
-        set("integrator.max_depth", "2", properties_.where());
-        properties_.ignore({"shading_samples", "emitter_samples", "bsdf_samples"});
-        read_flags();
-    }
-
-    /// What estimates the same image in another way: how long paths are belongs to the image, the rest does not.
-    void read_other(const std::string& type) {
-        diagnostics_.warn(properties_.where(), "the integrator " + in_quotes(type) +
-                                                   " is replaced by path tracing as the job sets it: the same image, "
-                                                   "but for what that integrator leaves out or blurs");
-        if (!properties_.has("max_depth") && type == "vpl") set("integrator.max_depth", "5", properties_.where());
-        if (!properties_.has("max_depth") && type.starts_with("prb"))
-            set("integrator.max_depth", "6", properties_.where());
-        read_common();
-        properties_.ignore_values();
-    }
-
-    void read_guided_path() {
-        set("guiding.preset", "paper", properties_.where());
-        read_common();
-        read_words("nee", "integrator.next_event",
-                   {{"never", "never"}, {"kickstart", "kickstart"}, {"always", "always"}}, {});
-        read_words("sample_combination", "guiding.combination",
-                   {{"discard", "last"}, {"automatic", "last"}, {"inversevar", "inverse_variance"}}, {});
-        read_words("spatial_filter", "guiding.spatial_filter", {{"nearest", "nearest"}}, {"stochastic", "box"});
-        read_words("directional_filter", "guiding.directional_filter", {{"nearest", "nearest"}}, {"box"});
-        read_words("bsdf_sampling_fraction_loss", "", {{"none", ""}}, {"kl", "var"});
-        read_integer("s_tree_threshold", "guiding.spatial_threshold");
-        read_integer("spp_per_pass", "guiding.spp_unit");
-        read_number("d_tree_threshold", "guiding.directional_threshold");
-        read_number("bsdf_sampling_fraction", "guiding.bsdf_fraction");
-        if (properties_.integer("sd_tree_max_memory", -1) != -1)
-            diagnostics_.unsupported(properties_.where("sd_tree_max_memory"),
-                                     "a limit on the tree's memory is not available in this version", "give -1",
-                                     "there is no limit");
-        read_budget();
-        properties_.ignore({"dump_sdtree"});
-    }
-
-  private:
-    void set(const std::string& key, const std::string& value, const Location& where) {
-        settings_.push_back({key, value, where});
-    }
-
-    void read_common() {
-        read_integer("max_depth", "integrator.max_depth");
-        read_integer("rr_depth", "integrator.rr_depth");
-        read_flags();
-    }
-
-    void read_flags() {
-        properties_.ignore({"block_size", "samples_per_pass", "timeout"});
-        for (const auto& [name, key] : {std::pair("strict_normals", "integrator.strict_normals"),
-                                        std::pair("hide_emitters", "integrator.hide_emitters")})
-            if (properties_.has(name))
-                set(key, properties_.boolean(name, false) ? "true" : "false", properties_.where(name));
-    }
-
-    void read_integer(const char* name, const char* key) {
-        if (properties_.has(name)) set(key, std::to_string(properties_.integer(name, 0)), properties_.where(name));
-    }
-
-    void read_number(const char* name, const char* key) {
-        if (properties_.has(name)) set(key, number_text(properties_.number(name, 0.0)), properties_.where(name));
-    }
-
-    /// Words that translate, and words that are known but not available. An empty key stores nothing.
-    void read_words(const char* name, const char* key, const std::vector<std::pair<std::string, std::string>>& words,
-                    const std::vector<std::string>& unavailable) {
-        if (!properties_.has(name)) return;
-        const std::string value = properties_.text(name, "");
-        const Location& where = properties_.where(name);
-        std::string allowed;
-        for (const auto& [word, translated] : words) {
-            if (word == value) {
-                if (*key != '\0') set(key, translated, where);
-                return;
-            }
-            allowed += (allowed.empty() ? "" : " or ") + word;
-        }
-        for (const std::string& word : unavailable)
-            if (word == value) {
-                diagnostics_.unsupported(
-                    where, std::string(name) + " = " + in_quotes(value) + " is not available in this version",
-                    "use " + allowed, words.front().first + " is used");
-                return;
-            }
-        throw InputError(where, "unknown value " + in_quotes(value) + " of " + name, "use " + allowed);
-    }
-
-    /// The plugin's budget is in seconds unless it says otherwise.
-    void read_budget() {
-        const std::string type = properties_.text("budget_type", "seconds");
-        const double budget = properties_.number("budget", 300.0);
-        if (type == "seconds") {
-            diagnostics_.unsupported(
-                properties_.where("budget_type"), "a budget in seconds is not available in this version",
-                "add <string name=\"budgetType\" value=\"spp\"/> with the samples per pixel as budget",
-                "it is ignored");
-            return;
-        }
-        if (type != "spp")
-            throw InputError(properties_.where("budget_type"), "unknown kind of budget " + in_quotes(type), "use spp");
-        if (!(budget >= 1.0 && budget <= 1e9) || budget != std::floor(budget))
-            throw InputError(properties_.where("budget"), "a budget of " + number_text(budget) + " samples per pixel",
-                             "give a whole number of 1 or more");
-        set("budget.spp", std::to_string(static_cast<std::int64_t>(budget)), properties_.where("budget"));
-    }
-
-    Properties& properties_;
-    std::vector<Setting>& settings_;
-    Diagnostics& diagnostics_;
-};
+/// What estimates the same image in another way: how long paths are belongs to the image, the rest does not.
+void read_other(IntegratorSettings& settings, const std::string& type) {
+    Properties& properties = settings.properties();
+    settings.diagnostics().warn(properties.where(),
+                                "the integrator " + in_quotes(type) +
+                                    " is replaced by path tracing as the job sets it: the same image, "
+                                    "but for what that integrator leaves out or blurs");
+    if (!properties.has("max_depth") && type == "vpl") settings.set("integrator.max_depth", "5", properties.where());
+    if (!properties.has("max_depth") && type.starts_with("prb"))
+        settings.set("integrator.max_depth", "6", properties.where());
+    settings.read_common();
+    properties.ignore_values();
+}
 
 /// Integrators of Mitsuba that converge to the image of a path tracer.
 bool is_other_estimator(const std::string& type) {
@@ -152,22 +53,30 @@ bool is_wrapper(const std::string& type) {
     return type == "aov" || type == "moment" || type == "adaptive" || type == "irrcache";
 }
 
+/// Without media, which are refused, the volumetric ones are path tracers.
+bool is_path_tracer(const std::string& type) {
+    return type == "path" || type == "volpath" || type == "volpath_simple" || type == "volpathmis";
+}
+
 }  // namespace
 
 void read_integrator(const XmlElement& integrator, std::vector<Setting>& settings, const SceneDocument& document,
                      Diagnostics& diagnostics) {
     Properties properties(integrator, document, diagnostics);
     const std::string type = properties.type();
-    IntegratorReader reader(properties, settings, diagnostics);
-    if (type == "path" || type == "volpath" || type == "volpath_simple" || type == "volpathmis") {
-        // Without media, which are refused, the volumetric ones are path tracers.
-        reader.read_path();
-    } else if (type == "direct") {
-        reader.read_direct();
+    IntegratorSettings reader(properties, settings, diagnostics);
+    if (is_path_tracer(type) || type == "direct") {
+        diagnostics.note(integrator.where, "the integrator " + in_quotes(type) +
+                                               " says how light is transported; whether paths are guided says the job "
+                                               "(guiding.type, none for plain path tracing)");
+        if (type == "direct")
+            read_direct(reader);
+        else
+            read_path(reader);
     } else if (type == "guided_path") {
-        reader.read_guided_path();
+        read_guided_path(reader);
     } else if (is_other_estimator(type)) {
-        reader.read_other(type);
+        read_other(reader, type);
     } else if (const XmlElement* inner = is_wrapper(type) ? properties.only_child("integrator") : nullptr) {
         diagnostics.warn(integrator.where,
                          "of the integrator " + in_quotes(type) + " only the one inside is used: it makes the image");
@@ -177,7 +86,10 @@ void read_integrator(const XmlElement& integrator, std::vector<Setting>& setting
         diagnostics.unsupported(integrator.where,
                                 "the integrator " + in_quotes(type) + " is not available in this version",
                                 did_you_mean(type, kIntegrators, "use path, volpath, direct or guided_path"),
-                                "the job's settings are used");
+                                "paths are traced as the job says; of its parameters count maxDepth, rrDepth, "
+                                "strictNormals and hideEmitters");
+        // Somebody's own integrator, most likely: what all of them have belongs to the image.
+        reader.read_common();
         return;
     }
     properties.finish();

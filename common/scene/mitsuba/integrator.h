@@ -7,8 +7,8 @@
 
 namespace treefarm::mitsuba {
 
-/// Turns <integrator type="path"> and <integrator type="guided_path"> (the plugin of Mueller et al. 2017) into settings
-/// of the job. Others throw InputError, or say nothing when lenient.
+/// Turns <integrator type="path">, what converges to its image, and <integrator type="guided_path"> into settings of
+/// the job. Others throw InputError or, when lenient, leave the job what they have in common.
 void read_integrator(const XmlElement& integrator, std::vector<Setting>& settings, const SceneDocument& document,
                      Diagnostics& diagnostics);
 

@@ -48,6 +48,11 @@ std::int32_t MaterialReader::read(const XmlElement& bsdf) {
     return index;
 }
 
+std::int32_t MaterialReader::read_made(XmlElement bsdf) {
+    made_.push_back(std::move(bsdf));
+    return read(made_.back());
+}
+
 std::int32_t MaterialReader::read_default(bool on_emitter, const Location& where) {
     std::int32_t& index = default_[on_emitter ? 1 : 0];
     if (index == kNone) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <list>
 #include <map>
 
 #include "common/scene/mitsuba/texture_reader.h"
@@ -20,6 +21,9 @@ class MaterialReader {
     /// Index of the material. BSDFs that are not available throw InputError or, when lenient, become diffuse with
     /// reflectance 0.5.
     std::int32_t read(const XmlElement& bsdf);
+
+    /// The same for an element that stands in no file, which is kept.
+    std::int32_t read_made(XmlElement bsdf);
 
     /// Index of what a shape without a BSDF gets: 0.5, or black if it is an emitter.
     std::int32_t read_default(bool on_emitter, const Location& where);
@@ -60,6 +64,7 @@ class MaterialReader {
     const SceneDocument& document_;
     Diagnostics& diagnostics_;
     TextureReader textures_;
+    std::list<XmlElement> made_;
     std::map<const XmlElement*, std::int32_t> known_;
     std::map<const XmlElement*, Material> converted_;
     std::vector<Summary> summaries_;  ///< of each material of the scene

@@ -45,54 +45,79 @@ struct CornerEqual {
     }
 };
 
-/// Corners that agree in everything become one vertex.
-Mesh merge_corners(const ObjFile& obj, bool with_normals, bool separate_groups) {
-    const std::vector<std::uint32_t> position_of = first_equal(obj.positions), uv_of = first_equal(obj.uvs);
-    std::unordered_map<ObjFile::Corner, std::uint32_t, CornerHash, CornerEqual> vertices;
-    vertices.reserve(obj.corners.size() / 4);
-    bool any_uv = false, any_normal = false;
-    Mesh mesh;
-    mesh.indices.reserve(obj.corners.size());
-    for (const ObjFile::Corner& corner : obj.corners) {
-        constexpr std::uint32_t missing = ObjFile::Corner::kMissing;
-        const ObjFile::Corner key = {position_of[corner.position], corner.uv == missing ? missing : uv_of[corner.uv],
-                                     with_normals ? corner.normal : missing, separate_groups ? corner.group : 0};
-        const auto [place, is_new] = vertices.emplace(key, static_cast<std::uint32_t>(mesh.positions.size()));
-        mesh.indices.push_back(place->second);
-        if (!is_new) continue;
-        mesh.positions.push_back(obj.positions[key.position]);
-        mesh.uvs.push_back(key.uv == missing ? Vec2(0.0f) : obj.uvs[key.uv]);
-        mesh.normals.push_back(key.normal == missing ? Vec3(0.0f) : obj.normals[key.normal]);
-        any_uv = any_uv || key.uv != missing;
-        any_normal = any_normal || key.normal != missing;
+/// Makes vertices of corners: those that agree in everything are one.
+class CornerMerger {
+  public:
+    CornerMerger(const ObjFile& obj, bool with_normals, bool separate_groups)
+        : obj_(obj),
+          with_normals_(with_normals),
+          separate_groups_(separate_groups),
+          position_of_(first_equal(obj.positions)),
+          uv_of_(first_equal(obj.uvs)) {}
+
+    Mesh merge(const std::vector<ObjFile::Corner>& corners) const {
+        std::unordered_map<ObjFile::Corner, std::uint32_t, CornerHash, CornerEqual> vertices;
+        vertices.reserve(corners.size() / 4);
+        bool any_uv = false, any_normal = false;
+        Mesh mesh;
+        mesh.indices.reserve(corners.size());
+        for (const ObjFile::Corner& corner : corners) {
+            constexpr std::uint32_t missing = ObjFile::Corner::kMissing;
+            const ObjFile::Corner key = {position_of_[corner.position],
+                                         corner.uv == missing ? missing : uv_of_[corner.uv],
+                                         with_normals_ ? corner.normal : missing, separate_groups_ ? corner.group : 0};
+            const auto [place, is_new] = vertices.emplace(key, static_cast<std::uint32_t>(mesh.positions.size()));
+            mesh.indices.push_back(place->second);
+            if (!is_new) continue;
+            mesh.positions.push_back(obj_.positions[key.position]);
+            mesh.uvs.push_back(key.uv == missing ? Vec2(0.0f) : obj_.uvs[key.uv]);
+            mesh.normals.push_back(key.normal == missing ? Vec3(0.0f) : obj_.normals[key.normal]);
+            any_uv = any_uv || key.uv != missing;
+            any_normal = any_normal || key.normal != missing;
+        }
+        if (!any_uv) mesh.uvs.clear();
+        if (!any_normal) mesh.normals.clear();
+        mesh.positions.shrink_to_fit();
+        mesh.uvs.shrink_to_fit();
+        mesh.normals.shrink_to_fit();
+        return mesh;
     }
-    if (!any_uv) mesh.uvs.clear();
-    if (!any_normal) mesh.normals.clear();
-    mesh.positions.shrink_to_fit();
-    mesh.uvs.shrink_to_fit();
-    mesh.normals.shrink_to_fit();
-    return mesh;
-}
+
+  private:
+    const ObjFile& obj_;
+    bool with_normals_, separate_groups_;
+    std::vector<std::uint32_t> position_of_, uv_of_;
+};
 
 /// Leaves only the group of that number among those that have faces.
 void select_group(ObjFile& obj, std::int64_t number, const Location& where) {
     std::int64_t at = -1;
     std::uint32_t group = 0;
     std::vector<ObjFile::Corner> kept;
-    for (const ObjFile::Corner& corner : obj.corners) {
+    std::vector<std::int32_t> material_of;
+    for (std::size_t i = 0; i < obj.corners.size(); ++i) {
+        const ObjFile::Corner& corner = obj.corners[i];
         if (at < 0 || corner.group != group) ++at;
         group = corner.group;
-        if (at == number) kept.push_back(corner);
+        if (at != number) continue;
+        kept.push_back(corner);
+        if (i % 3 == 0) material_of.push_back(obj.material_of[i / 3]);
     }
     if (kept.empty())
         throw InputError(where, "group number " + std::to_string(number) + " of " + std::to_string(at + 1),
                          "give a shape index from 0");
     obj.corners = std::move(kept);
+    obj.material_of = std::move(material_of);
+}
+
+bool same(const ObjMaterial& a, const ObjMaterial& b) {
+    return a.material == b.material && a.emission == b.emission;
 }
 
 }  // namespace
 
-Mesh read_obj_mesh(Properties& properties, Diagnostics& diagnostics) {
+std::vector<ObjPart> read_obj_parts(Properties& properties, MaterialReader& materials, bool on_emitter,
+                                    Diagnostics& diagnostics) {
     const MeshOptions options = read_mesh_options(properties, true);
     const bool is_old = properties.element().version < 2;
     const bool separate_groups = is_old && !properties.boolean("collapse", false);
@@ -102,13 +127,34 @@ Mesh read_obj_mesh(Properties& properties, Diagnostics& diagnostics) {
     ObjFile obj = read_obj(options.file, properties.where("filename"));
     if (obj.corners.empty())
         throw InputError({options.file.string()}, "the OBJ file has no faces", "repair it, or remove the shape");
-    if (obj.names_materials && load_materials && properties.children("bsdf").empty())
-        diagnostics.warn(properties.where(),
-                         "the materials of " + options.file.string() + " are not read: the shape is grey");
     if (group >= 0) select_group(obj, group, properties.where("shape_index"));
-    Mesh mesh = merge_corners(obj, !options.face_normals, separate_groups);
-    place_mesh(mesh, options, properties.where(), diagnostics);
-    return mesh;
+    const std::vector<ObjMaterial> assigned =
+        assign_obj_materials(obj, options.file, load_materials, on_emitter, properties, materials, diagnostics);
+
+    // Materials that are the same share a part, in the order in which they first occur.
+    std::vector<std::size_t> part_of(assigned.size(), assigned.size());
+    std::vector<ObjPart> parts;
+    std::vector<std::vector<ObjFile::Corner>> corners;
+    for (std::size_t i = 0; i < obj.material_of.size(); ++i) {
+        const auto material = static_cast<std::size_t>(obj.material_of[i] + 1);
+        if (std::size_t& part = part_of[material]; part == assigned.size()) {
+            part = 0;
+            while (part < parts.size() && !same(parts[part].material, assigned[material]))
+                ++part;
+            if (part == parts.size()) {
+                parts.push_back({{}, assigned[material]});
+                corners.emplace_back();
+            }
+        }
+        for (std::size_t corner = 3 * i; corner < 3 * i + 3; ++corner)
+            corners[part_of[material]].push_back(obj.corners[corner]);
+    }
+    const CornerMerger merger(obj, !options.face_normals, separate_groups);
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        parts[i].mesh = merger.merge(corners[i]);
+        place_mesh(parts[i].mesh, options, properties.where(), diagnostics);
+    }
+    return parts;
 }
 
 }  // namespace treefarm::mitsuba

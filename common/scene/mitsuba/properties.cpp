@@ -22,11 +22,6 @@ char to_lower(char c) {
     return is_upper(c) ? static_cast<char>(c - 'A' + 'a') : c;
 }
 
-std::string lower_case(std::string text) {
-    std::transform(text.begin(), text.end(), text.begin(), to_lower);
-    return text;
-}
-
 bool is_value_tag(const std::string& tag) {
     constexpr std::array<std::string_view, 12> tags = {"float",    "integer",   "boolean",   "string",
                                                        "point",    "vector",    "rgb",       "srgb",
@@ -42,6 +37,11 @@ std::string effect_of(const std::string& tag) {
 }
 
 }  // namespace
+
+std::string lower_case(std::string text) {
+    std::transform(text.begin(), text.end(), text.begin(), to_lower);
+    return text;
+}
 
 std::string snake_case(const std::string& camel_case) {
     std::string result;
@@ -84,10 +84,16 @@ void Properties::add_value(const XmlElement& element) {
     if (element.tag == "spectrum" && !element.find("value") && !element.find("filename"))
         throw InputError(element.where, "a <spectrum> without a value or a file",
                          "give value=\"...\" with one number or pairs \"wavelength:value\", or filename=\"...\"");
-    const auto [place, is_new] = values_.emplace(snake_case(element.require("name")), Value{&element});
-    if (!is_new)
-        throw InputError(element.where, in_quotes(element.require("name")) + " of " + title() + " is given twice",
-                         "remove one of them");
+    const std::string& name = element.require("name");
+    const auto [place, is_new] = values_.emplace(snake_case(name), Value{&element});
+    if (is_new) return;
+    repeated(element.where, in_quotes(name) + " of " + title() + " is given twice", "remove one of them");
+    place->second = Value{&element};
+}
+
+void Properties::repeated(const Location& where, const std::string& what, const char* cure) {
+    if (!is_tolerant()) throw InputError(where, what, cure);
+    diagnostics_.warn(where, what + ": the last one holds");
 }
 
 std::string Properties::title() const {
@@ -206,9 +212,11 @@ const XmlElement* Properties::named_child(const std::string& tag, const std::str
     const XmlElement* found = nullptr;
     for (Entry& entry : children_) {
         if (entry.child.object->tag != tag || snake_case(entry.child.name) != name) continue;
-        if (found != nullptr || has(name))
-            throw InputError(entry.child.where, in_quotes(entry.child.name) + " of " + title() + " is given twice",
-                             "remove one of them");
+        if ((found != nullptr || has(name)) && !entry.used)
+            repeated(entry.child.where, in_quotes(entry.child.name) + " of " + title() + " is given twice",
+                     "remove one of them");
+        // The object holds: a value beside it is not what anybody asks for.
+        if (const auto value = values_.find(name); value != values_.end()) value->second.used = true;
         entry.used = true;
         found = entry.child.object;
     }
@@ -252,9 +260,12 @@ void Properties::finish() {
     for (const auto& [name, value] : values_) {
         if (value.used) continue;
         const std::string nearest = nearest_word(name, asked_);
-        diagnostics_.unsupported(value.element->where,
-                                 "unknown property " + in_quotes(value.element->require("name")) + " of " + title(),
-                                 nearest.empty() ? "remove it" : "did you mean " + in_quotes(nearest) + "?");
+        const std::string what = "unknown property " + in_quotes(value.element->require("name")) + " of " + title(),
+                          cure = nearest.empty() ? "remove it" : "did you mean " + in_quotes(nearest) + "?";
+        if (is_tolerant())
+            diagnostics_.warn(value.element->where, what + " is ignored; " + cure);
+        else
+            diagnostics_.unsupported(value.element->where, what, cure);
     }
     for (const Entry& entry : children_) {
         if (entry.used) continue;

@@ -14,6 +14,9 @@ namespace treefarm::mitsuba {
 /// "maxDepth" -> "max_depth": the names of Mitsuba 0.5 and 0.6 in the spelling of 2 and 3.
 std::string snake_case(const std::string& camel_case);
 
+/// The same text with small letters (ASCII).
+std::string lower_case(std::string text);
+
 /// An object inside another one, references resolved.
 struct Child {
     const XmlElement* object;
@@ -22,10 +25,12 @@ struct Child {
 };
 
 /// Typed access to what stands inside an object's element. Names are in snake case and match both spellings. What is
-/// never asked for is an error in finish(), so that a typing error does not pass unnoticed.
+/// never asked for is an error in finish(), so that a typing error does not pass unnoticed; properties in a file of
+/// version 0 only get a warning, as Mitsuba 0.6 gives it.
 class Properties {
   public:
-    /// Wrong attributes, repeated properties and unknown elements throw InputError (or warn, when lenient).
+    /// Wrong attributes, repeated properties and unknown elements throw InputError (or warn, when lenient). In a file
+    /// of version 0 the last one of repeated properties holds, with a warning.
     Properties(const XmlElement& object, const SceneDocument& document, Diagnostics& diagnostics);
 
     const XmlElement& element() const { return object_; }
@@ -54,7 +59,8 @@ class Properties {
     /// The tag of the value of this name ("float", "string"...), or "".
     std::string tag_of(const std::string& name) const;
 
-    /// The object of a tag that stands for the property `name`, or nullptr; a second one throws InputError.
+    /// The object of a tag that stands for the property `name`, or nullptr. A second one throws InputError, or holds in
+    /// a file of version 0.
     const XmlElement* named_child(const std::string& tag, const std::string& name);
     /// The objects of a tag, in their order.
     std::vector<Child> children(const std::string& tag);
@@ -84,6 +90,10 @@ class Properties {
     /// The element of a property that must have one of these tags, or nullptr.
     const XmlElement* find(const std::string& name, std::initializer_list<std::string_view> tags, const char* kind);
     void add_value(const XmlElement& element);
+    /// Mitsuba 0.6 warns of what later versions refuse.
+    bool is_tolerant() const { return object_.version == 0; }
+    /// Warns, or throws InputError, of something that was said before.
+    void repeated(const Location& where, const std::string& what, const char* cure);
 
     const XmlElement& object_;
     const SceneDocument& document_;

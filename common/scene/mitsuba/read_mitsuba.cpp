@@ -1,8 +1,11 @@
 #include "common/scene/mitsuba/read_mitsuba.h"
 
+#include <set>
+
 #include "common/scene/mitsuba/emitters.h"
 #include "common/scene/mitsuba/integrator.h"
 #include "common/scene/mitsuba/materials.h"
+#include "common/scene/mitsuba/reachable.h"
 #include "common/scene/mitsuba/shape_reader.h"
 #include "common/scene/remove_unused.h"
 #include "common/scene/validate.h"
@@ -28,24 +31,34 @@ SceneReading read(const SceneDocument& document, Diagnostics diagnostics, const 
     if (const XmlElement* integrator = root.only_child("integrator"))
         diagnostics.attempt([&] { read_integrator(*integrator, reading.settings, document, diagnostics); });
 
+    const std::set<const XmlElement*> reachable = reachable_objects(document);
+    const auto is_used = [&](const Child& child) {
+        if (reachable.contains(child.object)) return true;
+        diagnostics.find({Finding::Severity::note, "reader", child.where,
+                          "nothing refers to this <" + child.object->tag + ">: it is not read", ""});
+        return false;
+    };
     MaterialReader materials(scene, document, diagnostics);
     // What is read where it is referred to.
-    for (const char* tag : {"texture", "sampler", "film", "rfilter"})
+    for (const char* tag : {"texture", "sampler", "film", "rfilter", "subsurface", "medium", "phase", "volume"})
         root.children(tag);
     for (const Child& bsdf : root.children("bsdf"))
-        diagnostics.attempt([&] { materials.read(*bsdf.object); });
+        if (is_used(bsdf)) diagnostics.attempt([&] { materials.read(*bsdf.object); });
     ShapeReader shapes(scene, materials, document, diagnostics);
     for (const Child& shape : root.children("shape"))
-        diagnostics.attempt([&] { shapes.read(*shape.object); });
+        if (is_used(shape)) diagnostics.attempt([&] { shapes.read(*shape.object); });
     for (const Child& emitter : root.children("emitter"))
         diagnostics.attempt([&] { read_emitter(*emitter.object, scene, materials.textures(), document, diagnostics); });
     // How Mitsuba builds its hierarchy does not change the image.
     root.ignore_prefix("kd_");
-    root.ignore({"allow_thread_reordering", "compact_acceleration_structures", "embree_use_robust_intersections"});
+    root.ignore({"allow_thread_reordering", "compact_acceleration_structures"});
+    if (const char* robust = "embree_use_robust_intersections"; root.has(robust))
+        reading.settings.push_back({"farm.robust", root.boolean(robust, false) ? "true" : "false", root.where(robust)});
     diagnostics.attempt([&] { root.finish(); });
     materials.textures().images().read(remove_unused(scene), scene, diagnostics);
 
     reading.warnings = std::move(diagnostics.warnings());
+    reading.notes = std::move(diagnostics.notes());
     reading.findings = std::move(diagnostics.findings());
     return reading;
 }

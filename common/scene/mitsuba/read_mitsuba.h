@@ -18,6 +18,7 @@ struct SceneReading {
     Scene scene;
     std::vector<Setting> settings;  ///< what its integrator and sampler ask of the job
     std::vector<Warning> warnings;
+    std::vector<Warning> notes;     ///< worth knowing, and no fault
     std::vector<Finding> findings;  ///< when checked: warnings, what was refused and left out, remarks
 };
 

@@ -34,16 +34,18 @@ class Expander {
                              "include fewer files");
         open_files_.push_back(canonical);
         XmlElement root = read_xml(path, asked_from);
-        const bool outer_is_0_5 = is_0_5_;
+        const bool outer_is_0_5 = is_0_5_, outer_is_older = is_older_;
         if (root.tag == "scene") {
             version = scene_version(root);
             is_0_5_ = root.require("version") < "0.6";
+            is_older_ = root.require("version") < "0.5";
         } else if (open_files_.size() == 1) {
             throw InputError(root.where, "the outermost element is <" + root.tag + ">, not <scene>",
                              "give a Mitsuba scene");
         }
         expand(root, path.parent_path(), version);
         is_0_5_ = outer_is_0_5;
+        is_older_ = outer_is_older;
         open_files_.pop_back();
         return root;
     }
@@ -62,6 +64,10 @@ class Expander {
         if (++element_count_ > kMaxElements)
             throw InputError(element.where, "the scene has more than " + std::to_string(kMaxElements) + " elements",
                              "include fewer files");
+        if (is_older_ && (element.tag == "camera" || element.tag == "luminaire"))
+            throw InputError(
+                element.where, "the file is of Mitsuba 0.4 or older, whose <" + element.tag + "> is not read",
+                "open it in Mitsuba 0.5 or 0.6, which bring it to their version: 0.5, 0.6, 2 and 3 are read");
         element.version = version;
         element.is_0_5 = is_0_5_;
         // From version 2 on a spectrum that names a plugin is an object, of the same kind as a texture.
@@ -111,7 +117,7 @@ class Expander {
     FileSearch& files_;
     std::vector<std::filesystem::path> open_files_;
     std::size_t element_count_ = 0, file_count_ = 0;
-    bool is_0_5_ = false;
+    bool is_0_5_ = false, is_older_ = false;
 };
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "common/scene/mitsuba/emitters.h"
+#include "common/scene/mitsuba/mesh_files.h"
 #include "common/scene/mitsuba/shapes.h"
 #include "common/scene/validation.h"
 
@@ -11,7 +12,7 @@ namespace {
 
 bool is_type(const XmlElement& shape, const char* type) {
     const std::string* found = shape.find("type");
-    return found && *found == type;
+    return found && lower_case(*found) == type;
 }
 
 }  // namespace
@@ -43,33 +44,63 @@ void ShapeReader::read_merged(const XmlElement& element, std::int32_t group) {
 
 void ShapeReader::read_shape(const XmlElement& element, std::int32_t group) {
     Properties properties(element, document_, diagnostics_);
-    auto geometry = read_geometry(properties, diagnostics_);
-    if (!geometry) return;
-    const XmlElement* bsdf = properties.only_child("bsdf");
     const XmlElement* emitter = properties.only_child("emitter");
+    std::vector<Part> parts;
+    const XmlElement* bsdf = nullptr;
+    if (properties.type() == "obj") {
+        for (ObjPart& part : read_obj_parts(properties, materials_, emitter != nullptr, diagnostics_))
+            parts.push_back({std::move(part.mesh), part.material});
+    } else {
+        auto geometry = read_geometry(properties, diagnostics_);
+        if (!geometry) return;
+        parts.push_back({std::move(*geometry), {}});
+        bsdf = bsdf_of(properties, diagnostics_);
+    }
     properties.ignore({"silhouette_sampling_weight"});
     properties.finish();
-    if (const Mesh* mesh = std::get_if<Mesh>(&*geometry); mesh != nullptr && validation::is_flat(*mesh)) {
-        diagnostics_.warn(element.where, "no triangle of the shape has an area: it is left out",
-                          emitter ? "zero-area emitter" : "degenerate triangles");
-        return;
-    }
-    if (emitter && group != kNone) {
-        diagnostics_.unsupported(emitter->where, "a shape in a shapegroup has an emitter",
-                                 "take the shape out of the group");
+    std::erase_if(parts, [&](const Part& part) { return is_flat(part, element, emitter != nullptr); });
+    for (Part& part : parts)
+        if (part.material.material == kNone)
+            part.material.material =
+                bsdf ? materials_.read(*bsdf) : materials_.read_default(emitter != nullptr, element.where);
+    if (group != kNone) {
+        const auto refuse = [&](const Location& where) {
+            diagnostics_.unsupported(where, "a shape in a shapegroup has an emitter",
+                                     "take the shape out of the group");
+        };
+        if (emitter) refuse(emitter->where);
         emitter = nullptr;
+        for (Part& part : parts) {
+            if (!is_black(part.material.emission)) refuse(part.material.where);
+            part.material.emission = Rgb(0.0f);
+        }
     }
+    for (Part& part : parts)
+        add(std::move(part), properties, emitter, group);
+}
 
+bool ShapeReader::is_flat(const Part& part, const XmlElement& element, bool on_emitter) {
+    const Mesh* mesh = std::get_if<Mesh>(&part.geometry);
+    if (mesh == nullptr || !validation::is_flat(*mesh)) return false;
+    diagnostics_.warn(element.where, "no triangle of the shape has an area: it is left out",
+                      on_emitter ? "zero-area emitter" : "degenerate triangles");
+    return true;
+}
+
+void ShapeReader::add(Part part, const Properties& properties, const XmlElement* emitter, std::int32_t group) {
     Shape shape;
-    shape.geometry = std::move(*geometry);
+    shape.geometry = std::move(part.geometry);
     shape.name = properties.id();
-    shape.where = element.where;
+    shape.where = properties.where();
     shape.group = group;
-    shape.material = bsdf ? materials_.read(*bsdf) : materials_.read_default(emitter != nullptr, element.where);
+    shape.material = part.material.material;
+    const auto index = static_cast<std::int32_t>(scene_.shapes.size());
+    if (!emitter && !is_black(part.material.emission)) {
+        shape.emitter = static_cast<std::int32_t>(scene_.emitters.size());
+        scene_.emitters.push_back({AreaEmitter{part.material.emission, index}, part.material.where});
+    }
     scene_.shapes.push_back(std::move(shape));
-    if (emitter)
-        read_area_emitter(*emitter, static_cast<std::int32_t>(scene_.shapes.size() - 1), scene_, materials_.textures(),
-                          document_, diagnostics_);
+    if (emitter) read_area_emitter(*emitter, index, scene_, materials_.textures(), document_, diagnostics_);
 }
 
 std::int32_t ShapeReader::group_of(const XmlElement& element) {

@@ -3,6 +3,7 @@
 #include <map>
 
 #include "common/scene/mitsuba/materials.h"
+#include "common/scene/mitsuba/obj_materials.h"
 #include "common/scene/mitsuba/properties.h"
 #include "common/scene/scene.h"
 
@@ -20,6 +21,14 @@ class ShapeReader {
     void read(const XmlElement& shape);
 
   private:
+    /// A surface with one material.
+    struct Part {
+        decltype(Shape::geometry) geometry;
+        ObjMaterial material;
+    };
+    /// Warns if it is.
+    bool is_flat(const Part& part, const XmlElement& element, bool on_emitter);
+    void add(Part part, const Properties& properties, const XmlElement* emitter, std::int32_t group);
     void read_shape(const XmlElement& element, std::int32_t group);
     /// Shapes that Mitsuba 3 joins for speed: each stands for itself here.
     void read_merged(const XmlElement& element, std::int32_t group);

@@ -56,7 +56,6 @@ Mesh read_cube(Properties& properties) {
 
 std::optional<decltype(Shape::geometry)> read_geometry(Properties& properties, Diagnostics& diagnostics) {
     const std::string type = properties.type();
-    if (type == "obj") return read_obj_mesh(properties, diagnostics);
     if (type == "ply") return read_ply_mesh(properties, diagnostics);
     if (type == "serialized") return read_serialized_mesh(properties, diagnostics);
     if (type == "rectangle") return read_rectangle(properties);

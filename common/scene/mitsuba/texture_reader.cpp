@@ -97,7 +97,7 @@ std::int32_t TextureReader::environment_image(Properties& properties) {
     Decoding decoding;
     decoding.gamma = properties.element().version == 0 ? properties.number("gamma", Decoding::kAuto) : Decoding::kAuto;
     decoding.file_gamma = properties.element().version == 0;
-    decoding.as_floats = true;
+    decoding.is_light = decoding.as_floats = true;
     const std::filesystem::path path = file_of(properties);
     return images_.add(path, decoding, properties.where("filename"), scene_);
 }
@@ -153,6 +153,7 @@ ColorInput TextureReader::convert_bitmap(Properties& properties, const Use& use)
     const bool is_old = properties.element().version < 2;
     Decoding decoding;
     decoding.signed_values = use.signed_values;
+    decoding.is_light = use.color == ColorUse::radiance;
     if (is_old) {
         decoding.file_gamma = true;
         if (use.data && !properties.has("gamma"))

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "common/config/setting.h"
+#include "common/scene/mitsuba/properties.h"
+
+namespace treefarm::mitsuba {
+
+/// Turns properties of an integrator into settings of the job.
+class IntegratorSettings {
+  public:
+    IntegratorSettings(Properties& properties, std::vector<Setting>& settings, Diagnostics& diagnostics)
+        : properties_(properties), settings_(settings), diagnostics_(diagnostics) {}
+
+    Properties& properties() { return properties_; }
+    Diagnostics& diagnostics() { return diagnostics_; }
+
+    void set(const std::string& key, const std::string& value, const Location& where) {
+        settings_.push_back({key, value, where});
+    }
+    /// The same, at the place of the property `name`.
+    void set_by(const char* name, const std::string& key, const std::string& value) {
+        set(key, value, properties_.where(name));
+    }
+
+    void read_integer(const char* name, const char* key);
+    void read_number(const char* name, const char* key);
+    void read_boolean(const char* name, const char* key);
+    /// A property that is one of some words, and the value of the key for each; other words throw InputError.
+    void read_words(const char* name, const char* key, const std::vector<std::pair<std::string, std::string>>& words);
+
+    /// What every integrator has: how long paths are, strict normals, hidden emitters.
+    void read_common();
+    /// The same without the lengths of paths.
+    void read_flags();
+
+  private:
+    Properties& properties_;
+    std::vector<Setting>& settings_;
+    Diagnostics& diagnostics_;
+};
+
+}  // namespace treefarm::mitsuba

@@ -1,0 +1,147 @@
+#include <algorithm>
+
+#include "common/config/job_keys.h"
+#include "common/config/job_reader.h"
+#include "tests/support/mitsuba_fixture.h"
+
+namespace treefarm {
+namespace {
+
+using namespace treefarm::test;
+
+/// Integrators and settings of the whole scene, held against the keys of a job.
+class MitsubaIntegrators : public MitsubaFixture {
+  protected:
+    Job job_of(const LoadedScene& loaded) const {
+        Job job;
+        apply_layer(job, loaded.settings);
+        return job;
+    }
+
+    std::string refusal(const std::string& body, const std::string& version) const {
+        try {
+            load_with_sensor(body, version);
+        } catch (const InputError& error) {
+            return error.what();
+        }
+        return "";
+    }
+};
+
+std::string property(const std::string& tag, const std::string& name, const std::string& value) {
+    return "<" + tag + " name=\"" + name + "\" value=\"" + value + "\"/>";
+}
+
+std::string integrator(const std::string& type, const std::string& inside) {
+    return "<integrator type=\"" + type + "\">" + inside + "</integrator>";
+}
+
+/// A property of Mitsuba, a value that its program takes, and what a key of the job becomes by it.
+struct Mapped {
+    const char *tag, *name, *value, *key, *expected;
+};
+
+/// Every parameter of the plugin (Tom94/practical-path-guiding, guided_path.cpp) and of the class below it.
+constexpr Mapped kGuidedPath[] = {
+    {"string", "nee", "never", "integrator.next_event", "never"},
+    {"string", "nee", "kickstart", "integrator.next_event", "kickstart"},
+    {"string", "nee", "always", "integrator.next_event", "always"},
+    {"string", "sampleCombination", "discard", "guiding.combination", "last"},
+    {"string", "sampleCombination", "automatic", "guiding.combination", "last"},
+    {"string", "sampleCombination", "inversevar", "guiding.combination", "inverse_variance"},
+    {"string", "spatialFilter", "nearest", "guiding.spatial_filter", "nearest"},
+    {"string", "spatialFilter", "stochastic", "guiding.spatial_filter", "stochastic"},
+    {"string", "spatialFilter", "box", "guiding.spatial_filter", "stochastic"},
+    {"string", "directionalFilter", "nearest", "guiding.directional_filter", "nearest"},
+    {"string", "directionalFilter", "box", "guiding.directional_filter", "box"},
+    {"string", "bsdfSamplingFractionLoss", "none", "guiding.bsdf_fraction", "0.5"},
+    {"string", "bsdfSamplingFractionLoss", "kl", "guiding.bsdf_fraction", "learned"},
+    {"string", "bsdfSamplingFractionLoss", "var", "guiding.bsdf_fraction", "learned"},
+    {"float", "bsdfSamplingFraction", "0.25", "guiding.bsdf_fraction", "0.25"},
+    {"integer", "sTreeThreshold", "4000", "guiding.spatial_threshold", "4000"},
+    {"float", "dTreeThreshold", "0.02", "guiding.directional_threshold", "0.02"},
+    {"integer", "sppPerPass", "1", "guiding.spp_unit", "1"},
+    {"float", "budget", "60", "budget.seconds", "60"},
+    {"string", "budgetType", "seconds", "budget.seconds", "300"},
+    {"string", "budgetType", "spp", "budget.spp", "300"},
+    {"boolean", "doFilteredSplatting", "true", "guiding.directional_filter", "box"},
+    {"boolean", "doFilteredSplatting", "false", "guiding.spatial_filter", "nearest"},
+    {"boolean", "learnBsdfSamplingFraction", "true", "guiding.bsdf_fraction", "learned"},
+    {"boolean", "automaticBudget", "true", "guiding.combination", "last"},
+    {"boolean", "dumpSDTree", "true", "guiding.type", "ppg"},
+    {"integer", "sdTreeMaxMemory", "100", "guiding.type", "ppg"},
+};
+
+/// Every parameter of a path tracer: Mitsuba's class MonteCarloIntegrator.
+constexpr Mapped kPath[] = {
+    {"integer", "maxDepth", "7", "integrator.max_depth", "7"},
+    {"integer", "rrDepth", "3", "integrator.rr_depth", "3"},
+    {"boolean", "strictNormals", "true", "integrator.strict_normals", "true"},
+    {"boolean", "hideEmitters", "true", "integrator.hide_emitters", "true"},
+};
+
+TEST_F(MitsubaIntegrators, WhatHasAKeyIsNotRefused) {
+    const auto expect = [&](const Mapped& mapped, const char* type, const char* version) {
+        const std::string body = integrator(type, property(mapped.tag, mapped.name, mapped.value));
+        ASSERT_EQ(refusal(body, version), "") << body;
+        const JobKey* key = find_job_key(mapped.key);
+        ASSERT_NE(key, nullptr) << mapped.key;
+        EXPECT_EQ(key->print(job_of(load_with_sensor(body, version))), mapped.expected) << body;
+    };
+    for (const Mapped& mapped : kGuidedPath)
+        expect(mapped, "guided_path", "0.6.0");
+    for (const Mapped& mapped : kPath)
+        for (const char* type : {"path", "volpath", "guided_path", "bdpt"})
+            for (const char* version : {"0.6.0", "3.0.0"})
+                expect(mapped, type, version);
+}
+
+TEST_F(MitsubaIntegrators, WholeScene) {
+    const auto robust = [&](const std::string& value) {
+        return job_of(load_with_sensor(property("boolean", "embree_use_robust_intersections", value), "3.0.0"))
+            .farm.robust;
+    };
+    EXPECT_TRUE(robust("true"));
+    EXPECT_FALSE(robust("false"));
+}
+
+/// A way to transport light leaves guiding to the job, and the log says so.
+TEST_F(MitsubaIntegrators, PathSaysNothingOfGuiding) {
+    for (const char* type : {"path", "volpath", "direct"}) {
+        const auto loaded = load_with_sensor(integrator(type, ""));
+        EXPECT_EQ(job_of(loaded).guiding.type, Job().guiding.type) << type;
+        EXPECT_TRUE(std::none_of(loaded.settings.begin(), loaded.settings.end(),
+                                 [](const Setting& s) { return s.key.starts_with("guiding."); }));
+        ASSERT_EQ(loaded.notes.size(), 1u) << type;
+        EXPECT_NE(loaded.notes[0].text().find("guiding.type"), std::string::npos);
+    }
+}
+
+/// What a job asks for wins over the scene's seconds, which would make it void.
+TEST_F(MitsubaIntegrators, BudgetOfTheJobWins) {
+    const auto loaded = load_with_sensor(integrator("guided_path", property("float", "budget", "60")));
+    const std::vector<Setting> asked{{"budget.spp", "8", {}}}, other{{"sampler.seed", "1", {}}};
+    Job job;
+    apply_layer(job, scene_layer(loaded.settings, {asked}));
+    EXPECT_EQ(job.budget.seconds, 0.0);
+    apply_layer(job, scene_layer(loaded.settings, {other}));
+    EXPECT_EQ(job.budget.seconds, 60.0);
+}
+
+TEST_F(MitsubaIntegrators, ForksKeepWhatAllHaveWhenLenient) {
+    const std::string body =
+        integrator("my_path", property("integer", "maxDepth", "7") + property("integer", "rrDepth", "3") +
+                                  property("boolean", "strictNormals", "true") +
+                                  property("boolean", "hideEmitters", "true") + property("float", "magic", "3"));
+    EXPECT_NE(refusal(body, "0.6.0"), "");
+    for (const char* version : {"0.6.0", "3.0.0"}) {
+        const Job job = job_of(load("<sensor type=\"perspective\"/>" + body, version, {}, true));
+        EXPECT_EQ(job.integrator.max_depth, 7);
+        EXPECT_EQ(job.integrator.rr_depth, 3);
+        EXPECT_TRUE(job.integrator.strict_normals);
+        EXPECT_TRUE(job.integrator.hide_emitters);
+    }
+}
+
+}  // namespace
+}  // namespace treefarm
