@@ -65,7 +65,7 @@ int run_plan(const PlanOptions& options, std::ostream& out) {
     const auto [probed, pixel_ratio] = smaller_request(options, request);
     const double seconds = options.probe_seconds.value_or(kProbeSeconds);
     if (!options.json) std::fprintf(stderr, "treefarm: probing for %.3g s\n", seconds);
-    Probe probe = run_probe(probed, seconds, options.render.threads);
+    Probe probe = run_probe(probed, seconds, options.render.farm.threads);
     if (probe.interrupted) {
         std::fprintf(stderr, "treefarm: interrupted: nothing is known yet\n");
         return 3;
@@ -88,7 +88,7 @@ void add_plan_command(CLI::App& app, const LaunchEnvironment& launch, int& exit_
     add_error_option(*command, render.error, "what samples and time would this error take? 0.05, or 5%");
     add_seconds_option(*command, "--probe", options->probe_seconds, "how long to render to answer that (default: 5)");
     command->add_flag("--no-probe", options->no_probe, "render nothing to answer that: no seconds and no error");
-    add_threads_option(*command, render.threads, "tracing threads of the probe (default: the processors)");
+    add_threads_option(*command, render.farm.threads, "tracing threads of the probe (default: the processors)");
     add_texts_option(*command, "--set", render.set, "key=value: sets a key of the job (treefarm keys lists them)");
     add_texts_option(*command, "-D", render.defines, "name=value: gives $name in the scene a value");
     command->add_flag("--lenient", render.lenient, "replace what the scene reader does not know instead of refusing");

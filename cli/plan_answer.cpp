@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "coordinator/pass_report.h"
+#include "coordinator/pass_text.h"
 
 namespace treefarm {
 
