@@ -124,8 +124,6 @@ Json farm_json(const Farm& farm) {
             {"bad_messages", farm.bad_messages()}};
 }
 
-}  // namespace
-
 const char* run_state_name(RunState state) {
     switch (state) {
         case RunState::running:
@@ -163,6 +161,14 @@ std::string status_json(RunState state, std::uint32_t spp_done, double elapsed_s
     return text_of(status);
 }
 
+/// Where the image lies on the whole film; null if it is that.
+Json crop_json(const ImagePlace& place) {
+    if (!place.is_window()) return {};
+    return {{"x", place.x}, {"y", place.y}, {"film_width", place.whole_width}, {"film_height", place.whole_height}};
+}
+
+}  // namespace
+
 std::string summary_json(const Job& job, const RunFacts& facts, const RenderResult& result, const Farm* farm,
                          const RunEnd& end) {
     Json summary = {{"state", run_state_name(end.state)},
@@ -174,6 +180,7 @@ std::string summary_json(const Job& job, const RunFacts& facts, const RenderResu
                     {"build", build_json(facts.fingerprint)},
                     {"width", result.width},
                     {"height", result.height},
+                    {"crop", crop_json(facts.place)},
                     {"spp", result.spp},
                     {"seconds", end.elapsed_seconds},
                     {"image_hash", result.spp > 0 ? hash_text(result.image_hash) : ""},

@@ -33,6 +33,14 @@ class Diagnostics {
             warnings_.push_back({where, what});
     }
 
+    /// Says what is worth knowing, but no risk.
+    void note(const Location& where, const std::string& what, const char* kind = "reader") {
+        if (checks_)
+            find({Finding::Severity::note, kind, where, what, ""});
+        else
+            warnings_.push_back({where, what});
+    }
+
     /// Nothing unless the scene is being checked.
     void find(Finding finding) {
         // What several shapes refer to is read several times where it is refused.
