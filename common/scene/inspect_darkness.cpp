@@ -106,7 +106,8 @@ class Darkness {
         if (seen.all(seen.inside) && seen.one_shape && seen.hits == seen.rays && !surrounded &&
             std::none_of(lights.begin(), lights.end(), reaches))
             add(warning, "camera inside", first.where,
-                "the camera is inside " + named("shape", first.name) + ", which no emitter shines into",
+                "the camera is inside " + named("shape", first.name) + ", and none of " + std::to_string(kLightRays) +
+                    " rays of each emitter meets it there",
                 "move the camera or an emitter");
     }
 
