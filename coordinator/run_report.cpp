@@ -124,6 +124,14 @@ Json farm_json(const Farm& farm) {
             {"bad_messages", farm.bad_messages()}};
 }
 
+/// Where the image lies on the whole film; null if it is that.
+Json crop_json(const ImagePlace& place) {
+    if (!place.is_window()) return {};
+    return {{"x", place.x}, {"y", place.y}, {"film_width", place.whole_width}, {"film_height", place.whole_height}};
+}
+
+}  // namespace
+
 const char* run_state_name(RunState state) {
     switch (state) {
         case RunState::running:
@@ -160,14 +168,6 @@ std::string status_json(RunState state, std::uint32_t spp_done, double elapsed_s
     add_writer(status);
     return text_of(status);
 }
-
-/// Where the image lies on the whole film; null if it is that.
-Json crop_json(const ImagePlace& place) {
-    if (!place.is_window()) return {};
-    return {{"x", place.x}, {"y", place.y}, {"film_width", place.whole_width}, {"film_height", place.whole_height}};
-}
-
-}  // namespace
 
 std::string summary_json(const Job& job, const RunFacts& facts, const RenderResult& result, const Farm* farm,
                          const RunEnd& end) {
