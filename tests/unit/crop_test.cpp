@@ -48,11 +48,10 @@ TEST(Crop, ProbesOfGuidingAreTheSamePixelsForWorkerAndFilm) {
     for (std::size_t p = 0; p < run.stats.size(); ++p) {
         if (run.stats[p].probe_paths == 0) continue;
         ++probed;
-        const PassPlan& plan = run.passes[p].plan;
-        const ProbePixels probe(77, plan.index);
+        const ProbePixels probe(77, static_cast<std::uint32_t>(p));
         std::uint64_t paths = 0;
         for (std::uint32_t pixel = 0; pixel < 77; ++pixel)
-            paths += probe.holds(pixel) ? plan.spp : 0;
+            paths += probe.holds(pixel) ? run.states[p].passes.back().spp : 0;
         EXPECT_EQ(run.stats[p].probe_paths, paths) << p;
     }
     EXPECT_GT(probed, 0u);
