@@ -24,6 +24,7 @@ constexpr int kRefused = 2, kFoundSomething = 5;
 struct CheckOptions {
     std::string scene;
     std::vector<std::string> defines;
+    std::string sensor;
     bool lenient = false, json = false;
 };
 
@@ -49,7 +50,7 @@ bool is_error(const Finding& finding) {
 
 /// What the reader says, what inspection finds, and, if that is no error, what a render would refuse.
 std::vector<Finding> check(const CheckOptions& options) {
-    SceneToCheck read = load_scene_to_check(options.scene, defined(options.defines), options.lenient);
+    SceneToCheck read = load_scene_to_check(options.scene, defined(options.defines), options.lenient, options.sensor);
     std::vector<Finding> findings = std::move(read.findings);
     const bool is_whole = std::none_of(findings.begin(), findings.end(), &is_error);
     for (Finding& finding : inspect(read.scene))
@@ -109,6 +110,7 @@ void add_check_command(CLI::App& app, const LaunchEnvironment& launch, int& exit
     command->add_option("scene", options->scene, "Mitsuba scene (.xml)")->required();
     command->add_flag("--json", options->json, "print JSON instead of lines");
     add_texts_option(*command, "-D", options->defines, "name=value: gives $name in the scene a value");
+    add_text_option(*command, "--sensor", options->sensor, "which of several sensors, by number from 0 on or by id");
     command->add_flag("--lenient", options->lenient, "replace what the scene reader does not know instead of refusing");
     command->callback([options, launch, &exit_code] {
         if (launch.rank == 0) exit_code = run_check(*options, std::cout);  // under mpirun one process is enough

@@ -30,6 +30,7 @@ struct Side {
     std::optional<RgbImage> variance;
     bool half = false;
     std::optional<std::uint64_t> spp;
+    ImagePlace place;
 };
 
 std::optional<std::uint64_t> samples_per_pixel(const Attributes& attributes) {
@@ -50,13 +51,24 @@ Side read_side(const std::string& path) {
     if (!colour)
         throw InputError(Location{path}, "has neither the channels R, G, B nor Y",
                          "check which channels it has (exrheader)");
-    Side side{*colour, rgb_layer(file.image, "variance"), false, samples_per_pixel(file.attributes)};
+    Side side{*colour, rgb_layer(file.image, "variance"), false, samples_per_pixel(file.attributes), file.image.place};
     for (std::size_t c = 0; c < file.types.size(); ++c) {
         const std::string& name = file.image.channel_names[c];
         const bool is_colour = name == "R" || name == "G" || name == "B" || name == "Y";
         side.half = side.half || (is_colour && file.types[c] == PixelType::half);
     }
     return side;
+}
+
+/// Of a whole image, the part that the other shows.
+void cut_to_window(Side& whole, const Side& window) {
+    const ImagePlace& place = window.place;
+    if (whole.place.is_window() || !place.is_window() || whole.colour.width != place.whole_width ||
+        whole.colour.height != place.whole_height)
+        return;
+    whole.colour = cut_out(whole.colour, place, window.colour.width, window.colour.height);
+    if (whole.variance) whole.variance = cut_out(*whole.variance, place, window.colour.width, window.colour.height);
+    whole.place = place;
 }
 
 /// The reference's variance from the image's, if --reference-spp says how; the text says where it comes from.
@@ -128,14 +140,19 @@ void write_error_map(const std::string& path, const Plane& map) {
 
 int run_compare(const CompareOptions& options, std::ostream& out) {
     check_options(options);
-    const Side image = read_side(options.image);
+    Side image = read_side(options.image);
     Side reference = read_side(options.reference);
+    cut_to_window(reference, image);
+    cut_to_window(image, reference);
     if (image.colour.width != reference.colour.width || image.colour.height != reference.colour.height)
         throw InputError(Location{options.image},
                          "has " + std::to_string(image.colour.width) + " x " + std::to_string(image.colour.height) +
                              " pixels, " + options.reference + " has " + std::to_string(reference.colour.width) +
                              " x " + std::to_string(reference.colour.height),
-                         "only images of one size can be compared");
+                         "only images of one size can be compared, or a crop window with a whole");
+    if (image.place != reference.place && image.place.is_window() && reference.place.is_window())
+        throw InputError(Location{options.image}, "shows another part of the film than " + options.reference,
+                         "only images of one crop window can be compared");
     Comparison result;
     result.image = options.image;
     result.reference = options.reference;

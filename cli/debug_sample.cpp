@@ -43,6 +43,7 @@ SdTree learn_tree(const RenderRequest& request, const std::vector<PassPlan>& pla
         hooks.on_pass = [&](const PassReport& report, const CombinedImage&) { enough = report.plan.index + 1 == pass; };
         farm.gather({[] { return false; }});
         const Film& film = request.scene.film;
+        farm.allow_negative(film.is_signed());
         tree =
             run_passes(farm, request.job, listed_passes(plans), std::move(tree), film.width, film.height, hooks).tree;
     } catch (...) {

@@ -25,9 +25,10 @@ const std::vector<Foreign>& foreign_options() {
          "there is no denoiser in this version; image.exr holds what one needs of noise (variance.*, halfA.*, "
          "halfB.*)"},
         {{"--crop", "--cropwindow", "--pixelbounds", "--region", "--border"},
-         "whole images only in this version; for a quick look, --set image.width=N --set image.height=N"},
-        {{"--camera", "--sensor", "--view"},
-         "a scene has one camera; write $name in its transform and choose with -D name=value"},
+         "the scene's film says it: crop_offset_x, crop_offset_y, crop_width, crop_height; write $name there and "
+         "choose "
+         "with -D name=value"},
+        {{"--camera", "--view"}, "write --sensor N, or its id"},
         {{"--frames", "--frame", "--frame-start", "--frame-end", "--frame-jump", "--frameRange", "--animation"},
          "one image a render; start one for each frame, with $name in the scene and -D name=value"},
         {{"--output-format", "--format", "--render-format", "--file-format"},

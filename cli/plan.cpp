@@ -10,6 +10,7 @@
 #include "cli/plan_answer.h"
 #include "cli/render.h"
 #include "common/plan/plan_text.h"
+#include "common/scene/inspect.h"
 
 namespace treefarm {
 
@@ -34,8 +35,9 @@ std::pair<RenderRequest, double> smaller_request(const PlanOptions& options, con
     if (scale >= 1) return {whole, 1.0};
     RenderOptions smaller = options.render;
     const auto pixels = [&](double side) { return std::to_string(static_cast<int>(std::ceil(scale * side))); };
-    smaller.set.push_back("image.width=" + pixels(width));
-    smaller.set.push_back("image.height=" + pixels(height));
+    // The size that a job sets is that of the whole film.
+    smaller.set.push_back("image.width=" + pixels(whole.scene.film.whole_width()));
+    smaller.set.push_back("image.height=" + pixels(whole.scene.film.whole_height()));
     RenderRequest request = read_request(smaller);
     const double ratio = width * height / (static_cast<double>(request.scene.film.width) * request.scene.film.height);
     return {std::move(request), ratio};
@@ -57,7 +59,9 @@ void print(const PlanOptions& options, const RenderRequest& request, const PlanA
 }
 
 int run_plan(const PlanOptions& options, std::ostream& out) {
-    const RenderRequest request = read_request(options.render);
+    RenderRequest request = read_request(options.render);
+    for (const Finding& cause : dark_causes(request.scene))
+        request.plan.warnings.push_back(cause.text());
     if (!options.asks() || options.no_probe) {
         print(options, request, nullptr, out);
         return 0;
@@ -91,6 +95,7 @@ void add_plan_command(CLI::App& app, const LaunchEnvironment& launch, int& exit_
     add_threads_option(*command, render.farm.threads, "tracing threads of the probe (default: the processors)");
     add_texts_option(*command, "--set", render.set, "key=value: sets a key of the job (treefarm keys lists them)");
     add_texts_option(*command, "-D", render.defines, "name=value: gives $name in the scene a value");
+    add_text_option(*command, "--sensor", render.sensor, "which of several sensors, by number from 0 on or by id");
     command->add_flag("--lenient", render.lenient, "replace what the scene reader does not know instead of refusing");
     command->callback([options, launch, &exit_code] {
         if (launch.rank == 0) exit_code = run_plan(*options, std::cout);  // under mpirun one process is enough

@@ -35,6 +35,7 @@ Probe run_probe(const RenderRequest& request, double seconds, unsigned threads) 
         const Log log = make_log("treefarm", {}, request.console, Loudness::quiet);
         Farm farm(channel, request.job, encode_scene(request.scene), request.fingerprint.hash(), log);
         farm.gather(interrupted);
+        farm.allow_negative(film.is_signed());
         const PassChooser own = passes_of(request.job);
         const PassChooser first = [&](const RenderState& state) {
             probe.state = state;

@@ -64,6 +64,7 @@ void add_render_command(CLI::App& app, const LaunchEnvironment& launch, const st
     add_text_option(*command, "--schedule", options->schedule, "repeat the passes of this schedule.toml");
     add_texts_option(*command, "--set", options->set, "key=value: sets a key of the job (treefarm keys lists them)");
     add_texts_option(*command, "-D", options->defines, "name=value: gives $name in the scene a value");
+    add_text_option(*command, "--sensor", options->sensor, "which of several sensors, by number from 0 on or by id");
     command->add_flag("--lenient", options->lenient, "replace what the scene reader does not know instead of refusing");
     add_text_option(*command, "--run-dir", options->run_directory, "where results go (default: runs/<scene>-<time>)");
     command->add_flag("--overwrite", options->overwrite,

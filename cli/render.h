@@ -24,6 +24,7 @@ struct RenderOptions {
     std::string schedule;              ///< --schedule
     std::vector<std::string> set;      ///< --set key=value
     std::vector<std::string> defines;  ///< -D name=value
+    std::string sensor;                ///< --sensor
     bool lenient = false;
     std::string run_directory;  ///< --run-dir
     bool overwrite = false;     ///< --overwrite

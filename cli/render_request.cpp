@@ -48,6 +48,7 @@ std::vector<Setting> command_line_layer(const RenderOptions& options) {
         layer.push_back(define_setting(define));
     add_budget(layer, options);
     if (options.lenient) layer.push_back(option_setting("--lenient", "scene.lenient", "true"));
+    if (!options.sensor.empty()) layer.push_back(option_setting("--sensor", "scene.sensor", options.sensor));
     if (!options.run_directory.empty())
         layer.push_back(option_setting("--run-dir", "output.directory", options.run_directory));
     if (!options.output.empty()) layer.push_back(option_setting("-o", "output.file", options.output));
@@ -104,8 +105,8 @@ RenderRequest read_request(const RenderOptions& options) {
     apply_layer(where, line_layer);
     if (where.scene.file.empty())
         throw InputError(Location{options.input, 0, 0}, "the job names no scene", "set scene.file");
-    LoadedScene loaded =
-        load_scene(where.scene.file, where.scene.defines, where.scene.lenient, where.image.width, where.image.height);
+    LoadedScene loaded = load_scene(where.scene.file, where.scene.defines, where.scene.lenient, where.image.width,
+                                    where.image.height, where.scene.sensor);
 
     RenderRequest request;
     apply_layer(request.job, scene_layer(loaded.settings, {file_layer, line_layer}));
@@ -150,6 +151,7 @@ std::string debug_command(const RenderOptions& options) {
     // --seconds and --error are left out: the passes that they led to come as a schedule.
     if (!options.schedule.empty())
         text += " --schedule " + shell_quoted(std::filesystem::absolute(options.schedule).string());
+    if (!options.sensor.empty()) text += " --sensor " + shell_quoted(options.sensor);
     if (options.lenient) text += " --lenient";
     return text + " --debug-sample";
 }

@@ -21,8 +21,9 @@ bool is_duration(double seconds) {
 
 }  // namespace
 
-Collector::Collector(const PassPlan& plan, const SdTree& tree, int width, int height)
+Collector::Collector(const PassPlan& plan, const SdTree& tree, int width, int height, bool signed_pixels)
     : plan_(plan),
+      signed_pixels_(signed_pixels),
       film_(width, height, plan.chunks),
       sums_(plan.record ? TreeSums(plan.index, sums_shape(plan, tree)) : TreeSums()) {}
 
@@ -37,7 +38,10 @@ void Collector::check_pixels(const UnitResult& result) const {
     const auto possible = [](const Rgb64& v) { return is_amount(v.x) && is_amount(v.y) && is_amount(v.z); };
     for (const PixelEstimate& pixel : result.pixels)
         for (const Moments& half : pixel.half)
-            if (!possible(half.mean) || !possible(half.m2))
+            if (!(signed_pixels_
+                      ? (std::isfinite(half.mean.x) && std::isfinite(half.mean.y) && std::isfinite(half.mean.z))
+                      : possible(half.mean)) ||
+                !possible(half.m2))
                 throw FormatError("a pixel that is negative or no finite number");
 }
 

@@ -21,7 +21,8 @@ struct WorkerShare {
 /// Gathers the results of one pass: film, tree sums and figures, each unit exactly once.
 class Collector {
   public:
-    Collector(const PassPlan& plan, const SdTree& tree, int width, int height);
+    /// `signed_pixels`: of a filter with negative lobes, so that means may be negative.
+    Collector(const PassPlan& plan, const SdTree& tree, int width, int height, bool signed_pixels);
 
     /// Merges a worker's result if the ledger says that the worker has all of its units; otherwise nothing changes and
     /// false is returned. Throws FormatError if the content does not fit the pass (nothing was accepted then).
@@ -43,6 +44,7 @@ class Collector {
     void check_stats(const Result& result) const;
 
     PassPlan plan_;
+    bool signed_pixels_;
     PassFilm film_;
     TreeSums sums_;
     std::map<int, WorkerShare> shares_;

@@ -76,7 +76,7 @@ void Farm::begin_pass(const PassPlan& plan, const SdTree& tree, Bytes encoded_tr
     if (!std::exchange(scene_sent_, true)) send_blob(Blob::scene, 0, chain_without_scene());
     send_blob(Blob::tree, 0, chain_of_present());
     // Its sums take a while to make, as the workers do to unpack the tree.
-    collector_ = std::make_unique<Collector>(plan, tree, width, height);
+    collector_ = std::make_unique<Collector>(plan, tree, width, height, negative_allowed_);
 }
 
 void Farm::announce(int peer) {

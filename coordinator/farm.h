@@ -45,6 +45,9 @@ class Farm {
     /// asked now and then; true ends the wait.
     void gather(const std::function<bool()>& interrupted);
 
+    /// Whether pixels may be negative: those of a film that is_signed(). Otherwise they are refused.
+    void allow_negative(bool allowed) { negative_allowed_ = allowed; }
+
     /// Announces a pass and sends its tree along the chain of those present; before the first one, the scene.
     void begin_pass(const PassPlan& plan, const SdTree& tree, Bytes encoded_tree, int width, int height);
 
@@ -121,6 +124,7 @@ class Farm {
     JobTurn turn_;
     const Timer clock_;
     Roster roster_;
+    bool negative_allowed_ = false;
     bool scene_sent_ = false;  ///< whoever comes from now on gets it at once
     std::optional<OpenPass> pass_;
     std::unique_ptr<Ledger> ledger_;

@@ -2,10 +2,12 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "common/base/hash.h"
 #include "common/plan/plan_text.h"
+#include "common/scene/inspect.h"
 #include "common/scene/scene_codec.h"
 #include "coordinator/memory_check.h"
 #include "coordinator/pass_text.h"
@@ -19,6 +21,9 @@ bool checks_memory(const RenderRequest& request) {
     return request.job.farm.memory_check && request.turn.number <= 1;
 }
 
+/// A render that has found no light in so many passes says so before it ends.
+constexpr std::uint32_t kPassesInTheDark = 3;
+
 class RenderRun {
   public:
     RenderRun(Channel& channel, const RenderRequest& request, const std::function<bool()>& interrupted)
@@ -26,7 +31,8 @@ class RenderRun {
           interrupted_(interrupted),
           scene_(encode_scene(request.scene)),
           directory_(request.job,
-                     {request.command, hash_bytes(scene_), request.fingerprint, request.plan.approximations},
+                     {request.command, hash_bytes(scene_), request.fingerprint, request.plan.approximations,
+                      request.scene.film.place},
                      request.plan, {request.overwrite, interrupted}),
           log_(make_log("treefarm", directory_.log_file(), request.console, request.loudness)),
           progress_(request.console, request.job.budget, request.status_frame),
@@ -84,10 +90,11 @@ class RenderRun {
         const std::vector<PassPlan>& replayed = request_.schedule;
         const PassChooser passes = replayed.empty() ? passes_of(request_.job) : listed_passes(replayed);
         const Film& film = request_.scene.film;
-        log_->info("rendering {}, {} x {}, {}; results in {}", scene_name(), film.width, film.height,
-                   budget_text(passes({})), directory_.path().string());
+        log_->info("rendering {}, {}, {}; results in {}", scene_name(), size_text(film), budget_text(passes({})),
+                   directory_.path().string());
         log_->debug("{} triangles", request_.scene.triangle_count());
         farm_.gather(interrupted_);
+        farm_.allow_negative(film.is_signed());
         if (checks_memory(request_))
             check_memory(request_.plan.memory, this_host(), farm_.roster(), request_.job.scene.file);
         log_->debug("{} workers with {} threads", farm_.roster().present_count(), farm_.roster().thread_count());
@@ -108,10 +115,18 @@ class RenderRun {
         hooks.on_failure = [this](RenderResult finished) { result_ = std::move(finished); };
         hooks.on_pass = [this](const PassReport& pass, const CombinedImage& image) {
             tell(pass);
+            if (pass.plan.index >= kPassesInTheDark) tell_if_black(image, pass.spp_done);
             if (request_.on_pass) request_.on_pass(pass, image);
         };
         result_ = run_passes(farm_, request_.job, passes, first_tree(request_.scene, request_.job), film.width,
                              film.height, hooks);
+    }
+
+    static std::string size_text(const Film& film) {
+        const std::string size = fmt::format("{} x {}", film.width, film.height);
+        if (!film.place.is_window()) return size;
+        return fmt::format("{} at {},{} of {} x {}", size, film.place.x, film.place.y, film.whole_width(),
+                           film.whole_height());
     }
 
     std::string budget_text(const NextPass& first) const {
@@ -140,6 +155,19 @@ class RenderRun {
                        pass.caps.capped_records, pass.caps.saturated_cells, pass.caps.outside_positions);
     }
 
+    /// Says, once, what in the scene makes an image black.
+    void tell_if_black(const CombinedImage& image, std::uint32_t spp) {
+        const auto is_dark = [](const Rgb64& mean) { return mean == Rgb64(0.0); };
+        if (told_black_ || !std::all_of(image.mean.begin(), image.mean.end(), is_dark)) return;
+        told_black_ = true;
+        const std::vector<Finding> causes = dark_causes(request_.scene);
+        log_->warn(
+            "the image is black after {} spp{}", spp,
+            causes.empty() ? "; what in the scene makes it so is not plain to see: no path has met a light" : "");
+        for (const Finding& cause : causes)
+            log_->warn("{}", cause.text());
+    }
+
     void report(const RunEnd& end) {
         if (directory_.has_previous())
             log_->warn("an earlier run's files lie aside in {}, until a run in this folder is done",
@@ -154,6 +182,7 @@ class RenderRun {
         }
         if (end.state == RunState::interrupted)
             log_->warn("interrupted: kept the {} spp of finished passes", result_.spp);
+        tell_if_black(*result_.image, result_.spp);
         const PassReport& last = result_.passes.back();
         log_->debug("{} spp in {:.2f} s, {}; image {} tree {}", result_.spp, end.elapsed_seconds,
                     error_text(last.error), hash_text(result_.image_hash), hash_text(result_.tree_hash));
@@ -200,6 +229,7 @@ class RenderRun {
     const Log log_;
     Progress progress_;
     Farm farm_;
+    bool told_black_ = false;
     std::size_t pass_count_ = 0;  ///< 0: not known
     RenderResult result_;
 };

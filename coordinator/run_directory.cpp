@@ -69,8 +69,10 @@ std::string job_without_output(Job job) {
 }
 
 std::vector<std::uint8_t> encode_image(const fs::path& path, const CombinedImage& image, int width, int height,
-                                       const Attributes& attributes) {
-    return encode_exr(path, result_channels(image, width, height), attributes);
+                                       const ImagePlace& place, const Attributes& attributes) {
+    Image channels = result_channels(image, width, height);
+    channels.place = place;
+    return encode_exr(path, channels, attributes);
 }
 
 }  // namespace
@@ -180,7 +182,8 @@ void RunDirectory::write_image(const RenderResult& result) {
         "image.exr",
         [this, image = result.image, width = result.width, height = result.height,
          attributes = image_attributes(result)] {
-            write_bytes("image.exr", encode_image(path() / "image.exr", *image, width, height, attributes),
+            write_bytes("image.exr",
+                        encode_image(path() / "image.exr", *image, width, height, facts_.place, attributes),
                         Outlives::power);
             const std::lock_guard lock(on_disk_mutex_);
             on_disk_ = image;
@@ -204,7 +207,7 @@ std::vector<LastFile> RunDirectory::last_files(const RenderResult& result, Outli
         const auto encoded = std::make_shared<std::vector<std::uint8_t>>();  // once for both files
         const auto image = [this, encoded, &result]() -> const std::vector<std::uint8_t>& {
             if (encoded->empty())
-                *encoded = encode_image(path() / "image.exr", *result.image, result.width, result.height,
+                *encoded = encode_image(path() / "image.exr", *result.image, result.width, result.height, facts_.place,
                                         image_attributes(result));
             return *encoded;
         };

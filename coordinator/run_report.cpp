@@ -132,6 +132,12 @@ Json farm_json(const Farm& farm) {
             {"bad_messages", farm.bad_messages()}};
 }
 
+/// Where the image lies on the whole film; null if it is that.
+Json crop_json(const ImagePlace& place) {
+    if (!place.is_window()) return {};
+    return {{"x", place.x}, {"y", place.y}, {"film_width", place.whole_width}, {"film_height", place.whole_height}};
+}
+
 }  // namespace
 
 const char* run_state_name(RunState state) {
@@ -185,6 +191,7 @@ std::string summary_json(const Job& job, const RunFacts& facts, const RenderResu
                     {"started", time_text(std::time(nullptr) - static_cast<std::time_t>(end.elapsed_seconds))},
                     {"width", result.width},
                     {"height", result.height},
+                    {"crop", crop_json(facts.place)},
                     {"spp", result.spp},
                     {"seconds", end.elapsed_seconds},
                     {"image_hash", result.spp > 0 ? hash_text(result.image_hash) : ""},

@@ -91,6 +91,7 @@ struct Job {
         std::string file;
         std::map<std::string, std::string> defines;  ///< values for $name in the scene, from -D
         bool lenient = false;
+        std::string sensor;  ///< number from 0 on, or id; empty: the file's own choice
     } scene;
 
     struct Image {

@@ -162,6 +162,12 @@ std::vector<JobKey> make_job_keys() {
         "scene.lenient", "replace or skip what cannot be rendered, with a warning, where strict reading is an error",
         [](auto& j) -> auto& { return j.scene.lenient; }));
 
+    add(text_key(
+        "scene.sensor",
+        "which of several sensors: its number from 0 on, or its id; empty: the first (in files of version 0.x the "
+        "last)",
+        [](auto& j) -> auto& { return j.scene.sensor; }));
+
     add(integer_key(
         "image.width", "0 to 65535", "pixels; 0: as the scene says", [](auto& j) -> auto& { return j.image.width; }, 0,
         65535));

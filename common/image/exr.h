@@ -23,9 +23,9 @@ struct ExrImage {
     Attributes attributes;         ///< those of type string
 };
 
-/// Reads the channels for which `wanted` holds (none given: all) over the file's data window, whose place in the
-/// display window is dropped. Scan lines or tiles, any compression; of a multi-part file the first part. Throws
-/// InputError that names the file: missing, not EXR, damaged, cut short, too large, subsampled, no such channel.
+/// Reads the channels for which `wanted` holds (none given: all) over the file's data window; its place is known
+/// where it is a part of the display window. Scan lines or tiles, any compression; of a multi-part file the first part.
+/// Throws InputError that names the file: missing, not EXR, damaged, cut short, too large, subsampled, no such channel.
 ExrImage read_exr(const std::filesystem::path& path, const std::function<bool(const std::string&)>& wanted = {});
 
 /// The names of a file's channels, in its (alphabetical) order. Throws InputError like read_exr.
@@ -45,7 +45,8 @@ struct ExrRgb {
 ExrRgb read_exr_rgb(const std::filesystem::path& path, const std::string& layer = "");
 
 /// An EXR file of all channels with one type (half: values beyond +-65504 are clamped, not turned into infinities),
-/// scan lines, lossless. The same image gives the same bytes. `path` is for messages. Throws RunError.
+/// scan lines, lossless. A placed image is the data window inside the display window. The same image gives the same
+/// bytes. `path` is for messages. Throws RunError.
 std::vector<std::uint8_t> encode_exr(const std::filesystem::path& path, const Image& image,
                                      const Attributes& attributes = {}, PixelType type = PixelType::float32);
 

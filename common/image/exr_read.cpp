@@ -70,6 +70,16 @@ void select_channels(const std::filesystem::path& path, const Imf::ChannelList& 
         refuse(path, "holds none of the wanted channels", "check which channels it has (exrheader)");
 }
 
+/// Of a data window inside the display window; none for one that fills it, or reaches beyond.
+ImagePlace place_of(const Imath::Box2i& data, const Imath::Box2i& display) {
+    if (data == display || !display.intersects(data.min) || !display.intersects(data.max)) return {};
+    const auto span = [](int low, int high) { return std::int64_t{high} - low; };
+    if (span(display.min.x, display.max.x) >= kMaxImageSide || span(display.min.y, display.max.y) >= kMaxImageSide)
+        return {};
+    return {data.min.x - display.min.x, data.min.y - display.min.y, display.max.x - display.min.x + 1,
+            display.max.y - display.min.y + 1};
+}
+
 ExrImage read_checked(const std::filesystem::path& path, const std::function<bool(const std::string&)>& wanted) {
     Imf::InputFile file(path.c_str());
     const Imf::Header& header = file.header();
@@ -84,6 +94,7 @@ ExrImage read_checked(const std::filesystem::path& path, const std::function<boo
     Image& image = result.image;
     image.width = window.max.x - window.min.x + 1;
     image.height = window.max.y - window.min.y + 1;
+    image.place = place_of(window, header.displayWindow());
     image.data.resize(image.channel_names.size() * image.pixel_count());
     Imf::FrameBuffer buffer;
     for (std::size_t c = 0; c < image.channel_names.size(); ++c)

@@ -1,3 +1,4 @@
+#include <ImathBox.h>
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
@@ -59,14 +60,23 @@ std::vector<std::uint32_t> to_uint(std::span<const float> values) {
     return integers;
 }
 
+/// The image's pixels; its place in the whole.
+Imath::Box2i window_of(const Image& image) {
+    return {{image.place.x, image.place.y}, {image.place.x + image.width - 1, image.place.y + image.height - 1}};
+}
+
+Imf::Header header_of(const Image& image) {
+    if (!image.place.is_window()) return {image.width, image.height};
+    return {{{0, 0}, {image.place.whole_width - 1, image.place.whole_height - 1}}, window_of(image)};
+}
+
 template <class T>
 void insert(Imf::FrameBuffer& buffer, const Image& image, Imf::PixelType type, const T* values) {
     // FrameBuffer serves reading and writing and takes no pointer to const; writing leaves the pixels alone.
     const auto row = sizeof(T) * static_cast<std::size_t>(image.width);
     for (std::size_t c = 0; c < image.channel_names.size(); ++c)
-        buffer.insert(image.channel_names[c],
-                      Imf::Slice(type, reinterpret_cast<char*>(const_cast<T*>(values + c * image.pixel_count())),
-                                 sizeof(T), row));
+        buffer.insert(image.channel_names[c], Imf::Slice::Make(type, const_cast<T*>(values + c * image.pixel_count()),
+                                                               window_of(image), sizeof(T), row));
 }
 
 void check(const std::filesystem::path& path, const Image& image) {
@@ -95,7 +105,7 @@ void write_pixels(Imf::OStream& stream, const Image& image, const Attributes& at
     const Imf::PixelType stored = type == PixelType::half     ? Imf::HALF
                                   : type == PixelType::uint32 ? Imf::UINT
                                                               : Imf::FLOAT;
-    Imf::Header header(image.width, image.height);
+    Imf::Header header = header_of(image);
     // Of noisy floats nothing saves much: 9 % by ZIP, in 0.16 s for 512 x 512 pixels of twelve channels, 6 % by runs,
     // in 0.03 s.
     header.compression() = stored == Imf::FLOAT ? Imf::RLE_COMPRESSION : Imf::ZIP_COMPRESSION;

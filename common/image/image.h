@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "common/image/image_place.h"
 #include "common/math/vec.h"
 
 namespace treefarm {
@@ -23,6 +24,7 @@ struct Image {
     std::vector<std::string> channel_names;
     /// Planar: channel by channel in the order of `channel_names`, each row by row from the top.
     std::vector<float> data;
+    ImagePlace place{};  ///< the EXR file's data window inside its display window
 
     std::size_t pixel_count() const { return static_cast<std::size_t>(width) * static_cast<std::size_t>(height); }
 
@@ -51,6 +53,9 @@ struct RgbImage {
     RgbImage(int w, int h, const Rgb& fill = Rgb(0.0f))
         : width(w), height(h), pixels(static_cast<std::size_t>(w) * static_cast<std::size_t>(h), fill) {}
 };
+
+/// The pixels that lie there.
+RgbImage cut_out(const RgbImage& image, const ImagePlace& place, int width, int height);
 
 /// "R" for the layer "", "variance.R" for the layer "variance".
 std::string channel_name(const std::string& layer, const std::string& component);

@@ -1,14 +1,39 @@
+#include <cstdio>
+
 #include "common/config/job_keys.h"
 #include "common/plan/effect_finder.h"
 #include "common/plan/kernel.h"
 #include "common/plan/memory.h"
 #include "common/plan/schedule.h"
+#include "common/scene/filter_lobes.h"
 
 namespace treefarm {
 namespace {
 
 bool is_box_of_one_pixel(const Film& film) {
     return film.filter == PixelFilter::box && film.filter_radius == 0.5f;
+}
+
+std::string filter_text(const Film& film) {
+    const auto with_lobes = [&](const char* name) {
+        char text[96];
+        std::snprintf(text, sizeof(text), "%s filter, whose negative lobes multiply the squares of samples by %.2f",
+                      name, sign_cost(film));
+        return std::string(text);
+    };
+    switch (film.filter) {
+        case PixelFilter::tent:
+            return "tent filter";
+        case PixelFilter::gaussian:
+            return "Gaussian filter";
+        case PixelFilter::cubic:
+            return with_lobes("cubic");
+        case PixelFilter::lanczos:
+            return with_lobes("Lanczos");
+        case PixelFilter::box:
+            break;
+    }
+    return "wide box filter";
 }
 
 Effect by_switch(bool value, const std::string& key) {
@@ -65,15 +90,14 @@ void EffectFinder::add_shapes() {
                          [this](const Material& m, std::size_t i) { return used_directly_[i] && m.masked(); });
     };
     finders_["lens"] = [this] {
-        if (!scene_.camera.has_lens()) return effect_off("the camera is a pinhole");
+        if (!scene_.camera.has_lens())
+            return effect_off(scene_.camera.is_orthographic() ? "the camera is orthographic"
+                                                              : "the camera is a pinhole");
         return effect_on("the camera has a lens");
     };
     finders_["pixel_filter"] = [this] {
         if (is_box_of_one_pixel(scene_.film)) return effect_off("the film has a box filter of one pixel");
-        const char* name = scene_.film.filter == PixelFilter::tent       ? "tent"
-                           : scene_.film.filter == PixelFilter::gaussian ? "Gaussian"
-                                                                         : "wide box";
-        return effect_on(std::string("the film has a ") + name + " filter");
+        return effect_on("the film has a " + filter_text(scene_.film));
     };
 }
 

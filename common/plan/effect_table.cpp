@@ -67,8 +67,8 @@ std::vector<EffectDescription> make_table() {
 
         {"lens", "camera", "depth of field of a thin lens", "the sensor is a thin lens with an aperture",
          "no memory; two random numbers per path"},
-        {"pixel_filter", "camera", "a tent or Gaussian filter, sampled", "the film's filter is not a box of one pixel",
-         no_memory},
+        {"pixel_filter", "camera", "a wide box, tent, Gaussian, cubic or Lanczos filter, sampled",
+         "the film's filter is not a box of one pixel", no_memory},
 
         {"guiding", "transport", "directions drawn from what earlier passes learned (Mueller et al. 2017)",
          "`guiding.type` is not none and there is more than one pass",

@@ -100,6 +100,7 @@ std::vector<Finding> inspect(const Scene& scene) {
     inspection::inspect_shapes(scene, findings);
     inspection::inspect_materials(scene, findings);
     inspection::inspect_emitters(scene, findings);
+    inspection::inspect_darkness(scene, findings);
     inspection::inspect_scale(scene, findings);
     return findings;
 }

@@ -25,15 +25,15 @@ LoadedScene loaded(SceneReading&& reading) {
 }  // namespace
 
 LoadedScene load_scene(const std::filesystem::path& path, const std::map<std::string, std::string>& defines,
-                       bool lenient, int width, int height) {
+                       bool lenient, int width, int height, const std::string& sensor) {
     require_xml(path);
-    return loaded(read_mitsuba(path, defines, lenient, {width, height}));
+    return loaded(read_mitsuba(path, defines, lenient, {width, height}, sensor));
 }
 
 SceneToCheck load_scene_to_check(const std::filesystem::path& path, const std::map<std::string, std::string>& defines,
-                                 bool lenient) {
+                                 bool lenient, const std::string& sensor) {
     require_xml(path);
-    SceneReading reading = read_mitsuba_to_check(path, defines, lenient);
+    SceneReading reading = read_mitsuba_to_check(path, defines, lenient, sensor);
     return {std::move(reading.scene), std::move(reading.findings)};
 }
 

@@ -21,9 +21,10 @@ struct LoadedScene {
 };
 
 /// Reads a scene file by its extension: .xml is Mitsuba's format. A width or height above 0 replaces the film's; the
-/// camera's field of view follows the new shape of the film, as if the scene said so. Bad input throws InputError.
+/// camera's field of view follows the new shape of the film, as if the scene said so. `sensor` chooses one by its
+/// number from 0 on or its id; "": the file's own choice. Bad input throws InputError.
 LoadedScene load_scene(const std::filesystem::path& path, const std::map<std::string, std::string>& defines = {},
-                       bool lenient = false, int width = 0, int height = 0);
+                       bool lenient = false, int width = 0, int height = 0, const std::string& sensor = "");
 
 /// A scene for inspect(): before anything is repaired; what a render would refuse to read is left out.
 struct SceneToCheck {
@@ -33,6 +34,7 @@ struct SceneToCheck {
 
 /// Throws InputError only if there is no scene to look at.
 SceneToCheck load_scene_to_check(const std::filesystem::path& path,
-                                 const std::map<std::string, std::string>& defines = {}, bool lenient = false);
+                                 const std::map<std::string, std::string>& defines = {}, bool lenient = false,
+                                 const std::string& sensor = "");
 
 }  // namespace treefarm

@@ -14,11 +14,12 @@ namespace {
 using namespace packed;
 
 constexpr std::uint32_t kMagic = 0x43534654;  // "TFSC"
-constexpr std::uint32_t kVersion = 3;
+constexpr std::uint32_t kVersion = 4;
 
 Camera get_camera(ByteReader& in) {
     Camera camera;
-    for (Vec3* v : {&camera.origin, &camera.corner, &camera.across, &camera.down, &camera.lens_u, &camera.lens_v})
+    for (Vec3* v : {&camera.origin, &camera.corner, &camera.across, &camera.down, &camera.lens_u, &camera.lens_v,
+                    &camera.parallel})
         *v = get_vector<Vec3>(in);
     return camera;
 }
@@ -29,6 +30,10 @@ void put_film(ByteWriter& out, const Film& film) {
     put_enum(out, film.filter);
     out.put(film.filter_radius);
     out.put(film.filter_stddev);
+    out.put(film.filter_b);
+    out.put(film.filter_c);
+    for (const int number : {film.place.x, film.place.y, film.place.whole_width, film.place.whole_height})
+        out.put<std::int32_t>(number);
 }
 
 Film get_film(ByteReader& in) {
@@ -37,12 +42,19 @@ Film get_film(ByteReader& in) {
     film.height = in.get<std::int32_t>();
     if (film.width < 1 || film.height < 1 || film.width > 65535 || film.height > 65535)
         throw FormatError("scene: a film of " + std::to_string(film.width) + " x " + std::to_string(film.height));
-    film.filter = get_enum(in, PixelFilter::gaussian, "pixel filter");
+    film.filter = get_enum(in, PixelFilter::lanczos, "pixel filter");
     film.filter_radius = in.get<float>();
     film.filter_stddev = in.get<float>();
     if (!(film.filter_radius > 0.0f) || !(film.filter_stddev > 0.0f) || !std::isfinite(film.filter_radius) ||
         !std::isfinite(film.filter_stddev))
         throw FormatError("scene: the pixel filter's size is not positive");
+    film.filter_b = in.get<float>();
+    film.filter_c = in.get<float>();
+    if (!std::isfinite(film.filter_b) || !std::isfinite(film.filter_c))
+        throw FormatError("scene: the pixel filter's B and C are not finite");
+    for (int* number : {&film.place.x, &film.place.y, &film.place.whole_width, &film.place.whole_height})
+        *number = in.get<std::int32_t>();
+    if (!film.is_placed_well()) throw FormatError("scene: a crop window that is not on its film");
     return film;
 }
 
@@ -96,7 +108,8 @@ Bytes encode_scene(const Scene& scene) {
     put_list(out, scene.shapes, put_shape);
     put_list(out, scene.emitters, put_emitter);
     const Camera& camera = scene.camera;
-    for (const Vec3& v : {camera.origin, camera.corner, camera.across, camera.down, camera.lens_u, camera.lens_v})
+    for (const Vec3& v :
+         {camera.origin, camera.corner, camera.across, camera.down, camera.lens_u, camera.lens_v, camera.parallel})
         put_vector(out, v);
     put_film(out, scene.film);
     return out.take();

@@ -13,10 +13,16 @@ void check_film(const Film& film) {
     if (!std::isfinite(film.filter_radius) || film.filter_radius <= 0.0f || !std::isfinite(film.filter_stddev) ||
         film.filter_stddev <= 0.0f)
         throw InputError(Location{}, "the pixel filter's size is not positive", "give a positive radius or stddev");
+    if (!std::isfinite(film.filter_b) || !std::isfinite(film.filter_c))
+        throw InputError(Location{}, "the pixel filter's B and C are not finite",
+                         "give numbers, 1/3 and 1/3 for instance");
+    if (!film.is_placed_well())
+        throw InputError(Location{}, "the crop window is not on the film", "check the film's size and crop");
 }
 
 void check_camera(const Camera& camera) {
-    for (const Vec3& v : {camera.origin, camera.corner, camera.across, camera.down, camera.lens_u, camera.lens_v})
+    for (const Vec3& v :
+         {camera.origin, camera.corner, camera.across, camera.down, camera.lens_u, camera.lens_v, camera.parallel})
         if (!is_finite(v) || validation::is_too_far(v))
             throw InputError(Location{}, "the camera is not finite or beyond 1e18",
                              "check the sensor's transformation, field of view and lens");

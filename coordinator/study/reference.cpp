@@ -34,7 +34,12 @@ void check_given(const RgbImage& image, const Film& film, const Location& place)
 std::string reference_key(const Study& study, const StudyScene& scene, const LoadedScene& loaded, Reference& reference,
                           RenderRequest& request, const Fingerprint& build) {
     if (!scene.reference.empty()) {
-        const ExrRgb given = read_exr_rgb(scene.reference);
+        ExrRgb given = read_exr_rgb(scene.reference);
+        const Film& film = loaded.scene.film;
+        // A picture of the whole film serves a crop window, too.
+        if (film.place.is_window() && given.image.width == film.whole_width() &&
+            given.image.height == film.whole_height())
+            given.image = cut_out(given.image, film.place, film.width, film.height);
         check_given(given.image, loaded.scene.film, scene.reference_place);
         reference.file = scene.reference;
         reference.image = given.image;

@@ -122,5 +122,41 @@ TEST(Camera, ExtremeRandomNumbersStayWithinTheFilter) {
     }
 }
 
+TEST(Camera, OrthographicRaysAreParallel) {
+    Camera ortho;
+    ortho.origin = Vec3(0, 0, 4);
+    ortho.corner = Vec3(-2, 1, 0);
+    ortho.across = Vec3(4, 0, 0);
+    ortho.down = Vec3(0, -2, 0);
+    ortho.parallel = Vec3(0, 0, -1);
+    const CameraRays camera(ortho, film(4, 2));
+    for (int x = 0; x < 4; ++x)
+        for (int y = 0; y < 2; ++y) {
+            const Ray ray = camera.generate(x, y, kCentre);
+            EXPECT_EQ(ray.direction, Vec3(0, 0, -1));
+            EXPECT_LT((ray.origin - Vec3(-1.5f + float(x), 0.5f - float(y), 4)).length(), 1e-6f);
+            const PathKey path{1, 2, 3};
+            const Ray one = camera.generate(x, y, path), other = camera.generate(x, y, draw(path, 0, Stream::camera));
+            EXPECT_EQ(one.origin, other.origin);
+            EXPECT_EQ(one.direction, other.direction);
+        }
+}
+
+TEST(Camera, PixelsOfACropWindowAreThoseOfTheWholeFilm) {
+    const Film whole = film(40, 30);
+    Film part = film(16, 10);
+    part.place = {8, 5, 40, 30};
+    const Camera view = test::look_at(Vec3(1, 2, 3), Vec3(4, 2, 7), Vec3(0, 1, 0), 0.5f);
+    const CameraRays all(view, whole), some(view, part);
+    for (int x = 0; x < 16; ++x)
+        for (int y = 0; y < 10; ++y) {
+            const std::uint32_t key = part.key_of(x, y);
+            EXPECT_EQ(key, whole.key_of(x + 8, y + 5));
+            EXPECT_EQ(part.index_of(key), static_cast<std::uint32_t>(y * 16 + x));
+            const PathKey path{7, key, 11};
+            EXPECT_EQ(some.generate(x, y, path).direction, all.generate(x + 8, y + 5, path).direction);
+        }
+}
+
 }  // namespace
 }  // namespace treefarm

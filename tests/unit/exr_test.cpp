@@ -4,9 +4,11 @@
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfInputFile.h>
 #include <OpenEXR/ImfOutputFile.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <iterator>
@@ -277,6 +279,30 @@ TEST(Image, LayersRoundTrip) {
     EXPECT_EQ(rgb_layer(image, "variance")->pixels[3], Rgb(0.0f));
     EXPECT_FALSE(rgb_layer(image, "albedo"));
     EXPECT_THROW(add_rgb_layer(image, "albedo", RgbImage(3, 2)), RunError);
+}
+
+TEST(Exr, WindowsLieInTheirWhole) {
+    const fs::path path = fresh("window.exr");
+    Image image = sample_image();
+    for (const PixelType type : {PixelType::float32, PixelType::half}) {
+        image.place = {7, 2, 40, 30};
+        write_exr(path, image, {}, type);
+        {
+            const Imf::InputFile file(path.c_str());
+            EXPECT_EQ(file.header().displayWindow(), Imath::Box2i({0, 0}, {39, 29}));
+            EXPECT_EQ(file.header().dataWindow(), Imath::Box2i({7, 2}, {11, 4}));
+        }
+        const Image read = read_exr(path).image;
+        EXPECT_EQ(read.place, image.place);
+        EXPECT_EQ(read.width, 5);
+        if (type == PixelType::float32) {
+            for (const char* name : {"R", "variance.R", "albedo.G"})
+                EXPECT_TRUE(std::ranges::equal(read.channel(*read.find(name)), image.channel(*image.find(name))));
+        }
+        image.place = {};
+        write_exr(path, image, {}, type);
+        EXPECT_FALSE(read_exr(path).image.place.is_window());
+    }
 }
 
 }  // namespace

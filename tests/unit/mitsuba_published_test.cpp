@@ -103,7 +103,7 @@ TEST_F(MitsubaPublished, PropertiesWithoutInfluence) {
                "\"/><integer name=\"cropOffsetX\" value=\"0\"/></film></sensor>";
     };
     EXPECT_EQ(load(crop(30)).scene.film.width, 30) << "the window is the whole film";
-    EXPECT_THROW(load(crop(29)), InputError);
+    EXPECT_THROW(load(crop(31)), InputError);
     EXPECT_EQ(refusal("<integer name=\"kdMaxDepth\" value=\"3\"/>"), "");
     EXPECT_EQ(
         refusal("<integrator type=\"path\"><integer name=\"samples_per_pass\" value=\"3\"/></integrator>", "3.0.0"),

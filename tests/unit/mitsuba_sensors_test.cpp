@@ -48,18 +48,149 @@ TEST_F(MitsubaSensors, MalformedLensesAreRefused) {
 }
 
 TEST_F(MitsubaSensors, OtherSensorsAndFilms) {
-    EXPECT_THROW(load("<sensor type=\"orthographic\"/>"), InputError);
+    EXPECT_THROW(load("<sensor type=\"irradiancemeter\"/>"), InputError);
     const std::string film = "<integer name=\"width\" value=\"30\"/><integer name=\"height\" value=\"20\"/>";
     const auto ldr = load("<sensor type=\"perspective\"><film type=\"ldrfilm\">" + film +
                           "<float name=\"gamma\" value=\"2.2\"/></film></sensor>");
     EXPECT_EQ(ldr.scene.film.width, 30);
     EXPECT_EQ(ldr.warnings.at(0).text().find("ldrfilm") != std::string::npos, true);
     EXPECT_THROW(load("<sensor type=\"perspective\"><film type=\"mfilm\">" + film + "</film></sensor>"), InputError);
-    EXPECT_THROW(load("<sensor type=\"perspective\"><film type=\"hdrfilm\">" + film +
-                      "<integer name=\"cropWidth\" value=\"10\"/></film></sensor>"),
-                 InputError);
     const auto open = load("<sensor type=\"perspective\"><float name=\"shutterClose\" value=\"1\"/></sensor>");
     EXPECT_NE(open.warnings.at(0).text().find("motion"), std::string::npos);
+}
+
+std::string view(const std::string& id, double fov) {
+    return "<sensor type=\"perspective\"" + (id.empty() ? "" : " id=\"" + id + "\"") + "><float name=\"fov\" value=\"" +
+           std::to_string(fov) + "\"/></sensor>\n";
+}
+
+TEST_F(MitsubaSensors, OneOfSeveralIsUsed) {
+    const std::string views = view("", 20) + view("side", 60) + view("0", 90);
+    const auto width = [&](const std::string& version, const std::string& wanted = "") {
+        const auto path = write("views.xml", "<scene version=\"" + version + "\">" + views + "</scene>");
+        return load_scene(path, {}, false, 0, 0, wanted).scene.camera.across.length();
+    };
+    const auto of_fov = [](double degrees) { return 2.0 * std::tan(degrees * M_PI / 360.0); };
+    EXPECT_NEAR(width("3.0.0"), of_fov(20), 1e-5);
+    EXPECT_NEAR(width("2.1.0"), of_fov(20), 1e-5);
+    EXPECT_NEAR(width("0.6.0"), of_fov(90), 1e-5);
+    EXPECT_NEAR(width("3.0.0", "1"), of_fov(60), 1e-5);
+    EXPECT_NEAR(width("0.6.0", "side"), of_fov(60), 1e-5);
+    EXPECT_NEAR(width("3.0.0", "0"), of_fov(90), 1e-5) << "an id comes before a number";
+    for (const char* wanted : {"3", "-1", "sid", " "})
+        EXPECT_THROW(width("3.0.0", wanted), InputError) << wanted;
+    try {
+        width("3.0.0", "top");
+        FAIL();
+    } catch (const InputError& error) {
+        EXPECT_NE(std::string(error.what()).find("0, 1 (\"side\"), 2 (\"0\")"), std::string::npos) << error.what();
+    }
+    const auto warnings = load(views, "3.0.0").warnings;
+    ASSERT_FALSE(warnings.empty());
+    EXPECT_NE(warnings[0].text().find("first of 3 sensors"), std::string::npos) << warnings[0].text();
+    const auto checked = load_scene_to_check(folder_ / "scene.xml").findings;
+    ASSERT_EQ(checked.size(), 1u);
+    EXPECT_EQ(checked[0].severity, Finding::Severity::note);
+    EXPECT_TRUE(load_scene_to_check(folder_ / "scene.xml", {}, false, "1").findings.empty()) << "chosen";
+}
+
+TEST_F(MitsubaSensors, OrthographicOnesScale) {
+    const auto ortho = [&](const std::string& transform, const std::string& film = "") {
+        return load("<sensor type=\"orthographic\"><transform name=\"toWorld\">" + transform + "</transform>" + film +
+                    "<float name=\"nearClip\" value=\"1\"/><float name=\"farClip\" value=\"10\"/></sensor>")
+            .scene.camera;
+    };
+    const Camera camera = ortho("<scale x=\"2\" y=\"3\"/><lookat origin=\"0,0,4\" target=\"0,0,0\" up=\"0,1,0\"/>",
+                                "<film type=\"hdrfilm\"><integer name=\"width\" value=\"200\"/><integer "
+                                "name=\"height\" value=\"100\"/></film>");
+    EXPECT_TRUE(camera.is_orthographic());
+    expect_near(camera.origin, Vec3(0, 0, 4));
+    expect_near(camera.parallel, Vec3(0, 0, -1));
+    // Mitsuba's film sees [-1, 1] across, and what its shape makes of that upwards.
+    expect_near(camera.origin + camera.corner, Vec3(-2, 1.5, 4));
+    expect_near(camera.across, Vec3(4, 0, 0));
+    expect_near(camera.down, Vec3(0, -3, 0));
+    EXPECT_NEAR(ortho("<scale value=\"7\"/>").parallel.length(), 1.0f, 1e-6f);
+    EXPECT_THROW(ortho("<scale x=\"0\" y=\"1\" z=\"1\"/>"), InputError);
+    EXPECT_FALSE(load("<sensor type=\"perspective\"/>").scene.camera.is_orthographic());
+}
+
+class Films : public MitsubaFixture {
+  protected:
+    static std::string integers(const std::vector<std::pair<std::string, int>>& values) {
+        std::string text;
+        for (const auto& [name, value] : values)
+            text += "<integer name=\"" + name + "\" value=\"" + std::to_string(value) + "\"/>";
+        return text;
+    }
+
+    Film film(const std::string& inside, int width = 0, int height = 0, const std::string& version = "3.0.0") const {
+        const auto path = write("film.xml", "<scene version=\"" + version +
+                                                "\"><sensor type=\"perspective\"><film type=\"hdrfilm\">" + inside +
+                                                "</film></sensor></scene>");
+        return load_scene(path, {}, false, width, height).scene.film;
+    }
+};
+
+TEST_F(Films, CropWindows) {
+    const std::string size = integers({{"width", 40}, {"height", 30}});
+    const std::string window =
+        integers({{"crop_offset_x", 8}, {"crop_offset_y", 5}, {"crop_width", 16}, {"crop_height", 10}});
+    const Film cropped = film(size + window);
+    EXPECT_EQ(cropped.width, 16);
+    EXPECT_EQ(cropped.height, 10);
+    EXPECT_EQ(cropped.place, (ImagePlace{8, 5, 40, 30}));
+    const Film old = film(integers({{"width", 40},
+                                    {"height", 30},
+                                    {"cropOffsetX", 8},
+                                    {"cropOffsetY", 5},
+                                    {"cropWidth", 16},
+                                    {"cropHeight", 10}}),
+                          0, 0, "0.6.0");
+    EXPECT_EQ(old.place, cropped.place);
+    EXPECT_FALSE(film(size + integers({{"crop_width", 40}, {"crop_height", 30}})).place.is_window());
+    // A size from outside is the whole film's: the window keeps its share.
+    const Film halved = film(size + window, 20, 15);
+    EXPECT_EQ(halved.place, (ImagePlace{4, 2, 20, 15}));
+    EXPECT_EQ(halved.width, 8);
+    EXPECT_EQ(halved.height, 6) << "rows 2.5 to 7.5: every one that it touches";
+    for (const std::string& bad :
+         {integers({{"crop_offset_x", 30}, {"crop_width", 11}}), integers({{"crop_offset_x", 40}}),
+          integers({{"crop_offset_y", -1}}), integers({{"crop_height", 0}}), integers({{"crop_offset_x", 1}})})
+        EXPECT_THROW(film(size + bad), InputError) << bad;
+    // The field of view is the whole film's.
+    const auto width_seen = [&](const std::string& inside) {
+        return load(
+                   "<sensor type=\"perspective\"><float name=\"fov\" value=\"50\"/><string name=\"fov_axis\" "
+                   "value=\"y\"/><film type=\"hdrfilm\">" +
+                       inside + "</film></sensor>",
+                   "3.0.0")
+            .scene.camera.across.length();
+    };
+    EXPECT_EQ(width_seen(size + window), width_seen(size));
+}
+
+TEST_F(Films, FiltersWithNegativeLobes) {
+    const Film mitchell = film("<rfilter type=\"mitchell\"/>");
+    EXPECT_EQ(mitchell.filter, PixelFilter::cubic);
+    EXPECT_FLOAT_EQ(mitchell.filter_b, 1.0f / 3);
+    EXPECT_FLOAT_EQ(mitchell.filter_c, 1.0f / 3);
+    EXPECT_TRUE(mitchell.is_signed());
+    const Film other = film(
+        "<rfilter type=\"mitchell\"><float name=\"B\" value=\"0.5\"/><float name=\"C\" value=\"0.25\"/></rfilter>");
+    EXPECT_EQ(other.filter_b, 0.5f);
+    EXPECT_EQ(other.filter_c, 0.25f);
+    const Film named_a = film(
+        "<rfilter type=\"mitchell\"><float name=\"A\" value=\"0.5\"/><float name=\"B\" value=\"0.25\"/></rfilter>");
+    EXPECT_EQ(named_a.filter_b, 0.5f);
+    EXPECT_EQ(named_a.filter_c, 0.25f);
+    const Film catmullrom = film("<rfilter type=\"catmullrom\"/>");
+    EXPECT_EQ(catmullrom.filter_b, 0.0f);
+    EXPECT_EQ(catmullrom.filter_c, 0.5f);
+    EXPECT_EQ(film("<rfilter type=\"lanczos\"/>").filter_radius, 3.0f);
+    EXPECT_EQ(film("<rfilter type=\"lanczos\"><integer name=\"lobes\" value=\"2\"/></rfilter>").filter_radius, 2.0f);
+    EXPECT_THROW(film("<rfilter type=\"lanczos\"><integer name=\"lobes\" value=\"0\"/></rfilter>"), InputError);
+    EXPECT_FALSE(film("<rfilter type=\"gaussian\"/>").is_signed());
 }
 
 TEST_F(MitsubaSensors, IntegratorsThatTracePaths) {

@@ -105,8 +105,13 @@ TEST(SceneCodec, EmittersCameraAndFilmRoundTrip) {
     EXPECT_EQ(back.emitters[5].where.text(), "b.xml:7:7");
     EXPECT_EQ(back.camera.down, Vec3(10, 11, 12));
     EXPECT_EQ(back.camera.lens_v, Vec3(16, 17, 18));
-    EXPECT_EQ(back.film.width, 65535);
+    EXPECT_EQ(back.camera.parallel, Vec3(0, 0, 1));
+    EXPECT_EQ(back.film.width, 200);
+    EXPECT_EQ(back.film.whole_width(), 65535);
     EXPECT_EQ(back.film.filter, PixelFilter::gaussian);
+    EXPECT_EQ(back.film.filter_b, 0.25f);
+    EXPECT_EQ(back.film.filter_c, 0.75f);
+    EXPECT_EQ(back.film.place, (ImagePlace{7, 2, 65535, 9}));
 
     Scene constant;
     constant.emitters.push_back({ConstantEmitter{Rgb(4, 5, 6)}, {}});

@@ -74,8 +74,7 @@ std::string described(const TraceScene& scene, const Job& job, const PassPlan& p
 
 std::string describe_sample(const TraceScene& scene, const Job& job, const PassPlan& pass, const Guide& guide, int x,
                             int y, std::uint32_t sample) {
-    const PathKey path{job.sampler.seed, static_cast<std::uint32_t>(y * std::int64_t(scene.film().width) + x),
-                       pass.first_sample + sample};
+    const PathKey path{job.sampler.seed, scene.film().key_of(x, y), pass.first_sample + sample};
     const bool guided = is_guided(job, pass, guide);
     if (scene.plainly_diffuse())
         return guided ? described<DiffuseSurface, true>(scene, job, pass, guide, x, y, path)

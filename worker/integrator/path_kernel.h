@@ -113,7 +113,7 @@ class PathKernel {
                 Path& path = walk_[place];
                 path.begin(keys_[number], rays_[number]);
                 path.origin = static_cast<std::uint16_t>(number);
-                path.probe = kGuided && walk_.settings().probe.holds(path.key.pixel);
+                path.probe = kGuided && walk_.settings().is_probe(path.key.pixel);
                 stats_.probe_paths += path.probe;
                 if constexpr (kRecord) walk_.recorder(place).begin_path();
                 walk_.observer().camera(path.ray);
@@ -138,7 +138,7 @@ class PathKernel {
                 Path& path = walk_[place];
                 path.begin(keys_[branch.origin], branch.ray);
                 path.origin = branch.origin;
-                path.probe = kGuided && walk_.settings().probe.holds(path.key.pixel);
+                path.probe = kGuided && walk_.settings().is_probe(path.key.pixel);
                 if constexpr (kInherits) {
                     path.copies = legacies_[branch.origin].copies;
                     path.first_exponent = legacies_[branch.origin].first_exponent;

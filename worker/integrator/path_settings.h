@@ -36,6 +36,11 @@ struct PathSettings {
     ViewRecords view_records;
     Roulette roulette, unguided_roulette;
 
+    const Film& film;
+
+    /// Whether the path of a pixel, by its number on the whole film, is unguided to see whether guiding pays.
+    bool is_probe(std::uint32_t pixel) const { return probe.holds(film.index_of(pixel)); }
+
     PathSettings(const TraceScene& scene, const Job& job, const PassPlan& pass, const Guide& guide)
         : max_depth(job.integrator.max_depth),
           next_event(pass.next_event && scene.emitters().can_sample()),
@@ -63,7 +68,8 @@ struct PathSettings {
                    : job.guiding.roulette == GuidingRoulette::adjoint    ? Roulette::Rule::adjoint
                                                                          : Roulette::Rule::constant,
                    job.integrator.rr_depth),
-          unguided_roulette(Roulette::Rule::unguided, job.integrator.rr_depth) {}
+          unguided_roulette(Roulette::Rule::unguided, job.integrator.rr_depth),
+          film(scene.film()) {}
 };
 
 }  // namespace treefarm

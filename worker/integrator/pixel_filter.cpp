@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/scene/filter_lobes.h"
+
 namespace treefarm {
 namespace {
 
@@ -19,27 +21,51 @@ double exp_negative(double x) {
     return sum;
 }
 
-/// Cumulative masses, of 2^31, of the truncated Gaussian max(0, g(x) - g(radius)) over equal cells of [0, radius].
-std::vector<std::uint32_t> gaussian_table(double radius, double stddev, std::uint32_t cells) {
+/// Of the truncated Gaussian max(0, g(x) - g(radius)) over equal cells of [0, radius].
+std::vector<double> gaussian_masses(double radius, double stddev, std::uint32_t cells) {
     const double scale = 0.5 / (stddev * stddev);
     const double at_radius = exp_negative(scale * radius * radius);
     const double width = radius / cells;
     const auto value = [&](double x) { return exp_negative(scale * x * x) - at_radius; };
-    std::vector<double> sums(cells + 1, 0.0);
+    std::vector<double> masses(cells);
     for (std::uint32_t i = 0; i < cells; ++i) {  // Simpson's rule
         const double x = i * width;
-        sums[i + 1] = sums[i] + (value(x) + 4.0 * value(x + 0.5 * width) + value(x + width)) * (width / 6.0);
+        masses[i] = (value(x) + 4.0 * value(x + 0.5 * width) + value(x + width)) * (width / 6.0);
     }
-    std::vector<std::uint32_t> table(cells + 1);
-    for (std::uint32_t i = 0; i <= cells; ++i)
-        table[i] = static_cast<std::uint32_t>(sums[i] / sums[cells] * 0x1p31);
+    return masses;
+}
+
+/// Cumulative absolute masses, of 2^31.
+std::vector<std::uint32_t> cumulative_table(const std::vector<double>& masses) {
+    std::vector<double> sums(masses.size() + 1, 0.0);
+    for (std::size_t i = 0; i < masses.size(); ++i)
+        sums[i + 1] = sums[i] + std::abs(masses[i]);
+    std::vector<std::uint32_t> table(sums.size());
+    for (std::size_t i = 0; i < sums.size(); ++i)
+        table[i] = static_cast<std::uint32_t>(sums[i] / sums.back() * 0x1p31);
     return table;
 }
 
 }  // namespace
 
 FilterSampler::FilterSampler(const Film& film) : filter_(film.filter), radius_(film.filter_radius) {
-    if (filter_ == PixelFilter::gaussian) cumulative_ = gaussian_table(radius_, film.filter_stddev, kCells);
+    if (filter_ == PixelFilter::gaussian)
+        cumulative_ = cumulative_table(gaussian_masses(radius_, film.filter_stddev, kCells));
+    if (!film.is_signed()) return;
+    const std::vector<double> masses = lobe_masses(film, kCells);
+    cumulative_ = cumulative_table(masses);
+    for (const double mass : masses)
+        negative_.push_back(mass < 0);
+    weight_ = static_cast<float>(excess_of(masses));
+}
+
+std::uint32_t FilterSampler::cell_of(std::uint32_t bits) const {
+    const auto above = std::upper_bound(cumulative_.begin() + 1, cumulative_.end() - 1, bits);
+    return static_cast<std::uint32_t>(above - cumulative_.begin()) - 1;
+}
+
+float FilterSampler::weight(std::uint32_t random) const {
+    return !negative_.empty() && negative_[cell_of(random & 0x7fffffffu)] ? -weight_ : weight_;
 }
 
 float FilterSampler::sample(std::uint32_t random) const {
@@ -52,8 +78,7 @@ float FilterSampler::sample(std::uint32_t random) const {
         const float rest = static_cast<float>(0x7fffffffu - bits) * 0x1p-31f;
         magnitude = radius_ * (1.0f - std::sqrt(rest));
     } else {
-        const auto above = std::upper_bound(cumulative_.begin() + 1, cumulative_.end() - 1, bits);
-        const auto cell = static_cast<std::uint32_t>(above - cumulative_.begin()) - 1;
+        const std::uint32_t cell = cell_of(bits);
         const float begin = static_cast<float>(cumulative_[cell]), end = static_cast<float>(cumulative_[cell + 1]);
         const float within = end > begin ? (static_cast<float>(bits) - begin) / (end - begin) : 0.5f;
         magnitude = radius_ / static_cast<float>(kCells) * (static_cast<float>(cell) + std::clamp(within, 0.0f, 1.0f));

@@ -66,10 +66,9 @@ void render_with(const TileJob& tile) {
     PathKernel<Surface, kGuided, kRecord> kernel(scene, guide, settings, stats, &log);
     const std::uint32_t first = unit.chunk * pass.blocks_per_unit * kBlockSamples;
     const std::uint32_t last = std::min(first + pass.blocks_per_unit * kBlockSamples, pass.spp);
-    const std::int64_t width = scene.film().width;
-    const auto key = [&tile, width](const UnitCursor& at) {
-        return PathKey{tile.job.sampler.seed, static_cast<std::uint32_t>(at.y * width + at.x),
-                       tile.pass.first_sample + at.sample};
+    const bool is_signed = scene.film().is_signed();
+    const auto key = [&tile](const UnitCursor& at) {
+        return PathKey{tile.job.sampler.seed, tile.scene.film().key_of(at.x, at.y), tile.pass.first_sample + at.sample};
     };
     std::vector<PixelEstimate> blocks;
     PairedSamples pairs;
@@ -90,8 +89,8 @@ void render_with(const TileJob& tile) {
             Rgb radiance = kernel.radiance(i);
             refuse_invalid(radiance, unit, end.x, end.y, end.sample, stats);
             if (!is_black(radiance)) ++stats.nonzero_paths;
-            blocks.back().add(key(end).sample, radiance);
-            if (kGuided && kRecord && settings.compare_splitting && !settings.probe.holds(key(end).pixel)) {
+            blocks.back().add(key(end).sample, is_signed ? radiance * scene.camera().weight(key(end)) : radiance);
+            if (kGuided && kRecord && settings.compare_splitting && !settings.is_probe(key(end).pixel)) {
                 const int record = kernel.first_exponent(i) + kMeanRecordBits;
                 const double scale = std::ldexp(1.0, -light_exponent(record, settings.target));
                 pairs.add(scale * luminance(radiance), scale * kernel.unsplit(i));

@@ -33,9 +33,12 @@ class Diagnostics {
             warnings_.push_back({where, what});
     }
 
-    /// What is no fault, for the log of a render.
-    void note(const Location& where, const std::string& what) {
-        if (!checks_) notes_.push_back({where, what});
+    /// What is worth knowing and no fault: for the log of a render, or among the findings.
+    void note(const Location& where, const std::string& what, const char* kind = "reader") {
+        if (checks_)
+            find({Finding::Severity::note, kind, where, what, ""});
+        else
+            notes_.push_back({where, what});
     }
 
     /// Nothing unless the scene is being checked.

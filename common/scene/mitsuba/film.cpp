@@ -1,17 +1,38 @@
 #include "common/scene/mitsuba/film.h"
 
+#include <cmath>
+
 #include "common/config/parse_text.h"
 
 namespace treefarm::mitsuba {
 namespace {
 
 constexpr std::string_view kFilms[] = {"hdrfilm", "ldrfilm"};
-constexpr std::string_view kFilters[] = {"box", "tent", "gaussian"};
+constexpr std::string_view kFilters[] = {"box", "tent", "gaussian", "mitchell", "catmullrom", "lanczos"};
 
 void use_gaussian(Film& film, double stddev) {
     film.filter = PixelFilter::gaussian;
     film.filter_stddev = static_cast<float>(stddev);
     film.filter_radius = static_cast<float>(4.0 * stddev);
+}
+
+/// B and C, which some versions of Mitsuba call A and B.
+void read_cubic(Properties& properties, const std::string& type, Film& film) {
+    film.filter = PixelFilter::cubic;
+    film.filter_radius = 2.0f;
+    film.filter_b = 0.0f;
+    film.filter_c = 0.5f;
+    if (type == "catmullrom") return;
+    const bool from_a = properties.has("A");
+    const auto number = [&](const char* name) {
+        const double value = properties.number(name, 1.0 / 3.0);
+        if (!(std::abs(value) <= 10.0))
+            throw InputError(properties.where(name), std::string(name) + " of the filter is " + number_text(value),
+                             "give -10 to 10");
+        return static_cast<float>(value);
+    };
+    film.filter_b = number(from_a ? "A" : "B");
+    film.filter_c = number(from_a ? "B" : "C");
 }
 
 void read_filter(const XmlElement& element, Film& film, const SceneDocument& document, Diagnostics& diagnostics) {
@@ -32,9 +53,20 @@ void read_filter(const XmlElement& element, Film& film, const SceneDocument& doc
         film.filter_radius = static_cast<float>(check_size("radius", properties.number("radius", 1.0)));
     } else if (type == "gaussian") {
         use_gaussian(film, check_size("stddev", properties.number("stddev", 0.5)));
+    } else if (type == "mitchell" || type == "catmullrom") {
+        read_cubic(properties, type, film);
+    } else if (type == "lanczos") {
+        film.filter = PixelFilter::lanczos;
+        const std::int64_t lobes = properties.integer("lobes", 3);
+        if (lobes < 1 || lobes > 16)
+            throw InputError(properties.where("lobes"), "a filter of " + std::to_string(lobes) + " lobes",
+                             "give 1 to 16");
+        film.filter_radius = static_cast<float>(lobes);
     } else {
-        diagnostics.unsupported(element.where, "the filter " + in_quotes(type) + " is not available in this version",
-                                did_you_mean(type, kFilters, "use box, tent or gaussian"), "a Gaussian is used");
+        diagnostics.unsupported(
+            element.where, "the filter " + in_quotes(type) + " is not available in this version",
+            did_you_mean(type, kFilters, "use box, tent, gaussian, mitchell, catmullrom or lanczos"),
+            "a Gaussian is used");
         use_gaussian(film, 0.5);
         return;
     }
@@ -50,14 +82,45 @@ int read_pixels(Properties& properties, const char* name, int otherwise) {
     return static_cast<int>(pixels);
 }
 
-/// A window that is the whole film crops nothing.
-void refuse_crop(Properties& properties, const Film& film, Diagnostics& diagnostics) {
-    for (const auto& [name, whole] : {std::pair("crop_offset_x", 0), std::pair("crop_offset_y", 0),
-                                      std::pair("crop_width", film.width), std::pair("crop_height", film.height)}) {
-        if (properties.integer(name, whole) == whole) continue;
-        diagnostics.unsupported(properties.where(name), "a crop window is not available in this version", "remove it",
-                                "the whole film is rendered");
-    }
+/// Pixels [begin, end) of a film's side.
+struct Span {
+    int begin, end;
+};
+
+/// The crop window's pixels along a side of the film that has so many.
+Span read_crop(Properties& properties, const char* offset, const char* size, int side) {
+    const std::int64_t begin = properties.integer(offset, 0), pixels = properties.integer(size, side);
+    if (begin < 0)
+        throw InputError(properties.where(offset), std::string(offset) + " is " + std::to_string(begin),
+                         "give 0 or more");
+    if (begin >= side || pixels < 1 || pixels > side - begin)
+        throw InputError(
+            properties.where(properties.has(size) ? size : offset),
+            "the crop window has pixels " + std::to_string(begin) + " to " + std::to_string(begin + pixels - 1) +
+                " of " + std::to_string(side),
+            "keep it on the film: " + std::string(offset) + " + " + size + " is at most " + std::to_string(side));
+    return {static_cast<int>(begin), static_cast<int>(begin + pixels)};
+}
+
+/// What a span becomes where the side has another size: every pixel that it touches.
+Span scaled(const Span& span, std::int64_t from, std::int64_t to) {
+    return {static_cast<int>(span.begin * to / from), static_cast<int>((span.end * to + from - 1) / from)};
+}
+
+/// Size and crop window: a wanted size is that of the whole film, and takes the window along.
+void read_size(Properties& properties, const FilmSize& wanted, Film& film) {
+    const int width = read_pixels(properties, "width", film.width);
+    const int height = read_pixels(properties, "height", film.height);
+    Span x = read_crop(properties, "crop_offset_x", "crop_width", width);
+    Span y = read_crop(properties, "crop_offset_y", "crop_height", height);
+    const int whole_width = wanted.width > 0 ? wanted.width : width;
+    const int whole_height = wanted.height > 0 ? wanted.height : height;
+    x = scaled(x, width, whole_width);
+    y = scaled(y, height, whole_height);
+    film.width = x.end - x.begin;
+    film.height = y.end - y.begin;
+    if (film.width < whole_width || film.height < whole_height)
+        film.place = {x.begin, y.begin, whole_width, whole_height};
 }
 
 }  // namespace
@@ -83,11 +146,7 @@ Film read_film(const XmlElement* element, const FilmSize& wanted, int version, c
     }
     // Scenes keep these when their film becomes an hdrfilm. None of them changes the linear image.
     properties.ignore({"gamma", "exposure", "tonemap_method", "key", "burn", "digits", "variable"});
-    film.width = read_pixels(properties, "width", film.width);
-    film.height = read_pixels(properties, "height", film.height);
-    refuse_crop(properties, film, diagnostics);
-    if (wanted.width > 0) film.width = wanted.width;
-    if (wanted.height > 0) film.height = wanted.height;
+    read_size(properties, wanted, film);
     if (const XmlElement* filter = properties.only_child("rfilter")) read_filter(*filter, film, document, diagnostics);
     // How the image is stored is not the scene's business here, and no filter crosses a pixel's own samples.
     properties.ignore({"banner", "attach_log", "file_format", "pixel_format", "component_format", "channel_names",

@@ -7,7 +7,8 @@
 namespace treefarm::mitsuba {
 
 /// Reads <film type="hdrfilm">; without an element: 768 x 576 pixels. Without a filter: a Gaussian of 0.5 pixels, as in
-/// Mitsuba. `wanted` replaces the size where it is not 0; `version` is the sensor's.
+/// Mitsuba. `wanted` replaces the size where it is not 0, and a crop window keeps its share of it; `version` is
+/// the sensor's.
 Film read_film(const XmlElement* film, const FilmSize& wanted, int version, const SceneDocument& document,
                Diagnostics& diagnostics);
 

@@ -6,6 +6,7 @@
 #include "common/scene/mitsuba/integrator.h"
 #include "common/scene/mitsuba/materials.h"
 #include "common/scene/mitsuba/reachable.h"
+#include "common/scene/mitsuba/sensor_choice.h"
 #include "common/scene/mitsuba/shape_reader.h"
 #include "common/scene/remove_unused.h"
 #include "common/scene/validate.h"
@@ -17,16 +18,14 @@ namespace {
 using namespace mitsuba;
 
 SceneReading read(const SceneDocument& document, Diagnostics diagnostics, const FilmSize& film_size,
-                  const Imath::V3d& shift) {
+                  const std::string& wanted_sensor, const Imath::V3d& shift) {
     diagnostics.world_shift = shift;
     SceneReading reading;
     Scene& scene = reading.scene;
 
     Properties root(document.root(), document, diagnostics);
-    const XmlElement* sensor = root.only_child("sensor");
-    if (sensor == nullptr)
-        throw InputError(document.root().where, "the scene has no sensor", "add <sensor type=\"perspective\">");
-    diagnostics.attempt([&] { read_sensor(*sensor, film_size, scene, reading.settings, document, diagnostics); });
+    const XmlElement& sensor = choose_sensor(root, wanted_sensor, diagnostics);
+    diagnostics.attempt([&] { read_sensor(sensor, film_size, scene, reading.settings, document, diagnostics); });
     // The budget of a guided integrator wins over the sampler's, which it ignores: it comes later.
     if (const XmlElement* integrator = root.only_child("integrator"))
         diagnostics.attempt([&] { read_integrator(*integrator, reading.settings, document, diagnostics); });
@@ -80,17 +79,17 @@ Imath::V3d shift_of(const Scene& scene) {
 }  // namespace
 
 SceneReading read_mitsuba_to_check(const std::filesystem::path& path, const std::map<std::string, std::string>& defines,
-                                   bool lenient) {
-    return read(SceneDocument(path, defines), Diagnostics(lenient, true), {}, Imath::V3d(0.0));
+                                   bool lenient, const std::string& sensor) {
+    return read(SceneDocument(path, defines), Diagnostics(lenient, true), {}, sensor, Imath::V3d(0.0));
 }
 
 SceneReading read_mitsuba(const std::filesystem::path& path, const std::map<std::string, std::string>& defines,
-                          bool lenient, const mitsuba::FilmSize& film_size) {
+                          bool lenient, const mitsuba::FilmSize& film_size, const std::string& sensor) {
     const SceneDocument document(path, defines);
-    SceneReading reading = read(document, Diagnostics(lenient), film_size, Imath::V3d(0.0));
+    SceneReading reading = read(document, Diagnostics(lenient), film_size, sensor, Imath::V3d(0.0));
     // The image does not depend on where a scene stands, but its digits do: far from the origin it is read again.
     if (const Imath::V3d shift = shift_of(reading.scene); shift != Imath::V3d(0.0))
-        reading = read(document, Diagnostics(lenient), film_size, shift);
+        reading = read(document, Diagnostics(lenient), film_size, sensor, shift);
     std::vector<Warning> found;
     validate_scene(reading.scene, found);
     for (Warning& warning : found) {

@@ -24,13 +24,13 @@ struct SceneReading {
 
 /// Reads a Mitsuba scene (versions 0.5, 0.6, 2 and 3 of the format). `defines` are values for $name. What cannot be
 /// rendered throws InputError, or is skipped or approximated with a warning when `lenient`; malformed input always
-/// throws.
+/// throws. `sensor`: as in choose_sensor().
 SceneReading read_mitsuba(const std::filesystem::path& path, const std::map<std::string, std::string>& defines,
-                          bool lenient, const mitsuba::FilmSize& film_size = {});
+                          bool lenient, const mitsuba::FilmSize& film_size = {}, const std::string& sensor = "");
 
 /// The same for inspect(): without validate_scene(), so that nothing is repaired; parts that are refused are findings,
 /// and left out. Throws InputError only if there is no scene to look at: bad XML, no sensor.
 SceneReading read_mitsuba_to_check(const std::filesystem::path& path, const std::map<std::string, std::string>& defines,
-                                   bool lenient);
+                                   bool lenient, const std::string& sensor = "");
 
 }  // namespace treefarm

@@ -1,6 +1,8 @@
 #include "common/scene/mitsuba/sensor.h"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "common/config/parse_text.h"
 #include "common/scene/mitsuba/film.h"
@@ -8,7 +10,7 @@
 namespace treefarm::mitsuba {
 namespace {
 
-constexpr std::string_view kSensors[] = {"perspective", "thinlens"};
+constexpr std::string_view kSensors[] = {"perspective", "thinlens", "orthographic"};
 
 double radians(double degrees) {
     return degrees * M_PI / 180.0;
@@ -78,6 +80,61 @@ void add_lens(Properties& properties, const Matrix& to_world, Camera& camera, Di
     camera.lens_v = transform_vector(to_world, Vec3(0.0f, size, 0.0f));
 }
 
+/// Whether vectors keep three dimensions.
+bool is_invertible(const Matrix& m) {
+    const Imath::V3d x(m[0][0], m[0][1], m[0][2]), y(m[1][0], m[1][1], m[1][2]), z(m[2][0], m[2][1], m[2][2]);
+    const double volume = std::abs(x.cross(y).dot(z));
+    return volume > 1e-9 * x.length() * y.length() * z.length() && std::isfinite(volume);
+}
+
+/// Sees [-1, 1] across its x axis: to_world scales that to what the film shall see.
+Camera orthographic_camera(const Matrix& to_world, double aspect) {
+    const auto direction = [&](double x, double y, double z) {
+        Imath::V3d result;
+        to_world.multDirMatrix(Imath::V3d(x, y, z), result);
+        return result;
+    };
+    Camera camera;
+    camera.origin = transform_point(to_world, Vec3(0.0f));
+    camera.corner = Vec3(direction(1.0, 1.0 / aspect, 0.0));
+    camera.across = Vec3(direction(-2.0, 0.0, 0.0));
+    camera.down = Vec3(direction(0.0, -2.0 / aspect, 0.0));
+    camera.parallel = Vec3(direction(0.0, 0.0, 1.0).normalized());
+    return camera;
+}
+
+Camera read_orthographic(Properties& properties, double aspect) {
+    const Matrix to_world = properties.transform("to_world");
+    if (!is_invertible(to_world))
+        throw InputError(properties.where("to_world"), "the camera's transformation takes away a dimension",
+                         "scale by numbers other than 0");
+    return orthographic_camera(to_world, aspect);
+}
+
+Camera read_perspective(Properties& properties, const std::string& type, double aspect, Diagnostics& diagnostics) {
+    const Matrix to_world = properties.transform("to_world");
+    if (std::abs(uniform_scale(to_world, 1e-3) - 1.0) > 1e-3)
+        throw InputError(properties.where("to_world"), "the camera's transformation contains a scale or shear",
+                         "remove it: only rotations, mirrors and translations can move a camera");
+    if (properties.has("fov") && properties.has("focal_length"))
+        throw InputError(properties.where("focal_length"), "both a field of view and a focal length are given",
+                         "keep one");
+    double width = 0.0;
+    if (properties.has("fov")) {
+        const std::string axis = lower(properties.text("fov_axis", "x"));
+        width = half_width(properties.number("fov", 0.0), axis, aspect, properties.where("fov"));
+    } else {
+        const Location& where = properties.where("focal_length");
+        width = half_width(diagonal_fov(properties.text("focal_length", "50mm"), where), "diagonal", aspect, where);
+        properties.ignore({"fov_axis"});
+    }
+    const double offset_x = properties.number("principal_point_offset_x", 0.0);
+    const double offset_y = properties.number("principal_point_offset_y", 0.0);
+    Camera camera = make_camera(to_world, 2.0 * std::atan(width) * 180.0 / M_PI, aspect, offset_x, offset_y);
+    if (type == "thinlens") add_lens(properties, to_world, camera, diagnostics);
+    return camera;
+}
+
 }  // namespace
 
 Camera make_camera(const Matrix& to_world, double horizontal_fov, double aspect, double principal_x,
@@ -102,9 +159,9 @@ void read_sensor(const XmlElement& sensor, const FilmSize& wanted, Scene& scene,
                  const SceneDocument& document, Diagnostics& diagnostics) {
     Properties properties(sensor, document, diagnostics);
     const std::string type = properties.type();
-    if (type != "perspective" && type != "thinlens") {
+    if (std::find(std::begin(kSensors), std::end(kSensors), type) == std::end(kSensors)) {
         diagnostics.unsupported(sensor.where, "the sensor " + in_quotes(type) + " is not available in this version",
-                                did_you_mean(type, kSensors, "use perspective or thinlens"),
+                                did_you_mean(type, kSensors, "use perspective, thinlens or orthographic"),
                                 "it is read as perspective");
         // What others have in addition.
         properties.ignore({"aperture_radius", "kc", "scale", "srf"});
@@ -116,27 +173,9 @@ void read_sensor(const XmlElement& sensor, const FilmSize& wanted, Scene& scene,
     if (const XmlElement* sampler = properties.only_child("sampler"))
         read_sampler(*sampler, settings, document, diagnostics);
 
-    const Matrix to_world = properties.transform("to_world");
-    if (std::abs(uniform_scale(to_world, 1e-3) - 1.0) > 1e-3)
-        throw InputError(properties.where("to_world"), "the camera's transformation contains a scale or shear",
-                         "remove it: only rotations, mirrors and translations can move a camera");
-    if (properties.has("fov") && properties.has("focal_length"))
-        throw InputError(properties.where("focal_length"), "both a field of view and a focal length are given",
-                         "keep one");
-    const double aspect = static_cast<double>(scene.film.width) / scene.film.height;
-    double width = 0.0;
-    if (properties.has("fov")) {
-        const std::string axis = lower(properties.text("fov_axis", "x"));
-        width = half_width(properties.number("fov", 0.0), axis, aspect, properties.where("fov"));
-    } else {
-        const Location& where = properties.where("focal_length");
-        width = half_width(diagonal_fov(properties.text("focal_length", "50mm"), where), "diagonal", aspect, where);
-        properties.ignore({"fov_axis"});
-    }
-    const double offset_x = properties.number("principal_point_offset_x", 0.0);
-    const double offset_y = properties.number("principal_point_offset_y", 0.0);
-    scene.camera = make_camera(to_world, 2.0 * std::atan(width) * 180.0 / M_PI, aspect, offset_x, offset_y);
-    if (type == "thinlens") add_lens(properties, to_world, scene.camera, diagnostics);
+    const double aspect = static_cast<double>(scene.film.whole_width()) / scene.film.whole_height();
+    scene.camera = type == "orthographic" ? read_orthographic(properties, aspect)
+                                          : read_perspective(properties, type, aspect, diagnostics);
     // A pinhole has no focus, and rays need no clipping planes: what stands before the near one is seen.
     properties.ignore({"near_clip", "far_clip", "focus_distance"});
     properties.finish();

@@ -13,8 +13,8 @@ struct FilmSize {
     int width = 0, height = 0;
 };
 
-/// Reads <sensor type="perspective"> or "thinlens" with its film, filter and sampler into scene.camera and scene.film;
-/// what the sampler says becomes settings.
+/// Reads <sensor type="perspective">, "thinlens" or "orthographic" with its film, filter and sampler into scene.camera
+/// and scene.film; what the sampler says becomes settings.
 void read_sensor(const XmlElement& sensor, const FilmSize& wanted, Scene& scene, std::vector<Setting>& settings,
                  const SceneDocument& document, Diagnostics& diagnostics);
 
