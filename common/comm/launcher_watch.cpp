@@ -32,11 +32,11 @@ bool ends_within(pid_t process, unsigned seconds) {
     return !is_launcher(process);
 }
 
-void watch(pid_t launcher, const char* words, std::size_t length) {
-    constexpr unsigned kPatience = 4, kAfterTerm = 3;
+void watch(pid_t launcher, unsigned patience, const char* words, std::size_t length) {
+    constexpr unsigned kAfterTerm = 3;
     for (int descriptor = 0; descriptor < 1024; ++descriptor)
         ::close(descriptor);  // mpirun waits for the ends of the pipes
-    if (ends_within(launcher, kPatience)) return;
+    if (ends_within(launcher, patience)) return;
     char path[64];
     std::snprintf(path, sizeof path, "/proc/%d/fd/2", static_cast<int>(launcher));
     if (const int file = ::open(path, O_WRONLY | O_APPEND | O_NOCTTY | O_NONBLOCK); file >= 0) {
@@ -49,12 +49,12 @@ void watch(pid_t launcher, const char* words, std::size_t length) {
 
 }  // namespace
 
-void end_launcher_that_stays(const std::string& last_words) {
+void end_launcher_that_stays(unsigned patience, const std::string& last_words) {
     const pid_t launcher = ::getppid();
     if (!is_launcher(launcher)) return;
     if (::fork() != 0) return;
     ::setsid();
-    watch(launcher, last_words.data(), last_words.size());
+    watch(launcher, patience, last_words.data(), last_words.size());
     ::_exit(0);
 }
 

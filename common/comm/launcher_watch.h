@@ -4,10 +4,10 @@
 
 namespace treefarm {
 
-/// Leaves a process behind that ends the mpirun which started this one, if it still runs some seconds after its ranks
-/// have left: killed at the wrong moment of MPI_Init, a rank can wedge it (Open MPI 4.1). `last_words` go to mpirun's
-/// own standard error then, since it forwards nothing any more. Does nothing where the parent is no mpirun. Safe while
-/// other threads run.
-void end_launcher_that_stays(const std::string& last_words);
+/// Leaves a process behind that ends the mpirun which started this one, if it still runs after `patience` seconds: a
+/// rank that is killed at the wrong moment of MPI_Init can wedge it (Open MPI 4.1), and it waits for one that is
+/// stopped for ever. `last_words` go to mpirun's own standard error then, since it may forward nothing any more. Does
+/// nothing where the parent is no mpirun. Safe while other threads run.
+void end_launcher_that_stays(unsigned patience, const std::string& last_words);
 
 }  // namespace treefarm

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <condition_variable>
 #include <deque>
+#include <functional>
 #include <list>
 #include <map>
 #include <mutex>
@@ -27,6 +28,12 @@ constexpr std::size_t kPartBytes = std::size_t{64} << 20;
 
 /// When somebody was lost, what was sent to it never drains: how long to wait for the rest.
 constexpr double kDisorderlyDrainSeconds = 1.0;
+
+/// How long mpirun may take to notice that its ranks have left: at a start that failed; at the end, where other ranks
+/// finish what they are at.
+constexpr unsigned kLauncherPatienceAtStart = 4, kLauncherPatienceAtEnd = 10;
+constexpr char kLauncherStayed[] =
+    "treefarm: rank 0 is done, but mpirun goes on waiting for a rank that died or stands still: it is ended\n";
 
 /// The tags on the farm's communicator.
 enum Tag : int {
@@ -195,11 +202,11 @@ int count_workers_on_host(MPI_Comm communicator) {
     return workers;
 }
 
-/// Leaves the process, with a word on standard error if there is one, unless it is told in time that all went well.
+/// Leaves the process after some last act, unless it is told in time that all went well.
 class Deadline {
   public:
-    Deadline(double seconds, int exit_code, const std::string& complaint = "")
-        : complaint_(complaint), thread_([this, seconds, exit_code] { wait(seconds, exit_code); }) {}
+    Deadline(double seconds, int exit_code, std::function<void()> last_act)
+        : last_act_(std::move(last_act)), thread_([this, seconds, exit_code] { wait(seconds, exit_code); }) {}
     ~Deadline() {
         {
             const std::scoped_lock lock(mutex_);
@@ -213,14 +220,11 @@ class Deadline {
     void wait(double seconds, int exit_code) {
         std::unique_lock lock(mutex_);
         if (changed_.wait_for(lock, std::chrono::duration<double>(seconds), [&] { return met_; })) return;
-        if (!complaint_.empty()) {
-            end_launcher_that_stays(complaint_);
-            (void)!::write(STDERR_FILENO, complaint_.data(), complaint_.size());
-        }
+        last_act_();
         _exit(exit_code);
     }
 
-    const std::string complaint_;
+    const std::function<void()> last_act_;
     std::mutex mutex_;
     std::condition_variable changed_;
     bool met_ = false;
@@ -237,7 +241,10 @@ class MpiSession::Impl {
 };
 
 MpiSession::MpiSession(double patience, const std::string& complaint) : impl_(std::make_unique<Impl>()) {
-    const Deadline deadline(patience, 1, complaint);
+    const Deadline deadline(patience, 1, [&complaint] {
+        end_launcher_that_stays(kLauncherPatienceAtStart, complaint);
+        (void)!::write(STDERR_FILENO, complaint.data(), complaint.size());
+    });
     int provided = 0;
     check(MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided), "MPI_Init_thread", -1);
     check(MPI_Comm_set_errhandler(MPI_COMM_WORLD, MPI_ERRORS_RETURN), "MPI_Comm_set_errhandler", -1);
@@ -273,8 +280,14 @@ void MpiSession::finish(bool orderly, int exit_code, double patience) {
         channel.poll();  // what still arrives is of no use any more
         channel.rest(1e-3);
     }
-    if (!orderly || !channel.drained()) _exit(exit_code);
-    const Deadline deadline(patience, exit_code);
+    const auto see_to_launcher = [&] {
+        if (rank() == 0) end_launcher_that_stays(kLauncherPatienceAtEnd, kLauncherStayed);
+    };
+    if (!orderly || !channel.drained()) {
+        see_to_launcher();
+        _exit(exit_code);
+    }
+    const Deadline deadline(patience, exit_code, see_to_launcher);
     MPI_Comm_free(&impl_->communicator);
     MPI_Finalize();
 }

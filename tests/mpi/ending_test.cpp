@@ -156,5 +156,17 @@ TEST(Ending, ADebugSampleTellsItsPath) {
     EXPECT_EQ(wrong.code, 2) << wrong.output;
 }
 
+/// mpirun would wait for it for ever, with the image on disk.
+TEST(Ending, AWorkerThatStandsStillForEverDoesNotHoldTheJob) {
+    const auto folder = fresh_folder("run");
+    Program program(mpirun(3, {"--enable-recovery"}) + long_render(folder, "60"));
+    ASSERT_TRUE(program.wait_until([&] { return passes_done(folder) >= 1; }, kSoon));
+    kill(program.rank(2), SIGSTOP);
+    const Ending ending = program.wait(kSoon);
+    EXPECT_FALSE(ending.timed_out) << ending.output;
+    EXPECT_NE(ending.output.find("mpirun goes on waiting"), std::string::npos) << ending.output;
+    EXPECT_EQ(read_summary(folder)["state"], "done");
+}
+
 }  // namespace
 }  // namespace treefarm::test
