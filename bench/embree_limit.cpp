@@ -15,6 +15,7 @@
 #include "common/config/job_reader.h"
 #include "common/guiding/splat.h"
 #include "common/guiding/tree_learner.h"
+#include "common/plan/kernel.h"
 #include "common/plan/learning.h"
 #include "common/scene/load.h"
 #include "worker/integrator/path_kernel.h"
@@ -58,7 +59,8 @@ class Limit {
     Limit(LoadedScene loaded, const Options& options)
         : job_(make_job(loaded, options)),
           bounds_(loaded.scene.bounds()),
-          first_(first_tree(loaded.scene, job_, bounds_, loaded.scene.radiance_scale())),
+          facts_(facts_of(loaded.scene)),
+          first_(first_tree(resolve(job_, facts_), bounds_, loaded.scene.radiance_scale())),
           scene_(std::move(loaded.scene), job_),
           spp_(options.spp),
           guide_(train()),
@@ -108,10 +110,10 @@ class Limit {
         return job;
     }
 
-    Job job(const Mode& mode) const {
+    Resolved job(const Mode& mode) const {
         Job job = job_;
         if (!mode.guided && !mode.record) job.guiding.type = GuidingType::none;
-        return job;
+        return resolve(job, facts_);
     }
 
     const Guide& guide(const Mode& mode) const { return mode.guided ? guide_ : untrained_; }
@@ -125,12 +127,14 @@ class Limit {
         pass.next_event = mode.next_event;
         pass.record = mode.record;
         pass.learn_mixture = mode.record;
+        pass.guided = job(mode).guides;
         return pass;
     }
 
     /// Unit by unit, as workers do; `learn` gets what each recorded.
     template <class Learn>
-    void render(const PassPlan& pass, const Job& job, const Guide& guide, TraceStats& stats, Learn learn) {
+    void render(PassPlan pass, const Resolved& job, const Guide& guide, TraceStats& stats, Learn learn) {
+        pass.kernel = kernel_of(job, pass, {guide.trained(), guide.view_count() > 0});
         const Film& film = scene_.film();
         for (const WorkUnit& unit : cut_pass(pass.index, 1, film.width, film.height, job.farm.tile_size)) {
             render_unit(scene_, job, pass, guide, unit, pixels_, log_, stats);
@@ -142,7 +146,7 @@ class Limit {
     SdTree train() {
         SdTree tree = first_;
         TreeLearner learner;
-        const std::vector<PassPlan> plans = plan_passes(job_);
+        const std::vector<PassPlan> plans = plan_passes(resolve(job_, facts_));
         for (std::size_t k = 0; k < plans.size(); ++k) {
             PassPlan plan = plans[k];
             plan.record = true;
@@ -151,12 +155,12 @@ class Limit {
             const Guide guide(tree);
             Accumulator sums(plan.index, guide, job_.guiding.directional_filter, plan.learn_mixture);
             TraceStats stats;
-            render(plan, job_, guide, stats, [&](RecordLog& log) { sums.commit(log.records, log.counts, log.caps); });
+            render(plan, resolve(job_, facts_), guide, stats,
+                   [&](RecordLog& log) { sums.commit(log.records, log.counts, log.caps); });
             RefineReport report;
-            const auto pixels = static_cast<double>(scene_.film().pixel_count());
             const PassPlan& coming = plans[std::min(k + 1, plans.size() - 1)];
-            tree = learner.learn(tree, sums.take(), refine_settings(job_, pixels, plan, coming), plan.learn_mixture,
-                                 report);
+            tree = learner.learn(tree, sums.take(), refine_settings(resolve(job_, facts_), plan, coming),
+                                 plan.learn_mixture, report);
         }
         return tree;
     }
@@ -164,7 +168,7 @@ class Limit {
     template <class Surface, bool kGuided>
     void collect_with(Mode& mode) const {
         TraceStats stats;
-        const Job mode_job = job(mode);
+        const Resolved mode_job = job(mode);
         PathKernel<Surface, kGuided, false, RayObserver> kernel(
             scene_, guide(mode), PathSettings(scene_, mode_job, pass(mode), guide(mode)), stats);
         kernel.observer().rays = &mode.rays;
@@ -229,6 +233,7 @@ class Limit {
 
     Job job_;
     Box3 bounds_;
+    SceneFacts facts_;
     SdTree first_;
     TraceScene scene_;
     std::uint32_t spp_;

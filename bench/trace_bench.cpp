@@ -4,6 +4,7 @@
 #include "common/guiding/refine.h"
 #include "common/guiding/splat.h"
 #include "tests/support/material_scenes.h"
+#include "tests/support/resolved.h"
 #include "worker/integrator/tile_renderer.h"
 
 namespace treefarm {
@@ -30,8 +31,8 @@ SdTree train(const TraceScene& scene, const Job& job, const Box3& bounds) {
     for (std::uint32_t pass = 0; pass < 5; ++pass) {
         const Guide guide(tree);
         Accumulator sums(pass, guide);
-        render_unit(scene, job, make_pass(pass, 4u << pass, false, true), guide, {pass, 0, 0, kSize, kSize, 0}, pixels,
-                    log, stats);
+        test::render_unit(scene, job, make_pass(pass, 4u << pass, false, true), guide, {pass, 0, 0, kSize, kSize, 0},
+                          pixels, log, stats);
         sums.commit(log.records, log.counts, log.caps);
         RefineReport report;
         tree = refine(tree, sums.take(), {.spatial_threshold = 1000.0 * (1 << pass)}, report);
@@ -53,8 +54,8 @@ void trace_in(benchmark::State& state, Scene box, bool guided, bool next_event, 
     RecordLog log;
     TraceStats stats;
     for (auto _ : state)
-        render_unit(scene, job, make_pass(9, 16, next_event, record), guide, {9, 0, 0, kSize, kSize, 0}, pixels, log,
-                    stats);
+        test::render_unit(scene, job, make_pass(9, 16, next_event, record), guide, {9, 0, 0, kSize, kSize, 0}, pixels,
+                          log, stats);
     const auto paths = static_cast<double>(stats.paths);
     const auto seconds_each = benchmark::Counter::kIsRate | benchmark::Counter::kInvert;
     state.counters["time/path"] = benchmark::Counter(paths, seconds_each);

@@ -7,6 +7,8 @@
 #include "cli/launch.h"
 #include "common/base/host.h"
 #include "common/comm/in_process_channel.h"
+#include "common/plan/kernel.h"
+#include "common/plan/learning.h"
 #include "common/scene/scene_codec.h"
 #include "coordinator/pass_loop.h"
 #include "worker/integrator/tile_renderer.h"
@@ -20,8 +22,8 @@ const Location kHere{"--debug-sample", 0, 0};
 
 /// The tree that guides a pass, learned by rendering the passes before it.
 SdTree learn_tree(const RenderRequest& request, const std::vector<PassPlan>& plans, std::uint32_t pass) {
-    SdTree tree = first_tree(request.scene, request.job);
-    if (pass == 0 || request.job.guiding.type == GuidingType::none) return tree;
+    SdTree tree = first_tree(request.plan.job, request.scene);
+    if (pass == 0 || !request.plan.job.guides) return tree;
     const Log log = make_log("treefarm", {}, request.console, Loudness::quiet);
     auto channels = make_in_process_channels(2);
     std::thread worker([&] {
@@ -36,7 +38,7 @@ SdTree learn_tree(const RenderRequest& request, const std::vector<PassPlan>& pla
         worker.join();
     };
     try {
-        Farm farm(*channels[0], request.job, encode_scene(request.scene), request.fingerprint.hash(), log);
+        Farm farm(*channels[0], request.plan.job, encode_scene(request.scene), request.fingerprint.hash(), log);
         bool enough = false;
         PassHooks hooks;
         hooks.interrupted = [&] { return enough; };
@@ -44,8 +46,8 @@ SdTree learn_tree(const RenderRequest& request, const std::vector<PassPlan>& pla
         farm.gather({[] { return false; }});
         const Film& film = request.scene.film;
         farm.allow_negative(film.is_signed());
-        tree =
-            run_passes(farm, request.job, listed_passes(plans), std::move(tree), film.width, film.height, hooks).tree;
+        tree = run_passes(farm, request.plan.job, listed_passes(plans), std::move(tree), film.width, film.height, hooks)
+                   .tree;
     } catch (...) {
         send_away();
         throw;
@@ -72,19 +74,21 @@ SampleName parse_sample_name(const std::string& text) {
 }
 
 int debug_sample(const RenderRequest& request, const SampleName& name) {
-    if (request.schedule.empty() && has_open_budget(request.job))
+    if (request.schedule.empty() && has_open_budget(request.plan.job))
         throw InputError(kHere, "the passes of this job depend on clock or error",
                          "add --schedule with the schedule.toml of the run");
-    const std::vector<PassPlan> plans = request.schedule.empty() ? plan_passes(request.job) : request.schedule;
+    const std::vector<PassPlan> plans = request.schedule.empty() ? plan_passes(request.plan.job) : request.schedule;
     const Film& film = request.scene.film;
     if (name.pass >= plans.size() || name.x >= film.width || name.y >= film.height ||
         name.sample >= plans[name.pass].spp)
         throw InputError(kHere, "there is no such sample",
                          "the image has " + std::to_string(film.width) + " x " + std::to_string(film.height) +
                              " pixels and " + std::to_string(plans.size()) + " passes");
-    const Guide guide(learn_tree(request, plans, name.pass));
+    const SdTree tree = learn_tree(request, plans, name.pass);
+    PassPlan pass = plans[name.pass];
+    pass.kernel = kernel_of(request.plan.job, pass, facts_of(tree));
     const TraceScene scene(request.scene, request.job);
-    const std::string text = describe_sample(scene, request.job, plans[name.pass], guide, name.x, name.y, name.sample);
+    const std::string text = describe_sample(scene, request.plan.job, pass, Guide(tree), name.x, name.y, name.sample);
     std::fputs(text.c_str(), stdout);
     return 0;
 }

@@ -161,7 +161,7 @@ PlaceReport look_at_place(const NamedPlace& named, const InspectedRun& run, cons
                           const BruteForce& settings, const std::filesystem::path& folder) {
     PlaceReport report{named.text, named.place.hit.p, place_facts(scene, guide, named.place), 0.0, {}};
     const Guidance& guidance = report.facts.guidance;
-    const PlaceTruth truth = trace_place(scene, run.request.job, guide, named.place, settings);
+    const PlaceTruth truth = trace_place(scene, run.request.plan.job, guide, named.place, settings);
     report.reflected = integral_of(truth.reflected);
     const auto add = [&](const std::string& kind, const std::vector<Panel>& panels) {
         report.comparisons.push_back(compare(kind, panels, settings.bits, folder / (named.name + "-" + kind + ".png")));

@@ -84,7 +84,7 @@ InspectedRun read_inspected_run(const std::filesystem::path& directory) {
                "render again");
     const std::filesystem::path schedule = directory / "schedule.toml";
     const std::vector<PassPlan> passes =
-        parse_schedule(read_settings_text(schedule, "schedule"), schedule.string(), run.request.job);
+        parse_schedule(read_settings_text(schedule, "schedule"), schedule.string(), run.request.plan.job);
     const auto teacher = std::find_if(passes.rbegin(), passes.rend(), [](const PassPlan& pass) { return pass.record; });
     run.taught_by_next_event = teacher != passes.rend() && teacher->next_event;
     return run;

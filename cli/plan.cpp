@@ -47,7 +47,7 @@ void print(const PlanOptions& options, const RenderRequest& request, const PlanA
     const std::string& scene = request.job.scene.file;
     if (!options.json) {
         if (answer != nullptr)
-            out << answer_text(request.job, *answer);
+            out << answer_text(request.plan.job, *answer);
         else if (options.asks())
             out << "seconds and error are not known without a probe (leave --no-probe away)\n\n";
         out << plan_text(request.plan, scene);
@@ -74,7 +74,7 @@ int run_plan(const PlanOptions& options, std::ostream& out) {
         std::fprintf(stderr, "treefarm: interrupted: nothing is known yet\n");
         return 3;
     }
-    const PlanAnswer answer = answer_by_probe(request.job, std::move(probe), pixel_ratio);
+    const PlanAnswer answer = answer_by_probe(request.plan.job, std::move(probe), pixel_ratio);
     print(options, request, &answer, out);
     return 0;
 }

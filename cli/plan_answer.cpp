@@ -34,7 +34,7 @@ std::string machine_text(const Probe& probe) {
     return fmt::format("on this machine ({} {})", probe.threads, probe.threads == 1 ? "thread" : "threads");
 }
 
-std::string question_text(const Job& job, bool out_of_time) {
+std::string question_text(const Resolved& job, bool out_of_time) {
     const Job::Budget& budget = job.budget;
     if (budget.error > 0 && !out_of_time) return percent_text(budget.error) + " % error";
     return budget.seconds > 0 ? duration_text(budget.seconds) : count_text(budget.spp) + " spp";
@@ -51,7 +51,7 @@ double rounded(double count) {
     return std::round(count / unit) * unit;
 }
 
-Expectation expected_of(const Job& job, const RenderState& state, bool by_error) {
+Expectation expected_of(const Resolved& job, const RenderState& state, bool by_error) {
     if (by_error) return expect_error(state, job, job.budget.error);
     if (job.budget.seconds > 0) return expect_after_seconds(state, job, job.budget.seconds);
     return expect_after_spp(state, job, job.budget.spp);
@@ -59,7 +59,7 @@ Expectation expected_of(const Job& job, const RenderState& state, bool by_error)
 
 }  // namespace
 
-PlanAnswer answer_by_probe(const Job& job, Probe probe, double pixel_ratio) {
+PlanAnswer answer_by_probe(const Resolved& job, Probe probe, double pixel_ratio) {
     PlanAnswer answer;
     for (PassFacts& pass : probe.state.passes) {
         pass.collect_seconds *= pixel_ratio;
@@ -79,7 +79,7 @@ PlanAnswer answer_by_probe(const Job& job, Probe probe, double pixel_ratio) {
     return answer;
 }
 
-std::string answer_text(const Job& job, const PlanAnswer& answer) {
+std::string answer_text(const Resolved& job, const PlanAnswer& answer) {
     const Probe& probe = answer.probe;
     const Expectation& expected = answer.expected;
     const std::string question = question_text(job, answer.out_of_time);

@@ -17,11 +17,11 @@ struct PlanAnswer {
 };
 
 /// By the budget of the request's job.
-PlanAnswer answer_by_probe(const Job& job, Probe probe, double pixel_ratio);
+PlanAnswer answer_by_probe(const Resolved& job, Probe probe, double pixel_ratio);
 
 /// "5 % error: about 1,840 spp [1,500, 2,300], 2:10 min [1:40 min, 2:50 min] on this machine (2 threads)", and a line
 /// about the probe.
-std::string answer_text(const Job& job, const PlanAnswer& answer);
+std::string answer_text(const Resolved& job, const PlanAnswer& answer);
 nlohmann::ordered_json answer_json(const PlanAnswer& answer);
 
 /// "1,840".

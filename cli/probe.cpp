@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "cli/on_farm.h"
+#include "common/plan/learning.h"
 #include "common/scene/scene_codec.h"
 #include "coordinator/pass_loop.h"
 
@@ -33,10 +34,10 @@ Probe run_probe(const RenderRequest& request, double seconds, unsigned threads) 
     task.prepare = [] {};
     task.coordinate = [&](Channel& channel, const std::function<bool()>& interrupted) -> CoordinatorEnd {
         const Log log = make_log("treefarm", {}, request.console, Loudness::quiet);
-        Farm farm(channel, request.job, encode_scene(request.scene), request.fingerprint.hash(), log);
+        Farm farm(channel, request.plan.job, encode_scene(request.scene), request.fingerprint.hash(), log);
         farm.gather(interrupted);
         farm.allow_negative(film.is_signed());
-        const PassChooser own = passes_of(request.job);
+        const PassChooser own = passes_of(request.plan.job);
         const PassChooser first = [&](const RenderState& state) {
             probe.state = state;
             NextPass next = own(state);
@@ -46,9 +47,9 @@ Probe run_probe(const RenderRequest& request, double seconds, unsigned threads) 
         };
         PassHooks hooks;
         hooks.interrupted = interrupted;
-        probe.interrupted =
-            run_passes(farm, request.job, first, first_tree(request.scene, request.job), film.width, film.height, hooks)
-                .interrupted;
+        probe.interrupted = run_passes(farm, request.plan.job, first, first_tree(request.plan.job, request.scene),
+                                       film.width, film.height, hooks)
+                                .interrupted;
         return {0, farm.lost_peers()};
     };
     run_on_farm(LaunchEnvironment{}, {.threads = threads}, {request.console, Loudness::quiet}, task);

@@ -7,6 +7,7 @@
 #include "common/config/job_keys.h"
 #include "common/config/job_reader.h"
 #include "common/config/parse_text.h"
+#include "common/plan/policy_table.h"
 #include "common/plan/schedule_file.h"
 #include "common/scene/load.h"
 
@@ -73,7 +74,7 @@ void check_budget_keys(const std::vector<Setting>& line, const RenderOptions& op
 
 /// The passes of a schedule file instead of the job's budget.
 void replay(const std::string& file, RenderRequest& request) {
-    request.schedule = parse_schedule(read_settings_text(file, "schedule"), file, request.job);
+    request.schedule = parse_schedule(read_settings_text(file, "schedule"), file, resolve(request.job, request.scene));
     request.job.budget.seconds = request.job.budget.error = 0;
     request.job.budget.spp = request.schedule.back().first_sample + request.schedule.back().spp;
 }
@@ -95,7 +96,7 @@ RenderRequest read_request(const RenderOptions& options) {
     const std::filesystem::path input(options.input);
     std::vector<Setting> file_layer;
     if (input.extension() == ".toml")
-        file_layer = read_job_settings(input);
+        file_layer = without_policy(read_job_settings(input));
     else
         file_layer.push_back({"scene.file", std::filesystem::absolute(input).string(), Location{options.input, 0, 0}});
     const std::vector<Setting> line_layer = command_line_layer(options);
@@ -124,7 +125,7 @@ RenderRequest read_request(const RenderOptions& options) {
         request.warnings.push_back(warning.text());
     for (const Warning& note : loaded.notes)
         request.notes.push_back(note.text());
-    const PassPlan last = plan_passes(request.job).back();
+    const PassPlan last = plan_passes(request.plan.job).back();
     if (const std::uint32_t spp = last.first_sample + last.spp;
         !request.plan.passes_guessed && spp != static_cast<std::uint32_t>(request.job.budget.spp))
         request.warnings.push_back(

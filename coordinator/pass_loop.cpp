@@ -6,6 +6,7 @@
 #include "common/base/hash.h"
 #include "common/film/guiding_probe.h"
 #include "common/guiding/tree_learner.h"
+#include "common/plan/kernel.h"
 #include "common/plan/learning.h"
 
 namespace treefarm {
@@ -19,7 +20,7 @@ std::uint64_t hash_image(const CombinedImage& image) {
 
 class PassLoop {
   public:
-    PassLoop(Farm& farm, const Job& job, const PassChooser& choose, SdTree tree, int width, int height,
+    PassLoop(Farm& farm, const Resolved& job, const PassChooser& choose, SdTree tree, int width, int height,
              const PassHooks& hooks)
         : farm_(farm), job_(job), choose_(choose), hooks_(hooks) {
         result_.width = width;
@@ -41,7 +42,8 @@ class PassLoop {
     void render_passes() {
         for (NextPass next = choose_(state_); next.pass;) {
             const Timer timer;
-            const PassPlan plan = *next.pass;
+            PassPlan plan = *next.pass;
+            plan.kernel = kernel_of(job_, plan, facts_of(result_.tree));
             PassReport report;
             report.plan = plan;
             broadcast(plan, report);
@@ -58,7 +60,7 @@ class PassLoop {
         }
     }
 
-    bool guided() const { return job_.guiding.type != GuidingType::none; }
+    bool guided() const { return job_.guides; }
 
     void broadcast(const PassPlan& plan, PassReport& report) {
         result_.tree.pass = plan.index;  // also where the pass before taught nothing
@@ -131,7 +133,8 @@ class PassLoop {
 
     void judge_splitting(PassReport& report) {
         report.splitting_gain = splitting_gain(report.stats);
-        if (job_.guiding.splitting == 0 && !splitting_may_pay(report.plan, report.splitting_gain))
+        if (job_.guiding.splitting_rule == Rule::while_it_pays &&
+            !splitting_may_pay(report.plan, report.splitting_gain))
             state_.splitting = false;
         report.splitting = state_.splitting;
     }
@@ -163,10 +166,8 @@ class PassLoop {
     void learn(const PassPlan& plan, const NextPass& next_pass, PassReport& report) {
         if (!plan.record || !next_pass.pass) return;
         const Timer timer;
-        const auto pixels = static_cast<double>(coming_.image->mean.size());
-        coming_.tree =
-            learner_.learn(result_.tree, farm_.collector().sums(), refine_settings(job_, pixels, plan, *next_pass.pass),
-                           plan.learn_mixture, report.refine);
+        coming_.tree = learner_.learn(result_.tree, farm_.collector().sums(),
+                                      refine_settings(job_, plan, *next_pass.pass), plan.learn_mixture, report.refine);
         report.seconds.refine = timer.seconds();
     }
 
@@ -218,7 +219,7 @@ class PassLoop {
     }
 
     Farm& farm_;
-    const Job& job_;
+    const Resolved& job_;
     const PassChooser& choose_;
     const PassHooks& hooks_;
     TreeLearner learner_;
@@ -240,13 +241,7 @@ class PassLoop {
 
 }  // namespace
 
-SdTree first_tree(const Scene& scene, const Job& job) {
-    Box3 bounds = scene.bounds();
-    bounds.extendBy(scene.camera.origin);
-    return first_tree(scene, job, bounds, scene.radiance_scale());
-}
-
-RenderResult run_passes(Farm& farm, const Job& job, const PassChooser& choose, SdTree tree, int width, int height,
+RenderResult run_passes(Farm& farm, const Resolved& job, const PassChooser& choose, SdTree tree, int width, int height,
                         const PassHooks& hooks) {
     return PassLoop(farm, job, choose, std::move(tree), width, height, hooks).run();
 }

@@ -54,13 +54,9 @@ struct RenderResult {
     std::uint64_t tree_hash = 0;   ///< of the encoded tree that guided the last pass
 };
 
-/// The tree before the first pass: over the scene and the camera, as in the authors' program; record units by the
-/// brightest emitter.
-SdTree first_tree(const Scene& scene, const Job& job);
-
 /// Renders the passes that `choose` says, one after the other: broadcast the tree, hand out the work, collect film and
 /// sums, refine.
-RenderResult run_passes(Farm& farm, const Job& job, const PassChooser& choose, SdTree tree, int width, int height,
+RenderResult run_passes(Farm& farm, const Resolved& job, const PassChooser& choose, SdTree tree, int width, int height,
                         const PassHooks& hooks);
 
 }  // namespace treefarm

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "common/base/hash.h"
+#include "common/plan/learning.h"
 #include "common/plan/plan_text.h"
 #include "common/scene/inspect.h"
 #include "common/scene/scene_codec.h"
@@ -36,7 +37,7 @@ class RenderRun {
                      request.plan, {request.overwrite, interrupted}),
           log_(make_log("treefarm", directory_.log_file(), request.console, request.loudness)),
           progress_(request.console, request.job.budget, request.status_frame),
-          farm_(channel, request.job, std::move(scene_), request.fingerprint.hash(), log_, {}, request.turn) {}
+          farm_(channel, request.plan.job, std::move(scene_), request.fingerprint.hash(), log_, {}, request.turn) {}
 
     RenderOutcome run() {
         log_->debug("{}", request_.command);
@@ -88,7 +89,7 @@ class RenderRun {
 
     void render() {
         const std::vector<PassPlan>& replayed = request_.schedule;
-        const PassChooser passes = replayed.empty() ? passes_of(request_.job) : listed_passes(replayed);
+        const PassChooser passes = replayed.empty() ? passes_of(job()) : listed_passes(replayed);
         const Film& film = request_.scene.film;
         log_->info("rendering {}, {}, {}; results in {}", scene_name(), size_text(film), budget_text(passes({})),
                    directory_.path().string());
@@ -118,9 +119,10 @@ class RenderRun {
             if (pass.plan.index >= kPassesInTheDark) tell_if_black(image, pass.spp_done);
             if (request_.on_pass) request_.on_pass(pass, image);
         };
-        result_ = run_passes(farm_, request_.job, passes, first_tree(request_.scene, request_.job), film.width,
-                             film.height, hooks);
+        result_ = run_passes(farm_, job(), passes, first_tree(job(), request_.scene), film.width, film.height, hooks);
     }
+
+    const Resolved& job() const { return request_.plan.job; }
 
     static std::string size_text(const Film& film) {
         const std::string size = fmt::format("{} x {}", film.width, film.height);
@@ -204,8 +206,7 @@ class RenderRun {
     }
 
     bool missed_target() const {
-        return !result_.interrupted && !result_.passes.empty() &&
-               misses_target(request_.job, result_.passes.back().error);
+        return !result_.interrupted && !result_.passes.empty() && misses_target(job(), result_.passes.back().error);
     }
 
     std::string why_missed() const {
@@ -217,7 +218,7 @@ class RenderRun {
 
     /// What makes an open budget's passes known to --debug-sample.
     std::string replay_option() const {
-        if (!request_.schedule.empty() || !has_open_budget(request_.job)) return "";
+        if (!request_.schedule.empty() || !has_open_budget(job())) return "";
         return " --schedule " + std::filesystem::absolute(directory_.path() / "schedule.toml").string();
     }
 

@@ -12,6 +12,7 @@
 #include "common/config/parse_text.h"
 #include "common/image/png.h"
 #include "common/plan/plan_text.h"
+#include "common/plan/policy_table.h"
 #include "common/plan/schedule_file.h"
 #include "common/protocol/fingerprint.h"
 #include "coordinator/folder_content.h"
@@ -68,6 +69,13 @@ std::string job_without_output(Job job) {
     return write_job(job);
 }
 
+std::string resolved_text(const Resolved& job) {
+    const std::string text = job_without_output(job);
+    return "# The job as it was used: what job.toml leaves to the program has its value here, and so have the tuned\n"
+           "# constants. treefarm render resolved.toml repeats the experiment, or says why this build cannot.\n" +
+           text.substr(0, text.find("[output]")) + write_policy();
+}
+
 std::vector<std::uint8_t> encode_image(const fs::path& path, const CombinedImage& image, int width, int height,
                                        const ImagePlace& place, const Attributes& attributes) {
     Image channels = result_channels(image, width, height);
@@ -81,6 +89,7 @@ RunDirectory::RunDirectory(const Job& job, RunFacts facts, const EffectPlan& pla
     : job_(checked(job)),
       job_toml_(job_without_output(job)),
       facts_(std::move(facts)),
+      resolved_toml_(resolved_text(plan.job)),
       folder_(job, options.overwrite, options.interrupted),
       plan_text_(plan_text(plan, job.scene.file)),
       plan_json_(plan_json(plan, job.scene.file)),
@@ -88,6 +97,7 @@ RunDirectory::RunDirectory(const Job& job, RunFacts facts, const EffectPlan& pla
     try {
         write_text("status.json", status_json(RunState::running, 0, 0.0), Outlives::process);
         write_text("job.toml", job_toml_, Outlives::power);
+        write_text("resolved.toml", resolved_toml_, Outlives::power);
         write_text("plan.txt", plan_text_, Outlives::power);
         write_text("plan.json", plan_json_, Outlives::power);
         write_text("passes.csv", passes_csv_, Outlives::power);
@@ -222,7 +232,7 @@ std::vector<LastFile> RunDirectory::last_files(const RenderResult& result, Outli
                 {job_.output.file, [=, this] { write_file_atomically(job_.output.file, image(), outlives); }});
         add("passes.csv", [=, this] { write_text("passes.csv", passes_csv_, outlives); });
         add("schedule.toml", [=, this] { write_text("schedule.toml", write_schedule(passes_), outlives); });
-        if (job_.guiding.type != GuidingType::none && result.tree.trained)
+        if (result.tree.trained)
             add("tree.bin", [=, this, &result, &end] {
                 const Bytes tree = encode_tree(result.tree);
                 write_bytes("tree.bin", tree, outlives);
@@ -235,8 +245,8 @@ std::vector<LastFile> RunDirectory::last_files(const RenderResult& result, Outli
             });
     }
     // Only where the folder vanished: they were written at the start.
-    for (const auto& [name, text] :
-         {std::pair("job.toml", &job_toml_), std::pair("plan.txt", &plan_text_), std::pair("plan.json", &plan_json_)})
+    for (const auto& [name, text] : {std::pair("job.toml", &job_toml_), std::pair("resolved.toml", &resolved_toml_),
+                                     std::pair("plan.txt", &plan_text_), std::pair("plan.json", &plan_json_)})
         if (std::error_code none; !fs::exists(path() / name, none))
             add(name, [=, this, name = std::string(name), text = text] { write_text(name, *text, outlives); });
     return files;

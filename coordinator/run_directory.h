@@ -79,6 +79,7 @@ class RunDirectory {
     const Job job_;
     const std::string job_toml_;  ///< without its output: whoever repeats a run must not replace it
     const RunFacts facts_;
+    const std::string resolved_toml_;
     RunFolder folder_;
     const std::string plan_text_, plan_json_;
     std::string passes_csv_;

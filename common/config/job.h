@@ -5,6 +5,9 @@
 #include <set>
 #include <string>
 
+#include "common/film/combination.h"
+#include "common/guiding/settings.h"
+
 namespace treefarm {
 
 /// When light sources are sampled directly (next-event estimation).
@@ -31,26 +34,11 @@ enum class GuidingType : std::uint8_t {
     automatic,  ///< view, as long as guiding pays
 };
 
-inline bool uses_views(GuidingType type) {
-    return type == GuidingType::view || type == GuidingType::automatic;
-}
-
-/// What view-dependent vertices teach.
-enum class ViewRecords : std::uint8_t {
-    radiance,  ///< their view the radiance that arrives, their region nothing: as published
-    product,   ///< their view what it reflects of that, their region the radiance
-};
-
-/// Into which region of the tree a record goes.
-enum class SpatialFilter : std::uint8_t {
-    nearest,     ///< that of its position
-    stochastic,  ///< that of its position moved by up to half the region's size
-};
-
-/// How a record spreads over a region's directional cells.
-enum class DirectionalFilter : std::uint8_t {
-    nearest,  ///< all of it into the cell of its direction
-    box,      ///< over a square of that cell's size around its direction
+/// How long what a render has begun with goes on.
+enum class Rule : std::uint8_t {
+    usual,          ///< as other keys say; only a job has it, never a resolved one
+    always,         ///< to the end
+    while_it_pays,  ///< until finished passes show that it does not pay (film/guiding_probe.h, film/splitting_gain.h)
 };
 
 /// How next event chooses among a scene's emitters.
@@ -64,24 +52,6 @@ enum class LightSelection : std::uint8_t {
 enum class GuidingRoulette : std::uint8_t {
     constant,  ///< paths survive with 0.99
     adjoint,   ///< by what the tree expects of them, against what it expected of their first vertex
-};
-
-/// As how many paths one may go on at a vertex, unless the job says it.
-inline int usual_splitting(GuidingType type, GuidingRoulette roulette) {
-    return uses_views(type) && roulette == GuidingRoulette::adjoint ? 8 : 1;
-}
-
-/// What the cells of a region are sampled in proportion to.
-enum class GuidingTarget : std::uint8_t {
-    radiance,  ///< their mean radiance: sums of L / p
-    variance,  ///< the square root of their second moment, from sums of L^2 / p (Rath et al. 2020)
-};
-
-/// How the images of the passes become one (docs/error.md, "combining passes").
-enum class Combination : std::uint8_t {
-    inverse_variance,  ///< one scalar per pass, cross-fitted over two halves
-    fixed,             ///< weights set beforehand: exactly unbiased, what z-tests use
-    last,              ///< the passes of the last tree alone (PPG 2017)
 };
 
 /// Everything that a render depends on besides the scene. Keys, documentation, defaults and ranges stand in one table
@@ -116,6 +86,7 @@ struct Job {
 
     struct Guiding {
         GuidingType type = GuidingType::automatic;
+        Rule rule = Rule::usual;          ///< usual: while_it_pays where the type is auto
         std::string preset;               ///< "" or a preset's name: recorded so that the result says what was asked
         float bsdf_fraction = 0.5f;       ///< probability of sampling the BSDF rather than the tree, (0, 1]
         bool learn_bsdf_fraction = true;  ///< per region, from bsdf_fraction on
@@ -123,13 +94,14 @@ struct Job {
         DirectionalFilter directional_filter = DirectionalFilter::box;
         GuidingTarget target = GuidingTarget::radiance;
         GuidingRoulette roulette = GuidingRoulette::adjoint;
-        int splitting = 0;        ///< as how many paths one may go on at a vertex; 0: as the type says
-        int candidates = 1;       ///< directions drawn at a guided vertex, of which one is taken
-        int candidate_depth = 1;  ///< up to which depth
+        int splitting = 0;                  ///< as how many paths one may go on at a vertex; 0: as the type says
+        Rule splitting_rule = Rule::usual;  ///< usual: while_it_pays where splitting is 0
+        int candidates = 1;                 ///< directions drawn at a guided vertex, of which one is taken
+        int candidate_depth = 1;            ///< up to which depth
         LightSelection light_selection = LightSelection::usual;
         ViewRecords view_records = ViewRecords::product;
         int view_threshold = 4000;            ///< c of the split rule of views
-        int spatial_threshold = 0;            ///< c of the spatial split rule; 0: as the film says
+        double spatial_threshold = 0;         ///< c of the spatial split rule; 0: as the film says
         float directional_threshold = 0.01f;  ///< share of a region's energy above which a cell splits
         int spp_unit = 1;                     ///< samples per pixel of the first pass; passes double
         Combination combination = Combination::inverse_variance;

@@ -113,6 +113,13 @@ JobKey word_key(const char* name, const char* doc, Member member, std::vector<st
             std::move(unavailable)};
 }
 
+template <class Member>
+JobKey rule_key(const char* name, const char* doc, Member member) {
+    return word_key(name, doc, member,
+                    std::vector<std::pair<std::string, Rule>>{
+                        {"usual", Rule::usual}, {"always", Rule::always}, {"while_it_pays", Rule::while_it_pays}});
+}
+
 /// A number, or that it is learned: from the default on.
 JobKey bsdf_fraction_key() {
     JobKey key = number_key(
@@ -220,6 +227,11 @@ std::vector<JobKey> make_job_keys() {
                                                          {"ppg", GuidingType::ppg},
                                                          {"view", GuidingType::view},
                                                          {"auto", GuidingType::automatic}}));
+    add(rule_key(
+        "guiding.rule",
+        "how long a tree guides; while_it_pays: until probes in the first passes show that it loses; usual: that where "
+        "guiding.type is auto, else always",
+        [](auto& j) -> auto& { return j.guiding.rule; }));
     add(word_key(
         "guiding.preset",
         "a publication's settings, applied before all other keys; paper: Mueller et al. 2017, improved: with what its "
@@ -239,10 +251,11 @@ std::vector<JobKey> make_job_keys() {
         "c of the split rule of views: one splits into four above c sqrt(spp / 4) records",
         [](auto& j) -> auto& { return j.guiding.view_threshold; }, 1, kMaxInt));
     add(bsdf_fraction_key());
-    add(integer_key(
-        "guiding.spatial_threshold", "0 and more",
+    add(number_key(
+        "guiding.spatial_threshold", "0, or 1 to 10^9",
         "c of the spatial split rule: a region splits above c sqrt(spp / 4) records; 0: 2000 (pixels / 2^18)^(1/4)",
-        [](auto& j) -> auto& { return j.guiding.spatial_threshold; }, 0, kMaxInt));
+        [](auto& j) -> auto& { return j.guiding.spatial_threshold; },
+        [](double v) { return v == 0.0 || (v >= 1.0 && v <= 1e9); }));
     add(number_key(
         "guiding.directional_threshold", "0.0005 to 1",
         "share of a region's energy above which a directional cell splits; in view and auto up to twice as much where "
@@ -302,6 +315,11 @@ std::vector<JobKey> make_job_keys() {
         "as how many paths one may go on at a vertex, where the tree expects it to carry several times what its first "
         "vertex does; 0: 8 where guiding.type is view or auto and roulette adjoint, as long as it pays, else 1",
         [](auto& j) -> auto& { return j.guiding.splitting; }, 0, 32));
+    add(rule_key(
+        "guiding.splitting_rule",
+        "how long paths are split; while_it_pays: until a pass shows that it does not; usual: that where "
+        "guiding.splitting is 0, else always",
+        [](auto& j) -> auto& { return j.guiding.splitting_rule; }));
 
     add(integer_key(
         "budget.spp", "1 to 2^30", "samples per pixel in all passes, unless `budget.seconds` or `budget.error` is set",

@@ -35,6 +35,21 @@ std::string toml_key(const std::string& key) {
     return !key.empty() && key.find_first_not_of(bare) == std::string::npos ? key : toml_string(key);
 }
 
+/// Constants that a resolved.toml records: numbers by names that this room does not know.
+void read_policy(const toml::table& section, const std::string& prefix, const std::string& file,
+                 std::vector<Setting>& settings) {
+    for (const auto& [key, node] : section) {
+        const std::string name = prefix + std::string(key.str());
+        const Location where = toml_place(node.source(), file);
+        if (const toml::table* part = node.as_table())
+            read_policy(*part, name + ".", file, settings);
+        else if (const auto value = node.value<double>())
+            settings.push_back({name, number_text(*value), where});
+        else
+            throw InputError(where, name + " is no number", "write what the render wrote");
+    }
+}
+
 }  // namespace
 
 void apply_setting(Job& job, const std::string& key_name, const std::string& value, const Location& where) {
@@ -86,9 +101,15 @@ std::vector<Setting> scene_layer(std::span<const Setting> scene,
 std::vector<Setting> parse_job_settings(const std::string& toml, const std::string& name) {
     std::vector<Setting> settings;
     try {
-        const toml::table table = toml::parse(toml, std::string_view(name));
+        toml::table table = toml::parse(toml, std::string_view(name));
         require_kind(table, name, TomlKind::job);
+        std::vector<Setting> policy;
+        if (const toml::table* section = table["policy"].as_table()) {
+            read_policy(*section, "policy.", name, policy);
+            table.erase("policy");
+        }
         settings = read_settings(table, name);
+        settings.insert(settings.end(), policy.begin(), policy.end());
     } catch (const toml::parse_error& error) {
         throw InputError(toml_place(error.source(), name), "this is not TOML: " + one_line(error.description()),
                          "write key = value, text in quotes");

@@ -8,6 +8,7 @@
 
 #include "common/base/parallel.h"
 #include "common/film/trimmed_mean.h"
+#include "common/plan/policy.h"
 
 namespace treefarm {
 namespace {
@@ -151,7 +152,7 @@ std::vector<double> inverse_variance_weights(std::span<const PassResult> passes,
         const std::optional<double>& variance = group.noise.half[half].variance;
         const std::uint32_t spp = spp_of(group.passes);
         apart = apart || group.passes.front().new_technique;
-        const bool known = variance && spp >= kMinSamplesForVariance;
+        const bool known = variance && spp >= kPolicy.schedule.least_weighed_spp;
         if (known || young_count)
             std::ranges::copy(group.noise.half[1 - half].samples, samples.begin() + std::ptrdiff_t(first));
         if (known) {
@@ -177,7 +178,8 @@ std::vector<double> inverse_variance_weights(std::span<const PassResult> passes,
 /// single sample has but its distance from what the longest pass says.
 Rgb64 sample_variance(const PixelEstimate& pixel, const PixelEstimate& longest) {
     const std::uint32_t n = pixel.half[0].n + pixel.half[1].n;
-    if (n >= kMinSamplesForVariance) return (pixel.half[0].m2 + pixel.half[1].m2) / static_cast<double>(n - 2);
+    if (n >= kPolicy.schedule.least_weighed_spp)
+        return (pixel.half[0].m2 + pixel.half[1].m2) / static_cast<double>(n - 2);
     if (n >= 2) return pixel.whole().sample_variance();
     const Moments reference = longest.whole();
     if (reference.n < 2) return Rgb64(0.0);

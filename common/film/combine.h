@@ -6,14 +6,10 @@
 #include <span>
 #include <vector>
 
-#include "common/config/job.h"
+#include "common/film/combination.h"
 #include "common/film/pixel_estimate.h"
 
 namespace treefarm {
-
-/// A tree with fewer samples knows too little of its own variance to be weighed by it: `inverse_variance` leaves its
-/// passes out, as long as later trees are better.
-inline constexpr std::uint32_t kMinSamplesForVariance = 4;
 
 /// What one half of passes that are alike says of their samples.
 struct HalfNoise {

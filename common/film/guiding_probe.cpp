@@ -4,23 +4,20 @@
 #include <cmath>
 #include <utility>
 
+#include "common/plan/policy.h"
+
 namespace treefarm {
 namespace {
 
-constexpr std::uint64_t kProbePixels = 2048;
-constexpr std::size_t kBlock = 8;    ///< side, in pixels
-constexpr double kFloor = 0.1;       ///< of the image's mean
-constexpr double kEvenly = 3.0;      ///< of its block's mean: what counts of a pixel for the coverage
 constexpr double kLeastGain = 1e-9;  ///< unguided samples have no noise at all
-/// Fewer pixels tell nothing.
-constexpr std::size_t kLeastPixels = 64;
 
 /// The image's luminance squared, blurred and with a floor: what a pixel's variance is relative to.
 class Levels {
   public:
-    Levels(std::span<const Rgb64> image, std::size_t width) : width_(width), columns_((width + kBlock - 1) / kBlock) {
+    Levels(std::span<const Rgb64> image, std::size_t width)
+        : width_(width), columns_((width + kPolicy.guiding.probe_block - 1) / kPolicy.guiding.probe_block) {
         const std::size_t rows = (image.size() + width - 1) / width;
-        std::vector<double> counts((rows + kBlock - 1) / kBlock * columns_);
+        std::vector<double> counts((rows + kPolicy.guiding.probe_block - 1) / kPolicy.guiding.probe_block * columns_);
         squares_.resize(counts.size());
         double sum = 0;
         for (std::size_t p = 0; p < image.size(); ++p) {
@@ -32,7 +29,7 @@ class Levels {
         mean_ = sum / static_cast<double>(std::max<std::size_t>(image.size(), 1));
         for (std::size_t b = 0; b < squares_.size(); ++b) {
             const double level = squares_[b] / counts[b];
-            squares_[b] = level * level + kFloor * kFloor * mean_ * mean_;
+            squares_[b] = level * level + kPolicy.guiding.probe_floor * kPolicy.guiding.probe_floor * mean_ * mean_;
         }
     }
 
@@ -40,7 +37,9 @@ class Levels {
     double square_at(std::size_t p) const { return squares_[block(p)]; }
 
   private:
-    std::size_t block(std::size_t p) const { return p / width_ / kBlock * columns_ + p % width_ / kBlock; }
+    std::size_t block(std::size_t p) const {
+        return p / width_ / kPolicy.guiding.probe_block * columns_ + p % width_ / kPolicy.guiding.probe_block;
+    }
 
     std::size_t width_, columns_;
     std::vector<double> squares_;
@@ -73,7 +72,7 @@ double per_path(std::uint64_t rays, std::uint64_t paths) {
 
 ProbePixels::ProbePixels(std::size_t film_pixels, std::uint32_t pass) {
     constexpr std::uint64_t kAll = std::uint64_t{1} << 32;
-    const std::uint64_t share = kProbePixels * kAll / std::max<std::uint64_t>(film_pixels, 1);
+    const std::uint64_t share = kPolicy.guiding.probe_pixels * kAll / std::max<std::uint64_t>(film_pixels, 1);
     count_ = static_cast<std::uint32_t>(std::clamp(share, kAll / 128, kAll / 8));
     first_ = pass % 8 * count_;
 }
@@ -104,7 +103,7 @@ void GuidingProbe::add(std::span<const PixelEstimate> pixels, const TraceStats& 
 
 GuidingGain GuidingProbe::gain(std::span<const PixelEstimate> pixels, const TraceStats& stats, std::uint32_t pass,
                                std::span<const Rgb64> image, std::size_t width) const {
-    if (unguided_.size() < kLeastPixels) return {};
+    if (unguided_.size() < kPolicy.guiding.least_probe_pixels) return {};
     const Levels levels(image, width);
     if (!(levels.mean() > 0)) return {};
     std::vector<Weighted> guided, unguided;
@@ -116,13 +115,13 @@ GuidingGain GuidingProbe::gain(std::span<const PixelEstimate> pixels, const Trac
     for (const Unguided& u : unguided_) {
         const double square = levels.square_at(u.pixel);
         unguided.push_back({u.variance / square, u.samples - 1.0});
-        found += u.samples * std::min(u.mean / std::sqrt(square), kEvenly);
+        found += u.samples * std::min(u.mean / std::sqrt(square), kPolicy.guiding.probe_evenly);
         samples += u.samples;
     }
-    if (guided.size() < kLeastPixels) return {};
+    if (guided.size() < kPolicy.guiding.least_probe_pixels) return {};
     const double rays = per_path(stats.rays - stats.probe_rays, stats.paths - stats.probe_paths);
     const auto gain_without_one_of = [&](std::size_t one_of) {
-        const double with = trimmed(guided, one_of) * rays * kGuidedRayCost;
+        const double with = trimmed(guided, one_of) * rays * kPolicy.guiding.ray_cost;
         const double without = trimmed(unguided, one_of) * per_path(rays_, paths_);
         return with > 0 ? std::max(without / with, kLeastGain) : 0;
     };

@@ -3,14 +3,10 @@
 #include <cmath>
 
 #include "common/base/error.h"
+#include "common/plan/policy.h"
 
 namespace treefarm {
 namespace {
-
-/// What stays of the choice by power: an emitter that was never seen may be seen yet.
-constexpr double kByPower = 0.2;
-/// The parent's share counts as much as so many vertices.
-constexpr double kPriorVertices = 128.0;
 
 /// Whole numbers in proportion to `parts`, whose sum is 1, that sum to kLightShareOne: what rounding leaves goes to the
 /// choice by power.
@@ -32,10 +28,10 @@ LightShare learned_share(std::span<const double, kLightClusters> moments, double
     for (const double m : moments)
         total += std::sqrt(m);
     if (!(total > 0 && std::isfinite(total))) return prior;
-    const double trust = vertices / (vertices + kPriorVertices);
+    const double trust = vertices / (vertices + kPolicy.learning.lights_prior_vertices);
     std::array<double, kLightClusters + 1> parts{};
     for (std::size_t c = 0; c < kLightClusters; ++c)
-        parts[c + 1] = trust * (1 - kByPower) * std::sqrt(moments[c]) / total +
+        parts[c + 1] = trust * (1 - kPolicy.learning.lights_by_power) * std::sqrt(moments[c]) / total +
                        (1 - trust) * double(prior[c + 1]) / kLightShareOne;
     return rounded(parts);
 }

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "common/base/error.h"
+#include "common/plan/policy.h"
 
 namespace treefarm {
 namespace {
@@ -25,7 +26,7 @@ double best_bsdf_fraction(const MixtureHistogram& histogram, double prior, doubl
         }
         return sum;
     };
-    double low = kLeastBsdfFraction, high = 1.0;
+    double low = kPolicy.learning.least_bsdf_fraction, high = 1.0;
     for (int step = 0; step < 30; ++step) {
         const double middle = 0.5 * (low + high);
         (slope(middle) > 0.0 ? low : high) = middle;
@@ -52,7 +53,8 @@ void MixtureLearner::learn(const SdTree& tree, const TreeSums& sums, std::span<c
         }
         const std::uint64_t records = sums.counts()[r];
         const double mean_record = records > 0 ? fresh / static_cast<double>(records) : 0.0;
-        const double prior_weight = kPriorRecords * (mean_record > 0 ? mean_record : total(histogram));
+        const double prior_weight =
+            kPolicy.learning.mixture_prior_records * (mean_record > 0 ? mean_record : total(histogram));
         const double prior = static_cast<double>(tree.bsdf_fraction[r]);
         fraction[r] = prior_weight > 0 ? static_cast<float>(best_bsdf_fraction(histogram, prior, prior_weight))
                                        : tree.bsdf_fraction[r];

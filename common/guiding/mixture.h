@@ -7,6 +7,7 @@
 
 #include "common/guiding/refine.h"
 #include "common/guiding/tree_update.h"
+#include "common/plan/policy.h"
 
 namespace treefarm {
 
@@ -32,12 +33,9 @@ inline double mixture_bin_centre(int bin) {
 
 using MixtureHistogram = std::array<double, kMixtureBins>;
 
-/// The prior counts as much as so many average records: a young region keeps its parent's fraction.
-inline constexpr double kPriorRecords = 64.0;
-
-/// Fraction a in [kLeastBsdfFraction, 1] that brings the mixture closest to f |cos| L in Kullback-Leibler divergence:
-/// it maximises sum_b H_b log(a r_b + (1 - a)(1 - r_b)) + prior_weight (prior log a + (1 - prior) log(1 - a)), which is
-/// concave. `prior_weight` is in the units of the histogram.
+/// Fraction a in [learning.least_bsdf_fraction (policy.h), 1] that brings the mixture closest to f |cos| L in
+/// Kullback-Leibler divergence: it maximises sum_b H_b log(a r_b + (1 - a)(1 - r_b)) + prior_weight (prior log a + (1 -
+/// prior) log(1 - a)), which is concave. `prior_weight` is in the units of the histogram.
 double best_bsdf_fraction(const MixtureHistogram& histogram, double prior, double prior_weight);
 
 /// What the coordinator remembers of the mixtures from pass to pass.

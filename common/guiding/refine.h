@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "common/config/job.h"
 #include "common/guiding/sd_tree.h"
+#include "common/guiding/settings.h"
 #include "common/guiding/tree_update.h"
 
 namespace treefarm {

@@ -3,12 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/plan/policy.h"
+
 namespace treefarm {
 namespace {
-
-/// Directions before anything is known: 4^4 equal cells. It is where the split rule "more than 1 % of the energy" ends
-/// when energy is spread evenly.
-constexpr int kInitialDepth = 4;
 
 int exponent_of(float value) {
     int exponent = 0;
@@ -28,11 +26,11 @@ SdTree initial_tree(const Box3& bounds, const InitialTree& settings) {
     // A scene without extent (no shape, or a point) still needs a cube to look things up in.
     if (!(tree.extent > 0.0f)) tree.extent = 1.0f;
     tree.nodes.push_back({{0, 0}});
-    const std::uint32_t cells = 1u << (2 * kInitialDepth);
+    const std::uint32_t cells = 1u << (2 * kPolicy.learning.initial_depth);
     tree.cell_begin = {0};
     for (int distribution = 0; distribution < (settings.with_views ? 2 : 1); ++distribution) {
-        tree.cell_depth.insert(tree.cell_depth.end(), cells, kInitialDepth);
-        tree.cell_mass.insert(tree.cell_mass.end(), cells, 1u << (kMassBits - 2 * kInitialDepth));
+        tree.cell_depth.insert(tree.cell_depth.end(), cells, kPolicy.learning.initial_depth);
+        tree.cell_mass.insert(tree.cell_mass.end(), cells, 1u << (kMassBits - 2 * kPolicy.learning.initial_depth));
         tree.cell_begin.push_back(tree.cell_count());
         tree.quantum_exponent.push_back(quantum_exponent_for(settings.radiance_scale));
         tree.bsdf_fraction.push_back(settings.bsdf_fraction);
@@ -42,7 +40,8 @@ SdTree initial_tree(const Box3& bounds, const InitialTree& settings) {
         tree.view_begin = {0, 1};
         tree.view_depth = {0};
         tree.view_fraction = {settings.view_fraction};
-        if (settings.view_fraction == 0.0f) tree.bsdf_fraction.back() = static_cast<float>(kLeastBsdfFraction);
+        if (settings.view_fraction == 0.0f)
+            tree.bsdf_fraction.back() = static_cast<float>(kPolicy.learning.least_bsdf_fraction);
     }
     if (settings.with_lights) tree.light_share = {{kLightShareOne}};
     return tree;

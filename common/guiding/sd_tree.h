@@ -62,9 +62,6 @@ struct SdTree {
     std::uint32_t cell_count() const { return static_cast<std::uint32_t>(cell_depth.size()); }
 };
 
-/// Of learned fractions. Never 0: where the tree has seen nothing the BSDF alone reaches everything.
-inline constexpr double kLeastBsdfFraction = 0.05;
-
 inline constexpr int kMassBits = 30;
 inline constexpr int kMaxDirectionDepth = 16;  ///< cells of 4^-16 of the sphere
 inline constexpr int kMaxViewDepth = 8;        ///< views of 4^-8 of the sphere

@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
-#include "common/config/job.h"
 #include "common/guiding/box_filter.h"
 #include "common/guiding/guide.h"
+#include "common/guiding/settings.h"
 #include "common/guiding/tree_update.h"
 
 namespace treefarm {

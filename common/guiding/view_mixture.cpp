@@ -5,18 +5,10 @@
 #include <numeric>
 
 #include "common/base/error.h"
+#include "common/plan/policy.h"
 
 namespace treefarm {
 namespace {
-
-/// A T2 that deserves less in all its views, so many passes in a row, is released.
-constexpr double kIdleFraction = 0.05;
-constexpr int kIdlePasses = 2;
-/// So is one that gains less, nats per record: what it costs was measured to be worth more (docs/guiding-measured.md,
-/// "Views").
-constexpr double kLeastGain = 0.1;
-/// And all of them, where together they gain less per record of the whole tree: every vertex pays a little for them.
-constexpr double kLeastGainOfAll = 0.015;
 
 double total(const MixtureHistogram& histogram) {
     return std::accumulate(histogram.begin(), histogram.end(), 0.0);
@@ -58,17 +50,18 @@ std::vector<ViewAdvice> ViewLearner::judge(const SdTree& tree, const TreeSums& s
         const double mean_record = records > 0 && fresh > 0 ? fresh / records : total(evidence.histogram);
         const double prior = 1.0 - static_cast<double>(tree.view_fraction[v]);
         if (mean_record > 0)
-            evidence.others = best_bsdf_fraction(evidence.histogram, prior, kPriorRecords * mean_record);
+            evidence.others =
+                best_bsdf_fraction(evidence.histogram, prior, kPolicy.learning.mixture_prior_records * mean_record);
         const double gain = std::max(0.0, view_gain(evidence.histogram, evidence.others));
-        idle[v] = 1.0 - evidence.others < kIdleFraction || gain < kLeastGain;
+        idle[v] = 1.0 - evidence.others < kPolicy.learning.idle_fraction || gain < kPolicy.learning.least_view_gain;
         advice[v].gain = records * gain;
         if (!idle[v]) gain_of_all += advice[v].gain;
     }
-    const bool all_idle = gain_of_all < kLeastGainOfAll * all_records;
+    const bool all_idle = gain_of_all < kPolicy.learning.least_view_gain_of_all * all_records;
     for (std::uint32_t v = 0; v < views; ++v) {
         int& idle_passes = views_[v].idle_passes;
         idle_passes = idle[v] || all_idle ? idle_passes + 1 : 0;
-        advice[v].keep = idle_passes < (last_lesson ? 1 : kIdlePasses);
+        advice[v].keep = idle_passes < (last_lesson ? 1 : kPolicy.learning.idle_passes);
     }
     return advice;
 }

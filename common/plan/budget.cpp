@@ -4,32 +4,16 @@
 #include <cmath>
 #include <limits>
 
+#include "common/plan/policy.h"
+
 namespace treefarm {
 namespace {
 
 constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 
-/// How far a render may be from budget.seconds: this share of it; of a short one a second, as long as that is no more
-/// than a larger share (one of half a second that ends at a quarter has wasted half of what was granted).
-constexpr double kTimeTolerance = 0.05;
-constexpr double kLeastTolerance = 1.0;
-constexpr double kMostTolerance = 0.1;
-/// An ending pass takes this share of the time left, so that a wrong forecast can be made up for.
-constexpr double kHedge = 0.7;
-/// Where one pass must end the render, one with the same tree comes before it, to learn what its samples cost: this
-/// share of the time left, thrown away.
-constexpr double kProbe = 0.07;
-
-/// An estimated error may end a render from this many samples per pixel on; an error of zero (nothing found any light,
-/// or there is no noise) only later.
-constexpr std::uint32_t kSppToBelieve = 16;
-constexpr std::uint32_t kSppToBelieveZero = 64;
-/// A pass that makes up for a missed target renders at least this share of what there is.
-constexpr double kLeastShare = 1.0 / 16;
-
 class OpenBudget {
   public:
-    explicit OpenBudget(const Job& job) : job_(job) {}
+    explicit OpenBudget(const Resolved& job) : job_(job) {}
 
     NextPass next(const RenderState& state) {
         if (state.passes.empty()) return {first_pass(), 0, 0};
@@ -42,11 +26,11 @@ class OpenBudget {
         if (wanted < least_spp()) return {};
         const double doubled = std::ldexp(job_.guiding.spp_unit, static_cast<int>(index));
         const auto total = static_cast<std::uint32_t>(done + wanted);
-        if (!ending_ && !probed_ && wanted >= kTeachingShare * doubled)
+        if (!ending_ && !probed_ && wanted >= kPolicy.schedule.teaching_share * doubled)
             return {make_pass(job_, index, done, static_cast<std::uint32_t>(doubled), false), total, 0};
         if (needs_probe(state)) {
             probed_ = true;
-            const auto spp = static_cast<std::uint32_t>(std::max(1.0, kProbe * by_time(state, 1.0)));
+            const auto spp = static_cast<std::uint32_t>(std::max(1.0, kPolicy.budget.probe * by_time(state, 1.0)));
             return {make_pass(job_, index, done, spp, true), total, 0};
         }
         const double hedged = std::min(others, by_time(state, hedge(state)));
@@ -63,14 +47,15 @@ class OpenBudget {
 
     /// Fewer samples of a new tree would not count in the image.
     double least_spp() const {
-        const bool by_variance = job_.guiding.type != GuidingType::none &&
-                                 job_.guiding.combination == Combination::inverse_variance && !job_.budget.strict;
-        return by_variance ? kMinSamplesForVariance : 1.0;
+        const bool by_variance =
+            job_.guides && job_.guiding.combination == Combination::inverse_variance && !job_.budget.strict;
+        return by_variance ? kPolicy.schedule.least_weighed_spp : 1.0;
     }
 
     double tolerance() const {
         const double seconds = job_.budget.seconds;
-        return std::max(kTimeTolerance * seconds, std::min(kLeastTolerance, kMostTolerance * seconds));
+        return std::max(kPolicy.budget.time_tolerance * seconds,
+                        std::min(kPolicy.budget.least_tolerance, kPolicy.budget.most_tolerance * seconds));
     }
 
     /// Of an ending pass.
@@ -83,13 +68,13 @@ class OpenBudget {
     bool needs_probe(const RenderState& state) const {
         const double left = job_.budget.seconds - state.seconds;
         return job_.budget.strict && job_.budget.seconds > 0 && !probed_ && outlook_->learning() &&
-               seconds_of_pass(1) < 2 * kProbe * left;
+               seconds_of_pass(1) < 2 * kPolicy.budget.probe * left;
     }
 
     double hedge(const RenderState& state) const {
-        const double uncertain = (1 - kHedge) * (job_.budget.seconds - state.seconds);
+        const double uncertain = (1 - kPolicy.budget.hedge) * (job_.budget.seconds - state.seconds);
         const double worthwhile = std::max(0.5 * tolerance(), seconds_of_pass(2 * least_spp()));
-        return job_.budget.strict || uncertain < worthwhile ? 1.0 : kHedge;
+        return job_.budget.strict || uncertain < worthwhile ? 1.0 : kPolicy.budget.hedge;
     }
 
     /// Samples that a pass can have which takes this share of the time left.
@@ -109,17 +94,18 @@ class OpenBudget {
         const double target = job_.budget.error;
         const ErrorEstimate& error = state.error;
         const std::uint32_t done = state.spp();
-        if (target == 0 || !error.known || done < (error.rmse > 0 ? kSppToBelieve : kSppToBelieveZero))
+        if (target == 0 || !error.known ||
+            done < (error.rmse > 0 ? kPolicy.budget.spp_to_believe : kPolicy.budget.spp_to_believe_zero))
             return kUnlimited;
         if (error.relative() <= target && !job_.budget.strict) return 0;
         if (!outlook_->knows_variance()) return kUnlimited;
         const double rmse = target * error.mean;
         const double variance = ending_variance(*outlook_, job_, outlook_->learning() ? 1 : 0);
         const double needed = std::ceil(spp_to_reach(state, job_, rmse * rmse, variance) * ending_margin(job_));
-        return job_.budget.strict ? needed : std::max({needed, least_spp(), kLeastShare * done});
+        return job_.budget.strict ? needed : std::max({needed, least_spp(), kPolicy.budget.least_share * done});
     }
 
-    const Job job_;
+    const Resolved job_;
     std::optional<Outlook> outlook_;  ///< of the state that next() was given
     bool probed_ = false, ending_ = false;
 };
@@ -134,7 +120,7 @@ PassChooser listed_passes(std::vector<PassPlan> passes) {
     };
 }
 
-PassChooser open_passes(const Job& job) {
+PassChooser open_passes(const Resolved& job) {
     return [budget = OpenBudget(job)](const RenderState& state) mutable { return budget.next(state); };
 }
 
@@ -146,12 +132,12 @@ PassResult finished_pass(const PassPlan& plan, const PassPlan* before, std::vect
     return pass;
 }
 
-void show(PassResult pass, const Job& job, std::vector<PassResult>& shown) {
+void show(PassResult pass, const Resolved& job, std::vector<PassResult>& shown) {
     if (job.budget.strict || (shows_last_tree_only(job) && !pass.same_tree)) shown.clear();
     shown.push_back(std::move(pass));
 }
 
-PassChooser passes_of(const Job& job) {
+PassChooser passes_of(const Resolved& job) {
     PassChooser chooser = has_open_budget(job) ? open_passes(job) : listed_passes(plan_passes(job));
     return [chooser = std::move(chooser), job](const RenderState& state) {
         NextPass next = chooser(state);

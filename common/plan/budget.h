@@ -25,16 +25,16 @@ PassChooser listed_passes(std::vector<PassPlan> passes);
 
 /// Passes that double until budget.seconds, budget.error or budget.max_spp is near, then one that takes the rest, then
 /// as many smaller ones as make up for what the forecast missed (none where the image is its last pass alone).
-PassChooser open_passes(const Job& job);
+PassChooser open_passes(const Resolved& job);
 
 /// The job's own.
-PassChooser passes_of(const Job& job);
+PassChooser passes_of(const Resolved& job);
 
 /// A finished pass; `before`: the one before it, or nullptr.
 PassResult finished_pass(const PassPlan& plan, const PassPlan* before, std::vector<PixelEstimate> pixels);
 
 /// Adds a finished pass to those that make the image. Those that it replaces leave.
-void show(PassResult pass, const Job& job, std::vector<PassResult>& shown);
+void show(PassResult pass, const Resolved& job, std::vector<PassResult>& shown);
 
 /// Whether the job asked for an error that the image has not come down to.
 bool misses_target(const Job& job, const ErrorEstimate& error);

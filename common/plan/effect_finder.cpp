@@ -61,7 +61,7 @@ bool is_delta_light(const Emitter& emitter) {
     return is<PointEmitter>(emitter) || is<SpotEmitter>(emitter) || is<DirectionalEmitter>(emitter);
 }
 
-EffectFinder::EffectFinder(const Scene& scene, const Job& job)
+EffectFinder::EffectFinder(const Scene& scene, const Resolved& job)
     : scene_(scene),
       job_(job),
       used_(used_materials(scene)),

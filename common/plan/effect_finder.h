@@ -18,10 +18,10 @@ std::string plural(std::size_t count, const std::string& what);
 /// Point, spot or directional: only next event finds it.
 bool is_delta_light(const Emitter& emitter);
 
-/// Looks in a scene and a job for what calls for each effect. The scene and the job must outlive it.
+/// Looks in a scene and its job for what calls for each effect. The scene and the job must outlive it.
 class EffectFinder {
   public:
-    EffectFinder(const Scene& scene, const Job& job);
+    EffectFinder(const Scene& scene, const Resolved& job);
 
     /// State, reason, place and bytes of an effect of effect_table(). Throws std::out_of_range for another name.
     Effect find(const std::string& name) const { return finders_.at(name)(); }
@@ -59,7 +59,7 @@ class EffectFinder {
     std::uint64_t emitter_bytes(const std::function<bool(const Emitter&)>& test) const;
 
     const Scene& scene_;
-    const Job& job_;
+    const Resolved& job_;
     const std::vector<bool> used_;         ///< per material
     std::vector<bool> used_directly_;      ///< per material: a shape's own
     std::vector<bool> texture_in_use_;     ///< per texture

@@ -103,16 +103,16 @@ void EffectFinder::add_shapes() {
 
 void EffectFinder::add_transport() {
     finders_["guiding"] = [this] {
-        if (job_.guiding.type == GuidingType::none) return effect_off("guiding.type = \"none\"");
+        if (!job_.guides) return effect_off("guiding.type = \"none\"");
         const std::size_t passes = plan_passes(job_).size();
         if (passes < 2) return effect_off("a single pass has nothing to learn from");
-        return effect_on("guiding.type = \"" + find_job_key("guiding.type")->print(job_) + "\", " +
-                             std::to_string(passes - 1) + " of " + std::to_string(passes) + " passes",
+        return effect_on("guiding.type = \"" + guiding_word(job_) + "\", " + std::to_string(passes - 1) + " of " +
+                             std::to_string(passes) + " passes",
                          expected_tree(scene_, job_).guide_bytes());
     };
     finders_["views"] = [this] {
-        if (!uses_views(job_.guiding.type)) return effect_off("guiding.type is neither \"view\" nor \"auto\"");
-        if (!learns_views(scene_, job_)) return effect_off("no surface prefers other directions from another side");
+        if (job_.guiding.type != GuidingType::view) return effect_off("guiding.type is neither \"view\" nor \"auto\"");
+        if (!job_.learns_views) return effect_off("no surface prefers other directions from another side");
         if (plan_passes(job_).size() < 2) return effect_off("a single pass has nothing to learn from");
         return effect_on("rough materials, " + std::to_string(expected_tree(scene_, job_).views) + " views expected");
     };

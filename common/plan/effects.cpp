@@ -25,7 +25,7 @@ void tell_forced_off(Effect& after, const Effect& before, const std::vector<Appr
 
 }  // namespace
 
-std::vector<Effect> find_effects(const Scene& scene, const Job& job) {
+std::vector<Effect> find_effects(const Scene& scene, const Resolved& job) {
     EffectFinder finder(scene, job);
     std::vector<Effect> effects;
     for (const EffectDescription& description : effect_table()) {
@@ -43,10 +43,12 @@ const Effect* EffectPlan::find(const std::string& name) const {
     return found == effects.end() ? nullptr : &*found;
 }
 
-EffectPlan plan_effects(Scene& scene, const Job& job) {
+EffectPlan plan_effects(Scene& scene, const Job& asked_job) {
     EffectPlan plan;
-    const std::vector<Effect> asked = find_effects(scene, job);
-    plan.approximations = switch_effects_off(scene, job);
+    const std::vector<Effect> asked = find_effects(scene, resolve(asked_job, scene));
+    plan.approximations = switch_effects_off(scene, asked_job);
+    plan.job = resolve(asked_job, scene);
+    const Resolved& job = plan.job;
     plan.effects = find_effects(scene, job);
     for (std::size_t i = 0; i < asked.size(); ++i)
         tell_forced_off(plan.effects[i], asked[i], plan.approximations);
@@ -57,7 +59,7 @@ EffectPlan plan_effects(Scene& scene, const Job& job) {
     plan.pass_count = passes.size();
     plan.passes_guessed = has_open_budget(job);
     plan.triangles = scene.triangle_count();
-    plan.kernels = kernels_of(scene, job);
+    plan.kernels = kernels_of(job);
     plan.memory = expected_memory(scene, job);
     return plan;
 }

@@ -28,10 +28,11 @@ struct Effect {
 };
 
 /// Every effect in the order of effect_table(), as this scene and job have it.
-std::vector<Effect> find_effects(const Scene& scene, const Job& job);
+std::vector<Effect> find_effects(const Scene& scene, const Resolved& job);
 
 /// What a render simulates, with what, and what it is expected to cost.
 struct EffectPlan {
+    Resolved job;  ///< for the scene that is left
     int width = 0, height = 0;
     std::uint32_t spp = 0;  ///< rounded up to whole passes' units
     std::size_t pass_count = 0;

@@ -72,12 +72,12 @@ Expectation measured(const RenderState& state) {
     return all;
 }
 
-ErrorForecast ahead(const RenderState& state, const Job& job, double error) {
+ErrorForecast ahead(const RenderState& state, const Resolved& job, double error) {
     return forecast_error(state, job, error);
 }
 
 /// The error at which `figure` of the forecast comes to `wanted`: it grows as the error falls.
-double error_where(const RenderState& state, const Job& job, double wanted,
+double error_where(const RenderState& state, const Resolved& job, double wanted,
                    const std::function<double(const ErrorForecast&)>& figure) {
     constexpr double kLeast = 1e-4;
     constexpr int kSteps = 40;
@@ -89,7 +89,7 @@ double error_where(const RenderState& state, const Job& job, double wanted,
     return std::sqrt(low * high);
 }
 
-Expectation expectation_at(const RenderState& state, const Job& job, double error) {
+Expectation expectation_at(const RenderState& state, const Resolved& job, double error) {
     const ErrorForecast forecast = ahead(state, job, error);
     Expectation all;
     if (!std::isfinite(forecast.spp) || !std::isfinite(forecast.seconds)) {
@@ -108,14 +108,14 @@ Expectation expectation_at(const RenderState& state, const Job& job, double erro
 
 }  // namespace
 
-Expectation expect_error(const RenderState& state, const Job& job, double relative_error) {
+Expectation expect_error(const RenderState& state, const Resolved& job, double relative_error) {
     Expectation all;
     if (all.unknown = why_unknown(state); !all.unknown.empty()) return all;
     if (!(state.error.rmse > 0) || state.error.relative() <= relative_error) return measured(state);
     return expectation_at(state, job, relative_error);
 }
 
-Expectation expect_after_seconds(const RenderState& state, const Job& job, double seconds) {
+Expectation expect_after_seconds(const RenderState& state, const Resolved& job, double seconds) {
     Expectation all;
     if (all.unknown = why_unknown(state); !all.unknown.empty()) return all;
     if (!(state.error.rmse > 0) || state.seconds >= seconds) return measured(state);
@@ -130,7 +130,7 @@ Expectation expect_after_seconds(const RenderState& state, const Job& job, doubl
     return all;
 }
 
-Expectation expect_after_spp(const RenderState& state, const Job& job, double spp) {
+Expectation expect_after_spp(const RenderState& state, const Resolved& job, double spp) {
     Expectation all;
     if (all.unknown = why_unknown(state); !all.unknown.empty()) return all;
     if (!(state.error.rmse > 0) || state.spp() >= spp) return measured(state);

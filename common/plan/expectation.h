@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "common/config/job.h"
 #include "common/plan/outlook.h"
+#include "common/plan/resolve.h"
 
 namespace treefarm {
 
@@ -22,12 +22,12 @@ struct Expectation {
 };
 
 /// Until the error is `relative_error`.
-Expectation expect_error(const RenderState& state, const Job& job, double relative_error);
+Expectation expect_error(const RenderState& state, const Resolved& job, double relative_error);
 
 /// After so many seconds of rendering.
-Expectation expect_after_seconds(const RenderState& state, const Job& job, double seconds);
+Expectation expect_after_seconds(const RenderState& state, const Resolved& job, double seconds);
 
 /// After so many samples per pixel.
-Expectation expect_after_spp(const RenderState& state, const Job& job, double spp);
+Expectation expect_after_spp(const RenderState& state, const Resolved& job, double spp);
 
 }  // namespace treefarm

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "common/film/combine.h"
+#include "common/plan/policy.h"
 #include "common/plan/schedule.h"
 
 namespace treefarm {
@@ -12,26 +13,19 @@ namespace {
 
 constexpr double kUnknown = std::numeric_limits<double>::infinity();
 
-/// After two trees that brought the variance below this share, the next ones may bring as much again: the forecast is a
-/// bound.
-constexpr double kLearned = 0.55;
-/// Half the width of the error's own interval, relative, from which on it is too noisy to forecast by.
-constexpr double kNoisy = 0.1;
-/// So many times the samples that are done, and more, are too far ahead: the trees to come are unknown.
-constexpr double kFar = 16;
 /// A forecast is no further ahead than so many doublings.
 constexpr int kMostTrees = 40;
 
-bool is_guided(const Job& job) {
-    return job.guiding.type != GuidingType::none;
+bool is_guided(const Resolved& job) {
+    return job.guides;
 }
 
-bool weighs_by_variance(const Job& job) {
+bool weighs_by_variance(const Resolved& job) {
     return is_guided(job) && job.guiding.combination == Combination::inverse_variance && !job.budget.strict;
 }
 
 /// Samples that a pass of the last tree adds to.
-double spp_shown(const RenderState& state, const Job& job) {
+double spp_shown(const RenderState& state, const Resolved& job) {
     return job.budget.strict || state.passes.back().record ? 0.0 : state.spp_of_last_tree();
 }
 
@@ -52,7 +46,7 @@ double solve_fixed(double sum, double mse, double weight, double variance, doubl
 }
 
 /// The mean squared error after one more pass of so many samples: what spp_to_reach() inverts.
-double mse_after(const RenderState& state, const Job& job, double spp, double variance) {
+double mse_after(const RenderState& state, const Resolved& job, double spp, double variance) {
     const double now = state.error.mse();
     if (shows_last_tree_only(job)) return variance / (spp_shown(state, job) + spp);
     if (weighs_by_variance(job)) return 1 / (1 / now + spp / variance);
@@ -63,7 +57,7 @@ double mse_after(const RenderState& state, const Job& job, double spp, double va
 }
 
 /// The render as it will be after one more pass that teaches.
-void add_teaching_pass(RenderState& state, const Job& job, std::uint32_t spp, double variance) {
+void add_teaching_pass(RenderState& state, const Resolved& job, std::uint32_t spp, double variance) {
     const double mse = mse_after(state, job, spp, variance);
     PassFacts pass;
     pass.spp = spp;
@@ -75,26 +69,26 @@ void add_teaching_pass(RenderState& state, const Job& job, std::uint32_t spp, do
 
 Trust trust_in(const RenderState& state, const Outlook& outlook) {
     const ErrorEstimate& error = state.error;
-    if (!error.has_interval || error.high - error.low > 2 * kNoisy * error.rmse) return Trust::noisy;
-    const bool settled = outlook.recent_progress() >= kLearned;
+    if (!error.has_interval || error.high - error.low > 2 * kPolicy.forecast.noisy * error.rmse) return Trust::noisy;
+    const bool settled = outlook.recent_progress() >= kPolicy.forecast.learned;
     return settled || !outlook.learning() ? Trust::firm : Trust::learning;
 }
 
 }  // namespace
 
-bool shows_last_tree_only(const Job& job) {
+bool shows_last_tree_only(const Resolved& job) {
     return job.budget.strict || (is_guided(job) && job.guiding.combination == Combination::last);
 }
 
-double ending_margin(const Job& job) {
+double ending_margin(const Resolved& job) {
     return job.budget.strict ? 1.10 : 1.02;
 }
 
-double ending_variance(const Outlook& outlook, const Job& job, int trees) {
+double ending_variance(const Outlook& outlook, const Resolved& job, int trees) {
     return outlook.variance_after(job.budget.strict ? std::max(trees - 1, 0) : trees);
 }
 
-double spp_to_reach(const RenderState& state, const Job& job, double mse, double variance) {
+double spp_to_reach(const RenderState& state, const Resolved& job, double mse, double variance) {
     const double now = state.error.mse();
     if (shows_last_tree_only(job)) {
         if (!(mse > 0)) return variance > 0 ? kUnknown : 0.0;
@@ -102,13 +96,14 @@ double spp_to_reach(const RenderState& state, const Job& job, double mse, double
     }
     if (now <= mse) return 0;
     if (!(mse > 0)) return kUnknown;
-    if (weighs_by_variance(job)) return std::max<double>(variance * (1 / mse - 1 / now), kMinSamplesForVariance);
+    if (weighs_by_variance(job))
+        return std::max<double>(variance * (1 / mse - 1 / now), kPolicy.schedule.least_weighed_spp);
     const std::uint32_t done = state.spp();
     if (!is_guided(job)) return done * (now / mse - 1);  // all samples are alike: the image knows their variance best
     return solve_fixed(sum_of_fixed_weights(state, true), now, fixed_weight(1, done, true), variance, mse);
 }
 
-ErrorForecast forecast_error(const RenderState& state, const Job& job, double relative_error) {
+ErrorForecast forecast_error(const RenderState& state, const Resolved& job, double relative_error) {
     ErrorForecast forecast{relative_error, kUnknown, kUnknown, Trust::none};
     if (!state.error.known || state.passes.empty()) return forecast;
     const double rmse = relative_error * state.error.mean, mse = rmse * rmse;
@@ -129,10 +124,11 @@ ErrorForecast forecast_error(const RenderState& state, const Job& job, double re
         const double wanted = std::ceil(spp_to_reach(future, job, mse, variance)) * margin;
         const double doubled = std::ldexp(job.guiding.spp_unit, static_cast<int>(future.passes.size()));
         seconds += outlook.overhead_seconds();
-        if (!outlook.learning() || wanted < kTeachingShare * doubled || trees >= kMostTrees) {
+        if (!outlook.learning() || wanted < kPolicy.schedule.teaching_share * doubled || trees >= kMostTrees) {
             forecast.spp = future.spp() - state.spp() + wanted;
             forecast.seconds = seconds + wanted * outlook.seconds_per_spp(trees, false);
-            if (forecast.trust == Trust::firm && forecast.spp > kFar * state.spp()) forecast.trust = Trust::noisy;
+            if (forecast.trust == Trust::firm && forecast.spp > kPolicy.forecast.far * state.spp())
+                forecast.trust = Trust::noisy;
             return forecast;
         }
         seconds += doubled * outlook.seconds_per_spp(trees, true);

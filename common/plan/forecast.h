@@ -1,23 +1,23 @@
 #pragma once
 
-#include "common/config/job.h"
 #include "common/plan/outlook.h"
+#include "common/plan/resolve.h"
 
 namespace treefarm {
 
 /// Whether the image is the passes of the last tree alone: of budget.strict its very last pass.
-bool shows_last_tree_only(const Job& job);
+bool shows_last_tree_only(const Resolved& job);
 
 /// Samples per pixel that one further pass needs until the image's mean squared error is `mse`, if one of its samples
 /// has this variance (docs/error.md, "error"). 0: it is there already. Infinite: not known yet.
-double spp_to_reach(const RenderState& state, const Job& job, double mse, double variance);
+double spp_to_reach(const RenderState& state, const Resolved& job, double mse, double variance);
 
 /// How passes that end a render for budget.error are chosen: so much beyond the samples that the error needs, so that
 /// few of them suffice; ...
-double ending_margin(const Job& job);
+double ending_margin(const Resolved& job);
 /// ... and by this variance of a sample, once `trees` more trees were learned. A strict render cannot make up for a
 /// tree that brings less than it should: it takes the variance of the tree before.
-double ending_variance(const Outlook& outlook, const Job& job, int trees);
+double ending_variance(const Outlook& outlook, const Resolved& job, int trees);
 
 /// How far a forecast can be trusted.
 enum class Trust : std::uint8_t {
@@ -36,6 +36,6 @@ struct ErrorForecast {
 };
 
 /// The render goes on as budget.error has it: passes double while they teach, then one that teaches nothing.
-ErrorForecast forecast_error(const RenderState& state, const Job& job, double relative_error);
+ErrorForecast forecast_error(const RenderState& state, const Resolved& job, double relative_error);
 
 }  // namespace treefarm

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "common/scene/material_traits.h"
-
 namespace treefarm {
 
 std::string KernelChoice::name() const {
@@ -14,25 +12,30 @@ std::string KernelChoice::name() const {
     return text;
 }
 
-KernelChoice kernel_of(const Job& job, const PassPlan& pass, bool plain_diffuse, bool views) {
+TreeFacts facts_of(const SdTree& tree) {
+    return {tree.trained, tree.view_count() > 0};
+}
+
+KernelChoice kernel_of(const Resolved& job, const PassPlan& pass, const TreeFacts& tree) {
     KernelChoice kernel;
-    kernel.plain_diffuse = plain_diffuse;
-    kernel.guided = job.guiding.type != GuidingType::none && pass.guided && pass.index > 0;
+    kernel.plain_diffuse = job.scene_facts.plainly_diffuse;
+    kernel.guided = pass.guided && tree.trained;
     kernel.record = pass.record;
-    kernel.views = views && (kernel.guided || kernel.record);
+    kernel.views = tree.has_views && !kernel.plain_diffuse && (kernel.guided || kernel.record);
     return kernel;
 }
 
-bool learns_views(const Scene& scene, const Job& job) {
-    return uses_views(job.guiding.type) && scene_traits(scene).lobes.view_dependent();
+bool fits(const PassPlan& pass, bool plainly_diffuse, const TreeFacts& tree) {
+    const KernelChoice& kernel = pass.kernel;
+    return kernel.plain_diffuse == plainly_diffuse && kernel.record == pass.record &&
+           kernel.guided == (pass.guided && tree.trained) &&
+           kernel.views == (tree.has_views && !plainly_diffuse && (kernel.guided || kernel.record));
 }
 
-std::vector<KernelUse> kernels_of(const Scene& scene, const Job& job) {
-    const bool plain = is_plainly_diffuse(scene);
-    const bool views = learns_views(scene, job);
+std::vector<KernelUse> kernels_of(const Resolved& job) {
     std::vector<KernelUse> uses;
     for (const PassPlan& pass : plan_passes(job)) {
-        const KernelChoice kernel = kernel_of(job, pass, plain, views);
+        const KernelChoice kernel = kernel_of(job, pass, {pass.index > 0, job.learns_views});
         const auto known =
             std::find_if(uses.begin(), uses.end(), [&](const KernelUse& u) { return u.kernel == kernel; });
         if (known != uses.end())

@@ -103,8 +103,8 @@ std::uint64_t MemoryPlan::coordinator_bytes() const {
     return total(coordinator);
 }
 
-TreeSize expected_tree(const Scene& scene, const Job& job) {
-    if (job.guiding.type == GuidingType::none) return {};
+TreeSize expected_tree(const Scene& scene, const Resolved& job) {
+    if (!job.guides) return {};
     const std::vector<PassPlan> passes = plan_passes(job);
     const int depth = job.integrator.max_depth;
     const double length = depth < 0 ? kVerticesPerPath : std::min(kVerticesPerPath, std::max(depth - 1.0, 0.0));
@@ -112,19 +112,19 @@ TreeSize expected_tree(const Scene& scene, const Job& job) {
     double regions = 1.0;
     for (std::size_t k = 0; k + 1 < passes.size(); ++k) {
         const double vertices = length * pixels * passes[k].spp;
-        regions = std::max(regions, vertices / (kRegionFilling * spatial_split_threshold(job, pixels, passes[k + 1])));
+        regions = std::max(regions, vertices / (kRegionFilling * spatial_split_threshold(job, passes[k + 1])));
     }
-    const double views = learns_views(scene, job) ? kViewsPerRegion * regions : 0.0;
-    const double region_cells = cells_follow_use(job) ? kCellsPerRegionByUse : kCellsPerRegion;
+    const double views = job.learns_views ? kViewsPerRegion * regions : 0.0;
+    const double region_cells = job.cells_follow_use ? kCellsPerRegionByUse : kCellsPerRegion;
     const double cells =
         (region_cells * regions + kCellsPerRegion * views) / static_cast<double>(job.guiding.directional_threshold);
     const bool with_mixture =
         std::any_of(passes.begin(), passes.end(), [](const PassPlan& pass) { return pass.learn_mixture; });
     return {static_cast<std::uint64_t>(regions), static_cast<std::uint64_t>(cells), with_mixture,
-            static_cast<std::uint64_t>(views), learns_lights(scene, job)};
+            static_cast<std::uint64_t>(views), job.learns_lights};
 }
 
-MemoryPlan expected_memory(const Scene& scene, const Job& job) {
+MemoryPlan expected_memory(const Scene& scene, const Resolved& job) {
     const std::uint64_t pixels = scene.film.pixel_count(), triangles = scene.triangle_count();
     const std::uint64_t passes = plan_passes(job).size();
     std::uint64_t objects = 0;

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "common/config/job.h"
+#include "common/plan/resolve.h"
 #include "common/scene/scene.h"
 
 namespace treefarm {
@@ -51,10 +51,10 @@ std::uint64_t emitter_table_bytes(const Scene& scene, const Emitter& emitter);
 /// Expected size of the tree: a region holds about as many vertices as its splitting threshold asks for. A path is
 /// counted as eight vertices, a region's quadtree as 2.4 / directional_threshold cells, views as what they are bounded
 /// by (one for two regions). 0 without guiding.
-TreeSize expected_tree(const Scene& scene, const Job& job);
+TreeSize expected_tree(const Scene& scene, const Resolved& job);
 
 /// Memory of the data of a render as formulas of scene and job. Program, libraries, MPI's buffers and the peak while
 /// Embree builds come on top.
-MemoryPlan expected_memory(const Scene& scene, const Job& job);
+MemoryPlan expected_memory(const Scene& scene, const Resolved& job);
 
 }  // namespace treefarm

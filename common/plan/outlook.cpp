@@ -3,20 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/plan/policy.h"
+
 namespace treefarm {
 namespace {
 
-/// Progress from one tree to the next is the progress before to this power (docs/error.md, "error"); a change of what
-/// a sample costs ends sooner.
-constexpr double kFading = 0.75;
-constexpr double kCostFading = 0.35;
-/// No tree is trusted to do better than this, or to change a sample's cost by more.
-constexpr double kLeastProgress = 0.25;
-constexpr double kMostCostRatio = 1.6;
-/// So many trees that are no better than each other have learned all that there is.
-constexpr int kTreesAtRest = 3;
-/// What keeping a log of records takes of tracing itself: 6 to 23 % measured on eight scenes.
-constexpr double kRecordingShare = 0.12;
 /// Of a clock that did not move, seconds.
 constexpr double kShortestSample = 1e-9;
 
@@ -49,7 +40,7 @@ std::vector<TreeFacts> trees_of(const RenderState& state) {
             tree.samples_times_variance += pass.spp * pass.mse_of_sample;
             tree.samples_times_trimmed += pass.spp * pass.stuv_trimmed;
         }
-        tree.trace_core_seconds += pass.trace_core_seconds * (pass.record ? 1 - kRecordingShare : 1.0);
+        tree.trace_core_seconds += pass.trace_core_seconds * (pass.record ? 1 - kPolicy.forecast.recording_share : 1.0);
         fresh = pass.record;
     }
     return trees;
@@ -106,10 +97,10 @@ void Outlook::look_at_variance(const RenderState& state) {
     if (levels.empty()) return;
     variance_ = levels.back().variance;
     quiet_ = !(variance_ > 0);
-    if (levels.back().trees >= kTreesAtRest)
+    if (levels.back().trees >= kPolicy.forecast.trees_at_rest)
         progress_ = 1;
     else if (levels.size() > 1)
-        progress_ = std::max(kLeastProgress, variance_ / levels[levels.size() - 2].variance);
+        progress_ = std::max(kPolicy.forecast.least_progress, variance_ / levels[levels.size() - 2].variance);
     else if (levels.back().trees > 1)
         progress_ = 1;
     trees_since_ = levels.back().trees - 1;
@@ -141,7 +132,8 @@ void Outlook::look_at_cost(const RenderState& state) {
     if (trees.size() < 3) return;
     const TreeFacts& before = trees[trees.size() - 2];
     if (before.core_per_spp() > 0 && before.next_event == trees.back().next_event)
-        cost_ratio_ = std::clamp(traced / before.core_per_spp(), 1 / kMostCostRatio, kMostCostRatio);
+        cost_ratio_ = std::clamp(traced / before.core_per_spp(), 1 / kPolicy.forecast.most_cost_ratio,
+                                 kPolicy.forecast.most_cost_ratio);
 }
 
 namespace {
@@ -156,11 +148,13 @@ double fading_steps(double step, double fading, int trees) {
 
 double Outlook::variance_after(int trees) const {
     if (!(progress_ > 0)) return variance_;
-    return variance_ * fading_steps(std::pow(progress_, std::pow(kFading, trees_since_)), kFading, trees);
+    return variance_ * fading_steps(std::pow(progress_, std::pow(kPolicy.forecast.fading, trees_since_)),
+                                    kPolicy.forecast.fading, trees);
 }
 
 double Outlook::seconds_per_spp(int trees, bool record) const {
-    const double core = core_per_spp_ * fading_steps(cost_ratio_, kCostFading, trees) * (record ? recording_ : 1.0);
+    const double core =
+        core_per_spp_ * fading_steps(cost_ratio_, kPolicy.forecast.cost_fading, trees) * (record ? recording_ : 1.0);
     return std::max(core * clock_per_core_, kShortestSample);
 }
 

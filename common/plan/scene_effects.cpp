@@ -42,7 +42,8 @@ SceneEffects find_scene_effects(const Scene& scene, const Job& job) {
 }
 
 SceneEffects find_scene_effects(const Scene& scene, const Job& job, std::span<const std::string> left_out) {
-    const EffectFinder finder(scene, job);
+    const Resolved resolved = resolve(job, scene);
+    const EffectFinder finder(scene, resolved);
     SceneEffects on;
     for (const Option& option : options()) {
         const bool missing = std::find(left_out.begin(), left_out.end(), option.name) != left_out.end();

@@ -4,10 +4,11 @@
 #include <cstdint>
 #include <vector>
 
-#include "common/config/job.h"
 #include "common/film/guiding_probe.h"
 #include "common/film/splitting_gain.h"
 #include "common/film/work_unit.h"
+#include "common/plan/kernel_choice.h"
+#include "common/plan/resolve.h"
 
 namespace treefarm {
 
@@ -41,15 +42,17 @@ struct PassPlan {
         return unit_paths(tile_size) >= kLongPaths;
     }
 
+    KernelChoice kernel;  ///< what traces it
+
     bool operator==(const PassPlan&) const = default;
 };
 
 /// A pass as the job makes it at this place of the schedule. `last`: no pass comes after it that could learn from it.
-PassPlan make_pass(const Job& job, std::uint32_t index, std::uint32_t first_sample, std::uint32_t spp, bool last);
+PassPlan make_pass(const Resolved& job, std::uint32_t index, std::uint32_t first_sample, std::uint32_t spp, bool last);
 
 /// Sets next_event or record, with what follows from each.
-void set_next_event(PassPlan& pass, const Job& job, bool next_event);
-void set_record(PassPlan& pass, const Job& job, bool record);
+void set_next_event(PassPlan& pass, const Resolved& job, bool next_event);
+void set_record(PassPlan& pass, const Resolved& job, bool record);
 
 /// Whether guiding pays, as far as probes tell.
 enum class Guiding {
@@ -58,16 +61,16 @@ enum class Guiding {
     loses,  ///< for good
 };
 
-/// guiding.type "auto": the first passes that have a tree probe whether guiding pays; once it was found not to, passes
-/// are unguided and learn nothing.
-void set_guiding(PassPlan& pass, const Job& job, Guiding guiding);
+/// guiding.rule "while_it_pays": the first passes that have a tree probe whether guiding pays; once it was found not
+/// to, passes are unguided and learn nothing.
+void set_guiding(PassPlan& pass, const Resolved& job, Guiding guiding);
 
 /// What is known after a guided pass that taught, with this gain. Short passes have to say loudly that guiding does not
 /// pay: it gets better with each. Where unguided samples hardly find the light it does, and probes tell no more.
 Guiding judge_guiding(const PassPlan& pass, const GuidingGain& gain);
 
-/// Unless the job says as how many paths one goes on, none is split any more once that was found not to pay.
-void set_splitting(PassPlan& pass, const Job& job, bool pays);
+/// guiding.splitting_rule "while_it_pays": no path is split any more once that was found not to pay.
+void set_splitting(PassPlan& pass, const Resolved& job, bool pays);
 
 /// Whether it may, after a pass with this gain. Once it does not it is not asked again: nobody splits any more.
 bool splitting_may_pay(const PassPlan& pass, const SplittingGain& gain);
@@ -76,24 +79,16 @@ bool splitting_may_pay(const PassPlan& pass, const SplittingGain& gain);
 /// takes the rest. The budget is rounded up to whole units. For an open budget (budget.seconds, budget.error), whose
 /// passes are chosen one by one as the render goes (budget.h), a guess to plan by: those of budget.spp, at least 64.
 /// Pure.
-std::vector<PassPlan> plan_passes(const Job& job);
-
-/// Under an open budget a pass teaches while what is still to be rendered is at least so many times its samples.
-inline constexpr double kTeachingShare = 3;
+std::vector<PassPlan> plan_passes(const Resolved& job);
 
 /// Whether clock or estimated error choose the passes.
-bool has_open_budget(const Job& job);
+bool has_open_budget(const Resolved& job);
 
 /// sqrt(n_k / 4), by which thresholds of splits grow to pass k. n_k is what doubling gives, spp_unit 2^k, also where
 /// the last pass is longer: as in the authors' program.
-double split_growth(const Job& job, const PassPlan& coming_pass);
+double split_growth(const Resolved& job, const PassPlan& coming_pass);
 
-/// guiding.spatial_threshold = 0: c of the spatial split rule for a film of so many pixels, 2000 for 512 x 512 and in
-/// proportion to their fourth root. More pixels bring more records, but what there is to learn grows more slowly
-/// (docs/guiding-measured.md).
-double usual_spatial_threshold(double film_pixels);
-
-/// c sqrt(n_k / 4): records above which a region splits before pass k of a film of so many pixels.
-double spatial_split_threshold(const Job& job, double film_pixels, const PassPlan& coming_pass);
+/// c sqrt(n_k / 4): records above which a region splits before pass k.
+double spatial_split_threshold(const Resolved& job, const PassPlan& coming_pass);
 
 }  // namespace treefarm

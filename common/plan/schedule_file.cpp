@@ -20,7 +20,7 @@ constexpr const char* kKeyAdvice = "a pass has spp, next_event and record, and m
 
 class ScheduleReader {
   public:
-    ScheduleReader(const std::string& file, const Job& job) : file_(file), job_(job) {}
+    ScheduleReader(const std::string& file, const Resolved& job) : file_(file), job_(job) {}
 
     std::vector<PassPlan> read(const toml::table& table) {
         for (const auto& [key, node] : table)
@@ -60,11 +60,11 @@ class ScheduleReader {
                                   static_cast<std::uint32_t>(*samples), true);
         set_next_event(plan, job_, flag(*pass, "next_event"));
         const bool record = flag(*pass, "record");
-        if (record && job_.guiding.type == GuidingType::none)
+        if (record && !job_.guides)
             throw InputError(place((*pass)["record"].node()->source()), "record = true, but guiding.type = \"none\"",
                              "render with the job that the schedule was made by");
         set_record(plan, job_, record);
-        plan.guided = !pass->contains("guided") || flag(*pass, "guided");
+        plan.guided = job_.guides && (!pass->contains("guided") || flag(*pass, "guided"));
         plan.probe = pass->contains("probe") && flag(*pass, "probe");
         plan.split = !pass->contains("split") || flag(*pass, "split");
         done_ += *samples;
@@ -87,7 +87,7 @@ class ScheduleReader {
     }
 
     const std::string& file_;
-    const Job& job_;
+    const Resolved& job_;
     std::vector<PassPlan> passes_;
     std::int64_t done_ = 0;
 };
@@ -108,7 +108,7 @@ std::string write_schedule(std::span<const PassPlan> passes) {
     return text;
 }
 
-std::vector<PassPlan> parse_schedule(const std::string& toml, const std::string& name, const Job& job) {
+std::vector<PassPlan> parse_schedule(const std::string& toml, const std::string& name, const Resolved& job) {
     ScheduleReader reader(name, job);
     try {
         return reader.read(toml::parse(toml, std::string_view(name)));

@@ -13,6 +13,6 @@ namespace treefarm {
 std::string write_schedule(std::span<const PassPlan> passes);
 
 /// The passes of such a text; `name` stands for the file in messages. Throws InputError with file:line:column.
-std::vector<PassPlan> parse_schedule(const std::string& toml, const std::string& name, const Job& job);
+std::vector<PassPlan> parse_schedule(const std::string& toml, const std::string& name, const Resolved& job);
 
 }  // namespace treefarm

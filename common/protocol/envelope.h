@@ -8,7 +8,7 @@
 namespace treefarm {
 
 /// Raised whenever a message changes its form: peers of another version are refused, not guessed at.
-inline constexpr std::uint32_t kProtocolVersion = 8;
+inline constexpr std::uint32_t kProtocolVersion = 9;
 
 /// What a message is. The numbers are on the wire: append only (docs/protocol.md).
 enum class Kind : std::uint8_t {

@@ -30,7 +30,8 @@ void serialize(Archive& a, Resend& m) {
 template <class Archive>
 void serialize(Archive& a, PassPlan& m) {
     a(m.index, m.spp, m.first_sample, m.next_event, m.guided, m.probe, m.split, m.record, m.record_weight,
-      m.learn_mixture, m.blocks_per_unit, m.chunks);
+      m.learn_mixture, m.blocks_per_unit, m.chunks, m.kernel.plain_diffuse, m.kernel.guided, m.kernel.record,
+      m.kernel.views);
 }
 
 template <class Archive>

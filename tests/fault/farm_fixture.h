@@ -180,7 +180,7 @@ class FarmTest : public ::testing::Test {
         }
     }
 
-    Job job_ = test_job();
+    Resolved job_ = resolve(test_job(), SceneFacts{});
     JobTurn turn_;
     bool stay_ = false;  ///< workers, for another render()
     std::vector<std::unique_ptr<Channel>> channels_;

@@ -21,7 +21,7 @@ import tempfile
 import time
 
 START_SECONDS = 8  # all processes together, here
-HANG_SECONDS = 30  # after the kill, beyond what an undisturbed render takes
+HANG_SECONDS = 30  # without a sign of life: a word, a file of the run directory, the end
 WORKERS = {"a worker": [2], "two workers": [1, 3], "the head of the chain": [1]}
 TRANSPORTS = {"vader": [], "tcp": ["--mca", "btl", "tcp,self"]}
 
@@ -72,12 +72,23 @@ def sweep():
             os.remove(path)
 
 
+def last_sign_of_life(folder, began):
+    """When something was last written, in seconds since 1970."""
+    times = [began]
+    for path in [folder + ".txt", *glob.glob(os.path.join(folder, "*"))]:
+        try:
+            times.append(os.stat(path).st_mtime)
+        except OSError:
+            pass  # replaced just now
+    return max(times)
+
+
 def run(arguments, folder, transport, victims, delay):
     """Outcome of one render, and what it printed."""
     log = open(os.path.join(folder + ".txt"), "w+")
     process = subprocess.Popen(command(arguments, folder, transport), stdout=log, stderr=log, stdin=subprocess.DEVNULL,
                                env=environment(), start_new_session=True)
-    began = time.monotonic()
+    began, began_at = time.monotonic(), time.time()
     killed = []
     if victims:
         while process.poll() is None and len(ranks_of(process.pid)) < 4 and time.monotonic() - began < 20:
@@ -91,10 +102,10 @@ def run(arguments, folder, transport, victims, delay):
             except (KeyError, ProcessLookupError):
                 pass  # it had already left
     hung = False
-    try:
-        process.wait(arguments.calm + HANG_SECONDS)
-    except subprocess.TimeoutExpired:
-        hung = True
+    while process.poll() is None and not hung:
+        time.sleep(0.05)
+        hung = time.time() - last_sign_of_life(folder, began_at) > HANG_SECONDS
+    if hung:
         os.killpg(process.pid, signal.SIGKILL)
         process.wait()
     log.seek(0)
@@ -124,7 +135,6 @@ def main():
         print("skipped: no mpirun")
         return 77
     home = tempfile.mkdtemp(prefix="treefarm-kills-")
-    arguments.calm = 60
     began = time.monotonic()
     folder = os.path.join(home, "calm")
     hung, _, text = run(arguments, folder, "vader", [], 0)

@@ -6,6 +6,7 @@
 #include "common/image/exr.h"
 #include "common/plan/schedule.h"
 #include "tests/support/hard_case.h"
+#include "tests/support/resolved.h"
 #include "tests/support/test_scenes.h"
 #include "worker/integrator/camera_rays.h"
 #include "worker/integrator/tile_kernel.h"
@@ -81,7 +82,7 @@ TEST(Pixels, CountsBeyond31Bits) {
     Job job;
     job.budget.spp = 0x7fffffffu;
     std::uint64_t sum = 0;
-    for (const PassPlan& pass : plan_passes(job)) {
+    for (const PassPlan& pass : plan_passes(test::resolved(job))) {
         EXPECT_EQ(pass.first_sample, sum);
         sum += pass.spp;
         const std::uint64_t blocks = (std::uint64_t{pass.spp} + kBlockSamples - 1) / kBlockSamples;

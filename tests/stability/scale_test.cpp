@@ -7,6 +7,7 @@
 #include "common/scene/load.h"
 #include "tests/support/hard_case.h"
 #include "tests/support/material_scenes.h"
+#include "tests/support/resolved.h"
 #include "tests/support/scaled_scene.h"
 #include "worker/integrator/tile_renderer.h"
 
@@ -34,7 +35,7 @@ std::vector<PixelEstimate> render(const Scene& scene, const Job& job, std::uint3
     std::vector<PixelEstimate> pixels;
     RecordLog log;
     TraceStats stats;
-    render_unit(
+    test::render_unit(
         trace, job, pass, guide,
         {0, 0, 0, static_cast<std::uint16_t>(scene.film.width), static_cast<std::uint16_t>(scene.film.height), 0},
         pixels, log, stats);

@@ -8,6 +8,7 @@
 #include "common/film/error_estimate.h"
 #include "common/scene/load.h"
 #include "tests/support/local_render.h"
+#include "tests/support/resolved.h"
 #include "tests/support/support.h"
 #include "tests/support/test_scenes.h"
 
@@ -97,7 +98,8 @@ void expect_forecast(const std::vector<SmallRender>& runs, const std::function<J
     double forecast = 0, taken = 0;
     for (const SmallRender& run : runs) {
         const RenderState& before = run.states[run.states.size() - 2];
-        forecast += spp_to_reach(before, job(0), run.states.back().error.mse(), Outlook(before).variance());
+        forecast +=
+            spp_to_reach(before, test::resolved(job(0)), run.states.back().error.mse(), Outlook(before).variance());
         taken += run.states.back().passes.back().spp;
     }
     EXPECT_NEAR(forecast / taken, 1.0, 0.15);

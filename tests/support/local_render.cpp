@@ -6,6 +6,7 @@
 #include "common/film/pass_film.h"
 #include "common/guiding/splat.h"
 #include "common/guiding/tree_learner.h"
+#include "common/plan/kernel.h"
 #include "common/plan/learning.h"
 #include "worker/integrator/tile_renderer.h"
 
@@ -20,19 +21,21 @@ Box3 guiding_bounds(const Scene& scene) {
 
 }  // namespace
 
-LocalRender render_locally(const Scene& scene, const Job& job) {
+LocalRender render_locally(const Scene& scene, const Job& asked) {
     LocalRender run;
+    const Resolved job = resolve(asked, scene);
     const PassChooser choose = passes_of(job);
-    const bool guided = job.guiding.type != GuidingType::none;
+    const bool guided = job.guides;
     const TraceScene trace(scene, job);
-    run.tree = first_tree(scene, job, guiding_bounds(scene), 1.0f);
+    run.tree = first_tree(job, guiding_bounds(scene), 1.0f);
     TreeLearner learner;
     RenderState state;
     GuidingProbe probe;
     ProbesSetAside set_aside;
     std::optional<PassPlan> before;
     for (NextPass next = choose(state); next.pass;) {
-        const PassPlan pass = *next.pass;
+        PassPlan pass = *next.pass;
+        pass.kernel = kernel_of(job, pass, facts_of(run.tree));
         run.tree.pass = pass.index;
         const Guide guide(run.tree);
         Accumulator accumulator(pass.index, guide, job.guiding.directional_filter, pass.learn_mixture);
@@ -80,8 +83,7 @@ LocalRender render_locally(const Scene& scene, const Job& job) {
         next = choose(state);
         if (!pass.record || !next.pass) continue;
         RefineReport report;
-        run.tree = learner.learn(run.tree, accumulator.take(),
-                                 refine_settings(job, static_cast<double>(scene.film.pixel_count()), pass, *next.pass),
+        run.tree = learner.learn(run.tree, accumulator.take(), refine_settings(job, pass, *next.pass),
                                  pass.learn_mixture, report);
     }
     return run;

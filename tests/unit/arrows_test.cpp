@@ -17,12 +17,13 @@ namespace fs = std::filesystem;
 const fs::path kRoot = TREEFARM_SOURCE_DIR;
 
 /// Rooms by level (docs/architecture.md): a room includes itself and rooms of lower levels, never its siblings.
-const std::map<std::string, int> kLevels = {
-    {"common/base", 0},    {"common/math", 1},        {"common/image", 2},     {"common/metrics", 3},
-    {"common/config", 3},  {"common/scene", 4},       {"common/film", 5},      {"common/guiding", 5},
-    {"common/plan", 6},    {"common/protocol", 7},    {"common/comm", 8},      {"coordinator", 9},
-    {"report", 9},         {"worker/textures", 9},    {"worker/geometry", 10}, {"worker/shading", 10},
-    {"worker/lights", 11}, {"worker/integrator", 12}, {"worker", 13},          {"cli", 14}};
+const std::map<std::string, int> kLevels = {{"common/base", 0},     {"common/math", 1},     {"common/image", 2},
+                                            {"common/film", 2},     {"common/guiding", 2},  {"common/metrics", 3},
+                                            {"common/config", 3},   {"common/scene", 4},    {"common/plan", 6},
+                                            {"common/protocol", 7}, {"common/comm", 8},     {"coordinator", 9},
+                                            {"report", 9},          {"worker/textures", 9}, {"worker/geometry", 10},
+                                            {"worker/shading", 10}, {"worker/lights", 11},  {"worker/integrator", 12},
+                                            {"worker", 13},         {"bench", 14},          {"cli", 14}};
 
 const std::set<std::string> kPure = {"common/metrics", "common/guiding", "common/film", "common/plan"};
 

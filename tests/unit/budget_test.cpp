@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include "common/film/combine.h"
+#include "common/plan/policy.h"
+#include "tests/support/resolved.h"
 
 namespace treefarm {
 namespace {
@@ -49,7 +51,7 @@ struct Simulated {
 
 Simulated simulate(const Job& job, const World& world) {
     Simulated run;
-    const PassChooser choose = passes_of(job);
+    const PassChooser choose = passes_of(test::resolved(job));
     double precision = 0;
     std::uint32_t trees = 0;
     while (const auto pass = choose(run.state).pass) {
@@ -62,15 +64,15 @@ Simulated simulate(const Job& job, const World& world) {
         const PassFacts facts = facts_of(*pass, world, trees, speed);
         state.passes.push_back(facts);
         state.seconds += facts.collect_seconds + world.overhead;
-        const bool counts = job.guiding.type == GuidingType::none || pass->spp >= kMinSamplesForVariance;
-        if (job.budget.strict || (shows_last_tree_only(job) && !same_tree)) precision = 0;
+        const bool counts = job.guiding.type == GuidingType::none || pass->spp >= kPolicy.schedule.least_weighed_spp;
+        if (job.budget.strict || (shows_last_tree_only(test::resolved(job)) && !same_tree)) precision = 0;
         if (counts) precision += pass->spp / facts.mse_of_sample;
         state.error.known = precision > 0;
         state.error.rmse = precision > 0 ? std::sqrt(1 / precision) : 0;
         state.error.low = 0.9 * state.error.rmse;
         state.error.mean = 0.5;
         run.passes.push_back(*pass);
-        run.forecasts.push_back(forecast_error(state, job, job.budget.error));
+        run.forecasts.push_back(forecast_error(state, test::resolved(job), job.budget.error));
     }
     return run;
 }
@@ -95,8 +97,9 @@ double distance(const Simulated& run, double seconds) {
 TEST(FinishedPass, KnowsItsTreeAndWhetherNextEventEnded) {
     Job job;
     job.integrator.next_event = NextEvent::kickstart;
-    const PassPlan teaching = make_pass(job, 6, 63, 64, false), kickstart = make_pass(job, 7, 127, 10, true),
-                   after = make_pass(job, 8, 137, 10, true);
+    const PassPlan teaching = make_pass(test::resolved(job), 6, 63, 64, false),
+                   kickstart = make_pass(test::resolved(job), 7, 127, 10, true),
+                   after = make_pass(test::resolved(job), 8, 137, 10, true);
     const PassResult first = finished_pass(teaching, nullptr, {});
     EXPECT_FALSE(first.same_tree || first.new_technique);
     const PassResult of_new_tree = finished_pass(kickstart, &teaching, {});
@@ -271,7 +274,7 @@ TEST(Budget, OnlyWhatTheJobShowsIsKept) {
     const auto shown = [](const Job& job) {
         std::vector<PassResult> passes;
         for (const bool same_tree : {false, false, true})
-            show({4, 0, {}, same_tree}, job, passes);
+            show({4, 0, {}, same_tree}, test::resolved(job), passes);
         return passes.size();
     };
     Job job;
@@ -290,7 +293,7 @@ TEST(Budget, AListIsPlayedAsItIs) {
     Job job;
     job.guiding.type = GuidingType::ppg;
     job.budget.spp = 100;
-    const std::vector<PassPlan> passes = plan_passes(job);
+    const std::vector<PassPlan> passes = plan_passes(test::resolved(job));
     EXPECT_EQ(simulate(job, {}).passes, passes);
 }
 

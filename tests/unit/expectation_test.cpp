@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "tests/support/resolved.h"
+
 namespace treefarm {
 namespace {
 
@@ -43,7 +45,7 @@ void expect_holds(const Expected& figure, double truth, double within) {
 }
 
 TEST(Expectation, OfAnErrorIsWhatItsVarianceTakes) {
-    const Expectation all = expect_error(plain_state(5), plain_job(), 0.05);
+    const Expectation all = expect_error(plain_state(5), test::resolved(plain_job()), 0.05);
     ASSERT_TRUE(all.known);
     const double spp = kVariance / std::pow(0.05 * kMean, 2);
     expect_holds(all.spp, spp, 0.03);
@@ -53,12 +55,12 @@ TEST(Expectation, OfAnErrorIsWhatItsVarianceTakes) {
 
 TEST(Expectation, OfTimeAndSamplesIsTheErrorThen) {
     const double spp = 1000, error = std::sqrt(kVariance / spp) / kMean;
-    const Expectation timed = expect_after_seconds(plain_state(5), plain_job(), kSecondsPerSpp * spp);
+    const Expectation timed = expect_after_seconds(plain_state(5), test::resolved(plain_job()), kSecondsPerSpp * spp);
     ASSERT_TRUE(timed.known);
     expect_holds(timed.spp, spp, 0.03);
     expect_holds(timed.error, error, 0.03);
     EXPECT_EQ(timed.seconds.high, kSecondsPerSpp * spp);
-    const Expectation counted = expect_after_spp(plain_state(5), plain_job(), spp);
+    const Expectation counted = expect_after_spp(plain_state(5), test::resolved(plain_job()), spp);
     ASSERT_TRUE(counted.known);
     expect_holds(counted.seconds, kSecondsPerSpp * spp, 0.03);
     expect_holds(counted.error, error, 0.03);
@@ -67,26 +69,26 @@ TEST(Expectation, OfTimeAndSamplesIsTheErrorThen) {
 
 TEST(Expectation, WhatTheProbeReachedIsMeasured) {
     const RenderState state = plain_state(5);
-    for (const Expectation& all :
-         {expect_error(state, plain_job(), 1.0), expect_after_seconds(state, plain_job(), 0.01),
-          expect_after_spp(state, plain_job(), 1)}) {
+    for (const Expectation& all : {expect_error(state, test::resolved(plain_job()), 1.0),
+                                   expect_after_seconds(state, test::resolved(plain_job()), 0.01),
+                                   expect_after_spp(state, test::resolved(plain_job()), 1)}) {
         EXPECT_TRUE(all.known && all.reached);
         EXPECT_EQ(all.spp.value, 31);
     }
     RenderState quiet = state;
     quiet.error.rmse = quiet.error.low = quiet.error.high = 0;
-    EXPECT_TRUE(expect_error(quiet, plain_job(), 0.05).reached) << "no noise";
+    EXPECT_TRUE(expect_error(quiet, test::resolved(plain_job()), 0.05).reached) << "no noise";
 }
 
 TEST(Expectation, IsNotKnownWithoutLightOrSamples) {
     RenderState dark = plain_state(5);
     dark.error.rmse = dark.error.low = dark.error.high = dark.error.mean = 0;
-    EXPECT_NE(expect_error(dark, plain_job(), 0.05).unknown.find("no light"), std::string::npos);
+    EXPECT_NE(expect_error(dark, test::resolved(plain_job()), 0.05).unknown.find("no light"), std::string::npos);
     RenderState short_one = plain_state(1);
     short_one.error.known = false;
-    for (const Expectation& all :
-         {expect_error(short_one, plain_job(), 0.05), expect_after_seconds(short_one, plain_job(), 60),
-          expect_after_spp(short_one, plain_job(), 100)}) {
+    for (const Expectation& all : {expect_error(short_one, test::resolved(plain_job()), 0.05),
+                                   expect_after_seconds(short_one, test::resolved(plain_job()), 60),
+                                   expect_after_spp(short_one, test::resolved(plain_job()), 100)}) {
         EXPECT_FALSE(all.known);
         EXPECT_NE(all.unknown.find("too few samples"), std::string::npos);
     }

@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include "common/film/combine.h"
+#include "common/plan/policy.h"
+#include "tests/support/resolved.h"
 
 namespace treefarm {
 namespace {
@@ -40,7 +42,7 @@ void render_pass(RenderState& state, const Learning& world, int tree, std::uint3
     pass.record = record;
     pass.next_event = true;
     const double precision = (state.error.known ? 1 / state.error.mse() : 0) +
-                             (spp >= kMinSamplesForVariance ? spp / pass.mse_of_sample : 0.0);
+                             (spp >= kPolicy.schedule.least_weighed_spp ? spp / pass.mse_of_sample : 0.0);
     state.passes.push_back(pass);
     state.seconds += pass.collect_seconds + pass.overhead_seconds;
     state.error.known = state.error.has_interval = precision > 0;
@@ -70,7 +72,7 @@ double seconds_to_half(RenderState state, const Learning& world) {
 }
 
 ErrorForecast halving(const RenderState& state, const Job& job = {}) {
-    return forecast_error(state, job, 0.5 * state.error.relative());
+    return forecast_error(state, test::resolved(job), 0.5 * state.error.relative());
 }
 
 TEST(Forecast, SeesThatTreesStillLearn) {
@@ -111,8 +113,8 @@ TEST(Forecast, IsNotTrustedWhereTheErrorIsNot) {
 
 TEST(Forecast, IsRoughWhereItIsFarAhead) {
     const RenderState state = rendered({.progress = 1.0, .growth = 1.0}, 5);
-    EXPECT_EQ(forecast_error(state, {}, 0.3 * state.error.relative()).trust, Trust::firm);
-    EXPECT_EQ(forecast_error(state, {}, 0.2 * state.error.relative()).trust, Trust::noisy);
+    EXPECT_EQ(forecast_error(state, test::resolved({}), 0.3 * state.error.relative()).trust, Trust::firm);
+    EXPECT_EQ(forecast_error(state, test::resolved({}), 0.2 * state.error.relative()).trust, Trust::noisy);
 }
 
 TEST(Forecast, IsUnknownBeforeThereAreVariances) {
@@ -143,13 +145,14 @@ TEST(Forecast, OfTheErrorAskedForKnowsThatRendersEndALittleBeyondIt) {
     const RenderState state = rendered({.progress = 1.0, .growth = 1.0}, 6);
     Job job;
     job.budget.error = 0.9 * state.error.relative();
-    EXPECT_NEAR(forecast_error(state, job, job.budget.error).spp / forecast_error(state, {}, job.budget.error).spp,
+    EXPECT_NEAR(forecast_error(state, test::resolved(job), job.budget.error).spp /
+                    forecast_error(state, test::resolved({}), job.budget.error).spp,
                 1.02, 1e-9);
 }
 
 TEST(Forecast, IsNothingWhereTheErrorIsReached) {
     const RenderState state = rendered({}, 5);
-    EXPECT_EQ(forecast_error(state, {}, 2 * state.error.relative()).seconds, 0);
+    EXPECT_EQ(forecast_error(state, test::resolved({}), 2 * state.error.relative()).seconds, 0);
 }
 
 TEST(Forecast, OfTheLastTreeKeepsWhatItHas) {
@@ -239,7 +242,7 @@ TEST(SppToReach, LeadsToTheErrorAskedFor) {
                 job.budget.strict = strict;
                 // Without guiding, all samples are alike: the error says what one of them is worth.
                 state.error.rmse = type == GuidingType::none ? std::sqrt(4.0 / 31) : 0.35;
-                const double spp = spp_to_reach(state, job, 0.1 * 0.1, 4.0);
+                const double spp = spp_to_reach(state, test::resolved(job), 0.1 * 0.1, 4.0);
                 EXPECT_NEAR(error_after(state, job, spp, 4.0), 0.1, 1e-9);
             }
 }

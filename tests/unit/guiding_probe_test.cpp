@@ -8,7 +8,9 @@
 #include <tuple>
 
 #include "common/film/combine.h"
+#include "common/plan/policy.h"
 #include "common/plan/schedule.h"
+#include "tests/support/resolved.h"
 
 namespace treefarm {
 namespace {
@@ -54,7 +56,7 @@ double gain(std::span<const PixelEstimate> samples, std::span<const Rgb64> image
 
 TEST(GuidingProbe, ComparesVarianceTimesCost) {
     const double even = gain(pixels(0.5f, 0.5f));
-    EXPECT_NEAR(even, 1 / kGuidedRayCost, 1e-6);
+    EXPECT_NEAR(even, 1 / kPolicy.guiding.ray_cost, 1e-6);
     EXPECT_NEAR(gain(pixels(0.25f, 0.5f)), 4 * even, 1e-6);
     EXPECT_NEAR(gain(pixels(0.5f, 0.5f), kImage, {1000, 500}), even / 2, 1e-6);
     EXPECT_NEAR(gain(pixels(0.5f, 0.5f), kImage, {500, 250}), even / 2, 1e-6);
@@ -67,7 +69,7 @@ TEST(GuidingProbe, LaterPassesNeedNoProbes) {
     TraceStats later;
     later.paths = 100;
     later.rays = 500;
-    EXPECT_NEAR(probe.gain(pixels(0.25f, 0.25f), later, 5, kImage, kWidth).all, 4 / kGuidedRayCost, 1e-6);
+    EXPECT_NEAR(probe.gain(pixels(0.25f, 0.25f), later, 5, kImage, kWidth).all, 4 / kPolicy.guiding.ray_cost, 1e-6);
 }
 
 TEST(GuidingProbe, LongerProbesCountMore) {
@@ -76,14 +78,15 @@ TEST(GuidingProbe, LongerProbesCountMore) {
     probe.add(pixels(0.5f, 1.0f, 16), stats_of({}), kPass);  // 16/15
     const double unguided = (3 * (1.0 / 3) + 15 * (16.0 / 15)) / 18, guided = 2.0 / 7;
     const std::vector<PixelEstimate> now = pixels(0.5f, 0.5f);
-    EXPECT_NEAR(probe.gain(now, stats_of({}), kPass, kImage, kWidth).all, unguided / guided / kGuidedRayCost, 2e-3);
+    EXPECT_NEAR(probe.gain(now, stats_of({}), kPass, kImage, kWidth).all, unguided / guided / kPolicy.guiding.ray_cost,
+                2e-3);
 }
 
 TEST(GuidingProbe, AFireflyDecidesNothing) {
     std::vector<PixelEstimate> noisy = pixels(0.5f, 0.5f);
     for (std::uint32_t p = 0, found = 0; found < 1; ++p)
         if (kProbe.holds(p)) noisy[p].add(8, Rgb(1e6f)), ++found;
-    EXPECT_NEAR(gain(noisy), 1 / kGuidedRayCost, 0.01);
+    EXPECT_NEAR(gain(noisy), 1 / kPolicy.guiding.ray_cost, 0.01);
 }
 
 /// Where one sample in a thousand finds a light, pixels that found it are as bright as they are noisy, the others as
@@ -165,8 +168,8 @@ TEST(GuidingProbe, NobodyProbesOnceTheVerdictIsOut) {
     const Job job;
     for (const auto& [guiding, guided, probe] :
          {std::tuple{Guiding::open, true, true}, {Guiding::pays, true, false}, {Guiding::loses, false, false}}) {
-        PassPlan pass = make_pass(job, 3, 7, 8, false);
-        set_guiding(pass, job, guiding);
+        PassPlan pass = make_pass(test::resolved(job), 3, 7, 8, false);
+        set_guiding(pass, test::resolved(job), guiding);
         EXPECT_EQ(pass.guided, guided);
         EXPECT_EQ(pass.record, guided);
         EXPECT_EQ(pass.probe, probe);
@@ -192,7 +195,7 @@ TEST(GuidingProbe, TheBulkLeavesOutOnePixelInAHundred) {
         if (kProbe.holds(p)) noisy[p].add(8, Rgb(1e3f)), ++found;
     const GuidingGain gain = both_gains(noisy);
     EXPECT_GT(gain.all, 10);
-    EXPECT_NEAR(gain.bulk, 1 / kGuidedRayCost, 0.01);
+    EXPECT_NEAR(gain.bulk, 1 / kPolicy.guiding.ray_cost, 0.01);
 }
 
 TEST(GuidingProbe, TakesAnEighthOfASmallFilmAndLessOfALargeOne) {
@@ -264,18 +267,18 @@ TEST(GuidingProbe, OnlyAutoProbesAndOnlyInItsFirstPasses) {
     for (const auto& [type, probes] : {std::pair{GuidingType::automatic, true}, {GuidingType::view, false}}) {
         job.guiding.type = type;
         for (const auto& [index, spp] : {std::pair{1u, 2u}, {2u, 4u}, {4u, 16u}, {5u, 32u}}) {
-            PassPlan pass = make_pass(job, index, spp - 1, spp, false);
-            set_guiding(pass, job, Guiding::open);
+            PassPlan pass = make_pass(test::resolved(job), index, spp - 1, spp, false);
+            set_guiding(pass, test::resolved(job), Guiding::open);
             EXPECT_EQ(pass.probe, probes && spp >= 4 && spp <= 16) << spp;
-            set_guiding(pass, job, Guiding::loses);
+            set_guiding(pass, test::resolved(job), Guiding::loses);
             EXPECT_EQ(pass.guided, !probes);
             EXPECT_EQ(pass.record, !probes);
             EXPECT_FALSE(probes && pass.probe);
         }
     }
     job.guiding.type = GuidingType::automatic;
-    PassPlan last = make_pass(job, 4, 15, 16, true);
-    set_guiding(last, job, Guiding::open);
+    PassPlan last = make_pass(test::resolved(job), 4, 15, 16, true);
+    set_guiding(last, test::resolved(job), Guiding::open);
     EXPECT_FALSE(last.probe);
     EXPECT_TRUE(last.guided);
 }

@@ -3,6 +3,7 @@
 #include <random>
 
 #include "common/guiding/guide.h"
+#include "tests/support/resolved.h"
 #include "tests/support/test_scenes.h"
 #include "worker/integrator/tile_renderer.h"
 
@@ -136,7 +137,7 @@ TEST(Instances, LookLikeTheFlattenedMeshes) {
         std::vector<PixelEstimate> pixels;
         RecordLog log;
         TraceStats stats;
-        render_unit(trace, job, pass, guide, {0, 0, 0, 32, 32, 0}, pixels, log, stats);
+        test::render_unit(trace, job, pass, guide, {0, 0, 0, 32, 32, 0}, pixels, log, stats);
         EXPECT_EQ(stats.invalid_samples, 0u);
         return pixels;
     };

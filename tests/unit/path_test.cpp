@@ -2,6 +2,7 @@
 
 #include <limits>
 
+#include "tests/support/resolved.h"
 #include "tests/support/test_scenes.h"
 #include "worker/integrator/mis.h"
 #include "worker/integrator/path_kernel.h"
@@ -43,7 +44,7 @@ Rendered render(const Scene& scene, const Job& job, const PassPlan& pass) {
     const WorkUnit unit{
         pass.index, 0, 0, static_cast<std::uint16_t>(scene.film.width), static_cast<std::uint16_t>(scene.film.height),
         0};
-    render_unit(trace, job, pass, guide, unit, r.pixels, r.log, r.stats);
+    test::render_unit(trace, job, pass, guide, unit, r.pixels, r.log, r.stats);
     for (const PixelEstimate& p : r.pixels)
         r.mean += p.whole().mean / double(r.pixels.size());
     return r;
@@ -168,7 +169,9 @@ TEST(Path, RouletteIsPlayedByWhatGuides) {
     const Guide trained(tree);
     const TraceScene scene(test::furnace(0.5f, 1.0f, 2.0f, Vec3(0.0f)), {});
     const auto survival = [&](const Job& job, const Guide& guide) {
-        return PathSettings(scene, job, one_pass(1, false), guide).roulette.survival(Rgb(0.01f));
+        return PathSettings(scene, test::resolved(job),
+                            test::with_kernel(test::resolved(job), one_pass(1, false), guide), guide)
+            .roulette.survival(Rgb(0.01f));
     };
     EXPECT_FLOAT_EQ(survival(unguided(), untrained), 0.01f);
     EXPECT_FLOAT_EQ(survival({}, untrained), 0.1f);
@@ -260,7 +263,7 @@ TEST(Path, AUnitDoesNotDependOnHowTheImageIsCut) {
     std::vector<PixelEstimate> part;
     RecordLog log;
     TraceStats stats;
-    render_unit(trace, job, pass, guide, {0, 5, 3, 9, 10, 0}, part, log, stats);
+    test::render_unit(trace, job, pass, guide, {0, 5, 3, 9, 10, 0}, part, log, stats);
     ASSERT_EQ(part.size(), 28u);
     for (std::size_t i = 0; i < part.size(); ++i) {
         const Moments a = part[i].whole(), b = whole.pixels[(3 + i / 4) * 12 + 5 + i % 4].whole();
@@ -325,7 +328,7 @@ TEST(Path, VerticesOutsideTheTreeAreCounted) {
     std::vector<PixelEstimate> pixels;
     RecordLog log;
     TraceStats stats;
-    render_unit(trace, job, one_pass(1, false, true), small, {0, 0, 0, 8, 8, 0}, pixels, log, stats);
+    test::render_unit(trace, job, one_pass(1, false, true), small, {0, 0, 0, 8, 8, 0}, pixels, log, stats);
     EXPECT_EQ(log.caps.outside_positions, stats.vertices);
     EXPECT_GT(stats.vertices, 0u);
 }
@@ -337,7 +340,7 @@ TEST(Path, DescriptionTellsTheSamePath) {
     const PassPlan pass = one_pass(1, true);
     const Rendered r = render(scene, job, pass);
     const Guide guide(initial_tree(scene.bounds(), 1.0f));
-    const std::string text = describe_sample(TraceScene(scene, job), job, pass, guide, 0, 0, 0);
+    const std::string text = test::describe_sample(TraceScene(scene, job), job, pass, guide, 0, 0, 0);
     EXPECT_NE(text.find("depth 1: shape \""), std::string::npos) << text;
     EXPECT_NE(text.find("end: "), std::string::npos) << text;
     std::size_t depths = 0;

@@ -11,6 +11,7 @@
 #include "common/plan/plan_text.h"
 #include "common/plan/texture_mean.h"
 #include "common/scene/material_traits.h"
+#include "tests/support/resolved.h"
 
 namespace treefarm {
 namespace {
@@ -214,20 +215,20 @@ TEST(Plan, NamesTheKernelOfEachPass) {
     Job job;
     job.guiding.spp_unit = 4;
     job.budget.spp = 28;  // 4 + 8 + 16
-    const std::vector<KernelUse> kernels = kernels_of(scene, job);
+    const std::vector<KernelUse> kernels = kernels_of(resolve(job, scene));
     ASSERT_EQ(kernels.size(), 3u);
     EXPECT_EQ(kernels[0].kernel.name(), "diffuse, recording");
     EXPECT_EQ(kernels[2].kernel.name(), "diffuse, guided");
     EXPECT_EQ(kernels[2].passes, (std::vector<std::uint32_t>{2}));
     EXPECT_EQ(kernels[1].kernel.name(), "diffuse, guided, recording");
-    EXPECT_EQ(kernels_of(full_scene(), job)[1].kernel.name(), "general, guided, by view, recording");
+    EXPECT_EQ(kernels_of(resolve(job, full_scene()))[1].kernel.name(), "general, guided, by view, recording");
     job.guiding.type = GuidingType::ppg;
-    EXPECT_EQ(kernels_of(full_scene(), job)[1].kernel.name(), "general, guided, recording");
+    EXPECT_EQ(kernels_of(resolve(job, full_scene()))[1].kernel.name(), "general, guided, recording");
 }
 
 TEST(Plan, MemoryFollowsTheFormulas) {
     Scene scene = full_scene();
-    const MemoryPlan plan = expected_memory(scene, Job{});
+    const MemoryPlan plan = expected_memory(scene, resolve(Job{}, scene));
     std::uint64_t sum = 0;
     for (const MemoryItem& item : plan.worker)
         sum += item.bytes;
@@ -236,19 +237,19 @@ TEST(Plan, MemoryFollowsTheFormulas) {
     EXPECT_EQ(image_bytes(scene.images[0]), 48u);
     Job unguided;
     unguided.guiding.type = GuidingType::none;
-    EXPECT_EQ(expected_tree(scene, unguided).cells, 0u);
+    EXPECT_EQ(expected_tree(scene, resolve(unguided, scene)).cells, 0u);
     scene.film.width = scene.film.height = 1000;
-    EXPECT_GT(expected_tree(scene, Job{}).regions, 1000u);
+    EXPECT_GT(expected_tree(scene, resolve(Job{}, scene)).regions, 1000u);
     const TreeSize learned{10, 200, true}, fixed{10, 200, false};
     EXPECT_EQ(learned.sum_bytes() - fixed.sum_bytes(), 10u * kMixtureBins * 8);
-    EXPECT_TRUE(expected_tree(scene, Job{}).with_mixture);
+    EXPECT_TRUE(expected_tree(scene, resolve(Job{}, scene)).with_mixture);
     Job given;
     given.guiding.learn_bsdf_fraction = false;
-    EXPECT_FALSE(expected_tree(scene, given).with_mixture);
+    EXPECT_FALSE(expected_tree(scene, resolve(given, scene)).with_mixture);
 }
 
 TEST(Plan, CellsFollowUseWhereViewsAndMixturesAreLearned) {
-    const auto least_use = [](Job job) { return refine_settings(job, 1e4, {}, {}).least_use; };
+    const auto least_use = [](Job job) { return refine_settings(test::resolved(job), {}, {}).least_use; };
     Job job;
     EXPECT_EQ(least_use(job), 0.5);
     job.guiding.type = GuidingType::ppg;
@@ -264,7 +265,8 @@ TEST(Plan, CellsFollowUseWhereViewsAndMixturesAreLearned) {
     const Scene scene = full_scene();
     Job ppg;
     ppg.guiding.type = GuidingType::ppg;
-    const TreeSize even = expected_tree(scene, ppg), by_use = expected_tree(scene, Job{});
+    const TreeSize even = expected_tree(scene, resolve(ppg, scene)),
+                   by_use = expected_tree(scene, resolve(Job{}, scene));
     ASSERT_EQ(even.regions, by_use.regions);
     EXPECT_LT(by_use.cells - by_use.views * 240, even.cells);
 }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "common/base/error.h"
+#include "tests/support/resolved.h"
 
 namespace treefarm {
 namespace {
@@ -16,7 +17,7 @@ Job job_with(NextEvent next_event) {
 
 std::string message_of(const std::string& text, const Job& job = {}) {
     try {
-        parse_schedule(text, "s.toml", job);
+        parse_schedule(text, "s.toml", test::resolved(job));
     } catch (const InputError& error) {
         return error.what();
     }
@@ -26,10 +27,10 @@ std::string message_of(const std::string& text, const Job& job = {}) {
 TEST(ScheduleFile, ComesBackAsItWasWritten) {
     for (const NextEvent next_event : {NextEvent::always, NextEvent::never, NextEvent::kickstart}) {
         const Job job = job_with(next_event);
-        std::vector<PassPlan> passes = plan_passes(job);
+        std::vector<PassPlan> passes = plan_passes(test::resolved(job));
         passes[3].probe = true;
         passes[4].split = false;
-        const std::vector<PassPlan> back = parse_schedule(write_schedule(passes), "s.toml", job);
+        const std::vector<PassPlan> back = parse_schedule(write_schedule(passes), "s.toml", test::resolved(job));
         ASSERT_EQ(back.size(), passes.size());
         for (std::size_t k = 0; k < passes.size(); ++k)
             EXPECT_EQ(back[k], passes[k]) << "pass " << k;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "common/film/work_unit.h"
+#include "tests/support/resolved.h"
 
 namespace treefarm {
 namespace {
@@ -12,7 +13,7 @@ std::vector<std::uint32_t> pass_spp(std::uint32_t budget, int unit) {
     job.budget.spp = budget;
     job.guiding.spp_unit = unit;
     std::vector<std::uint32_t> spp;
-    for (const PassPlan& pass : plan_passes(job))
+    for (const PassPlan& pass : plan_passes(test::resolved(job)))
         spp.push_back(pass.spp);
     return spp;
 }
@@ -31,11 +32,11 @@ TEST(Schedule, OfZeroSamplesHasNoPasses) {
 TEST(Schedule, OnlyTheLastPassDoesNotRecord) {
     Job job;
     job.budget.spp = 60;
-    const auto passes = plan_passes(job);
+    const auto passes = plan_passes(test::resolved(job));
     for (const PassPlan& pass : passes)
         EXPECT_EQ(pass.record, pass.index + 1 < passes.size());
     job.guiding.type = GuidingType::none;
-    for (const PassPlan& pass : plan_passes(job))
+    for (const PassPlan& pass : plan_passes(test::resolved(job)))
         EXPECT_FALSE(pass.record);
 }
 
@@ -44,7 +45,7 @@ TEST(Schedule, KickstartEndsAt128Samples) {
     job.budget.spp = 1023;
     job.guiding.spp_unit = 1;
     job.integrator.next_event = NextEvent::kickstart;
-    for (const PassPlan& pass : plan_passes(job)) {
+    for (const PassPlan& pass : plan_passes(test::resolved(job))) {
         EXPECT_EQ(pass.next_event, pass.first_sample < 128);
         EXPECT_EQ(pass.record_weight, pass.next_event ? 0.5 : 1.0);
     }
@@ -57,7 +58,7 @@ TEST(Schedule, ChunksCoverEveryBlockOnce) {
             job.budget.spp = spp;
             job.guiding.type = GuidingType::none;
             job.farm.tile_size = tile;
-            for (const PassPlan& pass : plan_passes(job)) {
+            for (const PassPlan& pass : plan_passes(test::resolved(job))) {
                 const std::uint32_t blocks = (pass.spp + kBlockSamples - 1) / kBlockSamples;
                 EXPECT_EQ(pass.blocks_per_unit & (pass.blocks_per_unit - 1), 0u);
                 EXPECT_GE(pass.chunks * pass.blocks_per_unit, blocks);
@@ -73,11 +74,13 @@ TEST(Schedule, SplitThresholdFollowsTheNominalPass) {
     PassPlan pass;
     pass.index = 4;
     pass.spp = 68;  // the extended last pass of 127 spp counts as 64
-    EXPECT_DOUBLE_EQ(spatial_split_threshold(job, 100, pass), 48000.0);
+    EXPECT_DOUBLE_EQ(spatial_split_threshold(test::resolved(job), pass), 48000.0);
 
     job.guiding.spatial_threshold = 0;
-    EXPECT_DOUBLE_EQ(spatial_split_threshold(job, 512 * 512, pass), 8000.0);
-    EXPECT_DOUBLE_EQ(spatial_split_threshold(job, 128 * 128, pass), 4000.0);
+    EXPECT_DOUBLE_EQ(spatial_split_threshold(test::resolved(job), pass), 8000.0);
+    SceneFacts small;
+    small.film_pixels = 128 * 128;
+    EXPECT_DOUBLE_EQ(spatial_split_threshold(resolve(job, small), pass), 4000.0);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include "tests/support/local_render.h"
 #include "tests/support/material_scenes.h"
+#include "tests/support/resolved.h"
 #include "worker/integrator/path_recorder.h"
 #include "worker/integrator/tile_renderer.h"
 #include "worker/shading/fresnel.h"
@@ -105,7 +106,7 @@ TEST(SplitGlass, IsTheSameHoweverTheImageIsCut) {
     const auto render = [&](const WorkUnit& unit, RecordLog& log) {
         std::vector<PixelEstimate> pixels;
         TraceStats stats;
-        render_unit(trace, job, pass, guide, unit, pixels, log, stats);
+        test::render_unit(trace, job, pass, guide, unit, pixels, log, stats);
         return pixels;
     };
     RecordLog whole_log, left_log, right_log;
@@ -188,7 +189,7 @@ Traced trace(const TraceScene& scene, const Job& job, const PassPlan& pass, cons
     RecordLog log;
     log.begin(guide.distribution_count());
     TraceStats stats;
-    render_unit(scene, job, pass, guide, unit, traced.pixels, log, stats);
+    test::render_unit(scene, job, pass, guide, unit, traced.pixels, log, stats);
     for (const Record& r : log.records)
         traced.records.emplace_back(r.distribution, r.code, r.rounding, r.value, r.reflected, r.bin);
     return traced;

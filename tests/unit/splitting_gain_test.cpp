@@ -8,6 +8,7 @@
 
 #include "common/plan/budget.h"
 #include "common/plan/schedule.h"
+#include "tests/support/resolved.h"
 #include "worker/integrator/path_copies.h"
 
 namespace treefarm {
@@ -111,19 +112,19 @@ TEST(SplittingGain, HasToShowMoreWithNextEvent) {
 
 TEST(SplittingGain, WhatTheJobAsksForIsDone) {
     Job job;
-    PassPlan pass = make_pass(job, 5, 31, 32, false);
-    set_splitting(pass, job, false);
+    PassPlan pass = make_pass(test::resolved(job), 5, 31, 32, false);
+    set_splitting(pass, test::resolved(job), false);
     EXPECT_FALSE(pass.split);
-    set_splitting(pass, job, true);
+    set_splitting(pass, test::resolved(job), true);
     EXPECT_TRUE(pass.split);
     job.guiding.splitting = 4;
-    set_splitting(pass, job, false);
+    set_splitting(pass, test::resolved(job), false);
     EXPECT_TRUE(pass.split);
     job.guiding.splitting = 0;
     job.budget.spp = 31;
     RenderState state;
     state.splitting = false;
-    EXPECT_FALSE(passes_of(job)(state).pass->split);
+    EXPECT_FALSE(passes_of(test::resolved(job))(state).pass->split);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "common/plan/policy.h"
 #include "worker/geometry/ray.h"
 #include "worker/integrator/path_state.h"
 
@@ -21,7 +22,9 @@ class Branches {
 
     /// With which a way of this probability is followed. Never so seldom that its weight overflows, or that 24 random
     /// bits do not tell.
-    static float chance(float probability) { return std::clamp(kOften * probability, kLeast, 1.0f); }
+    static float chance(float probability) {
+        return std::clamp(kPolicy.walk.branch_often * probability, kPolicy.walk.branch_least, 1.0f);
+    }
 
     /// At the first surface, which has drawn path.scatter: if the other of two ways is open, the path takes the
     /// likelier with certainty, and the lesser may become a branch.
@@ -56,8 +59,6 @@ class Branches {
     const Branch& operator[](std::uint32_t i) const { return branches_[i]; }
 
   private:
-    static constexpr float kOften = 4.0f, kLeast = 0x1p-12f;
-
     std::vector<Branch> branches_;  ///< at most one of each camera path
 };
 

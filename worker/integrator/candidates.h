@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "common/plan/policy.h"
 #include "worker/integrator/guided_sampling.h"
 
 namespace treefarm {
@@ -12,8 +13,9 @@ namespace treefarm {
 /// candidates, whatever P is, as long as nothing that reflects has P = 0.
 ///
 /// P prefers the product of f |cos| and the light that the region has learned, which neither the BSDF nor the tree
-/// samples alone; a part of it prefers nothing, so that a direction is never weighed more than 1 / kFair times as much
-/// as alone. The density of what is taken has no closed form; against next event it is weighed by q, on both sides.
+/// samples alone; a part of it prefers nothing, so that a direction is never weighed more than 1 / candidate_fair
+/// (policy.h) times as much as alone. The density of what is taken has no closed form; against next event it is weighed
+/// by q, on both sides.
 class Candidates {
   public:
     static constexpr std::uint32_t kMost = 4;
@@ -38,8 +40,8 @@ class Candidates {
         float sum = 0.0f;
         for (std::uint32_t i = 0; i < count_; ++i)
             sum += weights_[i];
-        const float fair = kFair / static_cast<float>(count_);
-        const float preferred = (1.0f - kFair) / sum;
+        const float fair = kPolicy.walk.candidate_fair / static_cast<float>(count_);
+        const float preferred = (1.0f - kPolicy.walk.candidate_fair) / sum;
         std::uint32_t taken = 0;
         float probability = fair + preferred * weights_[0];
         for (float before = probability; taken + 1 < count_ && !(u < before); before += probability)
@@ -50,8 +52,6 @@ class Candidates {
     }
 
   private:
-    /// The least share of a candidate in what is taken, times their number.
-    static constexpr float kFair = 0.2f;
     /// Light from everywhere, of which the tree may have seen nothing: as much as an even tree would see. A fifth of it
     /// was too little for rare light (docs/guiding-measured.md).
     static constexpr float kUnseen = 1.0f / (4.0f * kPi);

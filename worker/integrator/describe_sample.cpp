@@ -55,8 +55,8 @@ struct TextObserver : NoObserver {
 };
 
 template <class Surface, bool kGuided>
-std::string described(const TraceScene& scene, const Job& job, const PassPlan& pass, const Guide& guide, int x, int y,
-                      const PathKey& path) {
+std::string described(const TraceScene& scene, const Resolved& job, const PassPlan& pass, const Guide& guide, int x,
+                      int y, const PathKey& path) {
     TraceStats stats;
     PathKernel<Surface, kGuided, false, TextObserver> kernel(scene, guide, PathSettings(scene, job, pass, guide),
                                                              stats);
@@ -72,16 +72,16 @@ std::string described(const TraceScene& scene, const Job& job, const PassPlan& p
 
 }  // namespace
 
-std::string describe_sample(const TraceScene& scene, const Job& job, const PassPlan& pass, const Guide& guide, int x,
-                            int y, std::uint32_t sample) {
+std::string describe_sample(const TraceScene& scene, const Resolved& job, const PassPlan& pass, const Guide& guide,
+                            int x, int y, std::uint32_t sample) {
     const PathKey path{job.sampler.seed, scene.film().key_of(x, y), pass.first_sample + sample};
-    const bool guided = is_guided(job, pass, guide);
-    if (scene.plainly_diffuse())
-        return guided ? described<DiffuseSurface, true>(scene, job, pass, guide, x, y, path)
-                      : described<DiffuseSurface, false>(scene, job, pass, guide, x, y, path);
-    if (guided && guide.view_count() != 0) return described<ViewedSurface, true>(scene, job, pass, guide, x, y, path);
-    return guided ? described<GeneralSurface, true>(scene, job, pass, guide, x, y, path)
-                  : described<GeneralSurface, false>(scene, job, pass, guide, x, y, path);
+    const KernelChoice& kernel = pass.kernel;
+    if (kernel.plain_diffuse)
+        return kernel.guided ? described<DiffuseSurface, true>(scene, job, pass, guide, x, y, path)
+                             : described<DiffuseSurface, false>(scene, job, pass, guide, x, y, path);
+    if (kernel.guided && kernel.views) return described<ViewedSurface, true>(scene, job, pass, guide, x, y, path);
+    return kernel.guided ? described<GeneralSurface, true>(scene, job, pass, guide, x, y, path)
+                         : described<GeneralSurface, false>(scene, job, pass, guide, x, y, path);
 }
 
 }  // namespace treefarm

@@ -70,9 +70,9 @@ Met meet_emitter(const TraceScene& scene, const Vec3& from, const Ray& ray, cons
 
 /// The job of the paths that start at the place: their first edge is the second of a path from the camera, and what it
 /// meets shining is added apart.
-Job unguided(const Job& job) {
-    Job plain = job;
-    plain.guiding.type = GuidingType::none;
+Resolved unguided(const Resolved& job) {
+    Resolved plain = job;
+    plain.guiding.splitting = 1;
     plain.integrator.hide_emitters = true;
     if (plain.integrator.max_depth > 0) --plain.integrator.max_depth;
     return plain;
@@ -86,7 +86,7 @@ struct Square {
 template <class Surface>
 class PlaceTracer {
   public:
-    PlaceTracer(const TraceScene& scene, const Job& job, const Guide& guide, const InspectedPlace& place,
+    PlaceTracer(const TraceScene& scene, const Resolved& job, const Guide& guide, const InspectedPlace& place,
                 const BruteForce& settings)
         : scene_(scene),
           guide_(guide),
@@ -168,7 +168,7 @@ class PlaceTracer {
 };
 
 template <class Surface>
-PlaceTruth trace_with(const TraceScene& scene, const Job& job, const Guide& guide, const InspectedPlace& place,
+PlaceTruth trace_with(const TraceScene& scene, const Resolved& job, const Guide& guide, const InspectedPlace& place,
                       const BruteForce& settings) {
     const std::uint32_t side = 1u << settings.bits;
     std::vector<Square> squares(std::size_t{side} * side);
@@ -233,7 +233,7 @@ PlaceFacts place_facts(const TraceScene& scene, const Guide& guide, const Inspec
     return facts;
 }
 
-PlaceTruth trace_place(const TraceScene& scene, const Job& job, const Guide& guide, const InspectedPlace& place,
+PlaceTruth trace_place(const TraceScene& scene, const Resolved& job, const Guide& guide, const InspectedPlace& place,
                        const BruteForce& settings) {
     return scene.plainly_diffuse() ? trace_with<DiffuseSurface>(scene, job, guide, place, settings)
                                    : trace_with<GeneralSurface>(scene, job, guide, place, settings);

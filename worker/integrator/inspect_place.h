@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "common/guiding/guide.h"
+#include "common/plan/resolve.h"
 #include "worker/integrator/guided_sampling.h"
 #include "worker/integrator/trace_scene.h"
 
@@ -52,7 +53,7 @@ struct PlaceTruth {
 };
 
 /// Pure but for its time: the same numbers for any number of threads.
-PlaceTruth trace_place(const TraceScene& scene, const Job& job, const Guide& guide, const InspectedPlace& place,
+PlaceTruth trace_place(const TraceScene& scene, const Resolved& job, const Guide& guide, const InspectedPlace& place,
                        const BruteForce& settings);
 
 }  // namespace treefarm

@@ -1,18 +1,13 @@
 #pragma once
 
-#include "common/config/job.h"
 #include "common/film/guiding_probe.h"
 #include "common/guiding/guide.h"
+#include "common/plan/resolve.h"
 #include "common/plan/schedule.h"
 #include "worker/integrator/roulette.h"
 #include "worker/integrator/trace_scene.h"
 
 namespace treefarm {
-
-/// Whether this tree guides this pass.
-inline bool is_guided(const Job& job, const PassPlan& pass, const Guide& guide) {
-    return job.guiding.type != GuidingType::none && pass.guided && guide.trained();
-}
 
 /// What the walk is told besides the scene: fixed for a pass.
 struct PathSettings {
@@ -41,7 +36,7 @@ struct PathSettings {
     /// Whether the path of a pixel, by its number on the whole film, is unguided to see whether guiding pays.
     bool is_probe(std::uint32_t pixel) const { return probe.holds(film.index_of(pixel)); }
 
-    PathSettings(const TraceScene& scene, const Job& job, const PassPlan& pass, const Guide& guide)
+    PathSettings(const TraceScene& scene, const Resolved& job, const PassPlan& pass, const Guide& guide)
         : max_depth(job.integrator.max_depth),
           next_event(pass.next_event && scene.emitters().can_sample()),
           delta_alone(!pass.next_event && scene.emitters().has_delta_lights()),
@@ -56,17 +51,14 @@ struct PathSettings {
           jitter_records(job.guiding.spatial_filter == SpatialFilter::stochastic),
           candidates(static_cast<std::uint32_t>(job.guiding.candidates)),
           candidate_depth(job.guiding.candidate_depth),
-          splitting(static_cast<std::uint32_t>(!pass.split ? 1
-                                               : job.guiding.splitting == 0
-                                                   ? usual_splitting(job.guiding.type, job.guiding.roulette)
-                                                   : job.guiding.splitting)),
+          splitting(pass.split ? static_cast<std::uint32_t>(job.guiding.splitting) : 1u),
           compare_splitting(pass.record && splitting > 1),
           target(job.guiding.target),
           view_records(job.guiding.view_records),
-          roulette(job.guiding.type == GuidingType::none || !pass.guided ? Roulette::Rule::unguided
-                   : !guide.trained()                                    ? Roulette::Rule::untrained
-                   : job.guiding.roulette == GuidingRoulette::adjoint    ? Roulette::Rule::adjoint
-                                                                         : Roulette::Rule::constant,
+          roulette(!pass.guided                                       ? Roulette::Rule::unguided
+                   : !guide.trained()                                 ? Roulette::Rule::untrained
+                   : job.guiding.roulette == GuidingRoulette::adjoint ? Roulette::Rule::adjoint
+                                                                      : Roulette::Rule::constant,
                    job.integrator.rr_depth),
           unguided_roulette(Roulette::Rule::unguided, job.integrator.rr_depth),
           film(scene.film()) {}

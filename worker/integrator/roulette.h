@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "common/math/vec.h"
+#include "common/plan/policy.h"
 
 namespace treefarm {
 
@@ -27,22 +28,24 @@ class Roulette {
     float survival(const Rgb& throughput, float scale = 1.0f, float brightness = 1.0f) const {
         switch (rule_) {
             case Rule::unguided:
-                return std::min(max_component(throughput) * scale, 0.95f);
+                return std::min(max_component(throughput) * scale, kPolicy.walk.unguided_most);
             case Rule::untrained:
-                return std::clamp(max_component(throughput) * scale, 0.1f, 0.99f);
+                return std::clamp(max_component(throughput) * scale, kPolicy.walk.untrained_least,
+                                  kPolicy.walk.guided_survival);
             case Rule::adjoint:
-                return std::clamp(max_component(throughput) * scale * brightness * kWindow, kLeast, kMost);
+                return std::clamp(max_component(throughput) * scale * brightness * kPolicy.walk.adjoint_window,
+                                  kPolicy.walk.adjoint_least, kPolicy.walk.adjoint_most);
             case Rule::constant:
                 break;
         }
-        return 0.99f;
+        return kPolicy.walk.guided_survival;
     }
 
     /// As how many paths, at most `most`, one goes on that is expected to carry several times what its first vertex
-    /// does: each of them carries at least kShare of that. 1 but by the adjoint rule.
+    /// does: each of them carries at least the policy's share of that. 1 but by the adjoint rule.
     std::uint32_t splitting(const Rgb& throughput, float scale, float brightness, std::uint32_t most) const {
         if (rule_ != Rule::adjoint) return 1;
-        const float paths = max_component(throughput) * scale * brightness * (1.0f / kShare);
+        const float paths = max_component(throughput) * scale * brightness * (1.0f / kPolicy.splitting.least_share);
         if (!(paths >= 2.0f)) return 1;
         return static_cast<std::uint32_t>(std::min(paths, static_cast<float>(most)));
     }
@@ -50,11 +53,6 @@ class Roulette {
     bool needs_brightness() const { return rule_ == Rule::adjoint; }
 
   private:
-    /// A path plays when it is expected to carry less than a quarter of what its first vertex does: the estimate is
-    /// rough, and a path too many costs less than one that came through against the odds.
-    static constexpr float kWindow = 4.0f, kLeast = 0.5f, kMost = 0.95f;
-    static constexpr float kShare = 1.4f;
-
     Rule rule_;
     int first_depth_;
 };

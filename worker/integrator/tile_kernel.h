@@ -16,7 +16,7 @@ namespace treefarm {
 /// What a work unit is rendered by, with what it is filled into.
 struct TileJob {
     const TraceScene& scene;
-    const Job& job;
+    const Resolved& job;
     const PassPlan& pass;
     const Guide& guide;
     const WorkUnit& unit;

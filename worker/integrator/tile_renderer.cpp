@@ -34,16 +34,14 @@ void refuse_invalid(Rgb& radiance, const WorkUnit& unit, int x, int y, std::uint
     radiance = Rgb(0.0f);
 }
 
-void render_unit(const TraceScene& scene, const Job& job, const PassPlan& pass, const Guide& guide,
+void render_unit(const TraceScene& scene, const Resolved& job, const PassPlan& pass, const Guide& guide,
                  const WorkUnit& unit, std::vector<PixelEstimate>& pixels, RecordLog& log, TraceStats& stats) {
     const double start = thread_cpu_seconds();
     pixels.clear();
     pixels.reserve(unit.pixel_count());
     log.begin(pass.record ? guide.distribution_count() : 0);
-    const bool guided = is_guided(job, pass, guide);
     const TileJob tile{scene, job, pass, guide, unit, pixels, log, stats};
-    const bool views = guide.view_count() != 0 && (guided || pass.record);
-    kernel(KernelChoice{scene.plainly_diffuse(), guided, pass.record, views && !scene.plainly_diffuse()}).render(tile);
+    kernel(pass.kernel).render(tile);
     stats.trace_seconds += thread_cpu_seconds() - start;
 }
 

@@ -16,14 +16,14 @@ namespace treefarm {
 
 /// Renders a work unit: a pure function of its arguments' values. `pixels` gets one reduced estimate per pixel, row by
 /// row; `log` is begun and filled if the pass records; `stats` is added to. Thread-safe for different outputs.
-void render_unit(const TraceScene& scene, const Job& job, const PassPlan& pass, const Guide& guide,
+void render_unit(const TraceScene& scene, const Resolved& job, const PassPlan& pass, const Guide& guide,
                  const WorkUnit& unit, std::vector<PixelEstimate>& pixels, RecordLog& log, TraceStats& stats);
 
 /// The kernels that render_unit() chooses from: those that the plan names.
 std::vector<KernelChoice> compiled_kernels();
 
 /// The same path as in render_unit, vertex by vertex, as text. `sample` counts within the pass.
-std::string describe_sample(const TraceScene& scene, const Job& job, const PassPlan& pass, const Guide& guide, int x,
-                            int y, std::uint32_t sample);
+std::string describe_sample(const TraceScene& scene, const Resolved& job, const PassPlan& pass, const Guide& guide,
+                            int x, int y, std::uint32_t sample);
 
 }  // namespace treefarm

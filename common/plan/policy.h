@@ -1,0 +1,113 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace treefarm {
+
+/// Every constant that was tuned on scenes rather than derived, by what it decides: docs/generated/policy.md tells
+/// what each means, where it comes from and what half and twice its value do. A render records them (resolved.toml).
+/// This header includes nothing of ours, so that every room may include it.
+struct Policy {
+    /// When guiding is given up ("auto"), by probes: unguided pixels of a guided render.
+    struct Guiding {
+        double losing_bulk = 0.75;
+        double losing_bulk_alone = 0.5;
+        double winning_few = 1.5;
+        double losing_few = 0.55;
+        std::uint32_t least_judged_spp = 4;
+        std::uint32_t least_trusted_spp = 8;
+        double least_coverage = 0.8;
+        double ray_cost = 1.4;
+        std::uint32_t least_probe_spp = 4;
+        std::uint32_t probe_passes = 4;
+        std::uint64_t probe_pixels = 2048;
+        std::size_t least_probe_pixels = 64;
+        std::size_t probe_block = 8;
+        double probe_floor = 0.1;
+        double probe_evenly = 3.0;
+    } guiding;
+
+    /// As how many paths one goes on, and when that is given up.
+    struct Splitting {
+        int usual = 8;
+        float least_share = 1.4f;
+        double least_quietened = 1.01;
+        double least_found = 0.99;
+        std::uint32_t least_spp = 16;
+        double least_gain = 0.97;
+        double least_gain_alone = 0.9;
+        double shown_gain = 2.2;
+        double copy_ray_cost = 1.4;
+    } splitting;
+
+    /// Russian roulette, candidates and glass that the camera sees.
+    struct Walk {
+        float adjoint_window = 4.0f;
+        float adjoint_least = 0.5f;
+        float adjoint_most = 0.95f;
+        float unguided_most = 0.95f;
+        float untrained_least = 0.1f;
+        float guided_survival = 0.99f;
+        float candidate_fair = 0.2f;
+        float branch_often = 4.0f;
+        float branch_least = 0x1p-12f;
+    } walk;
+
+    /// What the tree learns, and how large it grows.
+    struct Learning {
+        double spatial_threshold = 2000.0;
+        double product_cells = 0.5;
+        double free_cells = 1 << 16;
+        double least_use = 0.5;
+        double lights_by_power = 0.2;
+        double lights_prior_vertices = 128.0;
+        double least_bsdf_fraction = 0.05;
+        double mixture_prior_records = 64.0;
+        double idle_fraction = 0.05;
+        int idle_passes = 2;
+        double least_view_gain = 0.1;
+        double least_view_gain_of_all = 0.015;
+        int initial_depth = 4;
+    } learning;
+
+    /// Lengths of passes, and which of them count.
+    struct Schedule {
+        std::uint32_t kickstart_spp = 128;
+        double teaching_share = 3.0;
+        std::uint32_t guessed_spp = 64;
+        std::uint32_t samples_per_unit = 1u << 18;
+        std::uint32_t least_weighed_spp = 4;
+    } schedule;
+
+    /// How renders end that have seconds or an error for a budget.
+    struct Budget {
+        double time_tolerance = 0.05;
+        double least_tolerance = 1.0;
+        double most_tolerance = 0.1;
+        double hedge = 0.7;
+        double probe = 0.07;
+        std::uint32_t spp_to_believe = 16;
+        std::uint32_t spp_to_believe_zero = 64;
+        double least_share = 1.0 / 16;
+        double error_margin = 1.02;
+        double strict_error_margin = 1.10;
+    } budget;
+
+    /// What trees to come will bring.
+    struct Forecast {
+        double learned = 0.55;
+        double noisy = 0.1;
+        double far = 16.0;
+        double fading = 0.75;
+        double cost_fading = 0.35;
+        double least_progress = 0.25;
+        double most_cost_ratio = 1.6;
+        int trees_at_rest = 3;
+        double recording_share = 0.12;
+    } forecast;
+};
+
+inline constexpr Policy kPolicy{};
+
+}  // namespace treefarm

@@ -1,0 +1,238 @@
+#include "common/plan/policy_table.h"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+#include <type_traits>
+
+#include "common/base/error.h"
+#include "common/config/job_keys.h"
+#include "common/config/parse_text.h"
+#include "common/plan/policy.h"
+
+namespace treefarm {
+namespace {
+
+constexpr std::string_view kPrefix = "policy.";
+
+constexpr const char* kAuto = "guiding-measured.md, \"auto: does it lose?\"";
+constexpr const char* kSplits = "guiding-measured.md, \"Splitting\"";
+constexpr const char* kRoulette = "guiding-measured.md, \"Roulette\"";
+constexpr const char* kTree = "guiding-measured.md, \"The tree\"";
+constexpr const char* kViews = "guiding-measured.md, \"Views: T2\"";
+constexpr const char* kLights = "guiding-measured.md, \"Choosing emitters\"";
+constexpr const char* kBudgets = "error.md, \"Budgets\"";
+constexpr const char* kError = "error.md, \"Error\"";
+constexpr const char* kProgram2017 = "the program of Mueller et al. 2017";
+constexpr const char* kProgram2019 = "the program of Mueller et al. 2019";
+constexpr const char* kGuess = "chosen, not measured";
+
+constexpr Policy::Guiding kGuiding = kPolicy.guiding;
+constexpr Policy::Splitting kSplitting = kPolicy.splitting;
+constexpr Policy::Walk kWalk = kPolicy.walk;
+constexpr Policy::Learning kLearning = kPolicy.learning;
+constexpr Policy::Schedule kSchedule = kPolicy.schedule;
+constexpr Policy::Budget kBudget = kPolicy.budget;
+constexpr Policy::Forecast kForecast = kPolicy.forecast;
+
+template <class Number>
+constexpr PolicyEntry entry(const char* name, Number value, const char* meaning, const char* evidence) {
+    return {name, static_cast<double>(value), std::is_same_v<Number, float>, meaning, evidence};
+}
+
+constexpr std::array kEntries = {
+    entry("guiding.losing_bulk", kGuiding.losing_bulk,
+          "guiding is given up where the bulk of the pixels gains less than this share of the light that unguided "
+          "samples find; equal noise is 0.71, and trees to come are better",
+          kAuto),
+    entry("guiding.losing_bulk_alone", kGuiding.losing_bulk_alone,
+          "the same without next event, where bright paths that were not met yet make no noise", kAuto),
+    entry("guiding.winning_few", kGuiding.winning_few, "but not where all pixels, the noisiest too, gain at least this",
+          kAuto),
+    entry("guiding.losing_few", kGuiding.losing_few,
+          "in passes shorter than least_trusted_spp all pixels have to gain less than this for guiding to end", kAuto),
+    entry("guiding.least_judged_spp", kGuiding.least_judged_spp, "shorter passes have no say, spp", kAuto),
+    entry("guiding.least_trusted_spp", kGuiding.least_trusted_spp,
+          "shorter passes have to say loudly that guiding loses, spp", kAuto),
+    entry("guiding.least_coverage", kGuiding.least_coverage,
+          "where unguided samples find less of the light evenly, nobody knows how noisy they are: guiding stays",
+          kAuto),
+    entry("guiding.ray_cost", kGuiding.ray_cost,
+          "cost of a guided ray over that of an unguided one, training included; 1.24 to 1.53 by scene", kAuto),
+    entry("guiding.least_probe_spp", kGuiding.least_probe_spp, "shorter passes do not probe, spp", kAuto),
+    entry("guiding.probe_passes", kGuiding.probe_passes, "passes that probe, from the first that has a tree on", kAuto),
+    entry("guiding.probe_pixels", kGuiding.probe_pixels,
+          "pixels that a probing pass renders unguided, within 1/128 and 1/8 of the film", kAuto),
+    entry("guiding.least_probe_pixels", kGuiding.least_probe_pixels, "fewer pixels tell nothing", kGuess),
+    entry("guiding.probe_block", kGuiding.probe_block,
+          "side of the blocks of pixels that a pixel's level is taken from, pixels", kGuess),
+    entry("guiding.probe_floor", kGuiding.probe_floor,
+          "darker blocks count as bright as this share of the image's mean", kGuess),
+    entry("guiding.probe_evenly", kGuiding.probe_evenly,
+          "what counts of a pixel for the coverage, at most, over its block's mean", kGuess),
+    entry("splitting.usual", kSplitting.usual, "as how many paths one may go on (guiding.splitting = 0)", kSplits),
+    entry("splitting.least_share", kSplitting.least_share,
+          "of what the first vertex sends to the camera, what each path of a split is expected to carry at least",
+          kSplits),
+    entry("splitting.least_quietened", kSplitting.least_quietened,
+          "splitting ends where samples are not at least so many times quieter", kSplits),
+    entry("splitting.least_found", kSplitting.least_found,
+          "passes whose unsplit samples find less of the light have no say", kSplits),
+    entry("splitting.least_spp", kSplitting.least_spp, "nor have shorter ones, spp", kSplits),
+    entry("splitting.least_gain", kSplitting.least_gain,
+          "it may cost a little more than it shows: whole renders gain more", kSplits),
+    entry("splitting.least_gain_alone", kSplitting.least_gain_alone,
+          "the same without next event, where they gain most", kSplits),
+    entry("splitting.shown_gain", kSplitting.shown_gain,
+          "with next event the gain that is seen is so many times what renders gain that never split", kSplits),
+    entry("splitting.copy_ray_cost", kSplitting.copy_ray_cost, "cost of a copy's ray over that of another", kSplits),
+    entry("walk.adjoint_window", kWalk.adjoint_window,
+          "a path plays roulette when it is expected to carry less than one part in so many of what its first vertex "
+          "does",
+          kRoulette),
+    entry("walk.adjoint_least", kWalk.adjoint_least, "least probability to survive it", kRoulette),
+    entry("walk.adjoint_most", kWalk.adjoint_most, "greatest probability to survive it", kRoulette),
+    entry("walk.unguided_most", kWalk.unguided_most, "the same of unguided paths, by throughput", "Mitsuba 0.6"),
+    entry("walk.untrained_least", kWalk.untrained_least, "least probability to survive before the first tree",
+          kProgram2017),
+    entry("walk.guided_survival", kWalk.guided_survival,
+          "probability to survive by guiding.roulette = \"constant\", and at most before the first tree", kProgram2017),
+    entry("walk.candidate_fair", kWalk.candidate_fair,
+          "least share of a candidate direction in what is taken, times their number",
+          "guiding-measured.md, \"One of several directions\""),
+    entry("walk.branch_often", kWalk.branch_often,
+          "glass before the camera: the other way is followed with so many times its weight",
+          "guiding-measured.md, \"Glass before the camera\""),
+    entry("walk.branch_least", kWalk.branch_least, "and at least this probability", kGuess),
+    entry("learning.spatial_threshold", kLearning.spatial_threshold,
+          "c of the spatial split rule for 512 x 512 pixels, in proportion to their fourth root", kTree),
+    entry("learning.product_cells", kLearning.product_cells,
+          "cells of views that learn products, over those of all regions", kViews),
+    entry("learning.free_cells", kLearning.free_cells, "as many cells of views are never too many", kViews),
+    entry("learning.least_use", kLearning.least_use,
+          "of a region's cells, what is left where the BSDF is sampled instead", kTree),
+    entry("learning.lights_by_power", kLearning.lights_by_power,
+          "what stays of the choice of emitters by power: one that was never seen may be seen yet", kLights),
+    entry("learning.lights_prior_vertices", kLearning.lights_prior_vertices,
+          "the parent's choice of emitters counts as much as so many vertices", kLights),
+    entry("learning.least_bsdf_fraction", kLearning.least_bsdf_fraction,
+          "never 0: where the tree has seen nothing the BSDF alone reaches everything", kTree),
+    entry("learning.mixture_prior_records", kLearning.mixture_prior_records,
+          "the parent's BSDF fraction counts as much as so many average records", kTree),
+    entry("learning.idle_fraction", kLearning.idle_fraction,
+          "a region's views are released where all of them deserve less than this share of the samples", kViews),
+    entry("learning.idle_passes", kLearning.idle_passes, "so many passes in a row", kViews),
+    entry("learning.least_view_gain", kLearning.least_view_gain, "or gain less than this, nats per record", kViews),
+    entry("learning.least_view_gain_of_all", kLearning.least_view_gain_of_all,
+          "all views are released where together they gain less than this, nats per record of the whole tree", kViews),
+    entry("learning.initial_depth", kLearning.initial_depth,
+          "depth of a region's quadtree before anything is known: where the rule \"more than 1 % of the energy\" ends "
+          "for even light",
+          "Mueller et al. 2017, section 3.2"),
+    entry("schedule.kickstart_spp", kSchedule.kickstart_spp,
+          "kick-start samples emitters directly in passes that begin with fewer samples per pixel", kProgram2017),
+    entry("schedule.teaching_share", kSchedule.teaching_share,
+          "an open budget's pass teaches while at least so many times its samples are still to be rendered", kBudgets),
+    entry("schedule.guessed_spp", kSchedule.guessed_spp, "samples per pixel by which an open budget is planned",
+          kGuess),
+    entry("schedule.samples_per_unit", kSchedule.samples_per_unit,
+          "samples of a work unit, at most: around half a second of a core; no influence on the image", kGuess),
+    entry("schedule.least_weighed_spp", kSchedule.least_weighed_spp,
+          "shorter passes know too little of their own variance to be weighed by it", kProgram2019),
+    entry("budget.time_tolerance", kBudget.time_tolerance, "how far a render may be from budget.seconds, share of it",
+          kBudgets),
+    entry("budget.least_tolerance", kBudget.least_tolerance, "but not less than so many seconds ...", kBudgets),
+    entry("budget.most_tolerance", kBudget.most_tolerance, "... as long as that is no more than this share", kBudgets),
+    entry("budget.hedge", kBudget.hedge,
+          "share of the time left that an ending pass takes, so that a wrong forecast can be made up for", kBudgets),
+    entry("budget.probe", kBudget.probe,
+          "share of the time left that a strict render tries its last tree for, thrown away", kBudgets),
+    entry("budget.spp_to_believe", kBudget.spp_to_believe, "samples from which on an estimated error may end a render",
+          kBudgets),
+    entry("budget.spp_to_believe_zero", kBudget.spp_to_believe_zero, "the same of an error of zero", kBudgets),
+    entry("budget.least_share", kBudget.least_share,
+          "a pass that makes up for a missed target renders at least this share of what there is", kBudgets),
+    entry("budget.error_margin", kBudget.error_margin,
+          "passes that end for an error have so many times the samples needed", kBudgets),
+    entry("budget.strict_error_margin", kBudget.strict_error_margin, "the same of a strict render", kBudgets),
+    entry("forecast.learned", kForecast.learned,
+          "after two trees that brought the variance below this share, a forecast is a bound", kError),
+    entry("forecast.noisy", kForecast.noisy,
+          "half the width of the error's own interval, relative, above which it is too noisy to forecast by", kError),
+    entry("forecast.far", kForecast.far, "more than so many times the samples done is too far ahead", kError),
+    entry("forecast.fading", kForecast.fading,
+          "progress from one tree to the next is the progress before to this power", kError),
+    entry("forecast.cost_fading", kForecast.cost_fading, "the same of what a sample costs", kError),
+    entry("forecast.least_progress", kForecast.least_progress,
+          "no tree is trusted to bring the variance below this share", kError),
+    entry("forecast.most_cost_ratio", kForecast.most_cost_ratio, "nor to change a sample's cost by more", kError),
+    entry("forecast.trees_at_rest", kForecast.trees_at_rest,
+          "so many trees that are no better than each other have learned all", kError),
+    entry("forecast.recording_share", kForecast.recording_share,
+          "what keeping records takes of tracing; 6 to 23 % on eight scenes", kError),
+};
+
+}  // namespace
+
+std::string value_text(const PolicyEntry& entry) {
+    return entry.single ? number_text(static_cast<float>(entry.value)) : number_text(entry.value);
+}
+
+std::span<const PolicyEntry> policy_table() {
+    return kEntries;
+}
+
+std::string write_policy() {
+    std::string text, section;
+    for (const PolicyEntry& entry : kEntries) {
+        const std::string name = entry.name, head = name.substr(0, name.find('.'));
+        if (head != section) text += (text.empty() ? "[policy." : "\n[policy.") + head + "]\n";
+        section = head;
+        text += name.substr(head.size() + 1) + " = " + value_text(entry) + "\n";
+    }
+    return text;
+}
+
+std::vector<Setting> without_policy(std::vector<Setting> settings) {
+    const auto is_policy = [](const Setting& s) { return s.key.starts_with(kPrefix); };
+    const auto first = std::find_if(settings.begin(), settings.end(), is_policy);
+    if (first == settings.end()) return settings;
+    const Location file{first->where.file};
+    const auto find = [&](const std::string& key) {
+        return std::find_if(settings.begin(), settings.end(), [&](const Setting& s) { return s.key == key; });
+    };
+    constexpr const char* kCure =
+        "render job.toml instead, which leaves it to the program, or use the build that wrote it";
+    for (const PolicyEntry& entry : kEntries) {
+        const auto written = find(std::string(kPrefix) + entry.name);
+        if (written == settings.end())
+            throw InputError(
+                file, std::string(entry.name) + " is not in it: the build that wrote it had no such constant", kCure);
+        if (written->value != value_text(entry))
+            throw InputError(
+                written->where,
+                std::string(entry.name) + " was " + written->value + ", and is " + value_text(entry) + " in this build",
+                kCure);
+    }
+    for (const Setting& setting : settings)
+        if (is_policy(setting) && std::none_of(kEntries.begin(), kEntries.end(), [&](const PolicyEntry& entry) {
+                return setting.key.substr(kPrefix.size()) == entry.name;
+            }))
+            throw InputError(setting.where, setting.key.substr(kPrefix.size()) + " is no constant of this build",
+                             kCure);
+    for (const JobKey& key : job_keys())
+        if (key.stored() && !key.name.starts_with("output.") && find(key.name) == settings.end())
+            throw InputError(file, key.name + " is not in it: the build that wrote it had no such key", kCure);
+    std::erase_if(settings, is_policy);
+    return settings;
+}
+
+std::string policy_documentation() {
+    std::string text = "| constant | value | meaning | evidence |\n|---|---|---|---|\n";
+    for (const PolicyEntry& entry : kEntries)
+        text += std::string("| `") + entry.name + "` | " + value_text(entry) + " | " + entry.meaning + " | " +
+                entry.evidence + " |\n";
+    return text;
+}
+
+}  // namespace treefarm

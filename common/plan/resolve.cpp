@@ -1,0 +1,74 @@
+#include "common/plan/resolve.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/config/job_keys.h"
+#include "common/plan/policy.h"
+#include "common/scene/material_traits.h"
+
+namespace treefarm {
+namespace {
+
+bool chooses_lights(const Scene& scene) {
+    const bool with_image = std::any_of(scene.emitters.begin(), scene.emitters.end(), [](const Emitter& emitter) {
+        return std::holds_alternative<EnvironmentEmitter>(emitter.kind);
+    });
+    return with_image || scene.emitters.size() > 1;
+}
+
+void resolve_rules(Job::Guiding& guiding) {
+    if (guiding.rule == Rule::usual)
+        guiding.rule = guiding.type == GuidingType::automatic ? Rule::while_it_pays : Rule::always;
+    if (guiding.type == GuidingType::automatic) guiding.type = GuidingType::view;
+    if (guiding.splitting_rule == Rule::usual)
+        guiding.splitting_rule = guiding.splitting == 0 ? Rule::while_it_pays : Rule::always;
+}
+
+}  // namespace
+
+SceneFacts facts_of(const Scene& scene) {
+    return {scene.film.whole_width(),
+            scene.film.whole_height(),
+            scene.film.pixel_count(),
+            is_plainly_diffuse(scene),
+            scene_traits(scene).lobes.view_dependent(),
+            chooses_lights(scene)};
+}
+
+Resolved resolve(const Job& job, const SceneFacts& scene) {
+    Resolved resolved{job, scene};
+    Job::Guiding& guiding = resolved.guiding;
+    resolved.image = {scene.whole_width, scene.whole_height};
+    resolve_rules(guiding);
+    const bool by_view = guiding.type == GuidingType::view;
+    if (guiding.splitting == 0)
+        guiding.splitting = by_view && guiding.roulette == GuidingRoulette::adjoint ? kPolicy.splitting.usual : 1;
+    if (guiding.light_selection == LightSelection::usual)
+        guiding.light_selection = by_view ? LightSelection::learned : LightSelection::power;
+    if (guiding.spatial_threshold == 0)
+        guiding.spatial_threshold = usual_spatial_threshold(static_cast<double>(scene.film_pixels));
+    resolved.guides = guiding.type != GuidingType::none;
+    resolved.learns_views = by_view && scene.view_dependent;
+    resolved.learns_lights = resolved.guides && guiding.light_selection == LightSelection::learned &&
+                             resolved.integrator.next_event != NextEvent::never && scene.chooses_lights;
+    resolved.cells_follow_use = by_view && guiding.view_records == ViewRecords::product && guiding.learn_bsdf_fraction;
+    return resolved;
+}
+
+Resolved resolve(const Job& job, const Scene& scene) {
+    return resolve(job, facts_of(scene));
+}
+
+std::string guiding_word(const Resolved& job) {
+    Job asked = job;
+    if (job.guiding.type == GuidingType::view && job.guiding.rule == Rule::while_it_pays)
+        asked.guiding.type = GuidingType::automatic;
+    return find_job_key("guiding.type")->print(asked);
+}
+
+double usual_spatial_threshold(double film_pixels) {
+    return kPolicy.learning.spatial_threshold * std::sqrt(std::sqrt(film_pixels / (512.0 * 512.0)));
+}
+
+}  // namespace treefarm

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include "common/config/job.h"
+#include "common/scene/scene.h"
+
+namespace treefarm {
+
+/// Facts of a scene that decide what a job's settings mean.
+struct SceneFacts {
+    int whole_width = 512, whole_height = 512;  ///< of the film, a crop window apart, pixels
+    std::size_t film_pixels = 512 * 512;
+    bool plainly_diffuse = false;  ///< no textures, lobes or tilted normals (material_traits.h)
+    bool view_dependent = false;   ///< a surface scatters otherwise by where it is seen from
+    bool chooses_lights = false;   ///< next event has more than one emitter, or an image, to choose from
+};
+
+SceneFacts facts_of(const Scene& scene);
+
+/// A job as it is carried out on one scene. None of its values says "as usual": type is no "auto", rules, splitting,
+/// light selection and thresholds are set. What only finished passes can decide stands there as a rule. resolve() of it
+/// gives it back, so it can be written as a job (resolved.toml) and sent to workers.
+struct Resolved : Job {
+    SceneFacts scene_facts;
+    bool guides = false;            ///< a tree is learned, and guides paths
+    bool learns_views = false;      ///< the tree has a view-dependent part
+    bool learns_lights = false;     ///< regions learn how next event chooses among emitters
+    bool cells_follow_use = false;  ///< regions get fewer cells where the BSDF is sampled rather than their tree
+};
+
+/// The only place that knows what a setting left to the program means (docs/jobs.md). Pure.
+Resolved resolve(const Job& job, const SceneFacts& scene);
+Resolved resolve(const Job& job, const Scene& scene);
+
+/// What guides, in the word of the key guiding.type.
+std::string guiding_word(const Resolved& job);
+
+/// Default of guiding.spatial_threshold: c of the spatial split rule for a film of so many pixels, 2000 for 512 x 512
+/// and in proportion to their fourth root. More pixels bring more records, but what there is to learn grows more
+/// slowly.
+double usual_spatial_threshold(double film_pixels);
+
+}  // namespace treefarm

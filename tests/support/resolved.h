@@ -1,0 +1,45 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "common/plan/kernel.h"
+#include "common/plan/resolve.h"
+#include "worker/integrator/tile_renderer.h"
+
+namespace treefarm::test {
+
+/// A job as it is carried out on a scene of 512 x 512 pixels in which nothing depends on the view and nothing is to be
+/// chosen.
+inline Resolved resolved(const Job& job) {
+    return resolve(job, SceneFacts{});
+}
+
+/// A job as it is carried out on a scene whose film is all that is known of it.
+inline Resolved resolved(const Job& job, const TraceScene& scene) {
+    SceneFacts facts;
+    facts.film_pixels = scene.film().pixel_count();
+    facts.plainly_diffuse = scene.plainly_diffuse();
+    return resolve(job, facts);
+}
+
+/// A pass with the kernel that a coordinator would give it, by the tree that `guide` was made of.
+inline PassPlan with_kernel(const Resolved& job, PassPlan pass, const Guide& guide) {
+    pass.guided = pass.guided && job.guides;
+    pass.kernel = kernel_of(job, pass, {guide.trained(), guide.view_count() > 0});
+    return pass;
+}
+
+inline void render_unit(const TraceScene& scene, const Job& job, const PassPlan& pass, const Guide& guide,
+                        const WorkUnit& unit, std::vector<PixelEstimate>& pixels, RecordLog& log, TraceStats& stats) {
+    const Resolved as_used = resolved(job, scene);
+    treefarm::render_unit(scene, as_used, with_kernel(as_used, pass, guide), guide, unit, pixels, log, stats);
+}
+
+inline std::string describe_sample(const TraceScene& scene, const Job& job, const PassPlan& pass, const Guide& guide,
+                                   int x, int y, std::uint32_t sample) {
+    const Resolved as_used = resolved(job, scene);
+    return treefarm::describe_sample(scene, as_used, with_kernel(as_used, pass, guide), guide, x, y, sample);
+}
+
+}  // namespace treefarm::test
