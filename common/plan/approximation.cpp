@@ -3,15 +3,37 @@
 #include <cmath>
 #include <functional>
 #include <map>
+#include <optional>
 
 #include "common/config/effect_switches.h"
 #include "common/plan/strip_scene.h"
 #include "common/plan/texture_mean.h"
-#include "common/plan/texture_uses.h"
 #include "common/scene/material_traits.h"
+#include "common/scene/material_uses.h"
 
 namespace treefarm {
 namespace {
+
+struct MakeIsotropic : IgnoreFields {
+    bool changed = false;
+    void roughness(Roughness& roughness, bool) {
+        if (!roughness.anisotropic()) return;
+        changed = true;
+        if (!roughness.alpha_u.varies() && !roughness.alpha_v.varies())
+            roughness.alpha_u = std::sqrt(roughness.alpha_u.value * roughness.alpha_v.value);
+        roughness.alpha_v = roughness.alpha_u;
+    }
+};
+
+/// A kind that light passes through says what it is without that; all others say nothing.
+std::optional<PlasticMaterial> opaque_form(const Material& material) {
+    return std::visit(
+        [](const auto& kind) -> std::optional<PlasticMaterial> {
+            if constexpr (requires { kind.opaque(); }) return kind.opaque();
+            return std::nullopt;
+        },
+        material.bsdf);
+}
 
 /// Takes effects out of a scene and notes where they stood. Materials that no shape uses are left as they are: they
 /// are not simulated anyway.
@@ -60,37 +82,18 @@ class Remover {
 
     void transmission() {
         for_used([&](Material& material) {
-            const auto reflect_only = [&](float eta, const ColorInput& reflectance, const Roughness& roughness) {
+            if (std::optional<PlasticMaterial> coat = opaque_form(material)) {
                 note(material.where);
-                PlasticMaterial coat;  // over black: what a dielectric reflects of what comes from outside
-                coat.eta = eta < 1.0f ? 1.0f / eta : eta;
-                coat.diffuse_reflectance = Rgb(0.0f);
-                coat.specular_reflectance = reflectance;
-                coat.roughness = roughness;
-                coat.roughness.alpha_v = coat.roughness.alpha_u;
-                material.bsdf = coat;
-            };
-            if (const auto* glass = std::get_if<DielectricMaterial>(&material.bsdf)) {
-                const DielectricMaterial copy = *glass;
-                reflect_only(copy.eta, copy.specular_reflectance, copy.roughness);
-            } else if (const auto* pane = std::get_if<ThinDielectricMaterial>(&material.bsdf)) {
-                const ThinDielectricMaterial copy = *pane;
-                reflect_only(copy.eta, copy.specular_reflectance, Roughness{});
+                material.bsdf = *std::move(coat);
             }
         });
     }
 
     void anisotropy() {
         for_used([&](Material& material) {
-            const auto make_isotropic = [&](Roughness& roughness) {
-                if (roughness.smooth() || roughness.alpha_u == roughness.alpha_v) return;
-                note(material.where);
-                if (!roughness.alpha_u.varies() && !roughness.alpha_v.varies())
-                    roughness.alpha_u = std::sqrt(roughness.alpha_u.value * roughness.alpha_v.value);
-                roughness.alpha_v = roughness.alpha_u;
-            };
-            if (auto* conductor = std::get_if<ConductorMaterial>(&material.bsdf)) make_isotropic(conductor->roughness);
-            if (auto* glass = std::get_if<DielectricMaterial>(&material.bsdf)) make_isotropic(glass->roughness);
+            MakeIsotropic make;
+            visit_fields(material.bsdf, make);
+            if (make.changed) note(material.where);
         });
     }
 

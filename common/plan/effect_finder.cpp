@@ -1,7 +1,7 @@
 #include "common/plan/effect_finder.h"
 
 #include "common/plan/texture_mean.h"
-#include "common/plan/texture_uses.h"
+#include "common/scene/material_uses.h"
 
 namespace treefarm {
 namespace {

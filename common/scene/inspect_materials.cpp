@@ -29,40 +29,52 @@ class MaterialInspection {
     MaterialInspection(const Scene& scene, const Material& material, std::vector<Finding>& findings)
         : scene_(scene), material_(material), findings_(findings) {}
 
-    void operator()(const DiffuseMaterial& m) { factor(m.reflectance, "reflectance"); }
-    void operator()(const ConductorMaterial& m) {
-        for (int i = 0; i < 3; ++i)
-            if (!(m.eta[i] >= 0.0f && m.eta[i] <= 1e6f && m.k[i] >= 0.0f && m.k[i] <= 1e6f)) {
-                add(error, "extreme ior",
-                    "an index of refraction of " + short_number(double(m.eta[i])) + " + " +
-                        short_number(double(m.k[i])) + " i",
-                    "give an eta and a k from 0 to 1e6");
-                break;
-            }
-        factor(m.specular_reflectance, "specular reflectance");
-        roughness(m.roughness);
+    void run() {
+        visit_fields(material_.bsdf, *this);
+        fraction("opacity", material_.opacity);
     }
-    void operator()(const DielectricMaterial& m) {
-        index(m.eta);
-        factor(m.specular_reflectance, "specular reflectance");
-        factor(m.specular_transmittance, "specular transmittance");
-        roughness(m.roughness);
-    }
-    void operator()(const ThinDielectricMaterial& m) {
-        index(m.eta);
-        factor(m.specular_reflectance, "specular reflectance");
-        factor(m.specular_transmittance, "specular transmittance");
-    }
-    void operator()(const PlasticMaterial& m) {
-        index(m.eta);
-        factor(m.diffuse_reflectance, "diffuse reflectance");
-        factor(m.specular_reflectance, "specular reflectance");
-        roughness(m.roughness);
-    }
-    void operator()(const BlendMaterial& m) { factor(m.weight, "weight"); }
-    void operator()(const NullMaterial&) {}
 
-    void opacity() { factor(material_.opacity, "opacity"); }
+    void fraction(const char* what, const ColorInput& input) {
+        const auto [least, most] = std::minmax({input.value.x, input.value.y, input.value.z});
+        const bool finite = is_finite(input.value);
+        factor(least, finite ? most : std::numeric_limits<float>::infinity(), input.varies(), input.texture, what);
+    }
+    void fraction(const char* what, const FloatInput& input) {
+        factor(input.value, input.value, input.varies(), input.texture, what);
+    }
+    void metal(const Rgb& eta, const Rgb& k) {
+        for (int i = 0; i < 3; ++i)
+            if (!(eta[i] >= 0.0f && eta[i] <= 1e6f && k[i] >= 0.0f && k[i] <= 1e6f))
+                return add(error, "extreme ior",
+                           "an index of refraction of " + short_number(double(eta[i])) + " + " +
+                               short_number(double(k[i])) + " i",
+                           "give an eta and a k from 0 to 1e6");
+    }
+    void eta(float ratio) {
+        const std::string value = "an index of refraction of " + short_number(double(ratio));
+        if (!(ratio >= 1e-6f && ratio <= 1e6f)) return add(error, "extreme ior", value, "give 1e-6 to 1e6");
+        if (std::abs(ratio - 1.0f) <= 1e-4f) return add(warning, "extreme ior", value, "the surface is invisible");
+        if (ratio > 4.0f || ratio < 0.25f) add(warning, "extreme ior", value, "glass has 1.5, diamond 2.4");
+    }
+    void roughness(const Roughness& r, bool) {
+        if (r.smooth()) return;
+        for (const FloatInput* alpha : {&r.alpha_u, &r.alpha_v}) {
+            if (alpha->varies()) continue;
+            const std::string value = "a roughness alpha of " + short_number(double(alpha->value));
+            if (!(alpha->value > 0.0f && alpha->value <= 1e6f))
+                add(error, "extreme alpha", value, "give 0.0001 to 1");
+            else if (alpha->value < Roughness::kLeastAlpha)
+                add(warning, "extreme alpha", value, "it is raised to 0.0001; take the smooth material");
+            // To the least one the reader raises, and says so.
+            else if (alpha->value < 1e-3f && alpha->value != Roughness::kLeastAlpha)
+                add(note, "extreme alpha", value, "the smooth material looks the same and has less noise");
+            else if (alpha->value > 1.0f)
+                add(warning, "extreme alpha", value, "values above 1 lose energy; give at most 1");
+            if (r.alpha_u == r.alpha_v) break;
+        }
+    }
+    void flag(const char*, bool) {}
+    void part(const char*, std::int32_t) {}
 
   private:
     void add(Finding::Severity severity, const char* kind, const std::string& what, const std::string& cure) {
@@ -81,40 +93,6 @@ class MaterialInspection {
                     ": it would send back more light than it gets",
                 varies ? "it is scaled down to 1" : "give 0 to 1");
     }
-    void factor(const ColorInput& input, const char* what) {
-        const auto [least, most] = std::minmax({input.value.x, input.value.y, input.value.z});
-        const bool finite = is_finite(input.value);
-        factor(least, finite ? most : std::numeric_limits<float>::infinity(), input.varies(), input.texture, what);
-    }
-    void factor(const FloatInput& input, const char* what) {
-        factor(input.value, input.value, input.varies(), input.texture, what);
-    }
-
-    void index(float eta) {
-        const std::string value = "an index of refraction of " + short_number(double(eta));
-        if (!(eta >= 1e-6f && eta <= 1e6f)) return add(error, "extreme ior", value, "give 1e-6 to 1e6");
-        if (std::abs(eta - 1.0f) <= 1e-4f) return add(warning, "extreme ior", value, "the surface is invisible");
-        if (eta > 4.0f || eta < 0.25f) add(warning, "extreme ior", value, "glass has 1.5, diamond 2.4");
-    }
-
-    void roughness(const Roughness& r) {
-        if (r.smooth()) return;
-        for (const FloatInput* alpha : {&r.alpha_u, &r.alpha_v}) {
-            if (alpha->varies()) continue;
-            const std::string value = "a roughness alpha of " + short_number(double(alpha->value));
-            if (!(alpha->value > 0.0f && alpha->value <= 1e6f))
-                add(error, "extreme alpha", value, "give 0.0001 to 1");
-            else if (alpha->value < Roughness::kLeastAlpha)
-                add(warning, "extreme alpha", value, "it is raised to 0.0001; take the smooth material");
-            // To the least one the reader raises, and says so.
-            else if (alpha->value < 1e-3f && alpha->value != Roughness::kLeastAlpha)
-                add(note, "extreme alpha", value, "the smooth material looks the same and has less noise");
-            else if (alpha->value > 1.0f)
-                add(warning, "extreme alpha", value, "values above 1 lose energy; give at most 1");
-            if (r.alpha_u == r.alpha_v) break;
-        }
-    }
-
     const Scene& scene_;
     const Material& material_;
     std::vector<Finding>& findings_;
@@ -123,11 +101,8 @@ class MaterialInspection {
 }  // namespace
 
 void inspect_materials(const Scene& scene, std::vector<Finding>& findings) {
-    for (const Material& material : scene.materials) {
-        MaterialInspection inspection(scene, material, findings);
-        std::visit(inspection, material.bsdf);
-        inspection.opacity();
-    }
+    for (const Material& material : scene.materials)
+        MaterialInspection(scene, material, findings).run();
     for (const TextureImage& image : scene.images) {
         const auto bad = std::count_if(image.floats.begin(), image.floats.end(),
                                        [](float v) { return !std::isfinite(v) || v < 0.0f; });

@@ -2,66 +2,33 @@
 
 #include <functional>
 #include <set>
-#include <type_traits>
+
+#include "common/scene/material_uses.h"
 
 namespace treefarm {
 namespace {
 
-/// Material index of the parts of a material: at most three, kNone where there is none.
-struct Parts {
-    std::int32_t index[3] = {kNone, kNone, kNone};
-};
-
-Parts parts_of(const Material& material) {
-    Parts parts;
-    if (const auto* blend = std::get_if<BlendMaterial>(&material.bsdf)) {
-        parts.index[0] = blend->first;
-        parts.index[1] = blend->second;
+/// What fields tell of a kind without knowing it.
+struct FieldTraits : IgnoreFields {
+    MaterialTraits& traits;
+    explicit FieldTraits(MaterialTraits& to) : traits(to) {}
+    void fraction(const char*, const auto& input) { traits.textured |= input.varies(); }
+    void roughness(const Roughness& roughness, bool) {
+        if (roughness.smooth()) return;
+        traits.microfacets = true;
+        traits.anisotropic |= roughness.anisotropic();
+        traits.textured |= roughness.alpha_u.varies() || roughness.alpha_v.varies();
     }
-    if (material.twosided) parts.index[2] = material.back;
-    return parts;
-}
-
-void add_roughness(const Roughness& roughness, bool transmits, MaterialTraits& traits) {
-    (roughness.smooth() ? traits.lobes.delta_reflection : traits.lobes.glossy_reflection) = true;
-    if (transmits) (roughness.smooth() ? traits.lobes.delta_transmission : traits.lobes.glossy_transmission) = true;
-    if (roughness.smooth()) return;
-    traits.microfacets = true;
-    traits.anisotropic |= !(roughness.alpha_u == roughness.alpha_v);
-    traits.textured |= roughness.alpha_u.varies() || roughness.alpha_v.varies();
-}
+    void part(const char*, std::int32_t) { traits.blended = true; }
+};
 
 }  // namespace
 
 MaterialTraits own_traits(const Material& material) {
     MaterialTraits traits;
-    const auto of = [&](const auto& bsdf) {
-        using Kind = std::decay_t<decltype(bsdf)>;
-        if constexpr (std::is_same_v<Kind, DiffuseMaterial>) {
-            traits.lobes.diffuse = true;
-            traits.textured = bsdf.reflectance.varies();
-        } else if constexpr (std::is_same_v<Kind, ConductorMaterial>) {
-            add_roughness(bsdf.roughness, false, traits);
-            traits.textured |= bsdf.specular_reflectance.varies();
-        } else if constexpr (std::is_same_v<Kind, DielectricMaterial>) {
-            add_roughness(bsdf.roughness, true, traits);
-            traits.textured |= bsdf.specular_reflectance.varies() || bsdf.specular_transmittance.varies();
-        } else if constexpr (std::is_same_v<Kind, ThinDielectricMaterial>) {
-            traits.lobes.delta_reflection = traits.lobes.delta_transmission = true;
-            traits.textured = bsdf.specular_reflectance.varies() || bsdf.specular_transmittance.varies();
-        } else if constexpr (std::is_same_v<Kind, PlasticMaterial>) {
-            traits.lobes.diffuse = traits.coated = true;
-            add_roughness(bsdf.roughness, false, traits);
-            traits.textured |= bsdf.diffuse_reflectance.varies() || bsdf.specular_reflectance.varies();
-        } else if constexpr (std::is_same_v<Kind, BlendMaterial>) {
-            traits.blended = true;
-            traits.textured = bsdf.weight.varies();
-        } else {
-            static_assert(std::is_same_v<Kind, NullMaterial>);
-            traits.lobes.null = true;
-        }
-    };
-    std::visit(of, material.bsdf);
+    traits.lobes = std::visit([](const auto& kind) { return kind.lobes(); }, material.bsdf);
+    visit_fields(material.bsdf, FieldTraits(traits));
+    traits.coated = traits.lobes.diffuse && (traits.lobes.delta_reflection || traits.lobes.glossy_reflection);
     traits.bumped = material.detail.bump != kNone;
     traits.normal_mapped = material.detail.normal_map != kNone;
     traits.masked = material.masked();
@@ -106,8 +73,7 @@ MaterialTraits material_traits(const Scene& scene, std::int32_t material) {
         MaterialTraits own = own_traits(description);
         own.masked = own.masked && index == material;
         traits |= own;
-        for (const std::int32_t part : parts_of(description).index)
-            if (part != kNone) reached.insert(part);
+        for_each_part(description, [&](std::int32_t part) { reached.insert(part); });
     }
     return traits;
 }
@@ -118,8 +84,7 @@ std::vector<bool> used_materials(const Scene& scene) {
         if (shape.material != kNone) used[static_cast<std::size_t>(shape.material)] = true;
     for (std::size_t i = scene.materials.size(); i-- > 0;)
         if (used[i])
-            for (const std::int32_t part : parts_of(scene.materials[i]).index)
-                if (part != kNone) used[static_cast<std::size_t>(part)] = true;
+            for_each_part(scene.materials[i], [&](std::int32_t part) { used[static_cast<std::size_t>(part)] = true; });
     return used;
 }
 

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "common/scene/material_uses.h"
+
 namespace treefarm {
 namespace {
 
@@ -39,40 +41,6 @@ class Usage {
     std::vector<std::int32_t> kept_;
 };
 
-template <class F>
-void for_textures(Roughness& roughness, F&& f) {
-    f(roughness.alpha_u.texture);
-    f(roughness.alpha_v.texture);
-}
-
-/// Calls f with every texture index of a material.
-template <class F>
-void for_textures(Material& material, F&& f) {
-    f(material.opacity.texture);
-    f(material.detail.bump);
-    f(material.detail.normal_map);
-    const auto visit = [&](auto& bsdf) {
-        using Bsdf = std::decay_t<decltype(bsdf)>;
-        if constexpr (std::is_same_v<Bsdf, DiffuseMaterial>) f(bsdf.reflectance.texture);
-        if constexpr (std::is_same_v<Bsdf, BlendMaterial>) f(bsdf.weight.texture);
-        if constexpr (std::is_same_v<Bsdf, PlasticMaterial>) f(bsdf.diffuse_reflectance.texture);
-        if constexpr (requires { bsdf.specular_reflectance; }) f(bsdf.specular_reflectance.texture);
-        if constexpr (requires { bsdf.specular_transmittance; }) f(bsdf.specular_transmittance.texture);
-        if constexpr (requires { bsdf.roughness; }) for_textures(bsdf.roughness, f);
-    };
-    std::visit(visit, material.bsdf);
-}
-
-/// Calls f with every material index of a material.
-template <class F>
-void for_parts(Material& material, F&& f) {
-    f(material.back);
-    if (auto* blend = std::get_if<BlendMaterial>(&material.bsdf)) {
-        f(blend->first);
-        f(blend->second);
-    }
-}
-
 }  // namespace
 
 std::vector<std::int32_t> remove_unused(Scene& scene) {
@@ -81,10 +49,10 @@ std::vector<std::int32_t> remove_unused(Scene& scene) {
         materials.mark(shape.material);
     // The parts of a material lie below it: from the top down every whole comes before its parts.
     for (std::size_t i = scene.materials.size(); i-- > 0;)
-        if (materials.marked(i)) for_parts(scene.materials[i], [&](std::int32_t part) { materials.mark(part); });
+        if (materials.marked(i)) for_each_part(scene.materials[i], [&](std::int32_t part) { materials.mark(part); });
     for (std::size_t i = 0; i < scene.materials.size(); ++i)
         if (materials.marked(i))
-            for_textures(scene.materials[i], [&](std::int32_t texture) { textures.mark(texture); });
+            for_each_texture(scene.materials[i], [&](std::int32_t texture) { textures.mark(texture); });
     for (const Emitter& emitter : scene.emitters) {
         if (const auto* area = std::get_if<AreaEmitter>(&emitter.kind)) textures.mark(area->radiance.texture);
         if (const auto* environment = std::get_if<EnvironmentEmitter>(&emitter.kind)) images.mark(environment->image);
@@ -100,8 +68,8 @@ std::vector<std::int32_t> remove_unused(Scene& scene) {
     for (Shape& shape : scene.shapes)
         materials.renumber(shape.material);
     for (Material& material : scene.materials) {
-        for_parts(material, [&](std::int32_t& part) { materials.renumber(part); });
-        for_textures(material, [&](std::int32_t& texture) { textures.renumber(texture); });
+        for_each_part(material, [&](std::int32_t& part) { materials.renumber(part); });
+        for_each_texture(material, [&](std::int32_t& texture) { textures.renumber(texture); });
     }
     for (Texture& texture : scene.textures)
         if (auto* bitmap = std::get_if<BitmapTexture>(&texture.kind)) images.renumber(bitmap->image);

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "common/scene/material_traits.h"
 #include "common/scene/validation.h"
 
 namespace treefarm::validation {
@@ -18,60 +19,58 @@ class MaterialCheck {
 
     /// Whether light passes through the material.
     bool run() {
-        const bool transmits = std::visit(*this, material_.bsdf);
-        if (material_.twosided && transmits)
+        passes_ = own_traits(material_).lobes.transmits();
+        visit_fields(material_.bsdf, *this);
+        if (material_.twosided && passes_)
             refuse("a material that light passes through is twosided", "remove the twosided: it has both sides anyway");
         if (material_.back != kNone) {
             if (!material_.twosided) refuse("only a twosided material can have another one for its back", "");
             if (transmits_[beneath(material_.back)])
                 refuse("the material of the back is one that light passes through", "give an opaque one");
         }
-        check_fraction(material_.opacity, "the opacity");
+        fraction("opacity", material_.opacity);
         check_detail(material_.detail);
-        return transmits;
+        return passes_;
     }
 
-    bool operator()(DiffuseMaterial& m) {
-        check_fraction(m.reflectance, "the reflectance");
-        return false;
+    /// A constant outside 0 to 1 is refused.
+    void fraction(const char* name, ColorInput& input) {
+        const std::string what = std::string("the ") + name;
+        for (int i = 0; i < 3; ++i)
+            if (!(input.value[i] >= 0.0f && input.value[i] <= (input.varies() ? 1e30f : 1.0f)))
+                refuse(what + " is outside 0 to 1", "give values from 0 to 1");
+        if (input.varies()) input.value *= fraction_scale(input.texture, max_component(input.value), what);
     }
-    bool operator()(ConductorMaterial& m) {
+
+    void fraction(const char* name, FloatInput& input) {
+        const std::string what = std::string("the ") + name;
+        if (!(input.value >= 0.0f && input.value <= (input.varies() ? 1e30f : 1.0f)))
+            refuse(what + " is outside 0 to 1", "give a value from 0 to 1");
+        if (input.varies()) input.value *= fraction_scale(input.texture, input.value, what);
+    }
+
+    void eta(float value) const {
+        if (!(value > 0.0f && value <= 1e6f && 1.0f / value <= 1e6f))
+            refuse("the index of refraction is not positive or not finite",
+                   "give the ratio of the inner to the outer one, above 0");
+    }
+
+    void metal(const Rgb& eta, const Rgb& k) const {
         for (int i = 0; i < 3; ++i)  // Fresnel's equations square their squares
-            if (!(m.eta[i] >= 0.0f && m.k[i] >= 0.0f && m.eta[i] <= 1e6f && m.k[i] <= 1e6f))
+            if (!(eta[i] >= 0.0f && k[i] >= 0.0f && eta[i] <= 1e6f && k[i] <= 1e6f))
                 refuse("the index of refraction is negative, above 1e6 or not finite",
                        "give an eta and a k from 0 to 1e6");
-        check_fraction(m.specular_reflectance, "the specular reflectance");
-        check_roughness(m.roughness);
-        return false;
     }
-    bool operator()(DielectricMaterial& m) {
-        check_eta(m.eta);
-        check_fraction(m.specular_reflectance, "the specular reflectance");
-        check_fraction(m.specular_transmittance, "the specular transmittance");
-        check_roughness(m.roughness);
-        return true;
-    }
-    bool operator()(ThinDielectricMaterial& m) {
-        check_eta(m.eta);
-        check_fraction(m.specular_reflectance, "the specular reflectance");
-        check_fraction(m.specular_transmittance, "the specular transmittance");
-        return true;
-    }
-    bool operator()(PlasticMaterial& m) {
-        check_eta(m.eta);
-        check_fraction(m.diffuse_reflectance, "the diffuse reflectance");
-        check_fraction(m.specular_reflectance, "the specular reflectance");
-        if (!(m.roughness.alpha_u == m.roughness.alpha_v))
+
+    void roughness(Roughness& roughness, bool isotropic) {
+        if (isotropic && !(roughness.alpha_u == roughness.alpha_v))
             refuse("the roughness of a plastic differs between directions", "give a single alpha");
-        check_roughness(m.roughness);
-        return false;
+        if (!roughness.smooth()) check_alpha(roughness);
     }
-    bool operator()(BlendMaterial& m) {
-        check_fraction(m.weight, "the weight of the blend");
-        const std::size_t first = beneath(m.first), second = beneath(m.second);
-        return transmits_[first] || transmits_[second];
-    }
-    bool operator()(NullMaterial&) { return true; }
+
+    void flag(const char*, bool) const {}
+
+    void part(const char*, std::int32_t index) { passes_ = passes_ || transmits_[beneath(index)]; }
 
   private:
     [[noreturn]] void refuse(const std::string& what, const std::string& cure) const {
@@ -104,27 +103,7 @@ class MaterialCheck {
         return scale;
     }
 
-    void check_fraction(ColorInput& input, const std::string& what) {
-        for (int i = 0; i < 3; ++i)
-            if (!(input.value[i] >= 0.0f && input.value[i] <= (input.varies() ? 1e30f : 1.0f)))
-                refuse(what + " is outside 0 to 1", "give values from 0 to 1");
-        if (input.varies()) input.value *= fraction_scale(input.texture, max_component(input.value), what);
-    }
-
-    void check_fraction(FloatInput& input, const std::string& what) {
-        if (!(input.value >= 0.0f && input.value <= (input.varies() ? 1e30f : 1.0f)))
-            refuse(what + " is outside 0 to 1", "give a value from 0 to 1");
-        if (input.varies()) input.value *= fraction_scale(input.texture, input.value, what);
-    }
-
-    void check_eta(float eta) const {
-        if (!(eta > 0.0f && eta <= 1e6f && 1.0f / eta <= 1e6f))
-            refuse("the index of refraction is not positive or not finite",
-                   "give the ratio of the inner to the outer one, above 0");
-    }
-
-    void check_roughness(Roughness& roughness) {
-        if (roughness.smooth()) return;
+    void check_alpha(Roughness& roughness) {
         bool raised = false;
         for (FloatInput* alpha : {&roughness.alpha_u, &roughness.alpha_v}) {
             if (!(alpha->value > 0.0f && alpha->value <= 1e6f))
@@ -155,6 +134,7 @@ class MaterialCheck {
     const std::vector<ValueRange>& textures_;
     const std::vector<bool>& transmits_;
     std::vector<Warning>& warnings_;
+    bool passes_ = false;
 };
 
 }  // namespace

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "common/scene/kinds/materials/blend.h"
 #include "worker/shading/bsdf_sample.h"
 
 namespace treefarm {
@@ -13,8 +14,17 @@ struct BlendBsdf {
     const Bsdf* first = nullptr;
     const Bsdf* second = nullptr;
 
+    LobeBits lobes() const;
+    float refraction() const;
     inline BsdfValue value(const Vec3& wo, const Vec3& wi) const;
     inline BsdfSample sample(const Vec3& wo, const BsdfRandom& random) const;
 };
+
+/// The BSDF of such a material at one place of a surface (bsdf_builder.h).
+template <class Place>
+typename Place::Result make_bsdf(const BlendMaterial& m, const Place& at) {
+    const float weight = at.fraction(m.weight);
+    return {BlendBsdf{weight, at.part(m.first), at.part(m.second)}};
+}
 
 }  // namespace treefarm

@@ -1,48 +1,40 @@
 #include "worker/shading/bsdf.h"
 
-#include <type_traits>
-
 namespace treefarm {
 
 LobeBits lobes_of(const Bsdf& bsdf) {
     return bsdf.visit([](const auto& b) -> LobeBits {
-        using Kind = std::decay_t<decltype(b)>;
-        if constexpr (std::is_same_v<Kind, BlackBsdf>)
-            return 0;
-        else if constexpr (std::is_same_v<Kind, BlendBsdf>)
-            return static_cast<LobeBits>(lobes_of(*b.first) | lobes_of(*b.second));
-        else if constexpr (std::is_same_v<Kind, OrientedBsdf>)
-            return lobes_of(*b.inner);
-        else if constexpr (std::is_same_v<Kind, RoughDielectricBsdf>)
-            return kSmoothLobe | kTransmittingLobe | kViewLobe;
-        else if constexpr (std::is_same_v<Kind, DielectricBsdf> || std::is_same_v<Kind, ThinDielectricBsdf>)
-            return kDeltaLobe | kTransmittingLobe;
-        else if constexpr (std::is_same_v<Kind, PlasticBsdf>)
-            return kSmoothLobe | kWideLobe | kDeltaLobe;
-        else if constexpr (std::is_same_v<Kind, DiffuseBsdf>)
-            return kSmoothLobe | kWideLobe;
-        else if constexpr (std::is_same_v<Kind, RoughPlasticBsdf>)
-            return kSmoothLobe | kWideLobe | kViewLobe;
-        else if constexpr (requires { b.facets; })
-            return kSmoothLobe | kViewLobe;
+        if constexpr (requires { b.lobes(); })
+            return b.lobes();
         else
-            return kDeltaLobe;
+            return std::decay_t<decltype(b)>::kLobes;
     });
 }
 
 float refraction_of(const Bsdf& bsdf) {
     return bsdf.visit([](const auto& b) -> float {
-        using Kind = std::decay_t<decltype(b)>;
-        if constexpr (std::is_same_v<Kind, DielectricBsdf> || std::is_same_v<Kind, RoughDielectricBsdf>)
-            return b.eta;
-        else if constexpr (std::is_same_v<Kind, OrientedBsdf>)
-            return refraction_of(*b.inner);
-        else if constexpr (std::is_same_v<Kind, BlendBsdf>) {
-            const float first = refraction_of(*b.first);
-            return first != 1.0f ? first : refraction_of(*b.second);
-        } else
+        if constexpr (may_transmit<std::decay_t<decltype(b)>>() || requires { b.refraction(); })
+            return b.refraction();
+        else
             return 1.0f;
     });
+}
+
+LobeBits BlendBsdf::lobes() const {
+    return static_cast<LobeBits>(lobes_of(*first) | lobes_of(*second));
+}
+
+float BlendBsdf::refraction() const {
+    const float of_first = refraction_of(*first);
+    return of_first != 1.0f ? of_first : refraction_of(*second);
+}
+
+LobeBits OrientedBsdf::lobes() const {
+    return lobes_of(*inner);
+}
+
+float OrientedBsdf::refraction() const {
+    return refraction_of(*inner);
 }
 
 }  // namespace treefarm

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <type_traits>
 #include <variant>
 
 #include "common/base/build_options.h"
+#include "common/base/switch_visit.h"
 #include "worker/shading/blend.h"
 #include "worker/shading/conductor.h"
 #include "worker/shading/dielectric.h"
@@ -19,49 +21,39 @@ namespace treefarm {
 
 /// Reflects nothing.
 struct BlackBsdf {
+    static constexpr LobeBits kLobes = 0;
+
     BsdfValue value(const Vec3&, const Vec3&) const { return {}; }
     BsdfSample sample(const Vec3&, const BsdfRandom&) const { return {}; }
 };
 
+/// Every BSDF. A new one comes last; it says its own lobes (kLobes or lobes()), and where it transmits how light is
+/// refracted (refraction()), or does not compile.
+using BsdfKind =
+    std::variant<BlackBsdf, DiffuseBsdf, RoughConductorBsdf, RoughDielectricBsdf, RoughPlasticBsdf, PlasticBsdf,
+                 ConductorBsdf, DielectricBsdf, ThinDielectricBsdf, NullBsdf, BlendBsdf, OrientedBsdf>;
+
+template <class Kind>
+constexpr bool may_transmit() {
+    if constexpr (requires { Kind::kLobes; })
+        return (Kind::kLobes & kTransmittingLobe) != 0;
+    else
+        return false;
+}
+
 /// How one side of a surface scatters, at one point: a closed set, no virtual call, no allocation.
 struct Bsdf {
-    std::variant<BlackBsdf, DiffuseBsdf, RoughConductorBsdf, RoughDielectricBsdf, RoughPlasticBsdf, PlasticBsdf,
-                 ConductorBsdf, DielectricBsdf, ThinDielectricBsdf, NullBsdf, BlendBsdf, OrientedBsdf>
-        kind;
+    BsdfKind kind;
 
     /// Calls f with the alternative that is held: a switch, where std::visit would call through a table.
     template <class F>
     auto visit(F&& f) const {
-        const auto dielectric = [&](const auto* bsdf) {
-            if constexpr (kHasTransmission) return f(*bsdf);
-            return f(BlackBsdf{});
-        };
-        switch (kind.index()) {
-            case 1:
-                return f(*std::get_if<1>(&kind));
-            case 2:
-                return f(*std::get_if<2>(&kind));
-            case 3:
-                return dielectric(std::get_if<3>(&kind));
-            case 4:
-                return f(*std::get_if<4>(&kind));
-            case 5:
-                return f(*std::get_if<5>(&kind));
-            case 6:
-                return f(*std::get_if<6>(&kind));
-            case 7:
-                return dielectric(std::get_if<7>(&kind));
-            case 8:
-                return dielectric(std::get_if<8>(&kind));
-            case 9:
-                return f(*std::get_if<9>(&kind));
-            case 10:
-                return f(*std::get_if<10>(&kind));
-            case 11:
-                return f(*std::get_if<11>(&kind));
-            default:
-                return f(*std::get_if<0>(&kind));
-        }
+        return switch_visit(kind, [&](const auto& bsdf) {
+            if constexpr (!kHasTransmission && may_transmit<std::decay_t<decltype(bsdf)>>())
+                return f(BlackBsdf{});
+            else
+                return f(bsdf);
+        });
     }
 
     /// f |cos(wi)| and density for wo.z > 0, delta lobes left out.
@@ -83,8 +75,6 @@ struct Bsdf {
         return (other.wi.z > 0.0f) != (taken.z > 0.0f) ? other : BsdfSample{};
     }
 };
-
-static_assert(std::variant_size_v<decltype(Bsdf::kind)> == 12, "Bsdf::visit has a case for each");
 
 /// The lobes of a BSDF.
 LobeBits lobes_of(const Bsdf& bsdf);

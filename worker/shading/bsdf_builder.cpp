@@ -1,11 +1,10 @@
 #include "worker/shading/bsdf_builder.h"
 
-#include <type_traits>
-
 #include "common/base/build_options.h"
 #include "common/base/error.h"
 #include "common/math/frame.h"
 #include "common/scene/material_traits.h"
+#include "common/scene/material_uses.h"
 
 namespace treefarm {
 namespace {
@@ -17,11 +16,6 @@ struct ConstantNodes {
     Bsdf& add() { return bsdfs.emplace_back(); }
     RoughTransmittance& add_coat() { throw RunError("a constant material has a coat whose roughness varies"); }
 };
-
-/// Nearer to 1, refraction bends by less than floats tell; the half vector of a refraction would be rounding error.
-bool refracts(float eta) {
-    return std::abs(eta - 1.0f) > 1e-4f;
-}
 
 /// A frame about n whose s follows `along`, which may be degenerate.
 OrientedBsdf oriented(const Bsdf* inner, const Vec3& n, const Vec3& along) {
@@ -45,13 +39,13 @@ ShadingPoint seen_in(const OrientedBsdf& frame, const ShadingPoint& point) {
             point.mirrored};
 }
 
-/// The texture of a material's main colour, or of what a blend is mixed by.
-std::int32_t color_texture(const Material& material) {
-    if (const auto* diffuse = std::get_if<DiffuseMaterial>(&material.bsdf)) return diffuse->reflectance.texture;
-    if (const auto* plastic = std::get_if<PlasticMaterial>(&material.bsdf)) return plastic->diffuse_reflectance.texture;
-    if (const auto* blend = std::get_if<BlendMaterial>(&material.bsdf)) return blend->weight.texture;
-    if (const auto* metal = std::get_if<ConductorMaterial>(&material.bsdf)) return metal->specular_reflectance.texture;
-    return kNone;
+/// The texture of a material's first input: its main colour, or what a blend is mixed by.
+std::int32_t first_texture_of(const Material& material) {
+    std::int32_t first = kNone;
+    for_each_input(material, [&](const auto& input) {
+        if (first == kNone) first = input.texture;
+    });
+    return first;
 }
 
 float clamped(float x) {
@@ -74,26 +68,23 @@ void BsdfBuilder::note(std::size_t index) {
     notes.varies = traits.needs_surface_detail();
     notes.anisotropic = traits.anisotropic;
     notes.tangents = traits.anisotropic || material.detail.any();
-    notes.texture = color_texture(material);
+    notes.texture = first_texture_of(material);
     notes.transmits = traits.lobes.transmits();
     // Its own node, and one for each frame of its own.
     notes.nodes = 1 + (material.detail.any() ? 1 : 0) + (traits.anisotropic ? 1 : 0);
     // Parts stand below what they are part of: theirs are known.
-    if (const auto* blend = std::get_if<BlendMaterial>(&material.bsdf))
-        for (const std::int32_t part : {blend->first, blend->second}) {
-            const Notes& of_part = notes_[static_cast<std::size_t>(part)];
-            notes.varies |= of_part.varies;
-            notes.tangents |= of_part.tangents;
-            if (notes.texture == kNone) notes.texture = of_part.texture;
-            notes.transmits |= of_part.transmits;
-            notes.nodes += of_part.nodes;
+    for_each_part(material, [&](const std::int32_t& part) {
+        const Notes& of_part = notes_[static_cast<std::size_t>(part)];
+        notes.varies |= of_part.varies;
+        notes.tangents |= of_part.tangents;
+        if (&part == &material.back) {  // in place of the front
+            notes.nodes = std::max(notes.nodes, of_part.nodes);
+            return;
         }
-    if (material.twosided && material.back != kNone) {
-        const Notes& of_back = notes_[static_cast<std::size_t>(material.back)];
-        notes.varies |= of_back.varies;
-        notes.tangents |= of_back.tangents;
-        notes.nodes = std::max(notes.nodes, of_back.nodes);
-    }
+        if (notes.texture == kNone) notes.texture = of_part.texture;
+        notes.transmits |= of_part.transmits;
+        notes.nodes += of_part.nodes;
+    });
     if (notes.nodes > kMaxNodes)
         throw RunError(material.where.text() + ": material \"" + material.name + "\" is made of more than " +
                        std::to_string(kMaxNodes) + " parts, too many for every hit; blend fewer materials");
@@ -160,57 +151,35 @@ const Bsdf* BsdfBuilder::described(std::int32_t index, bool back, const ShadingP
     return &outer;
 }
 
+/// What make_bsdf() of a kind is told of a place.
+template <class Nodes>
+struct BsdfBuilder::Place {
+    using Result = Bsdf;
+
+    const BsdfBuilder& builder;
+    const Notes& notes;
+    const bool back;
+    const ShadingPoint& point;
+    Nodes& nodes;
+
+    Rgb color(const ColorInput& input) const { return builder.color(input, point); }
+    float fraction(const FloatInput& input) const { return clamped(builder.textures_->eval(input, point.uv)); }
+    Microfacet facets(const Roughness& roughness) const { return builder.facets(roughness, point); }
+    const Bsdf* part(std::int32_t material) const { return builder.side(material, back, point, nodes); }
+    float smooth_escapes() const { return notes.smooth_escapes; }
+    const RoughTransmittance* coat(const Microfacet& rough) const {
+        if (!notes.coats) return notes.coat;
+        RoughTransmittance& mixed = nodes.add_coat();
+        mixed = notes.coats->at(rough.alpha_u);
+        return &mixed;
+    }
+};
+
 template <class Nodes>
 Bsdf BsdfBuilder::leaf(std::int32_t index, bool back, const ShadingPoint& point, Nodes& nodes) const {
-    const auto of = [&](const auto& m) -> Bsdf {
-        using Kind = std::decay_t<decltype(m)>;
-        if constexpr (std::is_same_v<Kind, DiffuseMaterial>) {
-            const Rgb albedo = color(m.reflectance, point);
-            return is_black(albedo) ? Bsdf{} : Bsdf{DiffuseBsdf{albedo}};
-        } else if constexpr (std::is_same_v<Kind, ConductorMaterial>) {
-            const Rgb reflectance = color(m.specular_reflectance, point);
-            if (m.roughness.smooth()) return {ConductorBsdf{m.eta, m.k, reflectance}};
-            return {RoughConductorBsdf{m.eta, m.k, reflectance, facets(m.roughness, point)}};
-        } else if constexpr (std::is_same_v<Kind, DielectricMaterial>) {
-            if constexpr (!kHasTransmission) return {};
-            const Rgb reflectance = color(m.specular_reflectance, point),
-                      transmittance = color(m.specular_transmittance, point);
-            if (!refracts(m.eta)) return {NullBsdf{transmittance}};
-            const float eta = back ? 1.0f / m.eta : m.eta;
-            if (m.roughness.smooth()) return {DielectricBsdf{eta, reflectance, transmittance}};
-            return {RoughDielectricBsdf{eta, reflectance, transmittance, facets(m.roughness, point)}};
-        } else if constexpr (std::is_same_v<Kind, ThinDielectricMaterial>) {
-            if constexpr (!kHasTransmission) return {};
-            return {ThinDielectricBsdf{m.eta, color(m.specular_reflectance, point),
-                                       color(m.specular_transmittance, point)}};
-        } else if constexpr (std::is_same_v<Kind, PlasticMaterial>) {
-            const Notes& notes = notes_[static_cast<std::size_t>(index)];
-            const Rgb diffuse = color(m.diffuse_reflectance, point), specular = color(m.specular_reflectance, point);
-            const float coat = luminance(specular), base = luminance(diffuse);
-            if (!(coat + base > 0.0f)) return {};
-            CoatedBase coated{Rgb(0.0f), coat / (coat + base)};
-            if (m.roughness.smooth()) {
-                coated.base = coated_base(diffuse, notes.smooth_escapes, m.eta, m.nonlinear);
-                return {PlasticBsdf{m.eta, specular, coated}};
-            }
-            const Microfacet rough = facets(m.roughness, point);
-            const RoughTransmittance* transmittance = notes.coat;
-            if (notes.coats) {
-                RoughTransmittance& mixed = nodes.add_coat();
-                mixed = notes.coats->at(rough.alpha_u);
-                transmittance = &mixed;
-            }
-            coated.base = coated_base(diffuse, transmittance->escapes(m.single_return), m.eta, m.nonlinear);
-            return {RoughPlasticBsdf{m.eta, specular, coated, rough, transmittance}};
-        } else if constexpr (std::is_same_v<Kind, BlendMaterial>) {
-            const float weight = clamped(textures_->eval(m.weight, point.uv));
-            return {BlendBsdf{weight, side(m.first, back, point, nodes), side(m.second, back, point, nodes)}};
-        } else {
-            static_assert(std::is_same_v<Kind, NullMaterial>);
-            return {NullBsdf{}};
-        }
-    };
-    return std::visit(of, materials_[static_cast<std::size_t>(index)].bsdf);
+    const Place<Nodes> place{*this, notes_[static_cast<std::size_t>(index)], back, point, nodes};
+    return std::visit([&](const auto& material) { return make_bsdf(material, place); },
+                      materials_[static_cast<std::size_t>(index)].bsdf);
 }
 
 Rgb BsdfBuilder::color(const ColorInput& input, const ShadingPoint& point) const {

@@ -34,7 +34,9 @@ class BsdfScratch {
     std::size_t used_ = 0, coats_used_ = 0;
 };
 
-/// Turns descriptions into BSDFs: once for those that are the same everywhere, at every hit for the others.
+/// Turns descriptions into BSDFs: once for those that are the same everywhere, at every hit for the others. What a kind
+/// of material becomes, make_bsdf() in its own header says: it is given a place that looks up its inputs
+/// (BsdfBuilder::Place) and returns what scatters there.
 class BsdfBuilder {
   public:
     /// Takes what it needs of the scene's materials that shapes use. `textures` must outlive the builder. Throws
@@ -78,6 +80,9 @@ class BsdfBuilder {
 
     void note(std::size_t material);
     void note_coat(const PlasticMaterial& plastic, Notes& notes);
+
+    template <class Nodes>
+    struct Place;
 
     template <class Nodes>
     const Bsdf* side(std::int32_t material, bool back, const ShadingPoint& point, Nodes& nodes) const;

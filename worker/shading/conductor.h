@@ -7,6 +7,8 @@ namespace treefarm {
 
 /// A smooth metal.
 struct ConductorBsdf {
+    static constexpr LobeBits kLobes = kDeltaLobe;
+
     Rgb eta{0.0f}, k{1.0f}, reflectance{1.0f};
 
     BsdfValue value(const Vec3&, const Vec3&) const { return {}; }

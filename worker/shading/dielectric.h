@@ -15,8 +15,12 @@ inline float mirror_probability(float mirrored, const Rgb& reflectance, const Rg
 /// A smooth boundary between transparent media. Radiance that comes from the far side is scaled by 1/eta^2: rays
 /// spread where they leave the denser medium (the convention of Mitsuba 0.6 for radiance).
 struct DielectricBsdf {
+    static constexpr LobeBits kLobes = kDeltaLobe | kTransmittingLobe;
+
     float eta = 1.5f;  ///< index of refraction of the far side over that of wo's side
     Rgb reflectance{1.0f}, transmittance{1.0f};
+
+    float refraction() const { return eta; }
 
     BsdfValue value(const Vec3&, const Vec3&) const { return {}; }
 

@@ -1,12 +1,15 @@
 #pragma once
 
 #include "common/math/warp.h"
+#include "common/scene/kinds/materials/diffuse.h"
 #include "worker/shading/bsdf_sample.h"
 
 namespace treefarm {
 
 /// Lambertian reflection.
 struct DiffuseBsdf {
+    static constexpr LobeBits kLobes = kSmoothLobe | kWideLobe;
+
     Rgb reflectance{0.0f};
 
     BsdfValue value(const Vec3& /*wo*/, const Vec3& wi) const {
@@ -20,5 +23,13 @@ struct DiffuseBsdf {
         return {wi, v.pdf, v.f_cos, false};
     }
 };
+
+/// The BSDF of such a material at one place of a surface (bsdf_builder.h).
+template <class Place>
+typename Place::Result make_bsdf(const DiffuseMaterial& m, const Place& at) {
+    const Rgb albedo = at.color(m.reflectance);
+    if (is_black(albedo)) return {};
+    return {DiffuseBsdf{albedo}};
+}
 
 }  // namespace treefarm

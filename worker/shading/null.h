@@ -1,15 +1,24 @@
 #pragma once
 
+#include "common/scene/kinds/materials/null.h"
 #include "worker/shading/bsdf_sample.h"
 
 namespace treefarm {
 
 /// Nothing is there, or a boundary without contrast, which can have a colour.
 struct NullBsdf {
+    static constexpr LobeBits kLobes = kDeltaLobe;
+
     Rgb transmittance{1.0f};
 
     BsdfValue value(const Vec3&, const Vec3&) const { return {}; }
     BsdfSample sample(const Vec3& wo, const BsdfRandom&) const { return {-wo, 1.0f, transmittance, true}; }
 };
+
+/// The BSDF of such a material at one place of a surface (bsdf_builder.h).
+template <class Place>
+typename Place::Result make_bsdf(const NullMaterial&, const Place&) {
+    return {NullBsdf{}};
+}
 
 }  // namespace treefarm

@@ -12,6 +12,8 @@ struct OrientedBsdf {
     const Bsdf* inner = nullptr;
     Vec3 s{1.0f, 0.0f, 0.0f}, t{0.0f, 1.0f, 0.0f}, n{0.0f, 0.0f, 1.0f};  ///< orthonormal; wo . n > 0
 
+    LobeBits lobes() const;
+    float refraction() const;
     inline BsdfValue value(const Vec3& wo, const Vec3& wi) const;
     inline BsdfSample sample(const Vec3& wo, const BsdfRandom& random) const;
 

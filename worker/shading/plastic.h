@@ -7,6 +7,8 @@ namespace treefarm {
 
 /// A diffuse base under a smooth dielectric coat.
 struct PlasticBsdf {
+    static constexpr LobeBits kLobes = kSmoothLobe | kWideLobe | kDeltaLobe;
+
     float eta = 1.5f;
     Rgb specular{1.0f};
     CoatedBase coated;

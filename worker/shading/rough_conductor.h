@@ -1,5 +1,7 @@
 #pragma once
 
+#include "common/scene/kinds/materials/conductor.h"
+#include "worker/shading/conductor.h"
 #include "worker/shading/fresnel.h"
 #include "worker/shading/rough_reflection.h"
 
@@ -7,6 +9,8 @@ namespace treefarm {
 
 /// A rough metal (thesis 2.8 to 2.12; Walter et al. 2007): f = F D G1(wo) G1(wi) / (4 cos cos).
 struct RoughConductorBsdf {
+    static constexpr LobeBits kLobes = kSmoothLobe | kViewLobe;
+
     Rgb eta{0.0f}, k{1.0f}, reflectance{1.0f};
     Microfacet facets;
 
@@ -22,5 +26,13 @@ struct RoughConductorBsdf {
         return {wi, v.pdf, v.f_cos, false};
     }
 };
+
+/// The BSDF of such a material at one place of a surface (bsdf_builder.h).
+template <class Place>
+typename Place::Result make_bsdf(const ConductorMaterial& m, const Place& at) {
+    const Rgb reflectance = at.color(m.specular_reflectance);
+    if (m.roughness.smooth()) return {ConductorBsdf{m.eta, m.k, reflectance}};
+    return {RoughConductorBsdf{m.eta, m.k, reflectance, at.facets(m.roughness)}};
+}
 
 }  // namespace treefarm

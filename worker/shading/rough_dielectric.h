@@ -1,15 +1,23 @@
 #pragma once
 
+#include "common/base/build_options.h"
+#include "common/scene/kinds/materials/dielectric.h"
+#include "worker/shading/dielectric.h"
 #include "worker/shading/fresnel.h"
+#include "worker/shading/null.h"
 #include "worker/shading/rough_reflection.h"
 
 namespace treefarm {
 
 /// A rough boundary between transparent media (Walter et al. 2007), radiance scaled as in dielectric.h.
 struct RoughDielectricBsdf {
+    static constexpr LobeBits kLobes = kSmoothLobe | kTransmittingLobe | kViewLobe;
+
     float eta = 1.5f;  ///< index of refraction of the far side over that of wo's side; not within 1e-4 of 1
     Rgb reflectance{1.0f}, transmittance{1.0f};
     Microfacet facets;
+
+    float refraction() const { return eta; }
 
     [[gnu::noinline]] BsdfValue value(const Vec3& wo, const Vec3& wi) const {
         if (wi.z > 0.0f) {
@@ -17,7 +25,7 @@ struct RoughDielectricBsdf {
             const float f = fresnel_dielectric(r.cos_o, eta).reflectance;
             return {reflectance * (f * r.f_cos), f * r.pdf};
         }
-        return wi.z < 0.0f ? refraction(wo, wi) : BsdfValue{};
+        return wi.z < 0.0f ? refracted(wo, wi) : BsdfValue{};
     }
 
     [[gnu::noinline]] BsdfSample sample(const Vec3& wo, const BsdfRandom& random) const {
@@ -33,7 +41,7 @@ struct RoughDielectricBsdf {
     }
 
   private:
-    BsdfValue refraction(const Vec3& wo, const Vec3& wi) const {
+    BsdfValue refracted(const Vec3& wo, const Vec3& wi) const {
         Vec3 h = wo + wi * eta;
         const float length = std::sqrt(dot(h, h));
         if (!(length > 0.0f)) return {};
@@ -48,5 +56,21 @@ struct RoughDielectricBsdf {
         return {transmittance * (p * facets.masking({wi.x, wi.y, -wi.z})), p * eta * eta};
     }
 };
+
+/// Nearer to 1, refraction bends by less than floats tell; the half vector of a refraction would be rounding error.
+inline bool refracts(float eta) {
+    return std::abs(eta - 1.0f) > 1e-4f;
+}
+
+/// The BSDF of such a material at one place of a surface (bsdf_builder.h).
+template <class Place>
+typename Place::Result make_bsdf(const DielectricMaterial& m, const Place& at) {
+    if constexpr (!kHasTransmission) return {};
+    const Rgb reflectance = at.color(m.specular_reflectance), transmittance = at.color(m.specular_transmittance);
+    if (!refracts(m.eta)) return {NullBsdf{transmittance}};
+    const float eta = at.back ? 1.0f / m.eta : m.eta;
+    if (m.roughness.smooth()) return {DielectricBsdf{eta, reflectance, transmittance}};
+    return {RoughDielectricBsdf{eta, reflectance, transmittance, at.facets(m.roughness)}};
+}
 
 }  // namespace treefarm

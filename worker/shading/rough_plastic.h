@@ -1,7 +1,9 @@
 #pragma once
 
+#include "common/scene/kinds/materials/plastic.h"
 #include "worker/shading/coat.h"
 #include "worker/shading/fresnel.h"
+#include "worker/shading/plastic.h"
 #include "worker/shading/rough_reflection.h"
 #include "worker/shading/rough_transmittance.h"
 
@@ -9,6 +11,8 @@ namespace treefarm {
 
 /// A diffuse base under a rough dielectric coat.
 struct RoughPlasticBsdf {
+    static constexpr LobeBits kLobes = kSmoothLobe | kWideLobe | kViewLobe;
+
     float eta = 1.5f;
     Rgb specular{1.0f};
     CoatedBase coated;
@@ -32,5 +36,22 @@ struct RoughPlasticBsdf {
         return {wi, v.pdf, v.f_cos, false};
     }
 };
+
+/// The BSDF of such a material at one place of a surface (bsdf_builder.h).
+template <class Place>
+typename Place::Result make_bsdf(const PlasticMaterial& m, const Place& at) {
+    const Rgb diffuse = at.color(m.diffuse_reflectance), specular = at.color(m.specular_reflectance);
+    const float coat = luminance(specular), base = luminance(diffuse);
+    if (!(coat + base > 0.0f)) return {};
+    CoatedBase coated{Rgb(0.0f), coat / (coat + base)};
+    if (m.roughness.smooth()) {
+        coated.base = coated_base(diffuse, at.smooth_escapes(), m.eta, m.nonlinear);
+        return {PlasticBsdf{m.eta, specular, coated}};
+    }
+    const Microfacet rough = at.facets(m.roughness);
+    const RoughTransmittance* transmittance = at.coat(rough);
+    coated.base = coated_base(diffuse, transmittance->escapes(m.single_return), m.eta, m.nonlinear);
+    return {RoughPlasticBsdf{m.eta, specular, coated, rough, transmittance}};
+}
 
 }  // namespace treefarm

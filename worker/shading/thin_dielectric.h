@@ -1,5 +1,7 @@
 #pragma once
 
+#include "common/base/build_options.h"
+#include "common/scene/kinds/materials/thin_dielectric.h"
 #include "worker/shading/bsdf_sample.h"
 #include "worker/shading/dielectric.h"
 
@@ -7,8 +9,12 @@ namespace treefarm {
 
 /// A thin pane: R + T R T + T R^3 T + ... is reflected, the rest goes straight on.
 struct ThinDielectricBsdf {
+    static constexpr LobeBits kLobes = kDeltaLobe | kTransmittingLobe;
+
     float eta = 1.5f;  ///< index of refraction of the pane over that around it
     Rgb reflectance{1.0f}, transmittance{1.0f};
+
+    float refraction() const { return 1.0f; }
 
     BsdfValue value(const Vec3&, const Vec3&) const { return {}; }
 
@@ -20,5 +26,12 @@ struct ThinDielectricBsdf {
         return {-wo, 1.0f - mirror, transmittance * (1.0f - r), true};
     }
 };
+
+/// The BSDF of such a material at one place of a surface (bsdf_builder.h).
+template <class Place>
+typename Place::Result make_bsdf(const ThinDielectricMaterial& m, const Place& at) {
+    if constexpr (!kHasTransmission) return {};
+    return {ThinDielectricBsdf{m.eta, at.color(m.specular_reflectance), at.color(m.specular_transmittance)}};
+}
 
 }  // namespace treefarm

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <type_traits>
+#include <variant>
+
+namespace treefarm {
+
+/// Calls f with the alternative that a variant of at most 16 holds. Unlike std::visit it compiles to a switch whose
+/// cases can be inlined: for the per-vertex path. All cases return the same type.
+template <class Variant, class F>
+[[gnu::always_inline]] inline auto switch_visit(const Variant& variant, F&& f) {
+    constexpr std::size_t kCount = std::variant_size_v<Variant>;
+    static_assert(kCount <= 16, "add cases");
+    using Result = decltype(f(*std::get_if<0>(&variant)));
+    // A case that there is no alternative for is that of the first: no such index comes.
+    const auto of = [&](auto number) -> Result {
+        constexpr std::size_t kAt = number < kCount ? number : 0;
+        return f(*std::get_if<kAt>(&variant));
+    };
+    using std::integral_constant;
+    switch (variant.index()) {
+        case 1:
+            return of(integral_constant<std::size_t, 1>());
+        case 2:
+            return of(integral_constant<std::size_t, 2>());
+        case 3:
+            return of(integral_constant<std::size_t, 3>());
+        case 4:
+            return of(integral_constant<std::size_t, 4>());
+        case 5:
+            return of(integral_constant<std::size_t, 5>());
+        case 6:
+            return of(integral_constant<std::size_t, 6>());
+        case 7:
+            return of(integral_constant<std::size_t, 7>());
+        case 8:
+            return of(integral_constant<std::size_t, 8>());
+        case 9:
+            return of(integral_constant<std::size_t, 9>());
+        case 10:
+            return of(integral_constant<std::size_t, 10>());
+        case 11:
+            return of(integral_constant<std::size_t, 11>());
+        case 12:
+            return of(integral_constant<std::size_t, 12>());
+        case 13:
+            return of(integral_constant<std::size_t, 13>());
+        case 14:
+            return of(integral_constant<std::size_t, 14>());
+        case 15:
+            return of(integral_constant<std::size_t, 15>());
+        default:
+            return of(integral_constant<std::size_t, 0>());
+    }
+}
+
+}  // namespace treefarm

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <variant>
+
+#include "common/scene/kinds/fields.h"
+#include "common/scene/kinds/materials/blend.h"
+#include "common/scene/kinds/materials/conductor.h"
+#include "common/scene/kinds/materials/dielectric.h"
+#include "common/scene/kinds/materials/diffuse.h"
+#include "common/scene/kinds/materials/null.h"
+#include "common/scene/kinds/materials/plastic.h"
+#include "common/scene/kinds/materials/thin_dielectric.h"
+
+namespace treefarm {
+
+/// Every kind of material. Its place here is its number in packed form: new ones come last.
+using MaterialKind = std::variant<DiffuseMaterial, ConductorMaterial, DielectricMaterial, ThinDielectricMaterial,
+                                  PlasticMaterial, BlendMaterial, NullMaterial>;
+
+/// Shows a visitor (fields.h) each value of a kind, const or not.
+template <class Kind, class Visitor>
+void visit_fields(Kind& kind, Visitor&& visitor) {
+    std::visit([&](auto& held) { std::decay_t<decltype(held)>::fields(held, visitor); }, kind);
+}
+
+}  // namespace treefarm

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "common/scene/kinds/lobes.h"
+#include "common/scene/texture.h"
+
+namespace treefarm {
+
+/// (1 - weight) * first + weight * second. Its lobes are those of its parts.
+struct BlendMaterial {
+    FloatInput weight{0.5f};
+    std::int32_t first = kNone, second = kNone;  ///< indices in Scene::materials, below this material's own
+
+    static constexpr const char* kName = "blend";
+    Lobes lobes() const { return {}; }
+    static void fields(auto& self, auto& visitor) {
+        visitor.fraction("weight of the blend", self.weight);
+        visitor.part("blended material", self.first);
+        visitor.part("blended material", self.second);
+    }
+};
+
+}  // namespace treefarm

@@ -1,0 +1,23 @@
+#pragma once
+
+#include "common/scene/kinds/materials/roughness.h"
+
+namespace treefarm {
+
+/// Metal: complex index of refraction eta + i k per channel, relative to what is outside. eta = 0, k = 1: a perfect
+/// mirror.
+struct ConductorMaterial {
+    Rgb eta{0.0f}, k{1.0f};
+    ColorInput specular_reflectance{Rgb(1.0f)};  ///< factor on what is reflected, in [0, 1]
+    Roughness roughness;
+
+    static constexpr const char* kName = "conductor";
+    Lobes lobes() const { return roughness.lobes(false); }
+    static void fields(auto& self, auto& visitor) {
+        visitor.metal(self.eta, self.k);
+        visitor.fraction("specular reflectance", self.specular_reflectance);
+        visitor.roughness(self.roughness, false);
+    }
+};
+
+}  // namespace treefarm

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "common/scene/kinds/lobes.h"
+
+namespace treefarm {
+
+/// Nothing is there: light passes straight on.
+struct NullMaterial {
+    static constexpr const char* kName = "null";
+    Lobes lobes() const { return {.null = true}; }
+    static void fields(auto&, auto&) {}
+};
+
+}  // namespace treefarm

@@ -1,0 +1,33 @@
+#pragma once
+
+#include "common/scene/kinds/materials/roughness.h"
+
+namespace treefarm {
+
+/// A diffuse base under a dielectric coat.
+struct PlasticMaterial {
+    float eta = 1.49f;
+    ColorInput diffuse_reflectance{Rgb(0.5f)}, specular_reflectance{Rgb(1.0f)};
+    bool nonlinear = false;  ///< colour shifts by interreflection inside the coat
+    Roughness roughness;     ///< of the coat; isotropic
+    /// A rough coat sends back to the base what its facets reflect once (Mitsuba 2 and 3), and the rest of what it does
+    /// not let out is lost; otherwise it sends back all of that (0.6).
+    bool single_return = false;
+
+    static constexpr const char* kName = "plastic";
+    Lobes lobes() const {
+        Lobes lobes = roughness.lobes(false);
+        lobes.diffuse = true;
+        return lobes;
+    }
+    static void fields(auto& self, auto& visitor) {
+        visitor.eta(self.eta);
+        visitor.fraction("diffuse reflectance", self.diffuse_reflectance);
+        visitor.fraction("specular reflectance", self.specular_reflectance);
+        visitor.flag("nonlinear", self.nonlinear);
+        visitor.roughness(self.roughness, true);
+        visitor.flag("single_return", self.single_return);
+    }
+};
+
+}  // namespace treefarm
