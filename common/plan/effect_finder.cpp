@@ -187,6 +187,16 @@ void EffectFinder::add_materials() {
     add("transmission", "dielectric",
         [](const Traits& t) { return t.lobes.glossy_transmission || t.lobes.delta_transmission; });
     add("coats", "plastic", [](const Traits& t) { return t.coated; });
+    const auto add_kind = [this]<class Kind>(const char* name, const char* what, std::in_place_type_t<Kind>) {
+        finders_[name] = [this, what] {
+            return called_by(scene_.materials, what, [&](const Material& m, std::size_t i) {
+                return used_[i] && std::holds_alternative<Kind>(m.bsdf);
+            });
+        };
+    };
+    add_kind("rough_diffuse", "rough diffuse material", std::in_place_type<RoughDiffuseMaterial>);
+    add_kind("phong", "Phong material", std::in_place_type<PhongMaterial>);
+    add_kind("ward", "Ward material", std::in_place_type<WardMaterial>);
     add("blends", "blend", [](const Traits& t) { return t.blended; });
     add("null", "null material", [](const Traits& t) { return t.lobes.null; });
     add("twosided", "twosided material", [](const Traits& t) { return t.twosided; });

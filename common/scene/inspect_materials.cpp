@@ -42,6 +42,26 @@ class MaterialInspection {
     void fraction(const char* what, const FloatInput& input) {
         factor(input.value, input.value, input.varies(), input.texture, what);
     }
+    void number(const char* what, const FloatInput& input, float least, float most) {
+        const float reached = input.varies() ? input.value * largest_of(scene_, input.texture) : input.value;
+        if (!(reached >= least && reached <= most))
+            add(error, "numbers", std::string("a ") + what + " of " + short_number(double(reached)),
+                "give " + short_number(double(least)) + " to " + short_number(double(most)));
+    }
+    void together(const ColorInput& a, const ColorInput& b) {
+        const auto most = [&](const ColorInput& input, int i) {
+            return input.value[i] * (input.varies() ? largest_of(scene_, input.texture) : 1.0f);
+        };
+        float sum = 0.0f;
+        for (int i = 0; i < 3; ++i)
+            sum = std::max(sum, most(a, i) + most(b, i));
+        if (sum > 1.0f + 1e-5f)
+            add(warning, "energy gain",
+                "a diffuse and a specular reflectance that add up to " + short_number(double(sum)) +
+                    ": it would send back more light than it gets",
+                "they are scaled down to 1");
+    }
+    void choice(const char*, auto, auto) {}
     void metal(const Rgb& eta, const Rgb& k) {
         for (int i = 0; i < 3; ++i)
             if (!(eta[i] >= 0.0f && eta[i] <= 1e6f && k[i] >= 0.0f && k[i] <= 1e6f))

@@ -13,6 +13,7 @@ struct FieldTraits : IgnoreFields {
     MaterialTraits& traits;
     explicit FieldTraits(MaterialTraits& to) : traits(to) {}
     void fraction(const char*, const auto& input) { traits.textured |= input.varies(); }
+    void number(const char*, const FloatInput& input, float, float) { traits.textured |= input.varies(); }
     void roughness(const Roughness& roughness, bool) {
         if (roughness.smooth()) return;
         traits.microfacets = true;
@@ -28,7 +29,13 @@ MaterialTraits own_traits(const Material& material) {
     MaterialTraits traits;
     traits.lobes = std::visit([](const auto& kind) { return kind.lobes(); }, material.bsdf);
     visit_fields(material.bsdf, FieldTraits(traits));
-    traits.coated = traits.lobes.diffuse && (traits.lobes.delta_reflection || traits.lobes.glossy_reflection);
+    traits.coated = std::visit(
+        [](const auto& kind) {
+            return requires {
+                kind.kCoated;
+            };
+        },
+        material.bsdf);
     traits.bumped = material.detail.bump != kNone;
     traits.normal_mapped = material.detail.normal_map != kNone;
     traits.masked = material.masked();
@@ -106,6 +113,9 @@ MaterialTraits scene_traits(const Scene& scene) {
 bool is_plainly_diffuse(const Scene& scene) {
     const MaterialTraits traits = scene_traits(scene);
     const Lobes nothing_but_diffuse = {.diffuse = true};
+    const std::vector<bool> used = used_materials(scene);
+    for (std::size_t i = 0; i < used.size(); ++i)
+        if (used[i] && !std::holds_alternative<DiffuseMaterial>(scene.materials[i].bsdf)) return false;
     return (traits.lobes == nothing_but_diffuse || traits.lobes == Lobes{}) && !traits.textured && !traits.bumped &&
            !traits.normal_mapped && !traits.own_back && !traits.blended;
 }

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "common/config/parse_text.h"
 #include "common/scene/material_traits.h"
 #include "common/scene/validation.h"
 
@@ -49,6 +50,32 @@ class MaterialCheck {
         if (input.varies()) input.value *= fraction_scale(input.texture, input.value, what);
     }
 
+    void number(const char* name, const FloatInput& input, float least, float most) const {
+        const std::string bounds = number_text(least) + " to " + number_text(most);
+        float low = input.value, high = input.value;
+        if (input.varies()) {
+            low *= range(input.texture).min;
+            high *= range(input.texture).max;
+        }
+        if (!(std::min(low, high) >= least && std::max(low, high) <= most))
+            refuse(std::string("the ") + name + " is outside " + bounds, "give values from " + bounds);
+    }
+
+    /// Both are scaled down where their sum goes above 1, as in Mitsuba 0.6.
+    void together(ColorInput& a, ColorInput& b) {
+        float sum = 0.0f;
+        for (int i = 0; i < 3; ++i)
+            sum = std::max(sum, largest(a, i) + largest(b, i));
+        if (!(sum > 1.0f)) return;
+        a.value /= sum;
+        b.value /= sum;
+        if (sum > 1.0f + 1e-5f)
+            warnings_.push_back({material_.where, "diffuse and specular reflectance add up to " + number_text(sum) +
+                                                      " and are scaled down to 1"});
+    }
+
+    void choice(const char*, auto, auto) const {}
+
     void eta(float value) const {
         if (!(value > 0.0f && value <= 1e6f && 1.0f / value <= 1e6f))
             refuse("the index of refraction is not positive or not finite",
@@ -88,6 +115,10 @@ class MaterialCheck {
         if (texture < 0 || static_cast<std::size_t>(texture) >= textures_.size())
             refuse("the material has a texture that does not exist", "define it");
         return textures_[static_cast<std::size_t>(texture)];
+    }
+
+    float largest(const ColorInput& input, int channel) const {
+        return input.value[channel] * (input.varies() ? range(input.texture).max : 1.0f);
     }
 
     /// A factor that its texture takes above 1 is scaled down: what an image holds is rarely the author's intention.

@@ -53,6 +53,21 @@ class RoughLobes : public ::testing::TestWithParam<Case> {
         EXPECT_GT(result.p_value, kSignificance) << what << " wo.z " << wo.z;
         EXPECT_NEAR(result.integral, result.inside, 0.01) << what << " wo.z " << wo.z;
     }
+
+    /// A lobe on a base that is as wide across as along.
+    void test_round(const Bsdf& bsdf, const Vec3& wo, Vec3 center, float width, const char* what) {
+        if (center.z < std::min(0.05f, 20 * width)) center.z = 0.0f;
+        const auto sample = [&](std::uint32_t i, Vec3& d) {
+            const BsdfSample s = bsdf.sample(wo, uniform(i));
+            d = s.wi;
+            return s.pdf > 0.0f;
+        };
+        const auto density = [&](const Vec3& d) { return d.z > 0.0f ? double(bsdf.value(wo, d).pdf) : 0.0; };
+        const test::LobeTest result =
+            test::test_lobe(sample, density, normalize(center), double(width), double(width), kSamples, 40, 16, true);
+        EXPECT_GT(result.p_value, kSignificance) << what << " wo.z " << wo.z;
+        EXPECT_NEAR(result.integral, result.inside, 0.01) << what << " wo.z " << wo.z;
+    }
 };
 
 constexpr float kCosines[] = {1.0f, 0.7f, 0.2f, 0.02f, 0.002f};
@@ -98,6 +113,19 @@ TEST_P(RoughLobes, Plastic) {
     for (const float cos : kCosines) {
         const Vec3 wo = at_cosine(cos, 0.3f);
         test(plastic.front(), wo, {-wo.x, -wo.y, wo.z}, 2 * alpha, "plastic", true);
+    }
+}
+
+TEST_P(RoughLobes, WardAndPhong) {
+    const auto [distribution, alpha] = GetParam();
+    if (distribution == Microfacets::ggx || alpha < 0.001f) return;
+    test::PreparedMaterial ward(
+        WardMaterial{Rgb(0.25f), Rgb(0.5f), WardVariant::balanced, test::rough(Microfacets::beckmann, alpha, alpha)});
+    const test::PreparedMaterial phong(PhongMaterial{Rgb(0.25f), Rgb(0.5f), {2.0f / (alpha * alpha)}});
+    for (const float cos : {1.0f, 0.7f, 0.2f}) {
+        const Vec3 wo = at_cosine(cos, 0.3f), mirror(-wo.x, -wo.y, wo.z);
+        test(ward.front(), wo, mirror, 2 * alpha, "Ward", true);
+        test_round(phong.front(), wo, mirror, 2 * alpha, "Phong");
     }
 }
 

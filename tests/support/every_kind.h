@@ -51,6 +51,9 @@ inline Scene every_kind_scene() {
     Material& two = add(DiffuseMaterial{Rgb(0.5f)});
     two.twosided = true;
     two.back = 1;
+    add(RoughDiffuseMaterial{ColorInput(Rgb(0.3f, 0.2f, 0.1f), 0), {0.75f, 2}, true});
+    add(PhongMaterial{ColorInput(Rgb(0.25f), 0), Rgb(0.125f), {20.0f}});
+    add(WardMaterial{Rgb(0.375f), Rgb(0.25f), WardVariant::duer, {Microfacets::beckmann, {0.25f}, {0.5f}}});
 
     Mesh mesh;
     mesh.positions = {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)};

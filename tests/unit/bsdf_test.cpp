@@ -37,7 +37,15 @@ std::vector<Subject> white_materials() {
                                 {"pane", ThinDielectricMaterial{1.5f, white, white}},
                                 {"plastic", PlasticMaterial{1.5f, white, white, false, {}}},
                                 {"nonlinear plastic", PlasticMaterial{1.5f, white, white, true, {}}},
-                                {"null", NullMaterial{}}};
+                                {"null", NullMaterial{}},
+                                {"rough diffuse", RoughDiffuseMaterial{white, {0.3f}}},
+                                {"very rough diffuse", RoughDiffuseMaterial{white, {1.0f}}},
+                                {"fast rough diffuse", RoughDiffuseMaterial{white, {0.3f}, true}}};
+    for (const float exponent : {0.0f, 1.0f, 30.0f, 1e4f, 1e6f})
+        all.push_back({"Phong " + std::to_string(exponent), PhongMaterial{Rgb(0.5f), Rgb(0.5f), {exponent}}});
+    for (const float alpha : {1e-3f, 0.1f, 0.4f})
+        all.push_back({"Ward " + std::to_string(alpha), WardMaterial{Rgb(0.5f), Rgb(0.5f), WardVariant::balanced,
+                                                                     rough(Microfacets::beckmann, alpha, 2 * alpha)}});
     for (const Microfacets kind : {Microfacets::ggx, Microfacets::beckmann})
         for (const float alpha : {1e-4f, 1e-3f, 0.01f, 0.1f, 0.3f, 1.0f}) {
             const std::string name = (kind == Microfacets::ggx ? " GGX " : " Beckmann ") + std::to_string(alpha);
@@ -150,6 +158,46 @@ TEST(Bsdf, IsReciprocal) {
                         out = prepared.back().value({b.x, b.y, b.z}, above).f_cos.x / a.z;
             ASSERT_NEAR(in * 1.5f * 1.5f, out, 2e-3f * (1e-3f + std::abs(out))) << subject.name;
         }
+    }
+}
+
+/// Smooth facets are Lambert's; the long form of a white surface keeps more than the short one, which lets no light go
+/// from facet to facet (Oren and Nayar 1994, figure 12: against the light it is as bright as Lambert's, or brighter).
+TEST(Bsdf, RoughDiffuseIsOrenAndNayars) {
+    const PreparedMaterial smooth(RoughDiffuseMaterial{Rgb(0.7f), {0.0f}}),
+        rough_one(RoughDiffuseMaterial{Rgb(0.7f), {0.5f}}), fast(RoughDiffuseMaterial{Rgb(0.7f), {0.5f}, true});
+    for (const float cos : {1.0f, 0.6f, 0.2f}) {
+        const Vec3 wo = at_cosine(cos, 0.5f), wi = at_cosine(0.4f, 2.0f);
+        EXPECT_NEAR(smooth.front().value(wo, wi).f_cos.x, 0.7f * 0.4f * kInvPi, 1e-6f);
+        EXPECT_GT(mean_power(rough_one.front(), wo, 4000), mean_power(fast.front(), wo, 4000));
+    }
+    // Back to the light rough surfaces are brighter, across from it darker.
+    const Vec3 grazing = at_cosine(0.3f, 0.0f), back = at_cosine(0.3f, 0.1f), across = at_cosine(0.3f, 3.1f);
+    EXPECT_GT(rough_one.front().value(grazing, back).f_cos.x, 1.2f * rough_one.front().value(grazing, across).f_cos.x);
+    // sigma^2 = 0.125, normal incidence and view: A of equation 30.
+    const Vec3 up(0.0f, 0.0f, 1.0f);
+    EXPECT_NEAR(fast.front().value(up, up).f_cos.x, 0.7f * kInvPi * (1 - 0.5f * 0.125f / 0.455f), 1e-6f);
+}
+
+/// All of Phong's lobe about the normal lies above the surface: with its exponent the reflectance does not change.
+TEST(Bsdf, PhongAndWardReflectWhatTheyPromise) {
+    const Vec3 up(0.0f, 0.0f, 1.0f);
+    for (const float exponent : {1.0f, 20.0f, 1e3f, 1e5f}) {
+        const PreparedMaterial phong(PhongMaterial{Rgb(0.0f), Rgb(0.8f), {exponent}});
+        EXPECT_NEAR(mean_power(phong.front(), up, 20000), 0.8, 0.02) << exponent;
+    }
+    for (const float alpha : {0.01f, 0.1f, 0.3f}) {
+        const PreparedMaterial ward(
+            WardMaterial{Rgb(0.0f), Rgb(0.8f), WardVariant::balanced, rough(Microfacets::beckmann, alpha, alpha)});
+        EXPECT_NEAR(mean_power(ward.front(), at_cosine(0.8f, 1.0f), 20000), 0.8, alpha < 0.2f ? 0.02 : 0.1) << alpha;
+    }
+    // The three variants agree where wo and wi mirror each other about the normal, but for what they are divided by.
+    const Vec3 wo = at_cosine(0.5f, 0.0f), wi(-wo.x, -wo.y, wo.z);
+    for (const WardVariant variant : {WardVariant::ward, WardVariant::duer, WardVariant::balanced}) {
+        const PreparedMaterial ward(
+            WardMaterial{Rgb(0.0f), Rgb(1.0f), variant, rough(Microfacets::beckmann, 0.2f, 0.2f)});
+        const float peak = kInvPi / (0.2f * 0.2f), expected = variant == WardVariant::ward ? 0.25f : 0.5f;
+        EXPECT_NEAR(ward.front().value(wo, wi).f_cos.x / peak, expected, 1e-5f);
     }
 }
 

@@ -116,6 +116,9 @@ TEST(BsdfTraits, BsdfsHaveTheLobesThatTheirDescriptionsPromise) {
     expect_agreement(of(plastic({})), "plastic");
     expect_agreement(twosided(of(plastic(rough(0.2f, 0.2f)))), "rough plastic");
     expect_agreement(of(NullMaterial{}), "null");
+    expect_agreement(of(RoughDiffuseMaterial{}), "rough diffuse");
+    expect_agreement(of(PhongMaterial{}), "Phong");
+    expect_agreement(twosided(of(WardMaterial{})), "Ward");
 }
 
 TEST(BsdfTraits, SoDoBlends) {

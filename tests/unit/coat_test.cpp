@@ -24,6 +24,16 @@ TEST(Exponential, AgreesWithTheLibrary) {
     }
 }
 
+TEST(Exponential, LogarithmsAndDifferencesKeepTheirDigits) {
+    for (float x = 1e-7f; x < 1.0f - 0x1p-24f; x = x < 0.9f ? x * 1.01f : 0.5f * (1.0f + x)) {
+        ASSERT_NEAR(double(minus_log_one_minus(x)) / -std::log1p(-double(x)), 1.0, 1e-6) << x;
+        ASSERT_NEAR(double(one_minus_exp_negative(x)) / -std::expm1(-double(x)), 1.0, 2e-6) << x;
+    }
+    EXPECT_EQ(minus_log_one_minus(0.0f), 0.0f);
+    EXPECT_EQ(one_minus_exp_negative(0.0f), 0.0f);
+    EXPECT_EQ(one_minus_exp_negative(1e4f), 1.0f);
+}
+
 TEST(Fresnel, KnownReflectances) {
     EXPECT_NEAR(fresnel_dielectric(1.0f, 1.5f).reflectance, 0.04f, 1e-6f);
     EXPECT_NEAR(fresnel_dielectric(1.0f, 1 / 1.5f).reflectance, 0.04f, 1e-6f);

@@ -268,5 +268,41 @@ TEST_F(MitsubaMaterials, UnknownPropertiesOfEveryBsdfAreRefused) {
         }
 }
 
+TEST_F(MitsubaMaterials, RoughDiffusePhongAndWard) {
+    const auto rough = of_type<RoughDiffuseMaterial>("roughdiffuse");
+    EXPECT_EQ(rough.alpha.value, 0.2f);
+    EXPECT_FALSE(rough.fast);
+    const auto given = of_type<RoughDiffuseMaterial>("roughdiffuse",
+                                                     rgb("diffuseReflectance", "0.1 0.2 0.3") + number("alpha", "0.5") +
+                                                         "<boolean name=\"useFastApprox\" value=\"true\"/>");
+    EXPECT_EQ(given.reflectance.value, Rgb(0.1f, 0.2f, 0.3f));
+    EXPECT_TRUE(given.fast);
+
+    const auto phong = of_type<PhongMaterial>("phong", board("exponent"));
+    EXPECT_EQ(phong.diffuse_reflectance.value, Rgb(0.5f));
+    EXPECT_EQ(phong.specular_reflectance.value, Rgb(0.2f));
+    EXPECT_TRUE(phong.exponent.varies());
+
+    const auto ward = of_type<WardMaterial>("ward", number("alphaU", "0.05") + word("variant", "ward-duer"));
+    EXPECT_EQ(ward.variant, WardVariant::duer);
+    EXPECT_EQ(ward.roughness.alpha_u.value, 0.05f);
+    EXPECT_EQ(ward.roughness.alpha_v.value, 0.1f);
+    EXPECT_EQ(of_type<WardMaterial>("ward").variant, WardVariant::balanced);
+    EXPECT_THROW(material(bsdf("ward", word("variant", "new"))), InputError);
+    EXPECT_THROW(material(bsdf("phong", number("exponent", "-1"))), InputError);
+}
+
+TEST_F(MitsubaMaterials, DiffuseAndSpecularPartsThatAddUpToMoreThanOneAreScaledDown) {
+    const auto loaded = load_with_sensor(
+        "<shape type=\"rectangle\">" +
+        bsdf("phong", rgb("diffuseReflectance", "0.8 0.5 0.5") + rgb("specularReflectance", "0.8 0.1 0.1")) +
+        "</shape>");
+    const auto& phong = std::get<PhongMaterial>(loaded.scene.materials.at(0).bsdf);
+    EXPECT_FLOAT_EQ(phong.diffuse_reflectance.value.x, 0.5f);
+    EXPECT_FLOAT_EQ(phong.specular_reflectance.value.y, 0.0625f);
+    ASSERT_EQ(loaded.warnings.size(), 1u);
+    EXPECT_NE(loaded.warnings[0].text().find("add up to 1.6"), std::string::npos) << loaded.warnings[0].text();
+}
+
 }  // namespace
 }  // namespace treefarm

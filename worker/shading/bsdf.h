@@ -11,11 +11,14 @@
 #include "worker/shading/diffuse.h"
 #include "worker/shading/null.h"
 #include "worker/shading/oriented.h"
+#include "worker/shading/phong.h"
 #include "worker/shading/plastic.h"
 #include "worker/shading/rough_conductor.h"
 #include "worker/shading/rough_dielectric.h"
+#include "worker/shading/rough_diffuse.h"
 #include "worker/shading/rough_plastic.h"
 #include "worker/shading/thin_dielectric.h"
+#include "worker/shading/ward.h"
 
 namespace treefarm {
 
@@ -29,9 +32,9 @@ struct BlackBsdf {
 
 /// Every BSDF. A new one comes last; it says its own lobes (kLobes or lobes()), and where it transmits how light is
 /// refracted (refraction()), or does not compile.
-using BsdfKind =
-    std::variant<BlackBsdf, DiffuseBsdf, RoughConductorBsdf, RoughDielectricBsdf, RoughPlasticBsdf, PlasticBsdf,
-                 ConductorBsdf, DielectricBsdf, ThinDielectricBsdf, NullBsdf, BlendBsdf, OrientedBsdf>;
+using BsdfKind = std::variant<BlackBsdf, DiffuseBsdf, RoughConductorBsdf, RoughDielectricBsdf, RoughPlasticBsdf,
+                              PlasticBsdf, ConductorBsdf, DielectricBsdf, ThinDielectricBsdf, NullBsdf, BlendBsdf,
+                              OrientedBsdf, RoughDiffuseBsdf, PhongBsdf, WardBsdf>;
 
 template <class Kind>
 constexpr bool may_transmit() {

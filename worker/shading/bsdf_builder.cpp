@@ -163,6 +163,7 @@ struct BsdfBuilder::Place {
     Nodes& nodes;
 
     Rgb color(const ColorInput& input) const { return builder.color(input, point); }
+    float number(const FloatInput& input) const { return builder.textures_->eval(input, point.uv); }
     float fraction(const FloatInput& input) const { return clamped(builder.textures_->eval(input, point.uv)); }
     Microfacet facets(const Roughness& roughness) const { return builder.facets(roughness, point); }
     const Bsdf* part(std::int32_t material) const { return builder.side(material, back, point, nodes); }

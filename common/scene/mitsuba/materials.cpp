@@ -9,18 +9,15 @@ namespace {
 
 constexpr const char* kCure = "use one of those listed in docs/scenes.md";
 constexpr std::string_view kBsdfs[] = {
-    "diffuse",        "conductor", "roughconductor", "dielectric",  "roughdielectric",
-    "thindielectric", "plastic",   "roughplastic",   "twosided",    "mask",
-    "bumpmap",        "normalmap", "blendbsdf",      "mixturebsdf", "null"};
+    "diffuse",   "conductor",    "roughconductor", "dielectric",   "roughdielectric", "thindielectric",
+    "plastic",   "roughplastic", "twosided",       "mask",         "bumpmap",         "normalmap",
+    "blendbsdf", "mixturebsdf",  "null",           "roughdiffuse", "phong",           "ward"};
 
 /// What a BSDF that is not available would simulate.
 std::string effect_of(const std::string& type) {
     static constexpr std::pair<const char*, const char*> kEffects[] = {
-        {"roughdiffuse", "Oren-Nayar's rough diffuse reflection"},
         {"coating", "a smooth coat over another BSDF"},
         {"roughcoating", "a rough coat over another BSDF"},
-        {"phong", "Phong's reflection model"},
-        {"ward", "Ward's reflection model"},
         {"difftrans", "diffuse transmission"},
         {"hk", "scattering inside a thin slab (Hanrahan-Krueger)"},
         {"irawan", "Irawan and Marschner's woven cloth"},

@@ -86,6 +86,41 @@ class SurfaceReader {
         return plastic;
     }
 
+    /// Mitsuba 0.6 knows the reflectance by two names.
+    Bsdf rough_diffuse() {
+        RoughDiffuseMaterial rough;
+        rough.reflectance = reflectance(has_input("reflectance") ? "reflectance" : "diffuse_reflectance", 0.5f);
+        rough.alpha = textures_.number(properties_, "alpha", 0.2f);
+        rough.fast = properties_.boolean("use_fast_approx", false);
+        return rough;
+    }
+
+    Bsdf phong() {
+        PhongMaterial phong;
+        phong.diffuse_reflectance = reflectance("diffuse_reflectance", 0.5f);
+        phong.specular_reflectance = reflectance("specular_reflectance", 0.2f);
+        phong.exponent = textures_.number(properties_, "exponent", 30.0f);
+        return phong;
+    }
+
+    Bsdf ward() {
+        WardMaterial ward;
+        ward.diffuse_reflectance = reflectance("diffuse_reflectance", 0.5f);
+        ward.specular_reflectance = reflectance("specular_reflectance", 0.2f);
+        const std::string variant = lower(properties_.text("variant", "balanced"));
+        if (variant == "ward")
+            ward.variant = WardVariant::ward;
+        else if (variant == "ward-duer")
+            ward.variant = WardVariant::duer;
+        else if (variant != "balanced")
+            throw InputError(properties_.where("variant"), "unknown variant of Ward's model " + in_quotes(variant),
+                             "use ward, ward-duer or balanced");
+        const FloatInput general = alpha("alpha", 0.1f);
+        ward.roughness.alpha_u = has_input("alpha_u") ? alpha("alpha_u", 0.1f) : general;
+        ward.roughness.alpha_v = has_input("alpha_v") ? alpha("alpha_v", 0.1f) : general;
+        return ward;
+    }
+
   private:
     ColorInput reflectance(const char* name, float otherwise) {
         return textures_.color(properties_, name, Rgb(otherwise), ColorUse::reflectance);
@@ -158,6 +193,9 @@ std::optional<Bsdf> read_surface_bsdf(Properties& properties, TextureReader& tex
     if (type == "thindielectric") return reader.thin_dielectric();
     if (type == "plastic") return reader.plastic(false);
     if (type == "roughplastic") return reader.plastic(true);
+    if (type == "roughdiffuse") return reader.rough_diffuse();
+    if (type == "phong") return reader.phong();
+    if (type == "ward") return reader.ward();
     if (type == "null") return NullMaterial{};
     return std::nullopt;
 }

@@ -15,6 +15,7 @@ struct PlasticMaterial {
     bool single_return = false;
 
     static constexpr const char* kName = "plastic";
+    static constexpr bool kCoated = true;
     Lobes lobes() const {
         Lobes lobes = roughness.lobes(false);
         lobes.diffuse = true;
