@@ -34,10 +34,18 @@ std::string machine_text(const Probe& probe) {
     return fmt::format("on this machine ({} {})", probe.threads, probe.threads == 1 ? "thread" : "threads");
 }
 
-std::string question_text(const Resolved& job, bool out_of_time) {
-    const Job::Budget& budget = job.budget;
-    if (budget.error > 0 && !out_of_time) return percent_text(budget.error) + " % error";
-    return budget.seconds > 0 ? duration_text(budget.seconds) : count_text(budget.spp) + " spp";
+const char* end_word(RenderEnd end) {
+    return end == RenderEnd::error ? "error" : end == RenderEnd::seconds ? "seconds" : "spp";
+}
+
+/// Samples per pixel that a render never goes beyond.
+std::uint32_t most_spp(const Resolved& job) {
+    return has_open_budget(job) ? job.budget.max_spp : job.budget.spp;
+}
+
+std::string question_text(const Resolved& job, RenderEnd end) {
+    if (end == RenderEnd::error) return percent_text(job.budget.error) + " % error";
+    return end == RenderEnd::seconds ? duration_text(job.budget.seconds) : count_text(most_spp(job)) + " spp";
 }
 
 nlohmann::ordered_json figure_json(const Expected& figure) {
@@ -51,10 +59,25 @@ double rounded(double count) {
     return std::round(count / unit) * unit;
 }
 
-Expectation expected_of(const Resolved& job, const RenderState& state, bool by_error) {
-    if (by_error) return expect_error(state, job, job.budget.error);
-    if (job.budget.seconds > 0) return expect_after_seconds(state, job, job.budget.seconds);
-    return expect_after_spp(state, job, job.budget.spp);
+Expectation expected_of(const Resolved& job, const RenderState& state, RenderEnd end) {
+    if (end == RenderEnd::error) return expect_error(state, job, job.budget.error);
+    if (end == RenderEnd::seconds) return expect_after_seconds(state, job, job.budget.seconds);
+    return expect_after_spp(state, job, most_spp(job));
+}
+
+/// The budget that ends the render, with what it comes to then.
+void find_end(const Resolved& job, const RenderState& state, PlanAnswer& answer) {
+    const bool by_error = job.budget.error > 0, by_seconds = job.budget.seconds > 0;
+    answer.end = by_error ? RenderEnd::error : by_seconds ? RenderEnd::seconds : RenderEnd::spp;
+    answer.expected = expected_of(job, state, answer.end);
+    const auto ends_before = [&](RenderEnd other) {
+        answer.end = other;
+        answer.expected = expected_of(job, state, other);
+    };
+    if (by_error && by_seconds && answer.expected.known && answer.expected.seconds.value > job.budget.seconds)
+        ends_before(RenderEnd::seconds);
+    if (has_open_budget(job) && answer.expected.known && answer.expected.spp.value > job.budget.max_spp)
+        ends_before(RenderEnd::spp);
 }
 
 }  // namespace
@@ -68,12 +91,7 @@ PlanAnswer answer_by_probe(const Resolved& job, Probe probe, double pixel_ratio)
         pass.record_core_seconds *= pixel_ratio;
     }
     probe.state.seconds *= pixel_ratio;
-    answer.expected = expected_of(job, probe.state, job.budget.error > 0);
-    if (job.budget.error > 0 && job.budget.seconds > 0 && answer.expected.known &&
-        answer.expected.seconds.value > job.budget.seconds) {
-        answer.out_of_time = true;
-        answer.expected = expected_of(job, probe.state, false);
-    }
+    find_end(job, probe.state, answer);
     answer.probe = std::move(probe);
     answer.pixel_ratio = pixel_ratio;
     return answer;
@@ -82,21 +100,22 @@ PlanAnswer answer_by_probe(const Resolved& job, Probe probe, double pixel_ratio)
 std::string answer_text(const Resolved& job, const PlanAnswer& answer) {
     const Probe& probe = answer.probe;
     const Expectation& expected = answer.expected;
-    const std::string question = question_text(job, answer.out_of_time);
+    const std::string question = question_text(job, answer.end);
     std::string text = question + ": ";
     if (!expected.known) {
         text += "not known: " + expected.unknown + "\n";
     } else {
-        const bool by_error = job.budget.error > 0 && !answer.out_of_time;
-        if (by_error)
+        if (answer.end == RenderEnd::error)
             text += spp_text(expected.spp) + ", " + seconds_text(expected.seconds);
-        else if (job.budget.seconds > 0)
+        else if (answer.end == RenderEnd::seconds)
             text += spp_text(expected.spp) + ", error " + error_text(expected.error);
         else
             text += "about " + seconds_text(expected.seconds) + ", error " + error_text(expected.error);
         text += " " + machine_text(probe) + "\n";
-        if (answer.out_of_time)
+        if (job.budget.error > 0 && answer.end == RenderEnd::seconds)
             text += fmt::format("the {} % asked for would take longer\n", percent_text(job.budget.error));
+        if (has_open_budget(job) && answer.end == RenderEnd::spp)
+            text += fmt::format("budget.max_spp = {} ends it there\n", job.budget.max_spp);
         if (expected.reached)
             text += probe.state.error.rmse > 0 ? "the probe has come so far already\n" : "no noise was seen\n";
     }
@@ -114,7 +133,7 @@ nlohmann::ordered_json answer_json(const PlanAnswer& answer) {
         json["spp"] = figure_json(expected.spp);
         json["seconds"] = figure_json(expected.seconds);
         json["error"] = figure_json(expected.error);
-        json["out_of_time"] = answer.out_of_time;
+        json["ends_by"] = end_word(answer.end);
     } else {
         json["why"] = expected.unknown;
     }

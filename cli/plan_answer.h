@@ -8,12 +8,15 @@
 
 namespace treefarm {
 
+/// What ends a render that a plan looks at.
+enum class RenderEnd : std::uint8_t { error, seconds, spp };
+
 /// What a render is expected to take and to give, by a probe.
 struct PlanAnswer {
     Probe probe;
     Expectation expected;
-    bool out_of_time = false;  ///< --seconds ends the render before --error is reached
-    double pixel_ratio = 1;    ///< of the render's film over the probe's
+    RenderEnd end = RenderEnd::spp;  ///< whichever of its budgets comes first
+    double pixel_ratio = 1;          ///< of the render's film over the probe's
 };
 
 /// By the budget of the request's job.

@@ -58,13 +58,18 @@ TEST(PlanProbe, AnswersForSamplesAndTimeToo) {
     EXPECT_EQ(counted["spp"]["value"], 500);
     EXPECT_GT(counted["seconds"]["value"].get<double>(), 0);
     EXPECT_GT(counted["error"]["high"].get<double>(), counted["error"]["low"].get<double>());
-    const json timed = expected_of(kBox + " --seconds 1h --probe 0.05");
+    const json timed = expected_of(kBox + " --seconds 1h --set budget.max_spp=1073741824 --probe 0.05");
     EXPECT_EQ(timed["seconds"]["value"], 3600);
     EXPECT_GT(timed["spp"]["value"].get<double>(), 500);
     EXPECT_LT(timed["error"]["value"].get<double>(), counted["error"]["value"].get<double>());
     const json capped = expected_of(kBox + " --error 1e-5 --seconds 100 --probe 0.05");
-    EXPECT_TRUE(capped["out_of_time"].get<bool>());
+    EXPECT_EQ(capped["ends_by"], "seconds");
     EXPECT_EQ(capped["seconds"]["value"], 100);
+    for (const char* asked : {" --error 1e-5", " --seconds 1h", " --error 1e-5 --seconds 1h"}) {
+        const json bounded = expected_of(kBox + asked + " --set budget.max_spp=500 --probe 0.05");
+        EXPECT_EQ(bounded["ends_by"], "spp") << asked;
+        EXPECT_EQ(bounded["spp"]["value"], 500) << asked;
+    }
 }
 
 TEST(PlanProbe, TextSaysItInItsFirstLine) {
