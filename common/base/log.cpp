@@ -1,6 +1,7 @@
 #include "common/base/log.h"
 
 #include <fcntl.h>
+#include <spdlog/async.h>
 #include <spdlog/pattern_formatter.h>
 #include <spdlog/sinks/base_sink.h>
 #include <unistd.h>
@@ -76,6 +77,29 @@ class AppendingSink final : public spdlog::sinks::base_sink<std::mutex> {
     const std::filesystem::path file_;
 };
 
+/// A file sink in a thread of its own: whoever logs answers workers, too, and cannot wait for a disk that hangs. Of
+/// more lines than the queue holds the oldest are lost; the terminal had them.
+class AsideSink final : public spdlog::sinks::base_sink<spdlog::details::null_mutex> {
+  public:
+    AsideSink(const std::string& who, const std::filesystem::path& file)
+        : pool_(std::make_shared<spdlog::details::thread_pool>(kLines, 1)),
+          logger_(std::make_shared<spdlog::async_logger>(who, std::make_shared<AppendingSink>(file), pool_,
+                                                         spdlog::async_overflow_policy::overrun_oldest)) {
+        logger_->set_level(spdlog::level::trace);
+    }
+
+  private:
+    static constexpr std::size_t kLines = 4096;
+
+    void sink_it_(const spdlog::details::log_msg& message) override {
+        logger_->log(message.time, message.source, message.level, message.payload);
+    }
+    void flush_() override {}
+
+    const std::shared_ptr<spdlog::details::thread_pool> pool_;
+    const std::shared_ptr<spdlog::async_logger> logger_;
+};
+
 spdlog::level::level_enum least_level(Loudness loudness) {
     return loudness == Loudness::quiet    ? spdlog::level::err
            : loudness == Loudness::normal ? spdlog::level::info
@@ -88,7 +112,7 @@ Log make_log(const std::string& who, const std::filesystem::path& file, const Co
     auto terminal = std::make_shared<ConsoleSink>(console);
     terminal->set_level(least_level(loudness));
     std::vector<spdlog::sink_ptr> sinks = {std::move(terminal)};
-    if (!file.empty()) sinks.push_back(std::make_shared<AppendingSink>(file));
+    if (!file.empty()) sinks.push_back(std::make_shared<AsideSink>(who, file));
     auto log = std::make_shared<spdlog::logger>(who, sinks.begin(), sinks.end());
     log->set_level(spdlog::level::debug);
     log->flush_on(spdlog::level::info);

@@ -1,9 +1,13 @@
 #include "common/base/log.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
+#include <chrono>
 #include <fstream>
+#include <future>
 #include <sstream>
+#include <thread>
 
 #include "common/base/printable.h"
 
@@ -40,8 +44,9 @@ TEST(Printable, KeepsTextAndReplacesWhatSteersTerminals) {
 TEST(Log, ALineIsALine) {
     const fs::path file = fs::path(testing::TempDir()) / "log_test.txt";
     fs::remove(file);
-    const Log log = make_log("treefarm", file, silent(), Loudness::quiet);
+    Log log = make_log("treefarm", file, silent(), Loudness::quiet);
     log->info("results in {}", "runs/a\n2026-01-01 treefarm error: forged\x1b[2J");
+    log.reset();  // all is written then
     const std::string text = read(file);
     EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 1) << text;
     EXPECT_EQ(text.find('\x1b'), std::string::npos);
@@ -51,13 +56,40 @@ TEST(Log, ALineIsALine) {
 TEST(Log, GoesOnInAFileThatWasRemoved) {
     const fs::path folder = fs::path(testing::TempDir()) / "log_test_folder", file = folder / "log.txt";
     fs::create_directories(folder);
-    const Log log = make_log("treefarm", file, silent(), Loudness::quiet);
+    Log log = make_log("treefarm", file, silent(), Loudness::quiet);
     log->info("one");
+    while (read(file).find("one") == std::string::npos)
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
     fs::remove_all(folder);
     log->info("nowhere");
     fs::create_directories(folder);
     log->info("two");
+    log.reset();
     EXPECT_NE(read(file).find("two"), std::string::npos);
+}
+
+/// A pipe that nobody reads is such a disk: to open it takes as long as it takes a reader to come.
+TEST(Log, DoesNotWaitForADiskThatHangs) {
+    const fs::path pipe = fs::path(testing::TempDir()) / "log_test_pipe";
+    fs::remove(pipe);
+    ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+    Log log = make_log("treefarm", pipe, silent(), Loudness::quiet);
+    std::future<void> said = std::async(std::launch::async, [&] {
+        for (int i = 0; i < 10000; ++i)
+            log->info("line {}", i);
+    });
+    const bool waited = said.wait_for(std::chrono::seconds(20)) != std::future_status::ready;
+    EXPECT_FALSE(waited);
+    std::string last;
+    std::thread reader([&] {
+        // Each line opens the pipe anew.
+        while (last.find("line 9999") == std::string::npos)
+            last = read(pipe);
+    });
+    said.wait();
+    log.reset();
+    reader.join();
+    EXPECT_NE(last.find("line 9999"), std::string::npos) << "the newest lines are kept";
 }
 
 }  // namespace
