@@ -6,6 +6,7 @@
 
 #include "common/config/job_keys.h"
 #include "common/plan/effect_table.h"
+#include "common/plan/policy_table.h"
 
 namespace treefarm {
 namespace {
@@ -27,6 +28,10 @@ TEST(Docs, ListEveryJobKeyAsTheProgramKnowsIt) {
 
 TEST(Docs, ListEveryEffectAsTheProgramKnowsIt) {
     expect_page_holds("effects.md", effect_documentation());
+}
+
+TEST(Docs, ListEveryTunedConstantAsTheProgramKnowsIt) {
+    expect_page_holds("policy.md", policy_documentation());
 }
 
 }  // namespace
