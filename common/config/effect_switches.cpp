@@ -38,6 +38,7 @@ std::span<const std::pair<std::string, std::string>> effects_without_switch() {
         {"blends", "change the scene's materials"},
         {"rough_diffuse", "change the scene's materials"},
         {"phong", "change the scene's materials"},
+        {"principled", "change the scene's materials"},
         {"ward", "change the scene's materials"},
         {"coats", "change the scene's materials"},
         {"null", "change the scene's materials"},

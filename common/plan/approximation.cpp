@@ -16,6 +16,11 @@ namespace {
 
 struct MakeIsotropic : IgnoreFields {
     bool changed = false;
+    void anisotropy(FloatInput& input) {
+        if (!input.varies() && input.value == 0.0f) return;
+        changed = true;
+        input = 0.0f;
+    }
     void roughness(Roughness& roughness, bool) {
         if (!roughness.anisotropic()) return;
         changed = true;
@@ -26,10 +31,11 @@ struct MakeIsotropic : IgnoreFields {
 };
 
 /// A kind that light passes through says what it is without that; all others say nothing.
-std::optional<PlasticMaterial> opaque_form(const Material& material) {
+std::optional<MaterialKind> opaque_form(const Material& material) {
     return std::visit(
-        [](const auto& kind) -> std::optional<PlasticMaterial> {
-            if constexpr (requires { kind.opaque(); }) return kind.opaque();
+        [](const auto& kind) -> std::optional<MaterialKind> {
+            if constexpr (requires { kind.opaque(); })
+                if (kind.lobes().transmits()) return kind.opaque();
             return std::nullopt;
         },
         material.bsdf);
@@ -82,9 +88,9 @@ class Remover {
 
     void transmission() {
         for_used([&](Material& material) {
-            if (std::optional<PlasticMaterial> coat = opaque_form(material)) {
+            if (std::optional<MaterialKind> opaque = opaque_form(material)) {
                 note(material.where);
-                material.bsdf = *std::move(coat);
+                material.bsdf = *std::move(opaque);
             }
         });
     }

@@ -44,6 +44,8 @@ std::vector<EffectDescription> make_table() {
         {"rough_diffuse", "materials", "facets that are diffuse (Oren and Nayar 1994)", "a material is roughdiffuse",
          "no memory; some 30 operations per evaluation more than diffuse"},
         {"phong", "materials", "Phong's lobe over a diffuse base", "a material is phong", no_memory},
+        {"principled", "materials", "Disney's principled BSDF (Burley 2012 and 2015)", "a material is principled",
+         "128 bytes a material; up to five lobes per evaluation"},
         {"ward", "materials", "Ward's anisotropic lobe over a diffuse base", "a material is ward", no_memory},
         {"blends", "materials", "two materials mixed", "a material is a blend", "both parts are evaluated"},
         {"null", "materials", "surfaces that are not there", "a material is null", "a ray continues"},

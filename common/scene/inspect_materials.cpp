@@ -42,6 +42,7 @@ class MaterialInspection {
     void fraction(const char* what, const FloatInput& input) {
         factor(input.value, input.value, input.varies(), input.texture, what);
     }
+    void anisotropy(const FloatInput& input) { fraction("anisotropy", input); }
     void number(const char* what, const FloatInput& input, float least, float most) {
         const float reached = input.varies() ? input.value * largest_of(scene_, input.texture) : input.value;
         if (!(reached >= least && reached <= most))

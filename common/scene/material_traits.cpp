@@ -13,6 +13,10 @@ struct FieldTraits : IgnoreFields {
     MaterialTraits& traits;
     explicit FieldTraits(MaterialTraits& to) : traits(to) {}
     void fraction(const char*, const auto& input) { traits.textured |= input.varies(); }
+    void anisotropy(const FloatInput& input) {
+        traits.textured |= input.varies();
+        traits.anisotropic |= input.varies() || input.value > 0.0f;
+    }
     void number(const char*, const FloatInput& input, float, float) { traits.textured |= input.varies(); }
     void roughness(const Roughness& roughness, bool) {
         if (roughness.smooth()) return;

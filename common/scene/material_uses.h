@@ -12,6 +12,7 @@ struct InputVisitor : IgnoreFields {
     F& f;
     explicit InputVisitor(F& call) : f(call) {}
     void fraction(const char*, auto& input) { f(input); }
+    void anisotropy(auto& input) { f(input); }
     void number(const char*, auto& input, float, float) { f(input); }
     void roughness(auto& roughness, bool) {
         f(roughness.alpha_u);

@@ -50,6 +50,8 @@ class MaterialCheck {
         if (input.varies()) input.value *= fraction_scale(input.texture, input.value, what);
     }
 
+    void anisotropy(FloatInput& input) { fraction("anisotropy", input); }
+
     void number(const char* name, const FloatInput& input, float least, float most) const {
         const std::string bounds = number_text(least) + " to " + number_text(most);
         float low = input.value, high = input.value;

@@ -129,6 +129,25 @@ TEST_P(RoughLobes, WardAndPhong) {
     }
 }
 
+TEST_P(RoughLobes, Principled) {
+    const auto [distribution, alpha] = GetParam();
+    if (distribution != Microfacets::ggx || alpha < 0.01f) return;
+    PrincipledMaterial material;
+    material.roughness = std::sqrt(alpha);
+    material.metallic = 0.25f, material.clearcoat = 1.0f, material.clearcoat_gloss = 0.25f;
+    const test::PreparedMaterial opaque(material);
+    material.spec_trans = 0.75f;
+    const test::PreparedMaterial glass(material);
+    for (const float cos : {1.0f, 0.7f, 0.2f}) {
+        const Vec3 wo = at_cosine(cos, 0.3f), mirror(-wo.x, -wo.y, wo.z);
+        test(opaque.front(), wo, mirror, 2 * alpha, "principled", true);
+        test(glass.front(), wo, mirror, 2 * alpha, "principled glass", true);
+        const DielectricFresnel f = fresnel_dielectric(wo.z, 1.5f);
+        test(glass.front(), wo, {-wo.x / 1.5f, -wo.y / 1.5f, -f.cos_transmitted}, alpha, "refracted");
+        test(glass.back(), wo, mirror, 2 * alpha, "inside");
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(Roughness, RoughLobes,
                          ::testing::Values(Case{Microfacets::ggx, 0.0001f}, Case{Microfacets::beckmann, 0.0001f},
                                            Case{Microfacets::ggx, 0.001f}, Case{Microfacets::ggx, 0.01f},

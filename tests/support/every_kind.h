@@ -53,6 +53,12 @@ inline Scene every_kind_scene() {
     two.back = 1;
     add(RoughDiffuseMaterial{ColorInput(Rgb(0.3f, 0.2f, 0.1f), 0), {0.75f, 2}, true});
     add(PhongMaterial{ColorInput(Rgb(0.25f), 0), Rgb(0.125f), {20.0f}});
+    PrincipledMaterial principled{ColorInput(Rgb(0.5f, 0.25f, 0.125f), 0), {0.25f, 2}};
+    principled.anisotropic = 0.5f, principled.metallic = {0.375f, 2}, principled.spec_trans = 0.625f;
+    principled.spec_tint = 0.75f, principled.sheen = 0.125f, principled.sheen_tint = 0.25f;
+    principled.flatness = {0.5f, 2}, principled.clearcoat = 0.875f, principled.clearcoat_gloss = 0.0625f;
+    principled.eta = 1.375f;
+    add(principled);
     add(WardMaterial{Rgb(0.375f), Rgb(0.25f), WardVariant::duer, {Microfacets::beckmann, {0.25f}, {0.5f}}});
 
     Mesh mesh;

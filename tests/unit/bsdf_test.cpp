@@ -58,6 +58,25 @@ std::vector<Subject> white_materials() {
     return all;
 }
 
+/// With those that may create energy, as their model does.
+std::vector<Subject> all_materials() {
+    std::vector<Subject> all = white_materials();
+    PrincipledMaterial plain;
+    plain.base_color = Rgb(1.0f);
+    all.push_back({"principled", plain});
+    PrincipledMaterial rich = plain;
+    rich.roughness = 0.3f, rich.metallic = 0.25f, rich.spec_tint = 0.5f, rich.flatness = 0.5f;
+    rich.sheen = 0.5f, rich.sheen_tint = 0.5f, rich.clearcoat = 1.0f, rich.clearcoat_gloss = 0.5f;
+    all.push_back({"rich principled", rich});
+    PrincipledMaterial glass = rich;
+    glass.spec_trans = 0.75f;
+    all.push_back({"principled glass", glass});
+    for (const WardVariant variant : {WardVariant::ward, WardVariant::duer})
+        all.push_back(
+            {"older Ward", WardMaterial{Rgb(0.5f), Rgb(0.5f), variant, rough(Microfacets::beckmann, 0.1f, 0.2f)}});
+    return all;
+}
+
 /// Mean share of the power that a sample carries on, with the scaling of radiance undone.
 double mean_power(const Bsdf& bsdf, const Vec3& wo, int samples) {
     const double eta2 = double(refraction_of(bsdf)) * double(refraction_of(bsdf));
@@ -124,7 +143,7 @@ TEST(Bsdf, RoughMetalOfSmallRoughnessIsAMirror) {
 }
 
 TEST(Bsdf, SamplesCarryTheirValueAndDensity) {
-    for (const Subject& subject : white_materials()) {
+    for (const Subject& subject : all_materials()) {
         const PreparedMaterial prepared(subject.material);
         for (const bool back : {false, true}) {
             const Bsdf* bsdf = prepared.side(back);
@@ -142,7 +161,7 @@ TEST(Bsdf, SamplesCarryTheirValueAndDensity) {
 }
 
 TEST(Bsdf, IsReciprocal) {
-    for (const Subject& subject : white_materials()) {
+    for (const Subject& subject : all_materials()) {
         const PreparedMaterial prepared(subject.material);
         for (std::uint32_t i = 0; i < 300; ++i) {
             const Draw r = draw({17, i, 0}, 0, Stream::scatter);
@@ -179,6 +198,61 @@ TEST(Bsdf, RoughDiffuseIsOrenAndNayars) {
     EXPECT_NEAR(fast.front().value(up, up).f_cos.x, 0.7f * kInvPi * (1 - 0.5f * 0.125f / 0.455f), 1e-6f);
 }
 
+/// The corners where the model is one that is known otherwise.
+TEST(Bsdf, PrincipledContainsMetalAndGlass) {
+    PrincipledMaterial metal;
+    metal.base_color = Rgb(0.9f, 0.6f, 0.3f);
+    metal.metallic = 1.0f;
+    metal.roughness = 0.5f;
+    const PreparedMaterial principled_metal(metal),
+        mirror(ConductorMaterial{Rgb(0.0f), Rgb(1.0f), Rgb(1.0f), rough(Microfacets::ggx, 0.25f, 0.25f)});
+    PrincipledMaterial glass;
+    glass.base_color = Rgb(1.0f);
+    glass.spec_trans = 1.0f;
+    glass.roughness = 0.5f;
+    const PreparedMaterial principled_glass(glass),
+        boundary(DielectricMaterial{1.5f, Rgb(1.0f), Rgb(1.0f), rough(Microfacets::ggx, 0.25f, 0.25f)});
+    for (std::uint32_t i = 0; i < 300; ++i) {
+        const Draw r = draw({19, i, 0}, 0, Stream::scatter);
+        const Vec3 wo = at_cosine(0.05f + 0.9f * to_unit(r[0]), 6.28f * to_unit(r[1]));
+        const Vec3 wi = at_cosine(0.05f + 0.9f * to_unit(r[2]), 6.28f * to_unit(r[3]));
+        // Schlick's approximation between the color at the normal and white.
+        const Vec3 h = normalize(wo + wi);
+        const float weight = std::pow(1.0f - dot(wo, h), 5.0f);
+        const Rgb expected =
+            mirror.front().value(wo, wi).f_cos * (metal.base_color.value * (1.0f - weight) + Rgb(weight));
+        const Rgb seen = principled_metal.front().value(wo, wi).f_cos;
+        ASSERT_NEAR((seen - expected).length(), 0.0f, 1e-4f * (1.0f + expected.length()));
+        for (const bool back : {false, true})
+            for (const Vec3& to : {wi, Vec3(wi.x, wi.y, -wi.z)}) {
+                const BsdfValue a = principled_glass.side(back)->value(wo, to), b = boundary.side(back)->value(wo, to);
+                ASSERT_NEAR(a.f_cos.x, b.f_cos.x, 1e-4f * (1.0f + b.f_cos.x)) << back << to;
+                ASSERT_NEAR(a.pdf, b.pdf, 1e-4f * (1.0f + b.pdf)) << back << to;
+            }
+    }
+}
+
+/// Burley 2012: at grazing retroreflection a rough base is up to 2.5 times as bright as Lambert's, a smooth one half.
+TEST(Bsdf, PrincipledBaseIsBurleys) {
+    PrincipledMaterial base;
+    base.base_color = Rgb(1.0f);
+    const Vec3 grazing = at_cosine(0.02f, 0.0f);
+    for (const float roughness : {0.0f, 1.0f}) {
+        base.roughness = roughness;
+        const PreparedMaterial principled(base);
+        const double lambert = 0.02 / 3.14159265, weight = std::pow(0.98, 5), retro = 2.0 * double(roughness);
+        // Back where it came from; what the facets mirror is taken off by a base of no color.
+        PrincipledMaterial black = base;
+        black.base_color = Rgb(0.0f);
+        const PreparedMaterial specular(black);
+        const double seen = double(principled.front().value(grazing, grazing).f_cos.x) -
+                            double(specular.front().value(grazing, grazing).f_cos.x);
+        const double expected =
+            (1 - 0.5 * weight) * (1 - 0.5 * weight) + retro * (2 * weight + weight * weight * (retro - 1));
+        EXPECT_NEAR(seen / lambert, expected, 1e-3 * expected) << roughness;
+    }
+}
+
 /// All of Phong's lobe about the normal lies above the surface: with its exponent the reflectance does not change.
 TEST(Bsdf, PhongAndWardReflectWhatTheyPromise) {
     const Vec3 up(0.0f, 0.0f, 1.0f);
@@ -202,7 +276,7 @@ TEST(Bsdf, PhongAndWardReflectWhatTheyPromise) {
 }
 
 TEST(Bsdf, GrazingAndOppositeDirectionsAreFinite) {
-    for (const Subject& subject : white_materials()) {
+    for (const Subject& subject : all_materials()) {
         const PreparedMaterial prepared(subject.material);
         for (const bool back : {false, true}) {
             const Bsdf* bsdf = prepared.side(back);

@@ -119,6 +119,10 @@ TEST(BsdfTraits, BsdfsHaveTheLobesThatTheirDescriptionsPromise) {
     expect_agreement(of(RoughDiffuseMaterial{}), "rough diffuse");
     expect_agreement(of(PhongMaterial{}), "Phong");
     expect_agreement(twosided(of(WardMaterial{})), "Ward");
+    PrincipledMaterial principled;
+    expect_agreement(of(principled), "principled");
+    principled.spec_trans = 0.5f;
+    expect_agreement(of(principled), "principled glass");
 }
 
 TEST(BsdfTraits, SoDoBlends) {

@@ -29,6 +29,8 @@ TEST(Exponential, LogarithmsAndDifferencesKeepTheirDigits) {
         ASSERT_NEAR(double(minus_log_one_minus(x)) / -std::log1p(-double(x)), 1.0, 1e-6) << x;
         ASSERT_NEAR(double(one_minus_exp_negative(x)) / -std::expm1(-double(x)), 1.0, 2e-6) << x;
     }
+    for (float x = 1e-30f; x < 1.0f; x *= 1.013f)
+        ASSERT_NEAR(double(minus_log(x)), -std::log(double(x)), 3e-7 * std::max(1.0, -std::log(double(x)))) << x;
     EXPECT_EQ(minus_log_one_minus(0.0f), 0.0f);
     EXPECT_EQ(one_minus_exp_negative(0.0f), 0.0f);
     EXPECT_EQ(one_minus_exp_negative(1e4f), 1.0f);

@@ -304,5 +304,24 @@ TEST_F(MitsubaMaterials, DiffuseAndSpecularPartsThatAddUpToMoreThanOneAreScaledD
     EXPECT_NE(loaded.warnings[0].text().find("add up to 1.6"), std::string::npos) << loaded.warnings[0].text();
 }
 
+TEST_F(MitsubaMaterials, Principled) {
+    const std::string v3 = "3.0.0";
+    const auto plain = of_type<PrincipledMaterial>("principled", "", v3);
+    EXPECT_NEAR(plain.eta, 1.5f, 1e-6f) << "a specular of 0.5";
+    EXPECT_FALSE(plain.transmits());
+    const auto given = of_type<PrincipledMaterial>(
+        "principled",
+        rgb("base_color", "0.8 0.4 0.2") + number("roughness", "0.2") + board("metallic") +
+            number("spec_trans", "0.5") + number("specular", "0") + number("main_specular_sampling_rate", "2"),
+        v3);
+    EXPECT_EQ(given.base_color.value, Rgb(0.8f, 0.4f, 0.2f));
+    EXPECT_TRUE(given.metallic.varies() && given.transmits());
+    EXPECT_GT(given.eta, 1.0f) << "where light passes the boundary bends it";
+    EXPECT_EQ(of_type<PrincipledMaterial>("principled", number("eta", "1.3"), v3).eta, 1.3f);
+    for (const std::string& inside : {number("eta", "1.3") + number("specular", "0.5"), number("specular", "2"),
+                                      number("roughness", "1.5"), number("metallic", "-1"), number("shine", "1")})
+        EXPECT_THROW(material(bsdf("principled", inside), v3), InputError) << inside;
+}
+
 }  // namespace
 }  // namespace treefarm

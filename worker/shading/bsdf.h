@@ -13,6 +13,7 @@
 #include "worker/shading/oriented.h"
 #include "worker/shading/phong.h"
 #include "worker/shading/plastic.h"
+#include "worker/shading/principled.h"
 #include "worker/shading/rough_conductor.h"
 #include "worker/shading/rough_dielectric.h"
 #include "worker/shading/rough_diffuse.h"
@@ -34,7 +35,7 @@ struct BlackBsdf {
 /// refracted (refraction()), or does not compile.
 using BsdfKind = std::variant<BlackBsdf, DiffuseBsdf, RoughConductorBsdf, RoughDielectricBsdf, RoughPlasticBsdf,
                               PlasticBsdf, ConductorBsdf, DielectricBsdf, ThinDielectricBsdf, NullBsdf, BlendBsdf,
-                              OrientedBsdf, RoughDiffuseBsdf, PhongBsdf, WardBsdf>;
+                              OrientedBsdf, RoughDiffuseBsdf, PhongBsdf, WardBsdf, PrincipledBsdf>;
 
 template <class Kind>
 constexpr bool may_transmit() {

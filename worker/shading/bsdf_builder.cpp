@@ -12,8 +12,10 @@ namespace {
 /// Where BSDFs of constant materials are kept.
 struct ConstantNodes {
     std::deque<Bsdf>& bsdfs;
+    std::deque<PrincipledInputs>& principled;
 
     Bsdf& add() { return bsdfs.emplace_back(); }
+    PrincipledInputs& add_principled() { return principled.emplace_back(); }
     RoughTransmittance& add_coat() { throw RunError("a constant material has a coat whose roughness varies"); }
 };
 
@@ -107,7 +109,7 @@ void BsdfBuilder::note_coat(const PlasticMaterial& plastic, Notes& notes) {
 }
 
 const Bsdf* BsdfBuilder::constant(std::int32_t material, bool back) {
-    ConstantNodes nodes{constants_};
+    ConstantNodes nodes{constants_, constant_principled_};
     return side(material, back, {}, nodes);
 }
 
@@ -167,6 +169,7 @@ struct BsdfBuilder::Place {
     float fraction(const FloatInput& input) const { return clamped(builder.textures_->eval(input, point.uv)); }
     Microfacet facets(const Roughness& roughness) const { return builder.facets(roughness, point); }
     const Bsdf* part(std::int32_t material) const { return builder.side(material, back, point, nodes); }
+    const PrincipledInputs* keep(const PrincipledInputs& inputs) const { return &(nodes.add_principled() = inputs); }
     float smooth_escapes() const { return notes.smooth_escapes; }
     const RoughTransmittance* coat(const Microfacet& rough) const {
         if (!notes.coats) return notes.coat;

@@ -22,16 +22,18 @@ struct ShadingPoint {
 /// Storage for the BSDFs of one hit: a thread keeps it; it never grows.
 class BsdfScratch {
   public:
-    explicit BsdfScratch(std::size_t nodes = 0) : nodes_(nodes), coats_(nodes) {}
+    explicit BsdfScratch(std::size_t nodes = 0) : nodes_(nodes), coats_(nodes), principled_(nodes) {}
 
-    void clear() { used_ = coats_used_ = 0; }
+    void clear() { used_ = coats_used_ = principled_used_ = 0; }
     Bsdf& add() { return nodes_[used_++]; }
     RoughTransmittance& add_coat() { return coats_[coats_used_++]; }
+    PrincipledInputs& add_principled() { return principled_[principled_used_++]; }
 
   private:
     std::vector<Bsdf> nodes_;
     std::vector<RoughTransmittance> coats_;
-    std::size_t used_ = 0, coats_used_ = 0;
+    std::vector<PrincipledInputs> principled_;
+    std::size_t used_ = 0, coats_used_ = 0, principled_used_ = 0;
 };
 
 /// Turns descriptions into BSDFs: once for those that are the same everywhere, at every hit for the others. What a kind
@@ -101,6 +103,7 @@ class BsdfBuilder {
     std::map<std::tuple<bool, float, float>, RoughTransmittance> coats_;
     std::map<std::tuple<bool, float>, RoughTransmittances> varying_coats_;
     std::deque<Bsdf> constants_;
+    std::deque<PrincipledInputs> constant_principled_;
 };
 
 }  // namespace treefarm

@@ -7,6 +7,7 @@ namespace treefarm {
 /// visitor has, for what a value is:
 ///
 ///     fraction(name, ColorInput& or FloatInput&)  a factor in [0, 1], constant or textured
+///     anisotropy(FloatInput&)                     a factor in [0, 1]; above 0 tangents are needed
 ///     number(name, FloatInput&, least, most)       any other number, constant or textured, within these bounds
 ///     together(ColorInput&, ColorInput&)          two factors named before, whose sum may not be above 1
 ///     choice(name, Enum&, last)                   one of an enum's values, from 0 to `last`
@@ -21,6 +22,7 @@ namespace treefarm {
 /// A visitor that looks at nothing: others derive from it and hide what they care for.
 struct IgnoreFields {
     void fraction(const char*, const auto&) {}
+    void anisotropy(const auto&) {}
     void number(const char*, const auto&, float, float) {}
     void together(const auto&, const auto&) {}
     void choice(const char*, const auto&, auto) {}

@@ -10,6 +10,7 @@
 #include "common/scene/kinds/materials/null.h"
 #include "common/scene/kinds/materials/phong.h"
 #include "common/scene/kinds/materials/plastic.h"
+#include "common/scene/kinds/materials/principled.h"
 #include "common/scene/kinds/materials/rough_diffuse.h"
 #include "common/scene/kinds/materials/thin_dielectric.h"
 #include "common/scene/kinds/materials/ward.h"
@@ -19,7 +20,7 @@ namespace treefarm {
 /// Every kind of material. Its place here is its number in packed form: new ones come last.
 using MaterialKind =
     std::variant<DiffuseMaterial, ConductorMaterial, DielectricMaterial, ThinDielectricMaterial, PlasticMaterial,
-                 BlendMaterial, NullMaterial, RoughDiffuseMaterial, PhongMaterial, WardMaterial>;
+                 BlendMaterial, NullMaterial, RoughDiffuseMaterial, PhongMaterial, WardMaterial, PrincipledMaterial>;
 
 /// Shows a visitor (fields.h) each value of a kind, const or not.
 template <class Kind, class Visitor>

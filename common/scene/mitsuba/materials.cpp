@@ -9,9 +9,9 @@ namespace {
 
 constexpr const char* kCure = "use one of those listed in docs/scenes.md";
 constexpr std::string_view kBsdfs[] = {
-    "diffuse",   "conductor",    "roughconductor", "dielectric",   "roughdielectric", "thindielectric",
-    "plastic",   "roughplastic", "twosided",       "mask",         "bumpmap",         "normalmap",
-    "blendbsdf", "mixturebsdf",  "null",           "roughdiffuse", "phong",           "ward"};
+    "diffuse",      "conductor",    "roughconductor", "dielectric", "roughdielectric", "thindielectric", "plastic",
+    "roughplastic", "twosided",     "mask",           "bumpmap",    "normalmap",       "blendbsdf",      "mixturebsdf",
+    "null",         "roughdiffuse", "phong",          "ward",       "principled"};
 
 /// What a BSDF that is not available would simulate.
 std::string effect_of(const std::string& type) {
@@ -28,7 +28,6 @@ std::string effect_of(const std::string& type) {
         {"polarizer", "polarisation"},
         {"retarder", "polarisation"},
         {"circular", "polarisation"},
-        {"principled", "Disney's principled BSDF"},
         {"principledthin", "Disney's principled BSDF"}};
     for (const auto& [name, effect] : kEffects)
         if (type == name) return std::string(" (") + effect + ")";

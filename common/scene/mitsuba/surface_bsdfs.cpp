@@ -121,7 +121,45 @@ class SurfaceReader {
         return ward;
     }
 
+    Bsdf principled() {
+        PrincipledMaterial principled;
+        const auto share = [&](const char* name, float otherwise) {
+            return textures_.number(properties_, name, otherwise);
+        };
+        principled.base_color = reflectance("base_color", 0.5f);
+        principled.roughness = share("roughness", 0.5f);
+        principled.anisotropic = share("anisotropic", 0.0f);
+        principled.metallic = share("metallic", 0.0f);
+        principled.spec_trans = share("spec_trans", 0.0f);
+        principled.spec_tint = share("spec_tint", 0.0f);
+        principled.sheen = share("sheen", 0.0f);
+        principled.sheen_tint = share("sheen_tint", 0.0f);
+        principled.flatness = share("flatness", 0.0f);
+        principled.clearcoat = share("clearcoat", 0.0f);
+        principled.clearcoat_gloss = share("clearcoat_gloss", 0.0f);
+        principled.eta = principled_eta(principled.transmits());
+        // How directions are drawn does not change the image.
+        properties_.ignore(
+            {"main_specular_sampling_rate", "clearcoat_sampling_rate", "diffuse_reflectance_sampling_rate"});
+        return principled;
+    }
+
   private:
+    /// From eta or specular. Where light passes it may not be 1: Mitsuba moves it away as far.
+    float principled_eta(bool transmits) {
+        if (properties_.has("eta") && properties_.has("specular"))
+            throw InputError(properties_.where("specular"), "both eta and specular are given", "keep one of them");
+        if (properties_.has("eta")) {
+            const auto eta = static_cast<float>(properties_.number("eta", 1.5));
+            return transmits && eta == 1.0f ? 1.001f : eta;
+        }
+        const auto specular = static_cast<float>(properties_.number("specular", 0.5));
+        if (!(specular >= 0.0f && specular <= 1.0f))
+            throw InputError(properties_.where("specular"), "a specular of " + number_text(specular), "give 0 to 1");
+        const float bounded = transmits ? std::max(specular, 1e-3f) : specular;
+        return 2.0f / (1.0f - std::sqrt(0.08f * bounded)) - 1.0f;
+    }
+
     ColorInput reflectance(const char* name, float otherwise) {
         return textures_.color(properties_, name, Rgb(otherwise), ColorUse::reflectance);
     }
@@ -196,6 +234,7 @@ std::optional<Bsdf> read_surface_bsdf(Properties& properties, TextureReader& tex
     if (type == "roughdiffuse") return reader.rough_diffuse();
     if (type == "phong") return reader.phong();
     if (type == "ward") return reader.ward();
+    if (type == "principled") return reader.principled();
     if (type == "null") return NullMaterial{};
     return std::nullopt;
 }
