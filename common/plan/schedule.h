@@ -42,7 +42,7 @@ struct PassPlan {
         return unit_paths(tile_size) >= kLongPaths;
     }
 
-    KernelChoice kernel;  ///< what traces it
+    KernelChoice kernel{};  ///< what traces it
 
     bool operator==(const PassPlan&) const = default;
 };

@@ -41,7 +41,8 @@ PassBegin sample_pass() {
                   .record_weight = 0.5,
                   .learn_mixture = true,
                   .blocks_per_unit = 2,
-                  .chunks = 4};
+                  .chunks = 4,
+                  .kernel = {.guided = true, .views = true}};
     begin.tree_bytes = 1234;
     begin.tree_hash = 99;
     return begin;
