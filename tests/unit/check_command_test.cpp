@@ -225,7 +225,7 @@ TEST_F(CheckCommand, FindsScaleAndPlace) {
     const auto whole = [](const char* kind, const char* severity) { return Defect{"", kind, severity, ""}; };
     expect_found({{room("<translate x=\"3e6\"/>"), "", "", ""}, whole("far from origin", "warning")}, 5);
     expect_found({{room("<scale value=\"1e-5\"/>"), "", "", ""}, whole("scale", "note")}, 0, 1e-4);
-    expect_found({{room("<scale value=\"1e7\"/>"), "", "", ""}, whole("scale", "note")}, 0);
+    expect_found({{room("<scale value=\"1e7\"/>"), "", "", ""}, whole("scale", "note")}, 0, 5e7);
     expect_found({{room("<scale value=\"1\"/>"), "", "", ""}, whole("distant camera", "warning")}, 5, 1e6);
     expect_found({whole("no shapes", "warning"), whole("no emitters", "warning")}, 5);
 }

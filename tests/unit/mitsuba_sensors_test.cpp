@@ -85,9 +85,9 @@ TEST_F(MitsubaSensors, OneOfSeveralIsUsed) {
     } catch (const InputError& error) {
         EXPECT_NE(std::string(error.what()).find("0, 1 (\"side\"), 2 (\"0\")"), std::string::npos) << error.what();
     }
-    const auto warnings = load(views, "3.0.0").warnings;
-    ASSERT_FALSE(warnings.empty());
-    EXPECT_NE(warnings[0].text().find("first of 3 sensors"), std::string::npos) << warnings[0].text();
+    const auto notes = load(views, "3.0.0").notes;
+    ASSERT_FALSE(notes.empty());
+    EXPECT_NE(notes[0].text().find("first of 3 sensors"), std::string::npos) << notes[0].text();
     const auto checked = load_scene_to_check(folder_ / "scene.xml").findings;
     ASSERT_EQ(checked.size(), 1u);
     EXPECT_EQ(checked[0].severity, Finding::Severity::note);
