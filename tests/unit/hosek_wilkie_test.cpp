@@ -40,7 +40,7 @@ double ground_illuminance(const HosekWilkieSky& sky, double elevation) {
     return M_PI * sum / (kRings * kSectors);
 }
 
-/// The paper's equation in a script of its own (Python), over the authors' tables as Mitsuba 0.6 has them
+/// The paper's equation in a Python script, over the authors' tables as Mitsuba 0.6 has them
 /// (src/emitters/sunsky/skymodeldata.h, commit 10af06f3). What that script says of whole pictures agrees with
 /// Mitsuba's to 1e-5.
 TEST(HosekWilkie, RadianceIsWhatThePaperSays) {
@@ -130,9 +130,9 @@ TEST(HosekWilkie, RadianceIsFiniteAndNotNegativeEverywhere) {
             }
 }
 
-/// The authors' solar radiance function (ArHosekSkyModelData_Spectral.h, version 1.4a), integrated over the disk by a
-/// script of its own and weighted with Rec. 709 at the same 11 wavelengths. Mitsuba's table, made in single precision,
-/// is a constant 0.33 % below, as is the rounding of 1 - cos(0.268 degrees).
+/// The authors' solar radiance function (ArHosekSkyModelData_Spectral.h, version 1.4a), integrated over the disk in
+/// double by another script and weighted with Rec. 709 at the same 11 wavelengths. Mitsuba's table is 0.33 % below
+/// throughout; of that 0.22 % are the rounding of 1 - cos(0.268 degrees) to single precision.
 TEST(HosekWilkie, TheSunIsTheSolarRadianceFunctionOverItsDisk) {
     struct Case {
         double turbidity, elevation;
@@ -162,7 +162,7 @@ TEST(HosekWilkie, TheSunIsInterpolatedAndHeldAtTheEnds) {
     EXPECT_EQ(hosek_wilkie_sun(2.0, 0.0).z, 0.0) << "less than nothing of blue in the table";
 }
 
-/// computeSunRadiance of Mitsuba 0.6's sunmodel.h in a script of its own, over that file's tables, integrated in steps
+/// computeSunRadiance of Mitsuba 0.6's sunmodel.h in a Python script, over that file's tables, integrated in steps
 /// of 0.05 nm against its observer.
 TEST(PreethamSun, RadianceIsMitsubas) {
     struct Case {
