@@ -1,7 +1,9 @@
 #include "common/scene/mitsuba/daylight.h"
 
-#include <array>
+#include <algorithm>
 #include <cmath>
+#include <span>
+#include <utility>
 
 #include "common/scene/mitsuba/spectra.h"
 
@@ -18,35 +20,41 @@ double days_since_2000(const Observation& o, double universal_hours) {
     return day_number - 0.5 + universal_hours / 24.0 - 2451545.0;
 }
 
-/// Integral of the CIE 1931 ybar over the wavelength, nm: what a luminance is divided by to be an average per nm.
-constexpr double kIntegralOfY = 106.857;
-constexpr double kLumenPerWatt = 683.0;
+/// Tables over the wavelength (nm) of Mitsuba 0.6's sunmodel.h, linear between their entries and 0 outside. Mixed gases
+/// absorb beyond 750 nm only, where the sun's table has ended.
+using Table = std::span<const std::pair<double, double>>;
 
-/// Of the zenith: rows for turbidity^2, turbidity and 1, columns for the third to the zeroth power of the sun's angle.
-double chromaticity(const std::array<std::array<double, 4>, 3>& m, double turbidity, double angle) {
-    double value = 0.0;
-    for (const auto& row : m)
-        value = value * turbidity + ((row[0] * angle + row[1]) * angle + row[2]) * angle + row[3];
-    return value;
+double value_at(Table table, double nanometres) {
+    const auto next = std::lower_bound(table.begin(), table.end(), nanometres,
+                                       [](const auto& entry, double w) { return entry.first < w; });
+    if (next == table.end() || nanometres < table.front().first) return 0.0;
+    if (next->first == nanometres) return next->second;
+    const auto& before = *std::prev(next);
+    return before.second + (next->second - before.second) * (nanometres - before.first) / (next->first - before.first);
 }
 
-/// From 380 to 750 nm at every 10: radiance of the sun outside the atmosphere in W / (m^2 sr nm), from the table
-/// solAmplitudes of Mitsuba 0.6's sunmodel.h, and absorption of ozone and of water vapour, 1/cm, as there and in
-/// github.com/ebruneton/clear-sky-models. (Mixed gases absorb beyond 750 nm only.)
-struct SunSample {
-    double radiance, ozone, vapour;
-};
-constexpr std::array<SunSample, 38> kSun = {
-    {{16559.0, 0.0, 0.0},     {16233.7, 0.0, 0.0},      {21127.5, 0.0, 0.0},   {25888.2, 0.0, 0.0},
-     {25829.1, 0.0, 0.0},     {24232.3, 0.0, 0.0},      {26760.5, 0.0, 0.0},   {29658.3, 0.003, 0.0},
-     {30545.4, 0.006, 0.0},   {30057.5, 0.009, 0.0},    {30663.7, 0.014, 0.0}, {28830.4, 0.021, 0.0},
-     {28712.1, 0.030, 0.0},   {27825.0, 0.040, 0.0},    {27100.6, 0.048, 0.0}, {27233.6, 0.063, 0.0},
-     {26361.3, 0.075, 0.0},   {25503.8, 0.085, 0.0},    {25060.2, 0.103, 0.0}, {25311.6, 0.120, 0.0},
-     {25355.9, 0.120, 0.0},   {25134.2, 0.115, 0.0},    {24631.5, 0.125, 0.0}, {24173.2, 0.120, 0.0},
-     {23685.3, 0.105, 0.0},   {23212.1, 0.090, 0.0},    {22827.7, 0.079, 0.0}, {22339.8, 0.067, 0.0},
-     {21970.2, 0.057, 0.0},   {21526.7, 0.048, 0.0},    {21097.9, 0.036, 0.0}, {20728.3, 0.028, 0.016},
-     {20240.4, 0.023, 0.024}, {19870.8, 0.018, 0.0125}, {19427.2, 0.014, 1.0}, {19072.4, 0.011, 0.87},
-     {18628.9, 0.010, 0.061}, {18259.2, 0.009, 0.001}}};
+/// Radiance of the sun outside the atmosphere, W / (m^2 sr nm): solAmplitudes.
+constexpr std::pair<double, double> kSun[] = {
+    {380, 16559.0}, {390, 16233.7}, {400, 21127.5}, {410, 25888.2}, {420, 25829.1}, {430, 24232.3}, {440, 26760.5},
+    {450, 29658.3}, {460, 30545.4}, {470, 30057.5}, {480, 30663.7}, {490, 28830.4}, {500, 28712.1}, {510, 27825.0},
+    {520, 27100.6}, {530, 27233.6}, {540, 26361.3}, {550, 25503.8}, {560, 25060.2}, {570, 25311.6}, {580, 25355.9},
+    {590, 25134.2}, {600, 24631.5}, {610, 24173.2}, {620, 23685.3}, {630, 23212.1}, {640, 22827.7}, {650, 22339.8},
+    {660, 21970.2}, {670, 21526.7}, {680, 21097.9}, {690, 20728.3}, {700, 20240.4}, {710, 19870.8}, {720, 19427.2},
+    {730, 19072.4}, {740, 18628.9}, {750, 18259.2}};
+
+/// Absorption by ozone, 1/cm: k_oAmplitudes, from where the visible spectrum begins.
+constexpr std::pair<double, double> kOzone[] = {
+    {355, 0.0},   {445, 0.003}, {450, 0.003}, {455, 0.004}, {460, 0.006}, {465, 0.008}, {470, 0.009}, {475, 0.012},
+    {480, 0.014}, {485, 0.017}, {490, 0.021}, {495, 0.025}, {500, 0.03},  {505, 0.035}, {510, 0.04},  {515, 0.045},
+    {520, 0.048}, {525, 0.057}, {530, 0.063}, {535, 0.07},  {540, 0.075}, {545, 0.08},  {550, 0.085}, {555, 0.095},
+    {560, 0.103}, {565, 0.11},  {570, 0.12},  {575, 0.122}, {580, 0.12},  {585, 0.118}, {590, 0.115}, {595, 0.12},
+    {600, 0.125}, {605, 0.13},  {610, 0.12},  {620, 0.105}, {630, 0.09},  {640, 0.079}, {650, 0.067}, {660, 0.057},
+    {670, 0.048}, {680, 0.036}, {690, 0.028}, {700, 0.023}, {710, 0.018}, {720, 0.014}, {730, 0.011}, {740, 0.01},
+    {750, 0.009}, {760, 0.007}};
+
+/// Absorption by water vapour, 1/cm: k_waAmplitudes.
+constexpr std::pair<double, double> kVapour[] = {{689, 0.0},  {690, 0.016}, {700, 0.024}, {710, 0.0125}, {720, 1.0},
+                                                 {730, 0.87}, {740, 0.061}, {750, 0.001}, {760, 1e-05}};
 
 }  // namespace
 
@@ -79,58 +87,19 @@ SkyAngles sun_position(const Observation& o) {
     return sun;
 }
 
-PreethamSky::PreethamSky(double t, double sun_zenith)
-    : luminance_{0.1787 * t - 1.4630, -0.3554 * t + 0.4275, -0.0227 * t + 5.3251,
-                 0.1206 * t - 2.5771, -0.0670 * t + 0.3703, 1.0},
-      x_{-0.0193 * t - 0.2592, -0.0665 * t + 0.0008, -0.0004 * t + 0.2125,
-         -0.0641 * t - 0.8989, -0.0033 * t + 0.0452, 1.0},
-      y_{-0.0167 * t - 0.2608, -0.0950 * t + 0.0092, -0.0079 * t + 0.2102,
-         -0.0441 * t - 1.6537, -0.0109 * t + 0.0529, 1.0} {
-    const double chi = (4.0 / 9.0 - t / 120.0) * (M_PI - 2.0 * sun_zenith);
-    const double zenith_kcd = (4.0453 * t - 4.9710) * std::tan(chi) - 0.2155 * t + 2.4192;
-    const double zenith_x = chromaticity({{{0.00166, -0.00375, 0.00209, 0.0},
-                                           {-0.02903, 0.06377, -0.03202, 0.00394},
-                                           {0.11693, -0.21196, 0.06052, 0.25886}}},
-                                         t, sun_zenith);
-    const double zenith_y = chromaticity({{{0.00275, -0.00610, 0.00317, 0.0},
-                                           {-0.04214, 0.08970, -0.04153, 0.00516},
-                                           {0.15346, -0.26756, 0.06670, 0.26688}}},
-                                         t, sun_zenith);
-    const auto set = [&](Channel& channel, double zenith) {
-        channel.scale = zenith / distribution(channel, 1.0, sun_zenith);
-    };
-    set(luminance_, zenith_kcd * 1000.0 / (kLumenPerWatt * kIntegralOfY));
-    set(x_, zenith_x);
-    set(y_, zenith_y);
-}
-
-double PreethamSky::distribution(const Channel& p, double cos_zenith, double from_sun) {
-    const double cos_from_sun = std::cos(from_sun);
-    return p.scale * (1.0 + p.a * std::exp(p.b / cos_zenith)) *
-           (1.0 + p.c * std::exp(p.d * from_sun) + p.e * cos_from_sun * cos_from_sun);
-}
-
-Rgb64 PreethamSky::radiance(double zenith, double from_sun) const {
-    const double cosine = std::max(std::cos(zenith), 1e-3);
-    const double luminance = std::max(distribution(luminance_, cosine, from_sun), 0.0);
-    const double x = distribution(x_, cosine, from_sun), y = distribution(y_, cosine, from_sun);
-    const Rgb64 rgb = xyz_to_rgb(luminance / y * x, luminance, luminance / y * std::max(1.0 - x - y, 0.0));
-    return {std::max(rgb.x, 0.0), std::max(rgb.y, 0.0), std::max(rgb.z, 0.0)};
-}
-
 Rgb64 preetham_sun(double turbidity, double sun_zenith) {
     const double degrees = sun_zenith * 180.0 / M_PI;
     const double mass = 1.0 / (std::cos(sun_zenith) + 0.15 * std::pow(93.885 - degrees, -1.253));
-    const double beta = 0.04608 * turbidity - 0.04586;
-    constexpr double kOzone = 0.35, kVapour = 2.0;  // cm
+    const double beta = 0.04608365822050 * turbidity - 0.04586025928522;
+    constexpr double kOzoneDepth = 0.35, kVapourDepth = 2.0;  // cm
     SpectrumSamples spectrum;
-    for (std::size_t i = 0; i < kSun.size(); ++i) {
-        const double nanometres = 380.0 + 10.0 * static_cast<double>(i), micrometres = nanometres / 1000.0;
-        const SunSample& sun = kSun[i];
-        const double depth =
-            mass * (0.008735 * std::pow(micrometres, -4.08) + beta * std::pow(micrometres, -1.3) + sun.ozone * kOzone) +
-            0.2385 * sun.vapour * kVapour * mass / std::pow(1.0 + 20.07 * sun.vapour * kVapour * mass, 0.45);
-        spectrum.emplace_back(nanometres, sun.radiance * std::exp(-depth));
+    for (int nanometres = 375; nanometres <= 755; nanometres += 5) {
+        const double micrometres = nanometres / 1000.0;
+        const double vapour = value_at(kVapour, nanometres) * kVapourDepth * mass;
+        const double depth = mass * (0.008735 * std::pow(micrometres, -4.08) + beta * std::pow(micrometres, -1.3) +
+                                     value_at(kOzone, nanometres) * kOzoneDepth) +
+                             0.2385 * vapour / std::pow(1.0 + 20.07 * vapour, 0.45);
+        spectrum.emplace_back(nanometres, value_at(kSun, nanometres) * std::exp(-depth));
     }
     const Rgb64 rgb = spectrum_to_rgb(spectrum, false);
     return {std::max(rgb.x, 0.0), std::max(rgb.y, 0.0), std::max(rgb.z, 0.0)};

@@ -22,29 +22,9 @@ struct SkyAngles {
 /// as its source; to half a minute of arc, by Mitsuba's documentation.
 SkyAngles sun_position(const Observation& observation);
 
-/// The clear sky of Preetham, Shirley and Smits 1999 (A practical analytic model for daylight), by the coefficients in
-/// github.com/ebruneton/clear-sky-models (preetham.cc): Perez' distribution, linear in the turbidity.
-class PreethamSky {
-  public:
-    /// Turbidity from 1.7 to 10 (below, the model's zenith is no longer bright), the sun above the horizon.
-    PreethamSky(double turbidity, double sun_zenith);
-
-    /// Radiance in linear Rec. 709, W / (m^2 sr nm), towards a direction above the horizon, and `from_sun` radians from
-    /// the sun.
-    Imath::Color3<double> radiance(double zenith, double from_sun) const;
-
-  private:
-    /// Perez' five coefficients, and the value at the zenith over the distribution there.
-    struct Channel {
-        double a, b, c, d, e, scale;
-    };
-    static double distribution(const Channel& channel, double cos_zenith, double from_sun);
-
-    Channel luminance_, x_, y_;
-};
-
-/// Radiance of the sun's disk in linear Rec. 709, W / (m^2 sr nm), behind the air of this turbidity (the same
-/// model, as in Mitsuba 0.6's sunmodel.h, computeSunRadiance).
+/// Radiance of the sun's disk in linear Rec. 709, W / (m^2 sr nm), behind the air of this turbidity: Preetham, Shirley
+/// and Smits 1999 (A practical analytic model for daylight), as in Mitsuba 0.6's sunmodel.h (computeSunRadiance). The
+/// sun is above the horizon.
 Imath::Color3<double> preetham_sun(double turbidity, double sun_zenith);
 
 /// Half the angle under which the sun appears, radians (0.5358 degrees across, as in Mitsuba).

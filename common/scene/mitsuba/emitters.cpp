@@ -149,7 +149,7 @@ void read_emitter(const XmlElement& emitter, Scene& scene, TextureReader& textur
     } else if (type == "envmap") {
         add(read_envmap(properties, textures));
     } else if (type == "sky" || type == "sun" || type == "sunsky") {
-        read_sky(properties, scene, diagnostics);
+        read_sky(properties, scene, textures);
     } else {
         diagnostics.unsupported(
             emitter.where, properties.title() + " is not available in this version",

@@ -5,6 +5,7 @@
 #include "common/config/parse_text.h"
 #include "common/scene/mitsuba/daylight.h"
 #include "common/scene/mitsuba/emitters.h"
+#include "common/scene/mitsuba/hosek_wilkie.h"
 
 namespace treefarm::mitsuba {
 namespace {
@@ -14,9 +15,11 @@ using Vec64 = Imath::V3d;
 
 struct SkySettings {
     bool sky = true, sun = true;
+    bool of_mitsuba_3 = false;
     double turbidity = 3.0;
-    double stretch = 1.0;  ///< from 1 (the upper half) to 2 (all directions)
-    bool extend = false;   ///< the horizon's radiance below it, fading
+    Rgb64 albedo = Rgb64(0.0);  ///< of the ground
+    double stretch = 1.0;       ///< from 1 (the upper half) to 2 (all directions)
+    bool extend = false;        ///< the horizon's radiance below it, fading
     double sky_scale = 1.0, sun_scale = 1.0;
     double sun_radius_scale = 1.0;  ///< at the same irradiance
     int resolution = 512;           ///< pixels around the horizon; half as many from pole to pole
@@ -76,19 +79,15 @@ SkyAngles read_position(Properties& properties, const EnvironmentEmitter& frame)
     return sun_position(at);
 }
 
-SkySettings read_settings(Properties& properties, const EnvironmentEmitter& frame, Diagnostics& diagnostics) {
+SkySettings read_settings(Properties& properties, const EnvironmentEmitter& frame, TextureReader& textures) {
     constexpr double kMost = 1e15;
     SkySettings sky;
     const std::string type = properties.type();
     sky.sky = type != "sun";
     sky.sun = type != "sky";
     sky.turbidity = number_within(properties, "turbidity", 3.0, 1.0, 10.0);
-    constexpr double kLeastTurbidity = 1.7;
-    if (sky.turbidity < kLeastTurbidity) {
-        diagnostics.warn(properties.where("turbidity"), "Preetham's sky has no turbidity below 1.7: that is used");
-        sky.turbidity = kLeastTurbidity;
-    }
-    if (properties.element().version >= 2) {
+    sky.of_mitsuba_3 = properties.element().version >= 2;
+    if (sky.of_mitsuba_3) {
         sky.sky_scale = number_within(properties, "sky_scale", 1.0, 0.0, kMost);
         sky.sun_scale = number_within(properties, "sun_scale", 1.0, 0.0, kMost);
         constexpr double kAperture = 2.0 * kSunRadius * 180.0 / M_PI;
@@ -103,9 +102,10 @@ SkySettings read_settings(Properties& properties, const EnvironmentEmitter& fram
         if (sky.sky) sky.extend = properties.boolean("extend", false);
         if (sky.sun) sky.sun_radius_scale = number_within(properties, "sun_radius_scale", 1.0, 0.0, 100.0);
     }
-    if (sky.sky && (properties.has("albedo") || properties.named_child("texture", "albedo") != nullptr)) {
-        diagnostics.warn(properties.where("albedo"), "Preetham's sky knows no albedo of the ground: it is ignored");
-        properties.ignore({"albedo"});
+    if (sky.sky) {
+        // 0.6 has 0.2 in its code, though its manual says 0.15.
+        const Rgb otherwise(sky.of_mitsuba_3 ? 0.3f : 0.2f);
+        sky.albedo = Rgb64(textures.constant(properties, "albedo", otherwise, ColorUse::reflectance));
     }
     sky.position = read_position(properties, frame);
     if (sky.position.zenith > M_PI / 2.0)
@@ -115,7 +115,9 @@ SkySettings read_settings(Properties& properties, const EnvironmentEmitter& fram
 }
 
 void paint_sky(const SkySettings& settings, TextureImage& image) {
-    const PreethamSky model(settings.turbidity, settings.position.zenith);
+    const HosekWilkieSky model(settings.turbidity, settings.albedo, M_PI / 2.0 - settings.position.zenith);
+    // What either version takes for the integral of the CIE 1931 ybar over the wavelength, nm.
+    const double per_nm = 1.0 / (settings.of_mitsuba_3 ? 106.7502593994140625 : 106.856980);
     const Vec64 sun = direction_of(settings.position);
     for (int y = 0; y < image.height; ++y) {
         const double below_pole = (y + 0.5) * M_PI / image.height;
@@ -132,7 +134,7 @@ void paint_sky(const SkySettings& settings, TextureImage& image) {
         for (int x = 0; x < image.width; ++x) {
             const Vec64 direction = direction_of({zenith, (x + 0.5) * 2.0 * M_PI / image.width});
             const double from_sun = std::acos(std::clamp(direction.dot(sun), -1.0, 1.0));
-            const Rgb64 radiance = model.radiance(zenith, from_sun) * (settings.sky_scale * fade);
+            const Rgb64 radiance = model.radiance(zenith, from_sun) * (per_nm * settings.sky_scale * fade);
             float* pixel = &image.floats[3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +
                                               static_cast<std::size_t>(x))];
             for (int c = 0; c < 3; ++c)
@@ -170,6 +172,14 @@ void paint_sun(const SkyAngles& position, double radius, const Rgb64& irradiance
     }
 }
 
+/// Irradiance of the sun on a plane that faces it, W / (m^2 nm), by the model of the version that the file is for.
+Rgb64 sun_irradiance(const SkySettings& settings) {
+    if (settings.of_mitsuba_3)
+        return hosek_wilkie_sun(settings.turbidity, M_PI / 2.0 - settings.position.zenith) * settings.sun_scale;
+    const double solid_angle = 2.0 * M_PI * (1.0 - std::cos(kSunRadius));
+    return preetham_sun(settings.turbidity, settings.position.zenith) * (solid_angle * settings.sun_scale);
+}
+
 /// Axes of the image: version 0.6 has y up, north at -z and east at x; version 3 has z up, south at x and west at y
 /// (its sun_coordinates turns the azimuth by pi, though its page says that x is north).
 EnvironmentEmitter read_frame(Properties& properties) {
@@ -184,12 +194,9 @@ EnvironmentEmitter read_frame(Properties& properties) {
 
 }  // namespace
 
-void read_sky(Properties& properties, Scene& scene, Diagnostics& diagnostics) {
+void read_sky(Properties& properties, Scene& scene, TextureReader& textures) {
     EnvironmentEmitter environment = read_frame(properties);
-    const SkySettings settings = read_settings(properties, environment, diagnostics);
-    diagnostics.warn(properties.where(), properties.title() +
-                                             " is rendered with the model of Preetham et al. 1999, where Mitsuba has "
-                                             "Hosek and Wilkie's: brightness and colours differ somewhat");
+    const SkySettings settings = read_settings(properties, environment, textures);
 
     TextureImage image;
     image.name = properties.type();
@@ -199,9 +206,7 @@ void read_sky(Properties& properties, Scene& scene, Diagnostics& diagnostics) {
     image.floats.resize(3 * static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
     if (settings.sky) paint_sky(settings, image);
     if (settings.sun) {
-        const double solid_angle = 2.0 * M_PI * (1.0 - std::cos(kSunRadius));
-        const Rgb64 irradiance =
-            preetham_sun(settings.turbidity, settings.position.zenith) * (solid_angle * settings.sun_scale);
+        const Rgb64 irradiance = sun_irradiance(settings);
         const SkyAngles stretched{settings.position.zenith * settings.stretch, settings.position.azimuth};
         if (settings.sun_radius_scale == 0.0) {
             const Vec64 sun = direction_of(stretched);
