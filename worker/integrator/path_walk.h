@@ -233,10 +233,12 @@ class PathWalk {
         const Hit& hit = path.hit;
         const Ray& ray = path.ray;
         observer_.arrive(path.depth, path.found ? &hit : nullptr);
-        if (kGuided && path.copied) [[unlikely]]
+        if (kGuided && path.copied) [[unlikely]] {
             path.copied = false;
-        else if (!arrive(path, kRecord ? &recorders_[index] : nullptr))
-            return false;
+        } else {
+            if (!arrive(path, kRecord ? &recorders_[index] : nullptr)) return false;
+            scene_.geometry().keep_inside(path.hit, ray);
+        }
 
         const Surface& surface = path.surface.emplace(scene_, hit, -ray.direction, scratch_[index]);
         if (surface.black()) return end("black surface");
