@@ -127,6 +127,9 @@ class MaterialReader {
         material.detail.bump = get_optional_index(in_, texture_count_, "bump texture");
         material.detail.bump_scale = in_.get<float>();
         material.detail.normal_map = get_optional_index(in_, texture_count_, "normal map");
+        material.detail.normal_scale = get_vector<Rgb>(in_);
+        material.detail.flip_invalid = get_flag(in_, "flip_invalid");
+        material.detail.shadowed = get_flag(in_, "shadowed");
         material.name = in_.get_string();
         material.where = get_location(in_);
         return material;
@@ -159,6 +162,9 @@ void put_material(ByteWriter& out, const Material& material) {
     out.put(material.detail.bump);
     out.put(material.detail.bump_scale);
     out.put(material.detail.normal_map);
+    put_vector(out, material.detail.normal_scale);
+    put_flag(out, material.detail.flip_invalid);
+    put_flag(out, material.detail.shadowed);
     out.put_string(material.name);
     put_location(out, material.where);
 }
