@@ -44,6 +44,13 @@ Finding refusal(const InputError& error) {
     return {Finding::Severity::error, "refused", error.where(), error.problem(), error.cure()};
 }
 
+/// Whether the scene itself asks for farm.robust.
+bool is_robust(const std::vector<Setting>& settings) {
+    const auto at =
+        std::find_if(settings.begin(), settings.end(), [](const Setting& s) { return s.key == "farm.robust"; });
+    return at != settings.end() && at->value == "true";
+}
+
 bool is_error(const Finding& finding) {
     return finding.severity == Finding::Severity::error;
 }
@@ -55,7 +62,8 @@ std::vector<Finding> check(const CheckOptions& options) {
     const bool is_whole = std::none_of(findings.begin(), findings.end(), &is_error);
     for (Finding& finding : inspect(read.scene))
         // Of a scene whose parts were left out it means nothing that it lacks some.
-        if (is_whole || !finding.kind.starts_with("no ")) findings.push_back(std::move(finding));
+        if ((is_whole || !finding.kind.starts_with("no ")) && !(finding.kind == "far room" && is_robust(read.settings)))
+            findings.push_back(std::move(finding));
     std::vector<Warning> repaired;  // each has a finding of its own
     try {
         if (std::none_of(findings.begin(), findings.end(), &is_error)) validate_scene(read.scene, repaired);

@@ -126,7 +126,7 @@ struct Job {
         double update_seconds = 1.5;     ///< how often a worker sends what it has finished
         std::string isa =
             "avx2";           ///< Embree's instruction set, the same on every worker: sse2, sse4.2, avx, avx2, avx512
-        bool robust = false;  ///< Embree's rays do not slip through shared edges
+        bool robust = false;  ///< rays neither slip through shared edges nor start behind corners
         bool memory_check = true;  ///< no render begins where a host has less memory than is expected to be taken
     } farm;
 

@@ -268,7 +268,8 @@ std::vector<JobKey> make_job_keys() {
         "farm.isa", "instruction set that Embree uses, the same on every worker",
         [](auto& j) -> auto& { return j.farm.isa; }, isas));
     add(boolean_key(
-        "farm.robust", "Embree tests watertight: no ray slips through an edge that two triangles share; slower",
+        "farm.robust",
+        "watertight: no ray slips through an edge that two triangles share, or starts behind a corner; slower",
         [](auto& j) -> auto& { return j.farm.robust; }));
     add(boolean_key(
         "farm.memory_check", "refuse to begin where a host has less memory than its processes are expected to take",

@@ -1,5 +1,7 @@
 #include "common/scene/inspect.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 namespace treefarm {
@@ -32,6 +34,40 @@ Box3 finite_bounds(const Scene& scene) {
     return box;
 }
 
+/// So many of its own sizes from the origin a shape loses 6 of the 24 bits of its floats: as read_mitsuba() has it.
+constexpr double kFarSizes = 64.0;
+
+/// A shape that the camera stands at, however far from the origin it is, counted from where a render moves the scene:
+/// the positions on it are blurred, and rays that start in a corner may do so behind the other wall. Measured in rooms
+/// of one size at 1,000 and 10,000 of it, 2^-25 of the diffuse rays leave per size.
+void inspect_room(const Scene& scene, const Imath::V3d& origin, std::vector<Finding>& findings) {
+    const Imath::V3d camera(scene.camera.origin);
+    const Shape* worst = nullptr;
+    double sizes = kFarSizes, farthest = 0;
+    for (const Shape& shape : scene.shapes) {
+        const Box3 box = own_box(shape);
+        if (shape.group != kNone || box.isEmpty() || !is_finite(box.min) || !is_finite(box.max)) continue;
+        const Imath::V3d low(box.min), high(box.max);
+        double size = 0, away = 0, largest = 0;
+        for (int i = 0; i < 3; ++i) {
+            size = std::max(size, high[i] - low[i]);
+            away = std::max({away, low[i] - camera[i], camera[i] - high[i]});
+            largest = std::max({largest, std::abs(low[i] - origin[i]), std::abs(high[i] - origin[i])});
+        }
+        if (!(size > 0) || away > 2 * size || !(largest > sizes * size)) continue;
+        worst = &shape;
+        sizes = largest / size;
+        farthest = largest;
+    }
+    if (worst)
+        findings.push_back({warning, "far room", worst->where,
+                            named("shape", worst->name) + ", at which the camera stands, is " + short_number(sizes) +
+                                " of its sizes from the origin: positions on it are blurred by " +
+                                short_number(farthest * 0x1p-24) + " units, and about " +
+                                short_number(sizes * 0x1p-25) + " of the rays from its corners pass its walls",
+                            "set farm.robust = true, under which none does, or move the scene so that it is near"});
+}
+
 }  // namespace
 
 /// Floats have 24 bits: what lies so many sizes away keeps that many digits fewer.
@@ -55,6 +91,7 @@ void inspect_scale(const Scene& scene, std::vector<Finding>& findings) {
                 " of its sizes away from the origin: coordinates that its mesh files hold there are blurred by " +
                 short_number(middle.length() * 0x1p-24) + " units",
             "a render moves it to the origin; so should its files");
+    inspect_room(scene, middle.length() > kFarSizes * extent ? middle : Imath::V3d(0.0), findings);
     if (extent < 1e-3 || extent > 1e6)
         add(note, "scale", "the scene is " + short_number(extent) + " units large",
             "choose units in which rooms are 1 to 1000");

@@ -34,7 +34,7 @@ SceneToCheck load_scene_to_check(const std::filesystem::path& path, const std::m
                                  bool lenient, const std::string& sensor) {
     require_xml(path);
     SceneReading reading = read_mitsuba_to_check(path, defines, lenient, sensor);
-    return {std::move(reading.scene), std::move(reading.findings)};
+    return {std::move(reading.scene), std::move(reading.settings), std::move(reading.findings)};
 }
 
 }  // namespace treefarm

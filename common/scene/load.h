@@ -29,6 +29,7 @@ LoadedScene load_scene(const std::filesystem::path& path, const std::map<std::st
 /// A scene for inspect(): before anything is repaired; what a render would refuse to read is left out.
 struct SceneToCheck {
     Scene scene;
+    std::vector<Setting> settings;  ///< as of LoadedScene
     std::vector<Finding> findings;  ///< what its reader has to say
 };
 

@@ -9,7 +9,15 @@ namespace treefarm {
 struct NormalDetail {
     std::int32_t bump = kNone;  ///< texture of displacements along the normal, in scene units
     float bump_scale = 1.0f;
-    std::int32_t normal_map = kNone;  ///< bitmap that stores normals as (n + 1) / 2, in the tangent frame
+    std::int32_t normal_map = kNone;  ///< texture that, times normal_scale, stores normals as (n + 1) / 2, in the
+                                      ///< tangent frame
+    Rgb normal_scale{1.0f};
+    /// A tilted normal that faces away from where the surface is seen from is turned by half a turn about the surface's
+    /// own (Schuessler et al. 2017), as Mitsuba does since 3.7.1. Otherwise it is bent until it faces there.
+    bool flip_invalid = false;
+    /// Light that comes in at a grazing angle is dimmed towards the tilted terminator (Conty Estevez et al. 2019), as
+    /// Mitsuba does since 3.7.1.
+    bool shadowed = false;
     bool operator==(const NormalDetail&) const = default;
     bool any() const { return bump != kNone || normal_map != kNone; }
 };

@@ -82,6 +82,9 @@ void put_material(ByteWriter& out, const Material& material) {
     out.put(material.detail.bump);
     out.put(material.detail.bump_scale);
     out.put(material.detail.normal_map);
+    put_vector(out, material.detail.normal_scale);
+    put_flag(out, material.detail.flip_invalid);
+    put_flag(out, material.detail.shadowed);
     out.put_string(material.name);
     put_location(out, material.where);
 }
@@ -98,6 +101,9 @@ Material get_material(ByteReader& in, std::size_t index, std::size_t texture_cou
     material.detail.bump = get_optional_index(in, texture_count, "bump texture");
     material.detail.bump_scale = in.get<float>();
     material.detail.normal_map = get_optional_index(in, texture_count, "normal map");
+    material.detail.normal_scale = get_vector<Rgb>(in);
+    material.detail.flip_invalid = get_flag(in, "flip_invalid");
+    material.detail.shadowed = get_flag(in, "shadowed");
     material.name = in.get_string();
     material.where = get_location(in);
     return material;

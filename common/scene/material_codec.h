@@ -6,7 +6,8 @@
 namespace treefarm::packed {
 
 ///     material  := kind:u8 (diffuse | conductor | dielectric | thin | plastic | blend | null)
-///                  twosided:u8 back:i32 opacity:number bump:i32 bump_scale:f32 normal_map:i32 name location
+///                  twosided:u8 back:i32 opacity:number bump:i32 bump_scale:f32 normal_map:i32
+///                  normal_scale:rgb flip_invalid:u8 shadowed:u8 name location
 ///     diffuse   := color
 ///     conductor := eta:rgb k:rgb color roughness
 ///     dielectric := eta:f32 color color roughness

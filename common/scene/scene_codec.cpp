@@ -14,7 +14,7 @@ namespace {
 using namespace packed;
 
 constexpr std::uint32_t kMagic = 0x43534654;  // "TFSC"
-constexpr std::uint32_t kVersion = 4;
+constexpr std::uint32_t kVersion = 5;
 
 Camera get_camera(ByteReader& in) {
     Camera camera;
@@ -87,14 +87,6 @@ void check_environments(const Scene& scene) {
     }
 }
 
-/// A normal map is read texel by texel.
-void check_normal_maps(const Scene& scene) {
-    for (const Material& material : scene.materials)
-        if (const std::int32_t map = material.detail.normal_map; map != kNone)
-            if (!std::holds_alternative<BitmapTexture>(scene.textures[static_cast<std::size_t>(map)].kind))
-                throw FormatError("scene: a normal map is no bitmap");
-}
-
 }  // namespace
 
 Bytes encode_scene(const Scene& scene) {
@@ -139,7 +131,6 @@ Scene decode_scene(std::span<const std::uint8_t> bytes) {
              [&] { return get_emitter(in, scene.shapes.size(), scene.textures.size(), scene.images.size()); });
     check_area_emitters(scene);
     check_environments(scene);
-    check_normal_maps(scene);
     scene.camera = get_camera(in);
     scene.film = get_film(in);
     in.expect_end();

@@ -157,8 +157,7 @@ class MaterialCheck {
         if (detail.bump != kNone) range(detail.bump);
         if (detail.normal_map == kNone) return;
         range(detail.normal_map);
-        if (!std::holds_alternative<BitmapTexture>(scene_.textures[static_cast<std::size_t>(detail.normal_map)].kind))
-            refuse("the normal map is no bitmap", "give it an image");
+        if (!is_finite(detail.normal_scale)) refuse("the factor of the normal map is not finite", "give numbers");
     }
 
     const Scene& scene_;

@@ -45,7 +45,8 @@ inline Scene every_kind_scene() {
     add(ConductorMaterial{Rgb(0.2f, 0.9f, 1.1f), Rgb(3.9f, 2.4f, 2.2f), Rgb(0.5f), rough}).twosided = true;
     add(DielectricMaterial{1.33f, Rgb(0.9f), ColorInput(Rgb(0.8f), 1), rough}).opacity = {0.5f, 2};
     add(ThinDielectricMaterial{1.25f, Rgb(0.7f), Rgb(0.6f)});
-    add(PlasticMaterial{1.4f, ColorInput(Rgb(0.4f), 0), Rgb(0.3f), true, coat, true}).detail = {1, 0.25f, 0};
+    add(PlasticMaterial{1.4f, ColorInput(Rgb(0.4f), 0), Rgb(0.3f), true, coat, true}).detail = {
+        1, 0.25f, 0, Rgb(0.5f, 1.0f, 0.25f), true, true};
     add(BlendMaterial{{0.75f, 2}, 4, 0});
     add(NullMaterial{});
     Material& two = add(DiffuseMaterial{Rgb(0.5f)});

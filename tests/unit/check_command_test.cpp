@@ -189,6 +189,27 @@ class CheckCommand : public test::MitsubaFixture {
     }
 };
 
+/// A room that stands a thousand of its sizes from the middle of its scene, and the scene's own remedy.
+TEST_F(CheckCommand, SaysWhatAFarPlaceCosts) {
+    const std::string place = "<translate x=\"1000.3\" y=\"700.21\" z=\"400.12\"/></transform>";
+    const std::string scene =
+        "<sensor type=\"perspective\"><transform name=\"to_world\"><lookat origin=\"1000.3,700.21,400.32\" "
+        "target=\"1000.6,700.41,400.12\" up=\"0,1,0\"/></transform></sensor>\n"
+        "<shape type=\"cube\"><transform name=\"to_world\">" +
+        place + "<bsdf type=\"twosided\"><bsdf type=\"diffuse\"/></bsdf></shape>" +
+        "<shape type=\"rectangle\"><transform name=\"to_world\"><scale value=\"3000\"/></transform></shape>"
+        "<emitter type=\"constant\"/></scene>\n";
+    const std::string robust = "<boolean name=\"embree_use_robust_intersections\" value=\"true\"/>";
+    const std::string start = "<scene version=\"3.0.0\">";
+    const auto check = [&](const std::string& head) {
+        return run("'" + write("far.xml", head + scene).string() + "'");
+    };
+    const test::Ended found = check(start), cured = check(start + robust);
+    EXPECT_EQ(found.code, 5) << found.output;
+    EXPECT_NE(found.output.find("pass its walls; set farm.robust = true"), std::string::npos) << found.output;
+    EXPECT_EQ(cured.output.find("pass its walls"), std::string::npos) << cured.output;
+}
+
 TEST_F(CheckCommand, FindsEveryPlantedDefectAtItsLine) {
     expect_found(risky(), 5);
 }

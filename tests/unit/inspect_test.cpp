@@ -71,6 +71,25 @@ TEST(Inspect, ScaleAndPlace) {
     EXPECT_TRUE(find(inspect(scene), "distant camera"));
 }
 
+TEST(Inspect, ARoomFarFromTheOriginOfItsScene) {
+    const auto room_at = [](float away, float ground) {
+        Scene scene = test::furnace(0.5f, 1.0f, 1.0f, Vec3(away, 0.0f, 0.0f));
+        scene.shapes[0].where = {"a.xml", 7, 3};
+        test::add_shape(scene, test::quad(Vec3(-ground, -9, -ground), Vec3(0, 0, 2 * ground), Vec3(2 * ground, 0, 0)),
+                        0);
+        return inspect(scene);
+    };
+    EXPECT_FALSE(find(room_at(40.0f, 3000.0f), "far room"));
+    const std::vector<Finding> findings = room_at(1000.0f, 3000.0f);
+    const Finding* far = find(findings, "far room");
+    ASSERT_TRUE(far);
+    EXPECT_EQ(far->severity, Finding::Severity::warning);
+    EXPECT_EQ(far->where.line, 7);
+    EXPECT_NE(far->cure.find("farm.robust"), std::string::npos);
+    // The scene as a whole is far: a render moves it.
+    EXPECT_FALSE(find(inspect(test::furnace(0.5f, 1.0f, 1.0f, Vec3(1e4f, 0.0f, 0.0f))), "far room"));
+}
+
 TEST(Inspect, EmittersAreReachableFromTheirFront) {
     Scene scene = test::cornell_box(1.0f, Vec3(0.0f));
     // Turned to the ceiling, which is above it: reached. Above the ceiling, facing up: not.

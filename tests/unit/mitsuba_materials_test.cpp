@@ -168,9 +168,38 @@ TEST_F(MitsubaMaterials, ModifiersFlattenInAnyOrder) {
          {bsdf("bumpmap", bump + bsdf("bumpmap", bump + core)), bsdf("bumpmap", core), bsdf("bumpmap", bump),
           bsdf("mask", number("opacity", "1.5") + core), bsdf("mask", ""), bsdf("twosided", ""),
           bsdf("twosided", bsdf("dielectric")), bsdf("twosided", core + core + core),
-          bsdf("mask", board("opacity") + bsdf("mask", board("opacity") + core)),
-          bsdf("normalmap", board("normalmap") + core)})
+          bsdf("mask", board("opacity") + bsdf("mask", board("opacity") + core))})
         EXPECT_THROW(material(nested), InputError) << nested;
+}
+
+TEST_F(MitsubaMaterials, NormalMapsOfAnyTexture) {
+    const std::string core = bsdf("diffuse", rgb("reflectance", "0.25"));
+    const Material plain = material(bsdf("normalmap", board("normalmap") + core));
+    EXPECT_EQ(plain.detail.normal_map, 0);
+    EXPECT_EQ(plain.detail.normal_scale, Rgb(1.0f));
+    EXPECT_FALSE(plain.detail.flip_invalid || plain.detail.shadowed) << "0.6 does neither";
+    const Material scaled = material(bsdf(
+        "normalmap", "<texture type=\"scale\">" + number("scale", "0.5") + board("normalmap") + "</texture>" + core));
+    EXPECT_EQ(scaled.detail.normal_map, 0);
+    EXPECT_EQ(scaled.detail.normal_scale, Rgb(0.5f));
+    // Mitsuba 3's own defaults, and what a file may say.
+    for (const char* kind : {"normalmap", "bumpmap"}) {
+        const Material defaults = material(bsdf(kind, board("normalmap") + core), "3.0.0");
+        EXPECT_TRUE(defaults.detail.flip_invalid && defaults.detail.shadowed);
+        const auto off = [](const char* name) {
+            return std::string("<boolean name=\"") + name + "\" value=\"false\"/>";
+        };
+        const Material old = material(
+            bsdf(kind, off("flip_invalid_normals") + off("use_shadowing_function") + board("normalmap") + core),
+            "3.0.0");
+        EXPECT_FALSE(old.detail.flip_invalid || old.detail.shadowed);
+    }
+    const Scene constant = scene(bsdf("normalmap", "<texture type=\"srgb\" name=\"normalmap\">" +
+                                                       rgb("color", "0.75,0.5,0.9") + "</texture>" + core),
+                                 "3.0.0");
+    const NormalDetail& detail = constant.materials.at(static_cast<std::size_t>(constant.shapes[0].material)).detail;
+    ASSERT_NE(detail.normal_map, kNone);
+    EXPECT_EQ(detail.normal_scale, Rgb(0.75f, 0.5f, 0.9f));
 }
 
 TEST_F(MitsubaMaterials, SidesThatDiffer) {

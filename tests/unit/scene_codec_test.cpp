@@ -55,7 +55,7 @@ TEST(SceneCodec, MaterialsRoundTrip) {
     EXPECT_TRUE(plastic.single_return);
     EXPECT_EQ(plastic.diffuse_reflectance.texture, 0);
     EXPECT_EQ(plastic.roughness.distribution, Microfacets::beckmann);
-    EXPECT_EQ(back.materials[4].detail, (NormalDetail{1, 0.25f, 0}));
+    EXPECT_EQ(back.materials[4].detail, (NormalDetail{1, 0.25f, 0, Rgb(0.5f, 1.0f, 0.25f), true, true}));
     const auto& blend = std::get<BlendMaterial>(back.materials[5].bsdf);
     EXPECT_EQ(blend.weight, FloatInput(0.75f, 2));
     EXPECT_EQ(blend.first, 4);
@@ -180,7 +180,7 @@ TEST(SceneCodec, IndicesAreChecked) {
     refused([](Scene& s) { std::get<BlendMaterial>(s.materials[5].bsdf).weight.texture = 3; });
     refused([](Scene& s) { std::get<DiffuseMaterial>(s.materials[0].bsdf).reflectance.texture = -2; });
     refused([](Scene& s) { s.materials[4].detail.bump = 3; });
-    refused([](Scene& s) { s.materials[4].detail.normal_map = 1; });
+    refused([](Scene& s) { s.materials[4].detail.normal_map = 3; });
     refused([](Scene& s) { s.materials[4].opacity.texture = 3; });
     refused([](Scene& s) { std::get<BitmapTexture>(s.textures[0].kind).image = 3; });
     refused([](Scene& s) { std::get<BitmapTexture>(s.textures[0].kind).image = kNone; });

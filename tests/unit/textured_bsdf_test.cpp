@@ -166,6 +166,86 @@ TEST(NormalMap, TiltsAlongTheTangent) {
     EXPECT_LT((n - normalize(Vec3(0.0f, 0.6f, 0.8f))).length(), 1e-5f);
 }
 
+/// Encoded as a normal map stores it.
+Rgb stored(const Vec3& n) {
+    return (n + Vec3(1.0f)) * 0.5f;
+}
+
+/// White, its normals those of a board: `first` at (0.1, 0.1), `second` at (0.6, 0.1).
+Scene tilted_board(const Vec3& first, const Vec3& second, const NormalDetail& detail = {}) {
+    Scene scene;
+    const std::int32_t board = test::add_board(scene, stored(first), stored(second));
+    const std::int32_t material = test::add_material(scene, DiffuseMaterial{Rgb(1.0f)}, true);
+    NormalDetail& own = scene.materials[static_cast<std::size_t>(material)].detail = detail;
+    own.normal_map = board;
+    return scene;
+}
+
+Vec3 normal_of(const Bsdf& bsdf) {
+    return std::get<OrientedBsdf>(bsdf.kind).n;
+}
+
+TEST(NormalMap, IsReadFromEveryKindOfTexture) {
+    const Vec3 first(0.6f, 0.0f, 0.8f), second(0.0f, -0.6f, 0.8f);
+    PreparedMaterial prepared(tilted_board(first, second));
+    EXPECT_LT((normal_of(prepared.at(point_at(0.1f, 0.1f))) - first).length(), 1e-6f);
+    EXPECT_LT((normal_of(prepared.at(point_at(0.6f, 0.1f))) - second).length(), 1e-6f);
+    // A factor on the texture is one on the stored numbers, not on the normal.
+    NormalDetail scaled;
+    scaled.normal_scale = {0.5f, 1.0f, 1.0f};
+    PreparedMaterial factor(tilted_board(first, second, scaled));
+    EXPECT_LT((normal_of(factor.at(point_at(0.1f, 0.1f))) - normalize(Vec3(-0.2f, 0.0f, 0.8f))).length(), 1e-6f);
+}
+
+TEST(Bump, OfABoardHasSlopesAtItsEdgesOnly) {
+    Scene scene;
+    const std::int32_t board = test::add_board(scene, Rgb(0.0f), Rgb(1.0f));
+    const std::int32_t material = test::add_material(scene, DiffuseMaterial{Rgb(1.0f)});
+    scene.materials[static_cast<std::size_t>(material)].detail.bump = board;
+    PreparedMaterial prepared(scene);
+    for (const float u : {0.1f, 0.4f, 0.6f, 0.9f})
+        EXPECT_EQ(normal_of(prepared.at(point_at(u, 0.3f))), kUp) << u;
+}
+
+/// As Mitsuba 3.7.1 does; else it is bent until it faces wo.
+TEST(NormalMap, TurnsWhatFacesAway) {
+    const Vec3 tilted(0.8f, 0.0f, 0.6f), away = normalize(Vec3(-0.9f, 0.1f, 0.4f));
+    NormalDetail flips;
+    flips.flip_invalid = true;
+    PreparedMaterial turned(tilted_board(tilted, kUp, flips)), bent(tilted_board(tilted, kUp));
+    EXPECT_LT((normal_of(turned.at(point_at(0.1f, 0.1f, away))) - Vec3(-0.8f, 0.0f, 0.6f)).length(), 1e-6f);
+    EXPECT_LT((normal_of(turned.at(point_at(0.1f, 0.1f))) - tilted).length(), 1e-6f) << "seen from above it is valid";
+    EXPECT_GT(normal_of(bent.at(point_at(0.1f, 0.1f, away))).x, 0.0f);
+    EXPECT_GT(dot(normal_of(bent.at(point_at(0.1f, 0.1f, away))), away), 0.0f);
+}
+
+/// With alpha^2 = tan^2 of the tilt over 8, of Ray Tracing Gems.
+TEST(NormalMap, ShadowsGrazingLightAsThePaperSays) {
+    const Vec3 tilted(0.6f, 0.0f, 0.8f), wo = normalize(Vec3(0.2f, 0.1f, 0.9f));
+    NormalDetail shadowed;
+    shadowed.shadowed = true;
+    PreparedMaterial with(tilted_board(tilted, kUp, shadowed)), without(tilted_board(tilted, kUp));
+    const Bsdf &dim = with.at(point_at(0.1f, 0.1f, wo)), &bright = without.at(point_at(0.1f, 0.1f, wo));
+    const double alpha2 = 0.5625 / 8;
+    double energy = 0;
+    constexpr int kSamples = 20000;
+    for (std::uint32_t i = 0; i < kSamples; ++i) {
+        const Draw r = draw({31, i, 0}, 0, Stream::scatter);
+        const BsdfSample s = dim.sample(wo, {to_unit(r[0]), {to_unit(r[1]), to_unit(r[2])}});
+        if (!(s.pdf > 0.0f)) continue;
+        energy += double(s.f_cos.x / s.pdf) / kSamples;
+        if (s.wi.z < 1e-3f) continue;
+        const double tangent2 = 1.0 / (double(s.wi.z) * double(s.wi.z)) - 1.0;
+        const double factor = 2.0 / (1.0 + std::sqrt(1.0 + alpha2 * tangent2));
+        const BsdfValue dimmed = dim.value(wo, s.wi), whole = bright.value(wo, s.wi);
+        ASSERT_NEAR(dimmed.f_cos.x, factor * double(whole.f_cos.x), 1e-5 * double(whole.f_cos.x) + 1e-9);
+        ASSERT_NEAR(s.f_cos.x, dimmed.f_cos.x, 1e-4f * dimmed.f_cos.x + 1e-9f) << "as sampled";
+        ASSERT_EQ(dimmed.pdf, whole.pdf);
+    }
+    EXPECT_LT(energy, 0.95) << "a tilted white surface sends some light below the surface, and shadows some";
+    EXPECT_GT(energy, 0.7);
+}
+
 TEST(Anisotropic, IsWideAlongItsTangent) {
     const ConductorMaterial metal{Rgb(0.0f), Rgb(1.0f), Rgb(1.0f), test::rough(Microfacets::ggx, 0.4f, 0.05f)};
     PreparedMaterial prepared{decltype(Material::bsdf)(metal)};

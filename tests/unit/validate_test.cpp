@@ -102,7 +102,8 @@ TEST(ValidateKinds, Materials) {
     expect_refused("opacity", [](Scene& s) { s.materials[0].opacity = 1.01f; });
     expect_refused("bump", [](Scene& s) { s.materials[4].detail.bump_scale = kNan; });
     expect_refused("does not exist", [](Scene& s) { s.materials[4].detail.bump = 3; });
-    expect_refused("no bitmap", [](Scene& s) { s.materials[4].detail.normal_map = 1; });
+    expect_refused("normal map", [](Scene& s) { s.materials[4].detail.normal_scale.x = kNan; });
+    expect_accepted(0, [](Scene& s) { s.materials[4].detail.normal_map = 1; });
     expect_refused("negative", [](Scene& s) { std::get<CheckerboardTexture>(s.textures[1].kind).color0.x = -0.5f; });
 }
 

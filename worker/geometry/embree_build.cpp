@@ -49,6 +49,7 @@ EmbreeScene::EmbreeScene(std::vector<Shape> shapes, const std::string& isa, cons
                        std::to_string(static_cast<int>(rtcGetDeviceError(nullptr))) + ")");
     rtcSetDeviceErrorFunction(device_.get(), note_error, error_.get());
     make_masks(masks);
+    if (robust_) find_extents();
     make_groups();
     scene_ = make_scene();
     for (std::uint32_t i = 0; i < shape_count(); ++i)

@@ -34,7 +34,7 @@ class EmbreeScene {
   public:
     /// Takes the shapes over. `isa` as in Job::Farm: the same on every worker, since it decides roundings. Built by one
     /// thread, so that the hierarchy, and with it the winner among equally near hits, is the same everywhere.
-    /// `robust`: no ray slips through an edge that two triangles share.
+    /// `robust`: no ray slips through an edge that two triangles share, and keep_inside() does something.
     /// Masks, instances and analytic shapes cost nothing where there are none.
     /// Throws RunError when Embree reports an error, the processor lacks the isa, or an index is out of range.
     EmbreeScene(std::vector<Shape> shapes, const std::string& isa, const ShapeMasks& masks = {}, bool robust = false);
@@ -76,6 +76,16 @@ class EmbreeScene {
     /// The same of up to kMostTogether rays, faster than one by one. A ray of negative length is free.
     static constexpr std::size_t kMostTogether = kDrawBatch;
     void occluded(std::span<const Ray> rays, bool* hidden) const;
+
+    /// If `robust`: moves a hit that is in a corner so that what goes on from it starts on the side of the walls that
+    /// `ray` came along. Positions are rounded: within their rounding of an edge they, or their offsets, may lie behind
+    /// the other wall. Such a hit steps back along the ray until nothing is that near: farther than without by a few
+    /// hit.error, and as far as the ray goes where a crease is narrower than that. Elsewhere hits stay what they are.
+    /// For a side that the surface lets light pass to nothing is promised.
+    void keep_inside(Hit& hit, const Ray& ray) const {
+        if (robust_) [[unlikely]]
+            step_back(hit, ray);
+    }
 
     /// A point of a triangle from its barycentrics: what intersect() reports for a ray through it.
     Hit triangle_point(std::uint32_t shape, std::uint32_t primitive, float b1, float b2) const;
@@ -128,6 +138,8 @@ class EmbreeScene {
         void operator()(RTCSceneTy* scene) const;
     };
 
+    struct Surroundings;  ///< of a point
+
     /// The shapes that instances of a group place, numbered by their order in it.
     struct Group {
         std::unique_ptr<RTCSceneTy, ReleaseScene> scene;
@@ -146,12 +158,17 @@ class EmbreeScene {
                     const Vec3& outward) const;
     Vec3 outward(const Hit& hit) const;
     void check_errors(const std::string& doing) const;
+    void find_extents();
+    void step_back(Hit& hit, const Ray& ray) const;
+    double clearance(const Hit& hit) const;
 
     const bool robust_;
     std::vector<Shape> shapes_;
     std::vector<Surface> surfaces_;
     std::vector<Mask> masks_;  ///< of the masked shapes, in their order
     std::vector<Placement> placements_;
+    std::vector<double> extents_;  ///< diagonals of shapes in their own spaces, if robust
+    double largest_extent_ = 0;
     std::unique_ptr<std::string> error_;  ///< written by Embree's error callback
     std::unique_ptr<RTCDeviceTy, ReleaseDevice> device_;
     std::vector<Group> groups_;

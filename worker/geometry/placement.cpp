@@ -41,6 +41,7 @@ Placement::Placement(const Instance& instance, std::uint32_t shape)
     for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j) {
             const double inverse = cofactors.value[j][i] / determinant;
+            exact_inverse_[i][j] = inverse;
             inverse_[i][j] = static_cast<float>(inverse);
             // Rounding of cofactor, of determinant and of products and sums afterwards, each counted generously.
             slack_[i][j] =
@@ -84,6 +85,46 @@ Vec3 Placement::vector_to_world(const Vec3& v) const {
     return {v.x * to_world_[0][0] + v.y * to_world_[1][0] + v.z * to_world_[2][0],
             v.x * to_world_[0][1] + v.y * to_world_[1][1] + v.z * to_world_[2][1],
             v.x * to_world_[0][2] + v.y * to_world_[1][2] + v.z * to_world_[2][2]};
+}
+
+Imath::V3d Placement::point_to_world(const Imath::V3d& local) const {
+    Imath::V3d p;
+    for (int j = 0; j < 3; ++j) {
+        p[j] = double(to_world_[3][j]);
+        for (int i = 0; i < 3; ++i)
+            p[j] += local[i] * double(to_world_[i][j]);
+    }
+    return p;
+}
+
+Imath::V3d Placement::point_to_local(const Imath::V3d& world) const {
+    return (world - point_to_world(Imath::V3d(0.0))) * exact_inverse_;
+}
+
+Imath::V3d Placement::covector_to_local(const Imath::V3d& normal) const {
+    Imath::V3d w(0.0);
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j)
+            w[i] += double(to_world_[i][j]) * normal[j];
+    return w;
+}
+
+// The root of the sum of a matrix's squares is at least what it stretches anything.
+
+double Placement::least_stretch() const {
+    double sum = 0;
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j)
+            sum += exact_inverse_[i][j] * exact_inverse_[i][j];
+    return 1.0 / std::sqrt(sum);
+}
+
+double Placement::most_stretch() const {
+    double sum = 0;
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j)
+            sum += double(to_world_[i][j]) * double(to_world_[i][j]);
+    return std::sqrt(sum);
 }
 
 }  // namespace treefarm

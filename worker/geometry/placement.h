@@ -23,8 +23,19 @@ class Placement {
     Vec3 normal_to_local(const Vec3& world) const;
     Vec3 vector_to_world(const Vec3& local) const;
 
+    // In double, as accurate as the transform's own floats.
+    Imath::V3d point_to_world(const Imath::V3d& local) const;
+    Imath::V3d point_to_local(const Imath::V3d& world) const;
+    /// The vector w with dot(w, x) = dot(normal, x to_world) for vectors x of the group's space.
+    Imath::V3d covector_to_local(const Imath::V3d& normal) const;
+    /// A lower bound of how much the transform stretches a vector.
+    double least_stretch() const;
+    /// An upper bound of it.
+    double most_stretch() const;
+
   private:
     Imath::M44f to_world_;
+    Imath::M33d exact_inverse_;
     Imath::M33f inverse_;  ///< of the linear part: row vectors of the world to those of the group
     Imath::M33f slack_;    ///< bound of each term's error in the group's space, per unit of world coordinate
     std::uint32_t group_ = 0, instance_ = 0;

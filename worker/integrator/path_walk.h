@@ -237,12 +237,12 @@ class PathWalk {
             path.copied = false;
         else if (!arrive(path, kRecord ? &recorders_[index] : nullptr))
             return false;
-
+        else
+            scene_.geometry().keep_inside(path.hit, ray);
         const Surface& surface = path.surface.emplace(scene_, hit, -ray.direction, scratch_[index]);
         if (surface.black()) return end("black surface");
         if (settings_.strict_normals && -dot(surface.ng(), ray.direction) * surface.wo().z < 0.0f)
             return end("normals disagree");
-
         ++stats_.vertices;
         path.guidance.bsdf_fraction = kGuided && surface.smooth() ? guide_.bsdf_fraction(path.guidance.region) : 1.0f;
         if constexpr (kViews)

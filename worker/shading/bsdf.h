@@ -113,7 +113,9 @@ inline BsdfSample BlendBsdf::sample(const Vec3& wo, const BsdfRandom& random) co
 inline BsdfValue OrientedBsdf::value(const Vec3& wo, const Vec3& wi) const {
     const Vec3 inside = to_inner(wi);
     if (!(inside.z * wi.z > 0.0f)) return {};
-    return inner->value(to_inner(wo), inside);
+    BsdfValue value = inner->value(to_inner(wo), inside);
+    if (shadow_alpha2 > 0.0f) value.f_cos *= shadowing(wi);
+    return value;
 }
 
 inline BsdfSample OrientedBsdf::sample(const Vec3& wo, const BsdfRandom& random) const {
@@ -122,6 +124,7 @@ inline BsdfSample OrientedBsdf::sample(const Vec3& wo, const BsdfRandom& random)
     const float inside = sample.wi.z;
     sample.wi = to_outer(sample.wi);
     if (!(inside * sample.wi.z > 0.0f)) return {};
+    if (shadow_alpha2 > 0.0f) sample.f_cos *= shadowing(sample.wi);
     return sample;
 }
 

@@ -23,7 +23,7 @@ struct ConstantNodes {
 OrientedBsdf oriented(const Bsdf* inner, const Vec3& n, const Vec3& along) {
     const Vec3 across = cross(n, along);
     const float length2 = dot(across, across);
-    OrientedBsdf bsdf{inner, {}, {}, n};
+    OrientedBsdf bsdf{inner, {}, {}, n, 0.0f};
     if (length2 > 1e-12f * dot(along, along) && length2 > 1e-30f) {  // below, its root has lost digits
         bsdf.t = across * (1.0f / std::sqrt(length2));
         bsdf.s = cross(bsdf.t, n);
@@ -140,15 +140,16 @@ const Bsdf* BsdfBuilder::described(std::int32_t index, bool back, const ShadingP
     // From the outside in: the tilted frame, the frame along its tangent, what scatters in it.
     Bsdf* slot = &outer;
     ShadingPoint inside = point;
-    const auto orient = [&](const Vec3& normal) {
+    const auto orient = [&](const Vec3& normal, bool shadowed) {
         Bsdf& inner = nodes.add();
-        const OrientedBsdf frame = oriented(&inner, normal, inside.dp_du);
+        OrientedBsdf frame = oriented(&inner, normal, inside.dp_du);
+        if (shadowed) frame.shadow_alpha2 = OrientedBsdf::shadow_alpha2_of(normal);
         slot->kind = frame;
         slot = &inner;
         inside = seen_in(frame, inside);
     };
-    if (kHasBump && material.detail.any()) orient(tilted_normal(material.detail, point));
-    if (notes_[static_cast<std::size_t>(index)].anisotropic) orient(Vec3(0.0f, 0.0f, 1.0f));
+    if (kHasBump && material.detail.any()) orient(tilted_normal(material.detail, point), material.detail.shadowed);
+    if (notes_[static_cast<std::size_t>(index)].anisotropic) orient(Vec3(0.0f, 0.0f, 1.0f), false);
     *slot = leaf(index, back, inside, nodes);
     return &outer;
 }
@@ -199,14 +200,14 @@ Microfacet BsdfBuilder::facets(const Roughness& roughness, const ShadingPoint& p
 }
 
 /// The tilted normal in the shading frame, on the side of wo: where it would face away from wo the surface would be
-/// black, so it is bent towards wo until it does not.
+/// black, so it is turned about the surface's own normal, or bent towards wo until it faces there.
 Vec3 BsdfBuilder::tilted_normal(const NormalDetail& detail, const ShadingPoint& point) const {
     const Vec3 up(0.0f, 0.0f, 1.0f);
     // Both maps know the surface's own side; on its back the tilt is that of the same world normal.
     const float side = point.mirrored ? -1.0f : 1.0f;
     Vec3 n = up;
     if (detail.normal_map != kNone) {
-        const Rgb c = textures_->color(detail.normal_map, point.uv);
+        const Rgb c = textures_->color(detail.normal_map, point.uv) * detail.normal_scale;
         const Vec3 local(2.0f * c.x - 1.0f, 2.0f * c.y - 1.0f, 2.0f * c.z - 1.0f);
         const OrientedBsdf tangents = oriented(nullptr, up * side, point.dp_du);
         const Vec3 mapped = tangents.to_outer(local) * side;
@@ -223,7 +224,9 @@ Vec3 BsdfBuilder::tilted_normal(const NormalDetail& detail, const ShadingPoint& 
         const float length2 = dot(bumped, bumped);
         if (length2 > 0.0f && std::isfinite(length2)) n = bumped * (1.0f / std::sqrt(length2));
     }
-    const float facing = dot(n, point.wo), least = std::min(0.01f, 0.5f * point.wo.z);
+    if (detail.flip_invalid && !(dot(n, point.wo) > 0.0f)) n = {-n.x, -n.y, n.z};
+    // What was turned faces wo, unless wo grazes.
+    const float facing = dot(n, point.wo), least = std::min(detail.flip_invalid ? 1e-4f : 0.01f, 0.5f * point.wo.z);
     return facing < least ? normalize(n + point.wo * (least - facing)) : n;
 }
 

@@ -196,33 +196,37 @@ void MaterialReader::set_detail(Material& material, const NormalDetail& detail, 
     material.detail = detail;
 }
 
+/// What Mitsuba 3 does about normals that are tilted too far, by default since 3.7.1.
+void MaterialReader::read_tilt(Properties& properties, NormalDetail& detail) {
+    if (properties.element().version < 2) return;
+    detail.flip_invalid = properties.boolean("flip_invalid_normals", true);
+    detail.shadowed = properties.boolean("use_shadowing_function", true);
+}
+
 Material MaterialReader::convert_bump(Properties& properties) {
     const ColorInput map = textures_.data(texture_inside(properties, "displacements"), true);
     NormalDetail detail;
     detail.bump = map.texture;
     detail.bump_scale = average(map.value);
-    if (properties.element().version >= 2) {
-        detail.bump_scale *= static_cast<float>(properties.number("scale", 1.0));
-        properties.ignore({"flip_invalid_normals", "use_shadowing_function"});
-    }
+    if (properties.element().version >= 2) detail.bump_scale *= static_cast<float>(properties.number("scale", 1.0));
+    read_tilt(properties, detail);
     Material material = convert_child(properties);
     if (map.varies()) set_detail(material, detail, properties);
     return material;
 }
 
 Material MaterialReader::convert_normal_map(Properties& properties) {
-    const ColorInput map = textures_.data(texture_inside(properties, "normals"), false);
-    if (properties.element().version >= 2) properties.ignore({"flip_invalid_normals", "use_shadowing_function"});
-    Material material = convert_child(properties);
-    const bool is_bitmap = map.varies() && std::holds_alternative<BitmapTexture>(
-                                               scene_.textures[static_cast<std::size_t>(map.texture)].kind);
-    if (!is_bitmap || map.value != Rgb(1.0f)) {
-        diagnostics_.unsupported(properties.where(), "a normal map that is no plain bitmap",
-                                 "give a bitmap of normals");
-        return material;
-    }
+    ColorInput map = textures_.data(texture_inside(properties, "normals"), false);
     NormalDetail detail;
+    read_tilt(properties, detail);
+    Material material = convert_child(properties);
+    if (!map.varies()) {
+        // One normal everywhere: a board of one colour.
+        map.texture = static_cast<std::int32_t>(scene_.textures.size());
+        scene_.textures.push_back({CheckerboardTexture{Rgb(1.0f), Rgb(1.0f), {}}, "", properties.where()});
+    }
     detail.normal_map = map.texture;
+    detail.normal_scale = map.value;
     set_detail(material, detail, properties);
     return material;
 }

@@ -37,6 +37,7 @@ class MaterialReader {
     Material convert_new(const XmlElement& bsdf);
     Material convert_twosided(Properties& properties);
     Material convert_mask(Properties& properties);
+    static void read_tilt(Properties& properties, NormalDetail& detail);
     Material convert_bump(Properties& properties);
     Material convert_normal_map(Properties& properties);
     Material convert_blend(Properties& properties);
