@@ -77,7 +77,7 @@ enum class GuidingTarget : std::uint8_t {
     variance,  ///< the square root of their second moment, from sums of L^2 / p (Rath et al. 2020)
 };
 
-/// How the images of the passes become one (docs/error.md, "combining passes").
+/// How the images of the passes become one (docs/design/error.md, "combining passes").
 enum class Combination : std::uint8_t {
     inverse_variance,  ///< one scalar per pass, cross-fitted over two halves
     fixed,             ///< weights set beforehand: exactly unbiased, what z-tests use

@@ -44,7 +44,7 @@ class ProbesSetAside {
 };
 
 /// How much more a ray of a guided path costs than one of an unguided path, training included: 1.24 to 1.53 was
-/// measured, by scene (docs/guiding.md, "auto"). A constant, not a clock: the decision is part of the result.
+/// measured, by scene (docs/design/guiding.md, "auto"). A constant, not a clock: the decision is part of the result.
 inline constexpr double kGuidedRayCost = 1.4;
 
 /// Relative variance times cost of unguided samples over that of guided ones: above 1 guiding pays. 0: not known.

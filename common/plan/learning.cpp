@@ -12,7 +12,7 @@ namespace {
 constexpr double kProductCells = 0.5;
 /// As many are never too many: half a megabyte.
 constexpr double kFreeCells = 1 << 16;
-/// Of a region's cells, what is left where the BSDF is sampled instead (docs/guiding.md, "Cells by use").
+/// Of a region's cells, what is left where the BSDF is sampled instead (docs/design/guiding.md, "Cells by use").
 constexpr double kLeastUse = 0.5;
 
 }  // namespace

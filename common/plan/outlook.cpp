@@ -6,8 +6,8 @@
 namespace treefarm {
 namespace {
 
-/// Progress from one tree to the next is the progress before to this power (docs/error.md, "error"); a change of what
-/// a sample costs ends sooner.
+/// Progress from one tree to the next is the progress before to this power (docs/design/error.md, "error"); a change of
+/// what a sample costs ends sooner.
 constexpr double kFading = 0.75;
 constexpr double kCostFading = 0.35;
 /// No tree is trusted to do better than this, or to change a sample's cost by more.

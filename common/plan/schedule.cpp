@@ -12,7 +12,8 @@ namespace {
 /// Kick-start samples emitters directly in passes that begin with fewer samples per pixel than this (PPG's program).
 constexpr std::uint32_t kKickstartSpp = 128;
 /// Guiding whose bulk gains less than this share of the light that unguided samples find does not pay: light that they
-/// miss would be noise. Below 1: guiding gets better with each tree (docs/guiding.md, "auto"), and equal noise is 0.71.
+/// miss would be noise. Below 1: guiding gets better with each tree (docs/design/guiding.md, "auto"), and equal noise
+/// is 0.71.
 constexpr double kLosingBulk = 0.75;
 /// Without next event unguided samples find light by chance, and bright paths that they have not met yet make no noise.
 /// The spaceship's bulk gains 0.64 to 0.81 there after 8 to 32 spp, and guiding ends with 1.4 times less error.
@@ -29,7 +30,7 @@ constexpr double kLeastCoverage = 0.8;
 constexpr double kLeastQuietened = 1.01, kLeastFound = 0.99;
 constexpr std::uint32_t kLeastSplitSpp = 16;
 /// It may cost a little more than it shows: whole renders gain more by it, without next event most
-/// (docs/guiding-measured.md).
+/// (bench/log/2026-11-25-guiding.md).
 constexpr double kLeastSplittingGain = 0.97, kLeastSplittingGainAlone = 0.9;
 /// With next event renders that never split are quieter than unsplit samples show, which are a copy's and play roulette
 /// with its share of the throughput. And a copy's ray takes longer than others do.

@@ -12,13 +12,13 @@ namespace {
 
 /// The page of docs/ holds a table that the program writes; if not, the table is left in a file.
 void expect_page_holds(const std::string& name, const std::string& table) {
-    std::ifstream page(std::string(TREEFARM_SOURCE_DIR) + "/docs/" + name);
+    std::ifstream page(std::string(TREEFARM_SOURCE_DIR) + "/docs/generated/" + name);
     std::ostringstream text;
     text << page.rdbuf();
     const bool found = text.str().find(table) != std::string::npos;
     if (!found) std::ofstream(::testing::TempDir() + name) << table;
-    EXPECT_TRUE(found) << "docs/" << name << " is out of date; the table it should hold is in " << ::testing::TempDir()
-                       << name;
+    EXPECT_TRUE(found) << "docs/generated/" << name << " is out of date; the table it should hold is in "
+                       << ::testing::TempDir() << name;
 }
 
 TEST(Docs, ListEveryJobKeyAsTheProgramKnowsIt) {
