@@ -13,7 +13,7 @@ namespace {
 constexpr double kIdleFraction = 0.05;
 constexpr int kIdlePasses = 2;
 /// So is one that gains less, nats per record: what it costs was measured to be worth more
-/// (bench/log/2026-11-25-guiding.md, "Views").
+/// (bench/log/2026-11-25-views.md).
 constexpr double kLeastGain = 0.1;
 /// And all of them, where together they gain less per record of the whole tree: every vertex pays a little for them.
 constexpr double kLeastGainOfAll = 0.015;

@@ -30,7 +30,7 @@ constexpr double kLeastCoverage = 0.8;
 constexpr double kLeastQuietened = 1.01, kLeastFound = 0.99;
 constexpr std::uint32_t kLeastSplitSpp = 16;
 /// It may cost a little more than it shows: whole renders gain more by it, without next event most
-/// (bench/log/2026-11-25-guiding.md).
+/// (bench/log/2026-11-25-splitting.md).
 constexpr double kLeastSplittingGain = 0.97, kLeastSplittingGainAlone = 0.9;
 /// With next event renders that never split are quieter than unsplit samples show, which are a copy's and play roulette
 /// with its share of the throughput. And a copy's ray takes longer than others do.

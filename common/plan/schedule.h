@@ -90,7 +90,7 @@ double split_growth(const Job& job, const PassPlan& coming_pass);
 
 /// guiding.spatial_threshold = 0: c of the spatial split rule for a film of so many pixels, 2000 for 512 x 512 and in
 /// proportion to their fourth root. More pixels bring more records, but what there is to learn grows more slowly
-/// (bench/log/2026-11-25-guiding.md).
+/// (bench/log/2026-11-25-beyond-the-paper.md).
 double usual_spatial_threshold(double film_pixels);
 
 /// c sqrt(n_k / 4): records above which a region splits before pass k of a film of so many pixels.

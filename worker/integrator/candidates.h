@@ -53,7 +53,7 @@ class Candidates {
     /// The least share of a candidate in what is taken, times their number.
     static constexpr float kFair = 0.2f;
     /// Light from everywhere, of which the tree may have seen nothing: as much as an even tree would see. A fifth of it
-    /// was too little for rare light (bench/log/2026-11-25-guiding.md).
+    /// was too little for rare light (bench/log/2026-11-25-candidates.md).
     static constexpr float kUnseen = 1.0f / (4.0f * kPi);
 
     std::uint32_t count_ = 0;
