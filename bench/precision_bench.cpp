@@ -1,5 +1,5 @@
 // What exactness costs and buys: integer sums against floats, integer probability tables against floats. Names are
-// CHOICE/WITH/...: the first of a choice is what the renderer does (docs/cost-of-accuracy.md reads them).
+// CHOICE/WITH/...: the first of a choice is what the renderer does (docs/generated/cost-of-accuracy.md reads them).
 #include <benchmark/benchmark.h>
 
 #include <algorithm>

@@ -57,7 +57,7 @@ void require_study_file(const std::string& input) {
     if (extension == ".toml") return;
     if (extension == ".xml")
         refuse(input, "is a scene, and a study names scenes in a file of its own (.toml)",
-               "write treefarm render " + input + ", or see docs/studies.md");
+               "write treefarm render " + input + ", or see docs/use/studies.md");
     refuse(input, extension.empty() ? "the name has no extension" : in_quotes(extension) + " files are no studies",
            kStudy);
 }

@@ -1,4 +1,4 @@
-# Language, warnings and the flags that keep results the same bits on every machine (docs/architecture.md).
+# Language, warnings and the flags that keep results the same bits on every machine (docs/design/architecture.md).
 set(CMAKE_CXX_STANDARD 20)
 set(CMAKE_CXX_STANDARD_REQUIRED ON)
 set(CMAKE_CXX_EXTENSIONS OFF)

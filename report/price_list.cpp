@@ -91,7 +91,7 @@ std::string price_list(const std::vector<StudyResults>& studies, const std::vect
         "interval does not hold 1. The last two columns are the price of accuracy: how many times the core-seconds an "
         "image of equal\n"
         "error takes. A claim needs both, untrimmed and without the worst 0.1 % of the pixels "
-        "([metrics.md](metrics.md)).\n\n"
+        "([metrics.md](../design/metrics.md)).\n\n"
         "Core-seconds are the workers' own processor time, so a busy machine moves them little; seconds are the "
         "clock's, and it moves them a lot.\n"
         "With so few seeds, one in twenty intervals that hold no 1 is an accident. Effects that are off make the image "

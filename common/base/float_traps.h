@@ -7,7 +7,7 @@
 namespace treefarm {
 
 /// Floating-point exceptions (invalid, division by zero, overflow) that end the process where they happen. Only in
-/// builds of the preset `trap` (CMake's TREEFARM_TRAP, docs/testing.md); elsewhere all of this is nothing.
+/// builds of the preset `trap` (CMake's TREEFARM_TRAP, docs/design/testing.md); elsewhere all of this is nothing.
 #ifdef TREEFARM_TRAPS
 inline constexpr bool kTrapsFloats = true;
 #else

@@ -8,7 +8,7 @@
 namespace treefarm {
 
 /// What a random number is for. Each use has a stream of its own, so switching an effect on never shifts another
-/// effect's numbers (docs/guiding.md, "random streams").
+/// effect's numbers (docs/design/guiding.md, "random streams").
 enum class Stream : std::uint32_t {
     camera,        ///< position on the pixel filter
     lens,          ///< position on the lens

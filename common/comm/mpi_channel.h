@@ -11,7 +11,7 @@ namespace treefarm {
 inline constexpr std::size_t kLongestMessage = std::size_t{1} << 30;
 
 /// The message-passing layer of this process, from MPI_Init to its end. Only point-to-point messages are used after the
-/// start, and nothing ever blocks on a peer: Open MPI does not report a dead one (docs/protocol.md, "on MPI").
+/// start, and nothing ever blocks on a peer: Open MPI does not report a dead one (docs/design/protocol.md, "on MPI").
 class MpiSession {
   public:
     /// Starts MPI for one talking thread; its errors come back as RunError with the call and the peer in the message.

@@ -30,7 +30,7 @@ struct StudyReference {
     std::vector<Setting> settings;  ///< job keys, budget and seed among them
 };
 
-/// A matrix of methods, scenes and seeds (docs/studies.md).
+/// A matrix of methods, scenes and seeds (docs/use/studies.md).
 struct Study {
     std::string file;
     std::string directory;             ///< absolute or relative to the current folder

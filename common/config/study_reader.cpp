@@ -25,7 +25,7 @@ class StudyReader {
         for (const auto& [key, node] : table)
             if (std::find(std::begin(kKeys), std::end(kKeys), key.str()) == std::end(kKeys))
                 throw InputError(place(key.source()), "unknown key " + in_quotes(key.str()),
-                                 did_you_mean(key.str(), kKeys, "see docs/studies.md for the keys"));
+                                 did_you_mean(key.str(), kKeys, "see docs/use/studies.md for the keys"));
         study_.file = file_;
         read_directory(table);
         if (const toml::table* job = section(table, "job")) study_.job = settings_of(*job, StudyPart::job);

@@ -26,7 +26,7 @@ bool is_section(const std::string& name) {
         names.push_back(key.name);
     const std::string nearest = nearest_word(name, names);
     throw InputError(where, "unknown key " + in_quotes(name),
-                     nearest.empty() ? "see docs/jobs.md for the keys" : "did you mean " + nearest + "?");
+                     nearest.empty() ? "see docs/generated/jobs.md for the keys" : "did you mean " + nearest + "?");
 }
 
 std::string wanted_type_name(ValueKind kind) {

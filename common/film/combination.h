@@ -4,7 +4,7 @@
 
 namespace treefarm {
 
-/// How the images of the passes become one (docs/error.md, "combining passes").
+/// How the images of the passes become one (docs/design/error.md, "combining passes").
 enum class Combination : std::uint8_t {
     inverse_variance,  ///< one scalar per pass, cross-fitted over two halves
     fixed,             ///< weights set beforehand: exactly unbiased, what z-tests use

@@ -43,8 +43,9 @@ struct CombinedImage {
     std::vector<double> weight;      ///< of each pass, sums to 1 (halves averaged)
 };
 
-/// Combines the passes with one scalar weight each (docs/error.md, "combining passes"). `guided` says whether the
-/// passes differ in quality: without guiding every sample weighs the same. `last` keeps the passes of the last tree.
+/// Combines the passes with one scalar weight each (docs/design/error.md, "combining passes"). `guided` says whether
+/// the passes differ in quality: without guiding every sample weighs the same. `last` keeps the passes of the last
+/// tree.
 CombinedImage combine_passes(std::span<const PassResult> passes, Combination method, bool guided);
 
 /// Where combine_passes() would measure the noise of passes: measures what is not known yet and keeps it with them.
@@ -54,7 +55,7 @@ void remember_noise(std::span<PassResult> passes, Combination method, bool guide
 /// Weight of a pass that is set before it begins (`fixed`): spp sqrt(spp_before); without guiding, spp. Not normalised.
 double fixed_weight(std::uint32_t spp, std::uint32_t spp_before, bool guided);
 
-/// Figures of one pass (docs/error.md, "stuv"), by the pixels that it rendered.
+/// Figures of one pass (docs/design/error.md, "stuv"), by the pixels that it rendered.
 struct PassVariance {
     double stuv = 0;           ///< mean over pixels of the luminance of the unbiased variance of one sample
     double stuv_trimmed = 0;   ///< the same without the worst 0.1 % of the pixels

@@ -6,7 +6,7 @@
 
 namespace treefarm {
 
-/// What an image says about its own error (docs/error.md, "error").
+/// What an image says about its own error (docs/design/error.md, "error").
 struct ErrorEstimate {
     bool known = false;         ///< false: no pass has two samples per pixel
     bool has_interval = false;  ///< false: no pass has four; low and high are then rmse

@@ -21,7 +21,8 @@ struct Moments {
     Rgb64 sample_variance() const { return n < 2 ? Rgb64(0.0) : m2 / static_cast<double>(n - 1); }
 };
 
-/// What a pixel has received: even and odd samples apart, two independent halves (docs/error.md, "combining passes").
+/// What a pixel has received: even and odd samples apart, two independent halves (docs/design/error.md, "combining
+/// passes").
 struct PixelEstimate {
     Moments half[2];
 

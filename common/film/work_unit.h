@@ -9,7 +9,7 @@ namespace treefarm {
 
 /// A film atom is (pass, pixel, aligned block of at most kBlockSamples samples): Welford in sample order inside a
 /// block, blocks of a pixel reduced along a fixed binary tree. So a work unit may be any set of atoms, and any cut of
-/// the image gives the same bits (docs/architecture.md, "film atoms").
+/// the image gives the same bits (docs/design/guiding.md, "film atoms").
 inline constexpr std::uint32_t kBlockSamples = 64;
 
 /// A rectangle of pixels, some aligned blocks of samples, one pass.

@@ -13,7 +13,7 @@ namespace treefarm {
 /// What a region is next event's choice among the scene's emitters by power: nothing but that, untaught.
 inline constexpr LightShare kChoiceByPower = {kLightShareOne};
 
-/// What the coordinator remembers of what next event found in each region, from pass to pass (docs/guiding.md,
+/// What the coordinator remembers of what next event found in each region, from pass to pass (docs/design/guiding.md,
 /// "Choosing emitters").
 ///
 /// A sample of cluster c, chosen with the probability q, that brings X (f |cos| L over the density, weighed against

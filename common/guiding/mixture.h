@@ -12,7 +12,7 @@
 namespace treefarm {
 
 /// How often to sample the BSDF rather than the tree, learned per region from histograms that merge exactly, once per
-/// pass, instead of by an optimiser's step per record (docs/guiding.md, "mixture").
+/// pass, instead of by an optimiser's step per record (docs/design/guiding.md, "mixture").
 ///
 /// A direction is drawn from p_s = a p_B + (1 - a) p_T. With r = p_B / (p_B + p_T), bin b of the histogram collects
 /// H_b = sum of f |cos| L / p_s over the directions whose r falls into it. Its expectation is the integral of f |cos| L

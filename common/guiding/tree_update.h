@@ -108,7 +108,7 @@ class TreeSums {
     void add(const TreeSums& other);
     void clear();
 
-    /// Sparse form: only cells and counts that are not zero (docs/protocol.md, "tree update").
+    /// Sparse form: only cells and counts that are not zero (docs/design/protocol.md, "tree update").
     Bytes encode() const;
     /// Adds an encoded update, checking pass, order and range of every entry before anything is added; FormatError
     /// otherwise. Returns the number of touched cells.

@@ -18,7 +18,8 @@ inline float negate_if(bool condition, float x) {
 }
 
 /// Our own elementary functions for whatever decides a path: the C library picks its code by CPU, so the same call may
-/// round differently on two machines (docs/architecture.md, "same bits"). Polynomials in plain float operations do not.
+/// round differently on two machines (docs/design/architecture.md, "same bits"). Polynomials in plain float operations
+/// do not.
 
 /// The least normal float. As the least divisor of what is 0 wherever the divisor is, it costs no branch and no 0/0.
 inline constexpr float kLeastNormal = 0x1p-126f;

@@ -5,7 +5,7 @@
 
 namespace treefarm {
 
-/// What an effect of the program is, for people: the rows of docs/effects.md.
+/// What an effect of the program is, for people: the rows of docs/generated/effects.md.
 struct EffectDescription {
     std::string name;   ///< "bump"
     std::string group;  ///< "materials"
@@ -18,7 +18,7 @@ struct EffectDescription {
 /// Every effect that the program knows, those that it never simulates last.
 std::span<const EffectDescription> effect_table();
 
-/// A Markdown table of all effects, for docs/effects.md.
+/// A Markdown table of all effects, for docs/generated/effects.md.
 std::string effect_documentation();
 
 }  // namespace treefarm

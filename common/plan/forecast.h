@@ -9,7 +9,7 @@ namespace treefarm {
 bool shows_last_tree_only(const Resolved& job);
 
 /// Samples per pixel that one further pass needs until the image's mean squared error is `mse`, if one of its samples
-/// has this variance (docs/error.md, "error"). 0: it is there already. Infinite: not known yet.
+/// has this variance (docs/design/error.md, "error"). 0: it is there already. Infinite: not known yet.
 double spp_to_reach(const RenderState& state, const Resolved& job, double mse, double variance);
 
 /// How passes that end a render for budget.error are chosen: so much beyond the samples that the error needs, so that

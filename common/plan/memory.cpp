@@ -22,7 +22,7 @@ constexpr double kRegionFilling = 0.65;
 constexpr double kCellsPerRegion = 2.4;
 constexpr double kCellsPerRegionByUse = 2.0;
 
-/// Sampling form of a cell, and its two sums (docs/guiding.md).
+/// Sampling form of a cell, and its two sums (docs/design/guiding.md).
 constexpr std::uint64_t kGuideBytesPerCell = 8;
 constexpr std::uint64_t kGuideBytesPerRegion = 2 * 65 * 4 + 40;
 constexpr std::uint64_t kGuideBytesPerView = 32;

@@ -37,7 +37,8 @@ struct TreeSize {
 
 /// What an emitter takes beside its table.
 inline constexpr std::uint64_t kEmitterBytes = 128;
-/// Embree's hierarchy over triangles, and over other shapes with their geometry objects, measured (docs/effects.md).
+/// Embree's hierarchy over triangles, and over other shapes with their geometry objects, measured
+/// (docs/generated/effects.md).
 inline constexpr std::uint64_t kHierarchyBytesPerTriangle = 67;
 inline constexpr std::uint64_t kHierarchyBytesPerObject = 400;
 

@@ -35,9 +35,9 @@ struct RenderState {
     std::uint32_t spp_of_last_tree() const;
 };
 
-/// What coming passes will be like, by those that are done (docs/error.md, "error"). A tree that learns more makes
-/// samples less noisy and changes what they cost, each time by less than the time before: its progress to the power
-/// 3/4, the change of cost to the power 0.35. Needs a finished pass.
+/// What coming passes will be like, by those that are done (docs/design/error.md, "error"). A tree that learns more
+/// makes samples less noisy and changes what they cost, each time by less than the time before: its progress to the
+/// power 3/4, the change of cost to the power 0.35. Needs a finished pass.
 class Outlook {
   public:
     explicit Outlook(const RenderState& state);

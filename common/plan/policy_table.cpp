@@ -15,14 +15,14 @@ namespace {
 
 constexpr std::string_view kPrefix = "policy.";
 
-constexpr const char* kAuto = "guiding-measured.md, \"auto: does it lose?\"";
-constexpr const char* kSplits = "guiding-measured.md, \"Splitting\"";
-constexpr const char* kRoulette = "guiding-measured.md, \"Roulette\"";
-constexpr const char* kTree = "guiding-measured.md, \"The tree\"";
-constexpr const char* kViews = "guiding-measured.md, \"Views: T2\"";
-constexpr const char* kLights = "guiding-measured.md, \"Choosing emitters\"";
-constexpr const char* kBudgets = "error.md, \"Budgets\"";
-constexpr const char* kError = "error.md, \"Error\"";
+constexpr const char* kAuto = "bench/log/2026-11-25-auto.md";
+constexpr const char* kSplits = "bench/log/2026-11-25-splitting.md";
+constexpr const char* kRoulette = "bench/log/2026-11-25-roulette.md";
+constexpr const char* kTree = "bench/log/2026-11-25-tree.md";
+constexpr const char* kViews = "bench/log/2026-11-25-views.md";
+constexpr const char* kLights = "bench/log/2026-11-25-emitters.md";
+constexpr const char* kBudgets = "bench/log/2026-11-25-error.md";
+constexpr const char* kError = "bench/log/2026-11-25-error.md";
 constexpr const char* kProgram2017 = "the program of Mueller et al. 2017";
 constexpr const char* kProgram2019 = "the program of Mueller et al. 2019";
 constexpr const char* kGuess = "chosen, not measured";
@@ -99,10 +99,10 @@ constexpr std::array kEntries = {
           "probability to survive by guiding.roulette = \"constant\", and at most before the first tree", kProgram2017),
     entry("walk.candidate_fair", kWalk.candidate_fair,
           "least share of a candidate direction in what is taken, times their number",
-          "guiding-measured.md, \"One of several directions\""),
+          "bench/log/2026-11-25-candidates.md"),
     entry("walk.branch_often", kWalk.branch_often,
           "glass before the camera: the other way is followed with so many times its weight",
-          "guiding-measured.md, \"Glass before the camera\""),
+          "bench/log/2026-11-24-split-glass.md"),
     entry("walk.branch_least", kWalk.branch_least, "and at least this probability", kGuess),
     entry("learning.spatial_threshold", kLearning.spatial_threshold,
           "c of the spatial split rule for 512 x 512 pixels, in proportion to their fourth root", kTree),

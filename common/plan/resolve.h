@@ -30,7 +30,7 @@ struct Resolved : Job {
     bool cells_follow_use = false;  ///< regions get fewer cells where the BSDF is sampled rather than their tree
 };
 
-/// The only place that knows what a setting left to the program means (docs/jobs.md). Pure.
+/// The only place that knows what a setting left to the program means (docs/generated/jobs.md). Pure.
 Resolved resolve(const Job& job, const SceneFacts& scene);
 Resolved resolve(const Job& job, const Scene& scene);
 

@@ -13,6 +13,8 @@
 
 namespace treefarm {
 
+const char* const kProgramVersion = TREEFARM_VERSION;
+
 namespace {
 
 std::uint64_t probe_mathematics() {

@@ -5,12 +5,12 @@
 
 namespace treefarm {
 
-/// Version of the program, as `treefarm --version` prints it.
-inline constexpr const char* kProgramVersion = "0.1.0";
+/// Version of the program, as `treefarm --version` prints it: that of the project in CMakeLists.txt.
+extern const char* const kProgramVersion;
 
 /// What decides the bits of a result besides job and scene, and says where a result comes from. Work done under equal
-/// fingerprints is interchangeable (docs/architecture.md, "same bits"). Embree's instruction set is part of the job
-/// (farm.isa), so it is not in here.
+/// fingerprints is interchangeable (docs/design/architecture.md, "same bits"). Embree's instruction set is part of the
+/// job (farm.isa), so it is not in here.
 struct Fingerprint {
     std::string version;              ///< of this program
     std::string source;               ///< `git describe` of what it was built from, or "release"

@@ -5,7 +5,7 @@
 
 namespace treefarm {
 
-// The fields of each small message, in the order of docs/protocol.md.
+// The fields of each small message, in the order of docs/design/protocol.md.
 
 template <class Archive>
 void serialize(Archive& a, Hello& m) {

@@ -21,9 +21,9 @@ inline constexpr std::size_t kMostNameBytes = 1024;      ///< a host's name, a v
 inline constexpr std::size_t kMostTextBytes = 64 << 10;  ///< a reason, a failure
 inline constexpr std::size_t kMostJobBytes = 16 << 20;   ///< a job as text
 
-/// The messages between coordinator and workers (docs/protocol.md is the grammar). An incarnation is a random number
-/// that a worker draws when it starts: together with its peer number it names one life of one process, so that what an
-/// earlier life still had under way is recognised and dropped.
+/// The messages between coordinator and workers (docs/design/protocol.md is the grammar). An incarnation is a random
+/// number that a worker draws when it starts: together with its peer number it names one life of one process, so that
+/// what an earlier life still had under way is recognised and dropped.
 
 struct Hello {
     static constexpr Kind kKind = Kind::hello;

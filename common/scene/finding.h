@@ -17,7 +17,7 @@ struct Finding {
     };
 
     Severity severity = Severity::warning;
-    std::string kind;  ///< one of a fixed list, for programs: "degenerate triangles" (docs/scenes.md)
+    std::string kind;  ///< one of a fixed list, for programs: "degenerate triangles" (docs/use/scenes.md)
     Location where;
     std::string what;  ///< what is wrong
     std::string cure;  ///< what to do; may be empty

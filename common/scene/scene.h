@@ -29,8 +29,8 @@ struct Camera {
     bool has_lens() const { return lens_u != Vec3(0.0f) || lens_v != Vec3(0.0f); }
 };
 
-/// The pixel's reconstruction filter, sampled by importance (docs/guiding.md): the sub-pixel offset is drawn from it.
-/// Cubic ones and Lanczos' have negative lobes.
+/// The pixel's reconstruction filter, sampled by importance (docs/design/guiding.md): the sub-pixel offset is drawn
+/// from it. Cubic ones and Lanczos' have negative lobes.
 enum class PixelFilter : std::uint8_t { box, tent, gaussian, cubic, lanczos };
 
 /// What is rendered: the pixels of a film, or of a crop window on it. Pixels are counted from the window's corner, but

@@ -3,7 +3,7 @@
 #include "tests/mpi/program.h"
 #include "tests/support/support.h"
 
-// The same image and the same tree, whatever renders them (docs/testing.md).
+// The same image and the same tree, whatever renders them (docs/design/testing.md).
 
 namespace treefarm::test {
 namespace {

@@ -1,4 +1,4 @@
-// Prints the table of docs/hard-cases.md that compares our functions with 113-bit ones.
+// Prints the table of docs/generated/hard-cases.md that compares our functions with 113-bit ones.
 // usage: oracle_table [INPUTS]     per row, default 1000000; exit code 1 if a bound is not kept
 #include <cstdio>
 #include <cstdlib>

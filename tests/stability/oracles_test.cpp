@@ -1,4 +1,4 @@
-// Our functions against 113-bit arithmetic: a smaller run of what docs/hard-cases.md tables (tests/oracle).
+// Our functions against 113-bit arithmetic: a smaller run of what docs/generated/hard-cases.md tables (tests/oracle).
 #include <gtest/gtest.h>
 
 #ifdef TREEFARM_HAS_QUAD

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes docs/hard-cases.md from the descriptions above the tests of tests/stability, and what they measure.
+"""Writes docs/generated/hard-cases.md from the descriptions above the tests of tests/stability, and what they measure.
 
 usage: tests/stability/write_page.py [BUILD]     runs the tests and the oracles of BUILD (default build/release)
        tests/stability/write_page.py --check     fails unless the page says what the descriptions say; runs nothing
@@ -17,7 +17,7 @@ import tempfile
 from overlay_build import write_edits
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-PAGE = ROOT / "docs/hard-cases.md"
+PAGE = ROOT / "docs/generated/hard-cases.md"
 ROWS = range(1, 44)
 WITHOUT_TEST = {
     20: "participating media, which are not simulated",
@@ -119,9 +119,9 @@ def main():
                     sys.exit(f"tests/stability/guards.json: {stale} has no such text as the guard of {guard['test']}")
         old = PAGE.read_text() if PAGE.exists() else ""
         if without_figures(old.split(ORACLES)[0]) != without_figures(page(cases, {}, "").split(ORACLES)[0]):
-            sys.exit("docs/hard-cases.md is out of date: run tests/stability/write_page.py")
+            sys.exit("docs/generated/hard-cases.md is out of date: run tests/stability/write_page.py")
         if old.count("\n| ") < 20:
-            sys.exit("docs/hard-cases.md has no table of oracles: run tests/stability/write_page.py")
+            sys.exit("docs/generated/hard-cases.md has no table of oracles: run tests/stability/write_page.py")
         return
     build = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else ROOT / "build/release").resolve()
     table = subprocess.run([build / "tests/oracle_table"], check=True, capture_output=True, text=True).stdout

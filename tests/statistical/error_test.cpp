@@ -1,5 +1,5 @@
-// Whether renders know their error (docs/error.md, "error"): a hundred small ones of a scene, the mean of the others
-// as the truth of each.
+// Whether renders know their error (docs/design/error.md, "error"): a hundred small ones of a scene, the mean of the
+// others as the truth of each.
 #include <gtest/gtest.h>
 
 #include <cmath>

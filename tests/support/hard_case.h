@@ -16,7 +16,7 @@ namespace treefarm::test {
 inline constexpr float kInfinity = std::numeric_limits<float>::infinity();
 inline constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
-/// What docs/hard-cases.md shows beside the running test (tests/stability/write_page.py).
+/// What docs/generated/hard-cases.md shows beside the running test (tests/stability/write_page.py).
 inline void figure(const std::string& what, double value) {
     std::ostringstream text;
     text.precision(3);

@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 const fs::path kRoot = TREEFARM_SOURCE_DIR;
 
-/// Rooms by level (docs/architecture.md): a room includes itself and rooms of lower levels, never its siblings.
+/// Rooms by level (docs/design/architecture.md): a room includes itself and rooms of lower levels, never its siblings.
 const std::map<std::string, int> kLevels = {{"common/base", 0},     {"common/math", 1},     {"common/image", 2},
                                             {"common/film", 2},     {"common/guiding", 2},  {"common/metrics", 3},
                                             {"common/config", 3},   {"common/scene", 4},    {"common/plan", 6},
@@ -104,7 +104,7 @@ std::vector<Include> includes_of(std::istream& source) {
 /// What is wrong with one include of one file; empty if nothing.
 std::string violation(const std::string& path, const Include& include) {
     const auto room = room_of(path);
-    if (!room) return "the file lies in no room of docs/architecture.md";
+    if (!room) return "the file lies in no room of docs/design/architecture.md";
     if (include.quoted && include.target == kLeaf) return "";
     const auto target = room_of(include.target);
     if (target && *target != *room) {

@@ -2,24 +2,36 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <regex>
 #include <sstream>
 
 #include "common/config/job_keys.h"
 #include "common/plan/effect_table.h"
 #include "common/plan/policy_table.h"
+#include "common/protocol/fingerprint.h"
 
 namespace treefarm {
 namespace {
 
-/// The page of docs/ holds a table that the program writes; if not, the table is left in a file.
-void expect_page_holds(const std::string& name, const std::string& table) {
-    std::ifstream page(std::string(TREEFARM_SOURCE_DIR) + "/docs/" + name);
+std::string text_of(const std::string& name) {
+    std::ifstream file(std::string(TREEFARM_SOURCE_DIR) + "/" + name);
     std::ostringstream text;
-    text << page.rdbuf();
-    const bool found = text.str().find(table) != std::string::npos;
+    text << file.rdbuf();
+    return text.str();
+}
+
+/// What the first match of a pattern has in its parentheses; empty without one.
+std::string first_match(const std::string& text, const std::string& pattern) {
+    std::smatch match;
+    return std::regex_search(text, match, std::regex(pattern)) ? match[1].str() : "";
+}
+
+/// The page of docs/generated holds a table that the program writes; if not, the table is left in a file.
+void expect_page_holds(const std::string& name, const std::string& table) {
+    const bool found = text_of("docs/generated/" + name).find(table) != std::string::npos;
     if (!found) std::ofstream(::testing::TempDir() + name) << table;
-    EXPECT_TRUE(found) << "docs/" << name << " is out of date; the table it should hold is in " << ::testing::TempDir()
-                       << name;
+    EXPECT_TRUE(found) << "docs/generated/" << name << " is out of date; the table it should hold is in "
+                       << ::testing::TempDir() << name;
 }
 
 TEST(Docs, ListEveryJobKeyAsTheProgramKnowsIt) {
@@ -32,6 +44,13 @@ TEST(Docs, ListEveryEffectAsTheProgramKnowsIt) {
 
 TEST(Docs, ListEveryTunedConstantAsTheProgramKnowsIt) {
     expect_page_holds("policy.md", policy_documentation());
+}
+
+TEST(Docs, SayTheVersionOfTheProgram) {
+    const std::string version = R"((\d+\.\d+\.\d+))";
+    EXPECT_EQ(first_match(text_of("CMakeLists.txt"), R"(project\(treefarm VERSION )" + version), kProgramVersion);
+    EXPECT_EQ(first_match(text_of("CHANGELOG.md"), "\n## " + version), kProgramVersion);
+    EXPECT_EQ(first_match(text_of("CITATION.cff"), "\nversion: " + version), kProgramVersion);
 }
 
 }  // namespace

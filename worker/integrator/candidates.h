@@ -53,7 +53,7 @@ class Candidates {
 
   private:
     /// Light from everywhere, of which the tree may have seen nothing: as much as an even tree would see. A fifth of it
-    /// was too little for rare light (docs/guiding-measured.md).
+    /// was too little for rare light (bench/log/2026-11-25-candidates.md).
     static constexpr float kUnseen = 1.0f / (4.0f * kPi);
 
     std::uint32_t count_ = 0;

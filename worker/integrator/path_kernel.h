@@ -67,7 +67,7 @@ class PathKernel {
     static constexpr std::uint32_t kBranchVertices = 1u << 28;
 
     /// Whether a path that ends makes room for the next. Guided ones were slower so: there the next batch waits for the
-    /// last path (docs/architecture.md, "How paths walk").
+    /// last path (docs/design/speed.md, "How paths walk").
     static constexpr bool kRefills = !kGuided;
 
     /// How many walk together: guided ones without next event are slower by whole batches.

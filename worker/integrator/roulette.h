@@ -8,7 +8,7 @@
 
 namespace treefarm {
 
-/// Russian roulette (docs/guiding.md, "Roulette").
+/// Russian roulette (docs/design/guiding.md, "Roulette").
 class Roulette {
   public:
     enum class Rule : std::uint8_t {

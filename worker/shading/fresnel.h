@@ -28,7 +28,8 @@ struct DielectricFresnel {
     const float cos2 = cos_i * cos_i, sin2 = (1.0f - cos_i) * (1.0f + cos_i);
     const float re = eta * eta - k * k - sin2;
     const float a2_plus_b2 = std::sqrt(re * re + 4.0f * eta * eta * k * k);
-    // a^2 = (a2_plus_b2 + re) / 2, by its conjugate where that cancels (docs/hard-cases.md: 113-bit arithmetic).
+    // a^2 = (a2_plus_b2 + re) / 2, by its conjugate where that cancels (docs/generated/hard-cases.md: 113-bit
+    // arithmetic).
     const float product = eta * k;
     const float a2 =
         re > 0.0f ? 0.5f * (a2_plus_b2 + re) : 2.0f * product * (product / std::max(a2_plus_b2 - re, kLeastNormal));

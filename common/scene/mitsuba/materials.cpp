@@ -7,7 +7,7 @@
 namespace treefarm::mitsuba {
 namespace {
 
-constexpr const char* kCure = "use one of those listed in docs/scenes.md";
+constexpr const char* kCure = "use one of those listed in docs/use/scenes.md";
 constexpr std::string_view kBsdfs[] = {
     "diffuse",      "conductor",    "roughconductor", "dielectric", "roughdielectric", "thindielectric", "plastic",
     "roughplastic", "twosided",     "mask",           "bumpmap",    "normalmap",       "blendbsdf",      "mixturebsdf",

@@ -1,0 +1,36 @@
+# What `cmake --install` puts where: program, man pages, completion, documentation, examples.
+include(GNUInstallDirs)
+
+install(TARGETS treefarm RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+install(FILES deploy/completion.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME treefarm)
+
+# Pages keep their places, so that links between them hold.
+install(FILES README.md CHANGELOG.md CONTRIBUTING.md CITATION.cff LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(DIRECTORY bench/log DESTINATION ${CMAKE_INSTALL_DOCDIR}/bench)
+install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright)  # where Debian looks for it
+# Not below doc, which minimal systems leave out of packages.
+install(DIRECTORY configs DESTINATION ${CMAKE_INSTALL_DATADIR}/treefarm PATTERN "__pycache__" EXCLUDE)
+
+# Man pages say what --help says. A sanitizer's program may not run as it is.
+find_program(TREEFARM_HELP2MAN help2man)
+if(TREEFARM_HELP2MAN AND NOT TREEFARM_SANITIZE AND NOT TREEFARM_FUZZ)
+    set(man ${PROJECT_BINARY_DIR}/man)
+    set(pages)
+    foreach(command IN ITEMS "" render plan check compare inspect study report keys)
+        string(JOIN "-" name treefarm ${command})
+        add_custom_command(OUTPUT ${man}/${name}.1 DEPENDS treefarm cmake/write_man_page.cmake VERBATIM
+            COMMAND ${CMAKE_COMMAND} -DHELP2MAN=${TREEFARM_HELP2MAN} -DPROGRAM=$<TARGET_FILE:treefarm> -DCOMMAND=${command}
+                    -DVERSION=${PROJECT_VERSION} -DOUTPUT=${man}/${name}.1
+                    -P ${PROJECT_SOURCE_DIR}/cmake/write_man_page.cmake)
+        list(APPEND pages ${man}/${name}.1)
+    endforeach()
+    add_custom_target(man ALL DEPENDS ${pages})
+    install(FILES ${pages} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 OPTIONAL)  # built with `all`
+endif()
+
+# Editors and clang-tidy look for it at the root; the folder that was configured first has it.
+if(CMAKE_EXPORT_COMPILE_COMMANDS AND NOT EXISTS ${PROJECT_SOURCE_DIR}/compile_commands.json)
+    file(CREATE_LINK ${PROJECT_BINARY_DIR}/compile_commands.json ${PROJECT_SOURCE_DIR}/compile_commands.json
+         RESULT ignored SYMBOLIC)  # not every file system can
+endif()

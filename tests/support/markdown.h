@@ -1,0 +1,35 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace treefarm::test {
+
+/// Markdown pages of the source tree: those of its root, of docs/ and of bench/log.
+std::vector<std::filesystem::path> markdown_pages();
+
+/// A line of a page.
+struct MarkdownLine {
+    int number = 0;  ///< from 1 on
+    std::string text;
+    bool fenced = false;  ///< within a fence of ```
+};
+std::vector<MarkdownLine> markdown_lines(const std::filesystem::path& page);
+
+/// Headings without their marks, in order.
+std::vector<std::string> headings(const std::filesystem::path& page);
+
+/// The anchors that GitHub gives to a page's headings.
+std::vector<std::string> anchors(const std::filesystem::path& page);
+
+/// Where a link leads.
+struct MarkdownLink {
+    int line = 0;        ///< on which it ends
+    std::string path;    ///< relative to the page; empty: the page itself
+    std::string anchor;  ///< without #; empty: none
+};
+/// Links and pictures that lead into the source tree, not to the web.
+std::vector<MarkdownLink> local_links(const std::filesystem::path& page);
+
+}  // namespace treefarm::test
