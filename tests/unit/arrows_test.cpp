@@ -18,8 +18,8 @@ const fs::path kRoot = TREEFARM_SOURCE_DIR;
 
 /// Rooms by level (docs/design/architecture.md): a room includes itself and rooms of lower levels, never its siblings.
 const std::map<std::string, int> kLevels = {{"common/base", 0},     {"common/math", 1},     {"common/image", 2},
-                                            {"common/film", 2},     {"common/guiding", 2},  {"common/metrics", 3},
-                                            {"common/config", 3},   {"common/scene", 4},    {"common/plan", 6},
+                                            {"common/film", 3},     {"common/guiding", 3},  {"common/metrics", 4},
+                                            {"common/config", 4},   {"common/scene", 5},    {"common/plan", 6},
                                             {"common/protocol", 7}, {"common/comm", 8},     {"coordinator", 9},
                                             {"report", 9},          {"worker/textures", 9}, {"worker/geometry", 10},
                                             {"worker/shading", 10}, {"worker/lights", 11},  {"worker/integrator", 12},
