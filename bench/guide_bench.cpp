@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What guiding costs per operation: region look-up, direction sample, density, record, merge, refine.
 // Trees of about 1 MB and 32 MB: in cache and out of it.
 #include <benchmark/benchmark.h>

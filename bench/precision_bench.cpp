@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What exactness costs and buys: integer sums against floats, integer probability tables against floats. Names are
 // CHOICE/WITH/...: the first of a choice is what the renderer does (docs/generated/cost-of-accuracy.md reads them).
 #include <benchmark/benchmark.h>

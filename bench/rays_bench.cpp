@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The bare Embree loop over the rays that paths of the same scene send: what trace_bench is to be measured against.
 #include <benchmark/benchmark.h>
 #include <embree3/rtcore.h>

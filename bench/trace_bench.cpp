@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a whole path costs: camera, intersection, scattering, next event, guiding, recording, film.
 #include <benchmark/benchmark.h>
 

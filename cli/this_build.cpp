@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "cli/this_build.h"
 
 #include "cli/build_info.h"

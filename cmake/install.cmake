@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # What `cmake --install` puts where: program, man pages, completion, documentation, examples.
 include(GNUInstallDirs)
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # `cpack` in a build folder makes a Debian package (cpack -G TGZ: an archive).
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME treefarm)

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # -ffast-math and its parts are refused, in CMAKE_CXX_FLAGS and those of every kind of build. What slips through here
 # fails in common/math/vec.h. Also a script of its own, for tests/stability: cmake -DCMAKE_CXX_FLAGS=... -P THIS_FILE
 foreach(flag IN ITEMS -ffast-math -Ofast -funsafe-math-optimizations -fassociative-math)

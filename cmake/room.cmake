@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # treefarm_room(NAME SOURCES ... LINKS ... PRIVATE_LINKS ...)
 # A room is a static library `tf_NAME`. LINKS are the rooms (and libraries) its headers may use; a room that is not
 # linked is not on the include path of its dependents' link line, and tests/unit/arrows_test checks the includes too.

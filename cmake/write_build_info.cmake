@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # Writes OUTPUT, cli/build_info.h's strings, when they differ from what stands there: after a commit only the program is
 # linked again. cmake -DOUTPUT=... -DSOURCE_DIR=... -DOPTIONS=... -P THIS_FILE
 set(source "release")  # an unpacked archive, without git's folder

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # Writes the man page of a command of the program from its --help:
 # cmake -DHELP2MAN=... -DPROGRAM=... -DCOMMAND=render -DVERSION=... -DOUTPUT=... -P THIS_FILE
 get_filename_component(folder ${OUTPUT} DIRECTORY)

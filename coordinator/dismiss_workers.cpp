@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "common/comm/rest.h"
 #include "common/protocol/messages.h"
 #include "coordinator/farm.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "coordinator/memory_check.h"
 
 #include <spdlog/fmt/fmt.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "coordinator/run_directory.h"
 
 #include <unistd.h>

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # Completion of treefarm for bash: commands and options by the program's own --help, keys of --set by `treefarm keys`.
 # shellcheck shell=bash
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "report/effect_costs.h"
 
 #include <spdlog/fmt/fmt.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One viewer per scene: two images under a slider, all of them below, one zoom, exposure and mode for all. Images are
 // RGBE: red, green, blue and a common exponent, a byte each.
 'use strict';

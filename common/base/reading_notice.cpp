@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "common/base/reading_notice.h"
 
 #include <spdlog/fmt/fmt.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "common/comm/mpi_channel.h"
 
 #define OMPI_SKIP_MPICXX  // the C++ bindings of MPI 2 are gone from the standard

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "common/config/check_job.h"
 
 #include "common/base/error.h"

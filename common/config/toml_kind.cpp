@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "common/config/toml_kind.h"
 
 #include <initializer_list>

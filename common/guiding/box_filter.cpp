@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "common/guiding/box_filter.h"
 
 #include "common/math/direction_map.h"

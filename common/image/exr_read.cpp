@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <ImathBox.h>
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>

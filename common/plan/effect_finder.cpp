@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "common/plan/effect_finder.h"
 
 #include "common/plan/texture_mean.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "common/scene/texture_codec.h"
 
 #include "common/scene/packed_values.h"

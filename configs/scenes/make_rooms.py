@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Writes glossy-room, mixed-room, matte-room, diffuse-room, caustic and features with the files they need, beside itself.
 
 Python 3, standard library only. Lengths are in metres, y is up.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Writes Mitsuba XML in the dialect of 0.6 or of 3, and the small files beside it. Python's standard library only."""
 
 import math

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Looks at a study's report in headless Chromium: no errors on its console, slider and zoom work.
 
 usage: report_test.py TREEFARM STUDY.toml [SCREENSHOT.png]

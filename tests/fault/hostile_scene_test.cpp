@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Scenes that mean harm: a clear error, in bounded time and memory.
 #include <sys/resource.h>
 #include <sys/stat.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Several jobs, one after the other, over the same workers.
 #include <atomic>
 

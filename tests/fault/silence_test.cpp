@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tests/fault/farm_fixture.h"
 
 // Who hears from whom, and for how long nobody need be heard.

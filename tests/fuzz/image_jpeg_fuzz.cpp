@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tests/fuzz/fuzz.h"
 #include "tests/fuzz/image_target.h"
 #include "tests/support/tiny_images.h"

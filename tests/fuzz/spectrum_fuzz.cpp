@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "common/base/error.h"
 #include "common/scene/mitsuba/spectrum_file.h"
 #include "tests/fuzz/fuzz.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Against an independent renderer's references, where ../shared/scenes is present.
 #include <gtest/gtest.h>
 

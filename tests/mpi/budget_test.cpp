@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Budgets that look at clock or error, and their schedules, through the program.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a render leaves in its folder, whatever happens to the disk, the folder, or the program.
 #include <gtest/gtest.h>
 #include <signal.h>

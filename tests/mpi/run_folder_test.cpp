@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Whose a folder is, and what becomes of what it holds.
 #include <gtest/gtest.h>
 #include <signal.h>

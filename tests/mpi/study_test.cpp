@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A study that is killed goes on where it was, and reports the same numbers.
 #include <fcntl.h>
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tests/mpi/terminal_program.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tests/oracle/oracle.h"
 #include "worker/shading/fresnel.h"
 

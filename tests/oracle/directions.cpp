@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "common/math/direction_map.h"
 #include "common/math/frame.h"
 #include "tests/oracle/oracle.h"

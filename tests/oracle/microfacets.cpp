@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "common/math/exponential.h"
 #include "tests/oracle/oracle.h"
 #include "worker/shading/rough_reflection.h"

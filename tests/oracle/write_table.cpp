@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Prints the table of docs/generated/hard-cases.md that compares our functions with 113-bit ones.
 // usage: oracle_table [INPUTS]     per row, default 1000000; exit code 1 if a bound is not kept
 #include <cstdio>

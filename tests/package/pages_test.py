@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Runs the commands that README.md and docs/use show, on small images and few samples.
 
 usage: tests/package/pages_test.py PROGRAM

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A furnace to the last digits: what leaks or drifts in 10^6 samples shows.
 #include "tests/support/hard_case.h"
 #include "tests/support/test_scenes.h"

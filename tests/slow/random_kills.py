@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Kills processes of a small farm at random moments of start-up, passes and end, over shared memory and TCP.
 
 usage: random_kills.py TREEFARM SCENE [--count N] [--seed S] [--only N]

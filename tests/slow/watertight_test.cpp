@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A hundred million paths in closed rooms: minutes.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Fresnel's equations where they degenerate.
 #include <random>
 

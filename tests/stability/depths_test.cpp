@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Paths of a thousand vertices.
 #include "tests/support/hard_case.h"
 #include "tests/support/material_scenes.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Frames, maps of directions, and the quadtrees over them at their seams, poles and depth limits.
 #include <random>
 

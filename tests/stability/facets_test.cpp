@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Rough and smooth surfaces at the ends of their parameters.
 #include "common/base/random.h"
 #include "common/scene/validate.h"

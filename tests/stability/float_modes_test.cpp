@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the processor's and the compiler's floating-point modes may not change.
 #include <xmmintrin.h>
 

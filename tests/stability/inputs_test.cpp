@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What scene files may hold: transforms without volume, normals and texels that are no numbers, suns of no size.
 #include "common/base/error.h"
 #include "common/image/exr.h"

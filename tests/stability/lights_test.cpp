@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Emitters that are tiny, huge, distant, or hardly there.
 #include <random>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Our functions against 113-bit arithmetic: a smaller run of what docs/generated/hard-cases.md tables (tests/oracle).
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Compiles units of an up-to-date Ninja build with changed copies of files, without touching a source."""
 import json
 import os

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What pixels make of extreme, rare and very many samples.
 #include <filesystem>
 #include <random>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Exact sums: their range, their caps, and their independence of any order.
 #include <algorithm>
 #include <random>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Spatial trees of scenes without extent, of coincident points, and of extreme light.
 #include <random>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Meshes that hardly are ones: slivers, points, edges, useless normals and texture coordinates.
 #include <random>
 

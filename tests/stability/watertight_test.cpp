@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Closed rooms under farm.robust: what no ray may leave, and no light enter.
 #include "tests/support/closed_rooms.h"
 #include "tests/support/hard_case.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Weights and probabilities at the ends of their ranges.
 #include "common/base/random.h"
 #include "common/scene/validate.h"

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Shows that the tests of tests/stability can fail: removes each guard of guards.json in turn and runs its test.
 
 usage: tests/stability/without_guards.py [BUILD] [TEST...]     e.g. build/release Weights.OfHugeAndInfiniteDensities

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Writes docs/generated/hard-cases.md from the descriptions above the tests of tests/stability, and what they measure.
 
 usage: tests/stability/write_page.py [BUILD]     runs the tests and the oracles of BUILD (default build/release)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Whether renders know their error (docs/design/error.md, "error"): a hundred small ones of a scene, the mean of the
 // others as the truth of each.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Guided renders estimate the same image as unguided ones. Combination `fixed`: exactly unbiased, so any trend is a
 // bug.
 #include <gtest/gtest.h>

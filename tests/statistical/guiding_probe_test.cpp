@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // guiding.type "auto" finds out whether guiding pays, and either answer leaves the image as it is.
 #include "common/film/guiding_probe.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Paths over every kind of material: guided against unguided, and scenes whose radiance is known.
 #include <gtest/gtest.h>
 

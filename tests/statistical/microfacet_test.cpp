@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Every rough BSDF: samples against density, over roughness and angle, on both sides.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One of several directions: what it estimates, and how often it takes which.
 #include <gtest/gtest.h>
 

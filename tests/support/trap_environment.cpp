@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Linked into every test program of the preset `trap`.
 #include <gtest/gtest.h>
 

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Says the licence in each source file: one SPDX line at its top, below a "#!" line.
 
 usage: tests/tools/add_spdx.py            adds it where it is missing

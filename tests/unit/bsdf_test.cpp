@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Values of BSDFs: energy, reciprocity, known cases, and the corners where formulas break.
 #include "worker/shading/bsdf.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the plan says of a material is what its BSDF does.
 #include <gtest/gtest.h>
 

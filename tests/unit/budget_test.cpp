@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Open budgets against simulated renders: a clock and an error that follow a rule.
 #include "common/plan/budget.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a program has: its kernels, and the effects that it was built with.
 #include <gtest/gtest.h>
 

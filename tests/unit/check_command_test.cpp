@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // `treefarm check` as a user runs it: defects planted one per line, each found at its line.
 #include <gtest/gtest.h>
 

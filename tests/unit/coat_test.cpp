@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Fresnel's equations, rough transmittance and plastic against known values.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Combining passes and the figures that are printed of each.
 #include "common/film/combine.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Crop windows: their pixels are those of the whole film, bit for bit.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Why an image may be black: what dark_causes() finds, and that it finds nothing where there is light.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Commands, settings and scenes that pages show are those of this program.
 #include <gtest/gtest.h>
 

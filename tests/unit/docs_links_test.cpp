@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Links of pages, and what comments say of them, lead somewhere.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Pages that are generated stay true.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What an image says about its own error, on samples whose truth is known.
 #include "common/film/error_estimate.h"
 

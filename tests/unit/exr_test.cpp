@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "common/image/exr.h"
 
 #include <ImathBox.h>

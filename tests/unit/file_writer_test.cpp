@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Files beside a render: none waits for a disk, none ends it.
 #include "coordinator/file_writer.h"
 

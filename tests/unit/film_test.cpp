@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Film atoms: any cut of the work gives the same bits.
 #include <gtest/gtest.h>
 

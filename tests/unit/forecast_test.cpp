@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Forecasts of what an error costs, from passes whose future is known.
 #include "common/plan/forecast.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The sampling form of the tree against the plain one, and its codec.
 #include "common/guiding/guide.h"
 

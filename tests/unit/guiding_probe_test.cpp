@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The verdict on guiding, from pixels whose variances are known.
 #include "common/film/guiding_probe.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Image files that claim more than they hold: refused before anything is allocated for the claim.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // `treefarm inspect` on small renders.
 #include <gtest/gtest.h>
 

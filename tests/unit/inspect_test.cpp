@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What inspection of a scene finds, and none where there is none; as a command: check_command_test.
 #include "common/scene/inspect.h"
 

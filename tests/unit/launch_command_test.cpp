@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Launchers that MPI cannot talk to start every task as an MPI world of its own: each would render everything.
 #include <gtest/gtest.h>
 

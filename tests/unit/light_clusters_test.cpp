@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Clusters of emitters, and what learned choices do to densities.
 #include "worker/lights/light_clusters.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How next event learns to choose emitters: sums, what is made of them, and what is sent.
 #include "common/guiding/light_share.h"
 

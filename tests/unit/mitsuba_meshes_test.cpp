@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tests/support/mesh_bytes.h"
 #include "tests/support/mitsuba_fixture.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "common/config/job_reader.h"
 #include "tests/support/mitsuba_fixture.h"
 

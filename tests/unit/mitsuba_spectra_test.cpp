@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Objects of Mitsuba 2 and 3 that stand for spectra: <spectrum type="...">.
 #include "common/scene/mitsuba/blackbody.h"
 #include "tests/support/mitsuba_fixture.h"

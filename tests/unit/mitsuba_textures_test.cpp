@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "common/image/exr.h"
 #include "tests/support/mitsuba_fixture.h"
 #include "tests/support/tiny_images.h"

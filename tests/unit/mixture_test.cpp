@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The learned mixture of BSDF and tree, against optima found by hand or by search.
 #include "common/guiding/mixture.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Work cut into parts that run side by side.
 #include "common/base/parallel.h"
 

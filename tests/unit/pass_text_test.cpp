@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What is said of a pass to a person.
 #include "coordinator/pass_text.h"
 

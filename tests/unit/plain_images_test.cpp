@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // BMP, TGA, PPM and PFM; layers of OpenEXR; what is wrong with the others.
 #include "tests/support/plain_images.h"
 

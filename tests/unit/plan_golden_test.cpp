@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The plan of each scene: which effects are on, and the kernels. Facts, not text.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // `treefarm plan` with a budget: a probe of the first passes says what the whole render would take.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How far a render or a study is, and how long it still takes.
 #include "coordinator/progress.h"
 

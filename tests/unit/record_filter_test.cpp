@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How records spread: over directional cells, over regions, and into which target.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Refinement, against hand-computed trees.
 #include "common/guiding/refine.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a study's report says of effects, forecasts and benchmarks, from results made up here.
 #include <gtest/gtest.h>
 #include <unistd.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a report answers: who won, whether chance can have made it, what 5 % costs; from results made up here.
 #include <gtest/gtest.h>
 #include <unistd.h>

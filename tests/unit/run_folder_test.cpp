@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Whose a run directory is, and what becomes of what it held.
 #include "coordinator/run_folder.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Sensors, crop windows and black images as a user meets them.
 #include <ImathBox.h>
 #include <OpenEXR/ImfHeader.h>

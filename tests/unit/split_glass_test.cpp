@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Both ways out of smooth glass where the camera sees it (worker/integrator/branches.h).
 #include <gtest/gtest.h>
 

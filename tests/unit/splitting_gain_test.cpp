@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Whether splitting pays, from samples whose moments are known.
 #include "common/film/splitting_gain.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Paths that go on as several (worker/integrator/path_copies.h).
 #include <gtest/gtest.h>
 

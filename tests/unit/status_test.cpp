@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The line that says how far something is: its width, its fields, when it is said.
 #include "common/base/status.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Which way up an image comes out on each kind of shape: as Mitsuba shows it.
 #include "common/config/job.h"
 #include "tests/support/local_render.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Materials that vary over a surface: textures, bump and normal maps, tangents.
 #include <gtest/gtest.h>
 

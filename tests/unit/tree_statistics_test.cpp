@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What `treefarm inspect` says of a tree.
 #include "common/guiding/tree_statistics.h"
 

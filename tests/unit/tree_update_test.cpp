@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Exact sums: split, merged in any order, encoded, truncated, corrupted.
 #include <gtest/gtest.h>
 

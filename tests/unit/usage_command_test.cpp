@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the program says to whoever types something that it does not take: every number is checked where it is typed,
 // unknown options are answered by what there is, files of other kinds by what to do with them.
 #include <gtest/gtest.h>

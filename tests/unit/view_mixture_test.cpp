@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a view adds to the mixture of its region, and when it is released.
 #include "common/guiding/view_mixture.h"
 

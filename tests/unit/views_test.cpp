@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // T2, the view-dependent part of the tree: looked up, refined, encoded.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Pages that people read in a terminal, an editor or a diff.
 #include <gtest/gtest.h>
 

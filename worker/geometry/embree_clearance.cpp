@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How far rays keep from walls, so that no rounding takes them through.
 #include <embree3/rtcore.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "worker/integrator/inspect_place.h"
 
 #include <array>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "common/base/error.h"
 #include "common/base/timer.h"
 #include "worker/integrator/tile_kernel.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "worker/lights/area_measure.h"
 
 #include "common/math/warp.h"

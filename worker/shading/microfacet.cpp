@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "worker/shading/microfacet.h"
 
 #include "common/math/elementary.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "worker/textures/texture_set.h"
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "common/scene/mitsuba/hosek_wilkie_data.h"
 
 // Copyright (c) 2012 - 2013, Lukas Hosek and Alexander Wilkie. All rights reserved. 3-clause BSD licence: its text is

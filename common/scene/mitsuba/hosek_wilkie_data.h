@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The figures declared here are those of the authors' own implementation, version 1.4a (ArHosekSkyModelData_RGB.h and
 // ArHosekSkyModelData_Spectral.h in github.com/mitsuba-renderer/mitsuba-data, sunsky/generation/src, commit 01100fa;
 // those of RGB are the same in github.com/mitsuba-renderer/mitsuba, src/emitters/sunsky/skymodeldata.h, commit

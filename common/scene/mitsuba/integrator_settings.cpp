@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "common/scene/mitsuba/integrator_settings.h"
 
 #include "common/config/parse_text.h"

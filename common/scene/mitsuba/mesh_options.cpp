@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "common/scene/mitsuba/mesh_options.h"
 
 #include <algorithm>
