@@ -21,9 +21,8 @@
 
 namespace treefarm {
 
-/// How paths walk: path tracing with optional next event, guiding and recording (Mueller et al. 2017; the order of
-/// tests is that of their program). Depth counts path edges: a surface seen by the camera has depth 1. `Surface` is one
-/// of surface.h.
+/// Path tracing with optional next event, guiding and recording (Mueller et al. 2017; tests in the order of their
+/// program). Depth counts path edges: a surface seen by the camera has depth 1. `Surface` is one of surface.h.
 ///
 /// Paths walk in step, up to kBatch of them: what one waits for (memory, square roots) another works through, and the
 /// shadow rays of a step are traced together. A path's result does not depend on its company.
