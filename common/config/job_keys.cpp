@@ -270,7 +270,7 @@ std::vector<JobKey> make_job_keys() {
         [](auto& j) -> auto& { return j.farm.isa; }, isas));
     add(boolean_key(
         "farm.robust",
-        "watertight: no ray slips through an edge that two triangles share, or starts behind a corner; slower",
+        "watertight: no ray slips through an edge that two triangles share, or starts behind a corner; much slower",
         [](auto& j) -> auto& { return j.farm.robust; }));
     add(boolean_key(
         "farm.memory_check", "refuse to begin where a host has less memory than its processes are expected to take",

@@ -50,8 +50,8 @@ struct EmbreeScene::Surroundings {
             own->instance == (placement ? instance + 1 : 0u))
             return false;
         const Shape& shape = scene.shapes_[index];
-        if (!(distance_from(shape, primitive, placement, ball.centre) < ball.radius)) return false;
-        return !own || highest_along(shape, primitive, placement, ball.normal) > ball.lowest;
+        if (own && !(highest_along(shape, primitive, placement, ball.normal) > ball.lowest)) return false;
+        return distance_from(shape, primitive, placement, ball.centre, ball.radius) < ball.radius;
     }
 
     static bool crowd(const EmbreeScene& scene, const Ball& ball) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "worker/geometry/placement.h"
 
@@ -30,7 +31,12 @@ double from_segment(const V3d& p, const V3d& a, const V3d& b) {
 }
 
 /// Above the triangle its plane's distance, else that of the nearest edge.
-double from_triangle(const V3d& p, const Corners& c) {
+double from_triangle(const V3d& p, const Corners& c, double within) {
+    // Nearly all that is asked about is far by its box alone.
+    for (int i = 0; i < 3; ++i) {
+        const double low = std::min({c[0][i], c[1][i], c[2][i]}), high = std::max({c[0][i], c[1][i], c[2][i]});
+        if (low - p[i] > within || p[i] - high > within) return std::numeric_limits<double>::infinity();
+    }
     const V3d n = (c[1] - c[0]).cross(c[2] - c[0]);
     double nearest = std::numeric_limits<double>::infinity();
     bool above = true;
@@ -84,12 +90,13 @@ double highest(const Cylinder& c, const V3d& n) {
 
 }  // namespace
 
-double distance_from(const Shape& shape, std::uint32_t primitive, const Placement* placement, const V3d& p) {
+double distance_from(const Shape& shape, std::uint32_t primitive, const Placement* placement, const V3d& p,
+                     double within) {
     return std::visit(
         [&](const auto& kind) {
             using Kind = std::decay_t<decltype(kind)>;
             if constexpr (std::is_same_v<Kind, Mesh>)
-                return from_triangle(p, corners_of(kind, primitive, placement));
+                return from_triangle(p, corners_of(kind, primitive, placement), within);
             else if constexpr (std::is_same_v<Kind, Instance>)
                 return std::numeric_limits<double>::infinity();  // its members are met, never itself
             else

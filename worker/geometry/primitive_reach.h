@@ -11,8 +11,9 @@ class Placement;
 /// `placement` is that of its instance, nullptr if it stands in the world itself.
 
 /// Distance of a point of the world from the primitive's surface; a lower bound of it for ellipses, and for analytic
-/// shapes under an instance.
-double distance_from(const Shape& shape, std::uint32_t primitive, const Placement* placement, const Imath::V3d& p);
+/// shapes under an instance. What is farther than `within` may be infinitely far.
+double distance_from(const Shape& shape, std::uint32_t primitive, const Placement* placement, const Imath::V3d& p,
+                     double within);
 
 /// The largest dot(x, normal) over the points x of the primitive.
 double highest_along(const Shape& shape, std::uint32_t primitive, const Placement* placement, const Imath::V3d& normal);
