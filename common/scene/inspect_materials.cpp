@@ -59,10 +59,10 @@ class MaterialInspection {
         factor(m.specular_reflectance, "specular reflectance");
         roughness(m.roughness);
     }
-    void operator()(const BlendMaterial& m) { factor(m.weight, "weight"); }
+    void operator()(const BlendMaterial& m) { factor(m.weight, "weight", false); }
     void operator()(const NullMaterial&) {}
 
-    void opacity() { factor(material_.opacity, "opacity"); }
+    void opacity() { factor(material_.opacity, "opacity", !material_.unlimited); }
 
   private:
     void add(Finding::Severity severity, const char* kind, const std::string& what, const std::string& cure) {
@@ -70,7 +70,13 @@ class MaterialInspection {
             {severity, kind, material_.where, named("material", material_.name) + " has " + what, cure});
     }
 
-    /// A constant above 1 is refused; one that a texture takes there is scaled down.
+    /// Whether factors that textures take above 1 stay so.
+    bool is_unlimited() const {
+        const auto* plastic = std::get_if<PlasticMaterial>(&material_.bsdf);
+        return material_.unlimited && !(plastic && plastic->nonlinear);
+    }
+
+    /// A constant above 1 is refused; one that a texture takes there is scaled down, or kept.
     void factor(float least, float most, bool varies, std::int32_t texture, const char* what) {
         if (!std::isfinite(most) || least < 0.0f)
             return add(error, "numbers", std::string("a ") + what + " that is negative or not finite", "give 0 to 1");
@@ -79,15 +85,18 @@ class MaterialInspection {
             add(varies ? warning : error, "energy gain",
                 std::string("a ") + what + " of up to " + short_number(double(reached)) +
                     ": it would send back more light than it gets",
-                varies ? "it is scaled down to 1" : "give 0 to 1");
+                !varies          ? "give 0 to 1"
+                : is_unlimited() ? "it is kept, as in Mitsuba 2 and 3; a darker texture keeps the energy"
+                                 : "it is scaled down to 0.99, as in Mitsuba 0.6");
     }
     void factor(const ColorInput& input, const char* what) {
         const auto [least, most] = std::minmax({input.value.x, input.value.y, input.value.z});
         const bool finite = is_finite(input.value);
         factor(least, finite ? most : std::numeric_limits<float>::infinity(), input.varies(), input.texture, what);
     }
-    void factor(const FloatInput& input, const char* what) {
-        factor(input.value, input.value, input.varies(), input.texture, what);
+    /// A number that is not `scaled` counts as 1 wherever its texture takes it above.
+    void factor(const FloatInput& input, const char* what, bool scaled) {
+        if (scaled || !input.varies()) factor(input.value, input.value, input.varies(), input.texture, what);
     }
 
     void index(float eta) {

@@ -85,7 +85,9 @@ struct Material {
         bsdf;
     bool twosided = false;      ///< the back scatters like the front, mirrored, or as `back` says
     std::int32_t back = kNone;  ///< twosided only: index of the material of the back, below this material's own
-    FloatInput opacity{1.0f};   ///< probability that a ray meets the surface at all, in [0, 1]; of the shape's material
+    /// Factors that textures take above 1 stay so (Mitsuba 2 and 3); otherwise they are scaled down (0.6).
+    bool unlimited = false;
+    FloatInput opacity{1.0f};  ///< probability that a ray meets the surface at all, in [0, 1]; of the shape's material
     NormalDetail detail;
     std::string name;
     Location where;

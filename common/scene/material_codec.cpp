@@ -123,6 +123,7 @@ class MaterialReader {
         material.back = get_optional_index(in_, index_, "material of the back");
         if (material.back != kNone && !material.twosided)
             throw FormatError("scene: a material that is not twosided has another one for its back");
+        material.unlimited = get_flag(in_, "unlimited");
         material.opacity = number();
         material.detail.bump = get_optional_index(in_, texture_count_, "bump texture");
         material.detail.bump_scale = in_.get<float>();
@@ -155,6 +156,7 @@ void put_material(ByteWriter& out, const Material& material) {
     std::visit(Put{out}, material.bsdf);
     put_flag(out, material.twosided);
     out.put(material.back);
+    put_flag(out, material.unlimited);
     put_number(out, material.opacity);
     out.put(material.detail.bump);
     out.put(material.detail.bump_scale);

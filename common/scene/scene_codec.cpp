@@ -14,7 +14,7 @@ namespace {
 using namespace packed;
 
 constexpr std::uint32_t kMagic = 0x43534654;  // "TFSC"
-constexpr std::uint32_t kVersion = 4;
+constexpr std::uint32_t kVersion = 5;
 
 Camera get_camera(ByteReader& in) {
     Camera camera;

@@ -18,6 +18,9 @@ class MaterialCheck {
 
     /// Whether light passes through the material.
     bool run() {
+        const auto* plastic = std::get_if<PlasticMaterial>(&material_.bsdf);
+        // What is reflected back and forth between such a base and its coat would grow without end.
+        limited_ = !material_.unlimited || (plastic && plastic->nonlinear);
         const bool transmits = std::visit(*this, material_.bsdf);
         if (material_.twosided && transmits)
             refuse("a material that light passes through is twosided", "remove the twosided: it has both sides anyway");
@@ -26,7 +29,7 @@ class MaterialCheck {
             if (transmits_[beneath(material_.back)])
                 refuse("the material of the back is one that light passes through", "give an opaque one");
         }
-        check_fraction(material_.opacity, "the opacity");
+        check_fraction(material_.opacity, "the opacity", !material_.unlimited);
         check_detail(material_.detail);
         return transmits;
     }
@@ -67,7 +70,7 @@ class MaterialCheck {
         return false;
     }
     bool operator()(BlendMaterial& m) {
-        check_fraction(m.weight, "the weight of the blend");
+        check_fraction(m.weight, "the weight of the blend", false);
         const std::size_t first = beneath(m.first), second = beneath(m.second);
         return transmits_[first] || transmits_[second];
     }
@@ -91,30 +94,45 @@ class MaterialCheck {
         return textures_[static_cast<std::size_t>(texture)];
     }
 
-    /// A factor that its texture takes above 1 is scaled down: what an image holds is rarely the author's intention.
-    /// Returns the factor by which.
-    float fraction_scale(std::int32_t texture, float largest, const std::string& what) {
+    /// Share of 1 to which Mitsuba 0.6 scales a factor that a texture takes above it.
+    static constexpr float kScaledTo = 0.99f;
+
+    /// The most that the texture takes a factor to.
+    float reached(std::int32_t texture, float largest, const std::string& what) const {
         const ValueRange& values = range(texture);
         if (values.min < 0.0f) refuse(what + " has a texture with negative values", "give values from 0 to 1");
-        if (!(largest * values.max > 1.0f)) return 1.0f;
-        const float scale = 1.0f / (largest * values.max);
-        if (largest * values.max > 1.0f + 1e-5f)
-            warnings_.push_back({material_.where, what + " reaches " + std::to_string(largest * values.max) +
-                                                      " in its texture and is scaled down to 1"});
-        return scale;
+        return largest * values.max;
+    }
+
+    /// What brings a factor that its texture takes to `most` down to its limit; 1 within rounding of the limit.
+    float fraction_scale(float most, const std::string& what) {
+        if (!(most > 1.0f)) return 1.0f;
+        if (most <= 1.0f + 1e-5f) return 1.0f / most;
+        warnings_.push_back({material_.where, what + " reaches " + std::to_string(most) +
+                                                  " in its texture and is scaled down to 0.99, as by Mitsuba 0.6"});
+        return kScaledTo / most;
     }
 
     void check_fraction(ColorInput& input, const std::string& what) {
         for (int i = 0; i < 3; ++i)
             if (!(input.value[i] >= 0.0f && input.value[i] <= (input.varies() ? 1e30f : 1.0f)))
                 refuse(what + " is outside 0 to 1", "give values from 0 to 1");
-        if (input.varies()) input.value *= fraction_scale(input.texture, max_component(input.value), what);
+        if (!input.varies()) return;
+        const float most = reached(input.texture, max_component(input.value), what);
+        if (limited_)
+            input.value *= fraction_scale(most, what);
+        else if (most > 1.0f + 1e-5f)
+            warnings_.push_back({material_.where, what + " reaches " + std::to_string(most) +
+                                                      " in its texture: it sends back more light than it gets"});
     }
 
-    void check_fraction(FloatInput& input, const std::string& what) {
+    /// A number that is not `scaled` counts as 1 wherever its texture takes it above.
+    void check_fraction(FloatInput& input, const std::string& what, bool scaled) {
         if (!(input.value >= 0.0f && input.value <= (input.varies() ? 1e30f : 1.0f)))
             refuse(what + " is outside 0 to 1", "give a value from 0 to 1");
-        if (input.varies()) input.value *= fraction_scale(input.texture, input.value, what);
+        if (!input.varies()) return;
+        const float most = reached(input.texture, input.value, what);
+        if (scaled) input.value *= fraction_scale(most, what);
     }
 
     void check_eta(float eta) const {
@@ -155,6 +173,7 @@ class MaterialCheck {
     const std::vector<ValueRange>& textures_;
     const std::vector<bool>& transmits_;
     std::vector<Warning>& warnings_;
+    bool limited_ = true;  ///< factors on light stay at or below 1
 };
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "worker/shading/bsdf_builder.h"
 
+#include <limits>
 #include <type_traits>
 
 #include "common/base/build_options.h"
@@ -54,8 +55,14 @@ std::int32_t color_texture(const Material& material) {
     return kNone;
 }
 
-float clamped(float x) {
-    return std::min(1.0f, std::max(0.0f, x));
+float clamped(float x, float most) {
+    return std::min(most, std::max(0.0f, x));
+}
+
+/// The most that a factor of a material may be: interreflection below a coat knows no more than 1.
+float largest_factor(const Material& material) {
+    const auto* plastic = std::get_if<PlasticMaterial>(&material.bsdf);
+    return material.unlimited && !(plastic && plastic->nonlinear) ? std::numeric_limits<float>::max() : 1.0f;
 }
 
 }  // namespace
@@ -162,30 +169,30 @@ const Bsdf* BsdfBuilder::described(std::int32_t index, bool back, const ShadingP
 
 template <class Nodes>
 Bsdf BsdfBuilder::leaf(std::int32_t index, bool back, const ShadingPoint& point, Nodes& nodes) const {
+    const float most = largest_factor(materials_[static_cast<std::size_t>(index)]);
+    const auto factor = [&](const ColorInput& input) { return color(input, point, most); };
     const auto of = [&](const auto& m) -> Bsdf {
         using Kind = std::decay_t<decltype(m)>;
         if constexpr (std::is_same_v<Kind, DiffuseMaterial>) {
-            const Rgb albedo = color(m.reflectance, point);
+            const Rgb albedo = factor(m.reflectance);
             return is_black(albedo) ? Bsdf{} : Bsdf{DiffuseBsdf{albedo}};
         } else if constexpr (std::is_same_v<Kind, ConductorMaterial>) {
-            const Rgb reflectance = color(m.specular_reflectance, point);
+            const Rgb reflectance = factor(m.specular_reflectance);
             if (m.roughness.smooth()) return {ConductorBsdf{m.eta, m.k, reflectance}};
             return {RoughConductorBsdf{m.eta, m.k, reflectance, facets(m.roughness, point)}};
         } else if constexpr (std::is_same_v<Kind, DielectricMaterial>) {
             if constexpr (!kHasTransmission) return {};
-            const Rgb reflectance = color(m.specular_reflectance, point),
-                      transmittance = color(m.specular_transmittance, point);
+            const Rgb reflectance = factor(m.specular_reflectance), transmittance = factor(m.specular_transmittance);
             if (!refracts(m.eta)) return {NullBsdf{transmittance}};
             const float eta = back ? 1.0f / m.eta : m.eta;
             if (m.roughness.smooth()) return {DielectricBsdf{eta, reflectance, transmittance}};
             return {RoughDielectricBsdf{eta, reflectance, transmittance, facets(m.roughness, point)}};
         } else if constexpr (std::is_same_v<Kind, ThinDielectricMaterial>) {
             if constexpr (!kHasTransmission) return {};
-            return {ThinDielectricBsdf{m.eta, color(m.specular_reflectance, point),
-                                       color(m.specular_transmittance, point)}};
+            return {ThinDielectricBsdf{m.eta, factor(m.specular_reflectance), factor(m.specular_transmittance)}};
         } else if constexpr (std::is_same_v<Kind, PlasticMaterial>) {
             const Notes& notes = notes_[static_cast<std::size_t>(index)];
-            const Rgb diffuse = color(m.diffuse_reflectance, point), specular = color(m.specular_reflectance, point);
+            const Rgb diffuse = factor(m.diffuse_reflectance), specular = factor(m.specular_reflectance);
             const float coat = luminance(specular), base = luminance(diffuse);
             if (!(coat + base > 0.0f)) return {};
             CoatedBase coated{Rgb(0.0f), coat / (coat + base)};
@@ -203,7 +210,7 @@ Bsdf BsdfBuilder::leaf(std::int32_t index, bool back, const ShadingPoint& point,
             coated.base = coated_base(diffuse, transmittance->escapes(m.single_return), m.eta, m.nonlinear);
             return {RoughPlasticBsdf{m.eta, specular, coated, rough, transmittance}};
         } else if constexpr (std::is_same_v<Kind, BlendMaterial>) {
-            const float weight = clamped(textures_->eval(m.weight, point.uv));
+            const float weight = clamped(textures_->eval(m.weight, point.uv), 1.0f);
             return {BlendBsdf{weight, side(m.first, back, point, nodes), side(m.second, back, point, nodes)}};
         } else {
             static_assert(std::is_same_v<Kind, NullMaterial>);
@@ -213,9 +220,9 @@ Bsdf BsdfBuilder::leaf(std::int32_t index, bool back, const ShadingPoint& point,
     return std::visit(of, materials_[static_cast<std::size_t>(index)].bsdf);
 }
 
-Rgb BsdfBuilder::color(const ColorInput& input, const ShadingPoint& point) const {
+Rgb BsdfBuilder::color(const ColorInput& input, const ShadingPoint& point, float most) const {
     const Rgb c = textures_->eval(input, point.uv);
-    return {clamped(c.x), clamped(c.y), clamped(c.z)};
+    return {clamped(c.x, most), clamped(c.y, most), clamped(c.z, most)};
 }
 
 Microfacet BsdfBuilder::facets(const Roughness& roughness, const ShadingPoint& point) const {
