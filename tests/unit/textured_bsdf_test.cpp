@@ -1,6 +1,8 @@
 // Materials that vary over a surface: textures, bump and normal maps, tangents.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "common/base/random.h"
 #include "common/math/warp.h"
 #include "tests/support/material_scenes.h"
@@ -38,11 +40,12 @@ TEST(Textured, UnlimitedMaterialsKeepFactorsAbove1) {
     EXPECT_EQ(PreparedMaterial(scene).at(point_at(0.1f, 0.1f)).value(kUp, kUp).f_cos, Rgb(1.0f, 0.4f, 1.0f) * kInvPi);
     scene.materials[static_cast<std::size_t>(material)].unlimited = true;
     EXPECT_EQ(PreparedMaterial(scene).at(point_at(0.1f, 0.1f)).value(kUp, kUp).f_cos, Rgb(2.0f, 0.4f, 1.5f) * kInvPi);
-    PlasticMaterial plastic{1.5f, ColorInput(Rgb(1.0f), board), Rgb(0.0f)};
+    PlasticMaterial plastic;
+    plastic.diffuse_reflectance = ColorInput(Rgb(1.0f), board);
     plastic.nonlinear = true;
     scene.materials[static_cast<std::size_t>(material)].bsdf = plastic;
     const Rgb nonlinear = PreparedMaterial(scene).at(point_at(0.1f, 0.1f)).value(kUp, kUp).f_cos;
-    EXPECT_GT(min_component(nonlinear), 0.0f) << "1 / (1 - 2 fdr) would be negative";
+    EXPECT_GT(std::min({nonlinear.x, nonlinear.y, nonlinear.z}), 0.0f) << "1 / (1 - 2 fdr) would be negative";
 }
 
 TEST(Textured, BackOfAnOpaqueSurfaceIsBlackWhateverWasBuiltBefore) {
