@@ -70,16 +70,15 @@ std::vector<Cured> with_word(const std::string& document, const Span& span, cons
 Cured with_number(const std::string& document, const Span& span, const std::string& problem,
                   const std::string& number) {
     std::string tag = document.substr(span.begin, span.tag_end - span.begin);
-    const std::size_t begin = tag.find("value=\"") + 7, end = tag.find('"', begin);
-    std::string value = tag.substr(begin, end - begin);
     std::smatch named;
-    const std::regex pattern(R"((?:of|is) (-?[0-9.e+]+))");
-    const std::size_t at = std::regex_search(problem, named, pattern) ? value.find(named[1].str()) : std::string::npos;
-    if (at == std::string::npos)
-        value = number;
-    else
-        value.replace(at, named[1].length(), number);
-    tag.replace(begin, end - begin, value);
+    static const std::regex kNumber(R"((?:of|is) (-?[0-9][0-9.e+]*))");
+    const bool has_number = std::regex_search(problem, named, kNumber);
+    if (const std::size_t at = has_number ? tag.find(named[1].str()) : std::string::npos; at != std::string::npos) {
+        tag.replace(at, static_cast<std::size_t>(named[1].length()), number);
+    } else if (const std::size_t value = tag.find("value=\""); value != std::string::npos) {
+        const std::size_t begin = value + 7;
+        tag.replace(begin, tag.find('"', begin) - begin, number);
+    }
     return {"the number " + number, document.substr(0, span.begin) + tag + document.substr(span.tag_end)};
 }
 
@@ -118,7 +117,7 @@ std::vector<std::string> numbers_named(const std::string& cure) {
 /// The words of "use a, b or c": up to the first thing that is no such list.
 std::vector<std::string> words_named(const std::string& cure) {
     static const std::regex kList(
-        R"((?:^|Otherwise |, or )(?:use|choose one of|write) ((?:[A-Za-z_0-9]+)(?:(?:, | or )[A-Za-z_0-9]+)*))");
+        R"((?:^|Otherwise |, or )(?:use|choose one of|write(?= true)) ((?:[A-Za-z_0-9]+)(?:(?:, | or )[A-Za-z_0-9]+)*))");
     std::smatch m;
     if (!std::regex_search(cure, m, kList)) return {};
     std::vector<std::string> words;

@@ -75,6 +75,7 @@ std::vector<Fault> faults() {
         {emitter("sky", value("integer", "resolution", "0"))},
         {emitter("sun", value("vector", "sunDirection", "0 1 0") + "\n" + value("float", "hour", "12")), "0"},
         {emitter("point", value("rgb", "intensity", "-1"))},
+        {emitter("point", "<blackbody name=\"intensity\" temperature=\"-1\"/>")},
         // films and sensors
         {filter("mitchell", value("float", "B", "20"))},
         {filter("box", value("float", "radius", "0"))},
@@ -87,7 +88,6 @@ std::vector<Fault> faults() {
         {"<sensor type=\"perspective\">\n<film type=\"hdr_film\"/></sensor>"},
         {lens("perspective", value("float", "fov", "200"))},
         {lens("perspective", value("float", "fov", "40") + "\n" + value("string", "fovAxis", "z"))},
-        {lens("perspective", value("string", "fovAxis", "z"))},
         {lens("perspective", value("float", "fov", "40") + "\n" + value("string", "focalLength", "50mm"))},
         {lens("perspective", moved("<scale x=\"2\"/>"))},
         {lens("thinlens", "")},
@@ -218,7 +218,7 @@ class MitsubaCures : public MitsubaFixture {
         std::string broken;
         for (const Cured& cured : apply_cure(text, error)) {
             const auto left = cured.document.empty() ? error : refusal(cured.document);
-            if (left && !only_lacks_content(*left))
+            if (left && !(cured.step.starts_with("the word") && only_lacks_content(*left)))
                 broken += std::string(error.what()) + "\n  " + cured.step + ": " + left->what() + "\n";
         }
         if (error.cure().find("with --lenient") != std::string::npos)
@@ -233,7 +233,8 @@ TEST_F(MitsubaCures, Help) {
         for (const char version : std::string(fault.versions)) {
             const std::string text = document(fault.body, version);
             const auto error = refusal(text);
-            ASSERT_TRUE(error) << "no fault in version " << version << ":\n" << text;
+            EXPECT_TRUE(error) << "no fault in version " << version << ":\n" << text;
+            if (!error) continue;
             EXPECT_EQ(broken_promises(text, *error), "") << "version " << version << ":\n" << text;
         }
 }
@@ -243,7 +244,7 @@ TEST_F(MitsubaCures, WrongOnesAreFound) {
     const auto real = refusal(text);
     ASSERT_TRUE(real);
     EXPECT_EQ(broken_promises(text, *real), "");
-    for (const char* wrong : {"use neerest, or bilinear", "did you mean \"ewaa\"?", "give 0 to 1",
+    for (const char* wrong : {"use neerest or bilinear", "did you mean \"ewaa\"?", "give 0 to 1",
                               "use bilinear or cubic", "use nearest (with --lenient it is skipped)"})
         EXPECT_NE(broken_promises(text, InputError(real->where(), real->problem(), wrong)), "") << wrong;
     EXPECT_EQ(broken_promises(text, InputError(real->where(), real->problem(), "remove it")), "");

@@ -43,7 +43,7 @@ void read_projection(Properties& properties, const Matrix& to_world, SpotEmitter
     if (!projected.varies()) return;
     if (!(uniform_scale(to_world, 1e-3) > 0.0))
         throw InputError(properties.where("to_world"), "the transformation of a spot with a texture contains a shear",
-                         "use rotations, mirrors, translations and scales that are the same in all directions");
+                         "only rotate, mirror, move it and scale it alike in all directions");
     spot.intensity *= projected.value;
     spot.texture = projected.texture;
     spot.x_axis = normalize(transform_vector(to_world, Vec3(1.0f, 0.0f, 0.0f)));
