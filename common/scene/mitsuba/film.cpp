@@ -1,5 +1,6 @@
 #include "common/scene/mitsuba/film.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "common/config/parse_text.h"
