@@ -155,7 +155,7 @@ std::vector<Cured> apply_cure(const std::string& document, const InputError& err
             const std::size_t begin = document.find(" " + quoted_word(problem.substr(attribute)) + "=\"", span.begin);
             const std::size_t end = document.find('"', document.find('"', begin) + 1) + 1;
             cured.push_back({"without the attribute", without(document, begin, end)});
-        } else if (cure.starts_with("remove them")) {
+        } else if (cure.starts_with("remove them") && document[span.tag_end - 2] != '/') {
             const std::size_t inside_end = document.rfind("</", span.end - 1);
             cured.push_back({"without what is inside", without(document, span.tag_end, inside_end)});
         } else {
