@@ -6,6 +6,7 @@
 #include <span>
 
 #include "common/base/error.h"
+#include "common/base/lfs_pointer.h"
 #include "common/image/bitmap_check.h"
 #include "common/image/hdr.h"
 #include "common/image/image.h"
@@ -121,6 +122,8 @@ EncodedImage read_encoded_image(const std::filesystem::path& path, const std::st
     };
     EncodedImage image;
     image.bytes = read_bytes(path, cure);
+    const std::size_t first = std::min<std::size_t>(image.bytes.size(), 64);
+    if (is_lfs_pointer({reinterpret_cast<const char*>(image.bytes.data()), first})) refuse(kLfsPointer, kLfsCure);
     // Before stb sees it: tables that are too long make it write past its own even where only the size is asked for.
     std::string why = begins_with(image.bytes, kJpeg) ? jpeg_fault(image.bytes) : "";
     const std::string again = "it is damaged or cut short; save it again";

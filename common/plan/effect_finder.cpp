@@ -74,8 +74,11 @@ EffectFinder::EffectFinder(const Scene& scene, const Resolved& job)
     const auto use = [&](std::int32_t texture) { texture_in_use_[static_cast<std::size_t>(texture)] = true; };
     for (std::size_t i = 0; i < scene.materials.size(); ++i)
         if (used_[i]) for_each_texture(scene.materials[i], use);
-    for (const Emitter& emitter : scene.emitters)
+    for (const Emitter& emitter : scene.emitters) {
         if (is_textured(emitter)) use(std::get<AreaEmitter>(emitter.kind).radiance.texture);
+        if (const auto* spot = std::get_if<SpotEmitter>(&emitter.kind); spot && spot->texture != kNone)
+            use(spot->texture);
+    }
     for (std::size_t i = 0; i < scene.textures.size(); ++i)
         if (const auto* bitmap = std::get_if<BitmapTexture>(&scene.textures[i].kind); bitmap && texture_in_use_[i])
             image_of_textures_[static_cast<std::size_t>(bitmap->image)] = true;

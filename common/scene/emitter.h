@@ -19,13 +19,17 @@ struct PointEmitter {
 };
 
 /// A point that shines along `axis`: fully within `beam` of it, not at all beyond `cutoff`, and in between linearly in
-/// the angle.
+/// the angle. A texture is projected like a slide: its unit square fills the square about the circle in which the cone
+/// of `cutoff` cuts a plane across the axis.
 struct SpotEmitter {
     Vec3 position{0.0f};
-    Vec3 axis{0.0f, 0.0f, 1.0f};  ///< unit, away from the emitter
-    Rgb intensity{1.0f};          ///< W / sr, on the axis
-    float cutoff = 0.3490659f;    ///< radians, above 0, at most pi
-    float beam = 0.2617994f;      ///< radians, 0 to cutoff
+    Vec3 axis{0.0f, 0.0f, 1.0f};   ///< unit, away from the emitter
+    Rgb intensity{1.0f};           ///< W / sr, on the axis
+    float cutoff = 0.3490659f;     ///< radians, above 0, at most pi
+    float beam = 0.2617994f;       ///< radians, 0 to cutoff
+    std::int32_t texture = kNone;  ///< factor on the intensity; then cutoff is below pi / 2
+    /// Unit, at right angles to `axis` and each other: along which u and v of the texture rise.
+    Vec3 x_axis{1.0f, 0.0f, 0.0f}, y_axis{0.0f, 1.0f, 0.0f};
 };
 
 /// Parallel light.

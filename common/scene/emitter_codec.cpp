@@ -33,6 +33,9 @@ struct Put {
         put_vector(out, e.intensity);
         out.put(e.cutoff);
         out.put(e.beam);
+        out.put(e.texture);
+        put_vector(out, e.x_axis);
+        put_vector(out, e.y_axis);
     }
     void operator()(const DirectionalEmitter& e) const {
         put_vector(out, e.direction);
@@ -49,13 +52,16 @@ struct Put {
     }
 };
 
-SpotEmitter get_spot(ByteReader& in) {
+SpotEmitter get_spot(ByteReader& in, std::size_t texture_count) {
     SpotEmitter e;
     e.position = get_vector<Vec3>(in);
     e.axis = get_vector<Vec3>(in);
     e.intensity = get_vector<Rgb>(in);
     e.cutoff = in.get<float>();
     e.beam = in.get<float>();
+    e.texture = get_optional_index(in, texture_count, "texture of a spot");
+    e.x_axis = get_vector<Vec3>(in);
+    e.y_axis = get_vector<Vec3>(in);
     return e;
 }
 
@@ -96,7 +102,7 @@ Emitter get_emitter(ByteReader& in, std::size_t shape_count, std::size_t texture
             break;
         }
         case 2:
-            emitter.kind = get_spot(in);
+            emitter.kind = get_spot(in, texture_count);
             break;
         case 3: {
             DirectionalEmitter directional;

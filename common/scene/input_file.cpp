@@ -3,6 +3,7 @@
 
 #include <fstream>
 
+#include "common/base/lfs_pointer.h"
 #include "common/config/parse_text.h"
 
 namespace treefarm {
@@ -22,6 +23,10 @@ std::uintmax_t input_file_size(const std::filesystem::path& path, const Location
     const std::uintmax_t size = std::filesystem::file_size(path, error);
     if (error || size > kMaxFileBytes)
         throw InputError(asked_from, path_in_quotes(file) + " has more than 8 GiB", "split it");
+    std::string begin(64, '\0');
+    std::ifstream in(path, std::ios::binary);
+    in.read(begin.data(), static_cast<std::streamsize>(begin.size()));
+    if (is_lfs_pointer(begin)) throw InputError(asked_from, path_in_quotes(file) + " " + kLfsPointer, kLfsCure);
     return size;
 }
 

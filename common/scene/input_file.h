@@ -10,7 +10,7 @@
 namespace treefarm {
 
 /// The size of a file that a scene names. InputError at `asked_from`, where its name stands, if it is missing, is no
-/// file or has more than 8 GiB.
+/// file, has more than 8 GiB or only points to a file in Git LFS.
 std::uintmax_t input_file_size(const std::filesystem::path& path, const Location& asked_from);
 
 /// All bytes of such a file.

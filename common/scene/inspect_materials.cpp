@@ -32,7 +32,9 @@ class MaterialInspection {
 
     void run() {
         visit_fields(material_.bsdf, *this);
-        fraction("opacity", material_.opacity);
+        if (!material_.unlimited || !material_.opacity.varies())
+            factor(material_.opacity.value, material_.opacity.value, material_.opacity.varies(),
+                   material_.opacity.texture, "opacity");
     }
 
     void fraction(const char* what, const ColorInput& input) {
@@ -40,8 +42,9 @@ class MaterialInspection {
         const bool finite = is_finite(input.value);
         factor(least, finite ? most : std::numeric_limits<float>::infinity(), input.varies(), input.texture, what);
     }
+    /// A number counts as 1 wherever its texture takes it above.
     void fraction(const char* what, const FloatInput& input) {
-        factor(input.value, input.value, input.varies(), input.texture, what);
+        if (!input.varies()) factor(input.value, input.value, false, input.texture, what);
     }
     void anisotropy(const FloatInput& input) { fraction("anisotropy", input); }
     void number(const char* what, const FloatInput& input, float least, float most) {
@@ -104,7 +107,7 @@ class MaterialInspection {
             {severity, kind, material_.where, named("material", material_.name) + " has " + what, cure});
     }
 
-    /// A constant above 1 is refused; one that a texture takes there is scaled down.
+    /// A constant above 1 is refused; one that a texture takes there is scaled down, or kept.
     void factor(float least, float most, bool varies, std::int32_t texture, const char* what) {
         if (!std::isfinite(most) || least < 0.0f)
             return add(error, "numbers", std::string("a ") + what + " that is negative or not finite", "give 0 to 1");
@@ -113,7 +116,9 @@ class MaterialInspection {
             add(varies ? warning : error, "energy gain",
                 std::string("a ") + what + " of up to " + short_number(double(reached)) +
                     ": it would send back more light than it gets",
-                varies ? "it is scaled down to 1" : "give 0 to 1");
+                !varies                     ? "give 0 to 1"
+                : material_.keeps_factors() ? "it is kept, as in Mitsuba 2 and 3; a darker texture keeps the energy"
+                                            : "it is scaled down to 0.99, as in Mitsuba 0.6");
     }
     const Scene& scene_;
     const Material& material_;

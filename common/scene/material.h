@@ -31,10 +31,23 @@ struct Material {
     MaterialKind bsdf;
     bool twosided = false;      ///< the back scatters like the front, mirrored, or as `back` says
     std::int32_t back = kNone;  ///< twosided only: index of the material of the back, below this material's own
-    FloatInput opacity{1.0f};   ///< probability that a ray meets the surface at all, in [0, 1]; of the shape's material
+    /// Factors that textures take above 1 stay so (Mitsuba 2 and 3); otherwise they are scaled down (0.6).
+    bool unlimited = false;
+    FloatInput opacity{1.0f};  ///< probability that a ray meets the surface at all, in [0, 1]; of the shape's material
     NormalDetail detail;
     std::string name;
     Location where;
+
+    /// Whether factors that textures take above 1 stay so: not in kinds that would send back light without end.
+    bool keeps_factors() const {
+        const auto needs_limit = [](const auto& kind) {
+            if constexpr (requires { kind.needs_limit(); })
+                return kind.needs_limit();
+            else
+                return false;
+        };
+        return unlimited && !std::visit(needs_limit, bsdf);
+    }
 
     bool masked() const { return opacity.varies() || opacity.value < 1.0f; }
 };

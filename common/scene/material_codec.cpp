@@ -79,6 +79,7 @@ void put_material(ByteWriter& out, const Material& material) {
     visit_fields(material.bsdf, PutFields(out));
     put_flag(out, material.twosided);
     out.put(material.back);
+    put_flag(out, material.unlimited);
     put_number(out, material.opacity);
     out.put(material.detail.bump);
     out.put(material.detail.bump_scale);
@@ -98,6 +99,7 @@ Material get_material(ByteReader& in, std::size_t index, std::size_t texture_cou
     material.back = get_optional_index(in, index, "material of the back");
     if (material.back != kNone && !material.twosided)
         throw FormatError("scene: a material that is not twosided has another one for its back");
+    material.unlimited = get_flag(in, "unlimited");
     material.opacity = get_number(in, texture_count);
     material.detail.bump = get_optional_index(in, texture_count, "bump texture");
     material.detail.bump_scale = in.get<float>();

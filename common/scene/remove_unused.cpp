@@ -56,6 +56,7 @@ std::vector<std::int32_t> remove_unused(Scene& scene) {
             for_each_texture(scene.materials[i], [&](std::int32_t texture) { textures.mark(texture); });
     for (const Emitter& emitter : scene.emitters) {
         if (const auto* area = std::get_if<AreaEmitter>(&emitter.kind)) textures.mark(area->radiance.texture);
+        if (const auto* spot = std::get_if<SpotEmitter>(&emitter.kind)) textures.mark(spot->texture);
         if (const auto* environment = std::get_if<EnvironmentEmitter>(&emitter.kind)) images.mark(environment->image);
     }
     for (std::size_t i = 0; i < scene.textures.size(); ++i)
@@ -76,6 +77,7 @@ std::vector<std::int32_t> remove_unused(Scene& scene) {
         if (auto* bitmap = std::get_if<BitmapTexture>(&texture.kind)) images.renumber(bitmap->image);
     for (Emitter& emitter : scene.emitters) {
         if (auto* area = std::get_if<AreaEmitter>(&emitter.kind)) textures.renumber(area->radiance.texture);
+        if (auto* spot = std::get_if<SpotEmitter>(&emitter.kind)) textures.renumber(spot->texture);
         if (auto* environment = std::get_if<EnvironmentEmitter>(&emitter.kind)) images.renumber(environment->image);
     }
     return std::move(images).take();

@@ -15,7 +15,7 @@ namespace {
 using namespace packed;
 
 constexpr std::uint32_t kMagic = 0x43534654;  // "TFSC"
-constexpr std::uint32_t kVersion = 5;
+constexpr std::uint32_t kVersion = 6;
 
 Camera get_camera(ByteReader& in) {
     Camera camera;

@@ -29,13 +29,7 @@ class EmitterCheck {
 
     void operator()(const AreaEmitter& e) const {
         check_light(e.radiance.value, "radiance", where_);
-        if (e.radiance.varies()) {
-            const auto texture = static_cast<std::size_t>(e.radiance.texture);
-            if (e.radiance.texture < 0 || texture >= textures_.size())
-                throw InputError(where_, "the emitter has a texture that does not exist", "define it");
-            if (textures_[texture].min < 0.0f)
-                throw InputError(where_, "the emitter's texture has negative values", "give values of 0 or more");
-        }
+        if (e.radiance.varies()) check_texture(e.radiance.texture);
         if (e.shape < 0 || static_cast<std::size_t>(e.shape) >= scene_.shapes.size())
             throw InputError(where_, "the area emitter has no shape", "put it into a shape");
     }
@@ -53,6 +47,13 @@ class EmitterCheck {
         if (!(e.beam >= 0.0f && e.beam <= e.cutoff))
             throw InputError(where_, "the spot's beam is wider than its cutoff angle, or negative",
                              "give a beam width from 0 to the cutoff angle");
+        if (e.texture == kNone) return;
+        check_texture(e.texture);
+        check_direction(e.x_axis, where_);
+        check_direction(e.y_axis, where_);
+        if (!(e.cutoff < 0.5f * kPi))
+            throw InputError(where_, "the cone of a spot with a texture is a half space or more",
+                             "give a cutoff angle below 90 degrees");
     }
     void operator()(const DirectionalEmitter& e) const {
         check_light(e.irradiance, "irradiance", where_);
@@ -77,6 +78,14 @@ class EmitterCheck {
     }
 
   private:
+    void check_texture(std::int32_t index) const {
+        const auto texture = static_cast<std::size_t>(index);
+        if (index < 0 || texture >= textures_.size())
+            throw InputError(where_, "the emitter has a texture that does not exist", "define it");
+        if (textures_[texture].min < 0.0f)
+            throw InputError(where_, "the emitter's texture has negative values", "give values of 0 or more");
+    }
+
     const Scene& scene_;
     const std::vector<ValueRange>&images_, &textures_;
     const Location& where_;

@@ -30,26 +30,31 @@ class MaterialCheck {
             if (transmits_[beneath(material_.back)])
                 refuse("the material of the back is one that light passes through", "give an opaque one");
         }
-        fraction("opacity", material_.opacity);
+        const float opacity = reached_fraction("opacity", material_.opacity);
+        if (material_.opacity.varies() && !material_.unlimited)
+            material_.opacity.value *= fraction_scale(opacity, "the opacity");
         check_detail(material_.detail);
         return passes_;
     }
 
-    /// A constant outside 0 to 1 is refused.
+    /// A constant outside 0 to 1 is refused. One that its texture takes above 1 is scaled down or kept, as the program
+    /// of the file's version does.
     void fraction(const char* name, ColorInput& input) {
         const std::string what = std::string("the ") + name;
         for (int i = 0; i < 3; ++i)
             if (!(input.value[i] >= 0.0f && input.value[i] <= (input.varies() ? 1e30f : 1.0f)))
                 refuse(what + " is outside 0 to 1", "give values from 0 to 1");
-        if (input.varies()) input.value *= fraction_scale(input.texture, max_component(input.value), what);
+        if (!input.varies()) return;
+        const float most = reached(input.texture, max_component(input.value), what);
+        if (!material_.keeps_factors())
+            input.value *= fraction_scale(most, what);
+        else if (most > 1.0f + 1e-5f)
+            warnings_.push_back({material_.where, what + " reaches " + std::to_string(most) +
+                                                      " in its texture: it sends back more light than it gets"});
     }
 
-    void fraction(const char* name, FloatInput& input) {
-        const std::string what = std::string("the ") + name;
-        if (!(input.value >= 0.0f && input.value <= (input.varies() ? 1e30f : 1.0f)))
-            refuse(what + " is outside 0 to 1", "give a value from 0 to 1");
-        if (input.varies()) input.value *= fraction_scale(input.texture, input.value, what);
-    }
+    /// A number counts as 1 wherever its texture takes it above.
+    void fraction(const char* name, FloatInput& input) { reached_fraction(name, input); }
 
     void anisotropy(FloatInput& input) { fraction("anisotropy", input); }
 
@@ -124,17 +129,31 @@ class MaterialCheck {
         return input.value[channel] * (input.varies() ? range(input.texture).max : 1.0f);
     }
 
-    /// A factor that its texture takes above 1 is scaled down: what an image holds is rarely the author's intention.
-    /// Returns the factor by which.
-    float fraction_scale(std::int32_t texture, float largest, const std::string& what) {
+    /// Share of 1 to which Mitsuba 0.6 scales a factor that a texture takes above it.
+    static constexpr float kScaledTo = 0.99f;
+
+    /// The most that the texture takes a factor to.
+    float reached(std::int32_t texture, float largest, const std::string& what) const {
         const ValueRange& values = range(texture);
         if (values.min < 0.0f) refuse(what + " has a texture with negative values", "give values from 0 to 1");
-        if (!(largest * values.max > 1.0f)) return 1.0f;
-        const float scale = 1.0f / (largest * values.max);
-        if (largest * values.max > 1.0f + 1e-5f)
-            warnings_.push_back({material_.where, what + " reaches " + std::to_string(largest * values.max) +
-                                                      " in its texture and is scaled down to 1"});
-        return scale;
+        return largest * values.max;
+    }
+
+    /// The most that a number comes to; refused where it is no fraction.
+    float reached_fraction(const char* name, const FloatInput& input) const {
+        const std::string what = std::string("the ") + name;
+        if (!(input.value >= 0.0f && input.value <= (input.varies() ? 1e30f : 1.0f)))
+            refuse(what + " is outside 0 to 1", "give a value from 0 to 1");
+        return input.varies() ? reached(input.texture, input.value, what) : input.value;
+    }
+
+    /// What brings a factor that its texture takes to `most` down to its limit; 1 within rounding of the limit.
+    float fraction_scale(float most, const std::string& what) {
+        if (!(most > 1.0f)) return 1.0f;
+        if (most <= 1.0f + 1e-5f) return 1.0f / most;
+        warnings_.push_back({material_.where, what + " reaches " + std::to_string(most) +
+                                                  " in its texture and is scaled down to 0.99, as by Mitsuba 0.6"});
+        return kScaledTo / most;
     }
 
     void check_alpha(Roughness& roughness) {

@@ -35,7 +35,8 @@ std::vector<ValueRange> check_images(const std::vector<TextureImage>& images);
 /// The range of each texture, from those of the images.
 std::vector<ValueRange> check_textures(const std::vector<Texture>& textures, const std::vector<ValueRange>& images);
 
-/// Roughness below the least is raised to it and textured factors above 1 are scaled down, with a warning.
+/// Roughness below the least is raised to it and textured factors above 1 are scaled down, with a warning; those of
+/// unlimited materials stay, with one, too.
 void check_materials(Scene& scene, const std::vector<ValueRange>& textures, std::vector<Warning>& warnings);
 
 /// Whether no triangle has an area (or one too small for single precision to give it a normal), though all vertices are

@@ -259,6 +259,34 @@ TEST(LightIrradiance, PointSpotAndParallelLight) {
     }
 }
 
+/// The picture of a spot on a plane across its axis: the unit square fills the square about the circle of the cone.
+/// Texels are numbered; the spot shines down from z = 2, u along -x and v along y.
+TEST(LightIrradiance, SpotsProjectTheirTexture) {
+    constexpr int kSize = 4;
+    const float cutoff = 0.6f, height = 2.0f;
+    SpotEmitter spot{Vec3(1, -2, height), Vec3(0, 0, -1), Rgb(5.0f), cutoff, cutoff, 0, Vec3(-1, 0, 0), Vec3(0, 1, 0)};
+    Scene scene = lit_by(spot);
+    TextureImage image;
+    image.width = image.height = kSize;
+    image.channels = 1;
+    for (int i = 0; i < kSize * kSize; ++i)
+        image.floats.push_back(1.0f + float(i));
+    scene.images.push_back(image);
+    scene.textures.push_back({BitmapTexture{0, false, Wrap::repeat, Wrap::repeat, {}}, "", {}});
+    const float half = height * std::tan(cutoff);
+    for (int row = 0; row < kSize; ++row)
+        for (int column = 0; column < kSize; ++column) {
+            const float u = (float(column) + 0.4f) / kSize, v = (float(row) + 0.7f) / kSize;
+            const Vec3 p(1 - half * (2 * u - 1), -2 + half * (2 * v - 1), 0.0f);
+            const Vec3 away = p - spot.position;
+            const double distance = double(away.length()), cosine = double(height) / distance;
+            const bool lit = std::acos(cosine) < double(cutoff);
+            const double texel = 1.0 + row * kSize + column;
+            expect_irradiance(scene, p, kUp, lit ? 5.0 * texel * cosine / (distance * distance) : 0.0,
+                              "texel " + std::to_string(column) + ", " + std::to_string(row));
+        }
+}
+
 TEST(LightIrradiance, ConstantEnvironmentAndConstantImage) {
     expect_irradiance(lit_by(ConstantEmitter{Rgb(1.5f)}), Vec3(0.0f), kUp, 1.5 * M_PI, "constant");
     for (const auto& [width, height] : {std::pair{1, 1}, {16, 8}, {512, 256}})

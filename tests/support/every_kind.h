@@ -42,7 +42,7 @@ inline Scene every_kind_scene() {
         material.where = {"a.xml", static_cast<int>(scene.materials.size()), 7};
         return material;
     };
-    add(DiffuseMaterial{ColorInput(Rgb(0.1f, 0.2f, 0.3f), 0)});
+    add(DiffuseMaterial{ColorInput(Rgb(0.1f, 0.2f, 0.3f), 0)}).unlimited = true;
     add(ConductorMaterial{Rgb(0.2f, 0.9f, 1.1f), Rgb(3.9f, 2.4f, 2.2f), Rgb(0.5f), rough}).twosided = true;
     add(DielectricMaterial{1.33f, Rgb(0.9f), ColorInput(Rgb(0.8f), 1), rough}).opacity = {0.5f, 2};
     add(ThinDielectricMaterial{1.25f, Rgb(0.7f), Rgb(0.6f)});
@@ -81,7 +81,7 @@ inline Scene every_kind_scene() {
         {AreaEmitter{ColorInput(Rgb(1, 2, 3), 1), 0}, {"b.xml", 5, 6}},
         {AreaEmitter{Rgb(4, 5, 6), 2}, {}},
         {PointEmitter{Vec3(1, 2, 3), Rgb(7, 8, 9)}, {}},
-        {SpotEmitter{Vec3(3, 2, 1), Vec3(0, 1, 0), Rgb(1, 2, 4), 0.5f, 0.25f}, {}},
+        {SpotEmitter{Vec3(3, 2, 1), Vec3(0, 1, 0), Rgb(1, 2, 4), 0.5f, 0.25f, 1, Vec3(0, 0, 1), Vec3(1, 0, 0)}, {}},
         {DirectionalEmitter{Vec3(1, 0, 0), Rgb(5, 4, 3)}, {}},
         {EnvironmentEmitter{1, 2.0f, Vec3(0, 0, 1), Vec3(1, 0, 0), Vec3(0, 1, 0), true}, {"b.xml", 7, 7}}};
     scene.camera = {Vec3(1, 2, 3), Vec3(4, 5, 6), Vec3(7, 8, 9), Vec3(10, 11, 12), Vec3(13, 14, 15), Vec3(16, 17, 18)};

@@ -154,6 +154,8 @@ class CheckCommand : public test::MitsubaFixture {
              ""},
             {"<shape type=\"rectangle\"><transform name=\"toWorld\"><scale value=\"0.00001\"/></transform></shape>",
              "tiny shape", "note", ""},
+            {rectangle("<bsdf type=\"diffuse\"><rgb name=\"reflectance\" value=\"1.5\"/></bsdf>", 28), "reader",
+             "warning", "a reflectance of 1.5 was scaled down to 0.99"},
         };
     }
 
@@ -163,12 +165,12 @@ class CheckCommand : public test::MitsubaFixture {
         write("nan.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 inf\nf 1//1 2//1 3//1\n");
         write("index.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n");
         return {
-            {rectangle("<bsdf type=\"diffuse\"><rgb name=\"reflectance\" value=\"1.5\"/></bsdf>", 1), "refused",
-             "error", "a reflectance of 1.5"},
+            {rectangle("<bsdf type=\"diffuse\"><rgb name=\"reflectance\" value=\"-1.5\"/></bsdf>", 1), "refused",
+             "error", "a reflectance of -1.5"},
             {rectangle("<bsdf type=\"twosided\"><bsdf type=\"roughconductor\"><rgb name=\"specularReflectance\" "
-                       "value=\"2\"/></bsdf></bsdf>",
+                       "value=\"-2\"/></bsdf></bsdf>",
                        2),
-             "refused", "error", "a reflectance of 2"},
+             "refused", "error", "a reflectance of -2"},
             {rectangle("<bsdf type=\"dielectric\"><float name=\"intIOR\" value=\"1e9\"/></bsdf>", 3), "refused",
              "error", "an index of refraction"},
             {rectangle("<bsdf type=\"conductor\"><rgb name=\"eta\" value=\"1e9\"/><rgb name=\"k\" value=\"1\"/></bsdf>",

@@ -251,8 +251,12 @@ TEST_F(Malformed, ShapesAndColours) {
     write("none.obj", "v 0 0 0\n");
     expect("<shape type=\"obj\"><string name=\"filename\" value=\"none.obj\"/></shape>",
            "none.obj: the OBJ file has no faces");
-    expect("<bsdf type=\"diffuse\"><rgb name=\"reflectance\" value=\"1.2\"/></bsdf>",
-           "s.xml:3:22: a reflectance of 1.2; give values from 0 to 1");
+    expect("<bsdf type=\"diffuse\"><rgb name=\"reflectance\" value=\"-1.2\"/></bsdf>",
+           "s.xml:3:22: a reflectance of -1.2; give values from 0 to 1");
+    write("s3.xml",
+          "<scene version=\"3.0.0\">\n<sensor type=\"perspective\"/><shape type=\"cube\">\n<bsdf type=\"diffuse\"><rgb "
+          "name=\"reflectance\" value=\"1.2\"/></bsdf></shape></scene>");
+    EXPECT_EQ(message_of_file("s3.xml"), "s3.xml:3:22: a reflectance of 1.2; give values from 0 to 1");
     expect("<bsdf type=\"diffuse\"><texture type=\"bitmap\" name=\"reflectance\"/></bsdf>",
            "s.xml:3:22: <texture type=\"bitmap\"> has no file name");
     expect("<bsdf type=\"twosided\"/>", "s.xml:3:1: <bsdf type=\"twosided\"> has no BSDF inside");

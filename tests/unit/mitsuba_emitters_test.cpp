@@ -53,6 +53,28 @@ TEST_F(MitsubaEmitters, Spots) {
     EXPECT_THROW(emitter("spot", "<float name=\"beamWidth\" value=\"21\"/>"), InputError);
 }
 
+TEST_F(MitsubaEmitters, SpotsProjectTextures) {
+    const std::string board =
+        "<texture type=\"checkerboard\" name=\"texture\"><rgb name=\"color0\" value=\"5\"/>"
+        "<rgb name=\"color1\" value=\"0\"/></texture>";
+    for (const char* version : {"0.6.0", "3.0.0"}) {
+        const Scene scene = emitter("spot", kMoved + board + "<rgb name=\"intensity\" value=\"2\"/>", version).scene;
+        const auto& spot = std::get<SpotEmitter>(scene.emitters.at(0).kind);
+        EXPECT_EQ(spot.texture, 0);
+        EXPECT_EQ(scene.textures.size(), 1u);
+        EXPECT_EQ(spot.intensity, Rgb(2.0f));
+        // Turned by 90 degrees about y: x goes to -z, z to x.
+        expect_near(spot.axis, Vec3(1, 0, 0));
+        expect_near(spot.x_axis, Vec3(0, 0, -1));
+        expect_near(spot.y_axis, Vec3(0, 1, 0));
+    }
+    const std::string constant = "<spectrum name=\"texture\" value=\"0.25\"/>";
+    EXPECT_EQ(only<SpotEmitter>("spot", constant).intensity, Rgb(1.0f)) << "of no influence in Mitsuba 0.6";
+    EXPECT_EQ(only<SpotEmitter>("spot", constant).texture, kNone);
+    EXPECT_THROW(emitter("spot", board + "<float name=\"cutoffAngle\" value=\"90\"/>"), InputError);
+    EXPECT_THROW(emitter("spot", board + "<transform name=\"toWorld\"><scale x=\"2\"/></transform>"), InputError);
+}
+
 TEST_F(MitsubaEmitters, DirectionsThatLightTravels) {
     const auto sun = only<DirectionalEmitter>("directional",
                                               "<vector name=\"direction\" x=\"0\" y=\"-2\" z=\"0\"/>"

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <iterator>
+#include <set>
+#include <span>
 
 #include "common/config/job_keys.h"
 #include "common/config/job_reader.h"
@@ -80,6 +83,68 @@ constexpr Mapped kPath[] = {
     {"boolean", "strictNormals", "true", "integrator.strict_normals", "true"},
     {"boolean", "hideEmitters", "true", "integrator.hide_emitters", "true"},
 };
+
+/// Of every sampler.
+constexpr Mapped kSampler[] = {
+    {"integer", "sampleCount", "9", "budget.spp", "9"},
+    {"integer", "seed", "7", "sampler.seed", "7"},
+};
+
+/// Of the scene itself, in Mitsuba 3.
+constexpr Mapped kScene[] = {
+    {"boolean", "embree_use_robust_intersections", "true", "farm.robust", "true"},
+};
+
+/// Keys, or whole sections, that no parameter of Mitsuba's integrators, samplers and scenes stands for: how this
+/// program works, or what it alone can do. The size of the image is the film's.
+constexpr const char* kOwn[] = {
+    "scene.",
+    "image.",
+    "effects.",
+    "output.",
+    "integrator.type",
+    "integrator.mis",
+    "integrator.split_glass",
+    "guiding.preset",
+    "guiding.view_",
+    "guiding.candidate",
+    "guiding.light_selection",
+    "guiding.target",
+    "guiding.roulette",
+    "guiding.splitting",
+    "budget.error",
+    "budget.max_spp",
+    "budget.strict",
+    "farm.tile_size",
+    "farm.profile",
+    "farm.heartbeat_seconds",
+    "farm.update_seconds",
+    "farm.isa",
+    "farm.memory_check",
+};
+
+/// A key is a parameter's, which the reader maps, or our own: a new one has to be decided on.
+TEST_F(MitsubaIntegrators, EveryKeyIsAParametersOrOurOwn) {
+    std::set<std::string> mapped;
+    for (const auto table : {std::span<const Mapped>(kGuidedPath), std::span<const Mapped>(kPath),
+                             std::span<const Mapped>(kSampler), std::span<const Mapped>(kScene)})
+        for (const Mapped& row : table)
+            mapped.insert(row.key);
+    for (const JobKey& key : job_keys()) {
+        const bool own = std::any_of(std::begin(kOwn), std::end(kOwn),
+                                     [&](const char* prefix) { return key.name.starts_with(prefix); });
+        EXPECT_NE(own, mapped.contains(key.name)) << key.name;
+    }
+    for (const Mapped& row : kSampler) {
+        const auto loaded = load("<sensor type=\"perspective\"><sampler type=\"independent\">" +
+                                 property(row.tag, row.name, row.value) + "</sampler></sensor>");
+        EXPECT_EQ(find_job_key(row.key)->print(job_of(loaded)), row.expected) << row.name;
+    }
+    for (const Mapped& row : kScene) {
+        const auto loaded = load_with_sensor(property(row.tag, row.name, row.value), "3.0.0");
+        EXPECT_EQ(find_job_key(row.key)->print(job_of(loaded)), row.expected) << row.name;
+    }
+}
 
 TEST_F(MitsubaIntegrators, WhatHasAKeyIsNotRefused) {
     const auto expect = [&](const Mapped& mapped, const char* type, const char* version) {

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
 #include "common/image/exr.h"
 #include "tests/support/mitsuba_fixture.h"
+#include "tests/support/plain_images.h"
 #include "tests/support/tiny_images.h"
 
 namespace treefarm {
@@ -162,6 +165,73 @@ TEST_F(MitsubaTextures, ImpossibleValuesBecomeZeroWithAWarning) {
     const auto loaded = load_with_sensor(diffuse(bitmap("", "bad.exr")));
     EXPECT_EQ(loaded.scene.images[0].floats, (std::vector<float>{0.0f, 0.0f}));
     EXPECT_NE(loaded.warnings.at(0).text().find("2 values"), std::string::npos);
+}
+
+/// What the program of the file's version makes of a reflectance of up to 4 in an image.
+TEST_F(MitsubaTextures, ReflectancesAbove1) {
+    Image image{2, 1, {}, {}};
+    add_rgb_layer(image, "", RgbImage(2, 1, Rgb(0.5f, 4.0f, 1.0f)));
+    write_exr(folder_ / "bright.exr", image);
+    const auto material = [](const LoadedScene& loaded) { return loaded.scene.materials.at(0); };
+    const auto factor = [&](const LoadedScene& loaded) {
+        return std::get<DiffuseMaterial>(material(loaded).bsdf).reflectance.value.x;
+    };
+    const std::string body = diffuse(bitmap("", "bright.exr"));
+    const auto warned = [](const LoadedScene& loaded, const std::string& part) {
+        return std::any_of(loaded.warnings.begin(), loaded.warnings.end(),
+                           [&](const Warning& w) { return w.text().find(part) != std::string::npos; });
+    };
+    const LoadedScene old = load_with_sensor(body);
+    EXPECT_FLOAT_EQ(factor(old), 0.99f / 4.0f) << "BSDF::ensureEnergyConservation";
+    EXPECT_FALSE(material(old).unlimited);
+    EXPECT_TRUE(warned(old, "reaches 4.000000 in its texture and is scaled down to 0.99"));
+    for (const char* version : {"2.0.0", "3.0.0"}) {
+        const LoadedScene now = load_with_sensor(body, version);
+        EXPECT_EQ(factor(now), 1.0f) << version;
+        EXPECT_TRUE(material(now).unlimited) << version;
+        EXPECT_TRUE(warned(now, "reaches 4.000000 in its texture: it sends back more light")) << version;
+    }
+    const LoadedScene asked =
+        load_with_sensor("<shape type=\"rectangle\"><bsdf type=\"diffuse\">" + bitmap("", "bright.exr") +
+                         "<boolean name=\"ensureEnergyConservation\" value=\"false\"/></bsdf></shape>");
+    EXPECT_EQ(factor(asked), 1.0f);
+    EXPECT_TRUE(material(asked).unlimited);
+    EXPECT_FALSE(warned(asked, "unknown"));
+
+    // Of a mixture there is no more than all: numbers count as 1 wherever they are above, but for old masks.
+    const std::string mask = "<shape type=\"rectangle\"><bsdf type=\"mask\">" + bitmap("", "bright.exr", "opacity") +
+                             "<bsdf type=\"diffuse\"/></bsdf></shape>";
+    EXPECT_FLOAT_EQ(material(load_with_sensor(mask)).opacity.value, 0.99f / 4.0f);
+    EXPECT_EQ(material(load_with_sensor(mask, "3.0.0")).opacity.value, 1.0f);
+    const std::string blend = "<shape type=\"rectangle\"><bsdf type=\"blendbsdf\">" +
+                              bitmap("", "bright.exr", "weight") +
+                              "<bsdf type=\"diffuse\"/><bsdf type=\"diffuse\"/></bsdf></shape>";
+    for (const char* version : {"0.6.0", "3.0.0"})
+        EXPECT_EQ(std::get<BlendMaterial>(load_with_sensor(blend, version).scene.materials.at(2).bsdf).weight.value,
+                  1.0f)
+            << version;
+}
+
+/// The same two rows in every format, the first row at the top.
+TEST_F(MitsubaTextures, FilesOfEveryFormat) {
+    write("a.bmp", tiny_bmp());
+    write("a.tga", tiny_tga(true));
+    write("a.ppm", tiny_ppm());
+    write("a.pfm", tiny_pfm());
+    const std::vector<std::uint8_t> rows{1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12};
+    for (const char* version : {"0.6.0", "3.0.0"}) {
+        for (const char* file : {"a.bmp", "a.tga", "a.ppm"}) {
+            const TextureImage image = scene("", file, version).images.at(0);
+            EXPECT_EQ(image.bytes, rows) << file;
+            EXPECT_NEAR(image.decode[128], 0.2158605f, 1e-6f) << file << ": sRGB";
+        }
+        EXPECT_EQ(scene("", "a.pfm", version).images.at(0).floats,
+                  (std::vector<float>{3.0f, 4.0f, 5.0f, 0.5f, 1.0f, 2.0f}));
+    }
+    Image layer{1, 1, {}, {}};
+    add_rgb_layer(layer, "beauty", RgbImage(1, 1, Rgb(0.5f, 0.25f, 0.125f)));
+    write_exr(folder_ / "layer.exr", layer);
+    EXPECT_EQ(scene("", "layer.exr", "3.0.0").images.at(0).floats, (std::vector<float>{0.5f, 0.25f, 0.125f}));
 }
 
 }  // namespace

@@ -194,6 +194,7 @@ TEST(SceneCodec, IndicesAreChecked) {
     refused([](Scene& s) { std::get<EnvironmentEmitter>(s.emitters[5].kind).image = 3; });
     refused([](Scene& s) { s.emitters.push_back({ConstantEmitter{}, {}}); });
     refused([](Scene& s) { std::get<AreaEmitter>(s.emitters[0].kind).radiance.texture = 3; });
+    refused([](Scene& s) { std::get<SpotEmitter>(s.emitters[3].kind).texture = 3; });
     refused([](Scene& s) { std::get<AreaEmitter>(s.emitters[0].kind).shape = 1; });
     refused([](Scene& s) { std::get<AreaEmitter>(s.emitters[0].kind).shape = kNone; });
     refused([](Scene& s) { s.film.width = 0; });

@@ -2,6 +2,8 @@
 // Materials that vary over a surface: textures, bump and normal maps, tangents.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "common/base/random.h"
 #include "common/math/warp.h"
 #include "tests/support/material_scenes.h"
@@ -29,6 +31,22 @@ TEST(Textured, ReflectanceIsLookedUp) {
     ASSERT_TRUE(prepared.varies());
     EXPECT_EQ(prepared.at(point_at(0.1f, 0.1f)).value(kUp, kUp).f_cos, Rgb(0.8f, 0.4f, 0.1f) * kInvPi);
     EXPECT_EQ(prepared.at(point_at(0.6f, 0.1f)).value(kUp, kUp).f_cos, Rgb(0.1f, 0.1f, 0.05f) * kInvPi);
+}
+
+/// A texture that reaches 2: Mitsuba 2 and 3 keep it, elsewhere what the reader has not scaled down counts as 1.
+TEST(Textured, UnlimitedMaterialsKeepFactorsAbove1) {
+    Scene scene;
+    const std::int32_t board = test::add_board(scene, Rgb(2.0f, 0.4f, 1.5f), Rgb(0.1f));
+    const std::int32_t material = test::add_material(scene, DiffuseMaterial{ColorInput(Rgb(1.0f), board)});
+    EXPECT_EQ(PreparedMaterial(scene).at(point_at(0.1f, 0.1f)).value(kUp, kUp).f_cos, Rgb(1.0f, 0.4f, 1.0f) * kInvPi);
+    scene.materials[static_cast<std::size_t>(material)].unlimited = true;
+    EXPECT_EQ(PreparedMaterial(scene).at(point_at(0.1f, 0.1f)).value(kUp, kUp).f_cos, Rgb(2.0f, 0.4f, 1.5f) * kInvPi);
+    PlasticMaterial plastic;
+    plastic.diffuse_reflectance = ColorInput(Rgb(1.0f), board);
+    plastic.nonlinear = true;
+    scene.materials[static_cast<std::size_t>(material)].bsdf = plastic;
+    const Rgb nonlinear = PreparedMaterial(scene).at(point_at(0.1f, 0.1f)).value(kUp, kUp).f_cos;
+    EXPECT_GT(std::min({nonlinear.x, nonlinear.y, nonlinear.z}), 0.0f) << "1 / (1 - 2 fdr) would be negative";
 }
 
 TEST(Textured, BackOfAnOpaqueSurfaceIsBlackWhateverWasBuiltBefore) {

@@ -171,6 +171,9 @@ TEST(ValidateKinds, Emitters) {
     expect_refused("cutoff", [](Scene& s) { kind<SpotEmitter>(s, 3).cutoff = 3.2f; });
     expect_refused("beam", [](Scene& s) { kind<SpotEmitter>(s, 3).beam = 0.6f; });
     expect_refused("beam", [](Scene& s) { kind<SpotEmitter>(s, 3).beam = kNan; });
+    expect_refused("below 90 degrees", [](Scene& s) { kind<SpotEmitter>(s, 3).cutoff = 1.6f; });
+    expect_refused("does not exist", [](Scene& s) { kind<SpotEmitter>(s, 3).texture = 3; });
+    expect_refused("direction", [](Scene& s) { kind<SpotEmitter>(s, 3).x_axis = Vec3(0.0f); });
     expect_refused("direction", [](Scene& s) { kind<DirectionalEmitter>(s, 4).direction = Vec3(2, 0, 0); });
     expect_refused("irradiance", [](Scene& s) { kind<DirectionalEmitter>(s, 4).irradiance.z = kInf; });
     expect_refused("b.xml:7:7: ", [](Scene& s) { kind<EnvironmentEmitter>(s, 5).image = 3; });

@@ -3,11 +3,12 @@
 
 #include <limits>
 
+#include "common/base/error.h"
 #include "common/math/elementary.h"
 
 namespace treefarm {
 
-std::optional<DeltaLight> DeltaLight::make(const Emitter& emitter) {
+std::optional<DeltaLight> DeltaLight::make(const Emitter& emitter, const TextureSet* textures) {
     DeltaLight light;
     if (const auto* point = std::get_if<PointEmitter>(&emitter.kind)) {
         light.position_ = point->position;
@@ -19,6 +20,15 @@ std::optional<DeltaLight> DeltaLight::make(const Emitter& emitter) {
         light.intensity_ = spot->intensity;
         light.cutoff_ = spot->cutoff;
         light.beam_ = std::min(spot->beam, spot->cutoff);
+        if (spot->texture != kNone) {
+            if (!textures) throw RunError("a spot has a texture, but there are no textures");
+            light.textures_ = textures;
+            light.texture_ = spot->texture;
+            const SinCos cutoff = sincos_turn(0.5f * kInvPi * spot->cutoff);
+            const float scale = 0.5f * cutoff.cos / cutoff.sin;
+            light.u_axis_ = spot->x_axis * scale;
+            light.v_axis_ = spot->y_axis * scale;
+        }
     } else if (const auto* directional = std::get_if<DirectionalEmitter>(&emitter.kind)) {
         light.kind_ = Kind::directional;
         light.axis_ = directional->direction;
@@ -63,7 +73,10 @@ DirectSample DeltaLight::sample(const Vec3& p, float selection) const {
     sample.wi = to_light * (1.0f / sample.distance);
     sample.pdf = selection;
     sample.radiance = intensity_ * (1.0f / distance2);
-    if (kind_ == Kind::spot) sample.radiance *= falloff(-sample.wi);
+    if (kind_ == Kind::spot) {
+        sample.radiance *= falloff(-sample.wi);
+        if (textures_ && !is_black(sample.radiance)) sample.radiance *= projected(-sample.wi);
+    }
     return sample;
 }
 
@@ -73,6 +86,12 @@ float DeltaLight::falloff(const Vec3& away) const {
     const float angle = 2.0f * kPi * azimuth_turn(dot(axis_, away), std::sqrt(dot(across, across)));
     if (angle >= cutoff_) return 0.0f;
     return angle <= beam_ ? 1.0f : (cutoff_ - angle) / (cutoff_ - beam_);
+}
+
+/// What the texture has where a direction within the cone meets the plane across the axis.
+Rgb DeltaLight::projected(const Vec3& away) const {
+    const float inverse = 1.0f / dot(axis_, away);
+    return textures_->color(texture_, Vec2(0.5f + dot(u_axis_, away) * inverse, 0.5f + dot(v_axis_, away) * inverse));
 }
 
 }  // namespace treefarm

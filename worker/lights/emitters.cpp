@@ -48,9 +48,12 @@ Emitters::Emitters(const std::vector<Emitter>& emitters, const EmbreeScene& geom
     for (const Emitter& emitter : emitters) {
         if (const auto* area = std::get_if<AreaEmitter>(&emitter.kind)) {
             if (area->shape != kNone) power.push_back(add_area_light(*area));
-        } else if (const auto delta = DeltaLight::make(emitter)) {
+        } else if (const auto delta = DeltaLight::make(emitter, textures)) {
             delta_lights_.push_back(*delta);
-            delta_power.push_back(delta->power(radius));
+            const auto* spot = std::get_if<SpotEmitter>(&emitter.kind);
+            const bool projects = spot && spot->texture != kNone;
+            delta_power.push_back(delta->power(radius) *
+                                  (projects ? double(average(mean_color(*textures, spot->texture))) : 1.0));
         } else if (const auto* constant = std::get_if<ConstantEmitter>(&emitter.kind)) {
             constant_ += constant->radiance;
         } else if (const auto* image = std::get_if<EnvironmentEmitter>(&emitter.kind)) {

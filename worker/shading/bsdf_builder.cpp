@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "worker/shading/bsdf_builder.h"
 
+#include <limits>
+
 #include "common/base/build_options.h"
 #include "common/base/error.h"
 #include "common/math/frame.h"
@@ -51,8 +53,13 @@ std::int32_t first_texture_of(const Material& material) {
     return first;
 }
 
-float clamped(float x) {
-    return std::min(1.0f, std::max(0.0f, x));
+float clamped(float x, float most) {
+    return std::min(most, std::max(0.0f, x));
+}
+
+/// The most that a factor of a material may be.
+float largest_factor(const Material& material) {
+    return material.keeps_factors() ? std::numeric_limits<float>::max() : 1.0f;
 }
 
 }  // namespace
@@ -165,10 +172,11 @@ struct BsdfBuilder::Place {
     const bool back;
     const ShadingPoint& point;
     Nodes& nodes;
+    const float largest;  ///< that a color may be
 
-    Rgb color(const ColorInput& input) const { return builder.color(input, point); }
+    Rgb color(const ColorInput& input) const { return builder.color(input, point, largest); }
     float number(const FloatInput& input) const { return builder.textures_->eval(input, point.uv); }
-    float fraction(const FloatInput& input) const { return clamped(builder.textures_->eval(input, point.uv)); }
+    float fraction(const FloatInput& input) const { return clamped(builder.textures_->eval(input, point.uv), 1.0f); }
     Microfacet facets(const Roughness& roughness) const { return builder.facets(roughness, point); }
     const Bsdf* part(std::int32_t material) const { return builder.side(material, back, point, nodes); }
     const PrincipledInputs* keep(const PrincipledInputs& inputs) const { return &(nodes.add_principled() = inputs); }
@@ -183,14 +191,15 @@ struct BsdfBuilder::Place {
 
 template <class Nodes>
 Bsdf BsdfBuilder::leaf(std::int32_t index, bool back, const ShadingPoint& point, Nodes& nodes) const {
-    const Place<Nodes> place{*this, notes_[static_cast<std::size_t>(index)], back, point, nodes};
-    return std::visit([&](const auto& material) { return make_bsdf(material, place); },
-                      materials_[static_cast<std::size_t>(index)].bsdf);
+    const Material& described = materials_[static_cast<std::size_t>(index)];
+    const Place<Nodes> place{
+        *this, notes_[static_cast<std::size_t>(index)], back, point, nodes, largest_factor(described)};
+    return std::visit([&](const auto& material) { return make_bsdf(material, place); }, described.bsdf);
 }
 
-Rgb BsdfBuilder::color(const ColorInput& input, const ShadingPoint& point) const {
+Rgb BsdfBuilder::color(const ColorInput& input, const ShadingPoint& point, float most) const {
     const Rgb c = textures_->eval(input, point.uv);
-    return {clamped(c.x), clamped(c.y), clamped(c.z)};
+    return {clamped(c.x, most), clamped(c.y, most), clamped(c.z, most)};
 }
 
 Microfacet BsdfBuilder::facets(const Roughness& roughness, const ShadingPoint& point) const {

@@ -94,7 +94,7 @@ class BsdfBuilder {
     template <class Nodes>
     Bsdf leaf(std::int32_t material, bool back, const ShadingPoint& point, Nodes& nodes) const;
 
-    Rgb color(const ColorInput& input, const ShadingPoint& point) const;
+    Rgb color(const ColorInput& input, const ShadingPoint& point, float most) const;
     Microfacet facets(const Roughness& roughness, const ShadingPoint& point) const;
     Vec3 tilted_normal(const NormalDetail& detail, const ShadingPoint& point) const;
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/scene/mitsuba/film.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "common/config/parse_text.h"
@@ -92,8 +93,9 @@ struct Span {
 Span read_crop(Properties& properties, const char* offset, const char* size, int side) {
     const std::int64_t begin = properties.integer(offset, 0), pixels = properties.integer(size, side);
     if (begin < 0)
-        throw InputError(properties.where(offset), std::string(offset) + " is " + std::to_string(begin),
-                         "give 0 or more");
+        throw InputError(
+            properties.where(offset), std::string(offset) + " is " + std::to_string(begin),
+            "give 0 to " + std::to_string(std::max<std::int64_t>(0, side - std::max<std::int64_t>(pixels, 1))));
     if (begin >= side || pixels < 1 || pixels > side - begin)
         throw InputError(
             properties.where(properties.has(size) ? size : offset),

@@ -83,8 +83,10 @@ Material MaterialReader::convert_new(const XmlElement& bsdf) {
     Properties properties(bsdf, document_, diagnostics_);
     const std::string type = properties.type();
     Material material;
+    const bool scales = properties.element().version < 2 && properties.boolean("ensure_energy_conservation", true);
     if (auto surface = read_surface_bsdf(properties, textures_, diagnostics_)) {
         material.bsdf = std::move(*surface);
+        material.unlimited = !scales;
     } else if (type == "twosided") {
         material = convert_twosided(properties);
     } else if (type == "mask") {

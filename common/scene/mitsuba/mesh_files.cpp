@@ -28,7 +28,8 @@ Mesh read_serialized_mesh(Properties& properties, Diagnostics& diagnostics) {
     MeshOptions options = read_mesh_options(properties, false);
     options.mirror_keeps_front = true;
     const std::int64_t index = properties.integer("shape_index", 0);
-    if (index < 0) throw InputError(properties.where("shape_index"), "the shape index is negative", "count from 0");
+    if (index < 0)
+        throw InputError(properties.where("shape_index"), "the shape index is negative", "give a shape index from 0");
     Mesh mesh = read_serialized(options.file, index,
                                 properties.where(properties.has("shape_index") ? "shape_index" : "filename"));
     require_triangles(mesh, options.file);

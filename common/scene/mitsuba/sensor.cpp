@@ -18,7 +18,8 @@ double radians(double degrees) {
 }
 
 /// Half the film's width at distance 1, from the field of view along `axis`.
-double half_width(double fov, const std::string& axis, double aspect, const Location& where) {
+double half_width(double fov, const std::string& axis, double aspect, const Location& where,
+                  const Location& where_axis) {
     if (!(fov > 0.0 && fov < 180.0))
         throw InputError(where, "a field of view of " + number_text(fov) + " degrees",
                          "give more than 0 and less than 180");
@@ -28,7 +29,7 @@ double half_width(double fov, const std::string& axis, double aspect, const Loca
     if (axis == "diagonal") return half / std::sqrt(1.0 + 1.0 / (aspect * aspect));
     if (axis == "smaller") return aspect > 1.0 ? half * aspect : half;
     if (axis == "larger") return aspect > 1.0 ? half : half * aspect;
-    throw InputError(where, "unknown axis " + in_quotes(axis) + " of the field of view",
+    throw InputError(where_axis, "unknown axis " + in_quotes(axis) + " of the field of view",
                      "use x, y, diagonal, smaller or larger");
 }
 
@@ -123,10 +124,12 @@ Camera read_perspective(Properties& properties, const std::string& type, double 
     double width = 0.0;
     if (properties.has("fov")) {
         const std::string axis = lower(properties.text("fov_axis", "x"));
-        width = half_width(properties.number("fov", 0.0), axis, aspect, properties.where("fov"));
+        width = half_width(properties.number("fov", 0.0), axis, aspect, properties.where("fov"),
+                           properties.where("fov_axis"));
     } else {
         const Location& where = properties.where("focal_length");
-        width = half_width(diagonal_fov(properties.text("focal_length", "50mm"), where), "diagonal", aspect, where);
+        width =
+            half_width(diagonal_fov(properties.text("focal_length", "50mm"), where), "diagonal", aspect, where, where);
         properties.ignore({"fov_axis"});
     }
     const double offset_x = properties.number("principal_point_offset_x", 0.0);

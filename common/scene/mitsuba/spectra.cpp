@@ -162,15 +162,19 @@ Rgb64 color_of_list(const SpectrumSamples& samples, const XmlElement& element, C
     return spectrum_to_rgb(samples, element.version >= 3 && use != ColorUse::radiance);
 }
 
-Rgb checked_color(Rgb64 color, bool of_list, ColorUse use, const Location& where, Diagnostics& diagnostics) {
-    if (of_list) {
+Rgb checked_color(Rgb64 color, bool of_list, bool is_old, ColorUse use, const Location& where,
+                  Diagnostics& diagnostics) {
+    if (of_list)
         for (int i = 0; i < 3; ++i)
             color[i] = std::max(color[i], 0.0);
-        const double largest = std::max({color.x, color.y, color.z});
-        if (use == ColorUse::reflectance && largest > 1.0) {
-            diagnostics.warn(where, "the spectrum's colour exceeds 1 in a channel and was scaled down to it");
-            color /= largest;
-        }
+    const double largest = std::max({color.x, color.y, color.z});
+    if (use == ColorUse::reflectance && largest > 1.0 && is_old && std::isfinite(largest)) {
+        diagnostics.warn(where,
+                         "a reflectance of " + number_text(largest) + " was scaled down to 0.99, as by Mitsuba 0.6");
+        color *= 0.99 / largest;
+    } else if (use == ColorUse::reflectance && largest > 1.0 && of_list) {
+        diagnostics.warn(where, "the spectrum's colour exceeds 1 in a channel and was scaled down to it");
+        color /= largest;
     }
     if (use == ColorUse::metal && std::min({color.x, color.y, color.z}) < 0.0) {
         // A fit can have it so; Fresnel's equations depend on the squares of eta and k alone.
@@ -215,7 +219,7 @@ Rgb read_color(const XmlElement& element, ColorUse use, Diagnostics& diagnostics
             for (int i = 0; i < 3; ++i)
                 color[i] = srgb_to_linear(color[i]);
     }
-    return checked_color(color, of_list, use, element.where, diagnostics);
+    return checked_color(color, of_list, element.version < 2, use, element.where, diagnostics);
 }
 
 }  // namespace treefarm::mitsuba

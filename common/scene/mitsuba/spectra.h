@@ -39,8 +39,9 @@ double srgb_to_linear(double encoded);
 Imath::Color3<double> color_of_list(const SpectrumSamples& samples, const XmlElement& element, ColorUse use);
 
 /// The colour if its use allows it, otherwise InputError. That of a list is bounded first: the eye's response to a few
-/// wavelengths lies outside Rec. 709.
-Rgb checked_color(Imath::Color3<double> color, bool of_list, ColorUse use, const Location& where,
+/// wavelengths lies outside Rec. 709. So is a reflectance of an old file (before version 2): Mitsuba 0.6 scales one
+/// that exceeds 1 in a channel down to 0.99 (BSDF::ensureEnergyConservation).
+Rgb checked_color(Imath::Color3<double> color, bool of_list, bool is_old, ColorUse use, const Location& where,
                   Diagnostics& diagnostics);
 
 /// The colour of an <rgb>, <srgb>, <spectrum> (value or file) or <blackbody> element, not negative.

@@ -67,7 +67,7 @@ Rgb64 raw_constant(Properties& properties) {
 std::optional<Rgb> read_spectrum_plugin(Properties& properties, ColorUse use, Diagnostics& diagnostics) {
     const std::string type = properties.type();
     const auto checked = [&](const Rgb64& color, bool of_list) {
-        return checked_color(color, of_list, use, properties.where(), diagnostics);
+        return checked_color(color, of_list, false, use, properties.where(), diagnostics);
     };
     const auto list = [&](const SpectrumSamples& samples) {
         return checked(color_of_list(samples, properties.element(), use), true);

@@ -191,7 +191,9 @@ ColorInput TextureReader::convert_bitmap(Properties& properties, const Use& use)
 ColorInput TextureReader::convert_checkerboard(Properties& properties, const Use& use) {
     CheckerboardTexture board;
     for (const auto& [name, color] : {std::pair("color0", &board.color0), std::pair("color1", &board.color1)}) {
-        *color = constant(properties, name, *color, use.color);
+        // Mitsuba 0.6 scales a board that exceeds 1 as a whole (validate_materials.cpp).
+        const bool scales = properties.element().version < 2 && use.color == ColorUse::reflectance;
+        *color = constant(properties, name, *color, scales ? ColorUse::coefficient : use.color);
     }
     board.uv = read_uv_transform(properties);
     // Where Mitsuba 3 asks a board for one number (eval_1 in its checkerboard.cpp), the squares are exchanged.

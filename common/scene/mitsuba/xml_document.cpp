@@ -5,6 +5,7 @@
 #include <fstream>
 #include <pugixml.hpp>
 
+#include "common/base/lfs_pointer.h"
 #include "common/config/parse_text.h"
 
 namespace treefarm::mitsuba {
@@ -47,6 +48,7 @@ std::string read_text(const std::filesystem::path& path, const Location& asked_f
     in.read(text.data(), static_cast<std::streamsize>(size));
     if (!in || in.gcount() != static_cast<std::streamsize>(size))
         throw InputError({path.string()}, "the file cannot be read", "check its permissions");
+    if (is_lfs_pointer(text)) throw InputError({path.string()}, kLfsPointer, kLfsCure);
     return text;
 }
 

@@ -22,6 +22,8 @@ struct PlasticMaterial {
         lobes.diffuse = true;
         return lobes;
     }
+    /// What is reflected back and forth between such a base and its coat would grow without end.
+    bool needs_limit() const { return nonlinear; }
     static void fields(auto& self, auto& visitor) {
         visitor.eta(self.eta);
         visitor.fraction("diffuse reflectance", self.diffuse_reflectance);
