@@ -2,6 +2,8 @@
 #include "common/scene/mitsuba/texture_reader.h"
 
 #include <cmath>
+#include <iterator>
+#include <span>
 
 #include "common/config/parse_text.h"
 #include "common/scene/mitsuba/spectrum_plugins.h"
@@ -124,8 +126,11 @@ ColorInput TextureReader::convert(const XmlElement& texture, const Use& use) {
     } else if (const auto constant = read_constant(properties, use)) {
         input = *constant;
     } else {
+        // Those that stand for spectra came with version 2.
+        const auto known_types =
+            std::span(kTextures).first(properties.element().version < 2 ? 3 : std::size(kTextures));
         diagnostics_.unsupported(texture.where, "the texture " + in_quotes(type) + " is not available in this version",
-                                 did_you_mean(type, kTextures, "use bitmap, checkerboard or scale"), "0.5 is used");
+                                 did_you_mean(type, known_types, "use bitmap, checkerboard or scale"), "0.5 is used");
         return input;
     }
     properties.finish();
@@ -180,8 +185,9 @@ ColorInput TextureReader::convert_bitmap(Properties& properties, const Use& use)
     BitmapTexture bitmap;
     bitmap.bilinear = read_filter(properties);
     const std::string wrap = properties.text("wrap_mode", "repeat");
-    bitmap.wrap_u = read_wrap(properties.text("wrap_mode_u", wrap), properties.where("wrap_mode_u"));
-    bitmap.wrap_v = read_wrap(properties.text("wrap_mode_v", wrap), properties.where("wrap_mode_v"));
+    const auto where_of = [&](const char* name) { return properties.where(properties.has(name) ? name : "wrap_mode"); };
+    bitmap.wrap_u = read_wrap(properties.text("wrap_mode_u", wrap), where_of("wrap_mode_u"));
+    bitmap.wrap_v = read_wrap(properties.text("wrap_mode_v", wrap), where_of("wrap_mode_v"));
     bitmap.uv = read_uv_transform(properties);
     const std::filesystem::path path = file_of(properties);
     bitmap.image = images_.add(path, decoding, properties.where("filename"), scene_);
