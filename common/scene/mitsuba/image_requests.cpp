@@ -89,7 +89,7 @@ Repairs repair(std::vector<float>& values, const Decoding& decoding) {
 
 TextureImage make_image(const StoredImage& file, const Decoding& decoding, const Location& where,
                         Diagnostics& diagnostics) {
-    const std::vector<std::size_t> chosen = choose_channels(file, decoding.channel, where);
+    const std::vector<std::size_t> chosen = choose_channels(file, decoding.channel, decoding.channel_where);
     const double gamma = decoding.channel == "a" ? 1.0 : gamma_of(file, decoding);
     TextureImage image;
     image.width = file.width;

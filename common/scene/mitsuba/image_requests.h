@@ -19,6 +19,7 @@ struct Decoding {
     double gamma = kAuto;     ///< linear = encoded ^ gamma; kSrgb: sRGB's curve; kAuto: what the file says, else sRGB
     bool file_gamma = false;  ///< kAuto listens to a PNG file's own gamma, as Mitsuba 0.6 does
     std::string channel;      ///< "r", "g", "b", "a" or "y" alone; "": all but alpha
+    Location channel_where;   ///< of the request for it, for messages
     bool signed_values = false;  ///< negative floats are kept
     bool is_light = false;       ///< infinite floats are kept, as the largest half
     bool as_floats = false;      ///< three channels of linear floats, whatever the file has

@@ -171,6 +171,7 @@ ColorInput TextureReader::convert_bitmap(Properties& properties, const Use& use)
             throw InputError(properties.where("gamma"), "a gamma of " + number_text(decoding.gamma),
                              "give a positive number, -1 for sRGB, or leave it out");
         decoding.channel = properties.text("channel", "");
+        decoding.channel_where = properties.where("channel");
         for (char& c : decoding.channel)
             c = static_cast<char>('A' <= c && c <= 'Z' ? c - 'A' + 'a' : c);
         properties.ignore({"cache", "max_anisotropy"});
