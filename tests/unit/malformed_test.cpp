@@ -314,5 +314,33 @@ TEST_F(Malformed, Integrators) {
         EXPECT_EQ(guided(property).substr(0, 8), "s.xml:3:") << property << " -> " << guided(property);
 }
 
+/// A repository's pointer in place of the file: of each kind of file, the message says so.
+TEST_F(Malformed, PointersOfGitLfs) {
+    const std::string pointer =
+        "version https://git-lfs.github.com/spec/v1\noid sha256:"
+        "4d7a214614ab2935c943f9e0ff69d22eadbb8f32b1258daaa5e2ca24d17e2393\nsize 12345\n";
+    for (const char* name : {"scene.xml", "mesh.obj", "mesh.ply", "mesh.serialized", "image.exr", "image.png"})
+        write(name, pointer);
+    EXPECT_NE(message_of_file("scene.xml").find("is a pointer of Git LFS"), std::string::npos);
+    const auto of_shape = [&](const std::string& inside) {
+        write("asks.xml", "<scene version=\"0.6.0\"><sensor type=\"perspective\"/>\n" + inside + "</scene>");
+        return message_of_file("asks.xml");
+    };
+    for (const char* type : {"obj", "ply", "serialized"}) {
+        const std::string message = of_shape("<shape type=\"" + std::string(type) +
+                                             "\"><string name=\"filename\" value=\"mesh." + type + "\"/></shape>");
+        EXPECT_NE(message.find("is a pointer of Git LFS"), std::string::npos) << message;
+        EXPECT_TRUE(message.starts_with("asks.xml:2:")) << message;
+    }
+    for (const char* file : {"image.exr", "image.png"}) {
+        const std::string message = of_shape(
+            "<shape type=\"rectangle\"><bsdf type=\"diffuse\"><texture type=\"bitmap\" name=\"reflectance\">"
+            "<string name=\"filename\" value=\"" +
+            std::string(file) + "\"/></texture></bsdf></shape>");
+        EXPECT_NE(message.find("is a pointer of Git LFS"), std::string::npos) << message;
+        EXPECT_NE(message.find("git lfs pull"), std::string::npos) << message;
+    }
+}
+
 }  // namespace
 }  // namespace treefarm
