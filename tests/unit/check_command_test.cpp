@@ -34,6 +34,12 @@ std::string mesh(const std::string& file, const std::string& inside = "") {
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 const std::string kLamp = "<emitter type=\"area\"><rgb name=\"radiance\" value=\"1\"/></emitter>";
 
+std::string quoted(const std::string& path) {
+    std::string text = "'";
+    text += path;
+    return text += "'";
+}
+
 class CheckCommand : public test::MitsubaFixture {
   protected:
     test::Ended run(const std::string& arguments) const { return test::run_treefarm("check " + arguments); }
@@ -204,9 +210,7 @@ TEST_F(CheckCommand, SaysWhatAFarPlaceCosts) {
         "<emitter type=\"constant\"/></scene>\n";
     const std::string robust = "<boolean name=\"embree_use_robust_intersections\" value=\"true\"/>";
     const std::string start = "<scene version=\"3.0.0\">";
-    const auto check = [&](const std::string& head) {
-        return run("'" + write("far.xml", head + scene).string() + "'");
-    };
+    const auto check = [&](const std::string& head) { return run(quoted(write("far.xml", head + scene).string())); };
     const test::Ended found = check(start), cured = check(start + robust);
     EXPECT_EQ(found.code, 5) << found.output;
     EXPECT_NE(found.output.find("pass its walls; set farm.robust = true"), std::string::npos) << found.output;
@@ -263,7 +267,7 @@ TEST_F(CheckCommand, SpotsThatMeetNothing) {
 }
 
 TEST_F(CheckCommand, SoundScenesAndUnreadableOnes) {
-    const auto [code, text] = run("'" + test::own_scene("cornell-box.xml") + "'");
+    const auto [code, text] = run(quoted(test::own_scene("cornell-box.xml")));
     EXPECT_EQ(code, 0) << text;
     EXPECT_NE(text.find("nothing risky"), std::string::npos) << text;
     const std::string path = write("broken.xml", "<scene version=\"0.6.0\"><shape type=\"sphere\"/>").string();
