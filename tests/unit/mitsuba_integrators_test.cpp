@@ -106,6 +106,7 @@ constexpr const char* kOwn[] = {
     "integrator.mis",
     "integrator.split_glass",
     "guiding.preset",
+    "guiding.rule",
     "guiding.view_",
     "guiding.candidate",
     "guiding.light_selection",
