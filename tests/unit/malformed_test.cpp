@@ -10,6 +10,19 @@
 namespace treefarm {
 namespace {
 
+/// "c7.xml".
+std::string numbered(const char* stem, int number) {
+    std::string name = stem;
+    name += std::to_string(number);
+    return name += ".xml";
+}
+
+std::string include_of(const std::string& file) {
+    std::string element = "<include filename=\"";
+    element += file;
+    return element += "\"/>";
+}
+
 /// Bad input gives one clear line that begins with its place.
 class Malformed : public ::testing::Test {
   protected:
@@ -163,15 +176,14 @@ TEST_F(Malformed, Includes) {
     write("broken.xml", "<scene version=\"0.6.0\">\n<shape");
     expect("<include filename=\"broken.xml\"/>", "broken.xml:2:");
     for (int i = 0; i < 20; ++i)
-        write("c" + std::to_string(i) + ".xml",
-              "<scene version=\"0.6.0\"><include filename=\"c" + std::to_string(i + 1) + ".xml\"/></scene>");
+        write(numbered("c", i), "<scene version=\"0.6.0\">" + include_of(numbered("c", i + 1)) + "</scene>");
     EXPECT_NE(message_of("<include filename=\"c0.xml\"/>").find("includes are nested more than 15 deep"),
               std::string::npos);
     for (int i = 0; i < 10; ++i) {
         std::string fivefold;
         for (int k = 0; k < 5; ++k)
-            fivefold += "<include filename=\"d" + std::to_string(i + 1) + ".xml\"/>";
-        write("d" + std::to_string(i) + ".xml", "<scene version=\"0.6.0\">" + fivefold + "</scene>");
+            fivefold += include_of(numbered("d", i + 1));
+        write(numbered("d", i), "<scene version=\"0.6.0\">" + fivefold + "</scene>");
     }
     write("d10.xml", "<scene version=\"0.6.0\"/>");
     EXPECT_NE(message_of("<include filename=\"d0.xml\"/>").find("includes more than 10000 files"), std::string::npos);
