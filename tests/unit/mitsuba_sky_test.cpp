@@ -102,6 +102,8 @@ TEST_F(MitsubaSky, OutsideOfTheModelsRangeIsRefused) {
             EXPECT_NE(text.find("give 1 to 10"), std::string::npos) << text;
         }
         for (const char* albedo : {"1.5", "-0.1", "0.2, 0.2, 1.1"}) {
+            // 0.6 scales what is above 1.
+            if (std::string(version) == "0.6.0" && albedo[0] != '-') continue;
             const std::string text = complaint("<rgb name=\"albedo\" value=\"" + std::string(albedo) + "\"/>", version);
             EXPECT_NE(text.find("scene.xml:4:"), std::string::npos) << text;
             EXPECT_NE(text.find("give values from 0 to 1"), std::string::npos) << text;

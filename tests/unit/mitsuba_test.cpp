@@ -164,8 +164,8 @@ TEST_F(Mitsuba, LenientReadingApproximatesAndWarns) {
     const std::string body =
         "<sensor type=\"perspective\"/><integrator type=\"bdpt\"/><medium type=\"homogeneous\" id=\"fog\"/>"
         "<bsdf type=\"hair\" id=\"unused\"/>"
-        "<bsdf type=\"phong\" id=\"old\"><float name=\"exponent\" value=\"15\"/></bsdf>"
-        "<bsdf type=\"twosided\" id=\"both\"><bsdf type=\"ward\"/></bsdf>"
+        "<bsdf type=\"hk\" id=\"old\"><float name=\"thickness\" value=\"15\"/></bsdf>"
+        "<bsdf type=\"twosided\" id=\"both\"><bsdf type=\"irawan\"/></bsdf>"
         "<shape type=\"hair\"/><shape type=\"rectangle\"><ref id=\"old\"/><float name=\"unknown\" "
         "value=\"1\"/></shape>"
         "<shape type=\"rectangle\"><ref id=\"both\"/></shape><emitter type=\"projector\"/><mystery/>";
