@@ -160,7 +160,7 @@ TEST(SceneCodec, IndicesAreChecked) {
     refused([](Scene& s) { std::get<Mesh>(s.shapes[0].geometry).indices.push_back(0); });
     refused([](Scene& s) { std::get<Mesh>(s.shapes[0].geometry).normals.pop_back(); });
     refused([](Scene& s) { std::get<Mesh>(s.shapes[0].geometry).uvs.pop_back(); });
-    refused([](Scene& s) { s.shapes[0].material = 8; });
+    refused([](Scene& s) { s.shapes[0].material = static_cast<std::int32_t>(s.materials.size()); });
     refused([](Scene& s) { s.shapes[0].material = -2; });
     refused([](Scene& s) { s.shapes[0].material = kNone; });
     refused([](Scene& s) { s.shapes[0].emitter = 1; });
