@@ -114,14 +114,21 @@ TEST(ValidateKinds, TinyRoughnessIsRaised) {
 }
 
 TEST(ValidateKinds, TexturedFactorsAbove1AreScaledDown) {
-    Scene scene = expect_accepted(2, [](Scene& s) {
+    Scene scene = expect_accepted(1, [](Scene& s) {
         s.images[2].floats[0] = 3.0f, s.materials[2].opacity = {0.5f, 2};
     });
-    EXPECT_FLOAT_EQ(scene.materials[2].opacity.value * 3.0f, 1.0f);
+    EXPECT_FLOAT_EQ(scene.materials[2].opacity.value * 3.0f, 0.99f);
     // wrap_v = one: outside of the image the texture is 1 even where the image is darker.
-    scene = expect_accepted(1, [](Scene& s) { bsdf<DiffuseMaterial>(s, 0).reflectance.value = Rgb(1.0f, 2.0f, 0.5f); });
-    EXPECT_FLOAT_EQ(bsdf<DiffuseMaterial>(scene, 0).reflectance.value.y, 1.0f);
-    EXPECT_FLOAT_EQ(bsdf<DiffuseMaterial>(scene, 0).reflectance.value.z, 0.25f);
+    const auto reflectance = [](bool unlimited) {
+        const Scene scene = expect_accepted(1, [&](Scene& s) {
+            s.materials[0].unlimited = unlimited;
+            bsdf<DiffuseMaterial>(s, 0).reflectance.value = Rgb(1.0f, 2.0f, 0.5f);
+        });
+        return std::get<DiffuseMaterial>(scene.materials[0].bsdf).reflectance.value;
+    };
+    EXPECT_FLOAT_EQ(reflectance(false).y, 0.99f);
+    EXPECT_FLOAT_EQ(reflectance(false).z, 0.2475f);
+    EXPECT_EQ(reflectance(true), Rgb(1.0f, 2.0f, 0.5f));
 }
 
 TEST(ValidateKinds, AnalyticShapes) {
