@@ -58,6 +58,7 @@ struct PrincipledBsdf {
             wi = random.cosine;
         } else if (random.lobe < p.diffuse + p.coat) {
             wi = reflected(wo, in->coat.sample(random.place));
+            if (!(wi.z > 0.0f)) return {};
         } else {
             const Vec3 m = in->facets.sample_visible(wo, random.place);
             const float cos_o = dot(wo, m);
