@@ -61,7 +61,8 @@ class Limit {
         : job_(make_job(loaded, options)),
           bounds_(loaded.scene.bounds()),
           facts_(facts_of(loaded.scene)),
-          first_(first_tree(resolve(job_, facts_), bounds_, loaded.scene.radiance_scale())),
+          resolved_(resolve(job_, facts_)),
+          first_(first_tree(resolved_, bounds_, loaded.scene.radiance_scale())),
           scene_(std::move(loaded.scene), job_),
           spp_(options.spp),
           guide_(train()),
@@ -147,7 +148,7 @@ class Limit {
     SdTree train() {
         SdTree tree = first_;
         TreeLearner learner;
-        const std::vector<PassPlan> plans = plan_passes(resolve(job_, facts_));
+        const std::vector<PassPlan> plans = plan_passes(resolved_);
         for (std::size_t k = 0; k < plans.size(); ++k) {
             PassPlan plan = plans[k];
             plan.record = true;
@@ -156,12 +157,12 @@ class Limit {
             const Guide guide(tree);
             Accumulator sums(plan.index, guide, job_.guiding.directional_filter, plan.learn_mixture);
             TraceStats stats;
-            render(plan, resolve(job_, facts_), guide, stats,
+            render(plan, resolved_, guide, stats,
                    [&](RecordLog& log) { sums.commit(log.records, log.counts, log.caps); });
             RefineReport report;
             const PassPlan& coming = plans[std::min(k + 1, plans.size() - 1)];
-            tree = learner.learn(tree, sums.take(), refine_settings(resolve(job_, facts_), plan, coming),
-                                 plan.learn_mixture, report);
+            tree =
+                learner.learn(tree, sums.take(), refine_settings(resolved_, plan, coming), plan.learn_mixture, report);
         }
         return tree;
     }
@@ -235,6 +236,7 @@ class Limit {
     Job job_;
     Box3 bounds_;
     SceneFacts facts_;
+    Resolved resolved_;
     SdTree first_;
     TraceScene scene_;
     std::uint32_t spp_;

@@ -5,6 +5,19 @@
 
 namespace treefarm {
 
+namespace {
+
+KernelChoice kernel_for(const PassPlan& pass, bool plainly_diffuse, const TreeFacts& tree) {
+    KernelChoice kernel;
+    kernel.plain_diffuse = plainly_diffuse;
+    kernel.guided = pass.guided && tree.trained;
+    kernel.record = pass.record;
+    kernel.views = tree.has_views && !kernel.plain_diffuse && (kernel.guided || kernel.record);
+    return kernel;
+}
+
+}  // namespace
+
 std::string KernelChoice::name() const {
     std::string text = plain_diffuse ? "diffuse" : "general";
     if (guided) text += ", guided";
@@ -18,19 +31,11 @@ TreeFacts facts_of(const SdTree& tree) {
 }
 
 KernelChoice kernel_of(const Resolved& job, const PassPlan& pass, const TreeFacts& tree) {
-    KernelChoice kernel;
-    kernel.plain_diffuse = job.scene_facts.plainly_diffuse;
-    kernel.guided = pass.guided && tree.trained;
-    kernel.record = pass.record;
-    kernel.views = tree.has_views && !kernel.plain_diffuse && (kernel.guided || kernel.record);
-    return kernel;
+    return kernel_for(pass, job.scene_facts.plainly_diffuse, tree);
 }
 
 bool fits(const PassPlan& pass, bool plainly_diffuse, const TreeFacts& tree) {
-    const KernelChoice& kernel = pass.kernel;
-    return kernel.plain_diffuse == plainly_diffuse && kernel.record == pass.record &&
-           kernel.guided == (pass.guided && tree.trained) &&
-           kernel.views == (tree.has_views && !plainly_diffuse && (kernel.guided || kernel.record));
+    return pass.kernel == kernel_for(pass, plainly_diffuse, tree);
 }
 
 std::vector<KernelUse> kernels_of(const Resolved& job) {

@@ -7,7 +7,7 @@
 namespace treefarm {
 
 /// Every constant that was tuned on scenes rather than derived, by what it decides: docs/generated/policy.md tells
-/// what each means, where it comes from and what half and twice its value do. A render records them (resolved.toml).
+/// what each means and where it comes from. A render records them (resolved.toml).
 /// This header includes nothing of ours, so that every room may include it.
 struct Policy {
     /// When guiding is given up ("auto"), by probes: unguided pixels of a guided render.

@@ -18,6 +18,12 @@ bool chooses_lights(const Scene& scene) {
     return with_image || scene.emitters.size() > 1;
 }
 
+/// c of the spatial split rule, in proportion to the fourth root of the film's pixels: more of them bring more records,
+/// but what there is to learn grows more slowly.
+double usual_spatial_threshold(double film_pixels) {
+    return kPolicy.learning.spatial_threshold * std::sqrt(std::sqrt(film_pixels / (512.0 * 512.0)));
+}
+
 void resolve_rules(Job::Guiding& guiding) {
     if (guiding.rule == Rule::usual)
         guiding.rule = guiding.type == GuidingType::automatic ? Rule::while_it_pays : Rule::always;
@@ -66,10 +72,6 @@ std::string guiding_word(const Resolved& job) {
     if (job.guiding.type == GuidingType::view && job.guiding.rule == Rule::while_it_pays)
         asked.guiding.type = GuidingType::automatic;
     return find_job_key("guiding.type")->print(asked);
-}
-
-double usual_spatial_threshold(double film_pixels) {
-    return kPolicy.learning.spatial_threshold * std::sqrt(std::sqrt(film_pixels / (512.0 * 512.0)));
 }
 
 }  // namespace treefarm

@@ -38,9 +38,4 @@ Resolved resolve(const Job& job, const Scene& scene);
 /// What guides, in the word of the key guiding.type.
 std::string guiding_word(const Resolved& job);
 
-/// Default of guiding.spatial_threshold: c of the spatial split rule for a film of so many pixels, 2000 for 512 x 512
-/// and in proportion to their fourth root. More pixels bring more records, but what there is to learn grows more
-/// slowly.
-double usual_spatial_threshold(double film_pixels);
-
 }  // namespace treefarm

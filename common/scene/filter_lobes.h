@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "common/scene/scene.h"
@@ -13,7 +14,10 @@ namespace treefarm {
 /// The filter's value at a distance of `x` pixels: of a film that is_signed().
 double lobe_value(const Film& film, double x);
 
-/// Its integrals over equal cells of [0, radius].
+/// Integrals of a function over equal cells of [0, radius], by Simpson's rule.
+std::vector<double> cell_masses(const std::function<double(double)>& value, double radius, std::uint32_t cells);
+
+/// Those of the filter.
 std::vector<double> lobe_masses(const Film& film, std::uint32_t cells);
 
 /// By how much the absolute values of the masses exceed their sum: what a sample of either sign weighs.

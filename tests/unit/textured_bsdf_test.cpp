@@ -49,6 +49,24 @@ TEST(Textured, UnlimitedMaterialsKeepFactorsAbove1) {
     EXPECT_GT(std::min({nonlinear.x, nonlinear.y, nonlinear.z}), 0.0f) << "1 / (1 - 2 fdr) would be negative";
 }
 
+/// Each keeps its inputs beside the node: a blend of two is their mean.
+TEST(Textured, PrincipledPartsOfABlendAreKeptApart) {
+    const auto value = [](bool first, bool second) {
+        Scene scene;
+        std::int32_t parts[2];
+        for (const int k : {0, 1}) {
+            PrincipledMaterial part;
+            part.base_color = ColorInput(Rgb(1.0f), test::add_board(scene, Rgb(k == 0 ? 0.8f : 0.2f), Rgb(0.1f)));
+            part.roughness = k == 0 ? 0.3f : 0.9f;
+            parts[k] = test::add_material(scene, part);
+        }
+        test::add_material(scene, BlendMaterial{{0.5f}, parts[first ? 0 : 1], parts[second ? 1 : 0]});
+        return PreparedMaterial(scene).at(point_at(0.1f, 0.1f)).value(kUp, kUp).f_cos.x;
+    };
+    EXPECT_NE(value(true, false), value(false, true));
+    EXPECT_FLOAT_EQ(value(true, true), 0.5f * (value(true, false) + value(false, true)));
+}
+
 TEST(Textured, BackOfAnOpaqueSurfaceIsBlackWhateverWasBuiltBefore) {
     Scene scene;
     const std::int32_t board = test::add_board(scene, Rgb(0.8f), Rgb(0.1f));

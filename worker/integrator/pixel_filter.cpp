@@ -26,14 +26,7 @@ double exp_negative(double x) {
 std::vector<double> gaussian_masses(double radius, double stddev, std::uint32_t cells) {
     const double scale = 0.5 / (stddev * stddev);
     const double at_radius = exp_negative(scale * radius * radius);
-    const double width = radius / cells;
-    const auto value = [&](double x) { return exp_negative(scale * x * x) - at_radius; };
-    std::vector<double> masses(cells);
-    for (std::uint32_t i = 0; i < cells; ++i) {  // Simpson's rule
-        const double x = i * width;
-        masses[i] = (value(x) + 4.0 * value(x + 0.5 * width) + value(x + width)) * (width / 6.0);
-    }
-    return masses;
+    return cell_masses([&](double x) { return exp_negative(scale * x * x) - at_radius; }, radius, cells);
 }
 
 /// Cumulative absolute masses, of 2^31.

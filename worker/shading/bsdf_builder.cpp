@@ -80,6 +80,7 @@ void BsdfBuilder::note(std::size_t index) {
     notes.tangents = traits.anisotropic || material.detail.any();
     notes.texture = first_texture_of(material);
     notes.transmits = traits.lobes.transmits();
+    notes.principled = std::holds_alternative<PrincipledMaterial>(material.bsdf) ? 1 : 0;
     // Its own node, and one for each frame of its own.
     notes.nodes = 1 + (material.detail.any() ? 1 : 0) + (traits.anisotropic ? 1 : 0);
     // Parts stand below what they are part of: theirs are known.
@@ -89,11 +90,13 @@ void BsdfBuilder::note(std::size_t index) {
         notes.tangents |= of_part.tangents;
         if (&part == &material.back) {  // in place of the front
             notes.nodes = std::max(notes.nodes, of_part.nodes);
+            notes.principled = std::max(notes.principled, of_part.principled);
             return;
         }
         if (notes.texture == kNone) notes.texture = of_part.texture;
         notes.transmits |= of_part.transmits;
         notes.nodes += of_part.nodes;
+        notes.principled += of_part.principled;
     });
     if (notes.nodes > kMaxNodes)
         throw RunError(material.where.text() + ": material \"" + material.name + "\" is made of more than " +

@@ -23,7 +23,8 @@ struct ShadingPoint {
 /// Storage for the BSDFs of one hit: a thread keeps it; it never grows.
 class BsdfScratch {
   public:
-    explicit BsdfScratch(std::size_t nodes = 0) : nodes_(nodes), coats_(nodes), principled_(nodes) {}
+    explicit BsdfScratch(std::size_t nodes = 0, std::size_t principled = 0)
+        : nodes_(nodes), coats_(nodes), principled_(principled) {}
 
     void clear() { used_ = coats_used_ = principled_used_ = 0; }
     Bsdf& add() { return nodes_[used_++]; }
@@ -51,7 +52,8 @@ class BsdfBuilder {
     /// One side of a material that does not vary. The result lives as long as the builder.
     const Bsdf* constant(std::int32_t material, bool back);
 
-    /// One side of a material at a point; the result lives until the scratch is cleared, which must hold nodes().
+    /// One side of a material at a point; the result lives until the scratch is cleared, which must hold nodes() and
+    /// principled().
     const Bsdf* at(std::int32_t material, bool back, const ShadingPoint& point, BsdfScratch& scratch) const;
 
     /// Whether it must be built at every hit: textures, tilted normals, tangents.
@@ -61,6 +63,10 @@ class BsdfBuilder {
     /// The image that at() is likely to look up first: an index in TextureSet::textures(), or kNone.
     std::int32_t first_texture(std::int32_t material) const {
         return notes_[static_cast<std::size_t>(material)].texture;
+    }
+    /// Principled materials that at() looks up for it.
+    std::size_t principled(std::int32_t material) const {
+        return notes_[static_cast<std::size_t>(material)].principled;
     }
     /// Nodes that at() needs for it.
     std::size_t nodes(std::int32_t material) const { return notes_[static_cast<std::size_t>(material)].nodes; }
@@ -74,7 +80,7 @@ class BsdfBuilder {
         bool anisotropic = false;  ///< itself, not what it is made of
         bool tangents = false;     ///< it, or what it is made of, has a frame of its own
         bool transmits = false;    ///< its back scatters by nature: glass, nothing, blends with them
-        std::size_t nodes = 0;
+        std::size_t nodes = 0, principled = 0;
         std::int32_t texture = kNone;                ///< that it most likely reads first
         const RoughTransmittance* coat = nullptr;    ///< rough plastic of one roughness
         const RoughTransmittances* coats = nullptr;  ///< rough plastic whose roughness varies

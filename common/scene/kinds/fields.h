@@ -4,7 +4,7 @@
 namespace treefarm {
 
 /// Kinds of materials name each of their values once, in fields(self, visitor), in the order in which they are packed.
-/// Packing, range checks, `treefarm check`, texture use, removal of what is unused and the docs follow from that. A
+/// Packing, range checks, `treefarm check`, texture use and removal of what is unused follow from that. A
 /// visitor has, for what a value is:
 ///
 ///     fraction(name, ColorInput& or FloatInput&)  a factor in [0, 1], constant or textured

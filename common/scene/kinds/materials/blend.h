@@ -11,7 +11,6 @@ struct BlendMaterial {
     FloatInput weight{0.5f};
     std::int32_t first = kNone, second = kNone;  ///< indices in Scene::materials, below this material's own
 
-    static constexpr const char* kName = "blend";
     Lobes lobes() const { return {}; }
     static void fields(auto& self, auto& visitor) {
         visitor.fraction("weight of the blend", self.weight);

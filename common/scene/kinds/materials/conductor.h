@@ -12,7 +12,6 @@ struct ConductorMaterial {
     ColorInput specular_reflectance{Rgb(1.0f)};  ///< factor on what is reflected, in [0, 1]
     Roughness roughness;
 
-    static constexpr const char* kName = "conductor";
     Lobes lobes() const { return roughness.lobes(false); }
     static void fields(auto& self, auto& visitor) {
         visitor.metal(self.eta, self.k);

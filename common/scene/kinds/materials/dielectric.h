@@ -24,7 +24,6 @@ struct DielectricMaterial {
     ColorInput specular_reflectance{Rgb(1.0f)}, specular_transmittance{Rgb(1.0f)};
     Roughness roughness;
 
-    static constexpr const char* kName = "dielectric";
     Lobes lobes() const { return roughness.lobes(true); }
     PlasticMaterial opaque() const { return reflection_alone(eta, specular_reflectance, roughness); }
     static void fields(auto& self, auto& visitor) {

@@ -9,7 +9,6 @@ namespace treefarm {
 struct DiffuseMaterial {
     ColorInput reflectance{Rgb(0.5f)};  ///< albedo per channel, in [0, 1]
 
-    static constexpr const char* kName = "diffuse";
     Lobes lobes() const { return {.diffuse = true}; }
     static void fields(auto& self, auto& visitor) { visitor.fraction("reflectance", self.reflectance); }
 };

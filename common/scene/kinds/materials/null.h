@@ -7,7 +7,6 @@ namespace treefarm {
 
 /// Nothing is there: light passes straight on.
 struct NullMaterial {
-    static constexpr const char* kName = "null";
     Lobes lobes() const { return {.null = true}; }
     static void fields(auto&, auto&) {}
 };

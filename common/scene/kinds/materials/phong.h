@@ -11,7 +11,6 @@ struct PhongMaterial {
     ColorInput diffuse_reflectance{Rgb(0.5f)}, specular_reflectance{Rgb(0.2f)};  ///< their sum at most 1
     FloatInput exponent{30.0f};
 
-    static constexpr const char* kName = "Phong";
     Lobes lobes() const { return {.diffuse = true, .glossy_reflection = true}; }
     static void fields(auto& self, auto& visitor) {
         visitor.fraction("diffuse reflectance", self.diffuse_reflectance);

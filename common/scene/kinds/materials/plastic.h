@@ -15,7 +15,6 @@ struct PlasticMaterial {
     /// not let out is lost; otherwise it sends back all of that (0.6).
     bool single_return = false;
 
-    static constexpr const char* kName = "plastic";
     static constexpr bool kCoated = true;
     Lobes lobes() const {
         Lobes lobes = roughness.lobes(false);

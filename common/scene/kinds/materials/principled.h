@@ -16,7 +16,6 @@ struct PrincipledMaterial {
     FloatInput clearcoat{0.0f}, clearcoat_gloss{0.0f};
     float eta = 1.5f;  ///< of the inside over the outside; not 1 where light passes
 
-    static constexpr const char* kName = "principled";
     bool transmits() const { return spec_trans.varies() || spec_trans.value > 0.0f; }
     Lobes lobes() const { return {.diffuse = true, .glossy_reflection = true, .glossy_transmission = transmits()}; }
     /// What would be let through is lost: the base is as much darker.

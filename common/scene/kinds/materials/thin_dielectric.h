@@ -10,7 +10,6 @@ struct ThinDielectricMaterial {
     float eta = 1.5046f;
     ColorInput specular_reflectance{Rgb(1.0f)}, specular_transmittance{Rgb(1.0f)};
 
-    static constexpr const char* kName = "thin dielectric";
     Lobes lobes() const { return {.delta_reflection = true, .delta_transmission = true}; }
     PlasticMaterial opaque() const { return reflection_alone(eta, specular_reflectance, {}); }
     static void fields(auto& self, auto& visitor) {
