@@ -6,12 +6,12 @@
 
 namespace treefarm {
 
-/// Calls f with the alternative that a variant of at most 16 holds. Unlike std::visit it compiles to a switch whose
+/// Calls f with the alternative that a variant of at most 24 holds. Unlike std::visit it compiles to a switch whose
 /// cases can be inlined: for the per-vertex path. All cases return the same type.
 template <class Variant, class F>
 [[gnu::always_inline]] inline auto switch_visit(const Variant& variant, F&& f) {
     constexpr std::size_t kCount = std::variant_size_v<Variant>;
-    static_assert(kCount <= 16, "add cases");
+    static_assert(kCount <= 24, "add cases");
     using Result = decltype(f(*std::get_if<0>(&variant)));
     // A case that there is no alternative for is that of the first: no such index comes.
     const auto of = [&](auto number) -> Result {
@@ -50,6 +50,22 @@ template <class Variant, class F>
             return of(integral_constant<std::size_t, 14>());
         case 15:
             return of(integral_constant<std::size_t, 15>());
+        case 16:
+            return of(integral_constant<std::size_t, 16>());
+        case 17:
+            return of(integral_constant<std::size_t, 17>());
+        case 18:
+            return of(integral_constant<std::size_t, 18>());
+        case 19:
+            return of(integral_constant<std::size_t, 19>());
+        case 20:
+            return of(integral_constant<std::size_t, 20>());
+        case 21:
+            return of(integral_constant<std::size_t, 21>());
+        case 22:
+            return of(integral_constant<std::size_t, 22>());
+        case 23:
+            return of(integral_constant<std::size_t, 23>());
         default:
             return of(integral_constant<std::size_t, 0>());
     }

@@ -40,6 +40,8 @@ std::span<const std::pair<std::string, std::string>> effects_without_switch() {
         {"rough_diffuse", "change the scene's materials"},
         {"phong", "change the scene's materials"},
         {"principled", "change the scene's materials"},
+        {"principled_thin", "change the scene's materials"},
+        {"coatings", "change the scene's materials"},
         {"ward", "change the scene's materials"},
         {"coats", "change the scene's materials"},
         {"null", "change the scene's materials"},

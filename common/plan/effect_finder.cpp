@@ -201,6 +201,8 @@ void EffectFinder::add_materials() {
     add_kind("rough_diffuse", "rough diffuse material", std::in_place_type<RoughDiffuseMaterial>);
     add_kind("phong", "Phong material", std::in_place_type<PhongMaterial>);
     add_kind("principled", "principled material", std::in_place_type<PrincipledMaterial>);
+    add_kind("principled_thin", "thin principled material", std::in_place_type<PrincipledThinMaterial>);
+    add_kind("coatings", "coated material", std::in_place_type<CoatingMaterial>);
     add_kind("ward", "Ward material", std::in_place_type<WardMaterial>);
     add("blends", "blend", [](const Traits& t) { return t.blended; });
     add("null", "null material", [](const Traits& t) { return t.lobes.null; });

@@ -48,10 +48,17 @@ class MaterialInspection {
     }
     void anisotropy(const FloatInput& input) { fraction("anisotropy", input); }
     void number(const char* what, const FloatInput& input, float least, float most) {
-        const float reached = input.varies() ? input.value * largest_of(scene_, input.texture) : input.value;
+        const float reached = reached_by(input);
         if (!(reached >= least && reached <= most))
             add(error, "numbers", std::string("a ") + what + " of " + short_number(double(reached)),
                 "give " + short_number(double(least)) + " to " + short_number(double(most)));
+    }
+    void number(const char* what, const ColorInput& input, float least, float most) {
+        for (int i = 0; i < 3; ++i) {
+            const FloatInput channel(input.value[i], input.texture);
+            if (!(reached_by(channel) >= least && reached_by(channel) <= most))
+                return number(what, channel, least, most);  // said once
+        }
     }
     void together(const ColorInput& a, const ColorInput& b) {
         const auto most = [&](const ColorInput& input, int i) {
@@ -102,6 +109,10 @@ class MaterialInspection {
     void part(const char*, std::int32_t) {}
 
   private:
+    float reached_by(const FloatInput& input) const {
+        return input.varies() ? input.value * largest_of(scene_, input.texture) : input.value;
+    }
+
     void add(Finding::Severity severity, const char* kind, const std::string& what, const std::string& cure) {
         findings_.push_back(
             {severity, kind, material_.where, named("material", material_.name) + " has " + what, cure});

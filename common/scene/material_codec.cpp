@@ -14,6 +14,7 @@ class PutFields {
     void fraction(const char*, const FloatInput& input) { put_number(out_, input); }
     void anisotropy(const FloatInput& input) { put_number(out_, input); }
     void number(const char*, const FloatInput& input, float, float) { put_number(out_, input); }
+    void number(const char*, const ColorInput& input, float, float) { put_color(out_, input); }
     void together(const ColorInput&, const ColorInput&) {}
     void choice(const char*, auto value, auto) { put_enum(out_, value); }
     void eta(float value) { out_.put(value); }
@@ -43,6 +44,7 @@ class GetFields {
     void fraction(const char*, FloatInput& input) { input = get_number(in_, texture_count_); }
     void anisotropy(FloatInput& input) { input = get_number(in_, texture_count_); }
     void number(const char*, FloatInput& input, float, float) { input = get_number(in_, texture_count_); }
+    void number(const char*, ColorInput& input, float, float) { input = get_color(in_, texture_count_); }
     void together(const ColorInput&, const ColorInput&) {}
     void choice(const char* name, auto& value, auto last) { value = get_enum(in_, last, name); }
     void eta(float& value) { value = in_.get<float>(); }

@@ -18,14 +18,13 @@ struct FieldTraits : IgnoreFields {
         traits.textured |= input.varies();
         traits.anisotropic |= input.varies() || input.value > 0.0f;
     }
-    void number(const char*, const FloatInput& input, float, float) { traits.textured |= input.varies(); }
+    void number(const char*, const auto& input, float, float) { traits.textured |= input.varies(); }
     void roughness(const Roughness& roughness, bool) {
         if (roughness.smooth()) return;
         traits.microfacets = true;
         traits.anisotropic |= roughness.anisotropic();
         traits.textured |= roughness.alpha_u.varies() || roughness.alpha_v.varies();
     }
-    void part(const char*, std::int32_t) { traits.blended = true; }
 };
 
 }  // namespace
@@ -41,6 +40,7 @@ MaterialTraits own_traits(const Material& material) {
             };
         },
         material.bsdf);
+    traits.blended = std::holds_alternative<BlendMaterial>(material.bsdf);
     traits.bumped = material.detail.bump != kNone;
     traits.normal_mapped = material.detail.normal_map != kNone;
     traits.masked = material.masked();

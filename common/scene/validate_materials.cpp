@@ -59,14 +59,15 @@ class MaterialCheck {
     void anisotropy(FloatInput& input) { fraction("anisotropy", input); }
 
     void number(const char* name, const FloatInput& input, float least, float most) const {
+        const ValueRange factor = input.varies() ? range(input.texture) : ValueRange{1.0f, 1.0f};
+        const float low = input.value * factor.min, high = input.value * factor.max;
+        if (std::min(low, high) >= least && std::max(low, high) <= most) return;
         const std::string bounds = number_text(least) + " to " + number_text(most);
-        float low = input.value, high = input.value;
-        if (input.varies()) {
-            low *= range(input.texture).min;
-            high *= range(input.texture).max;
-        }
-        if (!(std::min(low, high) >= least && std::max(low, high) <= most))
-            refuse(std::string("the ") + name + " is outside " + bounds, "give values from " + bounds);
+        refuse(std::string("the ") + name + " is outside " + bounds, "give values from " + bounds);
+    }
+    void number(const char* name, const ColorInput& input, float least, float most) const {
+        for (int i = 0; i < 3; ++i)
+            number(name, FloatInput{input.value[i], input.texture}, least, most);
     }
 
     /// Both are scaled down where their sum goes above 1, as in Mitsuba 0.6.

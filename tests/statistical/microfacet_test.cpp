@@ -57,13 +57,14 @@ class RoughLobes : public ::testing::TestWithParam<Case> {
 
     /// A lobe on a base that is as wide across as along.
     void test_round(const Bsdf& bsdf, const Vec3& wo, Vec3 center, float width, const char* what) {
-        if (center.z < std::min(0.05f, 20 * width)) center.z = 0.0f;
+        const float side = center.z;
+        if (std::abs(side) < std::min(0.05f, 20 * width)) center.z = 0.0f;
         const auto sample = [&](std::uint32_t i, Vec3& d) {
             const BsdfSample s = bsdf.sample(wo, uniform(i));
             d = s.wi;
-            return s.pdf > 0.0f;
+            return s.pdf > 0.0f && d.z * side > 0.0f;
         };
-        const auto density = [&](const Vec3& d) { return d.z > 0.0f ? double(bsdf.value(wo, d).pdf) : 0.0; };
+        const auto density = [&](const Vec3& d) { return d.z * side > 0.0f ? double(bsdf.value(wo, d).pdf) : 0.0; };
         const test::LobeTest result =
             test::test_lobe(sample, density, normalize(center), double(width), double(width), kSamples, 40, 16, true);
         EXPECT_GT(result.p_value, kSignificance) << what << " wo.z " << wo.z;
@@ -146,6 +147,56 @@ TEST_P(RoughLobes, Principled) {
         const DielectricFresnel f = fresnel_dielectric(wo.z, 1.5f);
         test(glass.front(), wo, {-wo.x / 1.5f, -wo.y / 1.5f, -f.cos_transmitted}, alpha, "refracted");
         test(glass.back(), wo, mirror, 2 * alpha, "inside");
+    }
+}
+
+TEST_P(RoughLobes, ThinPrincipled) {
+    const auto [distribution, alpha] = GetParam();
+    if (distribution != Microfacets::ggx || alpha < 0.01f) return;
+    PrincipledThinMaterial material;
+    material.roughness = std::sqrt(alpha);
+    material.spec_trans = 0.75f, material.diff_trans = 0.5f;
+    const test::PreparedMaterial sheet(material);
+    for (const float cos : {1.0f, 0.7f, 0.2f}) {
+        const Vec3 wo = at_cosine(cos, 0.3f), mirror(-wo.x, -wo.y, wo.z);
+        test(sheet.front(), wo, mirror, 2 * alpha, "reflected", true);
+        test_round(sheet.front(), wo, -wo, 2 * alpha, "passed");
+    }
+}
+
+TEST_P(RoughLobes, Coatings) {
+    const auto [distribution, alpha] = GetParam();
+    if (alpha < 0.01f) return;
+    const auto coated = [&](MaterialKind beneath, const Roughness& roughness) {
+        Scene scene;
+        CoatingMaterial coat;
+        coat.eta = 1.5f;
+        coat.absorption = Rgb(0.5f, 0.2f, 0.1f);
+        coat.roughness = roughness;
+        coat.coated = test::add_material(scene, std::move(beneath));
+        test::add_material(scene, coat);
+        return test::PreparedMaterial(std::move(scene));
+    };
+    const Roughness rough = test::rough(distribution, alpha, alpha);
+    const test::PreparedMaterial paint = coated(DiffuseMaterial{Rgb(0.5f)}, rough),
+                                 metal = coated(ConductorMaterial{Rgb(0.2f), Rgb(3.0f), Rgb(1.0f), rough}, {});
+    for (const float cos : {1.0f, 0.7f, 0.2f}) {
+        const Vec3 wo = at_cosine(cos, 0.3f), mirror(-wo.x, -wo.y, wo.z);
+        test(paint.front(), wo, mirror, 2 * alpha, "rough coat", true);
+        // Its smooth coat's samples are no part of the density.
+        const auto smooth_only = [&](std::uint32_t i, Vec3& d) {
+            const BsdfSample s = metal.front().sample(wo, uniform(i));
+            d = s.wi;
+            return s.pdf > 0.0f && !s.delta;
+        };
+        const auto density = [&](const Vec3& d) { return d.z > 0.0f ? double(metal.front().value(wo, d).pdf) : 0.0; };
+        Vec3 center = mirror;
+        if (center.z < std::min(0.05f, 40 * alpha)) center.z = 0.0f;
+        const double width = 3.0 * double(alpha);
+        const test::LobeTest result =
+            test::test_lobe(smooth_only, density, normalize(center), width, width, kSamples, 40, 16, true);
+        EXPECT_GT(result.p_value, kSignificance) << "under a smooth coat, wo.z " << wo.z;
+        EXPECT_NEAR(result.integral, result.inside, 0.01) << "under a smooth coat, wo.z " << wo.z;
     }
 }
 

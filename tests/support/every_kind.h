@@ -61,6 +61,12 @@ inline Scene every_kind_scene() {
     principled.flatness = {0.5f, 2}, principled.clearcoat = 0.875f, principled.clearcoat_gloss = 0.0625f;
     principled.eta = 1.375f;
     add(principled);
+    add(CoatingMaterial{1.375f, ColorInput(Rgb(0.5f, 2.0f, 3.0f), 1), ColorInput(Rgb(0.75f), 0), coat, 0});
+    PrincipledThinMaterial thin{ColorInput(Rgb(0.25f, 0.5f, 0.125f), 0), {0.375f, 2}};
+    thin.anisotropic = 0.25f, thin.spec_trans = {0.5f, 2}, thin.spec_tint = 0.125f;
+    thin.sheen = 0.375f, thin.sheen_tint = 0.625f, thin.flatness = 0.75f;
+    thin.diff_trans = {1.5f, 2}, thin.eta = 1.25f;
+    add(thin);
     add(WardMaterial{Rgb(0.375f), Rgb(0.25f), WardVariant::duer, {Microfacets::beckmann, {0.25f}, {0.5f}}});
 
     Mesh mesh;

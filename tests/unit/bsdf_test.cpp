@@ -73,6 +73,12 @@ std::vector<Subject> all_materials() {
     PrincipledMaterial glass = rich;
     glass.spec_trans = 0.75f;
     all.push_back({"principled glass", glass});
+    PrincipledThinMaterial thin;
+    thin.base_color = Rgb(1.0f), thin.roughness = 0.4f, thin.spec_tint = 0.5f;
+    thin.sheen = 0.5f, thin.sheen_tint = 0.5f, thin.flatness = 0.5f;
+    all.push_back({"thin principled", thin});
+    thin.spec_trans = 0.5f, thin.diff_trans = 1.2f;
+    all.push_back({"thin principled that transmits", thin});
     for (const WardVariant variant : {WardVariant::ward, WardVariant::duer})
         all.push_back(
             {"older Ward", WardMaterial{Rgb(0.5f), Rgb(0.5f), variant, rough(Microfacets::beckmann, 0.1f, 0.1f)}});
@@ -232,6 +238,39 @@ TEST(Bsdf, PrincipledContainsMetalAndGlass) {
                 ASSERT_NEAR(a.pdf, b.pdf, 1e-4f * (1.0f + b.pdf)) << back << to;
             }
     }
+}
+
+/// The corners of a thin sheet: paper that lets half of its diffuse light pass, and a rough pane.
+TEST(Bsdf, ThinPrincipledContainsPaperAndPane) {
+    PrincipledThinMaterial paper;
+    paper.base_color = Rgb(0.8f);
+    paper.diff_trans = 1.0f;
+    PrincipledThinMaterial pane;
+    pane.base_color = Rgb(1.0f, 0.5f, 0.25f);
+    pane.spec_trans = 1.0f;
+    pane.roughness = 0.5f;
+    pane.eta = 1.0f / 0.65f;  // what passes is as rough as 0.65 of this: 1 - 0.35
+    const float alpha = 0.25f, through = (0.65f * 0.5f) * (0.65f * 0.5f);
+    const PreparedMaterial thin_paper(paper), thin_pane(pane),
+        mirror(ConductorMaterial{Rgb(0.0f), Rgb(1.0f), Rgb(1.0f), rough(Microfacets::ggx, alpha, alpha)}),
+        turned(ConductorMaterial{Rgb(0.0f), Rgb(1.0f), Rgb(1.0f), rough(Microfacets::ggx, through, through)});
+    for (std::uint32_t i = 0; i < 300; ++i) {
+        const Draw r = draw({19, i, 0}, 0, Stream::scatter);
+        const Vec3 wo = at_cosine(0.3f + 0.65f * to_unit(r[0]), 6.28f * to_unit(r[1]));
+        const Vec3 wi = at_cosine(0.3f + 0.65f * to_unit(r[2]), 6.28f * to_unit(r[3]));
+        const Vec3 below(wi.x, wi.y, -wi.z), h = normalize(wo + wi);
+        for (const bool back : {false, true}) {
+            const Bsdf &sheet = *thin_paper.side(back), &glass = *thin_pane.side(back);
+            ASSERT_NEAR(sheet.value(wo, below).f_cos.x, 0.4f * wi.z * kInvPi, 1e-6f);
+            const float f = fresnel_dielectric(std::min(1.0f, dot(wo, h)), 1.0f / 0.65f).reflectance;
+            const float up = f * mirror.front().value(wo, wi).f_cos.x;
+            ASSERT_NEAR(glass.value(wo, wi).f_cos.y, up, 1e-4f * (1.0f + up));
+            // Dropped where the facet does not see it from behind.
+            const float down = dot(below, h) < 0.0f ? 0.5f * (1.0f - f) * turned.front().value(wo, wi).f_cos.x : 0.0f;
+            ASSERT_NEAR(glass.value(wo, below).f_cos.y, down, 1e-4f * (1.0f + down));
+        }
+    }
+    EXPECT_LT(mean_power(thin_pane.front(), at_cosine(0.7f, 0.0f), 20000), 1.0);
 }
 
 /// Burley 2012: at grazing retroreflection a rough base is up to 2.5 times as bright as Lambert's, a smooth one half.

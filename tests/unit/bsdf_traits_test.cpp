@@ -124,11 +124,24 @@ TEST(BsdfTraits, BsdfsHaveTheLobesThatTheirDescriptionsPromise) {
     expect_agreement(of(principled), "principled");
     principled.spec_trans = 0.5f;
     expect_agreement(of(principled), "principled glass");
+    PrincipledThinMaterial thin;
+    expect_agreement(of(thin), "thin principled");
+    thin.diff_trans = 0.5f;
+    expect_agreement(of(thin), "thin principled that transmits");
 }
 
 TEST(BsdfTraits, SoDoBlends) {
     expect_agreement(of(DiffuseMaterial{}, metal({}), BlendMaterial{{0.5f}, 0, 1}), "paint and mirror");
     expect_agreement(of(glass(rough(0.2f, 0.2f)), NullMaterial{}, BlendMaterial{{0.3f}, 0, 1}), "rough glass and null");
+}
+
+TEST(BsdfTraits, SoDoCoats) {
+    CoatingMaterial coat;
+    coat.coated = 0;
+    expect_agreement(twosided(of(DiffuseMaterial{}, coat)), "coated paint");
+    expect_agreement(of(NullMaterial{}, coat), "coated nothing");
+    coat.roughness = rough(0.2f, 0.2f);
+    expect_agreement(twosided(of(metal({}), coat)), "mirror under a rough coat");
 }
 
 }  // namespace

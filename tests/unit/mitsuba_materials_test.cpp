@@ -259,9 +259,12 @@ TEST_F(MitsubaMaterials, BlendsAndMixtures) {
     EXPECT_NEAR(shares[0.0f], 0.4f, 1e-6f);
 
     const std::string bumped = bsdf("bumpmap", board("map") + bsdf("diffuse"));
+    const Scene half = scene(bsdf("blendbsdf", bumped + bsdf("plastic")));
+    const Material& outer = half.materials.at(static_cast<std::size_t>(half.shapes.at(0).material));
+    EXPECT_FALSE(outer.detail.any());
+    EXPECT_TRUE(half.materials.at(static_cast<std::size_t>(std::get<BlendMaterial>(outer.bsdf).first)).detail.any());
     for (const std::string& nested : {bsdf("blendbsdf", bsdf("diffuse")),
                                       bsdf("blendbsdf", number("weight", "2") + bsdf("diffuse") + bsdf("plastic")),
-                                      bsdf("blendbsdf", bumped + bsdf("plastic")),
                                       bsdf("blendbsdf", bsdf("twosided", bsdf("diffuse")) + bsdf("plastic")),
                                       bsdf("mixturebsdf", word("weights", "0.5") + bsdf("diffuse") + bsdf("plastic")),
                                       bsdf("mixturebsdf", word("weights", "0, 0") + bsdf("diffuse") + bsdf("plastic"))})
@@ -332,6 +335,49 @@ TEST_F(MitsubaMaterials, DiffuseAndSpecularPartsThatAddUpToMoreThanOneAreScaledD
     EXPECT_FLOAT_EQ(phong.specular_reflectance.value.y, 0.0625f);
     ASSERT_FALSE(loaded.warnings.empty());
     EXPECT_NE(loaded.warnings[0].text().find("add up to 1.6"), std::string::npos) << loaded.warnings[0].text();
+}
+
+TEST_F(MitsubaMaterials, Coatings) {
+    const Scene coated =
+        scene(bsdf("roughcoating", number("intIOR", "1.5") + number("extIOR", "1") + number("alpha", "0.2") +
+                                       number("thickness", "2") + rgb("sigmaA", "0.1 0.2 0.5") +
+                                       bsdf("bumpmap", board("map") + bsdf("diffuse", rgb("reflectance", "0.25")))));
+    const Material& material_ = coated.materials.at(static_cast<std::size_t>(coated.shapes.at(0).material));
+    const auto& coat = std::get<CoatingMaterial>(material_.bsdf);
+    EXPECT_EQ(coat.eta, 1.5f);
+    EXPECT_EQ(coat.absorption.value, Rgb(0.2f, 0.4f, 1.0f)) << "optical depth";
+    EXPECT_EQ(coat.roughness.alpha_u.value, 0.2f);
+    const Material& beneath = coated.materials.at(static_cast<std::size_t>(coat.coated));
+    EXPECT_EQ(std::get<DiffuseMaterial>(beneath.bsdf).reflectance.value, Rgb(0.25f));
+    EXPECT_TRUE(beneath.detail.any()) << "its bumps are beneath the coat";
+    EXPECT_FALSE(material_.detail.any());
+
+    const auto plain = of_type<CoatingMaterial>("coating", bsdf("twosided", bsdf("diffuse")));
+    EXPECT_TRUE(plain.roughness.smooth());
+    EXPECT_NEAR(plain.eta, 1.5046f / 1.000277f, 1e-6f);
+    EXPECT_TRUE(of_type<CoatingMaterial>("coating", board("sigmaA") + bsdf("plastic")).absorption.varies());
+    EXPECT_TRUE(material(bsdf("twosided", bsdf("coating", bsdf("plastic")))).twosided);
+    for (const std::string& inside :
+         {std::string(), bsdf("diffuse") + bsdf("plastic"), number("thickness", "-1") + bsdf("diffuse"),
+          rgb("sigmaA", "-1") + bsdf("diffuse"), number("intIOR", "0") + bsdf("diffuse")})
+        EXPECT_THROW(material(bsdf("coating", inside)), InputError) << inside;
+    EXPECT_THROW(material(bsdf("twosided", bsdf("coating", bsdf("dielectric")))), InputError) << "light passes";
+}
+
+TEST_F(MitsubaMaterials, ThinPrincipled) {
+    const std::string v3 = "3.0.0";
+    const auto plain = of_type<PrincipledThinMaterial>("principledthin", "", v3);
+    EXPECT_EQ(plain.eta.value, 1.5f);
+    EXPECT_FALSE(plain.transmits());
+    const auto given =
+        of_type<PrincipledThinMaterial>("principledthin",
+                                        rgb("base_color", "0.8 0.4 0.2") + board("eta") + number("diff_trans", "2") +
+                                            number("diffuse_transmittance_sampling_rate", "2"),
+                                        v3);
+    EXPECT_TRUE(given.eta.varies() && given.transmits());
+    for (const std::string& inside :
+         {number("diff_trans", "2.5"), number("eta", "0"), number("spec_trans", "2"), number("shine", "1")})
+        EXPECT_THROW(material(bsdf("principledthin", inside), v3), InputError) << inside;
 }
 
 TEST_F(MitsubaMaterials, Principled) {

@@ -30,6 +30,14 @@ float BlendBsdf::refraction() const {
     return of_first != 1.0f ? of_first : refraction_of(*second);
 }
 
+LobeBits LayeredBsdf::lobes() const {
+    return lobes_of(*beneath);
+}
+
+float LayeredBsdf::refraction() const {
+    return refraction_of(*beneath);
+}
+
 LobeBits OrientedBsdf::lobes() const {
     return lobes_of(*inner);
 }

@@ -7,6 +7,7 @@
 #include "common/base/build_options.h"
 #include "common/base/switch_visit.h"
 #include "worker/shading/blend.h"
+#include "worker/shading/coating.h"
 #include "worker/shading/conductor.h"
 #include "worker/shading/dielectric.h"
 #include "worker/shading/diffuse.h"
@@ -15,6 +16,7 @@
 #include "worker/shading/phong.h"
 #include "worker/shading/plastic.h"
 #include "worker/shading/principled.h"
+#include "worker/shading/principled_thin.h"
 #include "worker/shading/rough_conductor.h"
 #include "worker/shading/rough_dielectric.h"
 #include "worker/shading/rough_diffuse.h"
@@ -34,9 +36,10 @@ struct BlackBsdf {
 
 /// Every BSDF. A new one comes last; it says its own lobes (kLobes or lobes()), and where it transmits how light is
 /// refracted (refraction()), or does not compile.
-using BsdfKind = std::variant<BlackBsdf, DiffuseBsdf, RoughConductorBsdf, RoughDielectricBsdf, RoughPlasticBsdf,
-                              PlasticBsdf, ConductorBsdf, DielectricBsdf, ThinDielectricBsdf, NullBsdf, BlendBsdf,
-                              OrientedBsdf, RoughDiffuseBsdf, PhongBsdf, WardBsdf, PrincipledBsdf>;
+using BsdfKind =
+    std::variant<BlackBsdf, DiffuseBsdf, RoughConductorBsdf, RoughDielectricBsdf, RoughPlasticBsdf, PlasticBsdf,
+                 ConductorBsdf, DielectricBsdf, ThinDielectricBsdf, NullBsdf, BlendBsdf, OrientedBsdf, RoughDiffuseBsdf,
+                 PhongBsdf, WardBsdf, PrincipledBsdf, CoatingBsdf, RoughCoatingBsdf, PrincipledThinBsdf>;
 
 template <class Kind>
 constexpr bool may_transmit() {
@@ -109,6 +112,28 @@ inline BsdfSample BlendBsdf::sample(const Vec3& wo, const BsdfRandom& random) co
         s.f_cos = v.f_cos;
     }
     return s;
+}
+
+inline BsdfValue LayeredBsdf::value(const Vec3& wo, const Vec3& wi) const {
+    const Vec3 out = refracted(wo, eta), in = refracted(wi, eta);
+    if (out.z == 0.0f || in.z == 0.0f) return {};
+    BsdfValue value = beneath->value(out, in);
+    const float shrunk = std::abs(wi.z) / (std::abs(in.z) * eta * eta);
+    value.f_cos *= absorbed(out, in) * shrunk;
+    value.pdf *= shrunk;
+    return value;
+}
+
+inline BsdfSample LayeredBsdf::sample(const Vec3& wo, const BsdfRandom& random) const {
+    const Vec3 out = refracted(wo, eta);
+    if (out.z == 0.0f) return {};
+    BsdfSample sample = beneath->sample(out, random);
+    if (!(sample.pdf > 0.0f)) return {};
+    const Vec3 in = sample.wi;
+    sample.wi = refracted(in, 1.0f / eta);
+    if (sample.wi.z == 0.0f) return {};
+    if (sample.delta) sample.f_cos *= absorbed(out, in);
+    return sample;
 }
 
 inline BsdfValue OrientedBsdf::value(const Vec3& wo, const Vec3& wi) const {

@@ -80,7 +80,10 @@ void BsdfBuilder::note(std::size_t index) {
     notes.tangents = traits.anisotropic || material.detail.any();
     notes.texture = first_texture_of(material);
     notes.transmits = traits.lobes.transmits();
-    notes.principled = std::holds_alternative<PrincipledMaterial>(material.bsdf) ? 1 : 0;
+    notes.principled = std::holds_alternative<PrincipledMaterial>(material.bsdf) ||
+                               std::holds_alternative<PrincipledThinMaterial>(material.bsdf)
+                           ? 1
+                           : 0;
     // Its own node, and one for each frame of its own.
     notes.nodes = 1 + (material.detail.any() ? 1 : 0) + (traits.anisotropic ? 1 : 0);
     // Parts stand below what they are part of: theirs are known.
@@ -101,21 +104,23 @@ void BsdfBuilder::note(std::size_t index) {
     if (notes.nodes > kMaxNodes)
         throw RunError(material.where.text() + ": material \"" + material.name + "\" is made of more than " +
                        std::to_string(kMaxNodes) + " parts, too many for every hit; blend fewer materials");
-    if (const auto* plastic = std::get_if<PlasticMaterial>(&material.bsdf)) note_coat(*plastic, notes);
+    if (const auto* plastic = std::get_if<PlasticMaterial>(&material.bsdf))
+        note_coat(plastic->roughness, plastic->eta, notes);
+    if (const auto* coating = std::get_if<CoatingMaterial>(&material.bsdf))
+        note_coat(coating->roughness, coating->eta, notes);
     notes_[index] = notes;
 }
 
-void BsdfBuilder::note_coat(const PlasticMaterial& plastic, Notes& notes) {
-    const Roughness& r = plastic.roughness;
+void BsdfBuilder::note_coat(const Roughness& r, float eta, Notes& notes) {
     const bool ggx = r.distribution == Microfacets::ggx;
     if (r.smooth()) {
-        const float inverse = 1.0f / (plastic.eta * plastic.eta);
-        notes.smooth_escapes = smooth_diffuse_transmittance(plastic.eta) * inverse;
+        const float inverse = 1.0f / (eta * eta);
+        notes.smooth_escapes = smooth_diffuse_transmittance(eta) * inverse;
     } else if (r.alpha_u.varies()) {
-        notes.coats = &varying_coats_.try_emplace({ggx, plastic.eta}, ggx, plastic.eta).first->second;
+        notes.coats = &varying_coats_.try_emplace({ggx, eta}, ggx, eta).first->second;
     } else {
         const Microfacet facets = this->facets(r, {});
-        notes.coat = &coats_.try_emplace({ggx, facets.alpha_u, plastic.eta}, facets, plastic.eta).first->second;
+        notes.coat = &coats_.try_emplace({ggx, facets.alpha_u, eta}, facets, eta).first->second;
     }
 }
 
@@ -136,8 +141,15 @@ const Bsdf* BsdfBuilder::side(std::int32_t index, bool back, const ShadingPoint&
     if (material.twosided)
         return material.back == kNone ? described(index, false, point, nodes)
                                       : side(material.back, false, point, nodes);
-    // The parts of a blend may be twosided where it is not.
-    if (std::holds_alternative<BlendMaterial>(material.bsdf)) return described(index, true, point, nodes);
+    // Parts may be twosided where what they make up is not.
+    const bool of_parts = std::visit(
+        [](const auto& kind) {
+            return requires {
+                kind.kSidesOfParts;
+            };
+        },
+        material.bsdf);
+    if (of_parts) return described(index, true, point, nodes);
     // What a scratch hands out still holds the BSDF of an earlier hit.
     Bsdf& black = nodes.add();
     black = Bsdf{};
@@ -178,6 +190,7 @@ struct BsdfBuilder::Place {
     const float largest;  ///< that a color may be
 
     Rgb color(const ColorInput& input) const { return builder.color(input, point, largest); }
+    Rgb amount(const ColorInput& input) const { return builder.color(input, point, std::numeric_limits<float>::max()); }
     float number(const FloatInput& input) const { return builder.textures_->eval(input, point.uv); }
     float fraction(const FloatInput& input) const { return clamped(builder.textures_->eval(input, point.uv), 1.0f); }
     Microfacet facets(const Roughness& roughness) const { return builder.facets(roughness, point); }

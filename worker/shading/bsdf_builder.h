@@ -82,13 +82,13 @@ class BsdfBuilder {
         bool transmits = false;    ///< its back scatters by nature: glass, nothing, blends with them
         std::size_t nodes = 0, principled = 0;
         std::int32_t texture = kNone;                ///< that it most likely reads first
-        const RoughTransmittance* coat = nullptr;    ///< rough plastic of one roughness
-        const RoughTransmittances* coats = nullptr;  ///< rough plastic whose roughness varies
+        const RoughTransmittance* coat = nullptr;    ///< a rough coat of one roughness
+        const RoughTransmittances* coats = nullptr;  ///< a rough coat whose roughness varies
         float smooth_escapes = 1;                    ///< smooth plastic: see coated_base
     };
 
     void note(std::size_t material);
-    void note_coat(const PlasticMaterial& plastic, Notes& notes);
+    void note_coat(const Roughness& roughness, float eta, Notes& notes);
 
     template <class Nodes>
     struct Place;

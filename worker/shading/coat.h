@@ -6,6 +6,13 @@
 
 namespace treefarm {
 
+/// Probability of sampling a coat that reflects the share `reflected` of what arrives, over one with the share of
+/// `weight` in what is sent back.
+inline float coat_probability(float reflected, float weight) {
+    const float coat = reflected * weight, rest = (1.0f - reflected) * (1.0f - weight);
+    return coat + rest > 0.0f ? coat / (coat + rest) : 0.0f;
+}
+
 /// What smooth and rough plastic share: a diffuse base under a dielectric coat.
 struct CoatedBase {
     /// albedo / (1 - albedo fdr), or albedo / (1 - fdr) if linear, over eta^2: diffuse interreflection below the coat,
@@ -13,11 +20,7 @@ struct CoatedBase {
     Rgb base{0.0f};
     float specular_weight = 0.5f;  ///< luminance of the coat over that of coat and base: steers sampling only
 
-    /// Probability of sampling the coat that reflects the share `reflected` of what arrives.
-    float coat_probability(float reflected) const {
-        const float coat = reflected * specular_weight, rest = (1.0f - reflected) * (1.0f - specular_weight);
-        return coat + rest > 0.0f ? coat / (coat + rest) : 0.0f;
-    }
+    float probability(float reflected) const { return coat_probability(reflected, specular_weight); }
 
     /// f cos(wi) of the base below a coat that lets the shares `in` and `out` through.
     Rgb f_cos(const Vec3& wi, float in, float out) const { return base * (wi.z * kInvPi * in * out); }

@@ -18,12 +18,12 @@ struct PlasticBsdf {
         if (!(wi.z > 0.0f)) return {};
         const float out = fresnel_dielectric(wo.z, eta).reflectance, in = fresnel_dielectric(wi.z, eta).reflectance;
         return {coated.f_cos(wi, 1.0f - in, 1.0f - out),
-                (1.0f - coated.coat_probability(out)) * cosine_hemisphere_pdf(wi.z)};
+                (1.0f - coated.probability(out)) * cosine_hemisphere_pdf(wi.z)};
     }
 
     BsdfSample sample(const Vec3& wo, const BsdfRandom& random) const {
         const float f = fresnel_dielectric(wo.z, eta).reflectance;
-        const float probability = coated.coat_probability(f);
+        const float probability = coated.probability(f);
         if (random.lobe < probability) return {{-wo.x, -wo.y, wo.z}, probability, specular * f, true};
         const Vec3 wi = random.cosine;
         const BsdfValue v = value(wo, wi);

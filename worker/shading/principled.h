@@ -26,6 +26,50 @@ struct PrincipledInputs {
         const float light = luminance(base);
         return light > 0.0f ? base / light : Rgb(1.0f);
     }
+
+    /// f of the base and of sheen, each with a weight; cos_h is that of both directions with their half vector.
+    Rgb base_value(const Vec3& wo, const Vec3& wi, float cos_h, float base_weight, float sheen_weight) const {
+        const float towards = schlick_weight(wi.z), away = schlick_weight(wo.z);
+        const float retro = 2.0f * roughness * cos_h * cos_h;
+        float shape =
+            (1.0f - 0.5f * away) * (1.0f - 0.5f * towards) + retro * (towards + away + towards * away * (retro - 1.0f));
+        if (flatness > 0.0f) {
+            const float grazing = 0.5f * retro - 1.0f;
+            const float flattened = (1.0f + grazing * towards) * (1.0f + grazing * away);
+            const float below = 1.25f * (flattened * (1.0f / (wi.z + wo.z) - 0.5f) + 0.5f);
+            shape += flatness * (below - shape);
+        }
+        Rgb f = base * (base_weight * kInvPi * shape);
+        if (sheen > 0.0f) {
+            const Rgb colour = Rgb(1.0f - sheen_tint) + tint() * sheen_tint;
+            f += colour * (sheen * sheen_weight * schlick_weight(cos_h));
+        }
+        return f;
+    }
+
+    /// Reflectance of a dielectric that is tinted with the base color, by Schlick's approximation.
+    Rgb tinted_reflectance(float cos_o, const DielectricFresnel& exact) const {
+        const float at_normal = (eta - 1.0f) / (eta + 1.0f);
+        return schlick(tint() * (at_normal * at_normal), cos_o, exact);
+    }
+
+    /// Schlick's approximation, by the angle on the thinner side.
+    Rgb schlick(const Rgb& at_normal, float cos_o, const DielectricFresnel& exact) const {
+        const float weight = schlick_weight(eta > 1.0f ? cos_o : exact.cos_transmitted);
+        return at_normal * (1.0f - weight) + Rgb(weight);
+    }
+
+    static float schlick_weight(float cos) {
+        const float m = std::clamp(1.0f - cos, 0.0f, 1.0f);
+        return m * m * m * m * m;
+    }
+
+    /// Burley's: a square, stretched by anisotropy.
+    static Microfacet facets_of(float roughness, float anisotropic) {
+        const float aspect = std::sqrt(1.0f - 0.9f * anisotropic), alpha = roughness * roughness;
+        constexpr float kLeast = 0.001f;
+        return {true, std::max(kLeast, alpha / aspect), std::max(kLeast, alpha * aspect)};
+    }
 };
 
 /// Mitsuba 3's principled BSDF, seen from outside or, `inside`, from within: there it reflects and refracts only. Lobes
@@ -91,24 +135,12 @@ struct PrincipledBsdf {
 
     RoughDielectricBsdf boundary() const { return {in->eta, Rgb(1.0f), Rgb(1.0f), in->facets}; }
 
-    static float schlick_weight(float cos) {
-        const float m = std::clamp(1.0f - cos, 0.0f, 1.0f);
-        return m * m * m * m * m;
-    }
-
-    /// Schlick's approximation by the angle on the thinner side.
-    static Rgb schlick(const Rgb& at_normal, float cos_o, float eta, const DielectricFresnel& exact) {
-        const float weight = schlick_weight(eta > 1.0f ? cos_o : exact.cos_transmitted);
-        return at_normal * (1.0f - weight) + Rgb(weight);
-    }
-
     Rgb specular_colour(float cos_o, const DielectricFresnel& exact) const {
         if (inside) return Rgb(in->refracting() * exact.reflectance);
         const float metallic = in->metallic, tint = in->spec_tint;
-        const float at_normal = (in->eta - 1.0f) / (in->eta + 1.0f);
         return Rgb((1.0f - metallic) * (1.0f - tint) * exact.reflectance) +
-               schlick(in->base, cos_o, in->eta, exact) * metallic +
-               schlick(in->tint() * (at_normal * at_normal), cos_o, in->eta, exact) * ((1.0f - metallic) * tint);
+               in->schlick(in->base, cos_o, exact) * metallic +
+               in->tinted_reflectance(cos_o, exact) * ((1.0f - metallic) * tint);
     }
 
     BsdfValue reflected_value(const Vec3& wo, const Vec3& wi) const {
@@ -118,7 +150,7 @@ struct PrincipledBsdf {
         BsdfValue result{specular_colour(r.cos_o, exact) * r.f_cos,
                          p.specular * reflected_share(exact.reflectance) * r.pdf};
         if (inside) return result;
-        result.f_cos += base_value(wo, wi, r.cos_o) * wi.z;
+        result.f_cos += in->base_value(wo, wi, r.cos_o, in->diffuse(), 1.0f - in->metallic) * wi.z;
         result.pdf += p.diffuse * cosine_hemisphere_pdf(wi.z);
         if (in->clearcoat > 0.0f) add_coat(wo, wi, r.cos_o, p.coat, result);
         return result;
@@ -126,31 +158,11 @@ struct PrincipledBsdf {
 
     void add_coat(const Vec3& wo, const Vec3& wi, float cos_h, float probability, BsdfValue& result) const {
         const Vec3 h = normalize(wo + wi);
-        const float density = in->coat.density(h), weight = schlick_weight(cos_h);
+        const float density = in->coat.density(h), weight = PrincipledInputs::schlick_weight(cos_h);
         const float fresnel = 0.04f * (1.0f - weight) + weight;
         result.f_cos +=
             Rgb(0.25f * in->clearcoat * fresnel * density * ClearCoat::masking(wo) * ClearCoat::masking(wi) * wi.z);
         result.pdf += probability * density * h.z / (4.0f * cos_h);
-    }
-
-    /// f of base and sheen.
-    Rgb base_value(const Vec3& wo, const Vec3& wi, float cos_h) const {
-        const float towards = schlick_weight(wi.z), away = schlick_weight(wo.z);
-        const float retro = 2.0f * in->roughness * cos_h * cos_h;
-        float shape =
-            (1.0f - 0.5f * away) * (1.0f - 0.5f * towards) + retro * (towards + away + towards * away * (retro - 1.0f));
-        if (in->flatness > 0.0f) {
-            const float grazing = 0.5f * retro - 1.0f;
-            const float flattened = (1.0f + grazing * towards) * (1.0f + grazing * away);
-            const float below = 1.25f * (flattened * (1.0f / (wi.z + wo.z) - 0.5f) + 0.5f);
-            shape += in->flatness * (below - shape);
-        }
-        Rgb f = in->base * (in->diffuse() * kInvPi * shape);
-        if (in->sheen > 0.0f) {
-            const Rgb colour = Rgb(1.0f - in->sheen_tint) + in->tint() * in->sheen_tint;
-            f += colour * (in->sheen * (1.0f - in->metallic) * schlick_weight(cos_h));
-        }
-        return f;
     }
 };
 
@@ -169,9 +181,7 @@ typename Place::Result make_bsdf(const PrincipledMaterial& m, const Place& at) {
     in.clearcoat = at.fraction(m.clearcoat);
     in.coat = ClearCoat::of(at.fraction(m.clearcoat_gloss));
     in.eta = at.back ? 1.0f / m.eta : m.eta;
-    const float aspect = std::sqrt(1.0f - 0.9f * at.fraction(m.anisotropic)), alpha = in.roughness * in.roughness;
-    constexpr float kLeast = 0.001f;
-    in.facets = {true, std::max(kLeast, alpha / aspect), std::max(kLeast, alpha * aspect)};
+    in.facets = PrincipledInputs::facets_of(in.roughness, at.fraction(m.anisotropic));
     if (at.back && !(in.spec_trans > 0.0f)) return {};
     return {PrincipledBsdf{at.keep(in), at.back}};
 }

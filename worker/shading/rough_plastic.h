@@ -24,14 +24,14 @@ struct RoughPlasticBsdf {
         if (!(wi.z > 0.0f)) return {};
         const RoughReflection r = rough_reflection(facets, wo, wi);
         const float out = coat->at(wo.z);
-        const float probability = coated.coat_probability(1.0f - out);
+        const float probability = coated.probability(1.0f - out);
         return {
             specular * (fresnel_dielectric(r.cos_o, eta).reflectance * r.f_cos) + coated.f_cos(wi, coat->at(wi.z), out),
             probability * r.pdf + (1.0f - probability) * cosine_hemisphere_pdf(wi.z)};
     }
 
     BsdfSample sample(const Vec3& wo, const BsdfRandom& random) const {
-        const bool coat_chosen = random.lobe < coated.coat_probability(1.0f - coat->at(wo.z));
+        const bool coat_chosen = random.lobe < coated.probability(1.0f - coat->at(wo.z));
         const Vec3 wi = coat_chosen ? reflected(wo, facets.sample_visible(wo, random.place)) : random.cosine;
         const BsdfValue v = value(wo, wi);
         return {wi, v.pdf, v.f_cos, false};

@@ -9,7 +9,7 @@ namespace treefarm {
 ///
 ///     fraction(name, ColorInput& or FloatInput&)  a factor in [0, 1], constant or textured
 ///     anisotropy(FloatInput&)                     a factor in [0, 1]; above 0 tangents are needed
-///     number(name, FloatInput&, least, most)       any other number, constant or textured, within these bounds
+///     number(name, FloatInput& or ColorInput&, least, most)  any other number, within these bounds
 ///     together(ColorInput&, ColorInput&)          two factors named before, whose sum may not be above 1
 ///     choice(name, Enum&, last)                   one of an enum's values, from 0 to `last`
 ///     eta(float&)                                 ratio of indices of refraction, above 0

@@ -5,6 +5,7 @@
 
 #include "common/scene/kinds/fields.h"
 #include "common/scene/kinds/materials/blend.h"
+#include "common/scene/kinds/materials/coating.h"
 #include "common/scene/kinds/materials/conductor.h"
 #include "common/scene/kinds/materials/dielectric.h"
 #include "common/scene/kinds/materials/diffuse.h"
@@ -12,6 +13,7 @@
 #include "common/scene/kinds/materials/phong.h"
 #include "common/scene/kinds/materials/plastic.h"
 #include "common/scene/kinds/materials/principled.h"
+#include "common/scene/kinds/materials/principled_thin.h"
 #include "common/scene/kinds/materials/rough_diffuse.h"
 #include "common/scene/kinds/materials/thin_dielectric.h"
 #include "common/scene/kinds/materials/ward.h"
@@ -19,9 +21,9 @@
 namespace treefarm {
 
 /// Every kind of material. Its place here is its number in packed form: new ones come last.
-using MaterialKind =
-    std::variant<DiffuseMaterial, ConductorMaterial, DielectricMaterial, ThinDielectricMaterial, PlasticMaterial,
-                 BlendMaterial, NullMaterial, RoughDiffuseMaterial, PhongMaterial, WardMaterial, PrincipledMaterial>;
+using MaterialKind = std::variant<DiffuseMaterial, ConductorMaterial, DielectricMaterial, ThinDielectricMaterial,
+                                  PlasticMaterial, BlendMaterial, NullMaterial, RoughDiffuseMaterial, PhongMaterial,
+                                  WardMaterial, PrincipledMaterial, CoatingMaterial, PrincipledThinMaterial>;
 
 /// Shows a visitor (fields.h) each value of a kind, const or not.
 template <class Kind, class Visitor>

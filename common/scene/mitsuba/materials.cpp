@@ -10,15 +10,14 @@ namespace {
 
 constexpr const char* kCure = "use one of those listed in docs/use/scenes.md";
 constexpr std::string_view kBsdfs[] = {
-    "diffuse",      "conductor",    "roughconductor", "dielectric", "roughdielectric", "thindielectric", "plastic",
-    "roughplastic", "twosided",     "mask",           "bumpmap",    "normalmap",       "blendbsdf",      "mixturebsdf",
-    "null",         "roughdiffuse", "phong",          "ward",       "principled"};
+    "diffuse",    "conductor",      "roughconductor", "dielectric",   "roughdielectric", "thindielectric",
+    "plastic",    "roughplastic",   "twosided",       "mask",         "bumpmap",         "normalmap",
+    "blendbsdf",  "mixturebsdf",    "null",           "roughdiffuse", "phong",           "ward",
+    "principled", "principledthin", "coating",        "roughcoating"};
 
 /// What a BSDF that is not available would simulate.
 std::string effect_of(const std::string& type) {
     static constexpr std::pair<const char*, const char*> kEffects[] = {
-        {"coating", "a smooth coat over another BSDF"},
-        {"roughcoating", "a rough coat over another BSDF"},
         {"difftrans", "diffuse transmission"},
         {"hk", "scattering inside a thin slab (Hanrahan-Krueger)"},
         {"irawan", "Irawan and Marschner's woven cloth"},
@@ -28,8 +27,7 @@ std::string effect_of(const std::string& type) {
         {"pplastic", "polarisation"},
         {"polarizer", "polarisation"},
         {"retarder", "polarisation"},
-        {"circular", "polarisation"},
-        {"principledthin", "Disney's principled BSDF"}};
+        {"circular", "polarisation"}};
     for (const auto& [name, effect] : kEffects)
         if (type == name) return std::string(" (") + effect + ")";
     return "";
@@ -87,6 +85,8 @@ Material MaterialReader::convert_new(const XmlElement& bsdf) {
     if (auto surface = read_surface_bsdf(properties, textures_, diagnostics_)) {
         material.bsdf = std::move(*surface);
         material.unlimited = !scales;
+        if (auto* coating = std::get_if<CoatingMaterial>(&material.bsdf))
+            coating->coated = add_part(convert_child(properties));
     } else if (type == "twosided") {
         material = convert_twosided(properties);
     } else if (type == "mask") {
@@ -121,10 +121,12 @@ MaterialReader::Summary MaterialReader::summary_of(const Material& material) con
         const Summary& second = summaries_[static_cast<std::size_t>(blend->second)];
         return {first.transmits || second.transmits, first.leaves + second.leaves};
     }
-    return {std::holds_alternative<DielectricMaterial>(material.bsdf) ||
-                std::holds_alternative<ThinDielectricMaterial>(material.bsdf) ||
-                std::holds_alternative<NullMaterial>(material.bsdf),
-            1};
+    const bool transmits = std::visit([](const auto& kind) { return kind.lobes().transmits(); }, material.bsdf);
+    if (const auto* coating = std::get_if<CoatingMaterial>(&material.bsdf)) {
+        const Summary& beneath = summaries_[static_cast<std::size_t>(coating->coated)];
+        return {beneath.transmits, beneath.leaves + 1};
+    }
+    return {transmits, 1};
 }
 
 Material MaterialReader::convert_child(Properties& properties) {
@@ -254,14 +256,10 @@ std::int32_t MaterialReader::add_part(Material material) {
 Material MaterialReader::blend(const FloatInput& weight, Material first, Material second,
                                const Properties& properties) {
     Material material;
-    if (first.detail == second.detail)
+    if (first.detail == second.detail) {
         material.detail = first.detail;
-    else
-        diagnostics_.unsupported(
-            properties.where(),
-            "a bump or normal map inside " + properties.title() + " is not available in this version",
-            "put it around the blend", "it is left out");
-    first.detail = second.detail = {};
+        first.detail = second.detail = {};
+    }
     const bool transmissive = transmits(first) || transmits(second) || first.masked() || second.masked();
     if (!transmissive && first.twosided != second.twosided) {
         diagnostics_.unsupported(properties.where(),

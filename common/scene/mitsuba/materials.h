@@ -50,14 +50,14 @@ class MaterialReader {
     const XmlElement& texture_inside(Properties& properties, const char* what);
     void set_detail(Material& material, const NormalDetail& detail, const Properties& properties);
     Material blend(const FloatInput& weight, Material first, Material second, const Properties& properties);
-    /// A material that a blend holds: masks become blends with nothing.
+    /// A material that a blend or coat holds: masks become blends with nothing.
     std::int32_t add_part(Material material);
     std::int32_t add(Material material);
 
     /// What a material is made of, its parts included.
     struct Summary {
         bool transmits = false;
-        int leaves = 1;  ///< BSDFs that hold no others
+        int leaves = 1;  ///< BSDFs that hold no others, and coats
     };
     Summary summary_of(const Material& material) const;
     bool transmits(const Material& material) const { return summary_of(material).transmits; }

@@ -87,6 +87,21 @@ class SurfaceReader {
         return plastic;
     }
 
+    /// What it coats, the reader of materials puts into it.
+    Bsdf coating(bool rough) {
+        CoatingMaterial coating;
+        coating.eta = read_relative_index(properties_, "bk7");
+        coating.specular_reflectance = reflectance("specular_reflectance", 1.0f);
+        const auto thickness = static_cast<float>(properties_.number("thickness", 1.0));
+        if (!(thickness >= 0.0f && thickness <= 1e30f))
+            throw InputError(properties_.where("thickness"), "a thickness of " + number_text(thickness),
+                             "give 0 or more, in the inverse unit of sigmaA");
+        coating.absorption = textures_.color(properties_, "sigma_a", Rgb(0.0f), ColorUse::coefficient);
+        coating.absorption.value *= thickness;
+        if (rough) coating.roughness = roughness(false);
+        return coating;
+    }
+
     /// Mitsuba 0.6 knows the reflectance by two names.
     Bsdf rough_diffuse() {
         RoughDiffuseMaterial rough;
@@ -143,6 +158,27 @@ class SurfaceReader {
         properties_.ignore(
             {"main_specular_sampling_rate", "clearcoat_sampling_rate", "diffuse_reflectance_sampling_rate"});
         return principled;
+    }
+
+    Bsdf principled_thin() {
+        PrincipledThinMaterial thin;
+        const auto share = [&](const char* name, float otherwise) {
+            return textures_.number(properties_, name, otherwise);
+        };
+        thin.base_color = reflectance("base_color", 0.5f);
+        thin.roughness = share("roughness", 0.5f);
+        thin.anisotropic = share("anisotropic", 0.0f);
+        thin.spec_trans = share("spec_trans", 0.0f);
+        thin.spec_tint = share("spec_tint", 0.0f);
+        thin.sheen = share("sheen", 0.0f);
+        thin.sheen_tint = share("sheen_tint", 0.0f);
+        thin.flatness = share("flatness", 0.0f);
+        thin.diff_trans = share("diff_trans", 0.0f);
+        thin.eta = share("eta", 1.5f);
+        // How directions are drawn does not change the image.
+        properties_.ignore({"specular_reflectance_sampling_rate", "specular_transmittance_sampling_rate",
+                            "diffuse_reflectance_sampling_rate", "diffuse_transmittance_sampling_rate"});
+        return thin;
     }
 
   private:
@@ -236,6 +272,9 @@ std::optional<Bsdf> read_surface_bsdf(Properties& properties, TextureReader& tex
     if (type == "phong") return reader.phong();
     if (type == "ward") return reader.ward();
     if (type == "principled") return reader.principled();
+    if (type == "principledthin") return reader.principled_thin();
+    if (type == "coating") return reader.coating(false);
+    if (type == "roughcoating") return reader.coating(true);
     if (type == "null") return NullMaterial{};
     return std::nullopt;
 }

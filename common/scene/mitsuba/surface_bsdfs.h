@@ -8,8 +8,8 @@
 
 namespace treefarm::mitsuba {
 
-/// The BSDFs that hold no other one: diffuse, (rough)conductor, (thin, rough)dielectric, (rough)plastic and null, with
-/// the defaults of the version of the format. Nothing for other types.
+/// The BSDFs that are a kind of surface, with the defaults of the version of the format; a coating yet without what it
+/// coats. Nothing for other types.
 std::optional<decltype(Material::bsdf)> read_surface_bsdf(Properties& properties, TextureReader& textures,
                                                           Diagnostics& diagnostics);
 

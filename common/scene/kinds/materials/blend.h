@@ -11,6 +11,8 @@ struct BlendMaterial {
     FloatInput weight{0.5f};
     std::int32_t first = kNone, second = kNone;  ///< indices in Scene::materials, below this material's own
 
+    /// Its back is the blend of its parts' backs.
+    static constexpr bool kSidesOfParts = true;
     Lobes lobes() const { return {}; }
     static void fields(auto& self, auto& visitor) {
         visitor.fraction("weight of the blend", self.weight);
