@@ -106,7 +106,21 @@ TEST(Coating, AlbedoOverDiffuseIsThatOfTheFormula) {
         const double mirrored = double(fresnel_dielectric(cos, eta).reflectance);
         const double expected =
             mirrored + 0.8 * (1 - mirrored) * double(smooth_diffuse_transmittance(eta)) / double(eta * eta);
-        EXPECT_NEAR(mean_power(prepared.front(), at_cosine(cos, 2.0f), 400000), expected, 2e-3) << cos;
+        const Vec3 wo = at_cosine(cos, 2.0f);
+        EXPECT_NEAR(mean_power(prepared.front(), wo, 400000), expected, 2e-3) << cos;
+        // By directions that do not come from the BSDF; all of the density is within the cone that leaves the coat.
+        double value = 0, density = 0;
+        constexpr int kDirections = 100000;
+        for (std::uint32_t i = 0; i < kDirections; ++i) {
+            const Draw r = draw({41, i, 0}, 0, Stream::scatter);
+            const Vec3 wi = square_to_cosine_hemisphere({to_unit(r[0]), to_unit(r[1])});
+            const BsdfValue v = prepared.front().value(wo, wi);
+            value += double(v.f_cos.x) / double(cosine_hemisphere_pdf(wi.z)) / kDirections;
+            density += double(v.pdf) / double(cosine_hemisphere_pdf(wi.z)) / kDirections;
+        }
+        EXPECT_NEAR(value, expected - mirrored, 3e-3) << cos;
+        const double mirror = double(coat_probability(float(mirrored), 0.5f));
+        EXPECT_NEAR(density, (1 - mirror) / double(eta * eta), 3e-3) << cos;
     }
 }
 
