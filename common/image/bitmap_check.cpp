@@ -15,7 +15,7 @@ std::uint32_t little(std::span<const std::uint8_t> bytes, std::size_t at, std::s
     return value;
 }
 
-std::optional<stb::Size> refuse(std::string& why, const char* reason) {
+std::optional<ImageSize> refuse(std::string& why, const char* reason) {
     why = reason;
     return std::nullopt;
 }
@@ -51,7 +51,7 @@ bool is_tga(std::span<const std::uint8_t> bytes) {
                       [](char a, std::uint8_t b) { return static_cast<std::uint8_t>(a) == b; });
 }
 
-std::optional<stb::Size> check_bmp(std::span<const std::uint8_t> bytes, std::string& why) {
+std::optional<ImageSize> check_bmp(std::span<const std::uint8_t> bytes, std::string& why) {
     if (bytes.size() < 30) return refuse(why, kCut);
     const std::uint32_t begin = little(bytes, 10, 4), header = little(bytes, 14, 4);
     const bool is_old = header == 12;
@@ -70,10 +70,10 @@ std::optional<stb::Size> check_bmp(std::span<const std::uint8_t> bytes, std::str
     const std::uint64_t row_bits = static_cast<std::uint64_t>(width) * bits;
     const std::uint64_t padded = (row_bits + 31) / 32 * 4, last = (row_bits + 7) / 8;
     if (padded * static_cast<std::uint64_t>(height - 1) + last > bytes.size() - begin) return refuse(why, kCut);
-    return stb::Size{static_cast<int>(width), static_cast<int>(height)};
+    return ImageSize{static_cast<int>(width), static_cast<int>(height)};
 }
 
-std::optional<stb::Size> check_tga(std::span<const std::uint8_t> bytes, std::string& why) {
+std::optional<ImageSize> check_tga(std::span<const std::uint8_t> bytes, std::string& why) {
     if (bytes.size() < 18) return refuse(why, kCut);
     const std::uint32_t kind = bytes[2], bits = bytes[16];
     const bool packed = kind >= 9, has_palette = bytes[1] == 1;
@@ -95,7 +95,7 @@ std::optional<stb::Size> check_tga(std::span<const std::uint8_t> bytes, std::str
     const bool fits =
         packed ? holds_pixels(bytes.subspan(begin), pixels, pixel_bytes) : pixels * pixel_bytes <= bytes.size() - begin;
     if (!fits) return refuse(why, kCut);
-    return stb::Size{static_cast<int>(width), static_cast<int>(height)};
+    return ImageSize{static_cast<int>(width), static_cast<int>(height)};
 }
 
 }  // namespace treefarm

@@ -6,7 +6,7 @@
 #include <span>
 #include <string>
 
-#include "common/image/stb.h"
+#include "common/image/pixels.h"
 
 namespace treefarm {
 
@@ -18,7 +18,7 @@ bool is_tga(std::span<const std::uint8_t> bytes);
 
 /// Size of a BMP or TGA file. Nothing, and `why`, where its header is malformed, names a kind that is not read, or
 /// claims more pixels than there are in the file.
-std::optional<stb::Size> check_bmp(std::span<const std::uint8_t> bytes, std::string& why);
-std::optional<stb::Size> check_tga(std::span<const std::uint8_t> bytes, std::string& why);
+std::optional<ImageSize> check_bmp(std::span<const std::uint8_t> bytes, std::string& why);
+std::optional<ImageSize> check_tga(std::span<const std::uint8_t> bytes, std::string& why);
 
 }  // namespace treefarm

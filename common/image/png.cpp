@@ -8,9 +8,10 @@
 #include "common/base/error.h"
 #include "common/image/atomic_file.h"
 #include "common/image/encoded_image.h"
+#include "common/image/jpeg_decode.h"
+#include "common/image/png_decode.h"
 #include "common/image/png_encode.h"
 #include "common/image/srgb.h"
-#include "common/image/stb.h"
 
 namespace treefarm {
 
@@ -73,10 +74,10 @@ Image read_ldr(const std::filesystem::path& path, Encoding encoding) {
     if (file.format != ImageFormat::png && file.format != ImageFormat::jpeg)
         refuse(path, "is neither PNG nor JPEG", "convert it to PNG");
     std::string why;
-    const auto decoded = stb::decode(file.bytes, why);
+    const auto decoded = file.format == ImageFormat::png ? decode_png(file.bytes, why) : decode_jpeg(file.bytes, why);
     if (!decoded) refuse(path, "cannot be decoded (" + why + ")", "it is damaged or cut short; save it again");
 
-    const int channels = decoded->channels;
+    const auto channels = static_cast<std::size_t>(decoded->channels);
     const bool grey = channels < 3, alpha = channels % 2 == 0;
     Image image{decoded->width,
                 decoded->height,
@@ -84,12 +85,13 @@ Image read_ldr(const std::filesystem::path& path, Encoding encoding) {
                 {}};
     if (alpha) image.channel_names.emplace_back("A");
     image.data.resize(image.channel_names.size() * image.pixel_count());
-    for (int c = 0; c < channels; ++c) {
+    for (std::size_t c = 0; c < channels; ++c) {
         const bool decode = encoding == Encoding::srgb && !(alpha && c == channels - 1);
-        const auto values = image.channel(static_cast<std::size_t>(c));
+        const auto values = image.channel(c);
         for (std::size_t i = 0; i < values.size(); ++i) {
-            const std::size_t at = i * static_cast<std::size_t>(channels) + static_cast<std::size_t>(c);
-            const float value = static_cast<float>(decoded->values[at]) / 65535.0f;
+            const std::size_t at = i * channels + c;
+            const float value =
+                decoded->floats.empty() ? static_cast<float>(decoded->bytes[at]) / 255.0f : decoded->floats[at];
             values[i] = decode ? srgb_decode(value) : value;
         }
     }

@@ -9,7 +9,9 @@
 #include "common/image/encoded_image.h"
 #include "common/image/exr.h"
 #include "common/image/hdr.h"
+#include "common/image/jpeg_decode.h"
 #include "common/image/netpbm.h"
+#include "common/image/png_decode.h"
 #include "common/image/stb.h"
 
 namespace treefarm {
@@ -47,6 +49,12 @@ std::vector<std::string> channel_names(int count) {
     return names;
 }
 
+std::optional<Pixels> decode_integers(const EncodedImage& file, std::string& why) {
+    if (file.format == ImageFormat::png) return decode_png(file.bytes, why);
+    if (file.format == ImageFormat::jpeg) return decode_jpeg(file.bytes, why);
+    return stb::decode(file.bytes, why);
+}
+
 StoredImage read_encoded(const std::filesystem::path& path) {
     const EncodedImage file = read_encoded_image(path, kCure);
     StoredImage image;
@@ -68,7 +76,7 @@ StoredImage read_encoded(const std::filesystem::path& path) {
             else
                 image.bytes = netpbm_bytes(file.bytes, *header);
         }
-    } else if (auto pixels = stb::decode_as_stored(file.bytes, why)) {
+    } else if (auto pixels = decode_integers(file, why)) {
         image.channels = channel_names(pixels->channels);
         image.bytes = std::move(pixels->bytes);
         image.floats = std::move(pixels->floats);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/support/tiny_images.h"
 
+#include <zlib.h>
+
 #include <cmath>
 
 // stb's writer is the only one of JPEG at hand; its warnings are its own.
@@ -26,7 +28,9 @@ std::string big_endian(std::uint32_t value) {
 }
 
 std::string chunk(const std::string& name, const std::string& data) {
-    return big_endian(static_cast<std::uint32_t>(data.size())) + name + data + big_endian(0);
+    const std::string summed = name + data;
+    const auto sum = crc32_z(0, reinterpret_cast<const Bytef*>(summed.data()), summed.size());
+    return big_endian(static_cast<std::uint32_t>(data.size())) + summed + big_endian(static_cast<std::uint32_t>(sum));
 }
 
 }  // namespace
@@ -49,7 +53,8 @@ std::string TinyPng::bytes() const {
     for (const std::uint32_t word : {size, ~size})
         for (const int shift : {0, 8})
             data += static_cast<char>(word >> shift & 0xff);
-    data += rows + big_endian(0);
+    const auto sum = adler32_z(1, reinterpret_cast<const Bytef*>(rows.data()), rows.size());
+    data += rows + big_endian(static_cast<std::uint32_t>(sum));
     std::string file = "\x89PNG\r\n\x1a\n" + chunk("IHDR", header);
     if (gamma > 0.0) file += chunk("gAMA", big_endian(static_cast<std::uint32_t>(std::lround(gamma * 1e5))));
     return file + chunk("IDAT", data) + chunk("IEND", "");

@@ -7,7 +7,7 @@
 
 namespace treefarm::test {
 
-/// A PNG without compression; its sums are 0, so readers that check them would refuse it (stb does not).
+/// A PNG file without compression.
 struct TinyPng {
     int width = 1, height = 1;
     int channels = 3;                   ///< 1: grey, 2: grey and alpha, 3: RGB, 4: RGBA

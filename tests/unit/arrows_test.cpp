@@ -54,11 +54,11 @@ struct Owner {
     std::string header;  ///< how its includes begin
     std::string room;
 };
-const std::vector<Owner> kOwners = {{"mpi.h", "common/comm"},        {"mpi-ext.h", "common/comm"},
-                                    {"embree3/", "worker/geometry"}, {"embree", "worker/geometry"},
-                                    {"Imf", "common/image"},         {"OpenEXR/", "common/image"},
-                                    {"Iex", "common/image"},         {"stb/", "common/image"},
-                                    {"stb_", "common/image"},        {"CLI/", "cli"}};
+const std::vector<Owner> kOwners = {
+    {"mpi.h", "common/comm"},      {"mpi-ext.h", "common/comm"}, {"embree3/", "worker/geometry"},
+    {"embree", "worker/geometry"}, {"Imf", "common/image"},      {"OpenEXR/", "common/image"},
+    {"Iex", "common/image"},       {"stb/", "common/image"},     {"png.h", "common/image"},
+    {"jpeglib", "common/image"},   {"stb_", "common/image"},     {"CLI/", "cli"}};
 
 struct Include {
     std::string target;

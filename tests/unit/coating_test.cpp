@@ -4,20 +4,17 @@
 
 #include <gtest/gtest.h>
 
-#include "common/base/random.h"
+#include "tests/support/bsdf_samples.h"
 #include "tests/support/material_scenes.h"
 
 namespace treefarm {
 namespace {
 
 using test::add_material;
+using test::at_cosine;
+using test::mean_power;
 using test::PreparedMaterial;
 using test::rough;
-
-Vec3 at_cosine(float cos, float azimuth) {
-    const float sin = std::sqrt(std::max(0.0f, 1.0f - cos * cos));
-    return Vec3(sin * std::cos(azimuth), sin * std::sin(azimuth), cos);
-}
 
 /// A coat over another material.
 PreparedMaterial coated(MaterialKind beneath, CoatingMaterial coat, bool beneath_twosided = false) {
@@ -33,19 +30,6 @@ CoatingMaterial coat_of(float eta, float absorption = 0.0f, const Roughness& rou
     coat.absorption = Rgb(absorption);
     coat.roughness = roughness;
     return coat;
-}
-
-/// Mean share of the power that a sample carries on.
-double mean_power(const Bsdf& bsdf, const Vec3& wo, std::uint32_t samples) {
-    double sum = 0;
-    for (std::uint32_t i = 0; i < samples; ++i) {
-        const Draw r = draw({23, i, 0}, 0, Stream::scatter);
-        const BsdfSample s = bsdf.sample(wo, {to_unit(r[1]), {to_unit(r[2]), to_unit(r[3])}});
-        if (!(s.pdf > 0.0f)) continue;
-        EXPECT_NEAR(s.wi.length(), 1.0f, 3e-6f);
-        sum += double(s.f_cos.y) / double(s.pdf);
-    }
-    return sum / samples;
 }
 
 /// Materials that keep all energy, or nearly.

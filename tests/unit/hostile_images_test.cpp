@@ -46,7 +46,7 @@ TEST_F(HostileImages, SizesThatTheBytesCannotHold) {
     png.replace(16, 8, std::string("\0\0\x27\x10\0\0\x27\x10", 8));
     expect_refused(png, "claims 10000 x 10000 pixels, which its");
     png.replace(16, 8, std::string("\0\0\xff\xff\0\0\xff\xff", 8));
-    expect_refused(png, "absurdly large");
+    expect_refused(png, "claims 65535 x 65535 pixels");
 
     std::string jpeg = test::tiny_jpeg(8, 8, 1, 50);
     EXPECT_EQ(refusal(jpeg), "");
@@ -81,16 +81,16 @@ TEST_F(HostileImages, JpegTablesThatAreTooLong) {
     for (const std::size_t length : {9u, 16u}) {
         std::string changed = jpeg;
         changed.replace(tables + 5, length, length, '\xff');  // so many codes of each length
-        expect_refused(changed, "a Huffman table has more than 256 codes");
+        expect_refused(changed, "Bogus Huffman table definition");
     }
-    // And the size is unreadable: stb reads tables while it looks for the size.
+    // And the size is unreadable: tables are read while the size is looked for.
     std::string sizeless = jpeg;
     sizeless.replace(tables + 5, 16, 16, '\xff');
     sizeless[sizeless.find("\xff\xc0")] = '\0';
-    expect_refused(sizeless, "a Huffman table has more than 256 codes");
+    expect_refused(sizeless, "Bogus Huffman table definition");
     // Behind the first scan, where a progressive file has tables too.
     expect_refused(jpeg.substr(0, jpeg.size() - 2) + "\xff\xc4\x7f\xff" + std::string(17, '\xff') + "\xff\xd9",
-                   "a Huffman table has more than 256 codes");
+                   "Bogus Huffman table definition");
     // In a comment they are none.
     const std::string comment = std::string("\xff\xfe\0\x16\xff\xc4", 6) + std::string(18, '\xff');
     EXPECT_EQ(refusal(jpeg.substr(0, 2) + comment + jpeg.substr(2)), "");

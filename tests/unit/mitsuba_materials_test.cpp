@@ -1,42 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tests/support/mitsuba_fixture.h"
+#include "tests/support/mitsuba_materials.h"
 
 namespace treefarm {
 namespace {
 
 using namespace treefarm::test;
-
-class MitsubaMaterials : public MitsubaFixture {
-  protected:
-    Scene scene(const std::string& bsdf, const std::string& version = "0.6.0") const {
-        return load_with_sensor("<shape type=\"rectangle\">" + bsdf + "</shape>", version).scene;
-    }
-    /// The material of a shape with this BSDF.
-    Material material(const std::string& bsdf, const std::string& version = "0.6.0") const {
-        const Scene s = scene(bsdf, version);
-        return s.materials.at(static_cast<std::size_t>(s.shapes.at(0).material));
-    }
-    template <class T>
-    T of_type(const std::string& type, const std::string& inside = "", const std::string& version = "0.6.0") const {
-        return std::get<T>(material("<bsdf type=\"" + type + "\">" + inside + "</bsdf>", version).bsdf);
-    }
-};
-
-std::string number(const std::string& name, const std::string& value) {
-    return "<float name=\"" + name + "\" value=\"" + value + "\"/>";
-}
-std::string word(const std::string& name, const std::string& value) {
-    return "<string name=\"" + name + "\" value=\"" + value + "\"/>";
-}
-std::string rgb(const std::string& name, const std::string& value) {
-    return "<rgb name=\"" + name + "\" value=\"" + value + "\"/>";
-}
-std::string bsdf(const std::string& type, const std::string& inside = "") {
-    return "<bsdf type=\"" + type + "\">" + inside + "</bsdf>";
-}
-std::string board(const std::string& name) {
-    return "<texture type=\"checkerboard\" name=\"" + name + "\"/>";
-}
 
 TEST_F(MitsubaMaterials, MaterialsAndReferences) {
     const auto loaded = load_with_sensor(
@@ -260,9 +228,9 @@ TEST_F(MitsubaMaterials, BlendsAndMixtures) {
 
     const std::string bumped = bsdf("bumpmap", board("map") + bsdf("diffuse"));
     const Scene half = scene(bsdf("blendbsdf", bumped + bsdf("plastic")));
-    const Material& outer = half.materials.at(static_cast<std::size_t>(half.shapes.at(0).material));
-    EXPECT_FALSE(outer.detail.any());
-    EXPECT_TRUE(half.materials.at(static_cast<std::size_t>(std::get<BlendMaterial>(outer.bsdf).first)).detail.any());
+    const Material& mixed_bumps = part(half, half.shapes[0].material);
+    EXPECT_FALSE(mixed_bumps.detail.any());
+    EXPECT_TRUE(part(half, std::get<BlendMaterial>(mixed_bumps.bsdf).first).detail.any());
     for (const std::string& nested : {bsdf("blendbsdf", bsdf("diffuse")),
                                       bsdf("blendbsdf", number("weight", "2") + bsdf("diffuse") + bsdf("plastic")),
                                       bsdf("blendbsdf", bsdf("twosided", bsdf("diffuse")) + bsdf("plastic")),
@@ -299,104 +267,6 @@ TEST_F(MitsubaMaterials, UnknownPropertiesOfEveryBsdfAreRefused) {
             EXPECT_THROW(material(bsdf(type, board("colour")), version), InputError) << type;
             EXPECT_THROW(material(bsdf(type, bsdf("diffuse")), version), InputError) << type;
         }
-}
-
-TEST_F(MitsubaMaterials, RoughDiffusePhongAndWard) {
-    const auto rough = of_type<RoughDiffuseMaterial>("roughdiffuse");
-    EXPECT_EQ(rough.alpha.value, 0.2f);
-    EXPECT_FALSE(rough.fast);
-    const auto given = of_type<RoughDiffuseMaterial>("roughdiffuse",
-                                                     rgb("diffuseReflectance", "0.1 0.2 0.3") + number("alpha", "0.5") +
-                                                         "<boolean name=\"useFastApprox\" value=\"true\"/>");
-    EXPECT_EQ(given.reflectance.value, Rgb(0.1f, 0.2f, 0.3f));
-    EXPECT_TRUE(given.fast);
-
-    const auto phong = of_type<PhongMaterial>("phong", board("exponent"));
-    EXPECT_EQ(phong.diffuse_reflectance.value, Rgb(0.5f));
-    EXPECT_EQ(phong.specular_reflectance.value, Rgb(0.2f));
-    EXPECT_TRUE(phong.exponent.varies());
-
-    const auto ward = of_type<WardMaterial>("ward", number("alphaU", "0.05") + word("variant", "ward-duer"));
-    EXPECT_EQ(ward.variant, WardVariant::duer);
-    EXPECT_EQ(ward.roughness.alpha_u.value, 0.05f);
-    EXPECT_EQ(ward.roughness.alpha_v.value, 0.1f);
-    EXPECT_EQ(of_type<WardMaterial>("ward").variant, WardVariant::balanced);
-    EXPECT_THROW(material(bsdf("ward", word("variant", "new"))), InputError);
-    EXPECT_THROW(material(bsdf("phong", number("exponent", "-1"))), InputError);
-}
-
-TEST_F(MitsubaMaterials, DiffuseAndSpecularPartsThatAddUpToMoreThanOneAreScaledDown) {
-    const auto loaded = load_with_sensor(
-        "<shape type=\"rectangle\">" +
-        bsdf("phong", rgb("diffuseReflectance", "0.8 0.5 0.5") + rgb("specularReflectance", "0.8 0.1 0.1")) +
-        "</shape>");
-    const auto& phong = std::get<PhongMaterial>(loaded.scene.materials.at(0).bsdf);
-    EXPECT_FLOAT_EQ(phong.diffuse_reflectance.value.x, 0.5f);
-    EXPECT_FLOAT_EQ(phong.specular_reflectance.value.y, 0.0625f);
-    ASSERT_FALSE(loaded.warnings.empty());
-    EXPECT_NE(loaded.warnings[0].text().find("add up to 1.6"), std::string::npos) << loaded.warnings[0].text();
-}
-
-TEST_F(MitsubaMaterials, Coatings) {
-    const Scene coated =
-        scene(bsdf("roughcoating", number("intIOR", "1.5") + number("extIOR", "1") + number("alpha", "0.2") +
-                                       number("thickness", "2") + rgb("sigmaA", "0.1 0.2 0.5") +
-                                       bsdf("bumpmap", board("map") + bsdf("diffuse", rgb("reflectance", "0.25")))));
-    const Material& material_ = coated.materials.at(static_cast<std::size_t>(coated.shapes.at(0).material));
-    const auto& coat = std::get<CoatingMaterial>(material_.bsdf);
-    EXPECT_EQ(coat.eta, 1.5f);
-    EXPECT_EQ(coat.absorption.value, Rgb(0.2f, 0.4f, 1.0f)) << "optical depth";
-    EXPECT_EQ(coat.roughness.alpha_u.value, 0.2f);
-    const Material& beneath = coated.materials.at(static_cast<std::size_t>(coat.coated));
-    EXPECT_EQ(std::get<DiffuseMaterial>(beneath.bsdf).reflectance.value, Rgb(0.25f));
-    EXPECT_TRUE(beneath.detail.any()) << "its bumps are beneath the coat";
-    EXPECT_FALSE(material_.detail.any());
-
-    const auto plain = of_type<CoatingMaterial>("coating", bsdf("twosided", bsdf("diffuse")));
-    EXPECT_TRUE(plain.roughness.smooth());
-    EXPECT_NEAR(plain.eta, 1.5046f / 1.000277f, 1e-6f);
-    EXPECT_TRUE(of_type<CoatingMaterial>("coating", board("sigmaA") + bsdf("plastic")).absorption.varies());
-    EXPECT_TRUE(material(bsdf("twosided", bsdf("coating", bsdf("plastic")))).twosided);
-    for (const std::string& inside :
-         {std::string(), bsdf("diffuse") + bsdf("plastic"), number("thickness", "-1") + bsdf("diffuse"),
-          rgb("sigmaA", "-1") + bsdf("diffuse"), number("intIOR", "0") + bsdf("diffuse")})
-        EXPECT_THROW(material(bsdf("coating", inside)), InputError) << inside;
-    EXPECT_THROW(material(bsdf("twosided", bsdf("coating", bsdf("dielectric")))), InputError) << "light passes";
-}
-
-TEST_F(MitsubaMaterials, ThinPrincipled) {
-    const std::string v3 = "3.0.0";
-    const auto plain = of_type<PrincipledThinMaterial>("principledthin", "", v3);
-    EXPECT_EQ(plain.eta.value, 1.5f);
-    EXPECT_FALSE(plain.transmits());
-    const auto given =
-        of_type<PrincipledThinMaterial>("principledthin",
-                                        rgb("base_color", "0.8 0.4 0.2") + board("eta") + number("diff_trans", "2") +
-                                            number("diffuse_transmittance_sampling_rate", "2"),
-                                        v3);
-    EXPECT_TRUE(given.eta.varies() && given.transmits());
-    for (const std::string& inside :
-         {number("diff_trans", "2.5"), number("eta", "0"), number("spec_trans", "2"), number("shine", "1")})
-        EXPECT_THROW(material(bsdf("principledthin", inside), v3), InputError) << inside;
-}
-
-TEST_F(MitsubaMaterials, Principled) {
-    const std::string v3 = "3.0.0";
-    const auto plain = of_type<PrincipledMaterial>("principled", "", v3);
-    EXPECT_NEAR(plain.eta, 1.5f, 1e-6f) << "a specular of 0.5";
-    EXPECT_FALSE(plain.transmits());
-    const auto given = of_type<PrincipledMaterial>(
-        "principled",
-        rgb("base_color", "0.8 0.4 0.2") + number("roughness", "0.2") + board("metallic") +
-            number("spec_trans", "0.5") + number("specular", "0") + number("main_specular_sampling_rate", "2"),
-        v3);
-    EXPECT_EQ(given.base_color.value, Rgb(0.8f, 0.4f, 0.2f));
-    EXPECT_TRUE(given.metallic.varies() && given.transmits());
-    EXPECT_GT(given.eta, 1.0f) << "where light passes the boundary bends it";
-    EXPECT_EQ(of_type<PrincipledMaterial>("principled", number("eta", "1.3"), v3).eta, 1.3f);
-    for (const std::string& inside : {number("eta", "1.3") + number("specular", "0.5"), number("specular", "2"),
-                                      number("roughness", "1.5"), number("metallic", "-1"), number("shine", "1")})
-        EXPECT_THROW(material(bsdf("principled", inside), v3), InputError) << inside;
 }
 
 }  // namespace
