@@ -29,6 +29,7 @@ std::span<const std::pair<std::string, std::string>> effects_without_switch() {
         {"point", "switch off effects.delta_lights"},
         {"spot", "switch off effects.delta_lights"},
         {"directional", "switch off effects.delta_lights"},
+        {"projector", "switch off effects.delta_lights"},
         {"constant", "switch off effects.environment"},
         {"environment_map", "switch off effects.environment"},
         {"bitmaps", "switch off effects.textures"},

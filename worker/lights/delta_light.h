@@ -8,6 +8,7 @@
 #include "worker/lights/direct_sample.h"
 #include "worker/lights/directional.h"
 #include "worker/lights/point.h"
+#include "worker/lights/projector.h"
 #include "worker/lights/spot.h"
 
 namespace treefarm {
@@ -15,7 +16,7 @@ namespace treefarm {
 /// Every light without extent. Each names the kind of emitter that it is made from, which its constructor takes with
 /// the textures (nullptr: there are none), and says its power(scene_radius) and what reaches a place: sample(p,
 /// selection).
-using DeltaLightKind = std::variant<PointLight, SpotLight, DirectionalLight>;
+using DeltaLightKind = std::variant<PointLight, SpotLight, DirectionalLight, ProjectorLight>;
 
 /// An emitter without extent: a closed set, no virtual call. Scattering never finds it; next event always does.
 class DeltaLight {

@@ -11,14 +11,15 @@
 #include "common/scene/kinds/emitters/directional.h"
 #include "common/scene/kinds/emitters/environment.h"
 #include "common/scene/kinds/emitters/point.h"
+#include "common/scene/kinds/emitters/projector.h"
 #include "common/scene/kinds/emitters/spot.h"
 #include "common/scene/kinds/fields.h"
 
 namespace treefarm {
 
 /// Every kind of emitter. Its place here is its number in packed form: new ones come last.
-using EmitterKind =
-    std::variant<AreaEmitter, PointEmitter, SpotEmitter, DirectionalEmitter, ConstantEmitter, EnvironmentEmitter>;
+using EmitterKind = std::variant<AreaEmitter, PointEmitter, SpotEmitter, DirectionalEmitter, ConstantEmitter,
+                                 EnvironmentEmitter, ProjectorEmitter>;
 
 /// What a kind of emitter must say of itself: its values, what it is, about how bright the scene is in its light, and a
 /// delta light where it shines.

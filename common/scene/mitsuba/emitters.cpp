@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common/config/parse_text.h"
+#include "common/scene/mitsuba/field_of_view.h"
 #include "common/scene/mitsuba/sky_emitters.h"
 
 namespace treefarm::mitsuba {
@@ -106,10 +107,35 @@ EmitterKind read_envmap(Properties& properties, TextureReader& textures, const D
     return environment;
 }
 
+/// What Mitsuba calls irradiance is a pi-th of it. The picture lies as a camera in that place would see it.
+EmitterKind read_projector(Properties& properties, TextureReader& textures, const Diagnostics&) {
+    if (properties.element().version < 2)
+        throw InputError(properties.where(), "Mitsuba 0.6 has no projector",
+                         "use a spot with a texture, or bring the scene to version 3");
+    const Matrix to_world = properties.transform("to_world");
+    if (std::abs(uniform_scale(to_world, 1e-3) - 1.0) > 1e-3)
+        throw InputError(properties.where("to_world"), "the projector's transformation contains a scale or shear",
+                         "remove it: only rotations, mirrors and translations can move a projector");
+    ProjectorEmitter projector;
+    projector.position = transform_point(to_world, Vec3(0.0f));
+    projector.axis = z_axis(to_world);
+    projector.x_axis = normalize(transform_vector(to_world, Vec3(-1.0f, 0.0f, 0.0f)));
+    projector.y_axis = normalize(transform_vector(to_world, Vec3(0.0f, -1.0f, 0.0f)));
+    projector.irradiance = textures.color(properties, "irradiance", Rgb(1.0f), ColorUse::radiance);
+    const double scale = properties.number("scale", 1.0);
+    if (!(scale >= 0.0))
+        throw InputError(properties.where("scale"), "a scale of " + number_text(scale), "give 0 or more");
+    projector.irradiance.value *= static_cast<float>(M_PI * scale);
+    const double aspect = textures.aspect(projector.irradiance), half_width = read_half_width(properties, aspect);
+    projector.half_width = static_cast<float>(half_width);
+    projector.half_height = static_cast<float>(half_width / aspect);
+    return projector;
+}
+
 /// Emitters that stand by themselves. The sky's (sky_emitters.h) may be two.
 constexpr std::pair<std::string_view, EmitterKind (*)(Properties&, TextureReader&, const Diagnostics&)> kReaders[] = {
     {"point", read_point},       {"spot", read_spot},     {"directional", read_directional},
-    {"constant", read_constant}, {"envmap", read_envmap},
+    {"constant", read_constant}, {"envmap", read_envmap}, {"projector", read_projector},
 };
 constexpr std::string_view kSkies[] = {"sky", "sun", "sunsky"};
 
