@@ -14,7 +14,7 @@ std::span<const EffectSwitch> effect_switches() {
         {"transmission", "dielectrics only reflect; what they would let through is lost"},
         {"anisotropy", "roughness is the same along and across"},
         {"textured_area", "area emitters have the mean of their texture"},
-        {"delta_lights", "point, spot and directional emitters are dark"},
+        {"delta_lights", "emitters that no ray can hit are dark"},
         {"environment", "it is dark around the scene"},
         {"lens", "everything is in focus"},
     };
@@ -29,6 +29,7 @@ std::span<const std::pair<std::string, std::string>> effects_without_switch() {
         {"point", "switch off effects.delta_lights"},
         {"spot", "switch off effects.delta_lights"},
         {"directional", "switch off effects.delta_lights"},
+        {"projector", "switch off effects.delta_lights"},
         {"constant", "switch off effects.environment"},
         {"environment_map", "switch off effects.environment"},
         {"bitmaps", "switch off effects.textures"},

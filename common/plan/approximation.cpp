@@ -9,6 +9,7 @@
 #include "common/config/effect_switches.h"
 #include "common/plan/strip_scene.h"
 #include "common/plan/texture_mean.h"
+#include "common/scene/emitter_uses.h"
 #include "common/scene/material_traits.h"
 #include "common/scene/material_uses.h"
 
@@ -106,27 +107,14 @@ class Remover {
 
     void textured_area() {
         for (Emitter& emitter : scene_.emitters) {
-            auto* area = std::get_if<AreaEmitter>(&emitter.kind);
-            if (!area || !area->radiance.varies()) continue;
+            if (emitter.type() != LightType::area || !is_textured(emitter)) continue;
             note(emitter.where);
-            flatten(area->radiance);
+            visit_fields(emitter.kind, FlattenLight{{}, *this});
         }
     }
 
-    void delta_lights() {
-        remove_emitters([](const Emitter& emitter) {
-            return std::holds_alternative<PointEmitter>(emitter.kind) ||
-                   std::holds_alternative<SpotEmitter>(emitter.kind) ||
-                   std::holds_alternative<DirectionalEmitter>(emitter.kind);
-        });
-    }
-
-    void environment() {
-        remove_emitters([](const Emitter& emitter) {
-            return std::holds_alternative<ConstantEmitter>(emitter.kind) ||
-                   std::holds_alternative<EnvironmentEmitter>(emitter.kind);
-        });
-    }
+    void delta_lights() { remove_emitters(LightType::delta); }
+    void environment() { remove_emitters(LightType::environment); }
 
     void lens() {
         if (!scene_.camera.has_lens()) return;
@@ -148,16 +136,23 @@ class Remover {
     void flatten(ColorInput& input) { input = ColorInput(input.value * texture_mean(scene_, input.texture)); }
     void flatten(FloatInput& input) { input = FloatInput(input.value * average(texture_mean(scene_, input.texture))); }
 
-    template <class Test>
-    void remove_emitters(Test&& test) {
+    struct FlattenLight : IgnoreFields {
+        Remover& remover;
+        void light(const char*, auto& value) {
+            if constexpr (requires { value.varies(); })
+                if (value.varies()) remover.flatten(value);
+        }
+    };
+
+    void remove_emitters(LightType type) {
         std::vector<Emitter> kept;
         for (Emitter& emitter : scene_.emitters) {
-            if (test(emitter)) {
+            if (emitter.type() == type) {
                 note(emitter.where);
                 continue;
             }
-            if (const auto* area = std::get_if<AreaEmitter>(&emitter.kind); area && area->shape != kNone)
-                scene_.shapes[static_cast<std::size_t>(area->shape)].emitter = static_cast<std::int32_t>(kept.size());
+            if (const std::int32_t shape = shape_of(emitter); shape != kNone)
+                scene_.shapes[static_cast<std::size_t>(shape)].emitter = static_cast<std::int32_t>(kept.size());
             kept.push_back(std::move(emitter));
         }
         scene_.emitters = std::move(kept);

@@ -1,25 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/plan/effect_finder.h"
 
+#include "common/plan/effect_table.h"
 #include "common/plan/texture_mean.h"
+#include "common/scene/emitter_uses.h"
 #include "common/scene/material_uses.h"
 
 namespace treefarm {
 namespace {
-
-template <class Kind>
-bool is(const Emitter& emitter) {
-    return std::holds_alternative<Kind>(emitter.kind);
-}
-
-bool is_environment(const Emitter& emitter) {
-    return is<ConstantEmitter>(emitter) || is<EnvironmentEmitter>(emitter);
-}
-
-bool is_textured(const Emitter& emitter) {
-    const auto* area = std::get_if<AreaEmitter>(&emitter.kind);
-    return area && area->radiance.varies();
-}
 
 const char* next_event_name(NextEvent next_event) {
     switch (next_event) {
@@ -58,10 +46,6 @@ std::string plural(std::size_t count, const std::string& what) {
     return std::to_string(count) + " " + word + (end == std::string::npos ? "" : what.substr(end));
 }
 
-bool is_delta_light(const Emitter& emitter) {
-    return is<PointEmitter>(emitter) || is<SpotEmitter>(emitter) || is<DirectionalEmitter>(emitter);
-}
-
 EffectFinder::EffectFinder(const Scene& scene, const Resolved& job)
     : scene_(scene),
       job_(job),
@@ -74,11 +58,8 @@ EffectFinder::EffectFinder(const Scene& scene, const Resolved& job)
     const auto use = [&](std::int32_t texture) { texture_in_use_[static_cast<std::size_t>(texture)] = true; };
     for (std::size_t i = 0; i < scene.materials.size(); ++i)
         if (used_[i]) for_each_texture(scene.materials[i], use);
-    for (const Emitter& emitter : scene.emitters) {
-        if (is_textured(emitter)) use(std::get<AreaEmitter>(emitter.kind).radiance.texture);
-        if (const auto* spot = std::get_if<SpotEmitter>(&emitter.kind); spot && spot->texture != kNone)
-            use(spot->texture);
-    }
+    for (const Emitter& emitter : scene.emitters)
+        for_each_texture(emitter, use);
     for (std::size_t i = 0; i < scene.textures.size(); ++i)
         if (const auto* bitmap = std::get_if<BitmapTexture>(&scene.textures[i].kind); bitmap && texture_in_use_[i])
             image_of_textures_[static_cast<std::size_t>(bitmap->image)] = true;
@@ -109,18 +90,13 @@ EffectFinder::Finder EffectFinder::texture_finder(const std::string& what, Test 
 
 std::uint64_t EffectFinder::emitter_bytes(const std::function<bool(const Emitter&)>& test) const {
     std::uint64_t bytes = 0;
-    for (const Emitter& emitter : scene_.emitters)
-        if (test(emitter)) bytes += kEmitterBytes + emitter_table_bytes(scene_, emitter);
+    for (const Emitter& emitter : scene_.emitters) {
+        if (!test(emitter)) continue;
+        bytes += kEmitterBytes + emitter_table_bytes(scene_, emitter);
+        for_each_image(
+            emitter, [&](std::int32_t image) { bytes += image_bytes(scene_.images[static_cast<std::size_t>(image)]); });
+    }
     return bytes;
-}
-
-template <class Kind>
-EffectFinder::Finder EffectFinder::emitter_finder(const std::string& what) const {
-    return [this, what] {
-        Effect effect = called_by(scene_.emitters, what, [](const Emitter& e, std::size_t) { return is<Kind>(e); });
-        effect.bytes = emitter_bytes(is<Kind>);
-        return effect;
-    };
 }
 
 void EffectFinder::add_light() {
@@ -144,38 +120,31 @@ void EffectFinder::add_light() {
         return effect_off(std::string("integrator.next_event = \"") + next_event_name(job_.integrator.next_event) +
                           "\"");
     };
-    finders_["area"] = emitter_finder<AreaEmitter>("area emitter");
-    finders_["textured_area"] = [this] {
-        return called_by(scene_.emitters, "textured area emitter",
-                         [](const Emitter& e, std::size_t) { return is_textured(e); });
-    };
-    finders_["delta_lights"] = [this] {
-        Effect effect = called_by(scene_.emitters, "point, spot or directional emitter",
-                                  [](const Emitter& e, std::size_t) { return is_delta_light(e); });
-        effect.bytes = emitter_bytes(is_delta_light);
-        return effect;
-    };
-    const auto without_bytes = [](Finder finder) {  // delta_lights and environment count them
-        return [finder] {
-            Effect effect = finder();
-            effect.bytes = 0;
+    for_each_emitter_kind([this]<class Kind>() {
+        finders_[Kind::kTraits.effect] = [this] {
+            const auto is = [](const Emitter& emitter) { return std::holds_alternative<Kind>(emitter.kind); };
+            Effect effect = called_by(scene_.emitters, Kind::kTraits.title,
+                                      [&](const Emitter& emitter, std::size_t) { return is(emitter); });
+            // delta_lights counts those of its kinds.
+            if (Kind::kTraits.type != LightType::delta) effect.bytes = emitter_bytes(is);
             return effect;
         };
+    });
+    finders_["textured_area"] = [this] {
+        return called_by(scene_.emitters, "textured area emitter", [](const Emitter& emitter, std::size_t) {
+            return emitter.type() == LightType::area && is_textured(emitter);
+        });
     };
-    finders_["point"] = without_bytes(emitter_finder<PointEmitter>("point emitter"));
-    finders_["spot"] = without_bytes(emitter_finder<SpotEmitter>("spot emitter"));
-    finders_["directional"] = without_bytes(emitter_finder<DirectionalEmitter>("directional emitter"));
+    finders_["delta_lights"] = [this] {
+        const auto is = [](const Emitter& emitter) { return emitter.type() == LightType::delta; };
+        Effect effect = called_by(scene_.emitters, delta_light_names() + " emitter",
+                                  [&](const Emitter& emitter, std::size_t) { return is(emitter); });
+        effect.bytes = emitter_bytes(is);
+        return effect;
+    };
     finders_["environment"] = [this] {
         return called_by(scene_.emitters, "emitter around the scene",
-                         [](const Emitter& e, std::size_t) { return is_environment(e); });
-    };
-    finders_["constant"] = emitter_finder<ConstantEmitter>("constant emitter");
-    finders_["environment_map"] = [this] {
-        Effect effect = emitter_finder<EnvironmentEmitter>("environment map")();
-        for (const Emitter& emitter : scene_.emitters)
-            if (const auto* map = std::get_if<EnvironmentEmitter>(&emitter.kind))
-                effect.bytes += image_bytes(scene_.images[static_cast<std::size_t>(map->image)]);
-        return effect;
+                         [](const Emitter& emitter, std::size_t) { return emitter.type() == LightType::environment; });
     };
 }
 

@@ -16,9 +16,6 @@ Effect effect_on(const std::string& reason, std::uint64_t bytes = 0);
 /// "1 disk", "2 disks", "2 meshes".
 std::string plural(std::size_t count, const std::string& what);
 
-/// Point, spot or directional: only next event finds it.
-bool is_delta_light(const Emitter& emitter);
-
 /// Looks in a scene and its job for what calls for each effect. The scene and the job must outlive it.
 class EffectFinder {
   public:
@@ -54,9 +51,8 @@ class EffectFinder {
     Finder material_finder(const std::string& what, Test test) const;
     template <class Test>
     Finder texture_finder(const std::string& what, Test test) const;
-    template <class Kind>
-    Finder emitter_finder(const std::string& what) const;
 
+    /// With tables and images.
     std::uint64_t emitter_bytes(const std::function<bool(const Emitter&)>& test) const;
 
     const Scene& scene_;

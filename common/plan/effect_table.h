@@ -19,6 +19,9 @@ struct EffectDescription {
 /// Every effect that the program knows, those that it never simulates last.
 std::span<const EffectDescription> effect_table();
 
+/// The kinds of emitters that no ray can hit: "point, spot or directional".
+std::string delta_light_names();
+
 /// A Markdown table of all effects, for docs/generated/effects.md.
 std::string effect_documentation();
 

@@ -73,15 +73,22 @@ std::uint64_t mesh_bytes(const Mesh& mesh) {
 }
 
 std::uint64_t emitter_table_bytes(const Scene& scene, const Emitter& emitter) {
-    if (const auto* area = std::get_if<AreaEmitter>(&emitter.kind); area && area->shape != kNone) {
-        const auto* mesh = std::get_if<Mesh>(&scene.shapes[static_cast<std::size_t>(area->shape)].geometry);
-        return mesh ? 12 * mesh->triangle_count() : 0;
-    }
-    if (const auto* environment = std::get_if<EnvironmentEmitter>(&emitter.kind)) {
-        const TextureImage& image = scene.images[static_cast<std::size_t>(environment->image)];
-        return 6 * static_cast<std::uint64_t>(image.width) * static_cast<std::uint64_t>(image.height + 1);
-    }
-    return 0;
+    struct : IgnoreFields {
+        const Scene* scene;
+        std::uint64_t bytes = 0;
+        void shape(std::int32_t index) {
+            if (index == kNone) return;
+            const auto* mesh = std::get_if<Mesh>(&scene->shapes[static_cast<std::size_t>(index)].geometry);
+            bytes += mesh ? 12 * mesh->triangle_count() : 0;
+        }
+        void image(std::int32_t index) {
+            const TextureImage& image = scene->images[static_cast<std::size_t>(index)];
+            bytes += 6 * static_cast<std::uint64_t>(image.width) * static_cast<std::uint64_t>(image.height + 1);
+        }
+    } table;
+    table.scene = &scene;
+    visit_fields(emitter.kind, table);
+    return table.bytes;
 }
 
 std::uint64_t TreeSize::guide_bytes() const {

@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/plan/resolve.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "common/config/job_keys.h"
 #include "common/plan/policy.h"
+#include "common/scene/emitter_uses.h"
 #include "common/scene/material_traits.h"
 
 namespace treefarm {
 namespace {
 
 bool chooses_lights(const Scene& scene) {
-    const bool with_image = std::any_of(scene.emitters.begin(), scene.emitters.end(), [](const Emitter& emitter) {
-        return std::holds_alternative<EnvironmentEmitter>(emitter.kind);
-    });
+    bool with_image = false;
+    for (const Emitter& emitter : scene.emitters)
+        for_each_image(emitter, [&](std::int32_t) { with_image = true; });
     return with_image || scene.emitters.size() > 1;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/plan/strip_scene.h"
 
+#include "common/scene/emitter_uses.h"
 #include "common/scene/material_traits.h"
 #include "common/scene/remove_unused.h"
 
@@ -20,10 +21,7 @@ void strip_coordinates(Scene& scene) {
             const Material& material = scene.materials[at(shape.material)];
             needed = material.opacity.varies() || material_traits(scene, shape.material).needs_surface_detail();
         }
-        if (shape.emitter != kNone) {
-            const auto& area = std::get<AreaEmitter>(scene.emitters[at(shape.emitter)].kind);
-            needed = needed || area.radiance.varies();
-        }
+        if (shape.emitter != kNone) needed = needed || is_textured(scene.emitters[at(shape.emitter)]);
         if (!needed) mesh->uvs = {};
     }
 }

@@ -3,20 +3,18 @@
 
 #include "common/base/bytes.h"
 #include "common/scene/emitter.h"
+#include "common/scene/packed_fields.h"
 
 namespace treefarm::packed {
 
-///     emitter  := kind:u8 (area | point | spot | directional | constant | environment) location
-///     area     := color shape:i32
-///     point    := position intensity:rgb
-///     spot     := position axis intensity:rgb cutoff:f32 beam:f32
-///     directional := direction irradiance:rgb
-///     constant := radiance:rgb
-///     environment := image:i32 scale:f32 x_axis y_axis z_axis rows_at_poles:u8
+///     emitter  := kind:u8 value* location
+///
+/// kind: its place in EmitterKind (kinds/emitters.h); values: as fields() of that kind names them, vectors and colours
+/// as three f32, a color as rgb texture:i32, indices as i32, flags as u8.
 
 inline constexpr std::size_t kMinEmitterBytes = 22;
 
 void put_emitter(ByteWriter& out, const Emitter& emitter);
-Emitter get_emitter(ByteReader& in, std::size_t shape_count, std::size_t texture_count, std::size_t image_count);
+Emitter get_emitter(ByteReader& in, const PackedCounts& counts);
 
 }  // namespace treefarm::packed

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 
+#include "common/scene/emitter_uses.h"
 #include "common/scene/first_hit.h"
 #include "common/scene/inspect.h"
 #include "common/scene/material_traits.h"
@@ -35,6 +36,15 @@ V3d direction_of_sphere(double u, double v) {
 V3d direction_of_hemisphere(const V3d& axis, double u, double v) {
     const V3d d = axis + direction_of_sphere(u, v) * 0.999;
     return d.normalized();
+}
+
+/// A direction within a cone.
+V3d direction_of_cone(const LightCone& cone, double u, double v) {
+    if (!(cone.half_angle < kPi)) return direction_of_sphere(u, v);
+    const double spread = 0.9 * std::tan(std::min(double(cone.half_angle), 1.5)) * std::sqrt(u);
+    const V3d axis(cone.axis), side = axis.cross(std::abs(axis.x) < 0.9 ? V3d(1, 0, 0) : V3d(0, 1, 0));
+    const V3d x = side.normalized(), y = axis.cross(x);
+    return (axis + (x * std::cos(2 * M_PI * v) + y * std::sin(2 * M_PI * v)) * spread).normalized();
 }
 
 /// A place on a surface with its normal; of meshes any triangle.
@@ -158,22 +168,18 @@ class Darkness {
     /// Nothing of those that surround the scene.
     Meetings from_emitter(const Emitter& emitter) const {
         Meetings met;
+        const std::int32_t shape = shape_of(emitter);
+        const std::optional<LightCone> cone = cone_of(emitter);
         for (int i = 0; i < kLightRays; ++i) {
             const auto [u, v] = point_of_square(i);
             const auto [s, t] = point_of_square(i + 1000);
-            if (const auto* area = std::get_if<AreaEmitter>(&emitter.kind)) {
-                const auto place = place_on(scene_.shapes[static_cast<std::size_t>(area->shape)], i, u, v);
+            if (shape != kNone) {
+                const auto place = place_on(scene_.shapes[static_cast<std::size_t>(shape)], i, u, v);
                 if (!place) continue;
                 const double step = 1e-6 * (place->first.length() + double((box_.max - box_.min).length()));
                 cast(place->first + place->second * step, direction_of_hemisphere(place->second, s, t), met);
-            } else if (const auto* point = std::get_if<PointEmitter>(&emitter.kind)) {
-                cast(V3d(point->position), direction_of_sphere(u, v), met);
-            } else if (const auto* spot = std::get_if<SpotEmitter>(&emitter.kind)) {
-                const double spread = 0.9 * std::tan(std::min(double(spot->cutoff), 1.5)) * std::sqrt(u);
-                const V3d axis(spot->axis), side = axis.cross(std::abs(axis.x) < 0.9 ? V3d(1, 0, 0) : V3d(0, 1, 0));
-                const V3d x = side.normalized(), y = axis.cross(x);
-                const V3d d = axis + (x * std::cos(2 * M_PI * v) + y * std::sin(2 * M_PI * v)) * spread;
-                cast(V3d(spot->position), d.normalized(), met);
+            } else if (cone) {
+                cast(V3d(cone->apex), direction_of_cone(*cone, u, v), met);
             }
         }
         return met;
@@ -191,7 +197,7 @@ class Darkness {
             return add(warning, "covered emitter", emitter.where,
                        "all light of this emitter meets " + first + " right before it", "turn or move it");
         if (met.hits == met.rays && met.all(met.glass)) {
-            if (!std::holds_alternative<AreaEmitter>(emitter.kind))
+            if (emitter.type() != LightType::area)
                 add(warning, "light behind glass", emitter.where,
                     "all light of this emitter meets smooth glass, which a light without extent cannot be found "
                     "through",
@@ -231,8 +237,9 @@ bool can_be_looked_at(const Scene& scene) {
         if (!box.isEmpty() && (!is_finite(box.min) || !is_finite(box.max))) return false;
     }
     for (const Emitter& emitter : scene.emitters)
-        if (const auto* area = std::get_if<AreaEmitter>(&emitter.kind))
-            if (area->shape == kNone || !known(area->shape, scene.shapes.size())) return false;
+        if (emitter.type() == LightType::area)
+            if (const std::int32_t shape = shape_of(emitter); shape == kNone || !known(shape, scene.shapes.size()))
+                return false;
     return is_finite(scene.camera.origin) && is_finite(scene.camera.corner);
 }
 

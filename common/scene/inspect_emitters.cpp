@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <cmath>
 
+#include "common/scene/emitter_uses.h"
 #include "common/scene/inspect.h"
 
 namespace treefarm::inspection {
@@ -71,15 +73,48 @@ bool reaches_anything(const Scene& scene, const Shape& own, const std::vector<Fr
     return false;
 }
 
-class EmitterInspection {
+/// Whether light within a cone may meet something: spheres around the boxes of meshes tell, all else counts as met.
+bool meets_anything(const Scene& scene, const LightCone& cone) {
+    if (!(cone.half_angle < kPi)) return true;
+    return std::any_of(scene.shapes.begin(), scene.shapes.end(), [&](const Shape& shape) {
+        if (!std::holds_alternative<Mesh>(shape.geometry)) return true;
+        const Box3 box = own_box(shape);
+        const double radius = 0.5 * (V3d(box.max) - V3d(box.min)).length();
+        const V3d d = (V3d(box.min) + V3d(box.max)) * 0.5 - V3d(cone.apex);
+        const double distance = d.length();
+        if (distance <= radius) return true;
+        const double angle = std::acos(std::clamp(d.dot(V3d(cone.axis)) / distance, -1.0, 1.0));
+        return angle - std::asin(radius / distance) <= double(cone.half_angle);
+    });
+}
+
+class EmitterInspection : public IgnoreFields {
   public:
     EmitterInspection(const Scene& scene, const Emitter& emitter, std::vector<Finding>& findings)
         : scene_(scene), emitter_(emitter), findings_(findings) {}
 
-    void operator()(const AreaEmitter& e) {
-        power(e.radiance.value, "radiance");
-        if (e.shape < 0 || static_cast<std::size_t>(e.shape) >= scene_.shapes.size()) return;
-        const Shape& shape = scene_.shapes[static_cast<std::size_t>(e.shape)];
+    void run() {
+        visit_fields(emitter_.kind, *this);
+        const auto cone = cone_of(emitter_);
+        if (cone && !scene_.shapes.empty() && !meets_anything(scene_, *cone))
+            add(warning, "unreachable emitter",
+                std::string("the ") + emitter_.traits().effect + "'s cone meets nothing of the scene", "turn it");
+    }
+
+    void light(const char* what, const Rgb& value) {
+        if (!is_finite(value) || value.x < 0.0f || value.y < 0.0f || value.z < 0.0f)
+            add(error, "numbers", std::string("the emitter's ") + what + " is negative or not finite",
+                "give values of 0 or more");
+        else if (is_black(value))
+            add(warning, "black emitter",
+                std::string("the emitter's ") + what + " is 0: it costs samples and gives no light", "remove it");
+    }
+    void light(const char* what, const ColorInput& input) { light(what, input.value); }
+    void light(const char* what, float value) { light(what, Rgb(value)); }
+
+    void shape(std::int32_t index) {
+        if (index < 0 || static_cast<std::size_t>(index) >= scene_.shapes.size()) return;
+        const Shape& shape = scene_.shapes[static_cast<std::size_t>(index)];
         if (const auto* mesh = std::get_if<Mesh>(&shape.geometry))
             for (const std::uint32_t i : mesh->indices)
                 if (i >= mesh->positions.size()) return;
@@ -94,47 +129,10 @@ class EmitterInspection {
                 named("shape", shape.name) + " emits to a side on which there is nothing, not even the camera",
                 "turn it round");
     }
-    void operator()(const PointEmitter& e) { power(e.intensity, "intensity"); }
-    void operator()(const SpotEmitter& e) {
-        power(e.intensity, "intensity");
-        const double limit = std::cos(std::min(double(e.cutoff), double(kPi)));
-        bool lights = std::any_of(scene_.shapes.begin(), scene_.shapes.end(), [](const Shape& s) {
-            return std::holds_alternative<Instance>(s.geometry) || std::holds_alternative<Mesh>(s.geometry) == false;
-        });
-        for (const Shape& shape : scene_.shapes) {
-            const auto* mesh = std::get_if<Mesh>(&shape.geometry);
-            if (lights || !mesh) continue;
-            const Box3 box = own_box(shape);
-            const V3d middle = (V3d(box.min) + V3d(box.max)) * 0.5;
-            const double radius = 0.5 * (V3d(box.max) - V3d(box.min)).length();
-            const V3d d = middle - V3d(e.position);
-            // The sphere around the box against the cone.
-            const double distance = d.length();
-            if (distance <= radius) {
-                lights = true;
-            } else {
-                const double angle = std::acos(std::clamp(d.dot(V3d(e.axis)) / distance, -1.0, 1.0));
-                lights = angle - std::asin(radius / distance) <= std::acos(limit);
-            }
-        }
-        if (!lights && !scene_.shapes.empty())
-            add(warning, "unreachable emitter", "the spot's cone meets nothing of the scene", "turn it");
-    }
-    void operator()(const DirectionalEmitter& e) { power(e.irradiance, "irradiance"); }
-    void operator()(const ConstantEmitter& e) { power(e.radiance, "radiance"); }
-    void operator()(const EnvironmentEmitter& e) { power(Rgb(e.scale), "scale"); }
 
   private:
     void add(Finding::Severity severity, const char* kind, const std::string& what, const std::string& cure) {
         findings_.push_back({severity, kind, emitter_.where, what, cure});
-    }
-
-    void power(const Rgb& light, const std::string& what) {
-        if (!is_finite(light) || light.x < 0.0f || light.y < 0.0f || light.z < 0.0f)
-            add(error, "numbers", "the emitter's " + what + " is negative or not finite", "give values of 0 or more");
-        else if (is_black(light))
-            add(warning, "black emitter", "the emitter's " + what + " is 0: it costs samples and gives no light",
-                "remove it");
     }
 
     const Scene& scene_;
@@ -146,7 +144,7 @@ class EmitterInspection {
 
 void inspect_emitters(const Scene& scene, std::vector<Finding>& findings) {
     for (const Emitter& emitter : scene.emitters)
-        std::visit(EmitterInspection(scene, emitter, findings), emitter.kind);
+        EmitterInspection(scene, emitter, findings).run();
 }
 
 }  // namespace treefarm::inspection

@@ -6,19 +6,13 @@
 
 namespace treefarm::packed {
 
-///     material  := kind:u8 (diffuse | conductor | dielectric | thin | plastic | blend | null)
-///                  twosided:u8 back:i32 opacity:number bump:i32 bump_scale:f32 normal_map:i32
-///                  normal_scale:rgb flip_invalid:u8 shadowed:u8 name location
-///     diffuse   := color
-///     conductor := eta:rgb k:rgb color roughness
-///     dielectric := eta:f32 color color roughness
-///     thin      := eta:f32 color color
-///     plastic   := eta:f32 color color nonlinear:u8 roughness single_return:u8
-///     blend     := number first:i32 second:i32
-///     null      :=
+///     material  := kind:u8 value* twosided:u8 back:i32 unlimited:u8 opacity:number bump:i32 bump_scale:f32
+///                  normal_map:i32 normal_scale:rgb flip_invalid:u8 shadowed:u8 name location
 ///     roughness := distribution:u8 number number
 ///     color     := rgb texture:i32
 ///     number    := f32 texture:i32
+///
+/// kind: its place in MaterialKind (kinds/materials.h); values: as fields() of that kind names them.
 
 inline constexpr std::size_t kMinMaterialBytes = 36;
 

@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "common/scene/emitter_uses.h"
 #include "common/scene/material_uses.h"
 
 namespace treefarm {
@@ -55,9 +56,8 @@ std::vector<std::int32_t> remove_unused(Scene& scene) {
         if (materials.marked(i))
             for_each_texture(scene.materials[i], [&](std::int32_t texture) { textures.mark(texture); });
     for (const Emitter& emitter : scene.emitters) {
-        if (const auto* area = std::get_if<AreaEmitter>(&emitter.kind)) textures.mark(area->radiance.texture);
-        if (const auto* spot = std::get_if<SpotEmitter>(&emitter.kind)) textures.mark(spot->texture);
-        if (const auto* environment = std::get_if<EnvironmentEmitter>(&emitter.kind)) images.mark(environment->image);
+        for_each_texture(emitter, [&](std::int32_t texture) { textures.mark(texture); });
+        for_each_image(emitter, [&](std::int32_t image) { images.mark(image); });
     }
     for (std::size_t i = 0; i < scene.textures.size(); ++i)
         if (const auto* bitmap = std::get_if<BitmapTexture>(&scene.textures[i].kind); bitmap && textures.marked(i))
@@ -76,9 +76,8 @@ std::vector<std::int32_t> remove_unused(Scene& scene) {
     for (Texture& texture : scene.textures)
         if (auto* bitmap = std::get_if<BitmapTexture>(&texture.kind)) images.renumber(bitmap->image);
     for (Emitter& emitter : scene.emitters) {
-        if (auto* area = std::get_if<AreaEmitter>(&emitter.kind)) textures.renumber(area->radiance.texture);
-        if (auto* spot = std::get_if<SpotEmitter>(&emitter.kind)) textures.renumber(spot->texture);
-        if (auto* environment = std::get_if<EnvironmentEmitter>(&emitter.kind)) images.renumber(environment->image);
+        for_each_texture(emitter, [&](std::int32_t& texture) { textures.renumber(texture); });
+        for_each_image(emitter, [&](std::int32_t& image) { images.renumber(image); });
     }
     return std::move(images).take();
 }

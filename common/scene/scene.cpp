@@ -17,16 +17,6 @@ void add(Box3& box, const Vec3& center, const Vec3& extent) {
     box.extendBy(center + extent);
 }
 
-float mean_value(const TextureImage& image) {
-    double sum = 0;
-    for (const std::uint8_t byte : image.bytes)
-        sum += double(image.decode[byte]);
-    for (const float value : image.floats)
-        sum += double(value);
-    const std::size_t count = image.bytes.size() + image.floats.size();
-    return count > 0 ? static_cast<float>(sum / static_cast<double>(count)) : 0.0f;
-}
-
 }  // namespace
 
 Box3 own_box(const Shape& shape) {
@@ -49,9 +39,7 @@ Box3 own_box(const Shape& shape) {
 
 std::int32_t Scene::environment() const {
     for (std::size_t i = 0; i < emitters.size(); ++i)
-        if (std::holds_alternative<ConstantEmitter>(emitters[i].kind) ||
-            std::holds_alternative<EnvironmentEmitter>(emitters[i].kind))
-            return static_cast<std::int32_t>(i);
+        if (emitters[i].type() == LightType::environment) return static_cast<std::int32_t>(i);
     return kNone;
 }
 
@@ -77,19 +65,8 @@ float Scene::radiance_scale() const {
     const Box3 box = bounds();
     const Vec3 size = box.isEmpty() ? Vec3(1.0f) : box.max - box.min;
     const float distance2 = std::max(0.25f * dot(size, size), 1e-30f);
-    const auto of = [&](const auto& emitter) {
-        using Kind = std::decay_t<decltype(emitter)>;
-        if constexpr (std::is_same_v<Kind, AreaEmitter>)
-            return average(emitter.radiance.value);
-        else if constexpr (std::is_same_v<Kind, ConstantEmitter>)
-            return average(emitter.radiance);
-        else if constexpr (std::is_same_v<Kind, DirectionalEmitter>)
-            return average(emitter.irradiance);
-        else if constexpr (std::is_same_v<Kind, EnvironmentEmitter>)
-            return emitter.scale * mean_value(images[static_cast<std::size_t>(emitter.image)]);
-        else
-            return average(emitter.intensity) / distance2;
-    };
+    const LitScene scene{distance2, images};
+    const auto of = [&](const auto& emitter) { return emitter.radiance_scale(scene); };
     float scale = 0.0f;
     for (const Emitter& emitter : emitters)
         scale = std::max(scale, std::visit(of, emitter.kind));

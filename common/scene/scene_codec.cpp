@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "common/scene/emitter_codec.h"
+#include "common/scene/emitter_uses.h"
 #include "common/scene/material_codec.h"
 #include "common/scene/packed_values.h"
 #include "common/scene/shape_codec.h"
@@ -67,24 +68,23 @@ void check_area_emitters(const Scene& scene) {
         if (index < 0 || static_cast<std::size_t>(index) >= scene.emitters.size())
             throw FormatError("scene: emitter " + std::to_string(index) + " of " +
                               std::to_string(scene.emitters.size()));
-        const auto* area = std::get_if<AreaEmitter>(&scene.emitters[static_cast<std::size_t>(index)].kind);
-        if (area == nullptr || area->shape != static_cast<std::int32_t>(i))
+        if (shape_of(scene.emitters[static_cast<std::size_t>(index)]) != static_cast<std::int32_t>(i))
             throw FormatError("scene: shape " + std::to_string(i) + " and its emitter disagree");
     }
     for (std::size_t i = 0; i < scene.emitters.size(); ++i)
-        if (const auto* area = std::get_if<AreaEmitter>(&scene.emitters[i].kind))
-            if (scene.shapes[static_cast<std::size_t>(area->shape)].emitter != static_cast<std::int32_t>(i))
+        if (const std::int32_t shape = shape_of(scene.emitters[i]); shape != kNone)
+            if (scene.shapes[static_cast<std::size_t>(shape)].emitter != static_cast<std::int32_t>(i))
                 throw FormatError("scene: emitter " + std::to_string(i) + " and its shape disagree");
 }
 
 void check_environments(const Scene& scene) {
     std::size_t count = 0;
     for (const Emitter& emitter : scene.emitters) {
-        const auto* image_based = std::get_if<EnvironmentEmitter>(&emitter.kind);
-        if (image_based && scene.images[static_cast<std::size_t>(image_based->image)].channels != 3)
-            throw FormatError("scene: the environment's image has no three channels");
-        if ((image_based || std::holds_alternative<ConstantEmitter>(emitter.kind)) && ++count > 1)
-            throw FormatError("scene: a second environment");
+        for_each_image(emitter, [&](std::int32_t image) {
+            if (scene.images[static_cast<std::size_t>(image)].channels != 3)
+                throw FormatError("scene: an emitter's image has no three channels");
+        });
+        if (emitter.type() == LightType::environment && ++count > 1) throw FormatError("scene: a second environment");
     }
 }
 
@@ -128,8 +128,8 @@ Scene decode_scene(std::span<const std::uint8_t> bytes) {
     if (group_count > scene.shapes.size())
         throw FormatError("scene: " + std::to_string(group_count) + " groups of " +
                           std::to_string(scene.shapes.size()) + " shapes");
-    get_list(in, kMinEmitterBytes, scene.emitters,
-             [&] { return get_emitter(in, scene.shapes.size(), scene.textures.size(), scene.images.size()); });
+    const PackedCounts counts{0, scene.textures.size(), scene.images.size(), scene.shapes.size()};
+    get_list(in, kMinEmitterBytes, scene.emitters, [&] { return get_emitter(in, counts); });
     check_area_emitters(scene);
     check_environments(scene);
     scene.camera = get_camera(in);

@@ -27,6 +27,9 @@ struct TextureImage {
     bool empty() const { return width == 0; }
 };
 
+/// Mean of all linear values; 0 if there are none.
+float mean_value(const TextureImage& image);
+
 /// What lies outside of [0, 1) in u or v.
 enum class Wrap : std::uint8_t { repeat, mirror, clamp, zero, one };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 
+#include "common/scene/emitter_uses.h"
 #include "common/scene/validation.h"
 
 namespace treefarm::validation {
@@ -149,9 +150,7 @@ void check_links(const Shape& shape, std::size_t index, const Scene& scene) {
     if (shape.emitter == kNone) return;
     if (shape.group != kNone) refuse(shape, "emits light within a group", "take it out of the group");
     const auto emitter = static_cast<std::size_t>(shape.emitter);
-    const auto* area =
-        emitter < scene.emitters.size() ? std::get_if<AreaEmitter>(&scene.emitters[emitter].kind) : nullptr;
-    if (area == nullptr || area->shape != static_cast<std::int32_t>(index))
+    if (emitter >= scene.emitters.size() || shape_of(scene.emitters[emitter]) != static_cast<std::int32_t>(index))
         refuse(shape, "and its emitter do not belong together", "give it an area emitter");
 }
 

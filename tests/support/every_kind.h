@@ -89,7 +89,9 @@ inline Scene every_kind_scene() {
         {PointEmitter{Vec3(1, 2, 3), Rgb(7, 8, 9)}, {}},
         {SpotEmitter{Vec3(3, 2, 1), Vec3(0, 1, 0), Rgb(1, 2, 4), 0.5f, 0.25f, 1, Vec3(0, 0, 1), Vec3(1, 0, 0)}, {}},
         {DirectionalEmitter{Vec3(1, 0, 0), Rgb(5, 4, 3)}, {}},
-        {EnvironmentEmitter{1, 2.0f, Vec3(0, 0, 1), Vec3(1, 0, 0), Vec3(0, 1, 0), true}, {"b.xml", 7, 7}}};
+        {EnvironmentEmitter{1, 2.0f, Vec3(0, 0, 1), Vec3(1, 0, 0), Vec3(0, 1, 0), true}, {"b.xml", 7, 7}},
+        {ProjectorEmitter{Vec3(4, 2, 1), Vec3(0, 0, 1), Vec3(0, 1, 0), Vec3(-1, 0, 0), 0.5f, 0.25f, {Rgb(3, 2, 1), 1}},
+         {"b.xml", 8, 8}}};
     scene.camera = {Vec3(1, 2, 3), Vec3(4, 5, 6), Vec3(7, 8, 9), Vec3(10, 11, 12), Vec3(13, 14, 15), Vec3(16, 17, 18)};
     scene.camera.parallel = Vec3(0, 0, 1);
     scene.film = {200, 1, PixelFilter::gaussian, 2.0f, 0.5f, 0.25f, 0.75f, {7, 2, 65535, 9}};

@@ -104,5 +104,28 @@ TEST(Inspect, EmittersAreReachableFromTheirFront) {
     EXPECT_TRUE(find(findings, "unreachable emitter"));
 }
 
+TEST(Inspect, ConesOfPointsMeetSomething) {
+    Scene scene;
+    test::add_shape(scene, test::quad({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}), kNone);
+    scene.camera.origin = Vec3(0, 0, 3);
+    const auto unreachable = [&](decltype(Emitter::kind) kind) {
+        scene.emitters = {{std::move(kind), {}}};
+        return find(inspect(scene), "unreachable emitter") != nullptr;
+    };
+    for (const float side : {-1.0f, 1.0f}) {
+        const Vec3 at(0, 0, 3), axis(0, 0, side);
+        EXPECT_EQ(unreachable(SpotEmitter{at, axis}), side > 0);
+        EXPECT_EQ(unreachable(ProjectorEmitter{at, axis, Vec3(1, 0, 0), Vec3(0, 1, 0), 0.2f, 0.1f}), side > 0);
+        EXPECT_EQ(unreachable(DirectionalEmitter{axis}), false);
+    }
+    EXPECT_FALSE(unreachable(PointEmitter{Vec3(0, 0, 3)}));
+    // The corner of the picture is what reaches it.
+    const Vec3 axis = normalize(Vec3(2.5f, 0, -1));
+    EXPECT_TRUE(
+        unreachable(ProjectorEmitter{Vec3(0, 0, 3), axis, cross(Vec3(0, 1, 0), axis), Vec3(0, 1, 0), 0.1f, 0.1f}));
+    EXPECT_FALSE(
+        unreachable(ProjectorEmitter{Vec3(0, 0, 3), axis, cross(Vec3(0, 1, 0), axis), Vec3(0, 1, 0), 1.0f, 0.1f}));
+}
+
 }  // namespace
 }  // namespace treefarm

@@ -75,6 +75,69 @@ TEST_F(MitsubaEmitters, SpotsProjectTextures) {
     EXPECT_THROW(emitter("spot", board + "<transform name=\"toWorld\"><scale x=\"2\"/></transform>"), InputError);
 }
 
+TEST_F(MitsubaEmitters, Projectors) {
+    const std::string turned =
+        "<transform name=\"to_world\"><rotate y=\"1\" angle=\"90\"/><translate x=\"1\" y=\"2\" z=\"3\"/></transform>";
+    for (const char* version : {"2.0.0", "3.0.0"}) {
+        const auto plain =
+            only<ProjectorEmitter>("projector",
+                                   turned +
+                                       "<rgb name=\"irradiance\" value=\"2 4 6\"/><float name=\"scale\" value=\"0.5\"/>"
+                                       "<float name=\"fov\" value=\"90\"/>",
+                                   version);
+        EXPECT_EQ(plain.position, Vec3(1, 2, 3));
+        // Turned by 90 degrees about y: x goes to -z, z to x. Pictures rise to the right, which is -x, and down.
+        expect_near(plain.axis, Vec3(1, 0, 0));
+        expect_near(plain.x_axis, Vec3(0, 0, 1));
+        expect_near(plain.y_axis, Vec3(0, -1, 0));
+        expect_near(Vec3(plain.irradiance.value), Vec3(1, 2, 3) * kPi);
+        EXPECT_FALSE(plain.irradiance.varies());
+        EXPECT_NEAR(plain.half_width, 1.0f, 1e-6f);
+        EXPECT_NEAR(plain.half_height, 1.0f, 1e-6f) << "a constant is one texel";
+    }
+    // 50 mm if nothing is said: half the diagonal of 36 x 24 mm, on a square.
+    const auto usual = only<ProjectorEmitter>("projector", "", "3.0.0");
+    EXPECT_NEAR(usual.half_width, std::sqrt(36.0 * 36 + 24 * 24) / 100 / std::sqrt(2.0), 1e-6);
+    expect_near(Vec3(usual.irradiance.value), Vec3(kPi));
+    EXPECT_EQ(only<ProjectorEmitter>("projector", "<string name=\"focal_length\" value=\"50mm\"/>", "3.0.0").half_width,
+              usual.half_width);
+
+    Image image{4, 2, {}, {}};
+    image.add_channel("Y");
+    write_exr(folder_ / "slide.exr", image);
+    const std::string slide =
+        "<texture name=\"irradiance\" type=\"bitmap\"><string name=\"filename\" value=\"slide.exr\"/></texture>";
+    const Scene scene = emitter("projector", slide + "<float name=\"fov\" value=\"90\"/>", "3.0.0").scene;
+    const auto& shown = std::get<ProjectorEmitter>(scene.emitters.at(0).kind);
+    EXPECT_EQ(shown.irradiance.texture, 0);
+    EXPECT_EQ(scene.images.at(0).width, 4) << "in use";
+    EXPECT_NEAR(shown.half_width, 1.0f, 1e-6f);
+    EXPECT_NEAR(shown.half_height, 0.5f, 1e-6f);
+    const std::string by_height = "<float name=\"fov\" value=\"90\"/><string name=\"fov_axis\" value=\"y\"/>";
+    EXPECT_NEAR(only<ProjectorEmitter>("projector", slide + by_height, "3.0.0").half_width, 2.0f, 1e-5f);
+
+    const auto refusal = [&](const std::string& inside, const char* version = "3.0.0") {
+        try {
+            emitter("projector", inside, version);
+        } catch (const InputError& error) {
+            return std::string(error.what());
+        }
+        return std::string();
+    };
+    for (const auto& [inside, word] : std::map<std::string, std::string>{
+             {"<float name=\"fov\" value=\"180\"/>", "field of view"},
+             {"<float name=\"fov\" value=\"9\"/><string name=\"focal_length\" value=\"9mm\"/>", "keep one"},
+             {"<float name=\"fov\" value=\"9\"/><string name=\"fov_axis\" value=\"z\"/>", "unknown axis"},
+             {"<float name=\"scale\" value=\"-1\"/>", "give 0 or more"},
+             {"<rgb name=\"irradiance\" value=\"-1\"/>", "negative"},
+             {"<transform name=\"to_world\"><scale value=\"2\"/></transform>", "scale or shear"},
+             {"<float name=\"cutoff_angle\" value=\"9\"/>", "cutoff_angle"}})
+        EXPECT_NE(refusal(inside).find(word), std::string::npos) << inside << ": " << refusal(inside);
+    const std::string old = refusal("", "0.6.0");
+    EXPECT_NE(old.find("scene.xml:3:"), std::string::npos) << old;
+    EXPECT_NE(old.find("Mitsuba 0.6 has no projector; use a spot"), std::string::npos) << old;
+}
+
 TEST_F(MitsubaEmitters, DirectionsThatLightTravels) {
     const auto sun = only<DirectionalEmitter>("directional",
                                               "<vector name=\"direction\" x=\"0\" y=\"-2\" z=\"0\"/>"

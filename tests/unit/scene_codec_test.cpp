@@ -104,6 +104,14 @@ TEST(SceneCodec, EmittersCameraAndFilmRoundTrip) {
     EXPECT_EQ(environment.scale, 2.0f);
     EXPECT_EQ(environment.z_axis, Vec3(0, 1, 0));
     EXPECT_EQ(back.emitters[5].where.text(), "b.xml:7:7");
+    const auto& projector = std::get<ProjectorEmitter>(back.emitters[6].kind);
+    EXPECT_EQ(projector.position, Vec3(4, 2, 1));
+    EXPECT_EQ(projector.axis, Vec3(0, 0, 1));
+    EXPECT_EQ(projector.x_axis, Vec3(0, 1, 0));
+    EXPECT_EQ(projector.y_axis, Vec3(-1, 0, 0));
+    EXPECT_EQ(projector.half_width, 0.5f);
+    EXPECT_EQ(projector.half_height, 0.25f);
+    EXPECT_EQ(projector.irradiance, ColorInput(Rgb(3, 2, 1), 1));
     EXPECT_EQ(back.camera.down, Vec3(10, 11, 12));
     EXPECT_EQ(back.camera.lens_v, Vec3(16, 17, 18));
     EXPECT_EQ(back.camera.parallel, Vec3(0, 0, 1));

@@ -188,6 +188,13 @@ TEST(ValidateKinds, Emitters) {
     expect_refused("negative", [](Scene& s) { s.images[1].floats[2] = -1.0f; });
     expect_refused("scale", [](Scene& s) { kind<EnvironmentEmitter>(s, 5).scale = kNan; });
     expect_refused("right angles", [](Scene& s) { kind<EnvironmentEmitter>(s, 5).x_axis = Vec3(1, 0, 0); });
+    expect_refused("b.xml:8:8: ", [](Scene& s) { kind<ProjectorEmitter>(s, 6).position.x = kNan; });
+    expect_refused("direction", [](Scene& s) { kind<ProjectorEmitter>(s, 6).y_axis = Vec3(0.0f); });
+    expect_refused("right angles", [](Scene& s) { kind<ProjectorEmitter>(s, 6).x_axis = Vec3(1, 0, 0); });
+    expect_refused("field of view", [](Scene& s) { kind<ProjectorEmitter>(s, 6).half_width = 0.0f; });
+    expect_refused("field of view", [](Scene& s) { kind<ProjectorEmitter>(s, 6).half_height = kInf; });
+    expect_refused("irradiance", [](Scene& s) { kind<ProjectorEmitter>(s, 6).irradiance.value.y = -1.0f; });
+    expect_refused("does not exist", [](Scene& s) { kind<ProjectorEmitter>(s, 6).irradiance.texture = 3; });
     expect_refused("second environment", [](Scene& s) { s.emitters.push_back({ConstantEmitter{}, {}}); });
     expect_refused("not its shape's", [](Scene& s) { s.emitters.push_back({AreaEmitter{Rgb(1.0f), 1}, {}}); });
 }

@@ -2,39 +2,38 @@
 #pragma once
 
 #include <optional>
+#include <variant>
 
 #include "common/scene/emitter.h"
 #include "worker/lights/direct_sample.h"
-#include "worker/textures/texture_set.h"
+#include "worker/lights/directional.h"
+#include "worker/lights/point.h"
+#include "worker/lights/projector.h"
+#include "worker/lights/spot.h"
 
 namespace treefarm {
 
-/// An emitter without extent: a point, a spot or parallel light. Scattering never finds it; next event always does.
+/// Every light without extent. Each names the kind of emitter that it is made from, which its constructor takes with
+/// the textures (nullptr: there are none), and says its power(scene_radius) and what reaches a place: sample(p,
+/// selection).
+using DeltaLightKind = std::variant<PointLight, SpotLight, DirectionalLight, ProjectorLight>;
+
+/// An emitter without extent: a closed set, no virtual call. Scattering never finds it; next event always does.
 class DeltaLight {
   public:
     /// None for emitters with extent. `textures` must outlive it; RunError if it needs some and there are none.
     static std::optional<DeltaLight> make(const Emitter& emitter, const TextureSet* textures);
 
-    /// Mean of the channels of the power that it sends into a scene of that radius, in watts. The spot's is estimated.
+    /// Mean of the channels of the power that it sends into a scene of that radius, in watts; of some an estimate.
     double power(double scene_radius) const;
 
     /// What reaches p; pdf is `selection`.
     DirectSample sample(const Vec3& p, float selection) const;
 
   private:
-    enum class Kind : std::uint8_t { point, spot, directional };
+    explicit DeltaLight(DeltaLightKind kind) : kind_(std::move(kind)) {}
 
-    float falloff(const Vec3& away) const;
-    Rgb projected(const Vec3& away) const;
-
-    Kind kind_ = Kind::point;
-    Vec3 position_{0.0f};
-    Vec3 axis_{0.0f};      ///< unit: along which spots and parallel light shine
-    Rgb intensity_{0.0f};  ///< W / sr; parallel light: W / m^2
-    float cutoff_ = 0, beam_ = 0;
-    const TextureSet* textures_ = nullptr;  ///< nullptr: the spot projects none
-    std::int32_t texture_ = kNone;
-    Vec3 u_axis_{0.0f}, v_axis_{0.0f};  ///< per unit of them, along the axis, u and v change by 1
+    DeltaLightKind kind_;
 };
 
 }  // namespace treefarm

@@ -4,22 +4,12 @@
 #include <algorithm>
 #include <limits>
 #include <numeric>
+#include <type_traits>
 
 #include "common/base/error.h"
-#include "worker/geometry/primitive_points.h"
-#include "worker/lights/area_measure.h"
-#include "worker/lights/sphere_sample.h"
 
 namespace treefarm {
 namespace {
-
-/// Larger meshes would not stay in the cache.
-constexpr std::size_t kMostFlat = 4096;
-
-/// Whether a surface with this normal, if that matters, sees a direction.
-bool sees(const Vec3* front, const Vec3& direction) {
-    return !front || dot(*front, direction) > 0.0f;
-}
 
 /// A direction towards the environment, without its density yet: 1 stands for it where it is a sample.
 DirectSample towards_infinity(const Vec3& direction, const Vec3* front) {
@@ -42,35 +32,52 @@ double bounding_radius(const Box3& bounds) {
 
 Emitters::Emitters(const std::vector<Emitter>& emitters, const EmbreeScene& geometry, const Box3& bounds,
                    const TextureSet* textures)
-    : geometry_(&geometry), textures_(textures), light_of_shape_(geometry.shape_count(), kNone) {
+    : scene_{&geometry, textures}, light_of_shape_(geometry.shape_count(), kNone) {
     const double radius = bounding_radius(bounds);
     std::vector<double> power, delta_power;
-    for (const Emitter& emitter : emitters) {
-        if (const auto* area = std::get_if<AreaEmitter>(&emitter.kind)) {
-            if (area->shape != kNone) power.push_back(add_area_light(*area));
-        } else if (const auto delta = DeltaLight::make(emitter, textures)) {
-            delta_lights_.push_back(*delta);
-            const auto* spot = std::get_if<SpotEmitter>(&emitter.kind);
-            const bool projects = spot && spot->texture != kNone;
-            delta_power.push_back(delta->power(radius) *
-                                  (projects ? double(average(mean_color(*textures, spot->texture))) : 1.0));
-        } else if (const auto* constant = std::get_if<ConstantEmitter>(&emitter.kind)) {
-            constant_ += constant->radiance;
-        } else if (const auto* image = std::get_if<EnvironmentEmitter>(&emitter.kind)) {
-            if (map_) throw RunError("the scene has two environment maps");
-            if (!textures || image->image < 0 || static_cast<std::size_t>(image->image) >= textures->images().size())
-                throw RunError("the image of an environment map is missing");
-            map_ = std::make_unique<EnvironmentMap>(*image, textures->images()[static_cast<std::size_t>(image->image)]);
+    // Each kind of emitter is named by its type of light, and environments by an overload: a new one does not compile
+    // before it is.
+    const auto add = [&]<class Kind>(const Kind& kind, const Emitter& emitter) {
+        if constexpr (std::is_same_v<Kind, AreaEmitter>) {
+            if (kind.shape != kNone) power.push_back(add_area_light(kind));
+        } else if constexpr (Kind::kTraits.type == LightType::delta) {
+            delta_lights_.push_back(*DeltaLight::make(emitter, textures));
+            delta_power.push_back(delta_lights_.back().power(radius));
+        } else {
+            add_environment(kind);
         }
-    }
-    shines_from_infinity_ = map_ || !is_black(constant_);
+    };
+    for (const Emitter& emitter : emitters)
+        std::visit([&](const auto& kind) { add(kind, emitter); }, emitter.kind);
+    shines_from_infinity_ = map_ || !is_black(constant_.radiance);
     power.insert(power.end(), delta_power.begin(), delta_power.end());
     // What crosses the scene's bounding sphere, as seen by a surface: pi L times its cross-section.
     const double from_infinity = double(kPi) * radius * radius * double(kPi);
-    power.push_back(from_infinity * double(average(constant_)));
+    power.push_back(from_infinity * constant_.mean_radiance());
     for (int part = 0; map_ && part < map_->part_count(); ++part)
         power.push_back(from_infinity * map_->mean_radiance() * map_->part_weight(part));
     select(std::move(power));
+}
+
+double Emitters::add_area_light(const AreaEmitter& emitter) {
+    AreaLight light(emitter, scene_);
+    has_spheres_ |= light.sphere != nullptr;
+    light_of_shape_[light.shape] = static_cast<std::int32_t>(area_lights_.size());
+    const double power = light.power(scene_);
+    area_lights_.push_back(std::move(light));
+    return power;
+}
+
+void Emitters::add_environment(const ConstantEmitter& emitter) {
+    constant_.add(emitter);
+}
+
+void Emitters::add_environment(const EnvironmentEmitter& emitter) {
+    const TextureSet* textures = scene_.textures;
+    if (map_) throw RunError("the scene has two environment maps");
+    if (!textures || emitter.image < 0 || static_cast<std::size_t>(emitter.image) >= textures->images().size())
+        throw RunError("the image of an environment map is missing");
+    map_ = std::make_unique<EnvironmentMap>(emitter, textures->images()[static_cast<std::size_t>(emitter.image)]);
 }
 
 /// An emitter that is hardly ever chosen would be all noise where it is the only one that counts.
@@ -89,7 +96,7 @@ void Emitters::select(std::vector<double> power) {
     for (std::size_t i = 0; i < delta_lights_.size(); ++i)
         delta_selection_.push_back(selection_.probability(next++));
     constant_entry_ = next;
-    constant_pdf_ = selection_.probability(next++) * kInvFourPi;
+    constant_pdf_ = selection_.probability(next++) * ConstantLight::kPdf;
     for (int part = 0; map_ && part < map_->part_count(); ++part)
         map_parts_[static_cast<std::size_t>(part)] = selection_.probability(next++);
     clusters_ = LightClusters(selection_);
@@ -104,39 +111,6 @@ EnvironmentMap::PartChoice Emitters::part_choice(const LightShare* share) const 
     return choice;
 }
 
-double Emitters::add_area_light(const AreaEmitter& emitter) {
-    AreaLight light;
-    light.radiance = emitter.radiance.value;
-    light.texture = emitter.radiance.texture;
-    light.shape = static_cast<std::uint32_t>(emitter.shape);
-    light.sphere = geometry_->sphere(light.shape);
-    light.mask = geometry_->mask(light.shape);
-    light.by_cone = light.sphere && !(light.mask && light.sphere->flip_normals);
-    if (light.texture != kNone && !textures_) throw RunError("an emitter has a texture, but there are no textures");
-    const std::vector<double> areas = part_areas(*geometry_, light.shape);
-    const double area = std::accumulate(areas.begin(), areas.end(), 0.0);
-    if (!light.sphere) {
-        light.triangles = DiscreteTable(areas);
-        light.area_density.resize(areas.size(), 0.0f);
-        for (std::uint32_t i = 0; i < areas.size(); ++i)
-            if (areas[i] > 0)
-                light.area_density[i] = static_cast<float>(double(light.triangles.probability(i)) / areas[i]);
-    }
-    light.plain = geometry_->triangle_count(light.shape) > 0 && light.texture == kNone && !light.mask;
-    if (light.plain && areas.size() <= kMostFlat) light.flat = geometry_->flat_triangles(light.shape);
-    has_spheres_ |= light.sphere != nullptr;
-    light_of_shape_[light.shape] = static_cast<std::int32_t>(area_lights_.size());
-    area_lights_.push_back(std::move(light));
-    const Rgb mean = emitter.radiance.value *
-                     (emitter.radiance.varies() ? mean_color(*textures_, emitter.radiance.texture) : Rgb(1.0f));
-    return area * double(kPi) * double(average(mean));
-}
-
-Emitters::Channels Emitters::textured(const AreaLight& light, const Hit& hit) const {
-    const Rgb c = light.radiance * textures_->color(light.texture, geometry_->uv(hit));
-    return {c.x, c.y, c.z};
-}
-
 /// Adds what is known of the choice of its emitter.
 static void add_choice(DirectSample& sample, const LightClusters::Choice& choice) {
     if (!sample.from_environment) sample.pdf *= choice.factor;  // the environment has it in its density
@@ -147,7 +121,7 @@ static void add_choice(DirectSample& sample, const LightClusters::Choice& choice
 inline DirectSample Emitters::sample(const ChosenEmitter& chosen, const Vec3& p, const Draw& random,
                                      const LightShare* share, const Vec3* front) const {
     const bool plain = chosen.entry < area_lights_.size() && area_lights_[chosen.entry].plain;
-    DirectSample sample = plain ? sample_mesh(area_lights_[chosen.entry], p, random, front)
+    DirectSample sample = plain ? area_lights_[chosen.entry].sample_mesh(scene_, p, random, front)
                                 : sample_other(chosen.entry, p, random, share, front);
     add_choice(sample, chosen.cluster);
     return sample;
@@ -186,8 +160,8 @@ DirectSample Emitters::sample_direct(const Vec3& p, const LightBatch& batch, std
     if (number == LightBatch::kAlone) return sample(chosen, p, random, share, front);
     const bool map = is_map(chosen.entry), by_cone = !map && batch.by_cone[lane];
     DirectSample sample = map ? towards_infinity(batch.map.direction(number), front)
-                              : on_sphere(area_lights_[chosen.entry],
-                                          by_cone ? batch.cones[number] : batch.spheres[number], by_cone, front);
+                              : area_lights_[chosen.entry].on_sphere(
+                                    scene_, by_cone ? batch.cones[number] : batch.spheres[number], by_cone, front);
     add_choice(sample, chosen.cluster);
     return sample;
 }
@@ -197,7 +171,7 @@ float Emitters::environment_pdf(const LightBatch& batch, std::uint32_t lane, flo
 }
 
 Rgb Emitters::environment(const LightBatch& batch, std::uint32_t lane, const Vec3& direction) const {
-    return is_map(batch.chosen[lane].entry) ? constant_ + map_->radiance(batch.map.place(batch.number[lane]))
+    return is_map(batch.chosen[lane].entry) ? constant_.radiance + map_->radiance(batch.map.place(batch.number[lane]))
                                             : environment(direction);
 }
 
@@ -214,70 +188,7 @@ DirectSample Emitters::sample_delta(const Vec3& p, const Draw& random) const {
 DirectSample Emitters::sample_other(std::uint32_t entry, const Vec3& p, const Draw& random, const LightShare* share,
                                     const Vec3* front) const {
     if (entry >= area_lights_.size()) return sample_without_area(entry, p, random, share, front);
-    const AreaLight& light = area_lights_[entry];
-    if (light.sphere) return sample_sphere(light, p, random, front);
-    DirectSample sample = sample_area(light, p, random, front);
-    shine(light, sample);
-    return sample;
-}
-
-/// Adds what texture and mask of an emitter make of its radiance.
-inline void Emitters::shine(const AreaLight& light, DirectSample& sample) const {
-    if (is_black(sample.radiance)) return;
-    if (kHasTextures && light.texture != kNone) sample.radiance = textured(light, sample.on_light).rgb();
-    // The shadow ray ends before the emitter, so its own mask is not asked: on average it lets this much be seen.
-    if (kHasMasks && light.mask) sample.radiance *= geometry_->opacity(sample.on_light);
-}
-
-DirectSample Emitters::sample_mesh(const AreaLight& light, const Vec3& p, const Draw& random, const Vec3* front) const {
-    const std::uint32_t triangle = light.triangles.pick(random[1]);
-    const Vec2 b = square_to_triangle({to_unit(random[2]), to_unit(random[3])});
-    DirectSample sample;
-    Hit& hit = sample.on_light;
-    if (light.flat.empty()) {
-        geometry_->set_triangle_point(hit, light.shape, triangle, b.x, b.y);
-    } else {
-        hit.shape = light.shape;
-        hit.primitive = triangle;
-        light.flat[triangle].set_point(hit, b.x, b.y);
-    }
-    if (front && !(dot(*front, hit.p - p) > 0.0f && dot(hit.ng, p - hit.p) > 0.0f)) return sample;
-    look_at(sample, p, light.radiance, light.selection, light.area_density[triangle]);
-    return sample;
-}
-
-/// Any shape but a sphere, uniformly by area.
-DirectSample Emitters::sample_area(const AreaLight& light, const Vec3& p, const Draw& random, const Vec3* front) const {
-    if (geometry_->triangle_count(light.shape) > 0) return sample_mesh(light, p, random, front);
-    DirectSample sample;
-    sample.on_light = uniform_point(*geometry_, light.shape, {to_unit(random[2]), to_unit(random[3])});
-    look_at(sample, p, light.radiance, light.selection, light.area_density[0]);
-    return sample;
-}
-
-DirectSample Emitters::sample_sphere(const AreaLight& light, const Vec3& p, const Draw& random,
-                                     const Vec3* front) const {
-    const Sphere& sphere = *light.sphere;
-    const Vec2 u = {to_unit(random[2]), to_unit(random[3])};
-    const bool by_cone = light.by_cone && has_cone(sphere, p);
-    const auto sample = by_cone ? sample_by_cone : sample_by_area;
-    return on_sphere(light, sample(sphere.center, sphere.radius, p, u), by_cone, front);
-}
-
-DirectSample Emitters::on_sphere(const AreaLight& light, const SphereSample& drawn, bool by_cone,
-                                 const Vec3* front) const {
-    DirectSample sample;
-    if (!(drawn.pdf > 0.0f) || !sees(front, drawn.direction)) return sample;
-    sample.wi = drawn.direction;
-    sample.on_light = sphere_hit(*light.sphere, drawn.p, drawn.normal);
-    sample.on_light.shape = light.shape;
-    sample.distance = drawn.distance;
-    sample.pdf = light.selection * drawn.pdf;
-    // What a cone meets first is the outside, also where rounding has it beyond the rim.
-    const bool shines = by_cone ? !light.sphere->flip_normals : dot(sample.on_light.ng, drawn.direction) < 0.0f;
-    if (shines) sample.radiance = light.radiance;
-    shine(light, sample);
-    return sample;
+    return area_lights_[entry].sample(scene_, p, random, front);
 }
 
 DirectSample Emitters::sample_without_area(std::uint32_t entry, const Vec3& p, const Draw& random,
@@ -292,7 +203,7 @@ DirectSample Emitters::sample_without_area(std::uint32_t entry, const Vec3& p, c
         if (sample.pdf > 0.0f) sample.pdf = map_pdf(drawn, share);
         return sample;
     }
-    sample = towards_infinity(square_to_sphere({to_unit(random[2]), to_unit(random[3])}), front);
+    sample = towards_infinity(constant_.sample(random), front);
     if (sample.pdf > 0.0f) sample.pdf = pdf_environment(sample.wi, share);
     return sample;
 }
@@ -304,18 +215,8 @@ float Emitters::map_pdf(const EnvironmentSample& drawn, const LightShare* share)
 float Emitters::pdf_direct(const Vec3& p, const Vec3& wi, const Hit& hit, const LightShare* share) const {
     const std::int32_t index = light_of_shape_[hit.shape];
     if (index == kNone) return 0.0f;
-    const AreaLight& light = area_lights_[static_cast<std::size_t>(index)];
-    const float selection = light.selection * clusters_.factor(share, static_cast<std::uint32_t>(index));
-    float area_density;
-    if (light.sphere) {
-        const SphereCone cone = sphere_cone(*light.sphere, p);
-        if (cone.outside && light.by_cone) return selection * cone.pdf();
-        area_density = sphere_area_density(light.sphere->radius);
-    } else {
-        area_density = light.area_density[hit.primitive];
-    }
-    const Vec3 to_light = hit.p - p;
-    return selection * per_steradian(area_density, dot(to_light, to_light), std::abs(dot(hit.ng, wi)));
+    const float factor = clusters_.factor(share, static_cast<std::uint32_t>(index));
+    return area_lights_[static_cast<std::size_t>(index)].pdf(p, wi, hit, factor);
 }
 
 }  // namespace treefarm

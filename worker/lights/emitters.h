@@ -8,6 +8,8 @@
 #include "common/base/random.h"
 #include "common/scene/scene.h"
 #include "worker/geometry/embree_scene.h"
+#include "worker/lights/area.h"
+#include "worker/lights/constant.h"
 #include "worker/lights/delta_light.h"
 #include "worker/lights/direct_sample.h"
 #include "worker/lights/discrete_table.h"
@@ -62,7 +64,7 @@ class Emitters {
     /// Clusters that next event can learn to choose among.
     const LightClusters& clusters() const { return clusters_; }
 
-    /// Point, spot and directional lights, which nothing but sampling them finds.
+    /// Lights without extent, which nothing but sampling them finds.
     bool has_delta_lights() const { return !delta_lights_.empty(); }
     /// The same as sample_direct, of these alone.
     DirectSample sample_delta(const Vec3& p, const Draw& random) const;
@@ -80,14 +82,14 @@ class Emitters {
         const AreaLight& area = area_lights_[static_cast<std::size_t>(light)];
         if constexpr (kHasTextures)
             if (area.texture != kNone) [[unlikely]]
-                return textured(area, hit).rgb();
+                return area.textured(scene_, hit).rgb();
         return area.radiance;
     }
 
     /// Radiance that comes from infinity, against the unit `direction`.
     Rgb environment(const Vec3& direction) const {
         if constexpr (!kHasEnvironment) return Rgb(0.0f);
-        return map_ ? constant_ + map_->radiance(direction) : constant_;
+        return map_ ? constant_.radiance + map_->radiance(direction) : constant_.radiance;
     }
 
     /// Density of sample_direct() for directions in which nothing is hit.
@@ -97,43 +99,18 @@ class Emitters {
     }
 
   private:
-    /// A colour that is returned in registers: the rare case then does not force the frequent one through memory.
-    struct Channels {
-        float r, g, b;
-        Rgb rgb() const { return {r, g, b}; }
-    };
-
-    /// A shape that emits, with the probabilities of its triangles. Disks and cylinders count as one triangle.
-    struct AreaLight {
-        Rgb radiance{0.0f};  ///< or what its texture is multiplied by
-        std::int32_t texture = kNone;
-        std::uint32_t shape = 0;
-        const Sphere* sphere = nullptr;
-        bool plain = false;               ///< a mesh without texture or mask
-        float selection = 0;              ///< probability that this light is chosen
-        DiscreteTable triangles;          ///< meshes
-        std::vector<float> area_density;  ///< per triangle: per area, within this light; none for spheres
-        std::vector<FlatTriangle> flat;   ///< of a plain mesh without shading normals that is not large
-        const Mask* mask = nullptr;
-        /// Spheres: sampled by their cone from outside. Not those that shine inwards through the holes of a mask.
-        bool by_cone = false;
-    };
-
+    /// Returns its power.
     double add_area_light(const AreaEmitter& emitter);
+    void add_environment(const ConstantEmitter& emitter);
+    void add_environment(const EnvironmentEmitter& emitter);
     void select(std::vector<double> power);
     float constant_pdf(const LightShare* share) const {
         return constant_pdf_ * clusters_.factor(share, constant_entry_);
     }
     EnvironmentMap::PartChoice part_choice(const LightShare* share) const;
-    Channels textured(const AreaLight& light, const Hit& hit) const;
     /// Kept out of line, so that plain meshes pay nothing for the other kinds.
     [[gnu::noinline]] DirectSample sample_other(std::uint32_t entry, const Vec3& p, const Draw& random,
                                                 const LightShare* share, const Vec3* front) const;
-    DirectSample sample_mesh(const AreaLight& light, const Vec3& p, const Draw& random, const Vec3* front) const;
-    DirectSample sample_area(const AreaLight& light, const Vec3& p, const Draw& random, const Vec3* front) const;
-    DirectSample sample_sphere(const AreaLight& light, const Vec3& p, const Draw& random, const Vec3* front) const;
-    DirectSample on_sphere(const AreaLight& light, const SphereSample& drawn, bool by_cone, const Vec3* front) const;
-    void shine(const AreaLight& light, DirectSample& sample) const;
     DirectSample sample_without_area(std::uint32_t entry, const Vec3& p, const Draw& random, const LightShare* share,
                                      const Vec3* front) const;
     float map_pdf(const EnvironmentSample& drawn, const LightShare* share) const;
@@ -152,8 +129,7 @@ class Emitters {
     }
     int part_of(std::uint32_t entry) const { return static_cast<int>(entry - constant_entry_ - 1); }
 
-    const EmbreeScene* geometry_;
-    const TextureSet* textures_;
+    LightScene scene_;
     std::vector<AreaLight> area_lights_;
     std::vector<std::int32_t> light_of_shape_;
     std::vector<DeltaLight> delta_lights_;
@@ -161,7 +137,7 @@ class Emitters {
     DiscreteTable delta_alone_;           ///< over delta lights
     DiscreteTable selection_;  ///< over area lights, delta lights, the constant environment, parts of the image
     LightClusters clusters_;   ///< of its entries
-    Rgb constant_{0.0f};
+    ConstantLight constant_;
     std::uint32_t constant_entry_ = 0;
     float constant_pdf_ = 0;
     std::unique_ptr<EnvironmentMap> map_;

@@ -1,11 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <type_traits>
+#include <variant>
+
 namespace treefarm {
 
-/// Kinds of materials name each of their values once, in fields(self, visitor), in the order in which they are packed.
-/// Packing, range checks, `treefarm check`, texture use and removal of what is unused follow from that. A
-/// visitor has, for what a value is:
+/// Kinds of materials and emitters name each of their values once, in fields(self, visitor), in the order in which they
+/// are packed. Packing, range checks, `treefarm check`, use of textures and images and removal of what is unused follow
+/// from that. A visitor has, for what a value is, of any kind:
+///
+///     flag(name, bool&)
+///
+/// of a material:
 ///
 ///     fraction(name, ColorInput& or FloatInput&)  a factor in [0, 1], constant or textured
 ///     anisotropy(FloatInput&)                     a factor in [0, 1]; above 0 tangents are needed
@@ -15,8 +22,18 @@ namespace treefarm {
 ///     eta(float&)                                 ratio of indices of refraction, above 0
 ///     metal(Rgb& eta, Rgb& k)                     complex index of refraction
 ///     roughness(Roughness&, bool isotropic)
-///     flag(name, bool&)
 ///     part(name, std::int32_t&)                   index of a material that stands before this one
+///
+/// of an emitter:
+///
+///     light(name, Rgb&, ColorInput& or float&)    how strongly it shines, or a factor on that: at least 0
+///     position(Vec3&)                             in the scene
+///     direction(Vec3&)                            of unit length
+///     value(float&)                               any other number, which a rule speaks of
+///     texture(std::int32_t&)                      index of a texture that light is multiplied by, or kNone
+///     image(std::int32_t&)                        index of an image of three channels
+///     shape(std::int32_t&)                        index of the shape that shines
+///     rule(bool holds, what, cure)                a condition on values named before, and the words where it does not
 ///
 /// Names are words for messages: "specular reflectance".
 
@@ -32,6 +49,20 @@ struct IgnoreFields {
     void roughness(const auto&, bool) {}
     void flag(const char*, const bool&) {}
     void part(const char*, const auto&) {}
+    void light(const char*, const auto&) {}
+    void position(const auto&) {}
+    void direction(const auto&) {}
+    void value(const auto&) {}
+    void texture(const auto&) {}
+    void image(const auto&) {}
+    void shape(const auto&) {}
+    void rule(bool, const char*, const char*) {}
 };
+
+/// Shows a visitor each value of what a variant of kinds holds, const or not.
+template <class Kind, class Visitor>
+void visit_fields(Kind& kind, Visitor&& visitor) {
+    std::visit([&](auto& held) { std::decay_t<decltype(held)>::fields(held, visitor); }, kind);
+}
 
 }  // namespace treefarm

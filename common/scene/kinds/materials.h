@@ -25,10 +25,4 @@ using MaterialKind = std::variant<DiffuseMaterial, ConductorMaterial, Dielectric
                                   PlasticMaterial, BlendMaterial, NullMaterial, RoughDiffuseMaterial, PhongMaterial,
                                   WardMaterial, PrincipledMaterial, CoatingMaterial, PrincipledThinMaterial>;
 
-/// Shows a visitor (fields.h) each value of a kind, const or not.
-template <class Kind, class Visitor>
-void visit_fields(Kind& kind, Visitor&& visitor) {
-    std::visit([&](auto& held) { std::decay_t<decltype(held)>::fields(held, visitor); }, kind);
-}
-
 }  // namespace treefarm

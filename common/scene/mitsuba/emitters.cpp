@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/scene/mitsuba/emitters.h"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <vector>
 
 #include "common/config/parse_text.h"
+#include "common/scene/mitsuba/field_of_view.h"
 #include "common/scene/mitsuba/sky_emitters.h"
 
 namespace treefarm::mitsuba {
 namespace {
-
-constexpr std::string_view kEmitters[] = {"point", "spot", "directional", "constant", "envmap", "sky", "sun", "sunsky"};
 
 /// How often emitters are chosen does not change the image.
 void ignore_sampling(Properties& properties) {
@@ -24,7 +26,7 @@ Vec3 z_axis(const Matrix& to_world) {
     return normalize(transform_vector(to_world, Vec3(0.0f, 0.0f, 1.0f)));
 }
 
-PointEmitter read_point(Properties& properties, TextureReader& textures, const Diagnostics& diagnostics) {
+EmitterKind read_point(Properties& properties, TextureReader& textures, const Diagnostics& diagnostics) {
     PointEmitter point;
     if (properties.has("position") && properties.has("to_world"))
         throw InputError(properties.where("position"), "both a position and a transformation are given", "keep one");
@@ -51,7 +53,7 @@ void read_projection(Properties& properties, const Matrix& to_world, SpotEmitter
     spot.y_axis = normalize(transform_vector(to_world, Vec3(0.0f, 1.0f, 0.0f)));
 }
 
-SpotEmitter read_spot(Properties& properties, TextureReader& textures) {
+EmitterKind read_spot(Properties& properties, TextureReader& textures, const Diagnostics&) {
     SpotEmitter spot;
     const Matrix to_world = properties.transform("to_world");
     spot.position = transform_point(to_world, Vec3(0.0f));
@@ -71,7 +73,7 @@ SpotEmitter read_spot(Properties& properties, TextureReader& textures) {
     return spot;
 }
 
-DirectionalEmitter read_directional(Properties& properties, TextureReader& textures) {
+EmitterKind read_directional(Properties& properties, TextureReader& textures, const Diagnostics&) {
     DirectionalEmitter directional;
     if (properties.has("direction") && properties.has("to_world"))
         throw InputError(properties.where("direction"), "both a direction and a transformation are given", "keep one");
@@ -87,13 +89,13 @@ DirectionalEmitter read_directional(Properties& properties, TextureReader& textu
     return directional;
 }
 
-ConstantEmitter read_constant(Properties& properties, TextureReader& textures) {
+EmitterKind read_constant(Properties& properties, TextureReader& textures, const Diagnostics&) {
     // A constant looks the same from all sides.
     properties.ignore({"to_world"});
-    return {textures.constant(properties, "radiance", Rgb(1.0f), ColorUse::radiance)};
+    return ConstantEmitter{textures.constant(properties, "radiance", Rgb(1.0f), ColorUse::radiance)};
 }
 
-EnvironmentEmitter read_envmap(Properties& properties, TextureReader& textures) {
+EmitterKind read_envmap(Properties& properties, TextureReader& textures, const Diagnostics&) {
     EnvironmentEmitter environment = read_environment_axes(properties);
     const double scale = properties.number("scale", 1.0);
     if (!(scale >= 0.0))
@@ -103,6 +105,50 @@ EnvironmentEmitter read_envmap(Properties& properties, TextureReader& textures) 
     environment.rows_at_poles = properties.element().version >= 2;
     properties.ignore({"cache"});
     return environment;
+}
+
+/// What Mitsuba calls irradiance is a pi-th of it. The picture lies as a camera in that place would see it.
+EmitterKind read_projector(Properties& properties, TextureReader& textures, const Diagnostics&) {
+    if (properties.element().version < 2)
+        throw InputError(properties.where(), "Mitsuba 0.6 has no projector",
+                         "use a spot with a texture, or bring the scene to version 3");
+    const Matrix to_world = properties.transform("to_world");
+    if (std::abs(uniform_scale(to_world, 1e-3) - 1.0) > 1e-3)
+        throw InputError(properties.where("to_world"), "the projector's transformation contains a scale or shear",
+                         "remove it: only rotations, mirrors and translations can move a projector");
+    ProjectorEmitter projector;
+    projector.position = transform_point(to_world, Vec3(0.0f));
+    projector.axis = z_axis(to_world);
+    projector.x_axis = normalize(transform_vector(to_world, Vec3(-1.0f, 0.0f, 0.0f)));
+    projector.y_axis = normalize(transform_vector(to_world, Vec3(0.0f, -1.0f, 0.0f)));
+    projector.irradiance = textures.color(properties, "irradiance", Rgb(1.0f), ColorUse::radiance);
+    const double scale = properties.number("scale", 1.0);
+    if (!(scale >= 0.0))
+        throw InputError(properties.where("scale"), "a scale of " + number_text(scale), "give 0 or more");
+    projector.irradiance.value *= static_cast<float>(M_PI * scale);
+    const double aspect = textures.aspect(projector.irradiance), half_width = read_half_width(properties, aspect);
+    projector.half_width = static_cast<float>(half_width);
+    projector.half_height = static_cast<float>(half_width / aspect);
+    return projector;
+}
+
+/// Emitters that stand by themselves. The sky's (sky_emitters.h) may be two.
+constexpr std::pair<std::string_view, EmitterKind (*)(Properties&, TextureReader&, const Diagnostics&)> kReaders[] = {
+    {"point", read_point},       {"spot", read_spot},     {"directional", read_directional},
+    {"constant", read_constant}, {"envmap", read_envmap}, {"projector", read_projector},
+};
+constexpr std::string_view kSkies[] = {"sky", "sun", "sunsky"};
+
+/// "use point, spot, ..."; or the one that was meant.
+std::string cure_of(const std::string& type) {
+    std::vector<std::string_view> known;
+    for (const auto& reader : kReaders)
+        known.push_back(reader.first);
+    known.insert(known.end(), std::begin(kSkies), std::end(kSkies));
+    std::string all = "use ";
+    for (const std::string_view name : known)
+        all += std::string(name) + ", ";
+    return did_you_mean(type, known, all + "or area in shapes");
 }
 
 }  // namespace
@@ -152,34 +198,21 @@ void read_emitter(const XmlElement& emitter, Scene& scene, TextureReader& textur
     }
     const std::size_t first = scene.emitters.size();
     const bool had_environment = scene.environment() != kNone;
-    const auto add = [&](auto kind) { scene.emitters.push_back({std::move(kind), emitter.where}); };
-    if (type == "point") {
-        add(read_point(properties, textures, diagnostics));
-    } else if (type == "spot") {
-        add(read_spot(properties, textures));
-    } else if (type == "directional") {
-        add(read_directional(properties, textures));
-    } else if (type == "constant") {
-        add(read_constant(properties, textures));
-    } else if (type == "envmap") {
-        add(read_envmap(properties, textures));
-    } else if (type == "sky" || type == "sun" || type == "sunsky") {
+    const auto reader =
+        std::find_if(std::begin(kReaders), std::end(kReaders), [&](const auto& r) { return r.first == type; });
+    if (reader != std::end(kReaders)) {
+        scene.emitters.push_back({reader->second(properties, textures, diagnostics), emitter.where});
+    } else if (std::find(std::begin(kSkies), std::end(kSkies), type) != std::end(kSkies)) {
         read_sky(properties, scene, textures);
     } else {
-        diagnostics.unsupported(
-            emitter.where, properties.title() + " is not available in this version",
-            did_you_mean(type, kEmitters,
-                         "use point, spot, directional, constant, envmap, sky, sun or sunsky, or area in shapes"));
+        diagnostics.unsupported(emitter.where, properties.title() + " is not available in this version", cure_of(type));
         return;
     }
     ignore_sampling(properties);
     properties.finish();
-    for (std::size_t i = first; i < scene.emitters.size(); ++i) {
-        const auto& kind = scene.emitters[i].kind;
-        if (had_environment &&
-            (std::holds_alternative<ConstantEmitter>(kind) || std::holds_alternative<EnvironmentEmitter>(kind)))
+    for (std::size_t i = first; i < scene.emitters.size(); ++i)
+        if (had_environment && scene.emitters[i].type() == LightType::environment)
             throw InputError(emitter.where, "this is a second environment emitter", "keep one of them");
-    }
 }
 
 }  // namespace treefarm::mitsuba

@@ -136,6 +136,14 @@ std::int32_t ImageRequests::add(const std::filesystem::path& path, const Decodin
     return place->second;
 }
 
+double ImageRequests::aspect(std::int32_t image) const {
+    const auto request =
+        std::find_if(requests_.begin(), requests_.end(), [&](const Request& r) { return r.image == image; });
+    if (request == requests_.end()) return 1.0;
+    const StoredImage file = read_stored_image(request->path);
+    return static_cast<double>(file.width) / file.height;
+}
+
 void ImageRequests::read(const std::vector<std::int32_t>& kept, Scene& scene, Diagnostics& diagnostics) const {
     const std::filesystem::path* loaded = nullptr;
     StoredImage file;

@@ -34,6 +34,10 @@ class ImageRequests {
     /// Index in Scene::images, where an empty image keeps the place. A missing file throws InputError at `where`.
     std::int32_t add(const std::filesystem::path& path, const Decoding& decoding, const Location& where, Scene& scene);
 
+    /// Width over height of an image that was asked for. The file is read for it, and again by read(). Throws
+    /// InputError.
+    double aspect(std::int32_t image) const;
+
     /// Fills the images that are left; `kept` tells where each went (remove_unused). Throws InputError.
     void read(const std::vector<std::int32_t>& kept, Scene& scene, Diagnostics& diagnostics) const;
 

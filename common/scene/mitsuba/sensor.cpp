@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "common/config/parse_text.h"
+#include "common/scene/mitsuba/field_of_view.h"
 #include "common/scene/mitsuba/film.h"
 
 namespace treefarm::mitsuba {
@@ -15,38 +16,6 @@ constexpr std::string_view kSensors[] = {"perspective", "thinlens", "orthographi
 
 double radians(double degrees) {
     return degrees * M_PI / 180.0;
-}
-
-/// Half the film's width at distance 1, from the field of view along `axis`.
-double half_width(double fov, const std::string& axis, double aspect, const Location& where,
-                  const Location& where_axis) {
-    if (!(fov > 0.0 && fov < 180.0))
-        throw InputError(where, "a field of view of " + number_text(fov) + " degrees",
-                         "give more than 0 and less than 180");
-    const double half = std::tan(radians(fov) / 2.0);
-    if (axis == "x") return half;
-    if (axis == "y") return half * aspect;
-    if (axis == "diagonal") return half / std::sqrt(1.0 + 1.0 / (aspect * aspect));
-    if (axis == "smaller") return aspect > 1.0 ? half * aspect : half;
-    if (axis == "larger") return aspect > 1.0 ? half : half * aspect;
-    throw InputError(where_axis, "unknown axis " + in_quotes(axis) + " of the field of view",
-                     "use x, y, diagonal, smaller or larger");
-}
-
-/// Of a film of 36 x 24 mm.
-double diagonal_fov(const std::string& focal_length, const Location& where) {
-    std::string_view text = trim(focal_length);
-    if (text.ends_with("mm")) text.remove_suffix(2);
-    const auto length = parse_number(text);
-    if (!length || *length <= 0.0)
-        throw InputError(where, in_quotes(focal_length) + " is not a focal length", "write for instance 50mm");
-    return 2.0 * std::atan(std::sqrt(36.0 * 36.0 + 24.0 * 24.0) / (2.0 * *length)) * 180.0 / M_PI;
-}
-
-std::string lower(std::string text) {
-    for (char& c : text)
-        if ('A' <= c && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-    return text;
 }
 
 /// The stream of random numbers is Treefarm's own, whatever sampler the scene asks for.
@@ -118,20 +87,7 @@ Camera read_perspective(Properties& properties, const std::string& type, double 
     if (std::abs(uniform_scale(to_world, 1e-3) - 1.0) > 1e-3)
         throw InputError(properties.where("to_world"), "the camera's transformation contains a scale or shear",
                          "remove it: only rotations, mirrors and translations can move a camera");
-    if (properties.has("fov") && properties.has("focal_length"))
-        throw InputError(properties.where("focal_length"), "both a field of view and a focal length are given",
-                         "keep one");
-    double width = 0.0;
-    if (properties.has("fov")) {
-        const std::string axis = lower(properties.text("fov_axis", "x"));
-        width = half_width(properties.number("fov", 0.0), axis, aspect, properties.where("fov"),
-                           properties.where("fov_axis"));
-    } else {
-        const Location& where = properties.where("focal_length");
-        width =
-            half_width(diagonal_fov(properties.text("focal_length", "50mm"), where), "diagonal", aspect, where, where);
-        properties.ignore({"fov_axis"});
-    }
+    const double width = read_half_width(properties, aspect);
     const double offset_x = properties.number("principal_point_offset_x", 0.0);
     const double offset_y = properties.number("principal_point_offset_y", 0.0);
     Camera camera = make_camera(to_world, 2.0 * std::atan(width) * 180.0 / M_PI, aspect, offset_x, offset_y);

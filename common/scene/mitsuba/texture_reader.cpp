@@ -96,6 +96,12 @@ ColorInput TextureReader::data(const XmlElement& texture, bool signed_values) {
     return read(texture, {ColorUse::coefficient, true, signed_values});
 }
 
+double TextureReader::aspect(const ColorInput& input) const {
+    if (!input.varies()) return 1.0;
+    const auto* bitmap = std::get_if<BitmapTexture>(&scene_.textures[static_cast<std::size_t>(input.texture)].kind);
+    return bitmap ? images_.aspect(bitmap->image) : 1.0;
+}
+
 std::int32_t TextureReader::environment_image(Properties& properties) {
     Decoding decoding;
     decoding.gamma = properties.element().version == 0 ? properties.number("gamma", Decoding::kAuto) : Decoding::kAuto;

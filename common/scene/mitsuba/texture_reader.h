@@ -28,6 +28,9 @@ class TextureReader {
     /// the element says otherwise.
     ColorInput data(const XmlElement& texture, bool signed_values);
 
+    /// Width over height of a texture's pixels; 1 where it has none.
+    double aspect(const ColorInput& input) const;
+
     /// An image of three linear float channels, for the environment.
     std::int32_t environment_image(Properties& properties);
 

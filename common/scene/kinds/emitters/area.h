@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "common/scene/kinds/emitter_traits.h"
+
+namespace treefarm {
+
+/// Emits `radiance` from the front of a shape, in every direction of the hemisphere.
+struct AreaEmitter {
+    ColorInput radiance{Rgb(1.0f)};  ///< W / (m^2 sr), per channel
+    std::int32_t shape = kNone;
+
+    static constexpr EmitterTraits kTraits{LightType::area,          "area",
+                                           "area emitter",           "surfaces that emit",
+                                           "a shape has an emitter", "128 bytes per emitter, 12 per emitting triangle"};
+    float radiance_scale(const LitScene&) const { return average(radiance.value); }
+    static void fields(auto& self, auto& visitor) {
+        visitor.light("radiance", self.radiance);
+        visitor.shape(self.shape);
+    }
+};
+
+}  // namespace treefarm

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "common/scene/kinds/emitter_traits.h"
+
+namespace treefarm {
+
+/// Emits `radiance` from infinity, in every direction.
+struct ConstantEmitter {
+    Rgb radiance{1.0f};
+
+    static constexpr EmitterTraits kTraits{LightType::environment, "constant",
+                                           "constant emitter",     "the same radiance from everywhere",
+                                           "the scene has one",    "128 bytes"};
+    float radiance_scale(const LitScene&) const { return average(radiance); }
+    static void fields(auto& self, auto& visitor) { visitor.light("radiance", self.radiance); }
+};
+
+}  // namespace treefarm

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "worker/lights/area.h"
+
+#include <numeric>
+
+#include "common/base/error.h"
+
+namespace treefarm {
+namespace {
+
+/// Larger meshes would not stay in the cache.
+constexpr std::size_t kMostFlat = 4096;
+
+}  // namespace
+
+AreaLight::AreaLight(const AreaEmitter& emitter, const LightScene& scene)
+    : radiance(emitter.radiance.value),
+      texture(emitter.radiance.texture),
+      shape(static_cast<std::uint32_t>(emitter.shape)),
+      sphere(scene.geometry->sphere(shape)),
+      mask(scene.geometry->mask(shape)),
+      by_cone(sphere && !(mask && sphere->flip_normals)) {
+    if (texture != kNone && !scene.textures) throw RunError("an emitter has a texture, but there are no textures");
+    const std::vector<double> areas = part_areas(*scene.geometry, shape);
+    if (!sphere) {
+        triangles = DiscreteTable(areas);
+        area_density.resize(areas.size(), 0.0f);
+        for (std::uint32_t i = 0; i < areas.size(); ++i)
+            if (areas[i] > 0) area_density[i] = static_cast<float>(double(triangles.probability(i)) / areas[i]);
+    }
+    plain = scene.geometry->triangle_count(shape) > 0 && texture == kNone && !mask;
+    if (plain && areas.size() <= kMostFlat) flat = scene.geometry->flat_triangles(shape);
+}
+
+double AreaLight::power(const LightScene& scene) const {
+    const std::vector<double> areas = part_areas(*scene.geometry, shape);
+    const double area = std::accumulate(areas.begin(), areas.end(), 0.0);
+    const Rgb mean = radiance * (texture != kNone ? mean_color(*scene.textures, texture) : Rgb(1.0f));
+    return area * double(kPi) * double(average(mean));
+}
+
+AreaLight::Channels AreaLight::textured(const LightScene& scene, const Hit& hit) const {
+    const Rgb c = radiance * scene.textures->color(texture, scene.geometry->uv(hit));
+    return {c.x, c.y, c.z};
+}
+
+}  // namespace treefarm

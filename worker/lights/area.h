@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "common/base/build_options.h"
+#include "common/base/random.h"
+#include "common/scene/kinds/emitters/area.h"
+#include "worker/geometry/embree_scene.h"
+#include "worker/geometry/primitive_points.h"
+#include "worker/lights/area_measure.h"
+#include "worker/lights/discrete_table.h"
+#include "worker/lights/sphere_sample.h"
+
+namespace treefarm {
+
+/// Whether a surface with this normal, if that matters, sees a direction.
+inline bool sees(const Vec3* front, const Vec3& direction) {
+    return !front || dot(*front, direction) > 0.0f;
+}
+
+/// What area lights are part of.
+struct LightScene {
+    const EmbreeScene* geometry;
+    const TextureSet* textures;  ///< nullptr: there are none
+};
+
+/// A shape that emits, with the probabilities of its triangles. Disks and cylinders count as one triangle. `front`:
+/// normal of a surface at p that reflects only (Emitters::sample_direct).
+struct AreaLight {
+    /// A colour that is returned in registers: the rare case then does not force the frequent one through memory.
+    struct Channels {
+        float r, g, b;
+        Rgb rgb() const { return {r, g, b}; }
+    };
+
+    Rgb radiance{0.0f};  ///< or what its texture is multiplied by
+    std::int32_t texture = kNone;
+    std::uint32_t shape = 0;
+    const Sphere* sphere = nullptr;
+    bool plain = false;               ///< a mesh without texture or mask
+    float selection = 0;              ///< probability that this light is chosen
+    DiscreteTable triangles;          ///< meshes
+    std::vector<float> area_density;  ///< per triangle: per area, within this light; none for spheres
+    std::vector<FlatTriangle> flat;   ///< of a plain mesh without shading normals that is not large
+    const Mask* mask = nullptr;
+    /// Spheres: sampled by their cone from outside. Not those that shine inwards through the holes of a mask.
+    bool by_cone = false;
+
+    /// Throws RunError if it has a texture and there are none.
+    AreaLight(const AreaEmitter& emitter, const LightScene& scene);
+
+    /// Mean of the channels, in watts.
+    double power(const LightScene& scene) const;
+
+    /// Its radiance where a texture varies it.
+    Channels textured(const LightScene& scene, const Hit& hit) const;
+
+    /// Whatever it is. random[1] chooses the triangle, [2] and [3] the place.
+    DirectSample sample(const LightScene& scene, const Vec3& p, const Draw& random, const Vec3* front) const {
+        if (sphere) return sample_sphere(scene, p, random, front);
+        DirectSample sample = sample_flat(scene, p, random, front);
+        shine(scene, sample);
+        return sample;
+    }
+
+    /// A mesh, without what texture and mask make of its radiance.
+    DirectSample sample_mesh(const LightScene& scene, const Vec3& p, const Draw& random, const Vec3* front) const {
+        const std::uint32_t triangle = triangles.pick(random[1]);
+        const Vec2 b = square_to_triangle({to_unit(random[2]), to_unit(random[3])});
+        DirectSample sample;
+        Hit& hit = sample.on_light;
+        if (flat.empty()) {
+            scene.geometry->set_triangle_point(hit, shape, triangle, b.x, b.y);
+        } else {
+            hit.shape = shape;
+            hit.primitive = triangle;
+            flat[triangle].set_point(hit, b.x, b.y);
+        }
+        if (front && !(dot(*front, hit.p - p) > 0.0f && dot(hit.ng, p - hit.p) > 0.0f)) return sample;
+        look_at(sample, p, radiance, selection, area_density[triangle]);
+        return sample;
+    }
+
+    /// A place on its sphere that was drawn.
+    DirectSample on_sphere(const LightScene& scene, const SphereSample& drawn, bool from_cone,
+                           const Vec3* front) const {
+        DirectSample sample;
+        if (!(drawn.pdf > 0.0f) || !sees(front, drawn.direction)) return sample;
+        sample.wi = drawn.direction;
+        sample.on_light = sphere_hit(*sphere, drawn.p, drawn.normal);
+        sample.on_light.shape = shape;
+        sample.distance = drawn.distance;
+        sample.pdf = selection * drawn.pdf;
+        // What a cone meets first is the outside, also where rounding has it beyond the rim.
+        const bool shines = from_cone ? !sphere->flip_normals : dot(sample.on_light.ng, drawn.direction) < 0.0f;
+        if (shines) sample.radiance = radiance;
+        shine(scene, sample);
+        return sample;
+    }
+
+    /// Density per steradian of sample() for what is hit from p along wi, `factor` times its selection.
+    float pdf(const Vec3& p, const Vec3& wi, const Hit& hit, float factor) const {
+        const float chosen = selection * factor;
+        float density;
+        if (sphere) {
+            const SphereCone cone = sphere_cone(*sphere, p);
+            if (cone.outside && by_cone) return chosen * cone.pdf();
+            density = sphere_area_density(sphere->radius);
+        } else {
+            density = area_density[hit.primitive];
+        }
+        const Vec3 to_light = hit.p - p;
+        return chosen * per_steradian(density, dot(to_light, to_light), std::abs(dot(hit.ng, wi)));
+    }
+
+  private:
+    /// Any shape but a sphere, uniformly by area.
+    DirectSample sample_flat(const LightScene& scene, const Vec3& p, const Draw& random, const Vec3* front) const {
+        if (scene.geometry->triangle_count(shape) > 0) return sample_mesh(scene, p, random, front);
+        DirectSample sample;
+        sample.on_light = uniform_point(*scene.geometry, shape, {to_unit(random[2]), to_unit(random[3])});
+        look_at(sample, p, radiance, selection, area_density[0]);
+        return sample;
+    }
+
+    DirectSample sample_sphere(const LightScene& scene, const Vec3& p, const Draw& random, const Vec3* front) const {
+        const Vec2 u = {to_unit(random[2]), to_unit(random[3])};
+        const bool from_cone = by_cone && has_cone(*sphere, p);
+        const auto draw = from_cone ? sample_by_cone : sample_by_area;
+        return on_sphere(scene, draw(sphere->center, sphere->radius, p, u), from_cone, front);
+    }
+
+    /// Adds what texture and mask make of its radiance.
+    void shine(const LightScene& scene, DirectSample& sample) const {
+        if (is_black(sample.radiance)) return;
+        if (kHasTextures && texture != kNone) sample.radiance = textured(scene, sample.on_light).rgb();
+        // The shadow ray ends before the emitter, so its own mask is not asked: on average it lets this much be seen.
+        if (kHasMasks && mask) sample.radiance *= scene.geometry->opacity(sample.on_light);
+    }
+};
+
+}  // namespace treefarm

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <limits>
+
+#include "common/scene/kinds/emitters/directional.h"
+#include "worker/lights/direct_sample.h"
+#include "worker/textures/texture_set.h"
+
+namespace treefarm {
+
+/// Parallel light.
+class DirectionalLight {
+  public:
+    using Kind = DirectionalEmitter;
+
+    DirectionalLight(const DirectionalEmitter& parallel, const TextureSet*)
+        : direction_(parallel.direction), irradiance_(parallel.irradiance) {}
+
+    double power(double scene_radius) const {
+        return double(kPi) * scene_radius * scene_radius * double(average(irradiance_));
+    }
+    DirectSample sample(const Vec3&, float selection) const {
+        DirectSample sample;
+        sample.delta = true;
+        sample.wi = -direction_;
+        sample.distance = std::numeric_limits<float>::infinity();
+        sample.pdf = selection;
+        sample.radiance = irradiance_;
+        return sample;
+    }
+
+  private:
+    Vec3 direction_;  ///< unit, along which it travels
+    Rgb irradiance_;  ///< W / m^2
+};
+
+}  // namespace treefarm

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "common/base/error.h"
+#include "common/scene/kinds/emitters/projector.h"
+#include "worker/lights/area_measure.h"
+#include "worker/lights/point.h"
+
+namespace treefarm {
+
+/// A point that throws a picture. With E on the plane at distance 1 its intensity at the angle t from the axis is
+/// E / cos^3 t: the plane is 1 / cos t away and seen at cos t.
+class ProjectorLight {
+  public:
+    using Kind = ProjectorEmitter;
+
+    ProjectorLight(const ProjectorEmitter& projector, const TextureSet* textures)
+        : position_(projector.position),
+          axis_(projector.axis),
+          u_axis_(projector.x_axis * (0.5f / projector.half_width)),
+          v_axis_(projector.y_axis * (0.5f / projector.half_height)),
+          irradiance_(projector.irradiance.value),
+          textures_(textures),
+          texture_(projector.irradiance.texture),
+          area_(4.0 * double(projector.half_width) * double(projector.half_height)) {
+        if (texture_ != kNone && !textures) throw RunError("a projector has a texture, but there are no textures");
+    }
+
+    double power(double) const {
+        const double mean = texture_ != kNone ? double(average(mean_color(*textures_, texture_))) : 1.0;
+        return area_ * double(average(irradiance_)) * mean;
+    }
+
+    DirectSample sample(const Vec3& p, float selection) const {
+        DirectSample sample = sample_point(position_, irradiance_, p, selection);
+        if (!(sample.pdf > 0.0f)) return sample;
+        const Vec3 away = -sample.wi;
+        const float cosine = dot(axis_, away), u = dot(u_axis_, away), v = dot(v_axis_, away);
+        if (!(cosine > 0.0f && std::abs(u) <= 0.5f * cosine && std::abs(v) <= 0.5f * cosine)) {
+            sample.radiance = Rgb(0.0f);
+            return sample;
+        }
+        const float inverse = 1.0f / cosine;
+        sample.radiance *= inverse * inverse * inverse;
+        if (texture_ != kNone)
+            sample.radiance *= textures_->color(texture_, Vec2(0.5f + u * inverse, 0.5f + v * inverse));
+        return sample;
+    }
+
+  private:
+    Vec3 position_;
+    Vec3 axis_;             ///< unit
+    Vec3 u_axis_, v_axis_;  ///< per unit of them, along the axis, u and v change by 1
+    Rgb irradiance_;        ///< W / m^2 on the plane at distance 1, or what the texture is multiplied by
+    const TextureSet* textures_;
+    std::int32_t texture_;
+    double area_;  ///< of the picture on that plane
+};
+
+}  // namespace treefarm
