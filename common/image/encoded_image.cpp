@@ -31,7 +31,7 @@ std::optional<stb::Size> size_by_stb(std::span<const std::uint8_t> bytes) {
     return stb::image_size(bytes);
 }
 
-/// Nothing for other formats.
+/// Format of a file that stb does not decode; nothing for other formats.
 std::optional<ImageFormat> plain_format(std::span<const std::uint8_t> bytes, const std::filesystem::path& path) {
     if (is_netpbm(bytes)) return ImageFormat::netpbm;
     if (is_bmp(bytes)) return ImageFormat::bmp;

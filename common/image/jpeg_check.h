@@ -6,9 +6,9 @@
 
 namespace treefarm {
 
-/// What is wrong with a JPEG file that stb's decoder would not survive or not notice: a Huffman table of more than 256
-/// codes (it writes past the table), or no end marker behind the scans (what is missing would be grey). Empty if
-/// nothing is.
+/// The fault of a JPEG file that stb's decoder would not survive or not notice: a Huffman table of more than 256 codes
+/// (it writes past the table), or no end marker behind the scans (what is missing would be grey). Empty if there is
+/// none.
 const char* jpeg_fault(std::span<const std::uint8_t> bytes);
 
 }  // namespace treefarm

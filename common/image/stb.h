@@ -30,7 +30,7 @@ struct Stored {
 /// Size that a PNG or JPEG file claims; nothing for other formats.
 std::optional<Size> image_size(std::span<const std::uint8_t> bytes);
 
-/// Nothing, and `why`, if it cannot be decoded.
+/// The decoded file; nothing, and `why`, if it cannot be decoded.
 std::optional<Decoded> decode(std::span<const std::uint8_t> bytes, std::string& why);
 
 std::optional<Stored> decode_as_stored(std::span<const std::uint8_t> bytes, std::string& why);
