@@ -212,7 +212,7 @@ class Limit {
         }
     }
 
-    /// As many at a time as the renderer may have.
+    /// Traces as many rays at a time as the renderer may have.
     void trace_together(const Mode& mode) const {
         constexpr std::size_t kMost = EmbreeScene::kMostTogether;
         std::array<EmbreeScene::Meeting, kMost> meetings;

@@ -87,7 +87,7 @@ void closest_hit_with_surface(benchmark::State& state) {
     count_rays(state, segments.size());
 }
 
-/// The same with farm.robust: its price.
+/// Closest hits of the same segments with farm.robust: its price.
 void closest_hit_watertight(benchmark::State& state) {
     const TraceScene scene = make_scene(true);
     const std::vector<Segment> segments = collect(scene, false);

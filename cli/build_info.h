@@ -3,7 +3,7 @@
 
 namespace treefarm {
 
-/// What this program was built from: `git describe --always --dirty`, or "release" without a repository.
+/// Source that this program was built from: `git describe --always --dirty`, or "release" without a repository.
 const char* build_source();
 
 /// How it was built: kind of build, instruction set, sanitizer, effects that were left out.

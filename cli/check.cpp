@@ -56,7 +56,7 @@ bool is_error(const Finding& finding) {
     return finding.severity == Finding::Severity::error;
 }
 
-/// What the reader says, what inspection finds, and, if that is no error, what a render would refuse.
+/// Findings of the reader, of inspection and, if none of them is an error, of what a render would refuse.
 std::vector<Finding> check(const CheckOptions& options) {
     SceneToCheck read = load_scene_to_check(options.scene, defined(options.defines), options.lenient, options.sensor);
     std::vector<Finding> findings = std::move(read.findings);

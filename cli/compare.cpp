@@ -61,7 +61,7 @@ Side read_side(const std::string& path) {
     return side;
 }
 
-/// Of a whole image, the part that the other shows.
+/// Cuts out of a whole image the part that the other shows.
 void cut_to_window(Side& whole, const Side& window) {
     const ImagePlace& place = window.place;
     if (whole.place.is_window() || !place.is_window() || whole.colour.width != place.whole_width ||
@@ -115,7 +115,7 @@ bool has_extension(const std::string& path, const char* extension) {
     return std::filesystem::path(path).extension() == extension;
 }
 
-/// What CLI11 does not find: its ranges let NaN through.
+/// Checks what CLI11 does not find: its ranges let NaN through.
 void check_options(const CompareOptions& options) {
     if (!(options.reference_error >= 0.0 && options.reference_error <= 1.0))
         throw InputError(Location{"--reference-error"}, "is not a number", "give 0 to 1, e.g. 0.001");

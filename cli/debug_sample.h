@@ -14,7 +14,7 @@ struct SampleName {
     std::uint32_t sample = 0;  ///< within the pass
 };
 
-/// From "pass,x,y,sample"; throws InputError.
+/// A sample's name from "pass,x,y,sample"; throws InputError.
 SampleName parse_sample_name(const std::string& text);
 
 /// Renders the passes before the sample's, since they teach the tree that guides it, traces the sample and prints its

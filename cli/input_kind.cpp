@@ -18,7 +18,7 @@ constexpr const char* kStudy = "give a study file (.toml)";
     throw InputError(Location{input, 0, 0}, what, cure);
 }
 
-/// What to do with a folder.
+/// Refuses a folder, and says what to do with it.
 [[noreturn]] void refuse_folder(const std::filesystem::path& folder, const char* otherwise) {
     const auto has = [&](const char* name) {
         std::error_code error;

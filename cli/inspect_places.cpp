@@ -41,7 +41,7 @@ struct Panel {
     std::vector<float> density;  ///< per steradian; integrates to one unless all is 0
 };
 
-/// Over the sphere of directions.
+/// Integral over the sphere of directions.
 double integral_of(const std::vector<float>& values) {
     double sum = 0;
     for (const float value : values)
@@ -100,7 +100,7 @@ Comparison compare(const std::string& kind, const std::vector<Panel>& panels, in
     return comparison;
 }
 
-/// The learned one, what it should be, and, where next event takes a part of that away here, the whole.
+/// Panels of the learned density, of what it should be and, where next event takes a part of that away, of the whole.
 std::vector<Panel> panels_of(const std::string& title, std::vector<float> learned, const std::string& true_title,
                              const std::vector<float>& all, const std::vector<float>& left) {
     std::vector<Panel> panels = {{title, normalized(std::move(learned))}};

@@ -31,7 +31,7 @@ struct Comparison {
     std::vector<std::string> panels;  ///< what it shows, from left to right
 };
 
-/// What was seen at a place.
+/// Report of what was seen at a place.
 struct PlaceReport {
     std::string text;
     Vec3 position{0.0f};

@@ -22,7 +22,7 @@ struct CoordinatorEnd {
     std::set<int> lost;  ///< workers that were given up
 };
 
-/// What the coordinator does, between the start of the workers and their dismissal.
+/// The coordinator's part, between the start of the workers and their dismissal.
 struct FarmTask {
     std::function<void()> prepare;  ///< reads and checks the input; without mpirun a signal breaks it off
     std::function<CoordinatorEnd(Channel&, const std::function<bool()>& interrupted)> coordinate;
@@ -39,7 +39,7 @@ struct FarmOptions {
 /// --threads, --quiet, --verbose, --start-seconds
 void add_farm_options(CLI::App& command, FarmOptions& options);
 
-/// Where this process speaks, and how much it says.
+/// The voice of this process: where it speaks, and how much it says.
 struct Voice {
     ConsolePtr console;
     Loudness loudness = Loudness::normal;

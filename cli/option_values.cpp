@@ -28,7 +28,7 @@ std::string typed(const std::string& option, const std::string& example) {
     throw InputError(Location{option, 0, 0}, what, cure);
 }
 
-/// What keeps a text from being a number; the names of no numbers among it.
+/// The reason why a text is no number; a name of no number ("nan") is none, either.
 std::string not_a_number(const std::string& text) {
     return trim(text).empty() ? "the value is empty" : in_quotes(text) + " is not a number";
 }

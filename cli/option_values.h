@@ -12,7 +12,7 @@ namespace treefarm {
 // Options whose values are checked where they are typed. What is wrong leaves CLI::App::parse as an InputError that
 // names the option, the value, why it will not do, and what to type.
 
-/// For the end of a command's help.
+/// Exit codes, for the end of a command's help.
 inline constexpr const char* kExitCodesText =
     "Exit codes: 0 done, 1 the run failed, 2 bad usage or input, 3 interrupted, 4 done, but --error was not reached,\n"
     "5 check found something";
@@ -44,7 +44,7 @@ unsigned checked_threads(const std::string& text);
 
 /// A name of a file or folder, or another text that cannot be empty.
 CLI::Option* add_text_option(CLI::App& command, const std::string& names, std::string& value, const std::string& help);
-/// The same, any number of times: --set a=1 --set b=2.
+/// A text option that may come any number of times: --set a=1 --set b=2.
 CLI::Option* add_texts_option(CLI::App& command, const std::string& names, std::vector<std::string>& values,
                               const std::string& help);
 

@@ -9,10 +9,10 @@
 
 namespace treefarm {
 
-/// What ends a render that a plan looks at.
+/// The budget that ends a render which a plan looks at.
 enum class RenderEnd : std::uint8_t { error, seconds, spp };
 
-/// What a render is expected to take and to give, by a probe.
+/// Expected cost and error of a render, by a probe.
 struct PlanAnswer {
     Probe probe;
     Expectation expected;
@@ -20,7 +20,7 @@ struct PlanAnswer {
     double pixel_ratio = 1;          ///< of the render's film over the probe's
 };
 
-/// By the budget of the request's job.
+/// The answer by a probe, for the budget of the request's job.
 PlanAnswer answer_by_probe(const Resolved& job, Probe probe, double pixel_ratio);
 
 /// "5 % error: about 1,840 spp [1,500, 2,300], 2:10 min [1:40 min, 2:50 min] on this machine (2 threads)", and a line

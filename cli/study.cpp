@@ -88,7 +88,7 @@ void tell(const WrittenReport& report) {
     std::cout << report.page.string() << "\n";
 }
 
-/// Into a folder of their own where there are several results.
+/// Exports figures, into a folder of their own where there are several results.
 void export_figures_of(const StudyResults& results, const ReportOptions& options, bool several) {
     if (options.figures.empty()) return;
     std::filesystem::path folder = options.figures;

@@ -90,7 +90,7 @@ std::ptrdiff_t count_of(const std::string& option, std::span<const std::string> 
                          [&](const std::string& argument) { return before_equals(argument) == option; });
 }
 
-/// Of an error like "--spp: 1 required TEXT missing".
+/// The option of an error like "--spp: 1 required TEXT missing".
 std::string option_of(const std::string& what) {
     return what.substr(0, what.find(':'));
 }

@@ -7,14 +7,14 @@
 
 namespace treefarm {
 
-/// What to say about a first word that is no command; "" if it is one, or an option.
+/// Message about a first word that is no command; "" if it is one, or an option.
 std::string unknown_command(const CLI::App& app, const std::string& word);
 
-/// What is wrong with these arguments before anything reads them; "" if nothing: "--option=" without a value would
-/// swallow the argument that follows.
+/// The fault of these arguments before anything reads them; "" if none: "--option=" without a value would swallow the
+/// argument that follows.
 std::string malformed_argument(std::span<const std::string> arguments);
 
-/// What to say about arguments that the parser refused with this error.
+/// Message about arguments that the parser refused with this error.
 std::string usage_message(const CLI::App& app, const CLI::ParseError& error, std::span<const std::string> arguments);
 
 }  // namespace treefarm

@@ -13,7 +13,7 @@
 
 namespace treefarm {
 
-/// What one worker contributed to a pass.
+/// One worker's contribution to a pass.
 struct WorkerShare {
     TraceStats stats;
     std::uint64_t pixels = 0;  ///< pixel-chunks accepted

@@ -92,7 +92,7 @@ void Farm::send_blob(Blob blob, std::uint64_t offset, std::span<const std::uint3
     send_along_chain(channel_, name_of(blob), blob == Blob::tree ? pass_->tree : scene_, offset, chain);
 }
 
-/// What is on its way takes memory here until it is there: nobody gets it twice at a time, however often he asks.
+/// Whether a peer may have a copy. One on its way takes memory here: nobody gets two at a time, however often he asks.
 bool Farm::may_have_copy(Blob blob, int peer) {
     double& last = copied_.try_emplace({peer, name_of(blob)}, -1e9).first->second;
     if (clock_.seconds() - last < kResendHeartbeats * job_.farm.heartbeat_seconds) return false;
@@ -100,8 +100,8 @@ bool Farm::may_have_copy(Blob blob, int peer) {
     return true;
 }
 
-/// Those behind a worker that died in the chain ask at about the same time: one chain of them all gets one copy, not
-/// each its own.
+/// Sends what was asked for. Workers behind one that died in the chain ask at about the same time: one chain of them
+/// all gets one copy, not each its own.
 void Farm::serve_askers() {
     for (auto& [blob, askers] : askers_) {
         if (askers.offsets.empty() || clock_.seconds() - askers.since < limits_.asking) continue;

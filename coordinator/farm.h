@@ -77,7 +77,7 @@ class Farm {
     std::uint64_t dropped_results() const { return dropped_results_; }
     /// Messages that were no messages, or said what cannot be.
     std::uint64_t bad_messages() const { return bad_messages_; }
-    /// Of all workers in their present lives, as their heartbeats say.
+    /// Rays of all workers in their present lives, as their heartbeats say.
     std::uint64_t rays_traced() const;
 
   private:

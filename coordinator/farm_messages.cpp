@@ -18,7 +18,7 @@ constexpr std::uint32_t kMostCredit = 1u << 20;
 /// Lives of one worker process: one that begins anew so often never gets anywhere.
 constexpr std::uint32_t kMostLives = 1000;
 
-/// Of a kind, that are worth a line in the log.
+/// Messages of one kind that are worth a line in the log.
 constexpr std::uint64_t kMostTold = 20;
 
 }  // namespace

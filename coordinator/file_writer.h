@@ -32,16 +32,16 @@ class FileWriter {
     FileWriter(const FileWriter&) = delete;
     FileWriter& operator=(const FileWriter&) = delete;
 
-    /// In the place of what still waits under this name. It is called in the writer's thread, possibly several times.
+    /// Puts `write` in the place of what waits under this name. The writer's thread calls it, possibly several times.
     void put(const std::string& name, Write write, Pace pace = {});
 
-    /// What waits under this name is not written, and waited for where it is being written.
+    /// Drops what waits under this name, or waits for it where it is being written.
     void forget(const std::string& name);
 
-    /// What there is to tell since the last call: each kind of trouble (an errno) once, and that all is written again.
+    /// News since the last call: each kind of trouble (an errno) once, and that all is written again.
     std::vector<std::string> take_news();
 
-    /// Ends what is being written; what waits is forgotten. The names that were put and not written since.
+    /// Ends what is being written; what waits is forgotten. Returns the names that were put and not written since.
     std::vector<std::string> stop();
 
   private:

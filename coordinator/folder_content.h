@@ -9,7 +9,7 @@
 
 namespace treefarm {
 
-/// What a folder holds, as far as this program wrote it.
+/// Content of a folder, as far as this program wrote it.
 enum class FolderContent {
     nothing,
     render,  ///< a run directory
@@ -21,12 +21,12 @@ FolderContent folder_content(const std::filesystem::path& folder);
 /// Names of the files that a render leaves in its folder.
 std::span<const std::string_view> run_file_names();
 
-/// Where an earlier run lies aside in its folder: "previous", "previous-2", ... by number from 1.
+/// Name of the place where an earlier run lies aside in its folder: "previous", "previous-2", ... by number from 1.
 std::string previous_name(int number);
-/// The runs that lie aside there.
+/// The runs that lie aside in a folder.
 std::vector<std::filesystem::path> previous_runs(const std::filesystem::path& folder);
 
-/// What a run directory holds, for a message: "done, 64 spp", "broken off, 12 spp".
+/// Content of a run directory, for a message: "done, 64 spp", "broken off, 12 spp".
 std::string render_words(const std::filesystem::path& folder);
 
 /// Who wrote the folder's status.json: "process 12 on node3"; "" if it does not say.

@@ -18,7 +18,7 @@ class FolderLock {
     FolderLock(const FolderLock&) = delete;
     FolderLock& operator=(const FolderLock&) = delete;
 
-    /// Another program has it. Where the file system knows no locks nobody is known to have it.
+    /// Whether another program has the folder. Where the file system knows no locks nobody is known to have it.
     bool refused() const { return refused_; }
 
   private:

@@ -9,7 +9,7 @@ namespace {
 
 /// A piece of fewer camera paths, 2 ms or so, costs more in messages than it saves in waiting.
 constexpr std::uint32_t kLeastPaths = 2048;
-/// However many samples they have.
+/// Pixels that a piece has at least, however many samples they have.
 constexpr std::uint32_t kLeastPixels = 16;
 
 }  // namespace

@@ -71,7 +71,7 @@ class PassLoop {
         farm_.begin_pass(plan, result_.tree, std::move(encoded), result_.width, result_.height);
     }
 
-    /// False if the pass was interrupted.
+    /// Collects the results of a pass; false if it was interrupted.
     bool collect(const PassPlan& plan, const NextPass& chosen, PassReport& report) {
         const Timer timer;
         while (!farm_.pass_complete()) {
@@ -122,7 +122,7 @@ class PassLoop {
                                               coming_.image->mean, static_cast<std::size_t>(result_.width));
     }
 
-    /// By one image-wide number: a decision, not a weight, so no pixel is biased by its own samples.
+    /// Judges guiding by one image-wide number: a decision, not a weight, so no pixel is biased by its own samples.
     void judge_guiding(PassReport& report) {
         if (report.plan.guided && report.plan.record) {
             if (state_.guiding == Guiding::open)
@@ -229,7 +229,7 @@ class PassLoop {
     GuidingProbe probe_;
     ProbesSetAside set_aside_;
     std::uint64_t coming_tree_hash_ = 0;
-    /// Of a pass that is being finished.
+    /// Image and tree of a pass that is being finished.
     struct {
         std::shared_ptr<const CombinedImage> image;
         std::uint64_t image_hash = 0;

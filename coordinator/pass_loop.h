@@ -25,24 +25,24 @@ struct RenderProgress {
     std::size_t workers = 0;
     std::uint64_t rays = 0;   ///< so far
     double run_seconds = 0;   ///< since the first worker asked for work
-    ErrorForecast target;     ///< until budget.error, as it was ...
-    double target_since = 0;  ///< ... at the end of the last finished pass, in run_seconds
+    ErrorForecast target;     ///< until budget.error, as it was at target_since
+    double target_since = 0;  ///< end of the last finished pass, in run_seconds
 };
 
 struct RenderResult;
 
-/// What the pass loop calls out to. Any of them may be empty.
+/// Functions that the pass loop calls. Any of them may be empty.
 struct PassHooks {
     std::function<bool()> interrupted;  ///< asked often; true ends the render after the last whole pass
     std::function<void(const RenderProgress&)> on_progress;  ///< called often
-    /// After each pass, with the image so far.
+    /// Called after each pass, with the image so far.
     std::function<void(const PassReport&, const CombinedImage&)> on_pass;
-    std::function<void(const RenderResult&)> on_result;        ///< then, with all there is so far
+    std::function<void(const RenderResult&)> on_result;        ///< called after on_pass, with all there is so far
     std::function<void(const RenderResult&)> on_interruption;  ///< at once: what takes time comes later
     std::function<void(RenderResult)> on_failure;              ///< the finished passes, before the error leaves
 };
 
-/// What came out. After an interruption: of the passes that were whole by then, possibly none.
+/// Result of a render; after an interruption of the passes that were whole by then, possibly none.
 struct RenderResult {
     /// Never null; empty if no pass was finished. Each pass makes a new one, so who keeps one needs no copy.
     std::shared_ptr<const CombinedImage> image = std::make_shared<CombinedImage>();

@@ -51,7 +51,7 @@ struct PassSeconds {
     std::map<int, double> worker;  ///< thread-seconds tracing and adding records, per worker
     double idle = 0;  ///< thread-seconds in which threads neither traced nor added, or waited for a processor
 
-    /// What the coordinator's clock saw, by name.
+    /// Seconds of the coordinator's clock, by name.
     std::map<std::string, double> phases() const {
         return {{"broadcast", broadcast}, {"collect", collect}, {"merge", merge},
                 {"refine", refine},       {"film", film},       {"error", error}};

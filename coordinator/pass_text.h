@@ -20,7 +20,7 @@ std::string pass_name(std::uint32_t index, std::size_t pass_count);
 /// "0.25 s", "7.1 s", "1:10" (minutes), "2:30:00" (hours), "12.5 h", "12 days".
 std::string duration_text(double seconds);
 
-/// The same in whole seconds, at least one: what is to come is not known better.
+/// A duration to come, as duration_text() but in whole seconds, at least one: it is not known better.
 std::string rough_duration_text(double seconds);
 
 /// "about ", "at most ", "roughly ", or empty where nothing is known.
@@ -32,7 +32,7 @@ std::string forecast_text(const ErrorForecast& forecast);
 /// "error 4.2 %", or that it is not known, or that there is none to be seen.
 std::string brief_error_text(const ErrorEstimate& error);
 
-/// The same with its interval: "error 4.2 % [4.0, 4.4]".
+/// The error with its interval: "error 4.2 % [4.0, 4.4]".
 std::string error_text(const ErrorEstimate& error);
 
 }  // namespace treefarm

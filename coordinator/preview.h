@@ -11,7 +11,7 @@
 
 namespace treefarm {
 
-/// What a pass in hand has of each pixel: sums over its samples, since a pixel is whole or empty.
+/// Pixels of a pass in hand: sums over their samples, since a pixel is whole or empty.
 struct PartialPass {
     struct Pixel {
         Rgb mean{0.0f};

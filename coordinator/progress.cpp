@@ -12,7 +12,7 @@ namespace treefarm {
 
 namespace {
 
-/// What is prepared faster is not worth a word.
+/// Seconds of preparing that are worth a word.
 constexpr double kPreparingSeconds = 1.0;
 
 /// A whole percentage that says 100 only at the end.
@@ -24,7 +24,7 @@ bool has_error(const ErrorEstimate& error) {
     return error.known && error.rmse > 0;
 }
 
-/// By the clock, if it will end the render, else by the error's forecast, else by samples.
+/// Says how far a render is: by the clock, if it will end it, else by the error's forecast, else by samples.
 void say_how_far(const RenderProgress& p, const Job::Budget& budget, const TimeLeft& left, RenderWords& words) {
     if (budget.error > 0) {
         if (left.known()) words.fraction = p.run_seconds / (p.run_seconds + left.seconds);

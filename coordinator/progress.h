@@ -21,7 +21,7 @@ struct RenderWords {
 };
 RenderWords render_words(const RenderProgress& progress, const Job::Budget& budget, const TimeLeft& left);
 
-/// Before the first worker asks for work: scene and tree are on their way, or being prepared.
+/// Words before the first worker asks for work: scene and tree are on their way, or being prepared.
 RenderWords preparing_words(double seconds);
 
 /// A render that stands for itself. What is rendered as a part of something more frames its words otherwise.

@@ -81,7 +81,7 @@ class RenderRun {
             log_->error("{}", failure);
     }
 
-    /// Of files that could not be written.
+    /// Logs the news of files that could not be written.
     void tell_news() {
         for (const std::string& news : directory_.take_news()) {
             log_->warn("{}", news);
@@ -200,7 +200,7 @@ class RenderRun {
                        100 * request_.job.budget.error, why_missed());
     }
 
-    /// Where a person looks for it.
+    /// The image's file, where a person looks for it.
     std::filesystem::path image_file() const {
         const std::string& asked = request_.job.output.file;
         return asked.empty() ? directory_.path() / "image.exr" : std::filesystem::path(asked);
@@ -217,7 +217,7 @@ class RenderRun {
         return "the last pass was planned too short";
     }
 
-    /// What makes an open budget's passes known to --debug-sample.
+    /// The option that makes an open budget's passes known to --debug-sample.
     std::string replay_option() const {
         if (!request_.schedule.empty() || !has_open_budget(job())) return "";
         return " --schedule " + std::filesystem::absolute(directory_.path() / "schedule.toml").string();

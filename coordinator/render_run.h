@@ -22,7 +22,7 @@ struct RenderRequest {
     Scene scene;                        ///< without the effects that the job forces off
     EffectPlan plan;                    ///< of both
     std::vector<std::string> warnings;  ///< of the readers, for the log
-    std::vector<std::string> notes;     ///< the same, of what is no fault
+    std::vector<std::string> notes;     ///< of the readers, of what is no fault
     std::vector<PassPlan> schedule;     ///< --schedule: these passes; empty: the job's own
     std::string command;                ///< as it was typed
     std::string debug_command;  ///< reproduces a sample when " pass,x,y,sample" and, for an open budget, --schedule are
@@ -33,7 +33,7 @@ struct RenderRequest {
     Loudness loudness = Loudness::normal;  ///< of the log on the console
     StatusFrame status_frame;              ///< how the console says how far it is; empty: as render_status does
     JobTurn turn;                          ///< among the jobs of a study
-    /// After each pass, with the image so far; what it takes counts as the render's time. May be empty.
+    /// Called after each pass, with the image so far; what it takes counts as the render's time. May be empty.
     std::function<void(const PassReport&, const CombinedImage&)> on_pass;
 };
 

@@ -11,7 +11,7 @@ namespace treefarm {
 /// halves of the samples).
 Image result_channels(const CombinedImage& image, int width, int height);
 
-/// Only R, G, B.
+/// The combined image's R, G, B alone.
 RgbImage result_colours(const CombinedImage& image, int width, int height);
 
 }  // namespace treefarm

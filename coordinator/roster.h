@@ -44,16 +44,16 @@ class Roster {
     /// The member that speaks, if it is present under this incarnation; notes that it lives.
     Member* hear(int peer, std::uint64_t incarnation, double now);
 
-    /// For so long nobody could have been heard: it is no silence of theirs.
+    /// Excuses everybody's silence for so long as nobody could have been heard.
     void excuse(double seconds);
 
     Member* find(int peer);
-    /// Those silent for too long at `now`, not yet marked.
+    /// Members silent for too long at `now`, not yet marked.
     std::vector<Member*> overdue(double now);
-    /// Those who take part, by peer.
+    /// Members that take part, by peer.
     std::vector<Member*> present();
     std::size_t present_count() const;
-    /// Of all present.
+    /// Threads of all members present.
     std::uint64_t thread_count() const;
     const std::map<int, Member>& members() const { return members_; }
 

@@ -29,7 +29,7 @@ namespace fs = std::filesystem;
 constexpr double kStatusSeconds = 1.0;
 /// A preview may take one part in so many of the time, of all processors.
 constexpr double kPreviewShare = 200.0;
-/// Of a core, for a pixel: what the first preview is expected to take.
+/// Core-seconds for a pixel that the first preview is expected to take.
 constexpr double kPreviewSecondsPerPixel = 4e-8;
 /// Tables and images of short passes share a writing.
 constexpr Pace kPassPace{0.0, 3.0};
@@ -59,7 +59,7 @@ const Job& checked(const Job& job) {
     return job;
 }
 
-/// Larger ones no viewer opens, nor does the format hold them.
+/// Whether an image gets a preview. Larger ones no viewer opens, nor does the format hold them.
 bool has_preview(std::size_t pixels) {
     constexpr std::size_t kMostPixels = std::size_t{1} << 28;
     return pixels <= kMostPixels;
@@ -208,7 +208,7 @@ bool RunDirectory::image_is_on_disk(const RenderResult& result) const {
     return on_disk_.lock() == result.image && fs::exists(path() / "image.exr", none);
 }
 
-/// Of those that hold results, in the order of their worth.
+/// Last versions of the files that hold results, in the order of their worth.
 std::vector<LastFile> RunDirectory::last_files(const RenderResult& result, Outlives outlives, RunEnd& end) {
     std::vector<LastFile> files;
     const auto add = [&](const std::string& name, std::function<void()> write) {
@@ -253,7 +253,7 @@ std::vector<LastFile> RunDirectory::last_files(const RenderResult& result, Outli
     return files;
 }
 
-/// Those that tell of the end.
+/// Last versions of the files that tell of the end.
 std::vector<LastFile> RunDirectory::end_files(const RenderResult& result, const Farm* farm, const RunEnd& end,
                                               Outlives outlives) const {
     return {{(path() / "summary.json").string(),

@@ -49,22 +49,22 @@ class RunDirectory {
     void add_pass(const PassReport& report);
     /// image.exr of the passes so far.
     void write_image(const RenderResult& result);
-    /// What went wrong with files since the last call, for a person.
+    /// News of what went wrong with files since the last call, for a person.
     std::vector<std::string> take_news() { return writer_.take_news(); }
 
     /// summary.json and status.json of a run that was interrupted, if its image is on disk: finish() may come too late,
     /// since mpirun kills its ranks two seconds after a signal.
     void write_interruption(const RenderResult& result, const Farm* farm, double elapsed_seconds);
 
-    /// What a run leaves: image.exr, the job's output.file, tree.bin (encode_tree() of the result's tree) if there is
-    /// one that learned, preview.png, passes.csv, schedule.toml, summary.json and the last status.json, each on its own
-    /// and tried again for some seconds. `end` says how the run ended; where files cannot be written it becomes failed,
-    /// and they are returned, each with the reason.
+    /// Writes what a run leaves: image.exr, the job's output.file, tree.bin (encode_tree() of the result's tree) if
+    /// there is one that learned, preview.png, passes.csv, schedule.toml, summary.json and the last status.json, each
+    /// on its own and tried again for some seconds. `end` says how the run ended; where files cannot be written it
+    /// becomes failed, and they are returned, each with the reason.
     std::vector<std::string> finish(const RenderResult& result, const Farm* farm, RunEnd& end);
 
-    /// An earlier run lies aside in it.
+    /// Whether an earlier run lies aside in the folder.
     bool has_previous() const { return folder_.has_previous(); }
-    /// Nothing comes of this run: the folder is left as it was found.
+    /// Leaves the folder as it was found: nothing comes of this run.
     void give_back();
 
   private:

@@ -102,7 +102,7 @@ void RunFolder::remove_leftovers() const {
                 fs::remove(entry.path());
 }
 
-/// What is not a run's own file stays where it is.
+/// Puts an earlier run's files aside; what is not a run's own stays where it is.
 void RunFolder::put_aside() {
     for (int k = 1; aside_.empty() || !fs::create_directory(aside_); ++k)
         aside_ = path_ / previous_name(k);

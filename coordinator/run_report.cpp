@@ -108,7 +108,7 @@ std::string time_text(std::time_t time) {
     return text;
 }
 
-/// What a reader needs to tell a run that lives from one that was killed.
+/// Adds what a reader needs to tell a run that lives from one that was killed.
 void add_writer(Json& status) {
     status["pid"] = getpid();
     status["host"] = host_name();
@@ -133,7 +133,7 @@ Json farm_json(const Farm& farm) {
             {"bad_messages", farm.bad_messages()}};
 }
 
-/// Where the image lies on the whole film; null if it is that.
+/// Place of the image on the whole film; null if it is that.
 Json crop_json(const ImagePlace& place) {
     if (!place.is_window()) return {};
     return {{"x", place.x}, {"y", place.y}, {"film_width", place.whole_width}, {"film_height", place.whole_height}};

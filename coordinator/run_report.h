@@ -17,7 +17,7 @@ namespace treefarm {
 enum class RunState : std::uint8_t { running, done, interrupted, failed };
 const char* run_state_name(RunState state);
 
-/// What a run is, for its files.
+/// Facts about a run, for its files.
 struct RunFacts {
     std::string command;  ///< that started it
     std::uint64_t scene_hash = 0;
@@ -36,7 +36,7 @@ struct RunEnd {
 
 /// The files status.json and summary.json. What is no UTF-8 in names of files and hosts is replaced.
 std::string status_json(const RenderProgress& progress, double elapsed_seconds);
-/// Before the first pass, and after the last.
+/// The file status.json before the first pass, and after the last.
 std::string status_json(RunState state, std::uint32_t spp_done, double elapsed_seconds);
 std::string summary_json(const Job& job, const RunFacts& facts, const RenderResult& result, const Farm* farm,
                          const RunEnd& end);

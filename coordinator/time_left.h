@@ -25,8 +25,8 @@ class TimeLeftClock {
     TimeLeft by_samples(const RenderProgress& progress);
 
     const Job::Budget budget_;
-    double fraction_ = 0;  ///< when the last unit was finished ...
-    double seconds_ = 0;   ///< ... and when that was
+    double fraction_ = 0;  ///< of all samples, when the last unit was finished
+    double seconds_ = 0;   ///< time when the last unit was finished
 };
 
 }  // namespace treefarm

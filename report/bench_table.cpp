@@ -17,7 +17,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// What Google Benchmark says of every benchmark; all other numbers are counters of the program.
+/// Figures that Google Benchmark gives of every benchmark; all other numbers are counters of the program.
 const std::set<std::string> kOfEveryBenchmark = {"family_index",     "per_family_instance_index",
                                                  "repetitions",      "repetition_index",
                                                  "threads",          "iterations",

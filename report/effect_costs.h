@@ -8,14 +8,14 @@
 
 namespace treefarm {
 
-/// What an effect took, by a method that differs from another only by having it off.
+/// Cost of an effect, by a method that differs from another only by having it off.
 struct EffectCost {
     std::string effect;     ///< the switch's name, without "effects."
     std::string with, off;  ///< methods
     Interval core_seconds;  ///< with over without, by pairs of seeds: 1.2 is a fifth more
 };
 
-/// Of all effects that a study switches off on this scene.
+/// Costs of all effects that a study switches off on this scene.
 std::vector<EffectCost> effect_costs(const StudyResults& results, const SceneResult& scene);
 
 /// The plan of each method as a table, those that are alike once, with what was measured of its effects.

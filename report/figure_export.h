@@ -12,7 +12,7 @@ namespace treefarm {
 /// Inches of a width such as "3.3in", "84mm", "8.4 cm". Throws InputError for other text, and beyond 1 to 40 inches.
 double figure_width(const std::string& text);
 
-/// What was exported.
+/// Number and formats of the exported figures.
 struct ExportedFigures {
     int figures = 0;
     bool with_pdf = true;  ///< false: this gnuplot cannot make them

@@ -23,7 +23,7 @@ std::string gain_text(const Interval& ratio);
 
 /// "3.2 s", "4.1 min", with the letter of its unit; core-seconds: "3.2 core-s".
 std::string time_text(double seconds, bool of_cores);
-/// With its interval, unless that is wider than one to ten.
+/// A time with its interval, unless that is wider than one to ten.
 std::string time_text(const Interval& seconds, bool of_cores);
 
 /// "12.3 %"

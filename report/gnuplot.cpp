@@ -66,7 +66,7 @@ int run_gnuplot(const std::filesystem::path& script, const std::filesystem::path
     return WIFEXITED(status) ? WEXITSTATUS(status) : 128;
 }
 
-/// Without `<title>` elements: gnuplot's are names of plots, and a browser shows them as tooltips.
+/// A drawing without `<title>` elements: gnuplot's are names of plots, and a browser shows them as tooltips.
 std::string without_titles(std::string svg) {
     constexpr std::string_view begin = "<title>", end = "</title>";
     for (std::size_t at = 0; (at = svg.find(begin, at)) != std::string::npos;) {
@@ -77,7 +77,7 @@ std::string without_titles(std::string svg) {
     return svg;
 }
 
-/// What the picture shows, for readers that cannot see it, instead of gnuplot's own words.
+/// A drawing with words on what it shows, for readers that cannot see it, instead of gnuplot's own.
 std::string described(const std::string& drawn, const Picture& picture) {
     std::string svg = without_titles(drawn);
     const std::size_t from = svg.find("<desc>"), to = svg.find("</desc>");
@@ -91,7 +91,7 @@ std::string described(const std::string& drawn, const Picture& picture) {
     return svg;
 }
 
-/// What gnuplot draws on a terminal; nothing where it fails, with its words in `messages`.
+/// A picture as gnuplot draws it on a terminal; nothing where it fails, with its words in `messages`.
 std::optional<std::string> drawn(const Picture& picture, const std::string& terminal, std::string& messages) {
     const TemporaryFolder folder;
     const std::filesystem::path file = folder / "plot.gp", out = folder / "plot", log = folder / "log.txt";

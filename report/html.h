@@ -22,7 +22,7 @@ std::string base64(std::vector<std::uint8_t> bytes);
 /// and those that are no numbers become black. Width and height are those of `image`.
 std::string base64_rgbe(const RgbImage& image);
 
-/// At most `longest` pixels wide and high, by averaging squares of pixels.
+/// An image of at most `longest` pixels a side, by averaging squares of pixels.
 RgbImage reduced(const RgbImage& image, int longest);
 
 }  // namespace treefarm

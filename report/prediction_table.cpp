@@ -13,7 +13,7 @@ namespace treefarm {
 
 namespace {
 
-/// By which a forecast may be off.
+/// Fraction by which a forecast may be off.
 constexpr double kTolerance = 0.15;
 
 Held* kind_of(Predictions& predictions, const std::string& trust) {

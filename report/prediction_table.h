@@ -15,7 +15,7 @@ struct Held {
     std::vector<double> ratios;  ///< forecast over actual seconds from the pass on
 };
 
-/// What the passes of these cells said, against what was.
+/// Predictions by the passes of some cells, against what was.
 struct Predictions {
     std::vector<double> error_ratios;  ///< estimated over measured error
     int intervals = 0, covered = 0;    ///< 95 % intervals of the error, and those that held the measured one

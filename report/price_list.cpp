@@ -31,7 +31,7 @@ const Column kColumns[] = {
     {"trimmed x core-seconds", [](const PassRow& r) { return square(measures()[2].value(r)) * r.core_seconds; }},
 };
 
-/// Of a method over the baseline, by pairs of seeds.
+/// Ratio of a figure of a method to that of the baseline, by pairs of seeds.
 Interval ratio(const std::vector<const CellResult*>& own, const std::vector<const CellResult*>& base, Figure figure) {
     std::vector<double> a, b;
     for (const CellResult* cell : own)

@@ -10,7 +10,7 @@
 
 namespace treefarm {
 
-/// What each method of the studies costs and buys, against its study's baseline, as a Markdown page: a table per scene,
+/// Costs and gains of each method of the studies, against its study's baseline, as a Markdown page: a table per scene,
 /// ratios over pairs of seeds with 95 % intervals. For studies at equal samples. `benches`: choices that no job key
 /// makes.
 std::string price_list(const std::vector<StudyResults>& studies, const std::vector<BenchChoice>& benches);

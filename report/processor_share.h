@@ -17,7 +17,7 @@ double processor_share(const CellResult& cell);
 /// True where some cell's workers had less than kLeastProcessorShare.
 bool was_busy(const StudyResults& results);
 
-/// What to think of times that were taken beside a busy processor; "" where none were.
+/// Warning about times that were taken beside a busy processor; "" where none were.
 std::string busy_warning(const StudyResults& results);
 
 }  // namespace treefarm

@@ -9,7 +9,7 @@ namespace treefarm {
 
 struct CellResult;
 
-/// Where, when and by what a render was made. Empty or 0: its summary.json does not say.
+/// Origin of a render: where, when and by what it was made. Empty or 0: its summary.json does not say.
 struct Provenance {
     std::string source;     ///< what the program was built from, as git describes it
     std::string host;       ///< the coordinator's
@@ -19,7 +19,7 @@ struct Provenance {
     int threads = 0;  ///< of all workers
 };
 
-/// Of the render in a run directory.
+/// Provenance of the render in a run directory.
 Provenance read_provenance(const std::filesystem::path& folder);
 
 /// "Rendered by treefarm COMMIT on HOST (PROCESSOR), from ... to ..., by 2 workers with 2 threads."

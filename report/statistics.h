@@ -16,7 +16,7 @@ struct Interval {
 /// Geometric mean of positive values, with the interval of Student's t on their logarithms. NaN for no values.
 Interval geometric_mean(std::span<const double> values);
 
-/// The same for ratios a[k] / b[k] of paired values.
+/// Geometric mean of the ratios a[k] / b[k] of paired values, with its interval as of geometric_mean().
 Interval geometric_ratio(std::span<const double> a, std::span<const double> b);
 
 /// An error that falls with time: seconds, and the error then.
@@ -24,7 +24,7 @@ struct CurvePoint {
     double seconds = 0, error = 0;
 };
 
-/// When a curve comes down to an error.
+/// The time when a curve comes down to an error.
 struct Crossing {
     double seconds = 0;
     bool extrapolated = false;  ///< it does not within what was measured

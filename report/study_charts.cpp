@@ -31,7 +31,7 @@ std::string csv_quoted(const std::string& text) {
     return text.find_first_of(",\"") == std::string::npos ? text : '"' + text + '"';
 }
 
-/// What an axis must show.
+/// The range that an axis must show.
 struct Range {
     double low = INFINITY, high = 0;
     void include(double value) {
@@ -98,7 +98,7 @@ void add_legend(Picture& picture, const StudyResults& results, std::size_t more)
 
 const std::string kLogAxes = "set logscale xy\nset grid xtics ytics lc rgb '#dddddd'\n";
 
-/// What one method contributes to a picture of errors over time.
+/// One method's part of a picture of errors over time.
 struct MethodCurves {
     std::string points, band, csv;
 };

@@ -31,7 +31,7 @@ std::string section(const std::string& title, const std::string& note, const std
     return "<h3>" + title + "</h3>\n" + (note.empty() ? "" : "<p class=\"note\">" + note + "</p>\n") + content;
 }
 
-/// The same by every clock; the switch on top of the page shows one of them.
+/// A part of the page by every clock; the switch on top of the page shows one of them.
 template <class Make>
 std::string by_clock(Make make) {
     std::string html;
@@ -86,7 +86,7 @@ std::string predictions(const StudyResults& results, const SceneResult& scene) {
                    prediction_table(results, scene) + "<div class=\"charts\">\n" + pictures + "</div>\n");
 }
 
-/// Of one budget.
+/// A scene's part of the page, for one budget.
 std::string scene_part(const StudyResults& results, const SceneResult& scene) {
     std::string html =
         section("At the end of the budget",

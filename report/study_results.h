@@ -63,10 +63,10 @@ struct Measure {
     const char* name;  ///< for people
     double (*value)(const PassRow&);
 };
-/// RMSE / mean; the root of relMSE; the same without the worst 0.1 % of the pixels. A claim needs both of the latter.
+/// RMSE / mean; the root of relMSE; that root without the worst 0.1 % of the pixels. A claim needs both of the latter.
 const std::vector<Measure>& measures();
 
-/// What time is counted in.
+/// A way of counting time.
 struct Clock {
     const char* key;
     const char* name;  ///< for people, in the plural
@@ -85,12 +85,12 @@ struct StudyResults {
     std::vector<SceneResult> scenes;
     std::vector<MethodResult> methods;
     std::size_t planned = 0;        ///< cells
-    std::vector<CellResult> cells;  ///< those that are done, in order
+    std::vector<CellResult> cells;  ///< done ones, in order
 
     /// Cells of a scene and method, by repetition.
     std::vector<const CellResult*> of(const std::string& scene, const std::string& method) const;
 
-    /// The same with the cells of one budget only.
+    /// These results with the cells of one budget only.
     StudyResults of_budget(const std::string& budget) const;
 };
 

@@ -12,7 +12,7 @@ namespace treefarm {
 /// Errors at the end of the budget, each with the gain over the baseline by it.
 std::string final_table(const StudyResults& results, const SceneResult& scene, const Clock& clock);
 
-/// What else is known of the end: seconds, core-seconds, the share of the processors, other errors.
+/// Other figures at the end of the budget: seconds, core-seconds, the share of the processors, other errors.
 std::string figures_table(const StudyResults& results, const SceneResult& scene);
 
 /// Time to 10, 5, 2, 1 and 0.5 %, and how many times as fast as the baseline.

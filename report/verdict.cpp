@@ -63,7 +63,7 @@ std::string times_as_fast(const Interval& gain) {
     return fmt::format("{} times as fast as ", interval_text(gain));
 }
 
-/// Its time to the target, or how far it came.
+/// A method's time to the target, or how far it came.
 std::string price(const StudyResults& results, const SceneResult& scene, const std::string& method,
                   const Clock& clock) {
     const Measure& measure = results.measured_by.front();

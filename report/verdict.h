@@ -13,7 +13,7 @@ namespace treefarm {
 /// several scenes are judged together.
 std::string verdict(const StudyResults& results, std::span<const SceneResult> scenes, const Clock& clock);
 
-/// What 5 % error cost the winner and the baseline, or how far they came.
+/// Price of 5 % error to the winner and the baseline, or how far they came.
 std::string price_of_five_percent(const StudyResults& results, const SceneResult& scene, const Clock& clock);
 
 /// The study's answer, a line per scene and budget, and one over all scenes where there are several.

@@ -14,8 +14,8 @@
 
 namespace treefarm {
 
-/// What a worker holds for one pass: the plan, the guide, and the bundle of finished units with exactly what these
-/// units taught the tree. Tracing threads deliver while the communication thread closes bundles.
+/// A worker's state for one pass: the plan, the guide, and the bundle of finished units with exactly what these units
+/// taught the tree. Tracing threads deliver while the communication thread closes bundles.
 class PassWork {
   public:
     PassWork(const PassPlan& plan, const SdTree& tree, DirectionalFilter filter);
@@ -30,7 +30,7 @@ class PassWork {
     /// caller's to fill in. Waits for deliveries that are under way, not for tracing.
     std::optional<Result> close();
 
-    /// Of the pixels in the open bundle.
+    /// Bytes of the pixels in the open bundle.
     std::size_t bundle_bytes() const { return bundle_bytes_; }
 
   private:

@@ -23,15 +23,15 @@ class TracerPool {
     TracerPool(unsigned threads, RenderUnit render);
     ~TracerPool();
 
-    /// From now on units are of this pass. Units still queued are dropped; those being traced go to the pass they are
-    /// of.
+    /// Begins a pass: from now on units are of it. Units still queued are dropped; those being traced go to the pass
+    /// they are of.
     void begin(std::shared_ptr<PassWork> pass);
     void add(std::span<const WorkUnit> units);
     /// Drops what is queued.
     void cancel();
 
     std::size_t queued() const;
-    /// Nothing queued, nothing being traced.
+    /// Whether nothing is queued and nothing being traced.
     bool idle() const;
     /// Why a thread could not go on, if so.
     std::optional<std::string> failure() const;

@@ -28,7 +28,7 @@ constexpr std::size_t kUnitsPerThread = 3, kPathsPerThread = 8192;
 /// A tree or scene of which nothing was heard for so many heartbeats is asked for again.
 constexpr double kPatienceHeartbeats = 5.0;
 
-/// Of a coordinator that is gone.
+/// Heartbeats of silence after which the coordinator is gone.
 constexpr double kSilentHeartbeats = 10.0;
 
 /// Messages taken in before anything else is done again.
@@ -38,7 +38,7 @@ constexpr int kMostLooks = 256;
 /// may be as long as one that is refused (mpi_channel.h).
 constexpr std::size_t kBundleBytes = std::size_t{64} << 20;
 
-/// Of what is told of a failure.
+/// Bytes of a failure's message that are told.
 constexpr std::size_t kMostFailureBytes = 4096;
 
 template <class T>
@@ -181,7 +181,7 @@ class WorkerLoop {
         say_hello();
     }
 
-    /// Its threads end when they have traced what they began.
+    /// Retires the pool: its threads end when they have traced what they began.
     void retire_pool() {
         if (!pool_) return;
         pool_->cancel();
@@ -200,7 +200,7 @@ class WorkerLoop {
         credit_ = 0;
     }
 
-    /// Everything that becomes possible without a message.
+    /// Does everything that becomes possible without a message.
     void advance() {
         chain_.complain(clock_.seconds(), kPatienceHeartbeats * heartbeat_seconds_);
         prepare_renderer();
@@ -232,7 +232,7 @@ class WorkerLoop {
         return false;
     }
 
-    /// Scene and job there: build what traces, aside, once the one before is out of the way; built: start the threads.
+    /// Builds what traces, aside, once scene and job are there and the last one is gone; then starts the threads.
     void prepare_renderer() {
         if (coming_scene_hash_ != 0) {  // 0: not welcomed yet
             auto scene = chain_.collect(scene_name());
@@ -280,8 +280,8 @@ class WorkerLoop {
         last_update_ = clock_.seconds();
     }
 
-    /// From time to time, and at the end. Without a unit for a moment is not the end: the more results, the less time
-    /// has the coordinator to hand out work.
+    /// Sends finished units from time to time, and at the end. Without a unit for a moment is not the end: the more
+    /// results, the less time has the coordinator to hand out work.
     void send_finished() {
         const bool at_end = nothing_left_ && pool_->idle(), enough = pass_->bundle_bytes() >= kBundleBytes;
         if (!at_end && !enough && clock_.seconds() - last_update_ < job_.farm.update_seconds) return;
@@ -292,7 +292,7 @@ class WorkerLoop {
         }
     }
 
-    /// What is asked for need not come soon.
+    /// Whether what is asked for need not come soon.
     bool well_stocked() const {
         return pass_ && pool_ && !nothing_left_ && pass_->plan().has_long_units(job_.farm.tile_size) &&
                pool_->queued() >= 2 * settings_.threads;

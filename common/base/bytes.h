@@ -51,7 +51,7 @@ class ByteWriter {
 
     void put_string(const std::string& text) { put_array(std::span<const char>(text.data(), text.size())); }
 
-    /// So many more bytes are to come: they need not be copied as the whole grows.
+    /// Room for so many more bytes: those written before need not be copied as the whole grows.
     void reserve(std::size_t more) { bytes_.reserve(bytes_.size() + more); }
 
     std::size_t size() const { return bytes_.size(); }
@@ -124,7 +124,7 @@ class ByteReader {
     }
 
   private:
-    /// Of 2 to 8 bytes, at the beginning of `word`; `ends` has the high bit of each byte set that may be the last.
+    /// A varint of 2 to 8 bytes, the first of `word`; `ends` has the high bit of each byte set that may be the last.
     std::uint64_t get_short_varint(std::uint64_t word, std::uint64_t ends) {
         const int high_bit = std::countr_zero(ends);
         if ((word >> (high_bit - 7)) % 256 == 0) throw_overlong();

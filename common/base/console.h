@@ -18,7 +18,7 @@ enum class Loudness {
     verbose,  ///< every figure
 };
 
-/// What a person looks at: lines of text and, on a terminal, below them a line that is drawn again and again. Where
+/// Output for a person: lines of text and, on a terminal, below them a line that is drawn again and again. Where
 /// nothing can be drawn again the status is a whole line every ten seconds. Threads may share it.
 class Console {
   public:

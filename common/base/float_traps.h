@@ -15,7 +15,7 @@ inline constexpr bool kTrapsFloats = true;
 inline constexpr bool kTrapsFloats = false;
 #endif
 
-/// Trapped (or not) in this thread while it lives.
+/// Keeps float exceptions trapped (or not) in this thread while it lives.
 template <bool kOn>
 class FloatTraps {
   public:

@@ -40,7 +40,7 @@ std::optional<std::uint64_t> find_number(const fs::path& path, const std::string
     return std::nullopt;
 }
 
-/// What a group may still take; files that it only caches can be dropped. `prefix` of their names in memory.stat.
+/// Bytes that a control group may still take; cached files can be dropped. `prefix` of their names in memory.stat.
 std::uint64_t left_of_group(const fs::path& folder, const char* limit_file, const char* usage_file,
                             const char* prefix) {
     const auto limit = read_number(folder / limit_file);
@@ -64,7 +64,7 @@ std::uint64_t left_of_groups(const fs::path& root, const fs::path& path, const c
     return least;
 }
 
-/// Of the control groups of this process, version 2 and 1 (/proc/self/cgroup has lines number:controllers:path).
+/// Bytes left of this process's control groups, version 2 and 1 (/proc/self/cgroup: lines number:controllers:path).
 std::uint64_t left_of_control_groups() {
     const fs::path root = "/sys/fs/cgroup";
     std::uint64_t least = kUnlimited;

@@ -15,11 +15,11 @@ struct Host {
     std::uint64_t available_bytes = 0;  ///< memory that can still be had here; 0: not known
 };
 
-/// This one, now. Memory is what the kernel says is available, or what is left of a control group's limit if that is
-/// less: in a container or a Slurm job the group is what ends a process.
+/// This machine, now. Memory is what the kernel says is available, or what is left of a control group's limit if that
+/// is less: in a container or a Slurm job the group is what ends a process.
 Host this_host();
 
-/// What /proc/cpuinfo calls the processor here; "" where it does not.
+/// The processor's name in /proc/cpuinfo; "" where it has none.
 std::string processor_name();
 
 }  // namespace treefarm

@@ -16,7 +16,7 @@ namespace treefarm {
 
 namespace {
 
-/// Without what could forge lines or steer a terminal.
+/// A message's text without what could forge lines or steer a terminal.
 std::string payload(const spdlog::details::log_msg& message) {
     return printable({message.payload.data(), message.payload.size()});
 }

@@ -8,8 +8,8 @@
 
 namespace treefarm {
 
-/// What a random number is for. Each use has a stream of its own, so switching an effect on never shifts another
-/// effect's numbers (docs/design/guiding.md, "random streams").
+/// The use of a random number. Each has a stream of its own, so switching an effect on never shifts another effect's
+/// numbers (docs/design/guiding.md, "random streams").
 enum class Stream : std::uint32_t {
     camera,        ///< position on the pixel filter
     lens,          ///< position on the lens
@@ -17,7 +17,7 @@ enum class Stream : std::uint32_t {
     light,         ///< next event: which emitter, where on it
     roulette,      ///< survival
     record,        ///< spatial filter (three words) and stochastic rounding of what scattered directions teach the tree
-    light_record,  ///< the same for next event's records
+    light_record,  ///< as `record`, for next event's records
     bootstrap,     ///< the interval of the estimated error; keyed by block and resample instead of pixel and sample
     candidate,     ///< further directions to choose among, and which is taken; keyed by vertex and candidate
     branch,        ///< whether the lesser way out of glass is followed, too

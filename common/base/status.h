@@ -11,7 +11,7 @@ struct Status {
     double fraction = -1;             ///< done; negative: not known, so there is no bar
     std::vector<std::string> fields;  ///< behind the bar, the most important first
     std::size_t essential = 2;        ///< so many fields matter more than the bar
-    std::string line;                 ///< the same as a whole line, where nothing can be drawn again
+    std::string line;                 ///< bar and fields as a whole line, where nothing can be drawn again
 };
 
 /// Bar and fields in at most so many columns. As it gets narrow, the last fields go, then the bar, then essential
@@ -25,7 +25,7 @@ std::string join_fields(const std::vector<std::string>& fields);
 class StatusPace {
   public:
     StatusPace(double first, double apart) : next_(first), apart_(apart) {}
-    /// Whether it is time, `now` seconds after the start. Then it is not again for a while.
+    /// Whether it is time to say so, `now` seconds after the start. Once it was, it is not again for a while.
     bool due(double now) {
         if (now < next_) return false;
         next_ = now + apart_;

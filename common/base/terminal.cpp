@@ -30,7 +30,8 @@ Character character_at(const std::string& text, std::size_t at) {
     return {code, bytes};
 }
 
-/// By blocks, rather too wide than too narrow. The C library's answer would depend on the locale.
+/// Columns of a character by blocks, rather too wide than too narrow: the C library's answer would depend on the
+/// locale.
 int columns_of(char32_t code) {
     const bool combining = (code >= 0x300 && code < 0x370) || (code >= 0x200b && code <= 0x200f);
     const bool wide = (code >= 0x1100 && code < 0x1200) || (code >= 0x2e80 && code < 0xe000) ||

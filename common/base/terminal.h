@@ -5,10 +5,10 @@
 
 namespace treefarm {
 
-/// What the reader of a stream can show. cli/launch.cpp finds it out; the rest of the program is told.
+/// Abilities of whatever shows a stream. cli/launch.cpp finds them out; the rest of the program is told.
 struct TerminalKind {
     bool live = false;    ///< a terminal on which a line can be drawn again, by escape sequences
-    bool colour = false;  ///< ... and words can have a colour
+    bool colour = false;  ///< words of a live terminal can have a colour
 };
 
 /// Columns of the terminal behind this descriptor, as of now; 80 where nobody knows.

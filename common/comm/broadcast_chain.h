@@ -16,7 +16,7 @@ namespace treefarm {
 /// many workers there are; a star costs one per worker.
 inline constexpr std::size_t kChunkBytes = std::size_t{1} << 20;
 
-/// What a blob is called: which one, of which job and pass.
+/// Name of a blob: which one, of which job and pass.
 struct BlobName {
     Blob blob = Blob::scene;
     std::uint32_t job = 0;

@@ -27,7 +27,7 @@ namespace {
 /// A message travels as parts of at most this many bytes: MPI counts in int, and a short transfer is a short wait.
 constexpr std::size_t kPartBytes = std::size_t{64} << 20;
 
-/// When somebody was lost, what was sent to it never drains: how long to wait for the rest.
+/// Seconds to wait for the rest to drain when somebody was lost: what was sent to it never does.
 constexpr double kDisorderlyDrainSeconds = 1.0;
 
 /// How long mpirun may take to notice that its ranks have left: at a start that failed; at the end, where other ranks

@@ -9,7 +9,7 @@ namespace treefarm {
 /// forever.
 inline constexpr int kLatestRoulette = 10'000;
 
-/// What no single key can see. Throws InputError.
+/// Checks what no single key can see. Throws InputError.
 void check_job(const Job& job);
 
 }  // namespace treefarm

@@ -16,7 +16,7 @@ struct EffectSwitch {
     std::string replacement;  ///< what the image shows in its place
 };
 
-/// All of them, in the order of job.toml.
+/// All effects that a job can force off, in the order of job.toml.
 std::span<const EffectSwitch> effect_switches();
 
 /// Effects that have no switch: name and what to do instead.

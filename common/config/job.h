@@ -26,8 +26,8 @@ enum class MisHeuristic : std::uint8_t {
     equal,  ///< one half each wherever both techniques can draw a sample: no heuristic at all, to measure by
 };
 
-/// What guides: nothing, the SD-tree (Mueller et al. 2017), the SD-tree with a view-dependent part (Cavus 2020), or the
-/// last as long as it pays.
+/// The guide of paths: nothing, the SD-tree (Mueller et al. 2017), the SD-tree with a view-dependent part (Cavus 2020),
+/// or the last as long as it pays.
 enum class GuidingType : std::uint8_t {
     none,
     ppg,

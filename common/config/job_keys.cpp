@@ -22,7 +22,7 @@ JobKey rule_key(const char* name, const char* doc, Member member) {
                         {"usual", Rule::usual}, {"always", Rule::always}, {"while_it_pays", Rule::while_it_pays}});
 }
 
-/// A number, or that it is learned: from the default on.
+/// The key whose value is a number, or (by default) that it is learned.
 JobKey bsdf_fraction_key() {
     JobKey key = number_key(
         "guiding.bsdf_fraction", "more than 0, at most 1; or \"learned\" per region of the tree",

@@ -12,7 +12,7 @@
 
 namespace treefarm {
 
-/// What a value of a key looks like in TOML.
+/// Form of a key's value in TOML.
 enum class ValueKind {
     integer,
     number,

@@ -20,9 +20,9 @@ void apply_setting(Job& job, const std::string& key, const std::string& value, c
 /// The layers of a job, each over the one before: defaults, the scene's integrator and sampler, the job file, --set.
 void apply_layer(Job& job, std::span<const Setting> layer);
 
-/// What a scene sets for jobs with these layers above it. Its integrator may stand for a preset (`guided_path`: paper);
-/// where a layer chooses guiding.type or a preset, guiding is the job's, and the scene's preset does not hold. Where
-/// one has a budget, the scene's seconds do not hold.
+/// A scene's settings for jobs with these layers above it. Its integrator may stand for a preset (`guided_path`:
+/// paper); where a layer chooses guiding.type or a preset, guiding is the job's, and the scene's preset does not hold.
+/// Where one has a budget, the scene's seconds do not hold.
 std::vector<Setting> scene_layer(std::span<const Setting> scene, std::initializer_list<std::span<const Setting>> above);
 
 /// The text of a TOML file that a person names; `kind` is "job" or "schedule", for messages. Throws InputError.
@@ -32,8 +32,8 @@ std::string read_settings_text(const std::filesystem::path& path, const std::str
 /// relative to the job file's folder. Throws InputError with file:line:column.
 std::vector<Setting> read_job_settings(const std::filesystem::path& path);
 
-/// The same for TOML text; `name` stands for the file in messages. Paths are left as they are. Numbers below [policy]
-/// come back as settings "policy....", which are no keys of a job (plan/policy_table.h).
+/// The settings in TOML text; `name` stands for the file in messages. Paths are left as they are. Numbers below
+/// [policy] come back as settings "policy....", which are no keys of a job (plan/policy_table.h).
 std::vector<Setting> parse_job_settings(const std::string& toml, const std::string& name);
 
 /// A setting from the text of --set: "key=value". Quotes around the value are optional.

@@ -27,7 +27,7 @@ std::optional<bool> parse_boolean(std::string_view text);
 std::string number_text(double value);
 std::string number_text(float value);
 
-/// What a message can say about an unknown word: the candidate with the smallest edit distance, or "" if none is near.
+/// The candidate with the smallest edit distance to an unknown word, for a message; "" if none is near.
 std::string nearest_word(std::string_view word, std::span<const std::string> candidates);
 
 /// The advice about an unknown word: the nearest candidate, and `otherwise` in any case.
@@ -37,7 +37,7 @@ std::string did_you_mean(std::string_view word, std::span<const std::string_view
 /// Input text for a message: quoted, printable, and no longer than a line can hold.
 std::string in_quotes(std::string_view text);
 
-/// The same for the name of a file: whole, unless it is absurdly long, since a reader must be able to find it.
+/// A file's name for a message: as in_quotes(), but whole unless absurdly long, since a reader must be able to find it.
 std::string path_in_quotes(std::string_view path);
 
 /// The text with control characters, line ends among them, replaced by "?".

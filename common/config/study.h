@@ -20,7 +20,7 @@ struct StudyScene {
     std::vector<Setting> settings;  ///< job keys of its own
 };
 
-/// What is compared: a name and the job keys that make it what it is.
+/// One of the methods that a study compares: a name and the job keys that make it what it is.
 struct StudyMethod {
     std::string name;
     std::vector<Setting> settings;
@@ -61,7 +61,7 @@ std::vector<StudyCell> study_cells(const Study& study);
 /// Reads a study file. Throws InputError with file:line:column.
 Study read_study(const std::filesystem::path& path);
 
-/// The same for TOML text; files are relative to the folder of `path`.
+/// Reads TOML text as read_study() reads a file; files are relative to the folder of `path`.
 Study parse_study(const std::string& toml, const std::filesystem::path& path);
 
 }  // namespace treefarm

@@ -8,7 +8,7 @@
 
 namespace treefarm {
 
-/// What a TOML file of ours is for.
+/// Purpose of a TOML file of ours.
 enum class TomlKind : std::uint8_t { job, study };
 
 /// Throws InputError where a file is plainly of another kind than the command takes, and names the command that takes

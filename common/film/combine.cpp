@@ -23,7 +23,7 @@ constexpr std::size_t kLeastPart = 1024;
 /// Passes one after the other that have one tree, and sample emitters in one way.
 using Alike = std::span<const PassResult>;
 
-/// Those from number `first` on that are like it.
+/// The passes from number `first` on that are like it.
 Alike alike_from(std::span<const PassResult> passes, std::size_t first) {
     std::size_t end = first + 1;
     while (end < passes.size() && passes[end].same_tree && !passes[end].new_technique)
@@ -38,8 +38,8 @@ std::uint32_t spp_of(Alike passes) {
     return spp;
 }
 
-/// Of one half. Without the worst pixels: a rare sample in one half would take all weight from its pass in the other,
-/// which does not hold it.
+/// Noise of one half of the samples, without the worst pixels: a rare sample in one half would take all weight from its
+/// pass in the other, which does not hold it.
 HalfNoise measure_half(Alike passes, std::size_t half) {
     const std::size_t count = passes.front().pixels.size();
     constexpr double kNone = -1;
@@ -71,7 +71,7 @@ SampleNoise measure_noise(Alike passes) {
     return noise;
 }
 
-/// Without guiding all samples are alike: none is thrown away.
+/// Whether passes are weighed by their noise. Without guiding all samples are alike: none is thrown away.
 bool weighs_by_noise(Combination method, bool guided) {
     return guided && method == Combination::inverse_variance;
 }
@@ -188,7 +188,7 @@ Rgb64 sample_variance(const PixelEstimate& pixel, const PixelEstimate& longest) 
     return distance * distance * (static_cast<double>(reference.n) / (reference.n + 1));
 }
 
-/// Those at the end that had one tree.
+/// The passes at the end that had one tree.
 Alike passes_of_last_tree(std::span<const PassResult> passes) {
     std::size_t first = passes.size() - 1;
     while (first > 0 && passes[first].same_tree)
@@ -231,7 +231,7 @@ Estimate combine_half(std::span<const PassResult> passes, const std::vector<doub
     return pixel;
 }
 
-/// Halves with weights of their own, and their average.
+/// The image by halves with weights of their own, and their average.
 CombinedImage combine_halves(std::span<const PassResult> passes, const std::array<std::vector<double>, 2>& weights) {
     CombinedImage image;
     const std::size_t count = passes.front().pixels.size();

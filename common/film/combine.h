@@ -12,13 +12,13 @@
 
 namespace treefarm {
 
-/// What one half of passes that are alike says of their samples.
+/// Noise of one half of the samples of passes that are alike.
 struct HalfNoise {
     std::optional<double> variance;      ///< of one sample: mean of its luminance; nothing if no pixel has two
     std::vector<std::uint32_t> samples;  ///< of a pixel, in each pass
 };
 
-/// Both halves of so many passes that have one tree, and sample emitters in one way.
+/// Noise of so many passes that are alike (they have one tree, and sample emitters in one way), by halves.
 struct SampleNoise {
     std::size_t passes = 0;  ///< 0: not measured
     std::array<HalfNoise, 2> half;
@@ -49,8 +49,8 @@ struct CombinedImage {
 /// tree.
 CombinedImage combine_passes(std::span<const PassResult> passes, Combination method, bool guided);
 
-/// Where combine_passes() would measure the noise of passes: measures what is not known yet and keeps it with them.
-/// Called after each pass, it would otherwise measure all of them again. Whoever changes a pass forgets its noise.
+/// Measures the noise of passes where combine_passes() would, if it is not known yet, and keeps it with them. Called
+/// after each pass, it would otherwise measure all of them again. Whoever changes a pass forgets its noise.
 void remember_noise(std::span<PassResult> passes, Combination method, bool guided);
 
 /// Weight of a pass that is set before it begins (`fixed`): spp sqrt(spp_before); without guiding, spp. Not normalised.
@@ -59,7 +59,7 @@ double fixed_weight(std::uint32_t spp, std::uint32_t spp_before, bool guided);
 /// Figures of one pass (docs/design/error.md, "stuv"), by the pixels that it rendered.
 struct PassVariance {
     double stuv = 0;           ///< mean over pixels of the luminance of the unbiased variance of one sample
-    double stuv_trimmed = 0;   ///< the same without the worst 0.1 % of the pixels
+    double stuv_trimmed = 0;   ///< stuv without the worst 0.1 % of the pixels
     double mse_of_sample = 0;  ///< mean over pixels and channels of the unbiased variance of one sample
     double stuv_ppg = 0;       ///< what the authors' program calls STUV: a clamped second moment
 };

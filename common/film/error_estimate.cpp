@@ -91,7 +91,7 @@ double small_sample_factor(const std::vector<BlockError>& blocks, double centre)
     return 1 + (1.21 + 1.44 / freedom) / freedom;
 }
 
-/// As many pixels of equal noise would make up an error that is known as badly.
+/// Number of pixels of equal noise that would make up an error that is known as badly.
 double noisy_pixels(const CombinedImage& image) {
     double sum = 0, squares = 0;
     for (const Rgb64& variance : image.variance) {

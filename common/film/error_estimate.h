@@ -7,7 +7,7 @@
 
 namespace treefarm {
 
-/// What an image says about its own error (docs/design/error.md, "error").
+/// An image's estimate of its own error (docs/design/error.md, "error").
 struct ErrorEstimate {
     bool known = false;         ///< false: no pass has two samples per pixel
     bool has_interval = false;  ///< false: no pass has four; low and high are then rmse

@@ -20,7 +20,7 @@ class ProbePixels {
   public:
     ProbePixels() = default;  ///< none
     ProbePixels(std::size_t film_pixels, std::uint32_t pass);
-    /// Whether it has this one (row * width + column).
+    /// Whether this pixel (row * width + column) is a probe.
     bool holds(std::uint32_t pixel) const { return pixel * 0x9e3779b9u - first_ < count_; }
 
   private:
@@ -31,9 +31,9 @@ class ProbePixels {
 /// where guiding is given up.
 class ProbesSetAside {
   public:
-    /// Takes them out of a probe pass, the one that will be at `place` among the passes of the image.
+    /// Takes the unguided pixels out of a probe pass, the one that will be at `place` among the passes of the image.
     void take_out(std::span<PixelEstimate> pixels, std::uint32_t pass, std::size_t place);
-    /// Gives them back, once.
+    /// Gives the pixels back to their passes, once.
     void put_back(std::span<PassResult> passes);
 
   private:
@@ -53,16 +53,16 @@ struct GuidingGain {
     double coverage = 0;
 };
 
-/// What probe passes found.
+/// Unguided samples of probe passes, and what they say of the guided ones.
 class GuidingProbe {
   public:
     /// A probe pass with all its pixels.
     void add(std::span<const PixelEstimate> pixels, const TraceStats& stats, std::uint32_t pass);
 
-    /// Of the guided samples of a pass. `pixels` of the pass, row by row, its probes left out or not; `image` is the
-    /// best that is known. Variances are relative to the square of the mean of the pixel's block of 8 x 8 (with a floor
-    /// of a tenth of the image's mean), the worst of either kind, one at least, left out. A pixel's own mean would not
-    /// do: where few samples find a rare light it is large with their variance, which then looks small.
+    /// Gain of the guided samples of a pass. `pixels` of the pass, row by row, its probes left out or not; `image` is
+    /// the best that is known. Variances are relative to the square of the mean of the pixel's block of 8 x 8 (with a
+    /// floor of a tenth of the image's mean), the worst of either kind, one at least, left out. A pixel's own mean
+    /// would not do: where few samples find a rare light it is large with their variance, which then looks small.
     GuidingGain gain(std::span<const PixelEstimate> pixels, const TraceStats& stats, std::uint32_t pass,
                      std::span<const Rgb64> image, std::size_t width) const;
 

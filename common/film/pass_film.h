@@ -27,9 +27,9 @@ class PassFilm {
     bool complete() const { return missing_ == 0; }
     int width() const { return width_; }
     int height() const { return height_; }
-    /// Row by row from the top. Valid once complete; before, pixels with missing chunks are empty.
+    /// The pixels row by row from the top. Valid once complete; before, those with missing chunks are empty.
     const std::vector<PixelEstimate>& pixels() const { return pixels_; }
-    /// The same, once: the film of a large image is not copied. Nothing can be added any more.
+    /// pixels(), moved out: the film of a large image is not copied. Nothing can be added any more.
     std::vector<PixelEstimate> take_pixels() { return std::exchange(pixels_, {}); }
 
   private:

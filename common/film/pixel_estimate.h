@@ -16,13 +16,13 @@ struct Moments {
     Rgb64 m2{0.0};
 
     void add(const Rgb& value);
-    /// The moments of both sets of samples. Not associative in the last bit: merge along a fixed tree.
+    /// The moments of two sets of samples together. Not associative in the last bit: merge along a fixed tree.
     static Moments merge(const Moments& a, const Moments& b);
     /// Unbiased variance of one sample; 0 for fewer than two.
     Rgb64 sample_variance() const { return n < 2 ? Rgb64(0.0) : m2 / static_cast<double>(n - 1); }
 };
 
-/// What a pixel has received: even and odd samples apart, two independent halves (docs/design/error.md, "combining
+/// Samples that a pixel has received: even and odd ones apart, two independent halves (docs/design/error.md, "combining
 /// passes").
 struct PixelEstimate {
     Moments half[2];

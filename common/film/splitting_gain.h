@@ -17,7 +17,7 @@ class PairedSamples {
     /// Luminances, at any common scale that does not depend on them; those that are none are left out, larger ones than
     /// kMost taken for it.
     void add(double split, double unsplit);
-    /// Adds what they tell to `sums`, in whole units, and forgets them.
+    /// Adds what the samples tell to `sums`, in whole units, and forgets them.
     void finish(SplittingSums& sums);
 
     static constexpr double kMost = 4096;
@@ -31,7 +31,7 @@ class PairedSamples {
     Sums split_, unsplit_;
 };
 
-/// Of the guided samples of a pass that may split.
+/// Gain by splitting, of the guided samples of a pass that may split.
 struct SplittingGain {
     double variance = 0;  ///< of unsplit samples over that of split ones; 0: not known
     double rays = 0;      ///< of split samples over those of unsplit ones

@@ -25,7 +25,7 @@ enum class TracePhase : std::uint8_t {
 };
 inline constexpr std::size_t kTracePhases = 5;
 
-/// Of the pixels of a pass whose paths may be split, with and without their copies (splitting_gain.h); whole units.
+/// Sums over pixels of a pass whose paths may be split, with and without their copies (splitting_gain.h); whole units.
 struct SplittingSums {
     std::uint64_t split_mean = 0, unsplit_mean = 0;
     std::uint64_t split_variance = 0, unsplit_variance = 0;  ///< of one sample
@@ -33,7 +33,7 @@ struct SplittingSums {
     void add(const SplittingSums& other);
 };
 
-/// What tracing some units took: counts are exact sums, seconds are measured (and never enter a result).
+/// Figures of tracing some units: counts are exact sums, seconds are measured (and never enter a result).
 struct TraceStats {
     std::uint64_t paths = 0;
     std::uint64_t nonzero_paths = 0;  ///< that carried any radiance

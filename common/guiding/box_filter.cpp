@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::int32_t kSteps = 1 << kDirectionBits;
 
-/// All ones where the lowest bit is set.
+/// A mask of all ones where the lowest bit is set.
 std::int32_t mask_of(std::int32_t bit) {
     return -(bit & 1);
 }

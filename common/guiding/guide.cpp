@@ -134,7 +134,7 @@ std::uint32_t Guide::build_treelet(const SdTree& tree, std::uint32_t node, int d
     return index;
 }
 
-/// What the root's treelet and those below lead to, for each of the cube's cells of this size.
+/// Table of what the root's treelet and those below lead to, for each of the cube's 2^(3 kTopBits) cells.
 void Guide::build_top() {
     top_.resize(std::size_t{1} << (3 * kTopBits));
     constexpr std::uint32_t kSide = 1u << kTopBits;

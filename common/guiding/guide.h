@@ -60,8 +60,8 @@ class Guide {
     /// The region of a point. Points outside the cube belong to the nearest region (the caller may count them with
     /// contains()).
     std::uint32_t region(const Vec3& position) const;
-    /// Those of the first `count` points, in step: what one waits for (memory, how deep the tree is there) another
-    /// works through.
+    /// The regions of the first `count` points, in step: what one waits for (memory, how deep the tree is there)
+    /// another works through.
     void regions(const VectorBatch& positions, std::uint32_t count, std::array<std::uint32_t, kDrawBatch>& found) const;
     bool contains(const Vec3& position) const {
         // Points of the outermost surfaces may lie a rounding error outside.
@@ -94,7 +94,7 @@ class Guide {
         prefetch_line(by_mass(distribution, pick >> (32 - kMassBits)));
     }
 
-    /// Fetches what it will read next, by what prefetch() has brought.
+    /// Fetches what sample() will read next, by what prefetch() has brought.
     void prefetch_cell(std::uint32_t distribution, std::uint32_t pick) const {
         prefetch_ends(range(by_mass(distribution, pick >> (32 - kMassBits))));
     }
@@ -104,7 +104,7 @@ class Guide {
         const Place place = sample_place(distribution, pick, u0, u1);
         return {square_to_direction(place.at), place.code, place.pdf};
     }
-    /// The same without its direction, which is quicker found for many places together.
+    /// Draws a place as sample() does, without its direction, which is quicker found for many places together.
     Place sample_place(std::uint32_t distribution, std::uint32_t pick, std::uint32_t u0, std::uint32_t u1) const;
 
     /// Fetches what pdf() and cell() with this code will read first.
@@ -112,7 +112,7 @@ class Guide {
         prefetch_line(by_code(distribution, code));
     }
 
-    /// Fetches what it will read next, by what prefetch_pdf() has brought.
+    /// Fetches what pdf() and cell() will read next, by what prefetch_pdf() has brought.
     void prefetch_pdf_cell(std::uint32_t distribution, std::uint32_t code) const {
         prefetch_ends(range(by_code(distribution, code)));
     }

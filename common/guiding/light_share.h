@@ -11,10 +11,10 @@
 
 namespace treefarm {
 
-/// What a region is next event's choice among the scene's emitters by power: nothing but that, untaught.
+/// The light share of an untaught region: next event chooses among the scene's emitters by power alone.
 inline constexpr LightShare kChoiceByPower = {kLightShareOne};
 
-/// What the coordinator remembers of what next event found in each region, from pass to pass (docs/design/guiding.md,
+/// The coordinator's memory of what next event found in each region, from pass to pass (docs/design/guiding.md,
 /// "Choosing emitters").
 ///
 /// A sample of cluster c, chosen with the probability q, that brings X (f |cos| L over the density, weighed against

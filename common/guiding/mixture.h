@@ -39,7 +39,7 @@ using MixtureHistogram = std::array<double, kMixtureBins>;
 /// prior) log(1 - a)), which is concave. `prior_weight` is in the units of the histogram.
 double best_bsdf_fraction(const MixtureHistogram& histogram, double prior, double prior_weight);
 
-/// What the coordinator remembers of the mixtures from pass to pass.
+/// The coordinator's memory of the mixtures from pass to pass.
 class MixtureLearner {
   public:
     /// Sets next.bsdf_fraction from what the pass over `tree` recorded. `origins` says which region of `tree` each of

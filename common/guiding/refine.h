@@ -28,7 +28,7 @@ struct RefineSettings {
     double least_view_cells = 0;                                  ///< unless they are fewer than this
 };
 
-/// What is known of a view besides its sums.
+/// Advice for refine() about a view, besides its sums.
 struct ViewAdvice {
     double gain = 0;    ///< what it is good for: the more, the sooner it is kept and split
     bool keep = false;  ///< a T2 of which no view is worth keeping is released

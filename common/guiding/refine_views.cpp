@@ -88,7 +88,7 @@ class ViewRefiner {
         return below_[node];
     }
 
-    /// How many parts cutting it by this threshold makes of a T2.
+    /// Number of parts that cutting by this threshold makes of a T2.
     std::uint32_t part_count(std::uint32_t node, double weight, double threshold) const {
         const SdTree::Node& n = result_.nodes[node];
         if (n.is_leaf() || !(weight > threshold)) return 1;
@@ -145,7 +145,7 @@ class ViewRefiner {
             sets_[choice.index].kept = take(sets_[choice.index].cells);
     }
 
-    /// As many parts as there is room for.
+    /// Cuts the T2s that were kept into as many parts as there is room for.
     void choose_cuts() {
         std::vector<Choice> choices;
         for (std::uint32_t t = 0; t < sets_.size(); ++t) {

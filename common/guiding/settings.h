@@ -17,7 +17,7 @@ enum class DirectionalFilter : std::uint8_t {
     box,      ///< over a square of that cell's size around its direction
 };
 
-/// What the cells of a region are sampled in proportion to.
+/// The quantity in proportion to which a region's cells are sampled.
 enum class GuidingTarget : std::uint8_t {
     radiance,  ///< their mean radiance: sums of L / p
     variance,  ///< the square root of their second moment, from sums of L^2 / p (Rath et al. 2020)

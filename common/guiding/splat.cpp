@@ -103,7 +103,7 @@ void Accumulator::add_boxes(std::span<const Record> records, const BlockCells& c
         add_to_cell(others.cell[i], others.quanta[i], met);
 }
 
-/// What the mixture and next event learn.
+/// Adds what the mixture, or next event, learns of a record.
 void Accumulator::add_reflected(const Record& record, UpdateCaps& met) {
     if (record.bin >= kLightBin) {
         const std::uint64_t units = counted(record.reflected, 0, record.rounding, met);

@@ -37,7 +37,7 @@ class Accumulator {
     /// Cell of each record of a block.
     using BlockCells = std::array<std::uint32_t, BoxBlock::kRecords>;
 
-    /// What goes to the cells of so many codes.
+    /// Quanta for the cells of so many codes.
     struct Shares {
         static constexpr std::uint32_t kMost = BoxBlock::kRecords * (BoxBlock::kParts - 1);
         std::uint32_t count = 0;

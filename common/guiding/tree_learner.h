@@ -8,8 +8,8 @@
 
 namespace treefarm {
 
-/// From what a pass recorded to the tree that guides the next one: refinement, and mixtures with what they remember of
-/// earlier passes. Pure but for that memory.
+/// The way from what a pass recorded to the tree that guides the next one: refinement, and mixtures with what they
+/// remember of earlier passes. Pure but for that memory.
 class TreeLearner {
   public:
     /// `learn_mixture`: the pass recorded histograms.

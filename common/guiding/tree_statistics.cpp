@@ -36,7 +36,7 @@ DepthCounts region_depths(const SdTree& tree) {
     return counts;
 }
 
-/// Of the distributions [first, last).
+/// Number, depths and spread of the cells of some distributions.
 struct Cells {
     std::uint64_t count = 0;
     DepthCounts depth;

@@ -24,7 +24,7 @@ struct MixtureQuantiles {
 /// Counts per depth, from depth 0.
 using DepthCounts = std::vector<std::uint32_t>;
 
-/// What a tree is like. Every region, view and cell counts the same, whatever its size and however often it is seen.
+/// Figures of a tree. Every region, view and cell counts the same, whatever its size and however often it is seen.
 struct TreeStatistics {
     std::uint32_t pass = 0;  ///< that it guides
     bool trained = false;

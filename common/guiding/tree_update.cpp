@@ -6,7 +6,7 @@
 namespace treefarm {
 namespace {
 
-/// Of what one next-event sample brings: more weighs as much, which only makes its emitter a little less popular.
+/// Cap of what one next-event sample brings: more weighs as much, which only makes its emitter a little less popular.
 constexpr double kMostLightUnits = 0x1p38;
 
 /// Entries of a sparse list: (distance to the last index, value), both varints; calls `visit(index, value)`.

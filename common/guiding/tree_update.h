@@ -20,7 +20,7 @@ inline constexpr int kMixtureBins = 16;
 /// Records with this bin and above are none of the mixture: what next event found in cluster `bin - kLightBin`.
 inline constexpr std::uint8_t kLightBin = 64;
 
-/// What a path vertex taught a distribution: `value` of radiance arrived from the direction `code`.
+/// A path vertex's record for a distribution: `value` of radiance arrived from the direction `code`.
 struct Record {
     std::uint32_t distribution;
     std::uint32_t code;      ///< Z-order code of the direction
@@ -49,13 +49,13 @@ struct UpdateCaps {
     bool operator==(const UpdateCaps&) const = default;
 };
 
-/// What there are sums for.
+/// Shape of a TreeSums: how much there are sums for, and of which kinds.
 struct SumsShape {
     std::uint32_t regions = 0;
     std::uint32_t views = 0;
     std::uint32_t cells = 0;
     bool with_mixture = false;  ///< mixture histograms: kMixtureBins more sums per distribution
-    bool with_lights = false;   ///< of emitters: kLightClusters more sums per region
+    bool with_lights = false;   ///< sums of emitters: kLightClusters more sums per region
 
     SumsShape() = default;
     SumsShape(std::uint32_t region_count, std::uint32_t cell_count, bool mixture = false, std::uint32_t view_count = 0,
@@ -63,7 +63,7 @@ struct SumsShape {
         : regions(region_count), views(view_count), cells(cell_count), with_mixture(mixture), with_lights(lights) {}
     bool operator==(const SumsShape&) const = default;
     std::size_t light_sums() const { return with_lights ? std::size_t{regions} * kLightClusters : 0; }
-    /// Where the bins of a distribution begin; that of the distribution after the last: how many there are.
+    /// Index of a distribution's first mixture bin; that of the distribution after the last is the number of bins.
     std::size_t mixture_begin(std::uint32_t distribution) const {
         return with_mixture ? std::size_t{distribution} * kMixtureBins : 0;
     }
@@ -134,7 +134,7 @@ class TreeSums {
     UpdateCaps caps_;
 };
 
-/// Of one contribution: leaves 2^24 capped ones before a cell saturates.
+/// Cap of one contribution, in quanta: leaves 2^24 capped ones before a cell saturates.
 inline constexpr double kMostQuanta = 0x1p40;
 
 /// value * per_value as a whole number, rounded up with the probability of its fraction, so that the expectation is

@@ -20,10 +20,10 @@ namespace treefarm {
 /// relative excess of variance where it is small. 0 for an empty histogram.
 double view_gain(const MixtureHistogram& histogram, double others);
 
-/// What the coordinator remembers of views from pass to pass.
+/// The coordinator's memory of views from pass to pass.
 class ViewLearner {
   public:
-    /// Adds what the pass over `tree` recorded; what it thinks of its views then, for refine(). A T2 gets a second
+    /// Adds what the pass over `tree` recorded; returns advice about its views, for refine(). A T2 gets a second
     /// chance, but for the `last_lesson`.
     std::vector<ViewAdvice> judge(const SdTree& tree, const TreeSums& sums, bool last_lesson);
     /// Sets the fractions of the refined tree's views. `origins` as in RefineReport.

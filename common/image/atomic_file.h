@@ -10,8 +10,8 @@
 
 namespace treefarm {
 
-/// What a file outlives once it is written: this process, or the machine's power as well, for which the disk is waited
-/// for (a tenth of a second, if it is busy).
+/// The failure that a written file outlives: of this process, or of the machine's power as well, for which the
+/// disk is waited for (a tenth of a second, if it is busy).
 enum class Outlives { process, power };
 
 /// A file could not be written, and why: an errno.

@@ -26,7 +26,7 @@ bool begins_with(std::span<const std::uint8_t> bytes, const std::array<std::uint
     return bytes.size() >= kSize && std::equal(magic.begin(), magic.end(), bytes.begin());
 }
 
-/// Nothing for other formats.
+/// Format of a file whose pixels must all be there; nothing for other formats.
 std::optional<ImageFormat> plain_format(std::span<const std::uint8_t> bytes, const std::filesystem::path& path) {
     if (is_netpbm(bytes)) return ImageFormat::netpbm;
     if (is_bmp(bytes)) return ImageFormat::bmp;

@@ -21,7 +21,7 @@ using Attributes = std::map<std::string, std::string>;
 struct ExrImage {
     Image image;
     std::vector<PixelType> types;  ///< one per channel of `image`: halves carry a rounding error
-    Attributes attributes;         ///< those of type string
+    Attributes attributes;         ///< of type string
 };
 
 /// Reads the channels for which `wanted` holds (none given: all) over the file's data window; its place is known

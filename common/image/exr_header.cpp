@@ -23,7 +23,7 @@ constexpr std::uint64_t kSmallestChunk = 8 + 8 + 1;  ///< its offset, its header
 constexpr std::uint64_t kLooseTileBytes = std::uint64_t{16} << 20;
 constexpr std::uint32_t kMultiPartFlag = 0x1000;
 
-/// What a header claims, as far as memory depends on it.
+/// A header's claims, as far as memory depends on them.
 struct Claims {
     std::uint64_t width = 0, height = 0;
     std::uint64_t pixel_bytes = 0;  ///< all channels
@@ -100,7 +100,7 @@ class HeaderWalk {
         return value;
     }
 
-    /// False for the empty header behind the last part.
+    /// Walks over a part's header; false for the empty one behind the last part.
     bool walk_header() {
         Claims claims;
         bool any = false;
@@ -163,7 +163,7 @@ class HeaderWalk {
         return std::nullopt;
     }
 
-    /// Types with lengths of their own inside.
+    /// Whether an attribute's type has lengths of its own inside.
     static bool is_parsed(std::string_view type) {
         return type == "chlist" || type == "preview" || type == "stringvector";
     }
@@ -175,7 +175,8 @@ class HeaderWalk {
         return to < from ? 0 : static_cast<std::uint64_t>(std::int64_t{to} - from + 1);
     }
 
-    /// Each channel is a name and sixteen bytes that begin with its type: 1 is half, the others have four bytes.
+    /// Bytes per pixel of all channels. Each is a name and sixteen bytes that begin with its type: 1 is half, the
+    /// others have four bytes.
     std::uint64_t bytes_of_channels(std::string_view list) const {
         std::uint64_t bytes = 0;
         while (!list.empty() && list[0] != '\0') {

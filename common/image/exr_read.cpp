@@ -71,7 +71,7 @@ void select_channels(const std::filesystem::path& path, const Imf::ChannelList& 
         refuse(path, "holds none of the wanted channels", "check which channels it has (exrheader)");
 }
 
-/// Of a data window inside the display window; none for one that fills it, or reaches beyond.
+/// Place of a data window inside the display window; none for one that fills it, or reaches beyond.
 ImagePlace place_of(const Imath::Box2i& data, const Imath::Box2i& display) {
     if (data == display || !display.intersects(data.min) || !display.intersects(data.max)) return {};
     const auto span = [](int low, int high) { return std::int64_t{high} - low; };
@@ -107,7 +107,7 @@ ExrImage read_checked(const std::filesystem::path& path, const std::function<boo
     return result;
 }
 
-/// What `read` returns; what OpenEXR throws as an InputError.
+/// The result of `read`; what OpenEXR throws becomes an InputError.
 template <class Read>
 auto guarded(const std::filesystem::path& path, Read read) {
     // OpenEXR keeps these limits per process; they are always the same, and checked before it allocates by the header.

@@ -23,7 +23,8 @@ inline constexpr const char* kOldHdrRuns = "it is packed by Radiance's old run-l
 /// The bytes begin like a Radiance HDR file.
 bool is_hdr(std::span<const std::uint8_t> bytes);
 
-/// Nothing, and `why`, for other formats, colours in XYZ, and rows that do not run from the top and from the left.
+/// An HDR file's header. Nothing, and `why`, for other formats, colours in XYZ, and rows that do not run from the top
+/// and from the left.
 std::optional<HdrHeader> read_hdr_header(std::span<const std::uint8_t> bytes, std::string& why);
 
 /// Linear R, G, B of each pixel (mantissa x 2^(exponent - 136)), rows from the top; flat or run-length encoded line by

@@ -55,7 +55,7 @@ struct RgbImage {
         : width(w), height(h), pixels(static_cast<std::size_t>(w) * static_cast<std::size_t>(h), fill) {}
 };
 
-/// The pixels that lie there.
+/// The pixels of an image at `place`, of `width` x `height`.
 RgbImage cut_out(const RgbImage& image, const ImagePlace& place, int width, int height);
 
 /// "R" for the layer "", "variance.R" for the layer "variance".

@@ -27,7 +27,7 @@ struct NetpbmHeader {
 /// The bytes begin like such a file, or like one in plain text.
 bool is_netpbm(std::span<const std::uint8_t> bytes);
 
-/// Nothing, and `why`, for headers that are malformed, files in plain text, and files shorter than the header says.
+/// A file's header. Nothing, and `why`, if it is malformed, or the file in plain text or shorter than the header says.
 std::optional<NetpbmHeader> read_netpbm_header(std::span<const std::uint8_t> bytes, std::string& why);
 
 /// The pixels, rows from the top, channels interleaved: bytes of files with 8 bits, else floats (integers from 0 to 1).

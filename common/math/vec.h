@@ -41,8 +41,7 @@ inline float max_component(const Rgb& c) {
     return std::max(c.x, std::max(c.y, c.z));
 }
 
-/// What the trees learn from: the mean of the channels, as in the authors' program (a luminance would starve blue
-/// light).
+/// Mean of the channels, which the trees learn from, as in the authors' program (a luminance would starve blue light).
 inline float average(const Rgb& c) {
     return (c.x + c.y + c.z) * (1.0f / 3.0f);
 }

@@ -38,7 +38,7 @@ bool is_variance(const Rgb& v) {
     return is_valid(v) && v.x >= 0.0f && v.y >= 0.0f && v.z >= 0.0f;
 }
 
-/// False if the pixel must be left out.
+/// The difference of a pixel and its variance; false if the pixel must be left out.
 bool difference_at(const ZTestInput& in, std::size_t i, Difference& d) {
     const Rgb a = in.image.pixels[i], b = in.reference.pixels[i];
     const Rgb zero(0.0f);

@@ -15,7 +15,7 @@ struct ZTestInput {
     const RgbImage* image_variance = nullptr;
     const RgbImage* reference_variance = nullptr;
     bool image_half = false;      ///< rounded to half: adds (v 2^-11)^2 / 3 to the variance of each value v
-    bool reference_half = false;  ///< the same for the reference
+    bool reference_half = false;  ///< as image_half, for the reference
     /// Standard deviation of a relative error common to all pixels of the reference (another renderer's conventions,
     /// ...); more pixels do not average it away.
     double reference_relative_error = 0.0;
@@ -56,11 +56,12 @@ struct BlockZTest {
     double max_abs_z = 0.0;
     int worst_x = 0, worst_y = 0;   ///< first pixel of the block that attains it
     double limit = 0.0;             ///< |z| that a test accepts, from the corrected level
-    double image_z[3] = {0, 0, 0};  ///< the same for the mean of the whole image, per channel
+    double image_z[3] = {0, 0, 0};  ///< z of the mean of the whole image, per channel
     bool pass = true;
 };
 
-/// Both throw InputError if the sizes differ. Float rounding (relative 1e-6) counts as noise, so no variance is zero.
+/// The tests per pixel and per block. Both throw InputError if the sizes differ. Float rounding (relative 1e-6) counts
+/// as noise, so no variance is zero.
 PixelZTest pixel_z_test(const ZTestInput& input, const ZTestOptions& options = {});
 BlockZTest block_z_test(const ZTestInput& input, const ZTestOptions& options = {});
 

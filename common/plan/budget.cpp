@@ -59,7 +59,7 @@ class OpenBudget {
                         std::min(kPolicy.budget.least_tolerance, kPolicy.budget.most_tolerance * seconds));
     }
 
-    /// Of an ending pass.
+    /// Seconds that an ending pass of so many samples per pixel is expected to take.
     double seconds_of_pass(double spp) const {
         const int trees = outlook_->learning() ? 1 : 0;
         return outlook_->overhead_seconds() + spp * outlook_->seconds_per_spp(trees, false);

@@ -11,30 +11,30 @@
 
 namespace treefarm {
 
-/// What comes next in a render.
+/// The next pass of a render, or its end.
 struct NextPass {
     std::optional<PassPlan> pass;  ///< none: the render is done
     std::uint32_t spp_total = 0;   ///< expected when all is done; 0: not known yet
     std::size_t pass_count = 0;    ///< 0: not known yet
 };
 
-/// Asked before each pass, once. The only place where clock and estimated error have a say.
+/// Chooses the next pass; asked before each, once. The only place where clock and estimated error have a say.
 using PassChooser = std::function<NextPass(const RenderState&)>;
 
-/// These passes, one after the other.
+/// The passes of a list, one after the other.
 PassChooser listed_passes(std::vector<PassPlan> passes);
 
 /// Passes that double until budget.seconds, budget.error or budget.max_spp is near, then one that takes the rest, then
 /// as many smaller ones as make up for what the forecast missed (none where the image is its last pass alone).
 PassChooser open_passes(const Resolved& job);
 
-/// The job's own.
+/// The passes that the job itself asks for.
 PassChooser passes_of(const Resolved& job);
 
 /// A finished pass; `before`: the one before it, or nullptr.
 PassResult finished_pass(const PassPlan& plan, const PassPlan* before, std::vector<PixelEstimate> pixels);
 
-/// Adds a finished pass to those that make the image. Those that it replaces leave.
+/// Adds a finished pass to those that make the image. Passes that it replaces leave.
 void show(PassResult pass, const Resolved& job, std::vector<PassResult>& shown);
 
 /// Whether the job asked for an error that the image has not come down to.

@@ -11,17 +11,17 @@ namespace treefarm {
 
 namespace {
 
-/// What a second render of the same kind differs by, and what a machine does besides, relative; for each doubling of
-/// the samples that a forecast looks ahead, more.
+/// Relative spread of a second render of the same kind, and of a machine's speed besides; more for each doubling of the
+/// samples that a forecast looks ahead.
 constexpr double kSpread = 0.12;
 constexpr double kSpreadPerDoubling = 0.03;
 constexpr double kSpeedSpread = 0.15;
 constexpr double kSpeedSpreadPerDoubling = 0.02;
-/// Of an error that has no interval of its own.
+/// Factor either way of an error that has no interval of its own.
 constexpr double kUnknownSpread = 2.0;
 /// An error whose interval ends so far above it, relative, has rare samples.
 constexpr double kWide = 0.1;
-/// So many more trees have learned what there is to learn.
+/// Trees to come after which all is learned that there is to learn.
 constexpr int kManyTrees = 10;
 
 /// Factors below and above 1 by which a mean squared error, and so the samples for a given one, may be off.

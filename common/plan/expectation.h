@@ -13,7 +13,7 @@ struct Expected {
     double value = 0, low = 0, high = 0;
 };
 
-/// What a render will have taken and given in the end, by the passes that are done.
+/// Cost and error of a render in the end, as expected by the passes that are done.
 struct Expectation {
     bool known = false;
     bool reached = false;   ///< by those passes: nothing more is needed
@@ -22,13 +22,13 @@ struct Expectation {
     Expected error;         ///< rmse / mean luminance
 };
 
-/// Until the error is `relative_error`.
+/// Expectation of a render that goes on until the error is `relative_error`.
 Expectation expect_error(const RenderState& state, const Resolved& job, double relative_error);
 
-/// After so many seconds of rendering.
+/// Expectation of a render after so many seconds.
 Expectation expect_after_seconds(const RenderState& state, const Resolved& job, double seconds);
 
-/// After so many samples per pixel.
+/// Expectation of a render after so many samples per pixel.
 Expectation expect_after_spp(const RenderState& state, const Resolved& job, double spp);
 
 }  // namespace treefarm

@@ -28,7 +28,7 @@ enum class Trust : std::uint8_t {
     firm,
 };
 
-/// What it takes beyond what is done to come down to an error.
+/// Samples and time to come down to an error, beyond what is done.
 struct ErrorForecast {
     double relative_error = 0;
     double spp = 0;      ///< infinite: not known

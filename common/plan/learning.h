@@ -9,13 +9,13 @@ namespace treefarm {
 
 /// The tree before the first pass over `bounds`; a record of average value is about `radiance_scale`.
 SdTree first_tree(const Resolved& job, const Box3& bounds, float radiance_scale);
-/// Over all that the scene's camera can see.
+/// The first tree, over all that the scene's camera can see.
 SdTree first_tree(const Resolved& job, const Scene& scene);
 
 /// How the job refines the tree after `pass` for the `coming` one.
 RefineSettings refine_settings(const Resolved& job, const PassPlan& pass, const PassPlan& coming);
 
-/// What a pass over `tree` sums up.
+/// Shape of the sums of a pass over `tree`.
 SumsShape sums_shape(const PassPlan& pass, const SdTree& tree);
 
 }  // namespace treefarm

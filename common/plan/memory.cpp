@@ -15,11 +15,12 @@
 namespace treefarm {
 namespace {
 
-/// In closed rooms; fewer where light leaves the scene or the job ends paths before.
+/// Vertices per path in closed rooms; fewer where light leaves the scene or the job ends paths before.
 constexpr double kVerticesPerPath = 8.0;
-/// Of its threshold, what a region holds after the last split: measured in the scenes of configs/.
+/// Part of its threshold that a region holds after the last split: measured in the scenes of configs/.
 constexpr double kRegionFilling = 0.65;
-/// Measured, too: 230 to 245 cells at a threshold of 0.01; 185 to 210 where cells follow use.
+/// Cells per region times the directional threshold, measured as well: 230 to 245 cells at 0.01; 185 to 210 where cells
+/// follow use.
 constexpr double kCellsPerRegion = 2.4;
 constexpr double kCellsPerRegionByUse = 2.0;
 
@@ -27,7 +28,7 @@ constexpr double kCellsPerRegionByUse = 2.0;
 constexpr std::uint64_t kGuideBytesPerCell = 8;
 constexpr std::uint64_t kGuideBytesPerRegion = 2 * 65 * 4 + 40;
 constexpr std::uint64_t kGuideBytesPerView = 32;
-/// Of a scene that learns views, for each region.
+/// Views for each region of a scene that learns views.
 constexpr double kViewsPerRegion = 0.5;
 constexpr std::uint64_t kSumBytes = 8;
 constexpr std::uint64_t kPlainTreeBytesPerCell = 5;

@@ -25,7 +25,7 @@ struct MemoryPlan {
     std::uint64_t coordinator_bytes() const;
 };
 
-/// What an SD-tree is expected to have after the last pass that records.
+/// Expected size of an SD-tree after the last pass that records.
 struct TreeSize {
     std::uint64_t regions = 0, cells = 0;
     bool with_mixture = false;  ///< histograms from which the fractions of BSDF and tree are learned
@@ -36,7 +36,7 @@ struct TreeSize {
     std::uint64_t sum_bytes() const;    ///< the plain form and the sums of what is recorded
 };
 
-/// What an emitter takes beside its table.
+/// Bytes that an emitter takes beside its table.
 inline constexpr std::uint64_t kEmitterBytes = 128;
 /// Embree's hierarchy over triangles, and over other shapes with their geometry objects, measured
 /// (docs/generated/effects.md).

@@ -9,7 +9,7 @@
 namespace treefarm {
 namespace {
 
-/// Of a clock that did not move, seconds.
+/// Seconds of a sample by a clock that did not move.
 constexpr double kShortestSample = 1e-9;
 
 /// Passes that had one tree.

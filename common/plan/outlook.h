@@ -9,7 +9,7 @@
 
 namespace treefarm {
 
-/// What a finished pass tells about those to come. Seconds of the clock are the coordinator's.
+/// Facts about a finished pass that tell of those to come. Seconds of the clock are the coordinator's.
 struct PassFacts {
     std::uint32_t spp = 0;
     std::uint32_t spp_before = 0;
@@ -32,33 +32,33 @@ struct RenderState {
     bool splitting = true;  ///< may pay
 
     std::uint32_t spp() const { return passes.empty() ? 0 : passes.back().spp_before + passes.back().spp; }
-    /// Of those passes that had the last one's tree.
+    /// Samples per pixel of the passes that had the last one's tree.
     std::uint32_t spp_of_last_tree() const;
 };
 
-/// What coming passes will be like, by those that are done (docs/design/error.md, "error"). A tree that learns more
-/// makes samples less noisy and changes what they cost, each time by less than the time before: its progress to the
-/// power 3/4, the change of cost to the power 0.35. Needs a finished pass.
+/// Forecast of coming passes, by those that are done (docs/design/error.md, "error"). A tree that learns more makes
+/// samples less noisy and changes what they cost, each time by less than the time before: its progress to the power
+/// 3/4, the change of cost to the power 0.35. Needs a finished pass.
 class Outlook {
   public:
     explicit Outlook(const RenderState& state);
 
     /// Whether any pass tells the variance of its samples.
     bool knows_variance() const { return variance_ > 0 || quiet_; }
-    /// Of one sample, as they are now: what the last trees measured together, as far as they show no progress. Progress
-    /// is seen without the worst pixels, in which a rare sample tells nothing of the tree.
+    /// Variance of one sample, as samples are now: what the last trees measured together, as far as they show no
+    /// progress. Progress is seen without the worst pixels, in which a rare sample tells nothing of the tree.
     double variance() const { return variance_; }
-    /// Of one sample once `trees` more trees were learned; the same where nothing is learned any more.
+    /// Variance of one sample once `trees` more trees were learned; variance() where nothing is learned any more.
     double variance_after(int trees) const;
-    /// What the last tree that brought anything brought: variance over that before it, at most 1. 1 as well where none
-    /// of the last three did. 0: not known yet.
+    /// Progress by the last tree that brought any: variance over that before it, at most 1. 1 as well where none of the
+    /// last three did. 0: not known yet.
     double progress() const { return progress_; }
-    /// What the last two trees brought together. 0: fewer than three were seen.
+    /// Progress by the last two trees together. 0: fewer than three were seen.
     double recent_progress() const { return recent_progress_; }
     /// Whether the next pass has another tree than the last.
     bool learning() const { return learning_; }
 
-    /// Of the clock, once `trees` more trees were learned.
+    /// Seconds of the clock for a sample per pixel, once `trees` more trees were learned.
     double seconds_per_spp(int trees, bool record) const;
     double overhead_seconds() const { return overhead_; }
 

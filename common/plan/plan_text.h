@@ -11,7 +11,7 @@ namespace treefarm {
 /// scene file. Ends with a line end.
 std::string plan_text(const EffectPlan& plan, const std::string& scene);
 
-/// The same for programs (docs/generated/effects.md, "the JSON form"). Ends with a line end.
+/// A plan for programs (docs/generated/effects.md, "the JSON form"). Ends with a line end.
 std::string plan_json(const EffectPlan& plan, const std::string& scene);
 
 /// One line for the log: "bump is off for 3 places in the scene (scene.xml:4:5): bumpy surfaces are smooth".

@@ -29,7 +29,7 @@ struct Policy {
         double probe_evenly = 3.0;
     } guiding;
 
-    /// As how many paths one goes on, and when that is given up.
+    /// Splitting: as how many paths one goes on, and when that is given up.
     struct Splitting {
         int usual = 8;
         float least_share = 1.4f;
@@ -55,7 +55,7 @@ struct Policy {
         float branch_least = 0x1p-12f;
     } walk;
 
-    /// What the tree learns, and how large it grows.
+    /// The tree's learning and growth.
     struct Learning {
         double spatial_threshold = 2000.0;
         double product_cells = 0.5;
@@ -95,7 +95,7 @@ struct Policy {
         double strict_error_margin = 1.10;
     } budget;
 
-    /// What trees to come will bring.
+    /// The progress that trees to come will bring.
     struct Forecast {
         double learned = 0.55;
         double noisy = 0.1;

@@ -35,7 +35,7 @@ struct Resolved : Job {
 Resolved resolve(const Job& job, const SceneFacts& scene);
 Resolved resolve(const Job& job, const Scene& scene);
 
-/// What guides, in the word of the key guiding.type.
+/// The guide, in the word of the key guiding.type.
 std::string guiding_word(const Resolved& job);
 
 }  // namespace treefarm

@@ -9,8 +9,8 @@
 
 namespace treefarm {
 
-/// What of the plan the worker holds against what happens: which effects are on that code is left out for, or kept out
-/// of line. In a debug build one that occurs although it is off here is an assertion.
+/// The part of the plan that the worker holds against what happens: effects for which code is left out, or kept out of
+/// line. In a debug build one that occurs although it is off here is an assertion.
 struct SceneEffects {
     bool textures = false;  ///< of materials or area emitters
     bool masks = false;
@@ -25,7 +25,7 @@ struct SceneEffects {
 /// built without, naming the option.
 SceneEffects find_scene_effects(const Scene& scene, const Job& job);
 
-/// The same for a program that lacks `left_out`, names of TREEFARM_WITHOUT.
+/// The effects as the plan has them, for a program that lacks `left_out`, names of TREEFARM_WITHOUT.
 SceneEffects find_scene_effects(const Scene& scene, const Job& job, std::span<const std::string> left_out);
 
 }  // namespace treefarm

@@ -37,7 +37,8 @@ struct PassPlan {
         return edge * edge * unit_spp();
     }
 
-    /// With two such units before it no thread waits for an answer, and nobody need look for messages often.
+    /// Whether units are so long that with two before it no thread waits for an answer, and nobody need look for
+    /// messages often.
     bool has_long_units(int tile_size) const {
         constexpr std::uint64_t kLongPaths = 16384;
         return unit_paths(tile_size) >= kLongPaths;
@@ -66,14 +67,15 @@ enum class Guiding {
 /// to, passes are unguided and learn nothing.
 void set_guiding(PassPlan& pass, const Resolved& job, Guiding guiding);
 
-/// What is known after a guided pass that taught, with this gain. Short passes have to say loudly that guiding does not
-/// pay: it gets better with each. Where unguided samples hardly find the light it does, and probes tell no more.
+/// Verdict after a guided pass that taught, with this gain. Short passes have to say loudly that guiding does not pay:
+/// it gets better with each. Where unguided samples hardly find the light it does, and probes tell no more.
 Guiding judge_guiding(const PassPlan& pass, const GuidingGain& gain);
 
 /// guiding.splitting_rule "while_it_pays": no path is split any more once that was found not to pay.
 void set_splitting(PassPlan& pass, const Resolved& job, bool pays);
 
-/// Whether it may, after a pass with this gain. Once it does not it is not asked again: nobody splits any more.
+/// Whether splitting may pay, after a pass with this gain. Once it does not it is not asked again: nobody splits any
+/// more.
 bool splitting_may_pay(const PassPlan& pass, const SplittingGain& gain);
 
 /// Passes double from guiding.spp_unit; when what remains after a pass would be less than twice that pass, the pass

@@ -15,7 +15,7 @@ namespace {
 constexpr std::int64_t kMostSpp = std::int64_t{1} << 30;
 constexpr std::size_t kMostPasses = 10000;
 
-/// What one [[pass]] may hold.
+/// Keys that one [[pass]] may hold.
 constexpr std::string_view kKeys[] = {"spp", "next_event", "record", "guided", "probe", "split"};
 constexpr const char* kKeyAdvice = "a pass has spp, next_event and record, and may have guided, probe and split";
 

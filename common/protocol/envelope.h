@@ -11,7 +11,7 @@ namespace treefarm {
 /// Raised whenever a message changes its form: peers of another version are refused, not guessed at.
 inline constexpr std::uint32_t kProtocolVersion = 9;
 
-/// What a message is. The numbers are on the wire: append only (docs/design/protocol.md).
+/// Kind of a message. The numbers are on the wire: append only (docs/design/protocol.md).
 enum class Kind : std::uint8_t {
     hello = 1,   ///< worker: here I am
     welcome,     ///< coordinator: your number and the job

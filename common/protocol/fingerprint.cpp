@@ -33,7 +33,7 @@ std::uint64_t probe_mathematics() {
     return hash_bytes(values.take());
 }
 
-/// Of this very program; 0 where the system does not show it.
+/// Hash of this very program; 0 where the system does not show it.
 std::uint64_t hash_program() {
     const std::filesystem::path self = "/proc/self/exe";
     std::error_code error;

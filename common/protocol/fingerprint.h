@@ -9,9 +9,9 @@ namespace treefarm {
 /// Version of the program, as `treefarm --version` prints it: that of the project in CMakeLists.txt.
 extern const char* const kProgramVersion;
 
-/// What decides the bits of a result besides job and scene, and says where a result comes from. Work done under equal
-/// fingerprints is interchangeable (docs/design/architecture.md, "same bits"). Embree's instruction set is part of the
-/// job (farm.isa), so it is not in here.
+/// Origin of a result: all that decides its bits besides job and scene. Work done under equal fingerprints is
+/// interchangeable (docs/design/architecture.md, "same bits"). Embree's instruction set is part of the job (farm.isa),
+/// so it is not in here.
 struct Fingerprint {
     std::string version;              ///< of this program
     std::string source;               ///< `git describe` of what it was built from, or "release"
@@ -27,7 +27,7 @@ struct Fingerprint {
     std::string text() const;
 };
 
-/// Of this process, for the calling thread. What only the program itself knows is handed in.
+/// Fingerprint of this process, for the calling thread. What only the program itself knows is handed in.
 Fingerprint own_fingerprint(const std::string& source = "", const std::string& options = "",
                             const std::string& embree = "");
 

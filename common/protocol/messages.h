@@ -59,7 +59,7 @@ struct Refuse {
     bool operator==(const Refuse&) const = default;
 };
 
-/// What travels along a chain of workers.
+/// Data that travels along a chain of workers.
 enum class Blob : std::uint8_t { scene, tree };
 
 /// A piece of a broadcast. Who receives it forwards it to chain[0] with the rest of the chain.
@@ -106,7 +106,7 @@ struct Want {
     bool operator==(const Want&) const = default;
 };
 
-/// What a worker gets for its credit. Without units: for now nothing is left, so it had better send what it has.
+/// Units that a worker gets for its credit. None: for now nothing is left, so it had better send what it has.
 struct Work {
     static constexpr Kind kKind = Kind::work;
     std::uint32_t pass = 0;

@@ -17,7 +17,7 @@ double lobe_value(const Film& film, double x);
 /// Integrals of a function over equal cells of [0, radius], by Simpson's rule.
 std::vector<double> cell_masses(const std::function<double(double)>& value, double radius, std::uint32_t cells);
 
-/// Those of the filter.
+/// Integrals of the film's filter over equal cells of [0, radius].
 std::vector<double> lobe_masses(const Film& film, std::uint32_t cells);
 
 /// By how much the absolute values of the masses exceed their sum: what a sample of either sign weighs.

@@ -5,7 +5,7 @@
 
 namespace treefarm {
 
-/// What to do with a file of this extension (".blend") in place of a scene; what a scene is, where it is unknown.
+/// Advice on a file of this extension (".blend") in place of a scene; what a scene is, where it is unknown.
 std::string foreign_format_cure(const std::string& extension);
 
 }  // namespace treefarm

@@ -13,7 +13,7 @@ namespace treefarm {
 /// file, has more than 8 GiB or only points to a file in Git LFS.
 std::uintmax_t input_file_size(const std::filesystem::path& path, const Location& asked_from);
 
-/// All bytes of such a file.
+/// All bytes of a file that a scene names. Throws as input_file_size().
 std::string read_input_file(const std::filesystem::path& path, const Location& asked_from);
 
 }  // namespace treefarm

@@ -77,7 +77,7 @@ std::optional<std::pair<V3d, V3d>> place_on(const Shape& shape, int i, double u,
     return std::nullopt;
 }
 
-/// What some rays met.
+/// Counts of what some rays met.
 struct Meetings {
     int rays = 0, hits = 0;
     int behind = 0;  ///< backs that reflect nothing
@@ -165,7 +165,7 @@ class Darkness {
         return met;
     }
 
-    /// Nothing of those that surround the scene.
+    /// What rays from an emitter meet; nothing for emitters that surround the scene.
     Meetings from_emitter(const Emitter& emitter) const {
         Meetings met;
         const std::int32_t shape = shape_of(emitter);

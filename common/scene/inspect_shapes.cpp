@@ -48,7 +48,7 @@ class MeshInspection {
     MeshInspection(const Shape& shape, const Mesh& mesh, std::vector<Finding>& findings)
         : shape_(shape), mesh_(mesh), findings_(findings) {}
 
-    /// False if the triangles cannot be looked at.
+    /// Inspects the mesh; false if its triangles cannot be looked at.
     bool run() {
         if (mesh_.indices.size() % 3 != 0 ||
             std::any_of(mesh_.indices.begin(), mesh_.indices.end(),

@@ -34,7 +34,7 @@ struct SceneToCheck {
     std::vector<Finding> findings;  ///< what its reader has to say
 };
 
-/// Throws InputError only if there is no scene to look at.
+/// Loads a scene for inspect(). Throws InputError only if there is no scene to look at.
 SceneToCheck load_scene_to_check(const std::filesystem::path& path,
                                  const std::map<std::string, std::string>& defines = {}, bool lenient = false,
                                  const std::string& sensor = "");

@@ -66,7 +66,7 @@ class Reader {
         return rgb;
     }
 
-    /// What follows the options, "-s 1 1 1" and the like, which are skipped.
+    /// The name that follows the options, "-s 1 1 1" and the like, which are skipped.
     std::string file_name() {
         std::string name;
         std::string_view word;

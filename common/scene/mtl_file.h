@@ -28,7 +28,7 @@ struct MtlMaterial {
 /// Malformed numbers throw InputError at their line and column. `asked_from` is where the file's name stands.
 std::vector<MtlMaterial> read_mtl(const std::filesystem::path& path, const Location& asked_from);
 
-/// The same from memory; `file` is the name for messages.
+/// Reads the text of an MTL file; `file` is the name for messages.
 std::vector<MtlMaterial> parse_mtl(std::string_view text, const std::string& file);
 
 }  // namespace treefarm

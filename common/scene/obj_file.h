@@ -12,7 +12,7 @@
 
 namespace treefarm {
 
-/// What a Wavefront OBJ file says, faces cut into triangles, nothing merged or computed.
+/// Content of a Wavefront OBJ file, faces cut into triangles, nothing merged or computed.
 struct ObjFile {
     /// Indices from 0, or kMissing.
     struct Corner {
@@ -35,7 +35,7 @@ struct ObjFile {
 /// is where the file's name stands.
 ObjFile read_obj(const std::filesystem::path& path, const Location& asked_from);
 
-/// The same from memory; `file` is the name for messages.
+/// Reads the text of an OBJ file; `file` is the name for messages.
 ObjFile parse_obj(std::string_view text, const std::string& file);
 
 }  // namespace treefarm

@@ -10,7 +10,7 @@
 
 namespace treefarm::packed {
 
-/// What the parts of the packed scene have in common. Readers throw FormatError.
+/// Values that the parts of the packed scene have in common. Readers throw FormatError.
 
 template <class V>
 void put_vector(ByteWriter& out, const V& v) {

@@ -12,7 +12,7 @@ namespace {
 
 using namespace ply;
 
-/// What the vertices' properties are for, by their place.
+/// Roles of the vertices' properties, by their place.
 enum class Role : std::uint8_t { x, y, z, nx, ny, nz, u, v, none };
 
 /// A group of properties counts only if all of it is there.

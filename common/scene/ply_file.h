@@ -16,7 +16,7 @@ namespace treefarm {
 /// and column in the header and in text, with its byte in binary data. `asked_from` is where the file's name stands.
 Mesh read_ply(const std::filesystem::path& path, const Location& asked_from);
 
-/// The same from memory; `file` is the name for messages.
+/// Reads a PLY file's bytes; `file` is the name for messages.
 Mesh parse_ply(std::string_view bytes, const std::string& file);
 
 }  // namespace treefarm

@@ -46,7 +46,7 @@ class TextValues {
         if (at_ < bytes_.size()) new_line();
     }
 
-    /// Nothing but white space is left.
+    /// Refuses the file unless nothing but white space is left.
     void end() {
         while (at_ < bytes_.size()) {
             skip_blanks();

@@ -34,7 +34,7 @@ struct Camera {
 /// from it. Cubic ones and Lanczos' have negative lobes.
 enum class PixelFilter : std::uint8_t { box, tent, gaussian, cubic, lanczos };
 
-/// What is rendered: the pixels of a film, or of a crop window on it. Pixels are counted from the window's corner, but
+/// The pixels that are rendered: of a film, or of a crop window on it. Pixels are counted from the window's corner, but
 /// each sees, and draws the random numbers, of its place on the whole film.
 struct Film {
     int width = 768;   ///< pixels that are rendered, 1 to 65535
@@ -48,11 +48,11 @@ struct Film {
     std::size_t pixel_count() const { return static_cast<std::size_t>(width) * static_cast<std::size_t>(height); }
     int whole_width() const { return place.is_window() ? place.whole_width : width; }
     int whole_height() const { return place.is_window() ? place.whole_height : height; }
-    /// Of a pixel of the window: its number on the whole film, row by row.
+    /// Number on the whole film, row by row, of a pixel of the window.
     std::uint32_t key_of(int x, int y) const {
         return static_cast<std::uint32_t>((y + std::int64_t{place.y}) * whole_width() + x + place.x);
     }
-    /// Of the pixel with that number: its place among those that are rendered.
+    /// Place among the pixels that are rendered of the one with that number on the whole film.
     std::uint32_t index_of(std::uint32_t key) const {
         if (!place.is_window()) return key;
         const auto whole = static_cast<std::uint32_t>(place.whole_width);

@@ -60,7 +60,7 @@ Film get_film(ByteReader& in) {
     return film;
 }
 
-/// Shapes and their emitters name each other.
+/// Refuses a scene unless shapes and their emitters name each other.
 void check_area_emitters(const Scene& scene) {
     for (std::size_t i = 0; i < scene.shapes.size(); ++i) {
         const std::int32_t index = scene.shapes[i].emitter;

@@ -15,7 +15,7 @@ namespace treefarm {
 /// in the file or in the unpacked mesh. `asked_from` is where the file's name stands.
 Mesh read_serialized(const std::filesystem::path& path, std::int64_t index, const Location& asked_from);
 
-/// The same from a stream of `size` bytes; `file` is the name for messages.
+/// Reads mesh number `index` from a stream of `size` bytes; `file` is the name for messages.
 ///
 ///     file       := mesh* offset[count] count:u32        offset: u32 in version 3, u64 in version 4
 ///     mesh       := 0x041C:u16 version:u16 zlib(flags:u32 [name NUL, version 4] vertices:u64 triangles:u64

@@ -70,7 +70,7 @@ class MaterialCheck {
             number(name, FloatInput{input.value[i], input.texture}, least, most);
     }
 
-    /// Both are scaled down where their sum goes above 1, as in Mitsuba 0.6.
+    /// Scales two reflectances down where their sum goes above 1, as in Mitsuba 0.6.
     void together(ColorInput& a, ColorInput& b) {
         float sum = 0.0f;
         for (int i = 0; i < 3; ++i)
@@ -148,7 +148,7 @@ class MaterialCheck {
         return input.varies() ? reached(input.texture, input.value, what) : input.value;
     }
 
-    /// What brings a factor that its texture takes to `most` down to its limit; 1 within rounding of the limit.
+    /// Scale that brings a factor, taken to `most` by its texture, down to its limit; 1 within rounding of the limit.
     float fraction_scale(float most, const std::string& what) {
         if (!(most > 1.0f)) return 1.0f;
         if (most <= 1.0f + 1e-5f) return 1.0f / most;

@@ -19,12 +19,12 @@ inline bool is_too_far(const Vec3& v, float margin = 0.0f) {
     return std::max(std::abs(v.x), std::max(std::abs(v.y), std::abs(v.z))) + margin > kFarthest;
 }
 
-/// Of unit length, as well as readers compute it.
+/// Whether a vector has unit length, as well as readers compute it.
 inline bool is_unit(const Vec3& v) {
     return std::abs(dot(v, v) - 1.0f) < 1e-3f;
 }
 
-/// What the values of an image or a texture lie between.
+/// Limits between which the values of an image or a texture lie.
 struct ValueRange {
     float min = 0.0f, max = 0.0f;
 };
@@ -32,18 +32,18 @@ struct ValueRange {
 /// Checks sizes and that all values are finite; the range of each.
 std::vector<ValueRange> check_images(const std::vector<TextureImage>& images);
 
-/// The range of each texture, from those of the images.
+/// The range of each texture's values, from those of the images.
 std::vector<ValueRange> check_textures(const std::vector<Texture>& textures, const std::vector<ValueRange>& images);
 
-/// Roughness below the least is raised to it and textured factors above 1 are scaled down, with a warning; those of
-/// unlimited materials stay, with one, too.
+/// Raises roughness below the least to it and scales textured factors above 1 down, with a warning; those of unlimited
+/// materials stay, with one, too.
 void check_materials(Scene& scene, const std::vector<ValueRange>& textures, std::vector<Warning>& warnings);
 
 /// Whether no triangle has an area (or one too small for single precision to give it a normal), though all vertices are
 /// finite.
 bool is_flat(const Mesh& mesh);
 
-/// Triangles without area are left out, with a warning.
+/// Leaves out triangles without area, with a warning.
 void check_shapes(Scene& scene, std::vector<Warning>& warnings);
 
 void check_emitters(const Scene& scene, const std::vector<ValueRange>& images, const std::vector<ValueRange>& textures);

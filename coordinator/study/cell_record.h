@@ -15,7 +15,7 @@ struct MeasuredPass {
     RgbImage image;
 };
 
-/// What a cell's cell.json says of its render: every pass with its figures and its true errors against the reference,
+/// Part of a cell's cell.json about its render: every pass with its figures and its true errors against the reference,
 /// and FLIP of the last (docs/use/studies.md).
 nlohmann::ordered_json render_record(const std::vector<MeasuredPass>& passes, const RgbImage& reference);
 

@@ -18,7 +18,7 @@ LoadedScene load_study_scene(const Study& study, const StudyScene& scene);
 RenderRequest study_request(const Study& study, const StudyScene& scene, const LoadedScene& loaded,
                             std::span<const Setting> method, std::span<const Setting> more, const Fingerprint& build);
 
-/// What cells have beyond their method: a budget and the seed.
+/// Settings that a cell has beyond its method: a budget and the seed.
 std::vector<Setting> cell_settings(const Study& study, const StudyCell& cell);
 
 /// Names what a request renders: job without its output, scene, program, and `more` (the reference that it is measured

@@ -11,7 +11,7 @@
 
 namespace treefarm {
 
-/// What cells of a scene are measured against.
+/// The image that cells of a scene are measured against.
 struct Reference {
     std::string file;
     std::string key;  ///< of its pixels or of what renders it

@@ -14,10 +14,10 @@ class StudyProgress {
 
     /// The next cell begins; it has a name. One that is there from before needs no more than this.
     void begin_cell(const std::string& name);
-    /// It was rendered, in so many seconds.
+    /// The cell was rendered, in so many seconds.
     void end_cell(double seconds);
 
-    /// Of the render of this cell.
+    /// Status of this cell's render.
     Status cell_status(const RenderWords& words) const;
     /// "cell 3/24".
     std::string cell_name() const;
@@ -32,7 +32,7 @@ class StudyProgress {
     double rendered_seconds_ = 0;
 };
 
-/// Of a render for a study that is no cell: "reference of box", "warm-up of box".
+/// Status of a render for a study that is no cell: "reference of box", "warm-up of box".
 Status aside_status(const std::string& name, const RenderWords& words);
 
 }  // namespace treefarm

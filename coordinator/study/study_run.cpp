@@ -28,7 +28,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
-/// So many cells in a row that fail are no accident.
+/// Cells that fail in a row: so many are no accident.
 constexpr int kMostFailures = 3;
 
 /// A study that was killed has left its folder by then.

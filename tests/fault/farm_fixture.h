@@ -153,7 +153,7 @@ class FarmTest : public ::testing::Test {
         threads_.clear();
     }
 
-    /// What one undisturbed worker with one thread makes of it.
+    /// The result of one undisturbed worker with one thread.
     static const RenderResult& truth() {
         static const RenderResult result = [] {
             struct Plain : FarmTest {

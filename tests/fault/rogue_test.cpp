@@ -75,7 +75,7 @@ INSTANTIATE_TEST_SUITE_P(
                       Lie{"work of another pass", [](Result& r) { r.pass += 1; }}),
     [](const auto& info) { return "Lie" + std::to_string(info.index); });
 
-/// What a rogue may send to anybody at any time: well-formed, and none of its business.
+/// Messages that a rogue may send to anybody at any time: well-formed, and none of its business.
 std::vector<Bytes> orders() {
     PassBegin pass;
     pass.plan = {.index = 99, .spp = 4, .record = true};

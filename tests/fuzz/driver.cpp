@@ -31,7 +31,7 @@ namespace {
 constexpr std::size_t kLargestAllocation = std::size_t{128} << 20;
 constexpr unsigned kSecondsPerInput = 20;
 
-/// For the handlers of signals, which can get at nothing else.
+/// The input in hand, for the handlers of signals, which can get at nothing else.
 const std::string* current_input = nullptr;
 
 [[noreturn]] void fail(const char* why) {
@@ -128,7 +128,7 @@ class Mutator {
         }
     }
 
-    /// In texts: the number at or after a place.
+    /// Replaces, in a text, the number at or after a place.
     void replace_number(std::string& input, std::size_t at, const char* with) {
         const std::size_t begin = input.find_first_of("0123456789", at);
         if (begin == std::string::npos) return;

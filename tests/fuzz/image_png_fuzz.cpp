@@ -17,7 +17,7 @@ std::string png(int width, int height, int channels, int bits, double gamma) {
     return image.bytes();
 }
 
-/// What a file of a palette has in addition stands before its pixels.
+/// A file with a palette, whose additions stand before its pixels.
 std::string with_palette() {
     std::string file = png(7, 5, 1, 8, 0.0);
     file[25] = 3;  // the kind of pixels

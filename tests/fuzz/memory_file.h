@@ -16,7 +16,7 @@ class MemoryFile {
     MemoryFile(const MemoryFile&) = delete;
     MemoryFile& operator=(const MemoryFile&) = delete;
 
-    /// Replaces what it holds.
+    /// Replaces the file's content.
     void assign(const std::uint8_t* data, std::size_t size);
 
     const std::filesystem::path& path() const { return path_; }

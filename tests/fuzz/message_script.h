@@ -25,7 +25,7 @@ class Script {
     std::size_t at_ = 0;
 };
 
-/// What a peer may know of the conversation, so that its nonsense gets past the first door.
+/// A peer's knowledge of the conversation, with which its nonsense gets past the first door.
 struct Known {
     std::uint64_t incarnation = 0;
     std::uint32_t job = 0, pass = 0;

@@ -38,8 +38,8 @@ fuzz::Known what_rogues_know() {
     return known;
 }
 
-/// What the script says, a message at a look; a good start first, so that nonsense meets a worker at work, and in the
-/// end the word to leave.
+/// A channel that says what the script does, a message at a look; a good start first, so that nonsense meets a worker
+/// at work, and in the end the word to leave.
 class ScriptedChannel final : public Channel {
   public:
     explicit ScriptedChannel(std::span<const std::uint8_t> input) : script_(input), known_(what_rogues_know()) {

@@ -98,7 +98,7 @@ target="0, 0, 0" up="0, 1, 0"/></transform><sampler type="multijitter"><integer 
 </scene>
 )";
 
-/// What is refused unless lenient.
+/// A scene of things that are refused unless lenient.
 constexpr char kUnknown[] = R"(<scene version="2.1.0"><sensor type="perspective"><film type="ldrfilm"/></sensor>
 <medium type="homogeneous" id="m"/><bsdf type="hair" id="h"/>
 <shape type="cube"><ref name="interior" id="m"/><ref id="h"/></shape>

@@ -157,7 +157,7 @@ TEST(Ending, ADebugSampleTellsItsPath) {
     EXPECT_EQ(wrong.code, 2) << wrong.output;
 }
 
-/// mpirun would wait for it for ever, with the image on disk.
+/// mpirun would wait for a stopped worker for ever, with the image on disk.
 TEST(Ending, AWorkerThatStandsStillForEverDoesNotHoldTheJob) {
     const auto folder = fresh_folder("run");
     Program program(mpirun(3, {"--enable-recovery"}) + long_render(folder, "60"));

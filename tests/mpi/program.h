@@ -28,7 +28,7 @@ class Program {
     Program& operator=(const Program&) = delete;
 
     pid_t pid() const { return pid_; }
-    /// What it has printed so far.
+    /// File of what the program has printed so far.
     const std::filesystem::path& output() const { return output_; }
     bool running();
     void signal(int number);

@@ -13,7 +13,7 @@ class Screen {
     explicit Screen(int columns) : columns_(columns) {}
 
     void feed(const std::string& bytes);
-    /// What is there stays as it is.
+    /// Sets the width; what is there stays as it is.
     void resize(int columns) { columns_ = columns; }
     const std::vector<std::string>& rows() const { return rows_; }
     /// Rows that hold this text.

@@ -19,8 +19,8 @@ class TerminalProgram {
     TerminalProgram& operator=(const TerminalProgram&) = delete;
 
     void resize(int columns);
-    /// Gives what it writes to `take`, until it ends; returns its exit code, -1 if it was killed or says nothing for a
-    /// minute.
+    /// Gives what the program writes to `take`, until it ends; returns its exit code, -1 if it was killed or says
+    /// nothing for a minute.
     int follow(const std::function<void(const std::string&)>& take);
 
   private:

@@ -37,7 +37,7 @@ std::size_t count(const std::string& text, const std::string& what) {
     return found;
 }
 
-/// What a program showed.
+/// A program's output, as bytes and on a screen.
 struct Shown {
     int code = -1;
     std::string bytes;

@@ -22,7 +22,7 @@ Vec3 place(Inputs& in, float size) {
     return Vec3(in.uniform(-1, 1), in.uniform(-1, 1), in.uniform(-1, 1)) * size;
 }
 
-/// Of a flat light with these half axes or edges, whose area is `share` of their cross product.
+/// Checks samples of a flat light with these half axes or edges, whose area is `share` of their cross product.
 template <class Geometry>
 void flat_light(Row& row, Inputs& in, const Geometry& geometry, const Vec3& a, const Vec3& b, Quad share) {
     Scene scene;

@@ -56,7 +56,7 @@ class Inputs {
     float scale(float low, float high) { return low * std::pow(high / low, unit_(engine_)); }
     std::uint32_t bits() { return static_cast<std::uint32_t>(engine_()); }
     bool chance(float p) { return unit_(engine_) < p; }
-    /// Unit; a third of them within 1e-8 to 1 of an axis, edge or pole.
+    /// A unit vector; a third of them are within 1e-8 to 1 of an axis, edge or pole.
     Vec3 direction() {
         Vec3 d(normal_(engine_), normal_(engine_), normal_(engine_));
         if (chance(0.33f))
@@ -64,7 +64,7 @@ class Inputs {
                 if (chance(0.5f)) d[axis] *= scale(1e-8f, 1.0f);
         return normalize(d);
     }
-    /// The same above the horizon.
+    /// A direction above the horizon, as adverse as direction().
     Vec3 hemisphere() {
         Vec3 d = direction();
         d.z = std::max(std::abs(d.z), 1e-30f);
@@ -77,7 +77,7 @@ class Inputs {
     std::normal_distribution<float> normal_;
 };
 
-/// Each compares `count` inputs per row.
+/// Rows of the comparison by subject; each function compares `count` inputs per row.
 void microfacets(std::uint64_t count, std::vector<Row>& rows);
 void boundaries(std::uint64_t count, std::vector<Row>& rows);
 void directions(std::uint64_t count, std::vector<Row>& rows);

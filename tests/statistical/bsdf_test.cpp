@@ -95,7 +95,7 @@ TEST(GuideDistribution, SamplesFollowTheDensity) {
     }
 }
 
-/// What directions are drawn for, without the geometry.
+/// A surface that directions are drawn for, without the geometry.
 class TestSurface {
   public:
     TestSurface(const PlainDiffuse& bsdf, const Vec3& n, const Vec3& wo)
@@ -118,7 +118,7 @@ class MixtureSamples {
     MixtureSamples(const TestSurface& surface, const Guide& guide, const Guidance& guidance)
         : surface_(surface), guide_(guide), guidance_(guidance) {}
 
-    /// Those of numbers that follow each other come from one batch.
+    /// The sample of a number. Samples of numbers that follow each other come from one batch.
     const ScatterSample& operator[](std::uint32_t i) {
         if (i / kDrawBatch != batch_) fill(i / kDrawBatch);
         return samples_[i % kDrawBatch];

@@ -31,7 +31,7 @@ EnvironmentEmitter turned() {
     return emitter;
 }
 
-/// Of the interface, by the C library.
+/// Direction at (u, v) as the interface defines it, by the C library.
 Vec3 direction_at(const EnvironmentEmitter& e, double u, double v) {
     const double x = std::sin(M_PI * v) * std::sin(2 * M_PI * u), z = -std::sin(M_PI * v) * std::cos(2 * M_PI * u);
     return normalize(e.x_axis * static_cast<float>(x) + e.y_axis * static_cast<float>(std::cos(M_PI * v)) +

@@ -34,7 +34,7 @@ Scene small_scene(int size) {
     return scene;
 }
 
-/// What is kept of a run.
+/// The part of a run that is kept.
 struct SmallRender {
     CombinedImage image;
     std::vector<RenderState> states;

@@ -66,7 +66,7 @@ std::vector<Film> films_with_lobes() {
     return {mitchell, catmullrom, lanczos};
 }
 
-/// Of the films above, as their authors write them.
+/// Filters of the films above, as their authors write them.
 double lobes(std::size_t film, double x) {
     x = std::abs(x);
     if (film == 2) return x == 0 ? 1 : std::sin(M_PI * x) * std::sin(M_PI * x / 3) / (M_PI * x * M_PI * x / 3);
@@ -80,7 +80,7 @@ TEST(FilterDistribution, NegativeLobesAreDrawnByTheirAbsoluteValue) {
         EXPECT_GT(filter_p_value(films[f], [&](double x) { return std::abs(lobes(f, x)); }), kSignificance) << f;
 }
 
-/// What a pixel at distance `edge` from a step shows: the filter's integral on its bright side.
+/// A pixel at distance `edge` from a step shows the filter's integral on its bright side.
 TEST(FilterDistribution, WeightedSamplesConvolve) {
     const std::vector<Film> films = films_with_lobes();
     constexpr std::uint32_t kSamples = 400000;

@@ -25,7 +25,7 @@ Scene only(decltype(Shape::geometry) geometry) {
     return scene;
 }
 
-/// With something small in it, so that the scene has a size.
+/// A scene lit by one emitter, with something small in it, so that it has a size.
 Scene lit_by(decltype(Emitter::kind) kind) {
     Scene scene;
     add_shape(scene, quad({-1, -1, -2}, {2, 0, 0}, {0, 2, 0}), kNone);

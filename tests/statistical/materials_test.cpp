@@ -26,7 +26,7 @@ Estimate render(const Scene& scene, const Job& job) {
     return e;
 }
 
-/// What tests of glossy scenes start from.
+/// The job that tests of glossy scenes start from.
 Job short_job(std::uint64_t seed, int spp) {
     Job job;
     job.integrator.max_depth = 10;

@@ -47,7 +47,7 @@ struct Place {
         return at(frame.to_world(bsdf.sample(wo, {to_unit(r[1]), {to_unit(r[2]), to_unit(r[3])}}).wi));
     }
 
-    /// False if nothing was found.
+    /// Draws one of `count` candidates; false if nothing was found.
     bool draw_of(std::uint32_t count, std::uint32_t i, ScatterSample& s) const {
         Candidates candidates;
         const PathKey key{3, i, count};

@@ -72,7 +72,7 @@ inline std::vector<ClosedRoom> closed_rooms(double away) {
     return rooms;
 }
 
-/// Of `paths` diffuse paths of `edges` rays that start in the middle of the room, those that leave it.
+/// Number of paths that leave the room, of `paths` diffuse ones of `edges` rays that start in its middle.
 inline long escapes(const EmbreeScene& geometry, const Imath::V3d& middle, long paths, int edges, std::uint32_t seed) {
     std::mt19937 random(seed);
     std::normal_distribution<float> normal;

@@ -9,7 +9,7 @@
 
 namespace treefarm::test {
 
-/// What a cure makes of a document, by one way that it names.
+/// A document after a cure, by one way that the cure names.
 struct Cured {
     std::string step;      ///< what was done
     std::string document;  ///< the document after it

@@ -39,7 +39,7 @@ inline RenderUnit fake_renderer(std::uint64_t seed, std::uint32_t width) {
     };
 }
 
-/// What a worker makes of these units by fake_renderer().
+/// A worker's result of these units by fake_renderer().
 inline Result fake_result(const PassPlan& plan, std::span<const std::uint8_t> tree, std::span<const WorkUnit> units,
                           std::uint32_t width) {
     PassWork work(plan, decode_tree(tree), DirectionalFilter::box);

@@ -17,7 +17,7 @@ namespace treefarm::test {
 inline constexpr float kInfinity = std::numeric_limits<float>::infinity();
 inline constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
-/// What docs/generated/hard-cases.md shows beside the running test (tests/stability/write_page.py).
+/// Notes a figure for docs/generated/hard-cases.md to show beside the running test (tests/stability/write_page.py).
 inline void figure(const std::string& what, double value) {
     std::ostringstream text;
     text.precision(3);
@@ -51,7 +51,7 @@ inline Job plain_job(std::uint32_t spp, int max_depth, NextEvent next_event = Ne
     return job;
 }
 
-/// The same, guided in a few passes, of which the last ones use a real tree, combined without bias.
+/// A plain_job() guided in a few passes, of which the last ones use a real tree, combined without bias.
 inline Job guided_job(std::uint32_t spp, int max_depth, NextEvent next_event = NextEvent::never) {
     Job job = plain_job(spp, max_depth, next_event);
     job.guiding.type = GuidingType::ppg;

@@ -24,7 +24,7 @@ std::vector<std::string> headings(const std::filesystem::path& page);
 /// The anchors that GitHub gives to a page's headings.
 std::vector<std::string> anchors(const std::filesystem::path& page);
 
-/// Where a link leads.
+/// A link of a page, and where it leads.
 struct MarkdownLink {
     int line = 0;        ///< on which it ends
     std::string path;    ///< relative to the page; empty: the page itself

@@ -32,7 +32,7 @@ inline Mesh tetrahedron() {
     return mesh;
 }
 
-/// What zlib unpacks in a serialized file.
+/// Bytes that zlib unpacks in a serialized file.
 inline std::string serialized_payload(const Mesh& mesh, int version, bool is_double, bool colors = false) {
     std::string bytes;
     append<std::uint32_t>(bytes, (mesh.normals.empty() ? 0u : 1u) | (mesh.uvs.empty() ? 0u : 2u) | (colors ? 8u : 0u) |

@@ -34,7 +34,7 @@ class MitsubaFixture : public ::testing::Test {
                           lenient);
     }
 
-    /// With a sensor, for tests about something else.
+    /// Loads a scene with a sensor, for tests about something else.
     LoadedScene load_with_sensor(const std::string& body, const std::string& version = "0.6.0") const {
         return load("<sensor type=\"perspective\"/>\n" + body, version);
     }

@@ -13,7 +13,7 @@ inline std::string tiny_bmp() {
     return bytes + std::string("\x09\x08\x07\x0c\x0b\x0a\0\0\x03\x02\x01\x06\x05\x04\0\0", 16);
 }
 
-/// With the footer of version 2; packed or not.
+/// A TGA file with the footer of version 2; packed or not.
 inline std::string tiny_tga(bool packed) {
     std::string bytes(18, '\0');
     bytes[2] = packed ? 10 : 2;

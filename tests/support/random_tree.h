@@ -18,7 +18,7 @@ std::vector<Record> random_records(const Guide& guide, std::size_t count, unsign
 /// A tree that has learned from random_records for `passes` passes.
 SdTree random_tree(int passes, std::size_t records_per_pass, double spatial_threshold, unsigned seed);
 
-/// The same, seen from random sides: half of them also for the views of their regions.
+/// Records as of random_records(), seen from random sides: half of them also for the views of their regions.
 std::vector<Record> random_view_records(const Guide& guide, std::size_t count, unsigned seed);
 
 /// A tree with views that has learned from random_view_records: T2s with more records than `view_set_threshold` are
@@ -26,7 +26,7 @@ std::vector<Record> random_view_records(const Guide& guide, std::size_t count, u
 SdTree random_view_tree(int passes, std::size_t records_per_pass, double spatial_threshold, double view_set_threshold,
                         unsigned seed);
 
-/// What these records add up to.
+/// Sums of these records.
 TreeSums sums_of(const Guide& guide, std::span<const Record> records);
 
 }  // namespace treefarm::test

@@ -102,7 +102,7 @@ std::vector<Include> includes_of(std::istream& source) {
     return includes;
 }
 
-/// What is wrong with one include of one file; empty if nothing.
+/// The fault of one include of one file; empty if it has none.
 std::string violation(const std::string& path, const Include& include) {
     const auto room = room_of(path);
     if (!room) return "the file lies in no room of docs/design/architecture.md";

@@ -54,7 +54,7 @@ std::vector<Subject> white_materials() {
     return all;
 }
 
-/// With those that may create energy, as their model does.
+/// All materials, with those that may create energy, as their model does.
 std::vector<Subject> all_materials() {
     std::vector<Subject> all = white_materials();
     PrincipledMaterial plain;

@@ -29,7 +29,7 @@ double core_per_spp(const World& world, std::uint32_t trees) {
     return world.threads * world.seconds_per_spp * std::pow(world.growth, 2 - std::pow(0.5, trees));
 }
 
-/// What a simulated pass leaves; adding records takes a tenth of the time.
+/// Facts about a simulated pass; adding records takes a tenth of the time.
 PassFacts facts_of(const PassPlan& pass, const World& world, std::uint32_t trees, double speed) {
     PassFacts facts;
     facts.spp = pass.spp;
@@ -124,7 +124,7 @@ TEST(Budget, SecondsAreKept) {
             }
 }
 
-/// Of half a second a whole one was tolerated: the render ended at a quarter of it.
+/// A budget of half a second had a tolerance of a whole one: the render ended at a quarter of it.
 TEST(Budget, AShortRenderUsesWhatItWasGranted) {
     for (const double seconds : {0.3, 0.5, 0.7, 2.0})
         for (const double per_spp : {0.0005, 0.002, 0.01})

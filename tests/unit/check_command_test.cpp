@@ -165,7 +165,7 @@ class CheckCommand : public test::MitsubaFixture {
         };
     }
 
-    /// What a render refuses, each for itself.
+    /// Defects that a render refuses, each for itself.
     std::vector<Defect> refused() const {
         ply("nan.ply", "xyz", {"0 0 0", "nan 0 0", "0 1 0"}, {"3 0 1 2"});
         write("nan.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 inf\nf 1//1 2//1 3//1\n");
@@ -244,7 +244,7 @@ TEST_F(CheckCommand, FindsDefectsOfSeveralFiles) {
     EXPECT_EQ(places, "nan.ply:11 nan.obj:4 planted.xml:4 index.obj:4 ") << found.output;
 }
 
-/// What concerns the whole scene has the scene's file for a place.
+/// Findings on the whole scene have the scene's file for a place.
 TEST_F(CheckCommand, FindsScaleAndPlace) {
     const auto room = [](const char* transform) {
         return std::string("<shape type=\"cube\"><transform name=\"toWorld\">") + transform +

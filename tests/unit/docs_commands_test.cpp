@@ -27,7 +27,7 @@ struct Command {
     std::string where, name, arguments;
 };
 
-/// Of all pages but frozen ones, and the changelog, which speaks of the past.
+/// Commands of all pages but frozen ones and the changelog, which speaks of the past.
 std::vector<Command> commands() {
     static const std::regex command(R"(\btreefarm (render|plan|check|compare|inspect|study|report|keys)\b([^#`|&;]*))");
     std::vector<Command> found;

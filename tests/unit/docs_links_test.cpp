@@ -33,7 +33,7 @@ std::string lower(std::string text) {
     return text;
 }
 
-/// What is wrong with a link of a page; empty: nothing.
+/// The fault of a link of a page; empty: none.
 std::string fault(const fs::path& page, const test::MarkdownLink& link) {
     const fs::path target = link.path.empty() ? page : (page.parent_path() / link.path).lexically_normal();
     if (!fs::exists(target)) return "there is no " + name_of(target);
@@ -83,7 +83,7 @@ std::string running_text(const fs::path& file) {
     return std::regex_replace(text_of(file), mark, " ");
 }
 
-/// What is wrong with the pages that a text cites, as in: docs/design/error.md, "error".
+/// Faults of a text's citations of pages, as in: docs/design/error.md, "error".
 std::vector<std::string> faults_of_citations(const std::string& text) {
     static const std::regex citation(R"re(([\w./-]*\w\.md)\b(?:, "([^"]+)")?)re");
     std::vector<std::string> faults;

@@ -21,7 +21,7 @@ std::string text_of(const std::string& name) {
     return text.str();
 }
 
-/// What the first match of a pattern has in its parentheses; empty without one.
+/// The parenthesised part of a pattern's first match; empty without one.
 std::string first_match(const std::string& text, const std::string& pattern) {
     std::smatch match;
     return std::regex_search(text, match, std::regex(pattern)) ? match[1].str() : "";

@@ -146,7 +146,7 @@ TEST(GuidingProbe, SamplesThatFindNoLightSayNothing) {
     EXPECT_EQ(verdict(4, 0.2, 0.2, 0.85), Guiding::loses);
 }
 
-/// Nor do they say how noisy what they miss would be.
+/// Samples that find part of the light do not say how noisy what they miss would be.
 TEST(GuidingProbe, TheBulkIsThatOfTheLightThatIsFound) {
     EXPECT_EQ(verdict(8, 0.7, 0.67, 0.86), Guiding::open);
     EXPECT_EQ(verdict(8, 0.7, 0.67, 0.93), Guiding::loses);
@@ -154,7 +154,7 @@ TEST(GuidingProbe, TheBulkIsThatOfTheLightThatIsFound) {
     EXPECT_EQ(verdict(8, 0.7, 0.76, 1.5), Guiding::open);
 }
 
-/// The spaceship's, where guiding ends with 1.4 times less error.
+/// Figures of the spaceship, where guiding ends with 1.4 times less error.
 TEST(GuidingProbe, WhereLightIsFoundByChanceItHasToLoseMore) {
     for (const auto& [spp, all, bulk] :
          {std::tuple{8, 0.67, 0.72}, {8, 0.8, 0.64}, {16, 0.59, 0.66}, {32, 0.66, 0.67}}) {
@@ -219,7 +219,7 @@ TEST(GuidingProbe, NoPixelIsProbedTwice) {
     }
 }
 
-/// What other passes know of a probe pixel is its image, whole and unshaded.
+/// A probe pixel's image is what other passes know of it, whole and unshaded.
 TEST(GuidingProbe, ProbesAreNoPartOfTheImage) {
     std::vector<PixelEstimate> marked = pixels(0.0f, 9.0f);
     ProbesSetAside().take_out(marked, kPass, 0);

@@ -26,7 +26,7 @@ Hello hello(const std::string& host, std::uint64_t memory) {
     return hello;
 }
 
-/// "" where nothing is refused.
+/// The message by which hosts are refused; "" where none is.
 std::string refusal(const MemoryPlan& plan, const Host& own, const std::vector<Hello>& workers) {
     Roster roster(1);
     for (std::size_t k = 0; k < workers.size(); ++k)

@@ -15,7 +15,7 @@ TEST(LargeTable, FillsHugePagesFromTheirBeginning) {
     EXPECT_EQ(std::accumulate(table.begin(), table.end(), std::uint64_t{0}), 7 * (kHugePage / 8));
 }
 
-/// What is small comes from another place than what is large, and goes back there.
+/// A small table comes from another place than a large one, and goes back there.
 TEST(LargeTable, GrowsAndShrinksAcrossTheSizeOfAPage) {
     LargeTable<std::uint32_t> table;
     for (std::uint32_t i = 0; i < 3 * kHugePage / 4; ++i)

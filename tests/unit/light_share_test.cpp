@@ -59,7 +59,7 @@ TEST(LightShare, AnyMomentsMakeAShare) {
         }
 }
 
-/// What samples of an emitter add does not depend on how often it is chosen.
+/// An emitter's samples add as much on average, however often it is chosen.
 TEST(LightShare, TheSumsExpectationDoesNotDependOnTheChoice) {
     const int exponent = quantum_exponent_for(1.0f);
     const auto sum_of = [&](double chosen) {

@@ -63,7 +63,7 @@ class Malformed : public ::testing::Test {
         return message_of_file("s.xml");
     }
 
-    /// The same for a line inside the sensor.
+    /// The message about a scene with this line inside its sensor.
     std::string message_of_sensor(const std::string& line) const {
         write("s.xml", "<scene version=\"0.6.0\">\n<sensor type=\"perspective\">\n" + line + "\n</sensor></scene>\n");
         return message_of_file("s.xml");

@@ -213,7 +213,7 @@ class MitsubaCures : public MitsubaFixture {
                 error.cure().starts_with("give "));
     }
 
-    /// What a cure promises and does not keep, one line for each; empty if it helps.
+    /// Promises of a cure that it does not keep, one line for each; empty if it helps.
     std::string broken_promises(const std::string& text, const InputError& error) const {
         std::string broken;
         for (const Cured& cured : apply_cure(text, error)) {

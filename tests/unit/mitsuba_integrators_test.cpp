@@ -84,13 +84,13 @@ constexpr Mapped kPath[] = {
     {"boolean", "hideEmitters", "true", "integrator.hide_emitters", "true"},
 };
 
-/// Of every sampler.
+/// Parameters of every sampler.
 constexpr Mapped kSampler[] = {
     {"integer", "sampleCount", "9", "budget.spp", "9"},
     {"integer", "seed", "7", "sampler.seed", "7"},
 };
 
-/// Of the scene itself, in Mitsuba 3.
+/// Parameters of the scene itself, in Mitsuba 3.
 constexpr Mapped kScene[] = {
     {"boolean", "embree_use_robust_intersections", "true", "farm.robust", "true"},
 };
@@ -184,7 +184,7 @@ TEST_F(MitsubaIntegrators, PathSaysNothingOfGuiding) {
     }
 }
 
-/// What a job asks for wins over the scene's seconds, which would make it void.
+/// A job's budget wins over the scene's seconds, which would make it void.
 TEST_F(MitsubaIntegrators, BudgetOfTheJobWins) {
     const auto loaded = load_with_sensor(integrator("guided_path", property("float", "budget", "60")));
     const std::vector<Setting> asked{{"budget.spp", "8", {}}}, other{{"sampler.seed", "1", {}}};

@@ -7,7 +7,7 @@ namespace {
 
 using namespace treefarm::test;
 
-/// What scenes that others published contain: loose ends, folders of their own, names of other programs' making.
+/// Contents of scenes that others published: loose ends, folders of their own, names of other programs' making.
 class MitsubaPublished : public MitsubaFixture {
   protected:
     static constexpr const char* kTriangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";

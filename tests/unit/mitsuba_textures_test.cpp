@@ -167,7 +167,7 @@ TEST_F(MitsubaTextures, ImpossibleValuesBecomeZeroWithAWarning) {
     EXPECT_NE(loaded.warnings.at(0).text().find("2 values"), std::string::npos);
 }
 
-/// What the program of the file's version makes of a reflectance of up to 4 in an image.
+/// A reflectance of up to 4 in an image, as the program of the file's version takes it.
 TEST_F(MitsubaTextures, ReflectancesAbove1) {
     Image image{2, 1, {}, {}};
     add_rgb_layer(image, "", RgbImage(2, 1, Rgb(0.5f, 4.0f, 1.0f)));
@@ -212,7 +212,7 @@ TEST_F(MitsubaTextures, ReflectancesAbove1) {
             << version;
 }
 
-/// The same two rows in every format, the first row at the top.
+/// Two rows, equal in every format, the first row at the top.
 TEST_F(MitsubaTextures, FilesOfEveryFormat) {
     write("a.bmp", tiny_bmp());
     write("a.tga", tiny_tga(true));

@@ -26,7 +26,7 @@ bool holds(const json& figure, double value) {
     return figure["low"].get<double>() <= value && value <= figure["high"].get<double>();
 }
 
-/// What a render came to.
+/// The summary of a render.
 json summary_of(const std::string& arguments) {
     const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "plan-probe-run";
     std::filesystem::remove_all(folder);

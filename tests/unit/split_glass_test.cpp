@@ -50,7 +50,7 @@ MeanAndVariance look(const Scene& scene, bool split) {
     return sum;
 }
 
-/// What the pane mirrors.
+/// Fraction that the pane mirrors.
 double mirrored(float cosine) {
     const double once = fresnel_dielectric(cosine, 1.5f).reflectance;
     return 2 * once / (1 + once);
@@ -177,7 +177,7 @@ TEST(PathRecorder, ABranchCarriesNothingForTheOtherWay) {
     EXPECT_FLOAT_EQ(log.records[1].value, 8.0f / 4.0f);
 }
 
-/// What of a unit's records does not depend on their order.
+/// Facts of a unit's records that do not depend on their order.
 using RecordFacts = std::vector<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t, float, float, int>>;
 
 struct Traced {

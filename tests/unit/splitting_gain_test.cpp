@@ -61,7 +61,7 @@ TEST(SplittingGain, OneSampleHasNoVarianceAndNonsenseIsLeftOut) {
     EXPECT_EQ(splitting_gain({}).variance, 0) << "not known";
 }
 
-/// As many pixels of samples as bright as they come do not wrap around.
+/// Sums over as many pixels as there can be, as bright as they come, do not wrap around.
 TEST(SplittingGain, BrightSamplesAreBounded) {
     TraceStats stats;
     PairedSamples pixel;

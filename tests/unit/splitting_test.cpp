@@ -186,7 +186,7 @@ TEST_F(SplittingInARoom, DoesNotDependOnCompany) {
     EXPECT_EQ(counts, whole.log.counts);
 }
 
-/// What paths say they would be alone is what they are where none is split.
+/// The unsplit samples that paths tell of are those of paths where none is split.
 TEST_F(SplittingInARoom, UnsplitSamplesAreThoseOfPathsThatAreNotSplit) {
     pass_.spp = 1024;  // rare samples make most of the noise
     const Rendered split = render(job_, part(0, 0, 24, 16));

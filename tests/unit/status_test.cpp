@@ -64,7 +64,7 @@ TEST(Status, TheFirstLineComesAfterAWhileAndThenNotOften) {
     EXPECT_EQ(said, 3);
 }
 
-/// What a console writes into a pipe.
+/// A console, and what it writes into a pipe.
 class Written {
   public:
     explicit Written(TerminalKind kind, bool shows_status = true) {

@@ -15,7 +15,7 @@ using namespace treefarm::test;
 const std::vector<std::uint16_t> kImage = {10, 20, 30, 40, 50, 60, 70, 80, 90};
 const std::vector<std::uint16_t> kUpsideDown = {70, 80, 90, 40, 50, 60, 10, 20, 30};
 
-/// From (-1, -1, 0) to (1, 1, 0) with u along x and v along y.
+/// The square from (-1, -1, 0) to (1, 1, 0), with u along x and v along y.
 Mesh square() {
     Mesh mesh;
     mesh.positions = {Vec3(-1, -1, 0), Vec3(1, -1, 0), Vec3(1, 1, 0), Vec3(-1, 1, 0)};

@@ -49,7 +49,7 @@ TEST(Textured, UnlimitedMaterialsKeepFactorsAbove1) {
     EXPECT_GT(std::min({nonlinear.x, nonlinear.y, nonlinear.z}), 0.0f) << "1 / (1 - 2 fdr) would be negative";
 }
 
-/// Each keeps its inputs beside the node: a blend of two is their mean.
+/// Principled parts keep their inputs beside their nodes: a blend of two is their mean.
 TEST(Textured, PrincipledPartsOfABlendAreKeptApart) {
     const auto value = [](bool first, bool second) {
         Scene scene;
@@ -208,7 +208,7 @@ Rgb stored(const Vec3& n) {
     return (n + Vec3(1.0f)) * 0.5f;
 }
 
-/// White, its normals those of a board: `first` at (0.1, 0.1), `second` at (0.6, 0.1).
+/// A white surface whose normals are those of a board: `first` at (0.1, 0.1), `second` at (0.6, 0.1).
 Scene tilted_board(const Vec3& first, const Vec3& second, const NormalDetail& detail = {}) {
     Scene scene;
     const std::int32_t board = test::add_board(scene, stored(first), stored(second));
@@ -244,7 +244,7 @@ TEST(Bump, OfABoardHasSlopesAtItsEdgesOnly) {
         EXPECT_EQ(normal_of(prepared.at(point_at(u, 0.3f))), kUp) << u;
 }
 
-/// As Mitsuba 3.7.1 does; else it is bent until it faces wo.
+/// A normal that faces away is turned as by Mitsuba 3.7.1; else it is bent until it faces wo.
 TEST(NormalMap, TurnsWhatFacesAway) {
     const Vec3 tilted(0.8f, 0.0f, 0.6f), away = normalize(Vec3(-0.9f, 0.1f, 0.4f));
     NormalDetail flips;
@@ -256,7 +256,7 @@ TEST(NormalMap, TurnsWhatFacesAway) {
     EXPECT_GT(dot(normal_of(bent.at(point_at(0.1f, 0.1f, away))), away), 0.0f);
 }
 
-/// With alpha^2 = tan^2 of the tilt over 8, of Ray Tracing Gems.
+/// Shadowing with alpha^2 = tan^2 of the tilt over 8, of Ray Tracing Gems.
 TEST(NormalMap, ShadowsGrazingLightAsThePaperSays) {
     const Vec3 tilted(0.6f, 0.0f, 0.8f), wo = normalize(Vec3(0.2f, 0.1f, 0.9f));
     NormalDetail shadowed;

@@ -95,7 +95,7 @@ TEST(Usage, SettingsSayWhatIsAllowed) {
         EXPECT_EQ(test::run_treefarm("plan " + box() + " --set " + setting).code, 0) << setting;
 }
 
-/// Accepted, these would be ignored in silence.
+/// Budgets that others make void would be ignored in silence if they were accepted.
 TEST(Usage, ABudgetThatAnotherMakesVoidIsRefused) {
     expect_render_refuses("--set budget.spp=8 --seconds 1", {"--set budget.spp=8: budget.seconds decides", "max_spp"});
     const test::Ended warned = test::run_treefarm("plan " + box() + " --set budget.max_spp=8");

@@ -43,7 +43,7 @@ void expect_refused(const std::string& about, Change change) {
     }
 }
 
-/// It is accepted, with so many warnings.
+/// The scene of every kind, changed, is accepted, with so many warnings.
 template <class Change>
 Scene expect_accepted(std::size_t warning_count, Change change) {
     Scene scene = test::every_kind_scene();

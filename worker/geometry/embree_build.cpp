@@ -15,8 +15,8 @@ void note_error(void* user, RTCError code, const char* text) {
     if (message.empty()) message = "error " + std::to_string(static_cast<int>(code)) + ", " + (text ? text : "");
 }
 
-/// Embree takes what the processor has when it does not know, or does not find, the instruction set it is asked for.
-/// Its roundings would then silently differ from other workers'.
+/// Throws RunError where the processor lacks the instruction set: Embree would take what there is instead, as for an
+/// unknown one. Its roundings would then silently differ from other workers'.
 void require_isa(const std::string& isa) {
     const bool present = isa == "sse2"     ? __builtin_cpu_supports("sse2")
                          : isa == "sse4.2" ? __builtin_cpu_supports("sse4.2")
@@ -129,7 +129,7 @@ void EmbreeScene::attach(RTCScene scene, std::uint32_t id, std::uint32_t index) 
     check_errors("adding the shape \"" + shape.name + "\"");
 }
 
-/// nullptr if it has no triangles.
+/// Embree's geometry of a mesh; nullptr if it has no triangles.
 RTCGeometry EmbreeScene::mesh_geometry(std::uint32_t index, Mesh& mesh) {
     const std::size_t vertices = mesh.positions.size(), triangles = mesh.triangle_count();
     for (const std::uint32_t i : mesh.indices)
@@ -157,7 +157,7 @@ RTCGeometry EmbreeScene::mesh_geometry(std::uint32_t index, Mesh& mesh) {
     return geometry;
 }
 
-/// nullptr if its group has no shapes.
+/// Embree's geometry of an instance; nullptr if its group has no shapes.
 RTCGeometry EmbreeScene::instance_geometry(std::uint32_t index, const Instance& instance) {
     if (instance.group < 0) throw RunError("the instance \"" + shapes_[index].name + "\" has no group");
     const auto group = static_cast<std::size_t>(instance.group);

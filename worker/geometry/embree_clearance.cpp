@@ -14,7 +14,7 @@ namespace {
 
 using Imath::V3d;
 
-/// What is asked about the surroundings of a point: whether a primitive reaches into the ball.
+/// A question about the surroundings of a point: whether a primitive reaches into the ball.
 struct Ball {
     V3d centre;
     double radius;
@@ -25,7 +25,7 @@ struct Ball {
 
 }  // namespace
 
-/// Of one question, for Embree's callback.
+/// One question about surroundings and its answer, for Embree's callback.
 struct EmbreeScene::Surroundings {
     const EmbreeScene& scene;
     const Ball& ball;

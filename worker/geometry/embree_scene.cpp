@@ -139,7 +139,7 @@ Hit EmbreeScene::triangle_point(std::uint32_t shape, std::uint32_t primitive, fl
     return hit;
 }
 
-/// What a ray found under an instance, or on a shape that is no mesh.
+/// The point that a ray found under an instance, or on a shape that is no mesh.
 Hit EmbreeScene::other_point(std::uint32_t instance, std::uint32_t id, std::uint32_t primitive, float u, float v,
                              const Vec3& outward) const {
     const Placement* placement = instance == kWorldUserShape ? nullptr : &placements_[surfaces_[instance].placement];

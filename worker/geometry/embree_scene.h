@@ -43,7 +43,7 @@ class EmbreeScene {
     EmbreeScene(const EmbreeScene&) = delete;
     EmbreeScene& operator=(const EmbreeScene&) = delete;
 
-    /// What a ray meets first, as Embree tells it.
+    /// The first hit of a ray, as Embree tells it.
     struct Meeting {
         std::uint32_t instance, id, primitive;
         float u, v;
@@ -60,7 +60,7 @@ class EmbreeScene {
     void meet(std::span<const Query> queries) const;
     /// The point that was met. Apart from meet(), so that of many points none waits for another's memory.
     void set_point(Hit& hit, const Meeting& meeting) const;
-    /// Fetches what that reads.
+    /// Fetches what set_point() reads.
     void prefetch_point(const Meeting& m) const {
         if (m.instance != kNoInstance) return;  // rare, and another's
         const Surface& surface = surfaces_[m.id];
@@ -70,15 +70,15 @@ class EmbreeScene {
             if (surface.normals) prefetch_line(surface.normals + corner[i]);
         }
     }
-    /// Both in one.
+    /// The nearest surface along a ray, and the point there: meet() and set_point() in one.
     bool intersect(const Ray& ray, Hit& hit) const;
     /// Whether anything lies on the segment or half line.
     bool occluded(const Ray& ray) const;
-    /// The same of up to kMostTogether rays, faster than one by one. A ray of negative length is free.
+    /// Whether anything lies on each of up to kMostTogether rays, faster than one by one. Negative lengths are free.
     static constexpr std::size_t kMostTogether = kDrawBatch;
     void occluded(std::span<const Ray> rays, bool* hidden) const;
 
-    /// If `robust`: moves a hit that is in a corner so that what goes on from it starts on the side of the walls that
+    /// Moves a hit that is in a corner, if `robust`, so that what goes on from it starts on the side of the walls that
     /// `ray` came along. Positions are rounded: within their rounding of an edge they, or their offsets, may lie behind
     /// the other wall. Such a hit steps back along the ray until nothing is that near: farther than without by a few
     /// hit.error, and as far as the ray goes where a crease is narrower than that. Elsewhere hits stay what they are.
@@ -90,7 +90,7 @@ class EmbreeScene {
 
     /// A point of a triangle from its barycentrics: what intersect() reports for a ray through it.
     Hit triangle_point(std::uint32_t shape, std::uint32_t primitive, float b1, float b2) const;
-    /// The same in place: a hit is too large to be copied for each ray.
+    /// A triangle's point from its barycentrics, written into `hit`: a hit is too large to be copied for each ray.
     void set_triangle_point(Hit& hit, std::uint32_t shape, std::uint32_t primitive, float b1, float b2) const;
     /// A mesh's triangles; none if it has shading normals.
     std::vector<FlatTriangle> flat_triangles(std::uint32_t shape) const;
@@ -101,19 +101,19 @@ class EmbreeScene {
     Hit cylinder_point(std::uint32_t shape, float along, const Vec3& outward) const;
     /// Texture coordinates of a hit; the barycentrics where the mesh has none.
     Vec2 uv(const Hit& hit) const;
-    /// The same with tangents, in world space.
+    /// Texture coordinates of a hit, with tangents in world space.
     SurfaceDetail detail(const Hit& hit) const;
     /// Probability that a ray meets the shape of the hit there, in [0, 1].
     float opacity(const Hit& hit) const;
 
-    /// nullptr if the shape is another.
+    /// The sphere that a shape is; nullptr if it is another.
     const Sphere* sphere(std::uint32_t shape) const { return std::get_if<Sphere>(&shapes_[shape].geometry); }
     std::uint32_t triangle_count(std::uint32_t shape) const { return surfaces_[shape].triangle_count; }
     double triangle_area(std::uint32_t shape, std::uint32_t primitive) const;
     const Shape& shape(std::uint32_t index) const { return shapes_[index]; }
     /// Whether any shape lets rays pass.
     bool masked() const { return !masks_.empty(); }
-    /// nullptr: every ray meets the shape.
+    /// The mask of a shape; nullptr: every ray meets it.
     const Mask* mask(std::uint32_t shape) const { return kHasMasks ? find_mask(shape) : nullptr; }
     std::uint32_t shape_count() const { return static_cast<std::uint32_t>(shapes_.size()); }
 
@@ -124,7 +124,7 @@ class EmbreeScene {
     static constexpr std::uint32_t kNoInstance = ~0u;  ///< Embree's RTC_INVALID_GEOMETRY_ID
     static constexpr std::size_t kPacket = 8;
 
-    /// What a hit needs of a shape, side by side.
+    /// The parts of a shape that a hit needs, side by side.
     struct Surface {
         const Vec3* positions = nullptr;
         const Vec3* normals = nullptr;  ///< nullptr: none

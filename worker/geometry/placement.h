@@ -17,8 +17,8 @@ class Placement {
 
     std::uint32_t group() const { return group_; }
 
-    /// The same point in the world. Its error holds what the ray's way into the group's space rounds: Embree inverts
-    /// the transform in single precision.
+    /// A local hit in the world. Its error holds what the ray's way into the group's space rounds: Embree inverts the
+    /// transform in single precision.
     Hit to_world(const Hit& local) const;
     /// A unit normal of the group's space, from one of the world.
     Vec3 normal_to_local(const Vec3& world) const;
@@ -31,7 +31,7 @@ class Placement {
     Imath::V3d covector_to_local(const Imath::V3d& normal) const;
     /// A lower bound of how much the transform stretches a vector.
     double least_stretch() const;
-    /// An upper bound of it.
+    /// An upper bound of how much the transform stretches a vector.
     double most_stretch() const;
 
   private:

@@ -25,7 +25,7 @@ inline Vec3 unit_normal(const Vec3& e1, const Vec3& e2) {
     return Vec3(wide / length);
 }
 
-/// What points of one triangle share.
+/// The part that all points of one triangle share.
 struct FlatTriangle {
     Vec3 origin, e1, e2;
     Vec3 ng;

@@ -30,7 +30,7 @@ double from_segment(const V3d& p, const V3d& a, const V3d& b) {
     return (p - a - along * t).length();
 }
 
-/// Above the triangle its plane's distance, else that of the nearest edge.
+/// Distance of a point from a triangle: above it from its plane, else from the nearest edge.
 double from_triangle(const V3d& p, const Corners& c, double within) {
     // Nearly all that is asked about is far by its box alone.
     for (int i = 0; i < 3; ++i) {

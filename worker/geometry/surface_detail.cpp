@@ -10,7 +10,7 @@ namespace {
 
 constexpr float kTwoPi = 6.28318530717958647693f;
 
-/// False for zero, parallel and non-finite tangents.
+/// Whether two tangents span a plane: not if zero, parallel or not finite.
 bool spans_a_plane(const Vec3& a, const Vec3& b) {
     const Imath::V3d u(a), v(b);
     const Imath::V3d n = u.cross(v);

@@ -15,7 +15,7 @@ struct SurfaceDetail {
 /// unit vector away from the centre of a sphere or the axis of a cylinder, in the shape's own space; else unused.
 Vec2 shape_uv(const Shape& shape, std::uint32_t primitive, float b1, float b2, const Vec3& outward);
 
-/// The same with tangents, in the shape's own space.
+/// The uv of a point, with tangents in the shape's own space; arguments as for shape_uv().
 SurfaceDetail shape_detail(const Shape& shape, std::uint32_t primitive, float b1, float b2, const Vec3& outward);
 
 }  // namespace treefarm

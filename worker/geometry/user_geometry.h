@@ -10,8 +10,8 @@ namespace treefarm {
 struct Shape;
 struct Mask;
 
-/// What stands for the instance in a hit with a sphere, disk or cylinder of the world: one comparison then tells plain
-/// triangles from everything else.
+/// Number that stands for the instance in a hit with a sphere, disk or cylinder of the world: one comparison then tells
+/// plain triangles from everything else.
 inline constexpr std::uint32_t kWorldUserShape = 0xfffffffeu;
 
 /// Makes an Embree user geometry answer for a sphere, disk or cylinder; with a mask it meets some rays only. Shape and

@@ -21,14 +21,14 @@ class Branches {
     std::uint32_t size() const { return static_cast<std::uint32_t>(branches_.size()); }
     void clear() { branches_.clear(); }
 
-    /// With which a way of this probability is followed. Never so seldom that its weight overflows, or that 24 random
-    /// bits do not tell.
+    /// Chance with which a way of this probability is followed, never so small that its weight overflows, or that 24
+    /// random bits do not tell.
     static float chance(float probability) {
         return std::clamp(kPolicy.walk.branch_often * probability, kPolicy.walk.branch_least, 1.0f);
     }
 
-    /// At the first surface, which has drawn path.scatter: if the other of two ways is open, the path takes the
-    /// likelier with certainty, and the lesser may become a branch.
+    /// Splits a path at the first surface, which has drawn path.scatter: if the other of two ways is open, the path
+    /// takes the likelier with certainty, and the lesser may become a branch.
     template <class Surface>
     void split(PathState<Surface>& path, bool strict_normals) {
         const Surface& surface = *path.surface;

@@ -33,14 +33,14 @@ class CameraRays {
         return pinhole(through_pixel(x, y, draw(path, 0, Stream::camera)));
     }
 
-    /// The same from random numbers: [0] and [1] place the ray on the filter, [2] and [3] on the lens.
+    /// A camera ray from random numbers: [0] and [1] place it on the filter, [2] and [3] on the lens.
     Ray generate(int x, int y, const Draw& random) const {
         const Imath::V3d focus = through_pixel(x, y, random);
         if (is_orthographic_) return orthographic(focus);
         return has_lens_ ? through_lens(focus, random) : pinhole(focus);
     }
 
-    /// What the sample of a path weighs: 1, but for filters with negative lobes.
+    /// Weight of a path's sample: 1, but for filters with negative lobes.
     float weight(const PathKey& path) const {
         const Draw random = draw(path, 0, Stream::camera);
         return filter_.weight(random[0]) * filter_.weight(random[1]);
@@ -49,8 +49,8 @@ class CameraRays {
     bool has_lens() const { return has_lens_; }
 
   private:
-    /// From the camera to the plane of focus. In double, since a long lens far away has neighbouring pixels closer
-    /// together than floats near the film's corner.
+    /// Vector from the camera to the plane of focus. In double, since a long lens far away has neighbouring pixels
+    /// closer together than floats near the film's corner.
     Imath::V3d through_pixel(int x, int y, const Draw& random) const {
         const double sx = (x + x0_ + 0.5 + double(filter_.sample(random[0]))) / width_;
         const double sy = (y + y0_ + 0.5 + double(filter_.sample(random[1]))) / height_;
@@ -61,7 +61,7 @@ class CameraRays {
         return {camera_.origin, Vec3(focus * (1.0 / std::sqrt(focus.dot(focus))))};
     }
 
-    /// From a uniform point of the lens to where the pinhole's ray meets the plane of focus.
+    /// Ray from a uniform point of the lens to where the pinhole's ray meets the plane of focus.
     Ray through_lens(const Imath::V3d& focus, const Draw& random) const {
         const Vec2 lens = square_to_disk({to_unit(random[2]), to_unit(random[3])});
         const Vec3 shift = camera_.lens_u * lens.x + camera_.lens_v * lens.y;

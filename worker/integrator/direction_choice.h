@@ -50,7 +50,7 @@ class DirectionChoice {
         if (path.guidance.has_view()) guide_.prefetch(path.guidance.view, draws_.word[1][path.lane]);
     }
 
-    /// Before any path of a step draws; `alive` are the numbers of those that will.
+    /// Begins a step, before any of its paths draws; `alive` are the numbers of those that will.
     void start(std::span<const Path> paths, std::span<const std::uint8_t> alive) {
         batch_.clear();
         if constexpr (kGuided && kViews)
@@ -61,7 +61,7 @@ class DirectionChoice {
 
     // draw() for each path, then convert(), then choose(), then complete() for each.
 
-    /// False if there is no direction.
+    /// Draws a path's direction, or the first of several; false if there is none.
     bool draw(Path& path) {
         if (chooses(path)) {
             offered_[seat(path)].candidates.clear();
@@ -108,19 +108,19 @@ class DirectionChoice {
     /// Whether any path of this step may choose among several.
     bool several() const { return seats_ != 0; }
 
-    /// What a path chooses among.
+    /// The candidates among which a path chooses.
     struct Offered {
         Candidates candidates;
         bool drawn;  ///< a direction waits to be completed
     };
 
-    /// Not where there may be a delta lobe, which has no density to weigh by.
+    /// Whether a path chooses among several. Not where there may be a delta lobe, which has no density to weigh by.
     bool chooses(const Path& path) const {
         return kGuided && several() && path.depth <= candidate_depth_ && !path.probe && !path.surface->has_delta();
     }
     std::uint32_t seat(const Path& path) const { return seat_[path.lane]; }
 
-    /// Each from its own part of the techniques' probabilities: a mixture over the candidates like any.
+    /// Draws a candidate from its own part of the techniques' probabilities: a mixture over the candidates like any.
     void draw_offer(const Path& path, std::uint32_t candidate, Batch& batch, const DrawBatch& draws,
                     const VectorBatch& cosines, std::uint32_t lane) {
         Offered& offered = offered_[seat(path)];

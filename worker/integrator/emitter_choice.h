@@ -33,15 +33,15 @@ class EmitterChoice {
     }
     void draw() { emitters_.draw(batch_); }
 
-    /// As Emitters::sample_direct(), or sample_delta() where next event is for those alone.
+    /// A next-event sample as of Emitters::sample_direct(), or sample_delta() where next event is for those alone.
     DirectSample sample(const Vec3& p, std::uint32_t lane, const LightShare* share, const Vec3* front) const {
         if (special_) [[unlikely]]
             return sample_specially(p, lane, share, front);
         return emitters_.sample_direct(p, draws_[lane], share, front);
     }
-    /// Adds their radiance, and what density they lack, to the samples from infinity among `lights`, of those numbers
-    /// that are seen; lane_of(light) has drawn one, by share_of(light). All together: the others then have no test for
-    /// it, nor a call to save registers for.
+    /// Completes the samples from infinity among `lights`, of those numbers that are seen, by radiance and missing
+    /// density; lane_of(light) has drawn one, by share_of(light). All together: the others then have no test for it,
+    /// nor a call to save registers for.
     template <class Lights, class LaneOf, class ShareOf>
     void shine_from_infinity(Lights& lights, std::span<const std::uint8_t> seen, LaneOf lane_of,
                              ShareOf share_of) const {

@@ -12,7 +12,7 @@ namespace treefarm {
 /// Places of a batch whose paths have ended, until others are set up there.
 class EndedPaths {
   public:
-    /// Before a walk.
+    /// Begins a walk.
     void clear() {
         count_ = 0;
         enough_ = kEnough;
@@ -33,7 +33,7 @@ class EndedPaths {
     }
 
   private:
-    /// With 8 and 16 a ray took as long.
+    /// Ended paths that are worth setting up others. With 8 and 16 a ray took as long.
     static constexpr std::uint32_t kEnough = kDrawBatch / 4;
 
     std::array<std::uint8_t, kDrawBatch> places_;

@@ -10,7 +10,7 @@
 
 namespace treefarm {
 
-/// What guides at a place.
+/// The guide at a place.
 struct Guidance {
     std::uint32_t region;  ///< of the tree
     std::uint32_t view;    ///< the distribution of the view there, or Guide::kNoView
@@ -48,13 +48,13 @@ inline float mixed_pdf(float bsdf_fraction, float bsdf_pdf, float guide_pdf) {
     return bsdf_fraction * bsdf_pdf + (1.0f - bsdf_fraction) * guide_pdf;
 }
 
-/// The same where there is a view.
+/// Density of a mixture that samples the BSDF, the region's distribution or the view's, each with its probability.
 inline float mixed_pdf(const Guidance& guidance, float bsdf_pdf, float guide_pdf, float view_pdf) {
     const float trees = (1.0f - guidance.bsdf_fraction - guidance.view_fraction) * guide_pdf;
     return guidance.bsdf_fraction * bsdf_pdf + (trees + guidance.view_fraction * view_pdf);
 }
 
-/// What the mixture of BSDF and region would be without the view.
+/// Density that the mixture of BSDF and region would have without the view.
 inline float without_view(const Guidance& guidance, float bsdf_pdf, float guide_pdf) {
     const float others = 1.0f - guidance.view_fraction;
     return (guidance.bsdf_fraction * bsdf_pdf + (others - guidance.bsdf_fraction) * guide_pdf) / others;
@@ -109,7 +109,7 @@ class CodeBatch {
         }
     }
 
-    /// Fetches what they will read next, by what prefetch() has brought.
+    /// Fetches what the densities will read next, by what prefetch() has brought.
     void prefetch_cells(const Guide& guide) const {
         for (std::uint32_t i = 0; i < count_; ++i) {
             guide.prefetch_pdf_cell(regions_[i], codes_[i]);

@@ -7,7 +7,7 @@
 
 namespace treefarm {
 
-/// What the tree uses at what each pixel's centre sees. NaN where nothing is seen, or a surface that no tree guides.
+/// Maps of the tree at what each pixel's centre sees. NaN where nothing is seen, or a surface that no tree guides.
 struct FilmMaps {
     RgbImage regions;     ///< a colour hashed from the number of the region; black where nothing is seen
     Plane bsdf_fraction;  ///< a_BSDF

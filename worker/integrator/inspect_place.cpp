@@ -14,7 +14,7 @@ namespace {
 /// A number in the middle of all 32-bit numbers: what it draws lies in the middle, too.
 constexpr std::uint32_t kMiddle = 0x80000000u;
 
-/// What is asked of a direction at a place.
+/// The BSDF of a place for one direction.
 struct Scattering {
     Rgb f_cos{1.0f};     ///< per steradian; 1 for a bare point
     float bsdf_pdf = 0;  ///< per steradian
@@ -52,7 +52,7 @@ class Scatterer {
     std::optional<Surface> surface_;
 };
 
-/// What a ray from the place meets first, as next event and as scattering would see it.
+/// Emission that a ray from the place meets first, as next event and as scattering would see it.
 struct Met {
     Rgb emitted{0.0f};
     float light_pdf = 0;  ///< of next event

@@ -20,7 +20,7 @@ struct InspectedPlace {
     bool normal = false;  ///< whether the hit's normals mean something
 };
 
-/// What the tree uses there, and whether the material gives it anything to do.
+/// What the tree uses at a place, and whether the material gives it anything to do.
 struct PlaceFacts {
     Guidance guidance;            ///< fractions as the walk uses them; of a bare point: of its region, without view
     bool inside = true;           ///< the tree's cube
@@ -53,7 +53,7 @@ struct PlaceTruth {
     std::vector<float> sampled;         ///< density per steradian of the smooth part of what the walk samples here
 };
 
-/// Pure but for its time: the same numbers for any number of threads.
+/// Traces what a place scatters and receives. Pure but for its time: the same numbers for any number of threads.
 PlaceTruth trace_place(const TraceScene& scene, const Resolved& job, const Guide& guide, const InspectedPlace& place,
                        const BruteForce& settings);
 

@@ -26,7 +26,7 @@ struct CopyBudget {
     }
 };
 
-/// What a path would carry had it not been split: as much as it finds itself, not shared with copies. Luminances.
+/// Luminance that a path would carry had it not been split: as much as it finds itself, not shared with copies.
 class Unsplit {
   public:
     /// `found`: by the path itself, so far.
@@ -74,8 +74,8 @@ class PathCopies {
         order_.push_back(std::uint64_t{copy.origin} << 40 | std::uint64_t{copy.copies.number} << 32 | place);
     }
 
-    /// Those that were left since, by camera path, numbered on from what `numbers` has of each. They last until the
-    /// next call.
+    /// Copies that were left since the last call, by camera path, numbered on from what `numbers` has of each. They
+    /// last until the next call.
     std::span<const PathCopy> next(std::span<std::uint8_t> numbers) {
         std::sort(order_.begin(), order_.end());
         going_.clear();

@@ -33,7 +33,7 @@ class PathKernel {
     std::uint32_t count() const { return count_; }
     bool full() const { return count_ == kGroup; }
 
-    /// Adds a camera path. Not when full.
+    /// Adds a camera path; the kernel must not be full.
     void add(const PathKey& key, const Ray& ray) {
         assert(!full());
         keys_[count_] = key;
@@ -55,8 +55,8 @@ class PathKernel {
 
     /// Radiance along the camera ray of the path added as number `path`.
     const Rgb& radiance(std::uint32_t path) const { return radiance_[path]; }
-    /// What the luminance of path `path` would be without splitting, and in which power of two to count both: that of
-    /// the records of the region where the camera's ray arrived. Of guided paths that record.
+    /// Luminance that path `path` would have without splitting, and the exponent of the power of two to count both in:
+    /// that of the records of the region where the camera's ray arrived. For guided paths that record.
     float unsplit(std::uint32_t path) const { return unsplit_[path]; }
     int first_exponent(std::uint32_t path) const { return first_exponents_[path]; }
     Observer& observer() { return walk_.observer(); }
@@ -74,7 +74,7 @@ class PathKernel {
     /// How many walk together: guided ones without next event are slower by whole batches.
     std::uint32_t batch() const { return kGuided && !walk_.settings().next_event ? kBatch / 2 : kBatch; }
 
-    /// What splitting at the branch of a camera path goes on from.
+    /// State from which splitting goes on at the branch of a camera path.
     struct Legacy {
         CopyBudget copies;
         int first_exponent;

@@ -10,7 +10,7 @@
 
 namespace treefarm {
 
-/// Where a direction stands in the histograms that learn mixtures (mixture.h, view_mixture.h).
+/// Bins of a direction in the histograms that learn mixtures (mixture.h, view_mixture.h).
 struct MixtureBins {
     std::uint8_t region = 0, view = 0;
 };
@@ -45,8 +45,8 @@ class PathRecorder {
         vertices_.push_back({weight, Rgb(0.0f), Rgb(0.0f), 1.0f, pdf, target, code, rounding, bins});
     }
 
-    /// The same of a delta lobe: its direction is no record, but what it carried belongs to the vertices before it, and
-    /// to the mixture where the BSDF has lobes besides; the target is empty where it has not.
+    /// A direction of a delta lobe was sampled: it is no record, but what it carried belongs to the vertices before it,
+    /// and to the mixture where the BSDF has lobes besides; the target is empty where it has not.
     void add_delta_vertex(const Rgb& weight, const RecordTarget& target, std::uint32_t rounding) {
         vertices_.push_back(
             {weight, Rgb(0.0f), Rgb(0.0f), 1.0f, 0.0f, target, 0, rounding, {kMixtureBins - 1, kMixtureBins - 1}});
@@ -59,8 +59,8 @@ class PathRecorder {
 
     std::uint32_t vertex_count() const { return static_cast<std::uint32_t>(vertices_.size()); }
 
-    /// What next event reflects where the path had so many vertices: at the end of the direction sampled at the last of
-    /// them.
+    /// Light that next event reflects where the path had so many vertices: at the end of the direction sampled at the
+    /// last of them.
     void add_reflected(std::uint32_t vertex_count, const Rgb& radiance) {
         if (vertex_count != 0) vertices_[vertex_count - 1].reflected += radiance;
     }
@@ -77,7 +77,7 @@ class PathRecorder {
         light_samples_.push_back({target, rounding, {code, pdf, average(radiance), finite(reflected), {}, false}});
     }
 
-    /// What next event found, of which the choice of emitters learns.
+    /// A record of what next event found, from which the choice of emitters learns.
     void add_choice(const Record& record) { choices_.push_back(record); }
 
     void add_outside() { ++outside_; }
@@ -114,7 +114,7 @@ class PathRecorder {
         std::uint32_t code, rounding;
         MixtureBins bins;
     };
-    /// What a direction carried.
+    /// Radiance that a direction carried.
     struct Lesson {
         std::uint32_t code;
         float pdf;        ///< 0: of a delta lobe beside others, which teaches how often to sample the BSDF
@@ -129,8 +129,8 @@ class PathRecorder {
         Lesson lesson;
     };
 
-    /// As published a view alone learns, and the radiance; otherwise the region learns that as it would without, and
-    /// the view what is reflected. Records are written at `end`; returns the new one.
+    /// Writes the records of a lesson. As published a view alone learns, and the radiance; otherwise the region learns
+    /// that as it would without, and the view what is reflected. Records are written at `end`; returns the new one.
     Record* teach(std::uint32_t rounding, const RecordTarget& target, const Lesson& l, RecordLog& log,
                   Record* end) const {
         const bool smooth = l.pdf > 0.0f;

@@ -8,12 +8,12 @@
 
 namespace treefarm {
 
-/// Of the power of two of a region's light, by that of its records: those are of L / p, or of L^2 / p.
+/// Exponent of the power of two of a region's light, by that of its records: those are of L / p, or of L^2 / p.
 inline int light_exponent(int record_exponent, GuidingTarget target) {
     return target == GuidingTarget::variance ? record_exponent / 2 : record_exponent;
 }
 
-/// Of the light about a path's end over that about its first vertex, by the mean records of their regions.
+/// Ratio of the light about a path's end to that about its first vertex, by the mean records of their regions.
 template <class Surface>
 float brightness(const PathState<Surface>& path, const Guide& guide, const PathSettings& settings) {
     if (!settings.roulette.needs_brightness()) return 1.0f;
@@ -21,7 +21,7 @@ float brightness(const PathState<Surface>& path, const Guide& guide, const PathS
     return power_of_two(std::clamp(light_exponent(exponent, settings.target), -60, 60));
 }
 
-/// As how many paths it goes on from where it has arrived.
+/// Number of paths as which a path goes on from where it has arrived.
 template <class Surface>
 std::uint32_t splitting(const PathState<Surface>& path, const Guide& guide, const PathSettings& settings) {
     if (settings.splitting == 1 || path.probe) return 1;
@@ -29,7 +29,7 @@ std::uint32_t splitting(const PathState<Surface>& path, const Guide& guide, cons
     return settings.roulette.splitting(path.throughput, spread, brightness(path, guide, settings), settings.splitting);
 }
 
-/// With which probability a path goes on from where it has arrived.
+/// Probability that a path goes on from where it has arrived.
 template <bool kGuided, class Surface>
 float survival(const PathState<Surface>& path, const Guide& guide, const PathSettings& settings) {
     const float spread = Surface::kTransmits ? path.spread : 1.0f;

@@ -10,7 +10,7 @@
 
 namespace treefarm {
 
-/// What the walk is told besides the scene: fixed for a pass.
+/// Settings of the walk besides the scene: fixed for a pass.
 struct PathSettings {
     int max_depth;
     bool next_event;   ///< a flag, not a kernel of its own: one predictable branch per vertex

@@ -136,7 +136,7 @@ class PathWalk {
         return keep(alive, leaves);
     }
 
-    /// Of the first `alive` of alive_ those for which `goes_on`.
+    /// Keeps those of the first `alive` paths of alive_ for which `goes_on`; returns their number.
     template <class GoesOn>
     std::uint32_t keep(std::uint32_t alive, GoesOn goes_on) {
         std::uint32_t left = 0;
@@ -191,7 +191,7 @@ class PathWalk {
         if constexpr (kRecord) direction_records_.draw_numbers(seed, keys, alive);
     }
 
-    /// What a path's ray has met: emission, and whether the path goes on from there, as one or as several.
+    /// Arrival of a path's ray: emission, and whether the path goes on from there, as one or as several.
     bool arrive(Path& path, PathRecorder* recorder) {
         if (!path.found) {
             if (scene_.emitters().shines_from_infinity()) [[unlikely]]
@@ -227,7 +227,7 @@ class PathWalk {
             copies_.leave(path.copy());
     }
 
-    /// What happens where a path's ray has arrived. False if it ends.
+    /// Visit of the surface where a path's ray has arrived. False if the path ends.
     bool visit(std::uint8_t index) {
         Path& path = paths_[index];
         const Hit& hit = path.hit;

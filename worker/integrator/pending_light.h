@@ -13,7 +13,7 @@
 
 namespace treefarm {
 
-/// Where an emitter was sampled from.
+/// The vertex from which an emitter was sampled.
 struct LightSeeker {
     std::uint32_t path;    ///< of the batch
     std::uint32_t vertex;  ///< vertices that the path has recorded before this one
@@ -41,14 +41,14 @@ struct PendingLight {
         f_cos = bsdf.f_cos;
     }
 
-    /// What the choice of emitters learns of a sample that brought `reflected`.
+    /// Record from which the choice of emitters learns, of a sample that brought `reflected`.
     Record record(const Guide& guide, float reflected) const {
         const std::uint32_t region = from.guidance.region;
         return light_record(region, guide.quantum_exponent(region), cluster, cluster_probability, reflected);
     }
 };
 
-/// Those of one step of a batch of paths.
+/// Shadow rays of one step of a batch of paths, with the light samples that they belong to.
 class PendingLights {
   public:
     static constexpr std::uint32_t kMost = EmbreeScene::kMostTogether;
@@ -75,7 +75,7 @@ class PendingLights {
         aim(rays_[count_++], hit, light);
     }
 
-    /// Which of them are hidden.
+    /// Traces the shadow rays; which of the lights are hidden.
     template <class Observer>
     std::span<const bool> trace(const EmbreeScene& geometry, Observer& observer) {
         for (std::uint32_t i = 0; i < count_; ++i)

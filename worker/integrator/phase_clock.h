@@ -17,7 +17,7 @@ class PhaseClock {
         if (on_) last_ = Clock::now();
     }
 
-    /// What passed since start() or the last lap belongs to `phase`.
+    /// Adds the time since start() or the last lap to `phase`.
     void lap(TracePhase phase) {
         if (!on_) return;
         const Clock::time_point now = Clock::now();

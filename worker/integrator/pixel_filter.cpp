@@ -22,7 +22,7 @@ double exp_negative(double x) {
     return sum;
 }
 
-/// Of the truncated Gaussian max(0, g(x) - g(radius)) over equal cells of [0, radius].
+/// Integrals of the truncated Gaussian max(0, g(x) - g(radius)) over equal cells of [0, radius].
 std::vector<double> gaussian_masses(double radius, double stddev, std::uint32_t cells) {
     const double scale = 0.5 / (stddev * stddev);
     const double at_radius = exp_negative(scale * radius * radius);

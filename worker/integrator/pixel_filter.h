@@ -17,7 +17,7 @@ class FilterSampler {
 
     /// Offset from the pixel's centre along one axis, in pixels, distributed as the filter.
     float sample(std::uint32_t random) const;
-    /// Of that offset, so that the filter's integral is 1.
+    /// Weight of the offset that sample() draws by this number, so that the filter's integral is 1.
     float weight(std::uint32_t random) const;
 
   private:

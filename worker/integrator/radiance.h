@@ -5,7 +5,7 @@
 
 namespace treefarm {
 
-/// Whether a film takes it: finite, and nothing negative.
+/// Whether a film takes a colour as radiance: finite, and nothing negative.
 inline bool is_radiance(const Rgb& c) {
     return is_finite(c) && c.x >= 0.0f && c.y >= 0.0f && c.z >= 0.0f;
 }

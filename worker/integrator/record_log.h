@@ -30,9 +30,9 @@ RecordTarget moved(const Guide& guide, std::uint32_t region, std::uint32_t outgo
     return target;
 }
 
-/// What one work unit taught, appended in path order: added to the tree's sums afterwards, away from the path walk.
+/// Records of one work unit, appended in path order: added to the tree's sums afterwards, away from the path walk.
 struct RecordLog {
-    LargeTable<Record> records;         ///< those with radiance
+    LargeTable<Record> records;         ///< with radiance
     std::vector<std::uint32_t> counts;  ///< recorded vertices per distribution, those without radiance included
     UpdateCaps caps;
     std::vector<Record> drafts;  ///< room for a path's records, of which only some are kept

@@ -42,8 +42,8 @@ class Roulette {
         return kPolicy.walk.guided_survival;
     }
 
-    /// As how many paths, at most `most`, one goes on that is expected to carry several times what its first vertex
-    /// does: each of them carries at least the policy's share of that. 1 but by the adjoint rule.
+    /// Number of paths, at most `most`, as which one goes on that is expected to carry several times what its first
+    /// vertex does: each of them carries at least the policy's share of that. 1 but by the adjoint rule.
     std::uint32_t splitting(const Rgb& throughput, float scale, float brightness, std::uint32_t most) const {
         if (rule_ != Rule::adjoint) return 1;
         const float paths = max_component(throughput) * scale * brightness * (1.0f / kPolicy.splitting.least_share);

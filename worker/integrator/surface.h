@@ -7,8 +7,8 @@
 
 namespace treefarm {
 
-/// What the walk needs of the surface it stands on. Three kinds, a template argument of the path kernel, so that
-/// plainly diffuse scenes pay for no other material, and only trees with views for views.
+/// The surface that the walk stands on, as far as it needs it. Three kinds, a template argument of the path kernel, so
+/// that plainly diffuse scenes pay for no other material, and only trees with views for views.
 
 /// A surface of a plainly diffuse scene (is_plainly_diffuse()): no delta lobes, no transmission, no textures.
 class DiffuseSurface {
@@ -91,7 +91,7 @@ class GeneralSurface {
     bool has_delta() const { return lobes_ & kDeltaLobe; }
     bool delta_or_transmitting() const { return lobes_ & (kDeltaLobe | kTransmittingLobe); }
 
-    /// What radiance is scaled by, over what it was, for a ray that goes on to the far side.
+    /// Squared relative index: what refraction to the far side takes from a path's throughput.
     float eta2() const {
         const float eta = refraction_of(*bsdf_);
         return eta * eta;
@@ -107,7 +107,7 @@ class GeneralSurface {
     LobeBits lobes_;
 };
 
-/// The same where the tree has views.
+/// A surface of any scene where the tree has views.
 class ViewedSurface : public GeneralSurface {
   public:
     static constexpr bool kViews = true;

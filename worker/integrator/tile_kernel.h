@@ -14,7 +14,7 @@
 
 namespace treefarm {
 
-/// What a work unit is rendered by, with what it is filled into.
+/// A work unit with all that it is rendered by, and what it is filled into.
 struct TileJob {
     const TraceScene& scene;
     const Resolved& job;
@@ -48,7 +48,7 @@ struct UnitCursor {
     std::uint32_t sample = first;
 
     bool done() const { return y == unit.y1 || first >= last; }
-    /// True if that was the pixel's last sample.
+    /// Goes on to the next sample; true if the last one was its pixel's last.
     bool advance() {
         if (++sample < last) return false;
         sample = first;
@@ -107,7 +107,7 @@ void render_with(const TileJob& tile) {
     pairs.finish(stats.splitting);
 }
 
-/// Those that use a tree.
+/// Kernels of a kind of surface that use a tree.
 template <class Surface>
 inline constexpr TileKernel kTreeKernelsOf[] = {
     {{!Surface::kGeneral, false, true, Surface::kViews}, render_with<Surface, false, true>},
@@ -115,7 +115,7 @@ inline constexpr TileKernel kTreeKernelsOf[] = {
     {{!Surface::kGeneral, true, true, Surface::kViews}, render_with<Surface, true, true>},
 };
 
-/// All of a kind of surface that does without, too.
+/// All kernels of a kind of surface that does without a tree, too.
 template <class Surface>
 inline constexpr TileKernel kKernelsOf[] = {
     {{!Surface::kGeneral, false, false}, render_with<Surface, false, false>},

@@ -23,7 +23,7 @@ void render_unit(const TraceScene& scene, const Resolved& job, const PassPlan& p
 /// The kernels that render_unit() chooses from: those that the plan names.
 std::vector<KernelChoice> compiled_kernels();
 
-/// The same path as in render_unit, vertex by vertex, as text. `sample` counts within the pass.
+/// A path as render_unit() traces it, vertex by vertex, as text. `sample` counts within the pass.
 std::string describe_sample(const TraceScene& scene, const Resolved& job, const PassPlan& pass, const Guide& guide,
                             int x, int y, std::uint32_t sample);
 

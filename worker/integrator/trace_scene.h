@@ -27,7 +27,7 @@ class TraceScene {
     const CameraRays& camera() const { return camera_; }
     const TextureSet& textures() const { return textures_; }
     const Film& film() const { return film_; }
-    /// What the scene calls for: for assertions, not for choices.
+    /// Effects that the scene calls for: for assertions, not for choices.
     const SceneEffects& effects() const { return effects_; }
     /// Whether plain_diffuse() holds every material; otherwise materials() does.
     bool plainly_diffuse() const { return !materials_; }

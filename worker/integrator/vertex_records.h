@@ -23,7 +23,7 @@ class DirectionRecords {
         draw_batch(seed, keys, lanes, 0, Stream::record, draws_);
     }
 
-    /// Of the paths whose numbers are in `alive`, each with its own of the recorders.
+    /// Adds the vertices of the paths whose numbers are in `alive`, each to the path's own recorder.
     template <class Surface>
     void add(std::span<const PathState<Surface>> paths, std::span<const std::uint8_t> alive,
              std::span<PathRecorder> recorders) {
@@ -48,7 +48,7 @@ class DirectionRecords {
     }
 
   private:
-    /// Where the stochastic spatial filter puts the records, delta lobes' left out.
+    /// Finds where the stochastic spatial filter puts the records, delta lobes' left out.
     template <class Surface>
     void find_regions(std::span<const PathState<Surface>> paths, std::span<const std::uint8_t> alive) {
         VectorBatch places;

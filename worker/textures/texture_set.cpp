@@ -47,7 +47,7 @@ Rgb wrapped_texel(const TextureImage& image, const BitmapTexture& bitmap, int x,
     return texel(image, x, y);
 }
 
-/// In texels from the upper left corner.
+/// Place of texture coordinates, in texels from the upper left corner.
 Vec2 texel_place(const TextureImage& image, const BitmapTexture& bitmap, const Vec2& at) {
     const Vec2 uv = transformed(bitmap.uv, at);
     // Whole units are taken off first where they make no difference, so that large coordinates keep their fraction.
@@ -80,7 +80,7 @@ bool in_upper_half(float x) {
     return x - std::floor(x) >= 0.5f;
 }
 
-/// Where a texel begins.
+/// Index of a texel's first value.
 std::size_t offset_of(const TextureImage& image, int x, int y) {
     return (static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) + static_cast<std::size_t>(x)) *
            static_cast<std::size_t>(image.channels);

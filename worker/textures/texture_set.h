@@ -18,7 +18,7 @@ class TextureSet {
     Rgb color(std::int32_t texture, const Vec2& uv) const;
     /// Fetches most of what color() reads.
     void prefetch(std::int32_t texture, const Vec2& uv) const;
-    /// Mean of its channels.
+    /// Mean of the channels of color().
     float value(std::int32_t texture, const Vec2& uv) const { return average(color(texture, uv)); }
     /// How the value changes with u and v: central differences over half a texel to each side.
     Vec2 gradient(std::int32_t texture, const Vec2& uv) const;
@@ -42,7 +42,7 @@ class TextureSet {
 
 /// Texel (x, y) of an image, x and y in range; single-channel images are grey.
 Rgb texel(const TextureImage& image, int x, int y);
-/// Fetches it.
+/// Fetches the texel (x, y).
 void prefetch_texel(const TextureImage& image, int x, int y);
 
 }  // namespace treefarm

@@ -12,11 +12,11 @@ namespace {
 
 // Andersson et al. 2020.
 constexpr float kColourExponent = 0.7f;  ///< q_c: compresses large differences of colour
-constexpr float kKnee = 0.4f;            ///< p_c: differences below this share of the greatest ...
-constexpr float kKneeValue = 0.95f;      ///< p_t: ... take the errors up to this one
+constexpr float kKnee = 0.4f;            ///< p_c: differences below this share of the greatest
+constexpr float kKneeValue = 0.95f;      ///< p_t: differences below kKnee take the errors up to this one
 constexpr float kFeatureScale = 0.70710678f;
 
-/// What a viewer makes of an image.
+/// An image as a viewer perceives it.
 struct Percept {
     Plane lightness, a, b;  ///< CIELAB with Hunt effect, blurred by contrast sensitivity
     Plane edges, points;    ///< magnitudes of the first and second derivative of luminance

@@ -21,7 +21,7 @@ double shown_radiance() {
     return (-b + std::sqrt(b * b - 4.0 * a * c)) / (2.0 * a);
 }
 
-/// Of the pixels that are finite.
+/// Luminances of the pixels that are finite.
 std::vector<double> luminances(const RgbImage& image) {
     std::vector<double> values;
     values.reserve(image.pixels.size());
@@ -34,7 +34,7 @@ double greatest(const std::vector<double>& values) {
     return values.empty() ? 0.0 : *std::max_element(values.begin(), values.end());
 }
 
-/// Of an even number the upper one, as in the authors' program.
+/// The median, of an even number the upper one, as in the authors' program.
 double upper_median(std::vector<double>& values) {
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
     std::nth_element(values.begin(), middle, values.end());

@@ -17,9 +17,9 @@ struct ExposureRange {
 /// negative is shown as black.
 float tone_map(double radiance);
 
-/// From the exposure that shows the reference's brightest luminance as 0.85 to the one that shows its median so, in
-/// steps of about a stop. Where the median is black, that of the pixels that are not; where all are black, those of the
-/// `image` take their place, and 0 to 0 if they are black too. Pixels that are NaN or infinite do not count.
+/// The range from the exposure that shows the reference's brightest luminance as 0.85 to the one that shows its median
+/// so, in steps of about a stop. Where the median is black, that of the pixels that are not; where all are black, those
+/// of the `image` take their place, and 0 to 0 if they are black too. Pixels that are NaN or infinite do not count.
 ExposureRange exposure_range(const RgbImage& image, const RgbImage& reference);
 
 /// FLIP of high dynamic range images per pixel: the greatest FLIP over all exposures (Andersson et al. 2021,

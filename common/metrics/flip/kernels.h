@@ -27,7 +27,7 @@ struct FeatureKernels {
     Kernel gaussian, first, second;
 };
 
-/// Both after Andersson et al. 2020. Domain: `ppd` in [1, 1000] pixels per degree.
+/// The kernels of FLIP, after Andersson et al. 2020. Domain: `ppd` in [1, 1000] pixels per degree.
 SensitivityKernels sensitivity_kernels(double ppd);
 FeatureKernels feature_kernels(double ppd);
 

@@ -12,7 +12,7 @@
 
 namespace treefarm::mitsuba {
 
-/// What to do about things in a scene that cannot be rendered: strict reading stops, lenient reading collects warnings,
+/// Treatment of things in a scene that cannot be rendered: strict reading stops, lenient reading collects warnings,
 /// reading for `treefarm check` goes on after what it refuses, and collects findings.
 class Diagnostics {
   public:
@@ -34,7 +34,7 @@ class Diagnostics {
             warnings_.push_back({where, what});
     }
 
-    /// What is worth knowing and no fault: for the log of a render, or among the findings.
+    /// Notes what is worth knowing and no fault: for the log of a render, or among the findings.
     void note(const Location& where, const std::string& what, const char* kind = "reader") {
         if (checks_)
             find({Finding::Severity::note, kind, where, what, ""});
@@ -42,7 +42,7 @@ class Diagnostics {
             notes_.push_back({where, what});
     }
 
-    /// Nothing unless the scene is being checked.
+    /// Keeps a finding, if the scene is being checked.
     void find(Finding finding) {
         // What several shapes refer to is read several times where it is refused.
         if (checks_ && seen_.insert(finding.text()).second) findings_.push_back(std::move(finding));

@@ -105,7 +105,7 @@ Span read_crop(Properties& properties, const char* offset, const char* size, int
     return {static_cast<int>(begin), static_cast<int>(begin + pixels)};
 }
 
-/// What a span becomes where the side has another size: every pixel that it touches.
+/// A span on a side of another size: every pixel that it touches.
 Span scaled(const Span& span, std::int64_t from, std::int64_t to) {
     return {static_cast<int>(span.begin * to / from), static_cast<int>((span.end * to + from - 1) / from)};
 }

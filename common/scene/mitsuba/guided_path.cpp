@@ -42,7 +42,8 @@ void read_bsdf_fraction(IntegratorSettings& settings) {
         settings.set_by("learn_bsdf_sampling_fraction", "guiding.bsdf_fraction", "learned");
 }
 
-/// In seconds unless the element says otherwise, as in the plugin. Without a word about it the budget is the job's.
+/// Reads the budget, in seconds unless the element says otherwise, as in the plugin. Without a word about it the budget
+/// is the job's.
 void read_budget(IntegratorSettings& settings) {
     Properties& properties = settings.properties();
     const bool given = properties.has("budget") || properties.has("budget_type");

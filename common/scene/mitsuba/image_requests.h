@@ -12,7 +12,7 @@
 
 namespace treefarm::mitsuba {
 
-/// What the integers of an image file mean.
+/// Meaning of the integers of an image file.
 struct Decoding {
     static constexpr double kAuto = 0.0, kSrgb = -1.0;
 

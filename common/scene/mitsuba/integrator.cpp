@@ -28,7 +28,7 @@ void read_direct(IntegratorSettings& settings) {
     settings.read_flags();
 }
 
-/// What estimates the same image in another way: how long paths are belongs to the image, the rest does not.
+/// Reads an estimator of the same image by other means: how long paths are belongs to the image, the rest does not.
 void read_other(IntegratorSettings& settings, const std::string& type) {
     Properties& properties = settings.properties();
     settings.diagnostics().warn(properties.where(),
@@ -54,7 +54,7 @@ bool is_wrapper(const std::string& type) {
     return type == "aov" || type == "moment" || type == "adaptive" || type == "irrcache";
 }
 
-/// Without media, which are refused, the volumetric ones are path tracers.
+/// Whether an integrator is a path tracer. Without media, which are refused, the volumetric ones are.
 bool is_path_tracer(const std::string& type) {
     return type == "path" || type == "volpath" || type == "volpath_simple" || type == "volpathmis";
 }

@@ -21,7 +21,7 @@ class IntegratorSettings {
     void set(const std::string& key, const std::string& value, const Location& where) {
         settings_.push_back({key, value, where});
     }
-    /// The same, at the place of the property `name`.
+    /// Sets a key, at the place of the property `name`.
     void set_by(const char* name, const std::string& key, const std::string& value) {
         set(key, value, properties_.where(name));
     }
@@ -32,9 +32,9 @@ class IntegratorSettings {
     /// A property that is one of some words, and the value of the key for each; other words throw InputError.
     void read_words(const char* name, const char* key, const std::vector<std::pair<std::string, std::string>>& words);
 
-    /// What every integrator has: how long paths are, strict normals, hidden emitters.
+    /// Reads what every integrator has: how long paths are, strict normals, hidden emitters.
     void read_common();
-    /// The same without the lengths of paths.
+    /// Reads strict normals and hidden emitters alone.
     void read_flags();
 
   private:

@@ -9,7 +9,7 @@
 
 namespace treefarm::mitsuba {
 
-/// What the shapes that read a mesh from a file have in common.
+/// Options of all shapes that read a mesh from a file.
 struct MeshOptions {
     std::filesystem::path file;
     bool face_normals = false;               ///< no shading normals, whatever the file has

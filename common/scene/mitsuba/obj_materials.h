@@ -8,7 +8,7 @@
 
 namespace treefarm::mitsuba {
 
-/// What the triangles of one material of an OBJ file get.
+/// Material and emission of the triangles of one material of an OBJ file.
 struct ObjMaterial {
     std::int32_t material = kNone;  ///< of the scene
     Rgb emission{0.0f};             ///< radiance of the material library's Ke

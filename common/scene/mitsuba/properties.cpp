@@ -30,7 +30,7 @@ bool is_value_tag(const std::string& tag) {
     return std::find(tags.begin(), tags.end(), tag) != tags.end();
 }
 
-/// What objects that are not read would simulate, for messages.
+/// The effect that an object which is not read would simulate, for messages.
 std::string effect_of(const std::string& tag) {
     if (tag == "medium" || tag == "phase" || tag == "volume") return " (light scattered and absorbed by a medium)";
     if (tag == "subsurface") return " (light scattered below surfaces)";

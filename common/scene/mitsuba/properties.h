@@ -15,7 +15,7 @@ namespace treefarm::mitsuba {
 /// "maxDepth" -> "max_depth": the names of Mitsuba 0.5 and 0.6 in the spelling of 2 and 3.
 std::string snake_case(const std::string& camel_case);
 
-/// The same text with small letters (ASCII).
+/// A text in small letters (ASCII).
 std::string lower_case(std::string text);
 
 /// An object inside another one, references resolved.
@@ -71,9 +71,9 @@ class Properties {
     /// Properties that have no influence here: whatever they say is accepted.
     void ignore(std::initializer_list<const char*> names);
 
-    /// The same for all whose name begins so.
+    /// Accepts all properties whose name begins so, whatever they say.
     void ignore_prefix(const std::string& prefix);
-    /// The same for all values that were not asked for yet.
+    /// Accepts all values that were not asked for yet, whatever they say.
     void ignore_values();
 
     /// Refuses what nobody asked for.

@@ -7,7 +7,7 @@
 
 namespace treefarm::mitsuba {
 
-/// What only says what something is, for others to refer to: at the top of a scene it does nothing by itself.
+/// Whether an element only says what something is, for others to refer to: at a scene's top it does nothing by itself.
 bool is_definition(const XmlElement& element);
 
 /// The objects that the scene is made of: what stands at its top and is no definition, and all that this refers to,

@@ -66,7 +66,7 @@ SceneReading read(const SceneDocument& document, Diagnostics diagnostics, const 
 /// So many of its own sizes from the origin, a scene loses 6 of the 24 bits of its floats.
 constexpr double kFarSizes = 64.0;
 
-/// What moves a far scene to the origin; 0 for one that is near, or is not finite.
+/// The shift that moves a far scene to the origin; 0 for one that is near, or is not finite.
 Imath::V3d shift_of(const Scene& scene) {
     Box3 box;
     for (const Shape& shape : scene.shapes)

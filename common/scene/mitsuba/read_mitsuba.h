@@ -14,7 +14,7 @@
 
 namespace treefarm {
 
-/// What a reader makes of a scene file.
+/// Result of reading a scene file.
 struct SceneReading {
     Scene scene;
     std::vector<Setting> settings;  ///< what its integrator and sampler ask of the job
@@ -29,8 +29,8 @@ struct SceneReading {
 SceneReading read_mitsuba(const std::filesystem::path& path, const std::map<std::string, std::string>& defines,
                           bool lenient, const mitsuba::FilmSize& film_size = {}, const std::string& sensor = "");
 
-/// The same for inspect(): without validate_scene(), so that nothing is repaired; parts that are refused are findings,
-/// and left out. Throws InputError only if there is no scene to look at: bad XML, no sensor.
+/// Reads a Mitsuba scene for inspect(): without validate_scene(), so that nothing is repaired; parts that are refused
+/// are findings, and left out. Throws InputError only if there is no scene to look at: bad XML, no sensor.
 SceneReading read_mitsuba_to_check(const std::filesystem::path& path, const std::map<std::string, std::string>& defines,
                                    bool lenient, const std::string& sensor = "");
 

@@ -17,8 +17,8 @@ class ShapeReader {
     ShapeReader(Scene& scene, MaterialReader& materials, const SceneDocument& document, Diagnostics& diagnostics)
         : scene_(scene), materials_(materials), document_(document), diagnostics_(diagnostics) {}
 
-    /// Instances within groups, emitters within groups and groups without shapes throw InputError, or are skipped when
-    /// lenient.
+    /// Reads a shape element. Instances within groups, emitters within groups and groups without shapes throw
+    /// InputError, or are skipped when lenient.
     void read(const XmlElement& shape);
 
   private:
@@ -27,7 +27,7 @@ class ShapeReader {
         decltype(Shape::geometry) geometry;
         ObjMaterial material;
     };
-    /// Warns if it is.
+    /// Whether a part has no area; warns if so.
     bool is_flat(const Part& part, const XmlElement& element, bool on_emitter);
     void add(Part part, const Properties& properties, const XmlElement* emitter, std::int32_t group);
     void read_shape(const XmlElement& element, std::int32_t group);

@@ -40,13 +40,13 @@ Mesh mesh_of_patches(std::span<const Patch> patches, bool turned, Properties& pr
     return mesh;
 }
 
-/// From (-1, -1, 0) to (1, 1, 0), front towards +z.
+/// The square from (-1, -1, 0) to (1, 1, 0), front towards +z.
 Mesh read_rectangle(Properties& properties) {
     const Patch patch = {Vec3(0.0f), Vec3(1, 0, 0), Vec3(0, 1, 0)};
     return mesh_of_patches(std::span(&patch, 1), false, properties);
 }
 
-/// From (-1, -1, -1) to (1, 1, 1), front outside. Texture coordinates as Mitsuba 0.6 and 3 have them (cube.cpp).
+/// The cube from (-1, -1, -1) to (1, 1, 1), front outside. Texture coordinates as in Mitsuba 0.6 and 3 (cube.cpp).
 Mesh read_cube(Properties& properties) {
     const Vec3 x(1, 0, 0), y(0, 1, 0), z(0, 0, 1);
     const std::array<Patch, 6> patches = {{{-y, z, x}, {y, -x, -z}, {x, y, -z}, {z, y, x}, {-x, y, z}, {-z, -y, x}}};

@@ -11,7 +11,7 @@
 
 namespace treefarm::mitsuba {
 
-/// What a colour is for: it decides how spectra become Rgb.
+/// Use of a colour: it decides how spectra become Rgb.
 enum class ColorUse {
     reflectance,  ///< in [0, 1]
     coefficient,  ///< a property of a surface without an upper limit

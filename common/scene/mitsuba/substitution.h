@@ -13,7 +13,7 @@ class Parameters {
   public:
     explicit Parameters(const std::map<std::string, std::string>& defines);
 
-    /// What <default> says; ignored if the name has a value already.
+    /// Adds what <default> says; ignored if the name has a value already.
     void add_default(const std::string& name, const std::string& value, const Location& where);
 
     /// The text with every $name replaced; the longest name that fits is taken. An unknown name throws InputError.

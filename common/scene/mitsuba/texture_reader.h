@@ -18,7 +18,8 @@ class TextureReader {
     /// The property `name`: a colour, or a texture of that name.
     ColorInput color(Properties& properties, const std::string& name, const Rgb& otherwise, ColorUse use);
 
-    /// The same where a texture cannot be looked up: it throws InputError or, when lenient, its factor counts.
+    /// The property `name` where textures cannot be looked up: one throws InputError or, when lenient, its factor
+    /// counts.
     Rgb constant(Properties& properties, const std::string& name, const Rgb& otherwise, ColorUse use);
 
     /// The property `name`: a number, a colour (its mean), or a texture of that name.

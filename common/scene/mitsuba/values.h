@@ -14,7 +14,7 @@ double number_of(std::string_view text, const Location& where);
 /// The parts of a list, separated by commas or white space.
 std::vector<std::string_view> split_list(std::string_view text);
 
-/// All numbers of such a list.
+/// All numbers of a list, separated by commas or white space.
 std::vector<double> numbers_of(std::string_view text, const Location& where);
 
 }  // namespace treefarm::mitsuba

@@ -26,7 +26,7 @@ struct XmlElement {
     const std::string* find(std::string_view name) const;
     /// The attribute's value; InputError if it is missing.
     const std::string& require(std::string_view name) const;
-    /// InputError if there is an attribute of another name.
+    /// Throws InputError if there is an attribute of another name.
     void allow_attributes(std::initializer_list<std::string_view> names) const;
 };
 
