@@ -37,7 +37,7 @@ struct Projection {
         scene.images.push_back(image);
         scene.textures.push_back({BitmapTexture{0, false, Wrap::repeat, Wrap::repeat, {}}, "", {}});
     }
-    /// Of the plane z = 0.
+    /// Place on the plane z = 0 where this point of the picture falls.
     Vec3 place(float u, float v) const {
         return {projector.position.x - kHeight * projector.half_width * (2 * u - 1),
                 projector.position.y + kHeight * projector.half_height * (2 * v - 1), 0.0f};

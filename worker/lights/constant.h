@@ -7,7 +7,7 @@
 
 namespace treefarm {
 
-/// The same radiance from all directions, sampled uniformly.
+/// Radiance that is alike from all directions, sampled uniformly.
 struct ConstantLight {
     static constexpr float kPdf = kInvFourPi;  ///< per steradian
 

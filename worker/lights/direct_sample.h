@@ -12,8 +12,8 @@ struct DirectSample {
     float pdf = 0;       ///< per steradian, choice of the emitter included; 0: no sample
     Rgb radiance{0.0f};  ///< that leaves the emitter against wi, occlusion aside; black on the back
     Hit on_light;        ///< the sampled point; meaningless at infinity
-    /// Of a point, spot or directional emitter, which scattering never finds: pdf is the probability of its choice, and
-    /// radiance the irradiance on a surface that faces it.
+    /// Whether it is of an emitter without extent, which scattering never finds: pdf is then the probability of its
+    /// choice, and radiance the irradiance on a surface that faces it.
     bool delta = false;
     bool from_environment = false;  ///< radiance is still to be asked for: Emitters::environment()
 

@@ -66,7 +66,7 @@ class Emitters {
 
     /// Lights without extent, which nothing but sampling them finds.
     bool has_delta_lights() const { return !delta_lights_.empty(); }
-    /// The same as sample_direct, of these alone.
+    /// A sample as sample_direct() draws it, of the lights without extent alone.
     DirectSample sample_delta(const Vec3& p, const Draw& random) const;
 
     /// Density per steradian with which sample_direct(p) finds `hit` along the unit direction wi; 0 if it never does.

@@ -52,7 +52,7 @@ class EnvironmentMap {
     /// Draws from a part that was chosen: random[1] picks the row, [2] the column, [3] the place. Not from one without
     /// weight.
     Sample sample(int part, const Draw& random) const;
-    /// The same for all that a batch was asked for.
+    /// Samples for all that a batch was asked for.
     void sample(EnvironmentBatch& batch) const;
 
     /// Mean over all directions, of the channels' mean: W / (m^2 sr).
@@ -75,7 +75,7 @@ class EnvironmentMap {
     };
     static constexpr int kRowGuideBits = 8;
 
-    /// Of a direction; `sine` becomes that of its angle from the pole.
+    /// Place of a direction on the map; `sine` becomes that of its angle from the pole.
     Place place(const Vec3& direction, float& sine) const;
     float pdf(const Place& place, float sine, const PartChoice& choice) const;
     Rgb clean_texel(int x, int y) const;

@@ -42,7 +42,7 @@ class LightClusters {
     }
 
     int count() const { return count_; }
-    /// Of an entry that can be chosen.
+    /// Cluster of an entry that can be chosen.
     std::uint8_t of_entry(std::uint32_t entry) const { return cluster_of_entry_[entry]; }
 
     /// A cluster that was chosen, and the bits by which to choose an emitter in it.
@@ -84,7 +84,7 @@ class LightClusters {
   private:
     static constexpr std::uint64_t kWhole = std::uint64_t{1} << 32;
 
-    /// Of 2^32.
+    /// Probability of a cluster, out of 2^32.
     std::uint64_t width(const LightShare& share, int cluster) const {
         return ((share[0] * width_[static_cast<std::size_t>(cluster)]) >> 15) +
                (std::uint64_t{share[static_cast<std::size_t>(cluster) + 1]} << 17);

@@ -128,7 +128,7 @@ struct PrincipledBsdf {
         return {diffuse / all, coat / all, 1.0f / all};
     }
 
-    /// Of the specular lobe's samples, at a facet of this reflectance.
+    /// Share of the specular lobe's samples that are reflected, at a facet of this reflectance.
     float reflected_share(float reflectance) const {
         return inside ? reflectance : 1.0f - in->refracting() * (1.0f - reflectance);
     }

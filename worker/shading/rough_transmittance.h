@@ -23,7 +23,7 @@ class RoughTransmittance {
         const auto i = std::min(static_cast<std::size_t>(place), kIntervals - 1);
         return values_[i] + (values_[i + 1] - values_[i]) * (place - static_cast<float>(i));
     }
-    /// Of diffuse light from the far side, what does not come back: all that is not let through comes back, or what the
+    /// Share of diffuse light from the far side that does not come back: all that is not let through does, or what the
     /// facets reflect once (PlasticMaterial::single_return).
     float escapes(bool single_return) const { return single_return ? escapes_single_ : escapes_all_; }
 
@@ -37,7 +37,7 @@ class RoughTransmittance {
     float escapes_all_ = 1, escapes_single_ = 1;
 };
 
-/// The same for roughness that varies over a surface.
+/// Transmittances of boundaries whose roughness varies over a surface.
 class RoughTransmittances {
   public:
     RoughTransmittances(bool ggx, float eta);
@@ -50,7 +50,7 @@ class RoughTransmittances {
     std::vector<RoughTransmittance> tables_;  ///< at alpha (i / kIntervals)^2
 };
 
-/// Of diffuse light through a smooth boundary, from the side where the index is 1 into eta.
+/// Share of diffuse light that passes a smooth boundary, from the side where the index is 1 into eta.
 float smooth_diffuse_transmittance(float eta);
 
 }  // namespace treefarm

@@ -24,7 +24,7 @@ double half_width(double fov, const std::string& axis, double aspect, const Loca
                      "use x, y, diagonal, smaller or larger");
 }
 
-/// Of a film of 36 x 24 mm.
+/// Field of view over the diagonal of a film of 36 x 24 mm, in degrees.
 double diagonal_fov(const std::string& focal_length, const Location& where) {
     std::string_view text = trim(focal_length);
     if (text.ends_with("mm")) text.remove_suffix(2);

@@ -23,7 +23,7 @@ class MaterialReader {
     /// reflectance 0.5.
     std::int32_t read(const XmlElement& bsdf);
 
-    /// The same for an element that stands in no file, which is kept.
+    /// Index of the material of an element that stands in no file, which is kept.
     std::int32_t read_made(XmlElement bsdf);
 
     /// Index of what a shape without a BSDF gets: 0.5, or black if it is an emitter.
@@ -33,7 +33,7 @@ class MaterialReader {
     TextureReader& textures() { return textures_; }
 
   private:
-    /// The same element is converted once: references can make a few lines stand for any number of BSDFs.
+    /// A material as its element says, converted once: references can make a few lines stand for any number of BSDFs.
     const Material& convert(const XmlElement& bsdf);
     Material convert_new(const XmlElement& bsdf);
     Material convert_twosided(Properties& properties);
