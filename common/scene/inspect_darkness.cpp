@@ -18,7 +18,7 @@ constexpr int kColumns = 12, kRows = 8;            ///< of the camera's rays
 constexpr int kLightRays = 32;                     ///< of an emitter
 constexpr std::size_t kMostEmitters = 16;          ///< that are looked at: a scene with more is hardly black by mistake
 constexpr std::size_t kMostTriangles = 5'000'000;  ///< that rays are held against
-/// What lies closer to an emitter, as a share of the scene's size, covers it.
+/// Distance from an emitter, as a share of the scene's size, below which a thing covers it.
 constexpr double kClose = 1e-3;
 
 /// A low-discrepancy point of the unit square (Roberts 2018), the same every time.

@@ -32,7 +32,7 @@ class PathRecorder {
         outside_ = 0;
     }
 
-    /// The other way out of a path's first surface, by a delta lobe of this weight.
+    /// Begins the other way out of a path's first surface, by a delta lobe of this weight.
     void begin_branch(const Rgb& weight) {
         begin_path();
         add_delta_vertex(weight, {}, 0);
