@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <span>
-#include <string>
-
 #include "common/config/job.h"
 #include "common/scene/scene.h"
 
@@ -21,11 +18,7 @@ struct SceneEffects {
     bool lens = false;
 };
 
-/// The effects as the plan has them (EffectFinder). Throws RunError if the scene calls for one that the program was
-/// built without, naming the option.
+/// The effects as the plan has them (EffectFinder).
 SceneEffects find_scene_effects(const Scene& scene, const Job& job);
-
-/// The effects as the plan has them, for a program that lacks `left_out`, names of TREEFARM_WITHOUT.
-SceneEffects find_scene_effects(const Scene& scene, const Job& job, std::span<const std::string> left_out);
 
 }  // namespace treefarm

@@ -7,6 +7,7 @@ import re
 import subprocess
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+IDLE = ("inspect", "describe_sample", "debug_sample")
 
 
 class Build:
@@ -35,6 +36,29 @@ class Build:
         """A program with these objects before those of its libraries, which then are not taken."""
         command = self.link_command(target).replace(f" -o {target} ", f" {' '.join(map(str, objects))} -o {output} ")
         return subprocess.run(command, shell=True, cwd=self.folder, capture_output=True, text=True)
+
+    def program_without(self, edits, overlay):
+        """The program with changed copies of files, which are written to a folder of its own; RuntimeError if it
+        cannot be built."""
+        if stale := write_edits(edits, overlay):
+            raise RuntimeError(f"an edit is stale: {stale} has no such text")
+        units = set()
+        for file in {edit["file"] for edit in edits}:
+            units |= {file} if file.endswith(".cpp") else self.users(file)
+        objects = []
+        for unit in sorted(units):
+            # Units of the inspecting commands include the same headers, but trace nothing in a render.
+            if not unit.startswith(("worker/", "common/")) or pathlib.Path(unit).name.startswith(IDLE):
+                continue
+            objects.append(overlay / (unit.replace("/", "_") + ".o"))
+            done = self.compile(unit, overlay, objects[-1])
+            if done.returncode != 0:
+                raise RuntimeError(f"{unit} does not compile:\n{done.stderr[:2000]}")
+        program = overlay / "treefarm"
+        done = self.link_program("treefarm", objects, program)
+        if done.returncode != 0:
+            raise RuntimeError(f"it cannot be linked:\n{done.stderr[-2000:]}")
+        return program
 
     def link_command(self, target):
         commands = subprocess.run(["ninja", "-t", "commands", "-s", target], cwd=self.folder, capture_output=True,

@@ -74,7 +74,7 @@ std::unique_ptr<RTCSceneTy, EmbreeScene::ReleaseScene> EmbreeScene::make_scene()
 }
 
 void EmbreeScene::make_masks(const ShapeMasks& masks) {
-    if (!kHasMasks || masks.opacity.empty()) return;
+    if (masks.opacity.empty()) return;
     if (masks.opacity.size() != shapes_.size())
         throw RunError("there are opacities for " + std::to_string(masks.opacity.size()) + " of " +
                        std::to_string(shapes_.size()) + " shapes");

@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "common/base/build_options.h"
 #include "common/base/prefetch.h"
 #include "common/base/random_batch.h"
 #include "common/scene/scene.h"
@@ -114,7 +113,7 @@ class EmbreeScene {
     /// Whether any shape lets rays pass.
     bool masked() const { return !masks_.empty(); }
     /// The mask of a shape; nullptr: every ray meets it.
-    const Mask* mask(std::uint32_t shape) const { return kHasMasks ? find_mask(shape) : nullptr; }
+    const Mask* mask(std::uint32_t shape) const { return find_mask(shape); }
     std::uint32_t shape_count() const { return static_cast<std::uint32_t>(shapes_.size()); }
 
     /// Embree's handle, for benchmarks.

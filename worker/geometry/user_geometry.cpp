@@ -132,7 +132,7 @@ void set_user_callbacks(RTCGeometry geometry, const Shape& shape, const Mask* ma
         [&](const auto& kind) {
             using Geometry = std::decay_t<decltype(kind)>;
             if constexpr (!std::is_same_v<Geometry, Mesh> && !std::is_same_v<Geometry, Instance>) {
-                if (kHasMasks && mask)
+                if (mask)
                     set_callbacks<Geometry, true>(geometry, mask);
                 else
                     set_callbacks<Geometry, false>(geometry, &kind);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "common/base/build_options.h"
 #include "common/base/random.h"
 #include "common/math/warp.h"
 #include "common/scene/scene.h"
@@ -26,7 +25,7 @@ class CameraRays {
     /// The ray of pixel (x, y) of the window, y down, of a path.
     Ray generate(int x, int y, const PathKey& path) const {
         // The lens draws for itself, out of line: a pinhole then pays neither for its numbers nor for its registers.
-        if (kHasLens && has_lens_) [[unlikely]]
+        if (has_lens_) [[unlikely]]
             return through_lens(x, y, path);
         if (is_orthographic_) [[unlikely]]
             return orthographic(x, y, path);

@@ -98,7 +98,7 @@ class PathWalk {
             arrivals(alive, [&](std::uint32_t, Path& path) { scene_.geometry().prefetch_point(path.meeting); });
         draw_numbers(alive);
         arrivals(alive, [&](std::uint32_t, Path& path) { scene_.geometry().set_point(path.hit, path.meeting); });
-        if (kHasTextures && settings_.textured)
+        if (settings_.textured)
             arrivals(alive, [&](std::uint32_t, Path& path) { Surface::prefetch(scene_, path.hit); });
         clock_.lap(TracePhase::surface);
         if constexpr (kConverts) find_regions(alive);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "common/base/build_options.h"
 #include "common/math/frame.h"
 #include "worker/integrator/trace_scene.h"
 
@@ -48,7 +47,7 @@ class DiffuseSurface {
 class GeneralSurface {
   public:
     using Bsdf = treefarm::Bsdf;
-    static constexpr bool kGeneral = true, kTransmits = kHasTransmission, kViews = false;
+    static constexpr bool kGeneral = true, kTransmits = true, kViews = false;
     using Scratch = BsdfScratch;
     static Scratch make_scratch(const TraceScene& scene) { return scene.materials().make_scratch(); }
 

@@ -3,7 +3,6 @@
 
 #include <vector>
 
-#include "common/base/build_options.h"
 #include "common/base/random.h"
 #include "common/scene/kinds/emitters/area.h"
 #include "worker/geometry/embree_scene.h"
@@ -134,9 +133,9 @@ struct AreaLight {
     /// Adds what texture and mask make of its radiance.
     void shine(const LightScene& scene, DirectSample& sample) const {
         if (is_black(sample.radiance)) return;
-        if (kHasTextures && texture != kNone) sample.radiance = textured(scene, sample.on_light).rgb();
+        if (texture != kNone) sample.radiance = textured(scene, sample.on_light).rgb();
         // The shadow ray ends before the emitter, so its own mask is not asked: on average it lets this much be seen.
-        if (kHasMasks && mask) sample.radiance *= scene.geometry->opacity(sample.on_light);
+        if (mask) sample.radiance *= scene.geometry->opacity(sample.on_light);
     }
 };
 

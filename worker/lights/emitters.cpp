@@ -196,7 +196,6 @@ DirectSample Emitters::sample_without_area(std::uint32_t entry, const Vec3& p, c
     const std::size_t index = entry - area_lights_.size();
     if (index < delta_lights_.size()) return delta_lights_[index].sample(p, delta_selection_[index]);
     DirectSample sample;
-    if constexpr (!kHasEnvironment) return sample;
     if (is_map(entry)) {
         const EnvironmentSample drawn = map_->sample(part_of(entry), random);
         sample = towards_infinity(drawn.direction, front);

@@ -4,7 +4,6 @@
 #include <memory>
 #include <vector>
 
-#include "common/base/build_options.h"
 #include "common/base/random.h"
 #include "common/scene/scene.h"
 #include "worker/geometry/embree_scene.h"
@@ -33,7 +32,7 @@ class Emitters {
     bool can_sample() const { return !selection_.empty(); }
 
     /// Whether environment() may be other than black.
-    bool shines_from_infinity() const { return kHasEnvironment && shines_from_infinity_; }
+    bool shines_from_infinity() const { return shines_from_infinity_; }
 
     /// Samples a direction from p. random[0] chooses the emitter, [1] the triangle, [2] and [3] the place; for an
     /// environment's image [1] and [2] the texel, [3] the place about it. What comes from infinity has no radiance yet:
@@ -54,7 +53,7 @@ class Emitters {
     DirectSample sample_direct(const Vec3& p, const LightBatch& batch, std::uint32_t lane, const Draw& random,
                                const LightShare* share, const Vec3* front) const;
     /// Whether some may be of an environment map.
-    bool has_map() const { return kHasEnvironment && map_; }
+    bool has_map() const { return static_cast<bool>(map_); }
     /// Radiance from infinity against a direction of such a sample.
     Rgb environment(const LightBatch& batch, std::uint32_t lane, const Vec3& direction) const;
     /// Density of such a sample, for which sample_direct() gave `pdf`.
@@ -80,21 +79,18 @@ class Emitters {
         const std::int32_t light = light_of_shape_[hit.shape];
         if (light == kNone || !(dot(hit.ng, wo) > 0.0f)) return Rgb(0.0f);
         const AreaLight& area = area_lights_[static_cast<std::size_t>(light)];
-        if constexpr (kHasTextures)
-            if (area.texture != kNone) [[unlikely]]
-                return area.textured(scene_, hit).rgb();
+        if (area.texture != kNone) [[unlikely]]
+            return area.textured(scene_, hit).rgb();
         return area.radiance;
     }
 
     /// Radiance that comes from infinity, against the unit `direction`.
     Rgb environment(const Vec3& direction) const {
-        if constexpr (!kHasEnvironment) return Rgb(0.0f);
         return map_ ? constant_.radiance + map_->radiance(direction) : constant_.radiance;
     }
 
     /// Density of sample_direct() for directions in which nothing is hit.
     float pdf_environment(const Vec3& direction, const LightShare* share = nullptr) const {
-        if constexpr (!kHasEnvironment) return 0.0f;
         return map_ ? constant_pdf(share) + map_->pdf(direction, part_choice(share)) : constant_pdf(share);
     }
 

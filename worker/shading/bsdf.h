@@ -4,7 +4,6 @@
 #include <type_traits>
 #include <variant>
 
-#include "common/base/build_options.h"
 #include "common/base/switch_visit.h"
 #include "worker/shading/blend.h"
 #include "worker/shading/coating.h"
@@ -56,12 +55,7 @@ struct Bsdf {
     /// Calls f with the alternative that is held: a switch, where std::visit would call through a table.
     template <class F>
     auto visit(F&& f) const {
-        return switch_visit(kind, [&](const auto& bsdf) {
-            if constexpr (!kHasTransmission && may_transmit<std::decay_t<decltype(bsdf)>>())
-                return f(BlackBsdf{});
-            else
-                return f(bsdf);
-        });
+        return switch_visit(kind, [&](const auto& bsdf) { return f(bsdf); });
     }
 
     /// f |cos(wi)| and density for wo.z > 0, delta lobes left out.
@@ -76,7 +70,6 @@ struct Bsdf {
     /// Smooth glass has two ways out: that one which is not on the side of `taken`. The density is 0 where there is
     /// none.
     BsdfSample other_way(const Vec3& wo, const Vec3& taken) const {
-        if constexpr (!kHasTransmission) return {};
         if (!std::get_if<DielectricBsdf>(&kind) && !std::get_if<ThinDielectricBsdf>(&kind)) return {};
         const float last_lobe = taken.z > 0.0f ? 0x1.fffffep-1f : 0.0f;
         const BsdfSample other = sample(wo, {last_lobe, Vec2(0.5f)});

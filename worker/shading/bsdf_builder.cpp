@@ -3,7 +3,6 @@
 
 #include <limits>
 
-#include "common/base/build_options.h"
 #include "common/base/error.h"
 #include "common/math/frame.h"
 #include "common/scene/material_traits.h"
@@ -171,7 +170,7 @@ const Bsdf* BsdfBuilder::described(std::int32_t index, bool back, const ShadingP
         slot = &inner;
         inside = seen_in(frame, inside);
     };
-    if (kHasBump && material.detail.any()) orient(tilted_normal(material.detail, point), material.detail.shadowed);
+    if (material.detail.any()) orient(tilted_normal(material.detail, point), material.detail.shadowed);
     if (notes_[static_cast<std::size_t>(index)].anisotropic) orient(Vec3(0.0f, 0.0f, 1.0f), false);
     *slot = leaf(index, back, inside, nodes);
     return &outer;

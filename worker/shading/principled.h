@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "common/base/build_options.h"
 #include "common/math/warp.h"
 #include "common/scene/kinds/materials/principled.h"
 #include "worker/shading/clear_coat.h"
@@ -173,7 +172,7 @@ typename Place::Result make_bsdf(const PrincipledMaterial& m, const Place& at) {
     in.base = at.color(m.base_color);
     in.roughness = at.fraction(m.roughness);
     in.metallic = at.fraction(m.metallic);
-    in.spec_trans = kHasTransmission ? at.fraction(m.spec_trans) : 0.0f;
+    in.spec_trans = at.fraction(m.spec_trans);
     in.spec_tint = at.fraction(m.spec_tint);
     in.sheen = at.fraction(m.sheen);
     in.sheen_tint = at.fraction(m.sheen_tint);

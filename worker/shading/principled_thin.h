@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "common/base/build_options.h"
 #include "common/scene/kinds/materials/principled_thin.h"
 #include "worker/shading/principled.h"
 
@@ -87,7 +86,7 @@ typename Place::Result make_bsdf(const PrincipledThinMaterial& m, const Place& a
     PrincipledInputs in;
     in.base = at.color(m.base_color);
     in.roughness = at.fraction(m.roughness);
-    in.spec_trans = kHasTransmission ? at.fraction(m.spec_trans) : 0.0f;
+    in.spec_trans = at.fraction(m.spec_trans);
     in.spec_tint = at.fraction(m.spec_tint);
     in.sheen = at.fraction(m.sheen);
     in.sheen_tint = at.fraction(m.sheen_tint);
@@ -97,7 +96,7 @@ typename Place::Result make_bsdf(const PrincipledThinMaterial& m, const Place& a
     in.facets = PrincipledInputs::facets_of(in.roughness, anisotropic);
     // Burley 2015, figure 15.
     const Microfacet through = PrincipledInputs::facets_of((0.65f * in.eta - 0.35f) * in.roughness, anisotropic);
-    const float passing = kHasTransmission ? at.number(m.diff_trans) / PrincipledThinMaterial::kMostDiffTrans : 0.0f;
+    const float passing = at.number(m.diff_trans) / PrincipledThinMaterial::kMostDiffTrans;
     return {PrincipledThinBsdf{at.keep(in), std::clamp(passing, 0.0f, 1.0f), through}};
 }
 

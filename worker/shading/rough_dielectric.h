@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "common/base/build_options.h"
 #include "common/scene/kinds/materials/dielectric.h"
 #include "worker/shading/dielectric.h"
 #include "worker/shading/fresnel.h"
@@ -66,7 +65,6 @@ inline bool refracts(float eta) {
 /// The BSDF of such a material at one place of a surface (bsdf_builder.h).
 template <class Place>
 typename Place::Result make_bsdf(const DielectricMaterial& m, const Place& at) {
-    if constexpr (!kHasTransmission) return {};
     const Rgb reflectance = at.color(m.specular_reflectance), transmittance = at.color(m.specular_transmittance);
     if (!refracts(m.eta)) return {NullBsdf{transmittance}};
     const float eta = at.back ? 1.0f / m.eta : m.eta;

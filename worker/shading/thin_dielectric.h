@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "common/base/build_options.h"
 #include "common/scene/kinds/materials/thin_dielectric.h"
 #include "worker/shading/bsdf_sample.h"
 #include "worker/shading/dielectric.h"
@@ -31,7 +30,6 @@ struct ThinDielectricBsdf {
 /// The BSDF of such a material at one place of a surface (bsdf_builder.h).
 template <class Place>
 typename Place::Result make_bsdf(const ThinDielectricMaterial& m, const Place& at) {
-    if constexpr (!kHasTransmission) return {};
     return {ThinDielectricBsdf{m.eta, at.color(m.specular_reflectance), at.color(m.specular_transmittance)}};
 }
 

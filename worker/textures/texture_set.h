@@ -3,7 +3,6 @@
 
 #include <vector>
 
-#include "common/base/build_options.h"
 #include "common/scene/scene.h"
 
 namespace treefarm {
@@ -24,10 +23,10 @@ class TextureSet {
     Vec2 gradient(std::int32_t texture, const Vec2& uv) const;
 
     Rgb eval(const ColorInput& input, const Vec2& uv) const {
-        return kHasTextures && input.varies() ? input.value * color(input.texture, uv) : input.value;
+        return input.varies() ? input.value * color(input.texture, uv) : input.value;
     }
     float eval(const FloatInput& input, const Vec2& uv) const {
-        return kHasTextures && input.varies() ? input.value * value(input.texture, uv) : input.value;
+        return input.varies() ? input.value * value(input.texture, uv) : input.value;
     }
 
     const std::vector<Texture>& textures() const { return textures_; }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a program has: its kernels, and the effects that it was built with.
+// What the worker is told of the plan: its kernels, and the effects of a scene.
+#include "common/plan/scene_effects.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "common/base/error.h"
-#include "common/plan/scene_effects.h"
 #include "tests/support/test_scenes.h"
 #include "worker/integrator/tile_renderer.h"
 
@@ -42,7 +42,7 @@ Scene scene_with_effects() {
 }
 
 TEST(SceneEffects, AreThoseOfThePlan) {
-    const SceneEffects on = find_scene_effects(scene_with_effects(), Job(), {});
+    const SceneEffects on = find_scene_effects(scene_with_effects(), Job());
     EXPECT_TRUE(on.masks && on.environment && on.lens);
     EXPECT_FALSE(on.textures || on.bump || on.anisotropy || on.transmission);
 
@@ -51,27 +51,9 @@ TEST(SceneEffects, AreThoseOfThePlan) {
     scene.materials[0].bsdf = DielectricMaterial{};
     scene.emitters.clear();
     scene.camera.lens_u = scene.camera.lens_v = Vec3(0.0f);
-    const SceneEffects glass = find_scene_effects(scene, Job(), {});
+    const SceneEffects glass = find_scene_effects(scene, Job());
     EXPECT_TRUE(glass.transmission);
     EXPECT_FALSE(glass.masks || glass.environment || glass.lens);
-}
-
-TEST(SceneEffects, AProgramWithoutOneRefusesScenesThatCallForIt) {
-    const Scene scene = scene_with_effects();
-    const std::vector<std::string> unneeded = {"textures", "bump", "transmission"};
-    EXPECT_NO_THROW(find_scene_effects(scene, Job(), unneeded));
-    for (const std::string option : {"masks", "environment", "lens"}) {
-        const std::vector<std::string> left_out = {"bump", option};
-        try {
-            find_scene_effects(scene, Job(), left_out);
-            FAIL() << option;
-        } catch (const RunError& error) {
-            const std::string message = error.what();
-            EXPECT_NE(message.find('"' + option + '"'), std::string::npos) << message;
-            EXPECT_NE(message.find("TREEFARM_WITHOUT"), std::string::npos) << message;
-            EXPECT_EQ(message.starts_with("pane.xml:7:3: "), option == "masks") << message;
-        }
-    }
 }
 
 }  // namespace
