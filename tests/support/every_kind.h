@@ -65,7 +65,7 @@ inline Scene every_kind_scene() {
     PrincipledThinMaterial thin{ColorInput(Rgb(0.25f, 0.5f, 0.125f), 0), {0.375f, 2}};
     thin.anisotropic = 0.25f, thin.spec_trans = {0.5f, 2}, thin.spec_tint = 0.125f;
     thin.sheen = 0.375f, thin.sheen_tint = 0.625f, thin.flatness = 0.75f;
-    thin.diff_trans = {1.5f, 2}, thin.eta = 1.25f;
+    thin.diff_trans = {0.5f, 2}, thin.eta = 1.25f;
     add(thin);
     add(WardMaterial{Rgb(0.375f), Rgb(0.25f), WardVariant::duer, {Microfacets::beckmann, {0.25f}, {0.5f}}});
 

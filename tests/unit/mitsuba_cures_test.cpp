@@ -67,6 +67,8 @@ std::vector<Fault> faults() {
         {emitter("directional", value("vector", "direction", "0 0 1") + moved("<translate x=\"1\"/>"))},
         {emitter("envmap", value("string", "filename", "a.ppm") + value("float", "scale", "-1"))},
         {emitter("envmap", value("string", "filename", "a.ppm") + "\n" + moved("<scale value=\"2\"/>"))},
+        {emitter("projector", moved("<scale value=\"2\"/>")), "3"},
+        {emitter("projector", value("float", "scale", "-1")), "3"},
         {shape(emitter("spot", ""))},
         {emitter("area", "")},
         {emitter("collimated", "")},

@@ -109,9 +109,6 @@ EmitterKind read_envmap(Properties& properties, TextureReader& textures, const D
 
 /// What Mitsuba calls irradiance is a pi-th of it. The picture lies as a camera in that place would see it.
 EmitterKind read_projector(Properties& properties, TextureReader& textures, const Diagnostics&) {
-    if (properties.element().version < 2)
-        throw InputError(properties.where(), "Mitsuba 0.6 has no projector",
-                         "use a spot with a texture, or bring the scene to version 3");
     const Matrix to_world = properties.transform("to_world");
     if (std::abs(uniform_scale(to_world, 1e-3) - 1.0) > 1e-3)
         throw InputError(properties.where("to_world"), "the projector's transformation contains a scale or shear",
@@ -132,18 +129,24 @@ EmitterKind read_projector(Properties& properties, TextureReader& textures, cons
     return projector;
 }
 
+struct EmitterReader {
+    std::string_view type;
+    EmitterKind (*read)(Properties&, TextureReader&, const Diagnostics&);
+    int first_version = 0;  ///< of Mitsuba that has it
+};
+
 /// Emitters that stand by themselves. The sky's (sky_emitters.h) may be two.
-constexpr std::pair<std::string_view, EmitterKind (*)(Properties&, TextureReader&, const Diagnostics&)> kReaders[] = {
+constexpr EmitterReader kReaders[] = {
     {"point", read_point},       {"spot", read_spot},     {"directional", read_directional},
-    {"constant", read_constant}, {"envmap", read_envmap}, {"projector", read_projector},
+    {"constant", read_constant}, {"envmap", read_envmap}, {"projector", read_projector, 2},
 };
 constexpr std::string_view kSkies[] = {"sky", "sun", "sunsky"};
 
 /// "use point, spot, ..."; or the one that was meant.
-std::string cure_of(const std::string& type) {
+std::string cure_of(const std::string& type, int version) {
     std::vector<std::string_view> known;
-    for (const auto& reader : kReaders)
-        known.push_back(reader.first);
+    for (const EmitterReader& reader : kReaders)
+        if (version >= reader.first_version) known.push_back(reader.type);
     known.insert(known.end(), std::begin(kSkies), std::end(kSkies));
     std::string all = "use ";
     for (const std::string_view name : known)
@@ -198,14 +201,16 @@ void read_emitter(const XmlElement& emitter, Scene& scene, TextureReader& textur
     }
     const std::size_t first = scene.emitters.size();
     const bool had_environment = scene.environment() != kNone;
-    const auto reader =
-        std::find_if(std::begin(kReaders), std::end(kReaders), [&](const auto& r) { return r.first == type; });
+    const auto reader = std::find_if(std::begin(kReaders), std::end(kReaders), [&](const EmitterReader& r) {
+        return r.type == type && emitter.version >= r.first_version;
+    });
     if (reader != std::end(kReaders)) {
-        scene.emitters.push_back({reader->second(properties, textures, diagnostics), emitter.where});
+        scene.emitters.push_back({reader->read(properties, textures, diagnostics), emitter.where});
     } else if (std::find(std::begin(kSkies), std::end(kSkies), type) != std::end(kSkies)) {
         read_sky(properties, scene, textures);
     } else {
-        diagnostics.unsupported(emitter.where, properties.title() + " is not available in this version", cure_of(type));
+        diagnostics.unsupported(emitter.where, properties.title() + " is not available in this version",
+                                cure_of(type, emitter.version));
         return;
     }
     ignore_sampling(properties);
