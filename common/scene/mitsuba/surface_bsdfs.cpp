@@ -139,9 +139,6 @@ class SurfaceReader {
 
     Bsdf principled() {
         PrincipledMaterial principled;
-        const auto share = [&](const char* name, float otherwise) {
-            return textures_.number(properties_, name, otherwise);
-        };
         principled.base_color = reflectance("base_color", 0.5f);
         principled.roughness = share("roughness", 0.5f);
         principled.anisotropic = share("anisotropic", 0.0f);
@@ -162,9 +159,6 @@ class SurfaceReader {
 
     Bsdf principled_thin() {
         PrincipledThinMaterial thin;
-        const auto share = [&](const char* name, float otherwise) {
-            return textures_.number(properties_, name, otherwise);
-        };
         thin.base_color = reflectance("base_color", 0.5f);
         thin.roughness = share("roughness", 0.5f);
         thin.anisotropic = share("anisotropic", 0.0f);
@@ -196,6 +190,8 @@ class SurfaceReader {
         const float bounded = transmits ? std::max(specular, 1e-3f) : specular;
         return 2.0f / (1.0f - std::sqrt(0.08f * bounded)) - 1.0f;
     }
+
+    FloatInput share(const char* name, float otherwise) { return textures_.number(properties_, name, otherwise); }
 
     ColorInput reflectance(const char* name, float otherwise) {
         return textures_.color(properties_, name, Rgb(otherwise), ColorUse::reflectance);
