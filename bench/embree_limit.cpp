@@ -18,9 +18,9 @@
 #include "common/guiding/tree_learner.h"
 #include "common/plan/kernel.h"
 #include "common/plan/learning.h"
-#include "common/scene/load.h"
-#include "worker/integrator/path_kernel.h"
-#include "worker/integrator/tile_renderer.h"
+#include "common/scene/readers/load.h"
+#include "worker/integrators/path/path_kernel.h"
+#include "worker/integrators/path/tile_renderer.h"
 
 namespace treefarm {
 namespace {

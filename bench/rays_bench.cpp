@@ -6,7 +6,7 @@
 #include "common/math/frame.h"
 #include "common/math/warp.h"
 #include "tests/support/test_scenes.h"
-#include "worker/integrator/trace_scene.h"
+#include "worker/scene/trace_scene.h"
 
 namespace treefarm {
 namespace {

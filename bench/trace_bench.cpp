@@ -6,7 +6,7 @@
 #include "common/guiding/splat.h"
 #include "tests/support/material_scenes.h"
 #include "tests/support/resolved.h"
-#include "worker/integrator/tile_renderer.h"
+#include "worker/integrators/path/tile_renderer.h"
 
 namespace treefarm {
 namespace {

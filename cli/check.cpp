@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "cli/option_values.h"
-#include "common/scene/inspect.h"
-#include "common/scene/load.h"
-#include "common/scene/validate.h"
+#include "common/scene/check/validate.h"
+#include "common/scene/lint/inspect.h"
+#include "common/scene/readers/load.h"
 
 namespace treefarm {
 

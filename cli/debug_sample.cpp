@@ -10,9 +10,9 @@
 #include "common/comm/in_process_channel.h"
 #include "common/plan/kernel.h"
 #include "common/plan/learning.h"
-#include "common/scene/scene_codec.h"
+#include "common/scene/pack/scene_codec.h"
 #include "coordinator/pass_loop.h"
-#include "worker/integrator/tile_renderer.h"
+#include "worker/tools/describe_sample.h"
 #include "worker/worker_loop.h"
 
 namespace treefarm {

@@ -5,7 +5,7 @@
 
 #include "common/base/error.h"
 #include "common/config/parse_text.h"
-#include "common/scene/foreign_format.h"
+#include "common/scene/readers/foreign_format.h"
 
 namespace treefarm {
 

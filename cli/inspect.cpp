@@ -12,7 +12,7 @@
 #include "common/image/atomic_file.h"
 #include "common/image/png.h"
 #include "common/metrics/false_colour.h"
-#include "worker/integrator/inspect_film.h"
+#include "worker/tools/inspect_film.h"
 
 namespace treefarm {
 

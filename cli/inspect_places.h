@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "cli/inspected_run.h"
-#include "worker/integrator/inspect_place.h"
+#include "worker/tools/inspect_place.h"
 
 namespace treefarm {
 

@@ -8,7 +8,7 @@
 #include "common/config/job_reader.h"
 #include "common/image/read_bytes.h"
 #include "common/plan/schedule_file.h"
-#include "common/scene/scene_codec.h"
+#include "common/scene/pack/scene_codec.h"
 
 namespace treefarm {
 

@@ -5,7 +5,7 @@
 
 #include "cli/on_farm.h"
 #include "common/plan/learning.h"
-#include "common/scene/scene_codec.h"
+#include "common/scene/pack/scene_codec.h"
 #include "coordinator/pass_loop.h"
 
 namespace treefarm {

@@ -10,7 +10,7 @@
 #include "common/config/parse_text.h"
 #include "common/plan/policy_table.h"
 #include "common/plan/schedule_file.h"
-#include "common/scene/load.h"
+#include "common/scene/readers/load.h"
 
 namespace treefarm {
 

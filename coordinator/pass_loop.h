@@ -8,7 +8,7 @@
 #include "common/film/combine.h"
 #include "common/guiding/sd_tree.h"
 #include "common/plan/budget.h"
-#include "common/scene/scene.h"
+#include "common/scene/model/scene.h"
 #include "coordinator/farm.h"
 #include "coordinator/pass_report.h"
 

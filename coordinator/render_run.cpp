@@ -9,8 +9,8 @@
 #include "common/base/hash.h"
 #include "common/plan/learning.h"
 #include "common/plan/plan_text.h"
-#include "common/scene/inspect.h"
-#include "common/scene/scene_codec.h"
+#include "common/scene/lint/inspect.h"
+#include "common/scene/pack/scene_codec.h"
 #include "coordinator/memory_check.h"
 #include "coordinator/pass_text.h"
 

@@ -10,7 +10,7 @@
 #include "common/config/job.h"
 #include "common/plan/effects.h"
 #include "common/protocol/fingerprint.h"
-#include "common/scene/scene.h"
+#include "common/scene/model/scene.h"
 #include "coordinator/progress.h"
 #include "coordinator/run_directory.h"
 

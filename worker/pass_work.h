@@ -10,7 +10,7 @@
 
 #include "common/guiding/splat.h"
 #include "common/protocol/messages.h"
-#include "worker/integrator/record_log.h"
+#include "worker/integrators/record_log.h"
 
 namespace treefarm {
 

@@ -5,8 +5,8 @@
 
 #include "common/plan/kernel.h"
 #include "common/plan/resolve.h"
-#include "common/scene/scene_codec.h"
-#include "worker/integrator/tile_renderer.h"
+#include "common/scene/pack/scene_codec.h"
+#include "worker/integrators/path/tile_renderer.h"
 
 namespace treefarm {
 

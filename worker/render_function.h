@@ -12,7 +12,7 @@
 #include "common/film/work_unit.h"
 #include "common/guiding/guide.h"
 #include "common/plan/schedule.h"
-#include "worker/integrator/record_log.h"
+#include "worker/integrators/record_log.h"
 
 namespace treefarm {
 

@@ -9,9 +9,9 @@
 #include "common/config/effect_switches.h"
 #include "common/plan/strip_scene.h"
 #include "common/plan/texture_mean.h"
-#include "common/scene/emitter_uses.h"
-#include "common/scene/material_traits.h"
-#include "common/scene/material_uses.h"
+#include "common/scene/model/material_traits.h"
+#include "common/scene/uses/emitter_uses.h"
+#include "common/scene/uses/material_uses.h"
 
 namespace treefarm {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "common/config/job.h"
-#include "common/scene/scene.h"
+#include "common/scene/model/scene.h"
 
 namespace treefarm {
 

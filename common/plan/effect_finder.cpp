@@ -3,8 +3,8 @@
 
 #include "common/plan/effect_table.h"
 #include "common/plan/texture_mean.h"
-#include "common/scene/emitter_uses.h"
-#include "common/scene/material_uses.h"
+#include "common/scene/uses/emitter_uses.h"
+#include "common/scene/uses/material_uses.h"
 
 namespace treefarm {
 namespace {

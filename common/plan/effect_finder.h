@@ -6,7 +6,7 @@
 #include <string>
 
 #include "common/plan/effects.h"
-#include "common/scene/material_traits.h"
+#include "common/scene/model/material_traits.h"
 
 namespace treefarm {
 

@@ -6,7 +6,7 @@
 #include "common/plan/kernel.h"
 #include "common/plan/memory.h"
 #include "common/plan/schedule.h"
-#include "common/scene/filter_lobes.h"
+#include "common/scene/model/filter_lobes.h"
 
 namespace treefarm {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "common/config/effect_switches.h"
-#include "common/scene/emitter.h"
+#include "common/scene/model/emitter.h"
 
 namespace treefarm {
 namespace {

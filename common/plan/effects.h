@@ -9,7 +9,7 @@
 #include "common/plan/approximation.h"
 #include "common/plan/kernel.h"
 #include "common/plan/memory.h"
-#include "common/scene/scene.h"
+#include "common/scene/model/scene.h"
 
 namespace treefarm {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "common/plan/resolve.h"
-#include "common/scene/scene.h"
+#include "common/scene/model/scene.h"
 
 namespace treefarm {
 

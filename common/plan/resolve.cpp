@@ -5,8 +5,8 @@
 
 #include "common/config/job_keys.h"
 #include "common/plan/policy.h"
-#include "common/scene/emitter_uses.h"
-#include "common/scene/material_traits.h"
+#include "common/scene/model/material_traits.h"
+#include "common/scene/uses/emitter_uses.h"
 
 namespace treefarm {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "common/config/job.h"
-#include "common/scene/scene.h"
+#include "common/scene/model/scene.h"
 
 namespace treefarm {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "common/config/job.h"
-#include "common/scene/scene.h"
+#include "common/scene/model/scene.h"
 
 namespace treefarm {
 

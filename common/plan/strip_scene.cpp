@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/plan/strip_scene.h"
 
-#include "common/scene/emitter_uses.h"
-#include "common/scene/material_traits.h"
-#include "common/scene/remove_unused.h"
+#include "common/scene/model/material_traits.h"
+#include "common/scene/uses/emitter_uses.h"
+#include "common/scene/uses/remove_unused.h"
 
 namespace treefarm {
 namespace {

@@ -4,7 +4,7 @@
 #include "common/base/hash.h"
 #include "common/config/check_job.h"
 #include "common/config/job_reader.h"
-#include "common/scene/scene_codec.h"
+#include "common/scene/pack/scene_codec.h"
 
 namespace treefarm {
 

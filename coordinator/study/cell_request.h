@@ -5,7 +5,7 @@
 #include <string>
 
 #include "common/config/study.h"
-#include "common/scene/load.h"
+#include "common/scene/readers/load.h"
 #include "coordinator/render_run.h"
 
 namespace treefarm {

@@ -7,9 +7,9 @@
 #include <sstream>
 
 #include "common/config/job_reader.h"
-#include "common/scene/load.h"
-#include "common/scene/obj_file.h"
-#include "common/scene/scene_codec.h"
+#include "common/scene/pack/scene_codec.h"
+#include "common/scene/readers/load.h"
+#include "common/scene/readers/meshes/obj_file.h"
 #include "tests/support/support.h"
 
 namespace treefarm {

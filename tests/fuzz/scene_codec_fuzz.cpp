@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cstdlib>
 
-#include "common/scene/scene_codec.h"
+#include "common/scene/pack/scene_codec.h"
 #include "tests/fuzz/fuzz.h"
 #include "tests/support/every_kind.h"
 

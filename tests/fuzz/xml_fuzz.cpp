@@ -5,9 +5,9 @@
 #include <fstream>
 
 #include "common/image/exr.h"
-#include "common/scene/inspect.h"
-#include "common/scene/mitsuba/read_mitsuba.h"
-#include "common/scene/scene_codec.h"
+#include "common/scene/lint/inspect.h"
+#include "common/scene/pack/scene_codec.h"
+#include "common/scene/readers/load.h"
 #include "tests/fuzz/fuzz.h"
 #include "tests/fuzz/memory_file.h"
 #include "tests/fuzz/xml_seeds.h"
@@ -63,15 +63,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const std::filesystem::path file = folder.write_scene(data, size);
     for (const bool lenient : {true, false}) {
         try {
-            const SceneReading reading = read_mitsuba(file, {}, lenient);
-            const Bytes bytes = encode_scene(reading.scene);
+            const Bytes bytes = encode_scene(load_scene(file, {}, lenient).scene);
             if (encode_scene(decode_scene(bytes)) != bytes) std::abort();
         } catch (const InputError&) {
             if (lenient) break;  // what is malformed is so either way
         }
     }
     try {
-        for (const Finding& finding : inspect(read_mitsuba_to_check(file, {}, true).scene))
+        for (const Finding& finding : inspect(load_scene_to_check(file, {}, true).scene))
             if (finding.text().empty()) std::abort();
     } catch (const InputError&) {
     }

@@ -3,10 +3,10 @@
 #include <random>
 
 #include "common/base/error.h"
-#include "common/scene/validate.h"
+#include "common/scene/check/validate.h"
 #include "tests/support/hard_case.h"
 #include "tests/support/material_scenes.h"
-#include "worker/integrator/branches.h"
+#include "worker/integrators/path/branches.h"
 #include "worker/shading/fresnel.h"
 
 namespace treefarm {

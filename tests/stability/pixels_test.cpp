@@ -9,8 +9,8 @@
 #include "tests/support/hard_case.h"
 #include "tests/support/resolved.h"
 #include "tests/support/test_scenes.h"
-#include "worker/integrator/camera_rays.h"
-#include "worker/integrator/tile_kernel.h"
+#include "worker/camera/camera_rays.h"
+#include "worker/integrators/path/tile_kernel.h"
 
 namespace treefarm {
 namespace {

@@ -5,12 +5,12 @@
 #include <filesystem>
 #include <fstream>
 
-#include "common/scene/load.h"
+#include "common/scene/readers/load.h"
 #include "tests/support/hard_case.h"
 #include "tests/support/material_scenes.h"
 #include "tests/support/resolved.h"
 #include "tests/support/scaled_scene.h"
-#include "worker/integrator/tile_renderer.h"
+#include "worker/integrators/path/tile_renderer.h"
 
 namespace treefarm {
 namespace {

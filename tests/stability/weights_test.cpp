@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Weights and probabilities at the ends of their ranges.
 #include "common/base/random.h"
-#include "common/scene/validate.h"
+#include "common/scene/check/validate.h"
 #include "tests/support/hard_case.h"
 #include "tests/support/material_scenes.h"
-#include "worker/integrator/mis.h"
-#include "worker/integrator/roulette.h"
+#include "worker/integrators/subpath/mis.h"
+#include "worker/integrators/subpath/roulette.h"
 
 namespace treefarm {
 namespace {

@@ -5,7 +5,7 @@
 #include "common/math/frame.h"
 #include "tests/support/chi_square.h"
 #include "tests/support/random_tree.h"
-#include "worker/integrator/guided_sampling.h"
+#include "worker/integrators/path/guided_sampling.h"
 #include "worker/shading/plain_diffuse.h"
 
 namespace treefarm {

@@ -3,9 +3,9 @@
 
 #include <functional>
 
-#include "common/scene/filter_lobes.h"
+#include "common/scene/model/filter_lobes.h"
 #include "tests/support/chi_square.h"
-#include "worker/integrator/pixel_filter.h"
+#include "worker/camera/pixel_filter.h"
 
 namespace treefarm {
 namespace {

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "common/config/job.h"
-#include "common/scene/load.h"
+#include "common/scene/readers/load.h"
 #include "tests/support/local_render.h"
 #include "tests/support/material_scenes.h"
 #include "tests/support/support.h"

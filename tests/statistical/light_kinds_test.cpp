@@ -7,7 +7,7 @@
 #include "tests/support/chi_square.h"
 #include "tests/support/light_checks.h"
 #include "tests/support/test_scenes.h"
-#include "worker/integrator/trace_scene.h"
+#include "worker/scene/trace_scene.h"
 
 namespace treefarm {
 namespace {

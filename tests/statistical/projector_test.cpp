@@ -4,7 +4,7 @@
 #include "common/base/random.h"
 #include "tests/support/light_checks.h"
 #include "tests/support/test_scenes.h"
-#include "worker/integrator/trace_scene.h"
+#include "worker/scene/trace_scene.h"
 
 namespace treefarm {
 namespace {

@@ -7,7 +7,7 @@
 #include "common/math/frame.h"
 #include "tests/support/chi_square.h"
 #include "tests/support/random_tree.h"
-#include "worker/integrator/candidates.h"
+#include "worker/integrators/path/candidates.h"
 #include "worker/shading/plain_diffuse.h"
 
 namespace treefarm {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "common/scene/scene.h"
+#include "common/scene/model/scene.h"
 
 namespace treefarm::test {
 

@@ -6,8 +6,8 @@
 #include "common/math/frame.h"
 #include "common/math/warp.h"
 #include "tests/support/chi_square.h"
-#include "worker/integrator/mis.h"
-#include "worker/integrator/trace_scene.h"
+#include "worker/integrators/subpath/mis.h"
+#include "worker/scene/trace_scene.h"
 
 namespace treefarm::test {
 namespace {

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-#include "common/scene/scene.h"
+#include "common/scene/model/scene.h"
 
 namespace treefarm::test {
 

@@ -9,7 +9,7 @@
 #include "common/guiding/tree_learner.h"
 #include "common/plan/kernel.h"
 #include "common/plan/learning.h"
-#include "worker/integrator/tile_renderer.h"
+#include "worker/integrators/path/tile_renderer.h"
 
 namespace treefarm::test {
 namespace {

@@ -8,7 +8,7 @@
 #include "common/film/trace_stats.h"
 #include "common/guiding/refine.h"
 #include "common/plan/budget.h"
-#include "common/scene/scene.h"
+#include "common/scene/model/scene.h"
 
 namespace treefarm::test {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "common/scene/shape.h"
+#include "common/scene/model/shape.h"
 
 namespace treefarm::test {
 

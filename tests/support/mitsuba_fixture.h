@@ -9,7 +9,7 @@
 #include <map>
 #include <string>
 
-#include "common/scene/load.h"
+#include "common/scene/readers/load.h"
 
 namespace treefarm::test {
 

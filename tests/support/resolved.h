@@ -6,7 +6,8 @@
 
 #include "common/plan/kernel.h"
 #include "common/plan/resolve.h"
-#include "worker/integrator/tile_renderer.h"
+#include "worker/integrators/path/tile_renderer.h"
+#include "worker/tools/describe_sample.h"
 
 namespace treefarm::test {
 

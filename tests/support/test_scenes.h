@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "common/scene/scene.h"
+#include "common/scene/model/scene.h"
 
 namespace treefarm::test {
 

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "common/base/random.h"
-#include "common/scene/material_traits.h"
+#include "common/scene/model/material_traits.h"
 #include "worker/shading/bsdf_builder.h"
 
 namespace treefarm {

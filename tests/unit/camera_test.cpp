@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/test_scenes.h"
-#include "worker/integrator/camera_rays.h"
+#include "worker/camera/camera_rays.h"
 
 namespace treefarm {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "common/scene/inspect.h"
-#include "common/scene/load.h"
+#include "common/scene/lint/inspect.h"
+#include "common/scene/readers/load.h"
 #include "tests/support/support.h"
 #include "tests/support/test_scenes.h"
 

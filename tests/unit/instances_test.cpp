@@ -6,7 +6,7 @@
 #include "common/guiding/guide.h"
 #include "tests/support/resolved.h"
 #include "tests/support/test_scenes.h"
-#include "worker/integrator/tile_renderer.h"
+#include "worker/integrators/path/tile_renderer.h"
 
 namespace treefarm {
 namespace {

@@ -4,9 +4,9 @@
 #include <filesystem>
 #include <fstream>
 
-#include "common/scene/load.h"
-#include "common/scene/obj_file.h"
-#include "common/scene/triangulate.h"
+#include "common/scene/readers/load.h"
+#include "common/scene/readers/meshes/obj_file.h"
+#include "common/scene/readers/meshes/triangulate.h"
 
 namespace treefarm {
 namespace {

@@ -5,11 +5,11 @@
 
 #include "tests/support/resolved.h"
 #include "tests/support/test_scenes.h"
-#include "worker/integrator/mis.h"
-#include "worker/integrator/path_kernel.h"
-#include "worker/integrator/path_recorder.h"
-#include "worker/integrator/roulette.h"
-#include "worker/integrator/tile_renderer.h"
+#include "worker/integrators/path/path_kernel.h"
+#include "worker/integrators/path/path_recorder.h"
+#include "worker/integrators/path/tile_renderer.h"
+#include "worker/integrators/subpath/mis.h"
+#include "worker/integrators/subpath/roulette.h"
 
 namespace treefarm {
 namespace {

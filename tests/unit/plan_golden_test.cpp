@@ -7,7 +7,7 @@
 
 #include "common/config/job_reader.h"
 #include "common/plan/effects.h"
-#include "common/scene/load.h"
+#include "common/scene/readers/load.h"
 #include "tests/support/support.h"
 
 namespace treefarm {

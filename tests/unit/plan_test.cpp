@@ -11,7 +11,7 @@
 #include "common/plan/learning.h"
 #include "common/plan/plan_text.h"
 #include "common/plan/texture_mean.h"
-#include "common/scene/material_traits.h"
+#include "common/scene/model/material_traits.h"
 #include "tests/support/resolved.h"
 
 namespace treefarm {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "common/scene/scene_codec.h"
+#include "common/scene/pack/scene_codec.h"
 
 #include <gtest/gtest.h>
 
-#include "common/scene/load.h"
+#include "common/scene/readers/load.h"
 #include "tests/support/every_kind.h"
 #include "tests/support/support.h"
 

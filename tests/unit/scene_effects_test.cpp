@@ -7,7 +7,7 @@
 #include <algorithm>
 
 #include "tests/support/test_scenes.h"
-#include "worker/integrator/tile_renderer.h"
+#include "worker/integrators/path/tile_renderer.h"
 
 namespace treefarm {
 namespace {

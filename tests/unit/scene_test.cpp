@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "common/scene/scene.h"
+#include "common/scene/model/scene.h"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 
-#include "common/scene/validate.h"
+#include "common/scene/check/validate.h"
 
 namespace treefarm {
 namespace {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
-#include "common/scene/mitsuba/cie_1931.h"
-#include "common/scene/mitsuba/spectra.h"
+#include "common/scene/colour/cie_1931.h"
+#include "common/scene/colour/spectra.h"
+#include "common/scene/readers/mitsuba/colors.h"
 
 namespace treefarm::mitsuba {
 namespace {

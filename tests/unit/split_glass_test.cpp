@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Both ways out of smooth glass where the camera sees it (worker/integrator/branches.h).
+// Both ways out of smooth glass where the camera sees it (worker/integrators/path/branches.h).
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -9,8 +9,8 @@
 #include "tests/support/local_render.h"
 #include "tests/support/material_scenes.h"
 #include "tests/support/resolved.h"
-#include "worker/integrator/path_recorder.h"
-#include "worker/integrator/tile_renderer.h"
+#include "worker/integrators/path/path_recorder.h"
+#include "worker/integrators/path/tile_renderer.h"
 #include "worker/shading/fresnel.h"
 
 namespace treefarm {

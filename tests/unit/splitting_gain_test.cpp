@@ -10,7 +10,7 @@
 #include "common/plan/budget.h"
 #include "common/plan/schedule.h"
 #include "tests/support/resolved.h"
-#include "worker/integrator/path_copies.h"
+#include "worker/integrators/path/path_copies.h"
 
 namespace treefarm {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Paths that go on as several (worker/integrator/path_copies.h).
+// Paths that go on as several (worker/integrators/path/path_copies.h).
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -7,15 +7,15 @@
 #include <map>
 
 #include "common/film/splitting_gain.h"
-#include "common/scene/load.h"
+#include "common/scene/readers/load.h"
 #include "tests/support/local_render.h"
 #include "tests/support/resolved.h"
 #include "tests/support/support.h"
 #include "tests/support/test_scenes.h"
-#include "worker/integrator/path_copies.h"
-#include "worker/integrator/path_roulette.h"
-#include "worker/integrator/roulette.h"
-#include "worker/integrator/tile_renderer.h"
+#include "worker/integrators/path/path_copies.h"
+#include "worker/integrators/path/path_roulette.h"
+#include "worker/integrators/path/tile_renderer.h"
+#include "worker/integrators/subpath/roulette.h"
 
 namespace treefarm {
 namespace {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "common/scene/validate.h"
+#include "common/scene/check/validate.h"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 
-#include "common/scene/scene_codec.h"
+#include "common/scene/pack/scene_codec.h"
 #include "tests/support/every_kind.h"
 
 namespace treefarm {

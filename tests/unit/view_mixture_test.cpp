@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "worker/integrator/guided_sampling.h"
+#include "worker/integrators/path/guided_sampling.h"
 
 namespace treefarm {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "common/base/prefetch.h"
 #include "common/base/random_batch.h"
-#include "common/scene/scene.h"
+#include "common/scene/model/scene.h"
 #include "worker/geometry/hit.h"
 #include "worker/geometry/mask.h"
 #include "worker/geometry/placement.h"

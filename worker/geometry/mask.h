@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "common/scene/shape.h"
+#include "common/scene/model/shape.h"
 #include "worker/textures/texture_set.h"
 
 struct RTCGeometryTy;

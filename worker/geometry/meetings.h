@@ -3,7 +3,7 @@
 
 #include <embree3/rtcore_ray.h>
 
-#include "common/scene/shape.h"
+#include "common/scene/model/shape.h"
 
 namespace treefarm {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "common/scene/shape.h"
+#include "common/scene/model/shape.h"
 #include "worker/geometry/hit.h"
 
 namespace treefarm {

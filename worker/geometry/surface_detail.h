@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "common/scene/shape.h"
+#include "common/scene/model/shape.h"
 
 namespace treefarm {
 
@@ -11,8 +11,9 @@ struct SurfaceDetail {
     Vec3 dp_du{0.0f}, dp_dv{0.0f};  ///< never zero or parallel: a frame around the normal where uv are degenerate
 };
 
-/// The uv of a point of any shape but an instance (conventions: common/scene/shape.h). `b1`, `b2` as in Hit; `outward`:
-/// unit vector away from the centre of a sphere or the axis of a cylinder, in the shape's own space; else unused.
+/// The uv of a point of any shape but an instance (conventions: common/scene/model/shape.h). `b1`, `b2` as in Hit;
+/// `outward`: unit vector away from the centre of a sphere or the axis of a cylinder, in the shape's own space; else
+/// unused.
 Vec2 shape_uv(const Shape& shape, std::uint32_t primitive, float b1, float b2, const Vec3& outward);
 
 /// The uv of a point, with tangents in the shape's own space; arguments as for shape_uv().

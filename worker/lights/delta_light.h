@@ -4,7 +4,7 @@
 #include <optional>
 #include <variant>
 
-#include "common/scene/emitter.h"
+#include "common/scene/model/emitter.h"
 #include "worker/lights/direct_sample.h"
 #include "worker/lights/directional.h"
 #include "worker/lights/point.h"

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "common/base/random.h"
-#include "common/scene/scene.h"
+#include "common/scene/model/scene.h"
 #include "worker/geometry/embree_scene.h"
 #include "worker/lights/area.h"
 #include "worker/lights/constant.h"

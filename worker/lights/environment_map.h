@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "common/base/random.h"
-#include "common/scene/emitter.h"
+#include "common/scene/model/emitter.h"
 #include "worker/lights/environment_batch.h"
 #include "worker/lights/environment_parts.h"
 #include "worker/textures/texture_set.h"

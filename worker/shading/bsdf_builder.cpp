@@ -5,8 +5,8 @@
 
 #include "common/base/error.h"
 #include "common/math/frame.h"
-#include "common/scene/material_traits.h"
-#include "common/scene/material_uses.h"
+#include "common/scene/model/material_traits.h"
+#include "common/scene/uses/material_uses.h"
 
 namespace treefarm {
 namespace {

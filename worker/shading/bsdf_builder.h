@@ -6,7 +6,7 @@
 #include <tuple>
 #include <vector>
 
-#include "common/scene/scene.h"
+#include "common/scene/model/scene.h"
 #include "worker/shading/bsdf.h"
 #include "worker/textures/texture_set.h"
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "common/math/vec.h"
-#include "common/scene/material.h"
+#include "common/scene/model/material.h"
 
 namespace treefarm {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "common/scene/material.h"
+#include "common/scene/model/material.h"
 #include "worker/shading/diffuse.h"
 
 namespace treefarm {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "common/scene/scene.h"
+#include "common/scene/model/scene.h"
 
 namespace treefarm {
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <span>
 
-#include "common/scene/texture.h"
+#include "common/scene/model/texture.h"
 
 namespace treefarm {
 

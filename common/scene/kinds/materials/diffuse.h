@@ -2,7 +2,7 @@
 #pragma once
 
 #include "common/scene/kinds/lobes.h"
-#include "common/scene/texture.h"
+#include "common/scene/model/texture.h"
 
 namespace treefarm {
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "common/scene/kinds/lobes.h"
-#include "common/scene/texture.h"
+#include "common/scene/model/texture.h"
 
 namespace treefarm {
 

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
+#include "common/scene/check/validation.h"
+#include "common/scene/uses/emitter_uses.h"
+
+namespace treefarm::validation {
+namespace {
+
+[[noreturn]] void refuse(const Shape& shape, const std::string& what, const std::string& cure) {
+    throw InputError(shape.where, (shape.name.empty() ? "the shape" : "shape \"" + shape.name + "\"") + " " + what,
+                     cure);
+}
+
+/// Twice the triangle's area is zero (or too small for single precision to give it a normal).
+bool without_area(const Mesh& mesh, std::size_t triangle) {
+    const Vec3& a = mesh.positions[mesh.indices[3 * triangle]];
+    const Vec3& b = mesh.positions[mesh.indices[3 * triangle + 1]];
+    const Vec3& c = mesh.positions[mesh.indices[3 * triangle + 2]];
+    const Vec3 normal = cross(b - a, c - a);
+    const float squared = dot(normal, normal);
+    return !(squared > 0.0f) || !std::isfinite(1.0f / std::sqrt(squared));
+}
+
+/// Removes triangles without area; returns how many.
+std::size_t drop_degenerate(Mesh& mesh) {
+    const std::size_t count = mesh.triangle_count();
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        if (without_area(mesh, i)) continue;
+        for (std::size_t k = 0; k < 3; ++k)
+            mesh.indices[3 * kept + k] = mesh.indices[3 * i + k];
+        ++kept;
+    }
+    mesh.indices.resize(3 * kept);
+    return count - kept;
+}
+
+void check_points(const Shape& shape, std::initializer_list<Vec3> points, float margin = 0.0f) {
+    for (const Vec3& point : points)
+        if (!is_finite(point)) refuse(shape, "is not finite", "check its numbers and its transformation");
+    for (const Vec3& point : points)
+        if (is_too_far(point, margin)) refuse(shape, "has a coordinate beyond 1e18", "scale the scene down");
+}
+
+void check_radius(const Shape& shape, float radius) {
+    if (!std::isfinite(radius)) refuse(shape, "is not finite", "check its radius and its transformation");
+    if (!(radius > 0.0f)) refuse(shape, "has a radius that is not positive", "give a positive radius");
+}
+
+void check_axes(const Shape& shape, const Vec3& axis, const Vec3& meridian) {
+    if (!is_unit(axis) || !is_unit(meridian) || std::abs(dot(axis, meridian)) > 1e-3f)
+        refuse(shape, "has axes that are not at right angles", "check its transformation");
+}
+
+class ShapeCheck {
+  public:
+    ShapeCheck(Shape& shape, const std::vector<Box3>& groups, std::vector<Warning>& warnings)
+        : shape_(shape), groups_(groups), warnings_(warnings) {}
+
+    void operator()(Mesh& mesh) const {
+        if (mesh.indices.size() % 3 != 0) refuse(shape_, "has indices that are no whole triangles", "");
+        for (const std::uint32_t index : mesh.indices)
+            if (index >= mesh.positions.size())
+                refuse(shape_,
+                       "uses vertex " + std::to_string(index + std::uint64_t{1}) + " of " +
+                           std::to_string(mesh.positions.size()),
+                       "repair the mesh");
+        for (std::size_t i = 0; i < mesh.positions.size(); ++i)
+            if (!is_finite(mesh.positions[i]))
+                refuse(shape_, "has a vertex that is not finite (number " + std::to_string(i + 1) + ")",
+                       "repair the mesh or its transformation");
+        if (std::any_of(mesh.positions.begin(), mesh.positions.end(), [](const Vec3& v) { return is_too_far(v); }))
+            refuse(shape_, "has a coordinate beyond 1e18", "scale the scene down");
+        if (!mesh.normals.empty() && mesh.normals.size() != mesh.positions.size())
+            refuse(shape_, "has normals for some vertices only", "repair the mesh");
+        if (!mesh.uvs.empty() && mesh.uvs.size() != mesh.positions.size())
+            refuse(shape_, "has texture coordinates for some vertices only", "repair the mesh");
+        for (const Vec3& normal : mesh.normals)
+            if (!is_finite(normal)) refuse(shape_, "has a normal that is not finite", "repair the mesh");
+        for (const Vec2& uv : mesh.uvs)
+            if (!std::isfinite(uv.x) || !std::isfinite(uv.y))
+                refuse(shape_, "has a texture coordinate that is not finite", "repair the mesh");
+        if (const std::size_t dropped = drop_degenerate(mesh); dropped > 0)
+            warnings_.push_back(
+                {shape_.where, std::to_string(dropped) + " triangles of " +
+                                   (shape_.name.empty() ? "the shape" : "shape \"" + shape_.name + "\"") +
+                                   " have no area and were left out"});
+        if (mesh.indices.empty()) refuse(shape_, "has no triangles", "repair or remove it");
+    }
+    void operator()(const Sphere& sphere) const {
+        check_radius(shape_, sphere.radius);
+        check_points(shape_, {sphere.center}, sphere.radius);
+        check_axes(shape_, sphere.pole, sphere.meridian);
+    }
+    void operator()(const Disk& disk) const {
+        check_points(shape_, {disk.center, disk.half_u, disk.half_v, disk.center + disk.half_u + disk.half_v});
+        const float longest = std::max(disk.half_u.length(), disk.half_v.length());
+        const Vec3 normal = cross(disk.half_u * (1.0f / longest), disk.half_v * (1.0f / longest));
+        if (!(longest > 0.0f) || !(normal.length() > 1e-6f))
+            refuse(shape_, "has no area", "give its transformation no scale of 0");
+    }
+    void operator()(const Cylinder& cylinder) const {
+        check_radius(shape_, cylinder.radius);
+        check_points(shape_, {cylinder.p0, cylinder.p1}, cylinder.radius);
+        const float length = (cylinder.p1 - cylinder.p0).length();
+        if (!(length > 0.0f)) refuse(shape_, "has no length", "move p0 and p1 apart");
+        check_axes(shape_, (cylinder.p1 - cylinder.p0) * (1.0f / length), cylinder.meridian);
+    }
+    void operator()(const Instance& instance) const {
+        if (instance.group < 0 || static_cast<std::size_t>(instance.group) >= groups_.size() ||
+            groups_[static_cast<std::size_t>(instance.group)].isEmpty())
+            refuse(shape_, "places a group that has no shapes", "give the group a shape");
+        check_transform(instance.to_world);
+        const Box3& box = groups_[static_cast<std::size_t>(instance.group)];
+        for (int corner = 0; corner < 8; ++corner)
+            check_points(shape_, {Vec3(corner & 1 ? box.max.x : box.min.x, corner & 2 ? box.max.y : box.min.y,
+                                       corner & 4 ? box.max.z : box.min.z) *
+                                  instance.to_world});
+    }
+
+  private:
+    void check_transform(const Imath::M44f& m) const {
+        const Imath::V3d rows[3] = {
+            {m[0][0], m[0][1], m[0][2]}, {m[1][0], m[1][1], m[1][2]}, {m[2][0], m[2][1], m[2][2]}};
+        if (m[0][3] != 0.0f || m[1][3] != 0.0f || m[2][3] != 0.0f || m[3][3] != 1.0f)
+            refuse(shape_, "has a transformation that is not affine", "its last row must be 0 0 0 1");
+        check_points(shape_, {Vec3(rows[0]), Vec3(rows[1]), Vec3(rows[2]), Vec3(m[3][0], m[3][1], m[3][2])});
+        const double volume = rows[0].normalized().dot(rows[1].normalized().cross(rows[2].normalized()));
+        if (!(std::abs(volume) > 1e-6))
+            refuse(shape_, "has a transformation that flattens space", "give no scale of 0");
+        for (const Imath::V3d& row : rows)
+            if (!(row.length() > 1e-18)) refuse(shape_, "is scaled below 1e-18", "scale the scene up");
+    }
+
+    const Shape& shape_;
+    const std::vector<Box3>& groups_;
+    std::vector<Warning>& warnings_;
+};
+
+void check_links(const Shape& shape, std::size_t index, const Scene& scene) {
+    if (std::holds_alternative<Instance>(shape.geometry)) {
+        if (shape.group != kNone) refuse(shape, "is an instance within a group", "place the inner shapes directly");
+        if (shape.material != kNone || shape.emitter != kNone)
+            refuse(shape, "is an instance with a material or an emitter of its own", "give them to the group's shapes");
+        return;
+    }
+    if (shape.material < 0 || static_cast<std::size_t>(shape.material) >= scene.materials.size())
+        refuse(shape, "has no material", "give it a bsdf");
+    if (shape.emitter == kNone) return;
+    if (shape.group != kNone) refuse(shape, "emits light within a group", "take it out of the group");
+    const auto emitter = static_cast<std::size_t>(shape.emitter);
+    if (emitter >= scene.emitters.size() || shape_of(scene.emitters[emitter]) != static_cast<std::int32_t>(index))
+        refuse(shape, "and its emitter do not belong together", "give it an area emitter");
+}
+
+}  // namespace
+
+bool is_flat(const Mesh& mesh) {
+    if (!std::all_of(mesh.positions.begin(), mesh.positions.end(), [](const Vec3& p) { return is_finite(p); }))
+        return false;
+    for (std::size_t i = 0; i < mesh.triangle_count(); ++i)
+        if (!without_area(mesh, i)) return false;
+    return true;
+}
+
+void check_shapes(Scene& scene, std::vector<Warning>& warnings) {
+    if (scene.group_count < 0 || static_cast<std::size_t>(scene.group_count) > scene.shapes.size())
+        throw InputError(Location{}, "the scene has more groups than shapes", "");
+    std::vector<Box3> groups(static_cast<std::size_t>(scene.group_count));
+    // Instances come last: they need the boxes of what they place.
+    for (const bool instances : {false, true})
+        for (std::size_t i = 0; i < scene.shapes.size(); ++i) {
+            Shape& shape = scene.shapes[i];
+            if (std::holds_alternative<Instance>(shape.geometry) != instances) continue;
+            if (shape.group != kNone && (shape.group < 0 || shape.group >= scene.group_count))
+                refuse(shape, "belongs to a group that does not exist", "");
+            check_links(shape, i, scene);
+            std::visit(ShapeCheck(shape, groups, warnings), shape.geometry);
+            if (shape.group != kNone) groups[static_cast<std::size_t>(shape.group)].extendBy(own_box(shape));
+        }
+}
+
+}  // namespace treefarm::validation

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "common/scene/model/scene.h"
+
+namespace treefarm {
+namespace {
+
+/// Half the extent along each axis of a disk with these half axes.
+Vec3 ellipse_extent(const Vec3& u, const Vec3& v) {
+    Vec3 extent;
+    for (int i = 0; i < 3; ++i)
+        extent[i] = std::sqrt(u[i] * u[i] + v[i] * v[i]);
+    return extent;
+}
+
+void add(Box3& box, const Vec3& center, const Vec3& extent) {
+    box.extendBy(center - extent);
+    box.extendBy(center + extent);
+}
+
+}  // namespace
+
+Box3 own_box(const Shape& shape) {
+    Box3 box;
+    if (const auto* mesh = std::get_if<Mesh>(&shape.geometry)) {
+        for (const Vec3& position : mesh->positions)
+            box.extendBy(position);
+    } else if (const auto* sphere = std::get_if<Sphere>(&shape.geometry)) {
+        add(box, sphere->center, Vec3(sphere->radius));
+    } else if (const auto* disk = std::get_if<Disk>(&shape.geometry)) {
+        add(box, disk->center, ellipse_extent(disk->half_u, disk->half_v));
+    } else if (const auto* cylinder = std::get_if<Cylinder>(&shape.geometry)) {
+        const Vec3 axis = normalize(cylinder->p1 - cylinder->p0);
+        const Vec3 u = cylinder->meridian * cylinder->radius, v = cross(axis, u);
+        add(box, cylinder->p0, ellipse_extent(u, v));
+        add(box, cylinder->p1, ellipse_extent(u, v));
+    }
+    return box;
+}
+
+std::int32_t Scene::environment() const {
+    for (std::size_t i = 0; i < emitters.size(); ++i)
+        if (emitters[i].type() == LightType::environment) return static_cast<std::int32_t>(i);
+    return kNone;
+}
+
+Box3 Scene::bounds() const {
+    Box3 box;
+    std::vector<Box3> groups(static_cast<std::size_t>(group_count));
+    for (const Shape& shape : shapes)
+        (shape.group == kNone ? box : groups[static_cast<std::size_t>(shape.group)]).extendBy(own_box(shape));
+    for (const Shape& shape : shapes) {
+        const auto* instance = std::get_if<Instance>(&shape.geometry);
+        if (!instance) continue;
+        const Box3& group = groups[static_cast<std::size_t>(instance->group)];
+        if (group.isEmpty()) continue;
+        for (int corner = 0; corner < 8; ++corner)
+            box.extendBy(Vec3(corner & 1 ? group.max.x : group.min.x, corner & 2 ? group.max.y : group.min.y,
+                              corner & 4 ? group.max.z : group.min.z) *
+                         instance->to_world);
+    }
+    return box;
+}
+
+float Scene::radiance_scale() const {
+    const Box3 box = bounds();
+    const Vec3 size = box.isEmpty() ? Vec3(1.0f) : box.max - box.min;
+    const float distance2 = std::max(0.25f * dot(size, size), 1e-30f);
+    const LitScene scene{distance2, images};
+    const auto of = [&](const auto& emitter) { return emitter.radiance_scale(scene); };
+    float scale = 0.0f;
+    for (const Emitter& emitter : emitters)
+        scale = std::max(scale, std::visit(of, emitter.kind));
+    return scale > 0.0f && std::isfinite(scale) ? scale : 1.0f;
+}
+
+std::size_t Scene::triangle_count() const {
+    std::size_t count = 0;
+    for (const Shape& shape : shapes)
+        if (const auto* mesh = std::get_if<Mesh>(&shape.geometry)) count += mesh->triangle_count();
+    return count;
+}
+
+}  // namespace treefarm

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "common/image/image_place.h"
+#include "common/scene/model/emitter.h"
+#include "common/scene/model/material.h"
+#include "common/scene/model/shape.h"
+
+namespace treefarm {
+
+/// The scene as plain values: what a reader produces, what is broadcast to workers, what the plan looks at. Indices,
+/// never pointers. Positions are in world space. Everything that needs the C library's transcendental functions
+/// (rotations, spectra, gamma) is computed here, once, on the coordinator, so that workers cannot differ in it.
+
+/// A camera. The film position (sx, sy) in [0,1]^2 (y down) sees through origin + corner + sx * across + sy * down:
+/// with a pinhole from the origin, with a lens from origin + a * lens_u + b * lens_v for (a, b) in the unit disk, so
+/// that the plane of focus is where those points lie. An orthographic one sees from those points along one direction.
+struct Camera {
+    Vec3 origin{0.0f};
+    Vec3 corner{0.0f};                ///< to the film's upper left corner, not normalised
+    Vec3 across{0.0f};                ///< from the left to the right edge of the film
+    Vec3 down{0.0f};                  ///< from the upper to the lower edge
+    Vec3 lens_u{0.0f}, lens_v{0.0f};  ///< half axes of the lens, in scene units; zero: a pinhole
+    Vec3 parallel{0.0f};              ///< orthographic: the direction of all rays, of length 1; zero: perspective
+
+    bool is_orthographic() const { return parallel != Vec3(0.0f); }
+    bool has_lens() const { return lens_u != Vec3(0.0f) || lens_v != Vec3(0.0f); }
+};
+
+/// The pixel's reconstruction filter, sampled by importance (docs/design/guiding.md): the sub-pixel offset is drawn
+/// from it. Cubic ones and Lanczos' have negative lobes.
+enum class PixelFilter : std::uint8_t { box, tent, gaussian, cubic, lanczos };
+
+/// The pixels that are rendered: of a film, or of a crop window on it. Pixels are counted from the window's corner, but
+/// each sees, and draws the random numbers, of its place on the whole film.
+struct Film {
+    int width = 768;   ///< pixels that are rendered, 1 to 65535
+    int height = 576;  ///< pixels that are rendered, 1 to 65535
+    PixelFilter filter = PixelFilter::box;
+    float filter_radius = 0.5f;              ///< pixels; box: half its width
+    float filter_stddev = 0.5f;              ///< pixels; gaussian only
+    float filter_b = 0.0f, filter_c = 0.5f;  ///< cubic only: B and C of Mitchell and Netravali (1988)
+    ImagePlace place{};                      ///< of a crop window
+
+    std::size_t pixel_count() const { return static_cast<std::size_t>(width) * static_cast<std::size_t>(height); }
+    int whole_width() const { return place.is_window() ? place.whole_width : width; }
+    int whole_height() const { return place.is_window() ? place.whole_height : height; }
+    /// Number on the whole film, row by row, of a pixel of the window.
+    std::uint32_t key_of(int x, int y) const {
+        return static_cast<std::uint32_t>((y + std::int64_t{place.y}) * whole_width() + x + place.x);
+    }
+    /// Place among the pixels that are rendered of the one with that number on the whole film.
+    std::uint32_t index_of(std::uint32_t key) const {
+        if (!place.is_window()) return key;
+        const auto whole = static_cast<std::uint32_t>(place.whole_width);
+        return (key / whole - static_cast<std::uint32_t>(place.y)) * static_cast<std::uint32_t>(width) + key % whole -
+               static_cast<std::uint32_t>(place.x);
+    }
+    /// The window lies on a film of 1 to 65535 pixels a side.
+    bool is_placed_well() const {
+        return !place.is_window() ||
+               (place.x >= 0 && place.y >= 0 && place.whole_width <= 65535 && place.whole_height <= 65535 &&
+                place.x <= place.whole_width - width && place.y <= place.whole_height - height);
+    }
+    /// The filter has negative lobes: samples weigh 1 or -1 times a factor, and pixels may be negative.
+    bool is_signed() const { return filter == PixelFilter::cubic || filter == PixelFilter::lanczos; }
+};
+
+struct Scene {
+    std::vector<Shape> shapes;
+    std::vector<Material> materials;
+    std::vector<Texture> textures;
+    std::vector<TextureImage> images;
+    std::vector<Emitter> emitters;
+    std::int32_t group_count = 0;  ///< groups of shapes that instances place
+    Camera camera;
+    Film film;
+
+    /// Index of the constant or image-based environment, or kNone.
+    std::int32_t environment() const;
+    /// Box of all shapes in the world, instances included; empty if there are none. Like all that follows indices, only
+    /// for scenes that validate_scene or decode_scene has accepted.
+    Box3 bounds() const;
+    /// Order of magnitude of the radiance that its brightest emitter brings to its surfaces, above 0.
+    float radiance_scale() const;
+    /// Triangles in memory: those of a group count once.
+    std::size_t triangle_count() const;
+};
+
+}  // namespace treefarm

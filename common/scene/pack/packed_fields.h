@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <utility>
+#include <variant>
+
+#include "common/scene/kinds/fields.h"
+#include "common/scene/kinds/materials/roughness.h"
+#include "common/scene/pack/packed_values.h"
+
+namespace treefarm::packed {
+
+/// Packs the values of a kind (kinds/fields.h).
+class PutFields {
+  public:
+    explicit PutFields(ByteWriter& out) : out_(out) {}
+
+    void fraction(const char*, const ColorInput& input) { put_color(out_, input); }
+    void fraction(const char*, const FloatInput& input) { put_number(out_, input); }
+    void anisotropy(const FloatInput& input) { put_number(out_, input); }
+    void number(const char*, const FloatInput& input, float, float) { put_number(out_, input); }
+    void number(const char*, const ColorInput& input, float, float) { put_color(out_, input); }
+    void together(const ColorInput&, const ColorInput&) {}
+    void choice(const char*, auto value, auto) { put_enum(out_, value); }
+    void eta(float value) { out_.put(value); }
+    void metal(const Rgb& eta, const Rgb& k) {
+        put_vector(out_, eta);
+        put_vector(out_, k);
+    }
+    void roughness(const Roughness& roughness, bool) {
+        put_enum(out_, roughness.distribution);
+        put_number(out_, roughness.alpha_u);
+        put_number(out_, roughness.alpha_v);
+    }
+    void flag(const char*, bool value) { put_flag(out_, value); }
+    void part(const char*, std::int32_t index) { out_.put(index); }
+
+    void light(const char*, const Rgb& value) { put_vector(out_, value); }
+    void light(const char*, const ColorInput& value) { put_color(out_, value); }
+    void light(const char*, float value) { out_.put(value); }
+    void position(const Vec3& value) { put_vector(out_, value); }
+    void direction(const Vec3& value) { put_vector(out_, value); }
+    void value(float value) { out_.put(value); }
+    void texture(std::int32_t index) { out_.put(index); }
+    void image(std::int32_t index) { out_.put(index); }
+    void shape(std::int32_t index) { out_.put(index); }
+    void rule(bool, const char*, const char*) {}
+
+  private:
+    ByteWriter& out_;
+};
+
+/// How many there are of what indices name.
+struct PackedCounts {
+    std::size_t parts = 0;  ///< materials before the one that is read
+    std::size_t textures = 0, images = 0, shapes = 0;
+};
+
+/// Unpacks the values of a kind. Indices are held against what there is: no reader of a scene need look again.
+class GetFields {
+  public:
+    GetFields(ByteReader& in, const PackedCounts& counts) : in_(in), counts_(counts) {}
+
+    void fraction(const char*, ColorInput& input) { input = get_color(in_, counts_.textures); }
+    void fraction(const char*, FloatInput& input) { input = get_number(in_, counts_.textures); }
+    void anisotropy(FloatInput& input) { input = get_number(in_, counts_.textures); }
+    void number(const char*, FloatInput& input, float, float) { input = get_number(in_, counts_.textures); }
+    void number(const char*, ColorInput& input, float, float) { input = get_color(in_, counts_.textures); }
+    void together(const ColorInput&, const ColorInput&) {}
+    void choice(const char* name, auto& value, auto last) { value = get_enum(in_, last, name); }
+    void eta(float& value) { value = in_.get<float>(); }
+    void metal(Rgb& eta, Rgb& k) {
+        eta = get_vector<Rgb>(in_);
+        k = get_vector<Rgb>(in_);
+    }
+    void roughness(Roughness& roughness, bool) {
+        roughness.distribution = get_enum(in_, Microfacets::beckmann, "microfacet distribution");
+        roughness.alpha_u = get_number(in_, counts_.textures);
+        roughness.alpha_v = get_number(in_, counts_.textures);
+    }
+    void flag(const char* name, bool& value) { value = get_flag(in_, name); }
+    void part(const char* name, std::int32_t& index) { index = get_index(in_, counts_.parts, name); }
+
+    void light(const char*, Rgb& value) { value = get_vector<Rgb>(in_); }
+    void light(const char*, ColorInput& value) { value = get_color(in_, counts_.textures); }
+    void light(const char*, float& value) { value = in_.get<float>(); }
+    void position(Vec3& value) { value = get_vector<Vec3>(in_); }
+    void direction(Vec3& value) { value = get_vector<Vec3>(in_); }
+    void value(float& value) { value = in_.get<float>(); }
+    void texture(std::int32_t& index) { index = get_optional_index(in_, counts_.textures, "texture of an emitter"); }
+    void image(std::int32_t& index) { index = get_index(in_, counts_.images, "image of an emitter"); }
+    void shape(std::int32_t& index) { index = get_index(in_, counts_.shapes, "emitting shape"); }
+    void rule(bool, const char*, const char*) {}
+
+  private:
+    ByteReader& in_;
+    PackedCounts counts_;
+};
+
+/// The alternative of a variant that has this number, as it is by default. FormatError where there is none: "unknown
+/// kind of material 99".
+template <class Variant>
+Variant kind_of(std::size_t number, const char* what) {
+    Variant kind;
+    const auto make = [&]<std::size_t... kNumber>(std::index_sequence<kNumber...>) {
+        return ((number == kNumber && (kind.template emplace<kNumber>(), true)) || ...);
+    };
+    if (!make(std::make_index_sequence<std::variant_size_v<Variant>>()))
+        throw FormatError("scene: unknown kind of " + std::string(what) + " " + std::to_string(number));
+    return kind;
+}
+
+}  // namespace treefarm::packed

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "common/scene/pack/scene_codec.h"
+
+#include <cmath>
+
+#include "common/scene/pack/emitter_codec.h"
+#include "common/scene/pack/material_codec.h"
+#include "common/scene/pack/packed_values.h"
+#include "common/scene/pack/shape_codec.h"
+#include "common/scene/pack/texture_codec.h"
+#include "common/scene/uses/emitter_uses.h"
+
+namespace treefarm {
+namespace {
+
+using namespace packed;
+
+constexpr std::uint32_t kMagic = 0x43534654;  // "TFSC"
+constexpr std::uint32_t kVersion = 6;
+
+Camera get_camera(ByteReader& in) {
+    Camera camera;
+    for (Vec3* v : {&camera.origin, &camera.corner, &camera.across, &camera.down, &camera.lens_u, &camera.lens_v,
+                    &camera.parallel})
+        *v = get_vector<Vec3>(in);
+    return camera;
+}
+
+void put_film(ByteWriter& out, const Film& film) {
+    out.put<std::int32_t>(film.width);
+    out.put<std::int32_t>(film.height);
+    put_enum(out, film.filter);
+    out.put(film.filter_radius);
+    out.put(film.filter_stddev);
+    out.put(film.filter_b);
+    out.put(film.filter_c);
+    for (const int number : {film.place.x, film.place.y, film.place.whole_width, film.place.whole_height})
+        out.put<std::int32_t>(number);
+}
+
+Film get_film(ByteReader& in) {
+    Film film;
+    film.width = in.get<std::int32_t>();
+    film.height = in.get<std::int32_t>();
+    if (film.width < 1 || film.height < 1 || film.width > 65535 || film.height > 65535)
+        throw FormatError("scene: a film of " + std::to_string(film.width) + " x " + std::to_string(film.height));
+    film.filter = get_enum(in, PixelFilter::lanczos, "pixel filter");
+    film.filter_radius = in.get<float>();
+    film.filter_stddev = in.get<float>();
+    if (!(film.filter_radius > 0.0f) || !(film.filter_stddev > 0.0f) || !std::isfinite(film.filter_radius) ||
+        !std::isfinite(film.filter_stddev))
+        throw FormatError("scene: the pixel filter's size is not positive");
+    film.filter_b = in.get<float>();
+    film.filter_c = in.get<float>();
+    if (!std::isfinite(film.filter_b) || !std::isfinite(film.filter_c))
+        throw FormatError("scene: the pixel filter's B and C are not finite");
+    for (int* number : {&film.place.x, &film.place.y, &film.place.whole_width, &film.place.whole_height})
+        *number = in.get<std::int32_t>();
+    if (!film.is_placed_well()) throw FormatError("scene: a crop window that is not on its film");
+    return film;
+}
+
+/// Refuses a scene unless shapes and their emitters name each other.
+void check_area_emitters(const Scene& scene) {
+    for (std::size_t i = 0; i < scene.shapes.size(); ++i) {
+        const std::int32_t index = scene.shapes[i].emitter;
+        if (index == kNone) continue;
+        if (index < 0 || static_cast<std::size_t>(index) >= scene.emitters.size())
+            throw FormatError("scene: emitter " + std::to_string(index) + " of " +
+                              std::to_string(scene.emitters.size()));
+        if (shape_of(scene.emitters[static_cast<std::size_t>(index)]) != static_cast<std::int32_t>(i))
+            throw FormatError("scene: shape " + std::to_string(i) + " and its emitter disagree");
+    }
+    for (std::size_t i = 0; i < scene.emitters.size(); ++i)
+        if (const std::int32_t shape = shape_of(scene.emitters[i]); shape != kNone)
+            if (scene.shapes[static_cast<std::size_t>(shape)].emitter != static_cast<std::int32_t>(i))
+                throw FormatError("scene: emitter " + std::to_string(i) + " and its shape disagree");
+}
+
+void check_environments(const Scene& scene) {
+    std::size_t count = 0;
+    for (const Emitter& emitter : scene.emitters) {
+        for_each_image(emitter, [&](std::int32_t image) {
+            if (scene.images[static_cast<std::size_t>(image)].channels != 3)
+                throw FormatError("scene: an emitter's image has no three channels");
+        });
+        if (emitter.type() == LightType::environment && ++count > 1) throw FormatError("scene: a second environment");
+    }
+}
+
+}  // namespace
+
+Bytes encode_scene(const Scene& scene) {
+    ByteWriter out;
+    out.put(kMagic);
+    out.put(kVersion);
+    put_list(out, scene.images, put_image);
+    put_list(out, scene.textures, put_texture);
+    put_list(out, scene.materials, put_material);
+    out.put(static_cast<std::uint32_t>(scene.group_count));
+    put_list(out, scene.shapes, put_shape);
+    put_list(out, scene.emitters, put_emitter);
+    const Camera& camera = scene.camera;
+    for (const Vec3& v :
+         {camera.origin, camera.corner, camera.across, camera.down, camera.lens_u, camera.lens_v, camera.parallel})
+        put_vector(out, v);
+    put_film(out, scene.film);
+    return out.take();
+}
+
+Scene decode_scene(std::span<const std::uint8_t> bytes) {
+    ByteReader in(bytes);
+    if (in.get<std::uint32_t>() != kMagic) throw FormatError("scene: this is not a packed scene");
+    if (const auto version = in.get<std::uint32_t>(); version != kVersion)
+        throw FormatError("scene: packed by version " + std::to_string(version) + ", this program reads version " +
+                          std::to_string(kVersion));
+    Scene scene;
+    get_list(in, kMinImageBytes, scene.images, [&] { return get_image(in); });
+    get_list(in, kMinTextureBytes, scene.textures, [&] { return get_texture(in, scene.images.size()); });
+    get_list(in, kMinMaterialBytes, scene.materials,
+             [&] { return get_material(in, scene.materials.size(), scene.textures.size()); });
+    // Each group has a shape, so a false count cannot make anybody allocate much.
+    const std::size_t group_count = in.get<std::uint32_t>();
+    if (group_count > in.remaining() / kMinShapeBytes)
+        throw FormatError("scene: " + std::to_string(group_count) + " groups do not fit into what remains");
+    scene.group_count = static_cast<std::int32_t>(group_count);
+    get_list(in, kMinShapeBytes, scene.shapes, [&] { return get_shape(in, scene.materials.size(), group_count); });
+    if (group_count > scene.shapes.size())
+        throw FormatError("scene: " + std::to_string(group_count) + " groups of " +
+                          std::to_string(scene.shapes.size()) + " shapes");
+    const PackedCounts counts{0, scene.textures.size(), scene.images.size(), scene.shapes.size()};
+    get_list(in, kMinEmitterBytes, scene.emitters, [&] { return get_emitter(in, counts); });
+    check_area_emitters(scene);
+    check_environments(scene);
+    scene.camera = get_camera(in);
+    scene.film = get_film(in);
+    in.expect_end();
+    return scene;
+}
+
+}  // namespace treefarm

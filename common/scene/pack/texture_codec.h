@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "common/base/bytes.h"
+#include "common/scene/model/texture.h"
+
+namespace treefarm::packed {
+
+///     image    := width:u16 height:u16 channels:u8 name floating:u8 (decode:f32[256] bytes | floats)
+///     texture  := kind:u8 (bitmap | checkerboard) name location
+///     bitmap   := image:i32 bilinear:u8 wrap_u:u8 wrap_v:u8 uv
+///     checkerboard := rgb rgb uv
+///     uv       := u_row v_row
+
+inline constexpr std::size_t kMinImageBytes = 8, kMinTextureBytes = 42;
+
+void put_image(ByteWriter& out, const TextureImage& image);
+TextureImage get_image(ByteReader& in);
+void put_texture(ByteWriter& out, const Texture& texture);
+Texture get_texture(ByteReader& in, std::size_t image_count);
+
+}  // namespace treefarm::packed

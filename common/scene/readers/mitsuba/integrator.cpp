@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "common/scene/readers/mitsuba/integrator.h"
+
+#include <algorithm>
+#include <array>
+
+#include "common/config/parse_text.h"
+#include "common/scene/readers/mitsuba/guided_path.h"
+#include "common/scene/readers/mitsuba/integrator_settings.h"
+
+namespace treefarm::mitsuba {
+namespace {
+
+constexpr std::array<std::string_view, 4> kIntegrators = {"path", "volpath", "direct", "guided_path"};
+
+/// How light is transported; whether something guides is the job's business.
+void read_path(IntegratorSettings& settings) {
+    settings.set("integrator.next_event", "always", settings.properties().where());
+    settings.read_common();
+}
+
+/// Light that comes straight from an emitter: paths of two edges, whatever the numbers of samples are.
+void read_direct(IntegratorSettings& settings) {
+    const Location& where = settings.properties().where();
+    settings.set("integrator.next_event", "always", where);
+    settings.set("integrator.max_depth", "2", where);
+    settings.properties().ignore({"shading_samples", "emitter_samples", "bsdf_samples"});
+    settings.read_flags();
+}
+
+/// Reads an estimator of the same image by other means: how long paths are belongs to the image, the rest does not.
+void read_other(IntegratorSettings& settings, const std::string& type) {
+    Properties& properties = settings.properties();
+    settings.diagnostics().warn(properties.where(),
+                                "the integrator " + in_quotes(type) +
+                                    " is replaced by path tracing as the job sets it: the same image, "
+                                    "but for what that integrator leaves out or blurs");
+    if (!properties.has("max_depth") && type == "vpl") settings.set("integrator.max_depth", "5", properties.where());
+    if (!properties.has("max_depth") && type.starts_with("prb"))
+        settings.set("integrator.max_depth", "6", properties.where());
+    settings.read_common();
+    properties.ignore_values();
+}
+
+/// Integrators of Mitsuba that converge to the image of a path tracer.
+bool is_other_estimator(const std::string& type) {
+    constexpr std::array<std::string_view, 12> kTypes = {"bdpt", "mlt",  "pssmlt", "erpt", "ptracer",   "photonmapper",
+                                                         "ppm",  "sppm", "vpl",    "prb",  "prb_basic", "prbvolpath"};
+    return std::find(kTypes.begin(), kTypes.end(), type) != kTypes.end();
+}
+
+/// Integrators around another one, which makes the image.
+bool is_wrapper(const std::string& type) {
+    return type == "aov" || type == "moment" || type == "adaptive" || type == "irrcache";
+}
+
+/// Whether an integrator is a path tracer. Without media, which are refused, the volumetric ones are.
+bool is_path_tracer(const std::string& type) {
+    return type == "path" || type == "volpath" || type == "volpath_simple" || type == "volpathmis";
+}
+
+}  // namespace
+
+void read_integrator(const XmlElement& integrator, std::vector<Setting>& settings, const SceneDocument& document,
+                     Diagnostics& diagnostics) {
+    Properties properties(integrator, document, diagnostics);
+    const std::string type = properties.type();
+    IntegratorSettings reader(properties, settings, diagnostics);
+    if (is_path_tracer(type) || type == "direct") {
+        diagnostics.note(integrator.where, "the integrator " + in_quotes(type) +
+                                               " says how light is transported; whether paths are guided says the job "
+                                               "(guiding.type, none for plain path tracing)");
+        if (type == "direct")
+            read_direct(reader);
+        else
+            read_path(reader);
+    } else if (type == "guided_path") {
+        read_guided_path(reader);
+    } else if (is_other_estimator(type)) {
+        read_other(reader, type);
+    } else if (const XmlElement* inner = is_wrapper(type) ? properties.only_child("integrator") : nullptr) {
+        diagnostics.warn(integrator.where,
+                         "of the integrator " + in_quotes(type) + " only the one inside is used: it makes the image");
+        read_integrator(*inner, settings, document, diagnostics);
+        properties.ignore_values();
+    } else {
+        diagnostics.unsupported(integrator.where,
+                                "the integrator " + in_quotes(type) + " is not available in this version",
+                                did_you_mean(type, kIntegrators, "use path, volpath, direct or guided_path"),
+                                "paths are traced as the job says; of its parameters count maxDepth, rrDepth, "
+                                "strictNormals and hideEmitters");
+        // Somebody's own integrator, most likely: what all of them have belongs to the image.
+        reader.read_common();
+        return;
+    }
+    properties.finish();
+}
+
+}  // namespace treefarm::mitsuba

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "common/config/setting.h"
+#include "common/scene/readers/mitsuba/properties.h"
+
+namespace treefarm::mitsuba {
+
+/// Turns <integrator type="path">, what converges to its image, and <integrator type="guided_path"> into settings of
+/// the job. Others throw InputError or, when lenient, leave the job what they have in common.
+void read_integrator(const XmlElement& integrator, std::vector<Setting>& settings, const SceneDocument& document,
+                     Diagnostics& diagnostics);
+
+}  // namespace treefarm::mitsuba

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+
+#include "common/scene/model/material.h"
+#include "common/scene/readers/mitsuba/texture_reader.h"
+
+namespace treefarm::mitsuba {
+
+/// The BSDFs that are a kind of surface, with the defaults of the version of the format; a coating yet without what it
+/// coats. Nothing for other types.
+std::optional<decltype(Material::bsdf)> read_surface_bsdf(Properties& properties, TextureReader& textures,
+                                                          Diagnostics& diagnostics);
+
+}  // namespace treefarm::mitsuba

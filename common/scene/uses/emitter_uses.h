@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <concepts>
+#include <cstdint>
+
+#include "common/scene/model/emitter.h"
+
+namespace treefarm {
+
+template <class F>
+struct EmitterTextureVisitor : IgnoreFields {
+    F& f;
+    explicit EmitterTextureVisitor(F& call) : f(call) {}
+    void light(const char*, auto& value) {
+        if constexpr (requires { value.texture; }) texture(value.texture);
+    }
+    void texture(auto& index) {
+        if (index != kNone) f(index);
+    }
+};
+
+template <class F>
+struct EmitterImageVisitor : IgnoreFields {
+    F& f;
+    explicit EmitterImageVisitor(F& call) : f(call) {}
+    void image(auto& index) { f(index); }
+};
+
+template <class EmitterRef>
+concept IsEmitter = std::same_as<std::remove_const_t<EmitterRef>, Emitter>;
+
+/// Calls f(texture index) for each texture that an emitter names, by a reference that may be changed.
+template <IsEmitter EmitterRef, class F>
+void for_each_texture(EmitterRef& emitter, F&& f) {
+    visit_fields(emitter.kind, EmitterTextureVisitor<F>(f));
+}
+
+/// Calls f(image index) for each image that an emitter is made of, by a reference that may be changed.
+template <IsEmitter EmitterRef, class F>
+void for_each_image(EmitterRef& emitter, F&& f) {
+    visit_fields(emitter.kind, EmitterImageVisitor<F>(f));
+}
+
+/// Whether a texture varies the light of an emitter.
+inline bool is_textured(const Emitter& emitter) {
+    bool found = false;
+    for_each_texture(emitter, [&](std::int32_t) { found = true; });
+    return found;
+}
+
+/// Index of the shape that shines, or kNone.
+inline std::int32_t shape_of(const Emitter& emitter) {
+    struct : IgnoreFields {
+        std::int32_t found = kNone;
+        void shape(std::int32_t index) { found = index; }
+    } visitor;
+    visit_fields(emitter.kind, visitor);
+    return visitor.found;
+}
+
+/// Where a light that is a point shines; none for others.
+inline std::optional<LightCone> cone_of(const Emitter& emitter) {
+    return std::visit(
+        [](const auto& kind) -> std::optional<LightCone> {
+            if constexpr (std::decay_t<decltype(kind)>::kTraits.type == LightType::delta)
+                return kind.cone();
+            else
+                return std::nullopt;
+        },
+        emitter.kind);
+}
+
+}  // namespace treefarm

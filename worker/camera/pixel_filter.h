@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "common/base/random.h"
+#include "common/scene/model/scene.h"
+
+namespace treefarm {
+
+/// Draws sub-pixel offsets from the film's reconstruction filter: every sample then touches one pixel, and
+/// weighs 1. A filter with negative lobes is drawn by its absolute value, and weighs by its sign.
+class FilterSampler {
+  public:
+    explicit FilterSampler(const Film& film);
+
+    /// Offset from the pixel's centre along one axis, in pixels, distributed as the filter.
+    float sample(std::uint32_t random) const;
+    /// Weight of the offset that sample() draws by this number, so that the filter's integral is 1.
+    float weight(std::uint32_t random) const;
+
+  private:
+    static constexpr std::uint32_t kCells = 512;
+
+    std::uint32_t cell_of(std::uint32_t bits) const;
+
+    PixelFilter filter_;
+    float radius_;
+    float weight_ = 1.0f;
+    std::vector<bool> negative_;  ///< where cells lie in negative lobes
+    /// Neither box nor tent: probability (times 2^31) of |x| below the left edge of each of kCells equal cells of [0,
+    /// radius].
+    std::vector<std::uint32_t> cumulative_;
+};
+
+}  // namespace treefarm

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+
+#include "worker/integrators/path/candidates.h"
+#include "worker/integrators/path/path_settings.h"
+#include "worker/integrators/path/path_state.h"
+
+namespace treefarm {
+
+/// The directions that a batch of paths takes in a step. Each draws one, or, at its first vertices, several, of which
+/// it takes one.
+template <class Surface, bool kGuided, bool kCoded, bool kViews>
+class DirectionChoice {
+  public:
+    using Path = PathState<Surface>;
+
+    DirectionChoice(const Guide& guide, const PathSettings& settings)
+        : guide_(guide), candidates_(kGuided ? settings.candidates : 1), candidate_depth_(settings.candidate_depth) {}
+
+    /// The random numbers of a step for `paths`, whose Path::lane say which are theirs.
+    void draw_numbers(std::uint64_t seed, const KeyBatch& keys, std::span<const Path> paths,
+                      std::span<const std::uint8_t> alive) {
+        const auto lanes = static_cast<std::uint32_t>(alive.size());
+        draw_batch(seed, keys, lanes, 0, Stream::scatter, draws_);
+        cosine_hemisphere_batch(draws_, lanes, cosines_);
+        seats_ = 0;
+        if (candidates_ == 1) return;
+        for (std::uint32_t lane = 0; lane < lanes; ++lane) {
+            seat_[lane] = static_cast<std::uint8_t>(seats_);
+            if (paths[alive[lane]].depth > candidate_depth_) continue;
+            seat_keys_.pixel[seats_] = keys.pixel[lane];
+            seat_keys_.sample[seats_] = keys.sample[lane];
+            seat_keys_.vertex[seats_++] = keys.vertex[lane] * Candidates::kMost;
+        }
+        seed_ = seed;
+        if (several()) draw_batch(seed, seat_keys_, seats_, 0, Stream::candidate, picks_);
+    }
+
+    // What sampling will read is fetched ahead, each time by what the last has brought.
+    void prefetch(std::uint32_t region, std::uint32_t lane) const {
+        guide_.prefetch(region, draws_.word[1][lane]);
+        if constexpr (kViews) guide_.prefetch_views(region);
+    }
+    void prefetch_cell(const Path& path) const {
+        if (path.found) guide_.prefetch_cell(path.guidance.region, draws_.word[1][path.lane]);
+    }
+    void prefetch_view(const Path& path) const {
+        if (path.guidance.has_view()) guide_.prefetch(path.guidance.view, draws_.word[1][path.lane]);
+    }
+
+    /// Begins a step, before any of its paths draws; `alive` are the numbers of those that will.
+    void start(std::span<const Path> paths, std::span<const std::uint8_t> alive) {
+        batch_.clear();
+        if constexpr (kGuided && kViews)
+            for (const std::uint8_t index : alive)
+                if (const Path& path = paths[index]; path.guidance.has_view())
+                    guide_.prefetch_cell(path.guidance.view, draws_.word[1][path.lane]);
+    }
+
+    // draw() for each path, then convert(), then choose(), then complete() for each.
+
+    /// Draws a path's direction, or the first of several; false if there is none.
+    bool draw(Path& path) {
+        if (chooses(path)) {
+            offered_[seat(path)].candidates.clear();
+            draw_offer(path, 0, batch_, draws_, cosines_, path.lane);
+            return true;
+        }
+        return batch_.draw(*path.surface, guide_, path.guidance, to_unit(draws_.word[0][path.lane]), draws_[path.lane],
+                           cosines_[path.lane], path.scatter);
+    }
+    void convert() { batch_.convert(guide_); }
+    /// Draws the other directions of paths that choose among several, and takes one for each. The density is 0 where
+    /// none was found.
+    void choose(std::span<Path> paths, std::span<const std::uint8_t> alive) {
+        if (!several()) return;
+        std::array<std::uint8_t, kDrawBatch> choosers;
+        std::uint32_t count = 0;
+        for (const std::uint8_t index : alive)
+            if (chooses(paths[index])) choosers[count++] = index;
+        complete_offers(paths, {choosers.data(), count}, batch_);
+        for (std::uint32_t candidate = 1; candidate < candidates_; ++candidate) {
+            draw_batch(seed_, seat_keys_, seats_, candidate, Stream::candidate, more_draws_);
+            cosine_hemisphere_batch(more_draws_, seats_, more_cosines_);
+            more_.clear();
+            for (std::uint32_t i = 0; i < count; ++i)
+                draw_offer(paths[choosers[i]], candidate, more_, more_draws_, more_cosines_, seat(paths[choosers[i]]));
+            more_.convert(guide_);
+            complete_offers(paths, {choosers.data(), count}, more_);
+        }
+        for (std::uint32_t i = 0; i < count; ++i) {
+            Path& path = paths[choosers[i]];
+            const float pick = to_unit(picks_.word[0][seat(path)]);
+            if (offered_[seat(path)].candidates.take(candidates_, pick, path.scatter)) continue;
+            path.scatter.pdf = 0.0f;
+            path.scatter.delta = false;
+        }
+    }
+    void complete(Path& path) const {
+        if (!chooses(path)) batch_.complete(*path.surface, guide_, path.guidance, path.scatter);
+    }
+
+  private:
+    using Batch = ScatterBatch<kGuided, kCoded, kViews>;
+
+    /// Whether any path of this step may choose among several.
+    bool several() const { return seats_ != 0; }
+
+    /// The candidates among which a path chooses.
+    struct Offered {
+        Candidates candidates;
+        bool drawn;  ///< a direction waits to be completed
+    };
+
+    /// Whether a path chooses among several. Not where there may be a delta lobe, which has no density to weigh by.
+    bool chooses(const Path& path) const {
+        return kGuided && several() && path.depth <= candidate_depth_ && !path.probe && !path.surface->has_delta();
+    }
+    std::uint32_t seat(const Path& path) const { return seat_[path.lane]; }
+
+    /// Draws a candidate from its own part of the techniques' probabilities: a mixture over the candidates like any.
+    void draw_offer(const Path& path, std::uint32_t candidate, Batch& batch, const DrawBatch& draws,
+                    const VectorBatch& cosines, std::uint32_t lane) {
+        Offered& offered = offered_[seat(path)];
+        const float technique =
+            (static_cast<float>(candidate) + to_unit(draws.word[0][lane])) / static_cast<float>(candidates_);
+        offered.drawn = batch.draw(*path.surface, guide_, path.guidance, technique, draws[lane], cosines[lane],
+                                   offered.candidates.next());
+    }
+
+    void complete_offers(std::span<const Path> paths, std::span<const std::uint8_t> choosers, const Batch& batch) {
+        for (const std::uint8_t index : choosers) {
+            const Path& path = paths[index];
+            Offered& offered = offered_[seat(path)];
+            if (!offered.drawn) continue;
+            batch.complete(*path.surface, guide_, path.guidance, offered.candidates.next());
+            offered.candidates.offer();
+        }
+    }
+
+    const Guide& guide_;
+    const std::uint32_t candidates_;
+    const int candidate_depth_;
+    DrawBatch draws_;
+    VectorBatch cosines_;
+    Batch batch_;
+
+    // Of the paths that may choose among several: each has a seat.
+    std::uint32_t seats_ = 0;
+    std::array<std::uint8_t, kDrawBatch> seat_;  ///< by lane
+    std::uint64_t seed_ = 0;
+    KeyBatch seat_keys_;
+    DrawBatch picks_, more_draws_;
+    VectorBatch more_cosines_;
+    Batch more_;
+    std::array<Offered, kGuided ? kDrawBatch : 0> offered_;
+};
+
+}  // namespace treefarm

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <numeric>
+
+#include "worker/integrators/path/path_walk.h"
+#include "worker/integrators/subpath/radiance.h"
+
+namespace treefarm {
+
+/// The camera paths of a group, traced: which paths walk when, and what their samples come to. One kernel per thread.
+///
+/// The other ways of paths that were split at glass wait until the camera paths of the whole group are done, and so do
+/// the copies that paths leave where they are split: they are few, and walk together; then their own copies do.
+template <class Surface, bool kGuided, bool kRecord, class Observer = NoObserver>
+class PathKernel {
+    using Walk = PathWalk<Surface, kGuided, kRecord, Observer>;
+
+    static constexpr std::uint32_t kBatch = Walk::kBatch;
+
+  public:
+    static constexpr std::uint32_t kGroup = 8 * kBatch;
+
+    /// `log` is where records go.
+    PathKernel(const TraceScene& scene, const Guide& guide, const PathSettings& settings, TraceStats& stats,
+               RecordLog* log = nullptr)
+        : stats_(stats), log_(log), walk_(scene, guide, settings, stats) {
+        assert(log || !kRecord);
+        std::iota(places_.begin(), places_.end(), std::uint8_t{0});
+    }
+
+    void clear() { count_ = 0; }
+    std::uint32_t count() const { return count_; }
+    bool full() const { return count_ == kGroup; }
+
+    /// Adds a camera path; the kernel must not be full.
+    void add(const PathKey& key, const Ray& ray) {
+        assert(!full());
+        keys_[count_] = key;
+        rays_[count_++] = ray;
+    }
+
+    /// Traces what was added.
+    void trace() {
+        if (walk_.settings().max_depth == 0) {
+            std::fill_n(radiance_.begin(), count_, Rgb(0.0f));
+            return;
+        }
+        walk_camera_paths();
+        if constexpr (Surface::kTransmits)
+            if (walk_.branches().size() != 0) walk_branches();
+        if constexpr (kGuided)
+            if (!walk_.copies().empty()) walk_copies();
+    }
+
+    /// Radiance along the camera ray of the path added as number `path`.
+    const Rgb& radiance(std::uint32_t path) const { return radiance_[path]; }
+    /// Luminance that path `path` would have without splitting, and the exponent of the power of two to count both in:
+    /// that of the records of the region where the camera's ray arrived. For guided paths that record.
+    float unsplit(std::uint32_t path) const { return unsplit_[path]; }
+    int first_exponent(std::uint32_t path) const { return first_exponents_[path]; }
+    Observer& observer() { return walk_.observer(); }
+    PhaseClock& clock() { return walk_.clock(); }
+
+  private:
+    using Path = typename Walk::Path;
+
+    static constexpr std::uint32_t kBranchVertices = 1u << 28;
+
+    /// Whether a path that ends makes room for the next. Guided ones were slower so: there the next batch waits for the
+    /// last path (docs/design/speed.md, "How paths walk").
+    static constexpr bool kRefills = !kGuided;
+
+    /// How many walk together: guided ones without next event are slower by whole batches.
+    std::uint32_t batch() const { return kGuided && !walk_.settings().next_event ? kBatch / 2 : kBatch; }
+
+    /// State from which splitting goes on at the branch of a camera path.
+    struct Legacy {
+        CopyBudget copies;
+        int first_exponent;
+    };
+    static constexpr bool kInherits = kGuided && Surface::kTransmits;
+    static constexpr bool kCompares = kGuided && kRecord;
+
+    /// Walks `count` paths, as many at a time as a batch holds: begin(number, place) sets one up, and end(number, path)
+    /// is told what came of it.
+    template <class Begin, class End>
+    void walk(std::uint32_t count, Begin begin, End end) {
+        std::array<std::uint32_t, kBatch> numbers;  // by place
+        std::uint32_t begun = 0;
+        const auto fill = [&](std::span<const std::uint8_t> places) {
+            const std::uint32_t others = std::min(count - begun, static_cast<std::uint32_t>(places.size()));
+            for (const std::uint8_t place : places.first(others)) {
+                numbers[place] = begun;
+                begin(begun++, place);
+            }
+            return others;
+        };
+        while (begun < count) {
+            const std::uint32_t first = fill(std::span(places_).first(batch()));
+            walk_.walk(std::span(places_).first(first), [&](std::span<const std::uint8_t> ended) {
+                for (const std::uint8_t place : ended)
+                    end(numbers[place], walk_[place]);
+                commit(ended);
+                return kRefills ? fill(ended) : 0;
+            });
+        }
+    }
+
+    void walk_camera_paths() {
+        walk(
+            count_,
+            [&](std::uint32_t number, std::uint8_t place) {
+                Path& path = walk_[place];
+                path.begin(keys_[number], rays_[number]);
+                path.origin = static_cast<std::uint16_t>(number);
+                path.probe = kGuided && walk_.settings().is_probe(path.key.pixel);
+                stats_.probe_paths += path.probe;
+                if constexpr (kRecord) walk_.recorder(place).begin_path();
+                walk_.observer().camera(path.ray);
+            },
+            [&](std::uint32_t number, const Path& path) {
+                radiance_[number] = path.radiance;
+                if constexpr (kCompares) {
+                    unsplit_[number] = path.unsplit.of(luminance(path.radiance));
+                    first_exponents_[number] = path.first_exponent;
+                }
+                if constexpr (kInherits) legacies_[number] = {path.copies, path.first_exponent};
+            });
+    }
+
+    /// The other ways of paths that were split at their first surface.
+    [[gnu::noinline]] void walk_branches() {
+        const Branches& branches = walk_.branches();
+        walk(
+            branches.size(),
+            [&](std::uint32_t number, std::uint8_t place) {
+                const Branches::Branch& branch = branches[number];
+                Path& path = walk_[place];
+                path.begin(keys_[branch.origin], branch.ray);
+                path.origin = branch.origin;
+                path.probe = kGuided && walk_.settings().is_probe(path.key.pixel);
+                if constexpr (kInherits) {
+                    path.copies = legacies_[branch.origin].copies;
+                    path.first_exponent = legacies_[branch.origin].first_exponent;
+                }
+                path.radiance = radiance_[branch.origin];
+                path.resume(branch.ray, branch.weight, branch.spread, kBranchVertices + 1);
+                if constexpr (kRecord) walk_.recorder(place).begin_branch(branch.weight);
+                walk_.observer().branch(branch.ray, branch.weight);
+            },
+            [&](std::uint32_t, const Path& path) {
+                Rgb& radiance = radiance_[path.origin];
+                if constexpr (kCompares)
+                    unsplit_[path.origin] += path.unsplit.of(luminance(path.radiance)) - luminance(radiance);
+                radiance = path.radiance;
+            });
+        walk_.branches().clear();
+    }
+
+    [[gnu::noinline]] void walk_copies() {
+        numbers_.fill(0);
+        while (!walk_.copies().empty()) {
+            const std::span<const PathCopy> copies = walk_.copies().next(numbers_);
+            of_copies_.resize(copies.size());
+            walk(
+                static_cast<std::uint32_t>(copies.size()),
+                [&](std::uint32_t number, std::uint8_t place) {
+                    walk_[place].begin(keys_[copies[number].origin], copies[number]);
+                    if constexpr (kRecord) walk_.recorder(place).begin_path();
+                    walk_.observer().copy(copies[number]);
+                },
+                [&](std::uint32_t number, const Path& path) {
+                    of_copies_[number] = path.radiance;
+                    stats_.copy_rays += static_cast<std::uint32_t>(path.depth - copies[number].depth);
+                });
+            // In their own order: the one in which they ended depends on their company.
+            for (std::size_t i = 0; i < copies.size(); ++i)
+                radiance_[copies[i].origin] += of_copies_[i];
+        }
+    }
+
+    /// Hands over what the paths in these places learned. What carried no radiance but nonsense teaches nothing.
+    void commit([[maybe_unused]] std::span<const std::uint8_t> places) {
+        if constexpr (kRecord) {
+            walk_.clock().start();
+            for (const std::uint8_t place : places)
+                if (!walk_[place].probe && is_radiance(walk_[place].radiance))
+                    stats_.records += walk_.recorder(place).commit(*log_);
+            walk_.clock().lap(TracePhase::record);
+        }
+    }
+
+    TraceStats& stats_;
+    RecordLog* log_;
+    Walk walk_;
+    std::uint32_t count_ = 0;
+    std::array<std::uint8_t, kBatch> places_;
+    std::array<PathKey, kGroup> keys_;
+    std::array<Ray, kGroup> rays_;
+    std::array<Rgb, kGroup> radiance_;
+    std::array<Legacy, kInherits ? kGroup : 0> legacies_;
+    std::array<float, kCompares ? kGroup : 0> unsplit_;
+    std::array<int, kCompares ? kGroup : 0> first_exponents_;
+    std::array<std::uint8_t, kGroup> numbers_;  ///< of copies so far
+    std::vector<Rgb> of_copies_;                ///< radiance of each
+};
+
+}  // namespace treefarm

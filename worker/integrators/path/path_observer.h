@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "worker/integrators/path/guided_sampling.h"
+#include "worker/integrators/path/path_copies.h"
+#include "worker/integrators/path/pending_light.h"
+
+namespace treefarm {
+
+/// Watches nothing, at no cost. describe_sample() passes one that writes.
+struct NoObserver {
+    void camera(const Ray&) {}
+    void ray(const Ray&) {}
+    void shadow(const Ray&) {}
+    void arrive(int, const Hit*) {}
+    void emission(const Rgb&, float, float, const Rgb&) {}
+    void scatter(const ScatterSample&, const Rgb&) {}
+    void next_event(const PendingLight&, float, float, const Rgb&) {}
+    void roulette(float, bool) {}
+    void branch(const Ray&, const Rgb&) {}
+    void split(std::uint32_t, const Rgb&) {}
+    void copy(const PathCopy&) {}
+    void end(const char*) {}
+};
+
+}  // namespace treefarm

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "common/film/guiding_probe.h"
+#include "common/guiding/guide.h"
+#include "common/plan/resolve.h"
+#include "common/plan/schedule.h"
+#include "worker/integrators/subpath/roulette.h"
+#include "worker/scene/trace_scene.h"
+
+namespace treefarm {
+
+/// Settings of the walk besides the scene: fixed for a pass.
+struct PathSettings {
+    int max_depth;
+    bool next_event;   ///< a flag, not a kernel of its own: one predictable branch per vertex
+    bool delta_alone;  ///< no next event, but for the lights that nothing else finds
+    MisHeuristic mis;
+    bool strict_normals;
+    bool hide_emitters;
+    bool split_glass;           ///< branches.h
+    bool record_light_samples;  ///< kick-start: what next event finds teaches the tree, too
+    bool profile;
+    bool textured;             ///< surfaces have something to look up
+    ProbePixels probe;         ///< unguided, to see whether guiding pays
+    bool jitter_records;       ///< stochastic spatial filter
+    std::uint32_t candidates;  ///< directions drawn at a guided vertex, of which one is taken (candidates.h)
+    int candidate_depth;       ///< up to here; deeper vertices draw one
+    std::uint32_t splitting;   ///< as how many paths one may go on at a vertex
+    bool compare_splitting;    ///< with what paths would be alone
+    GuidingTarget target;
+    ViewRecords view_records;
+    Roulette roulette, unguided_roulette;
+
+    const Film& film;
+
+    /// Whether the path of a pixel, by its number on the whole film, is unguided to see whether guiding pays.
+    bool is_probe(std::uint32_t pixel) const { return probe.holds(film.index_of(pixel)); }
+
+    PathSettings(const TraceScene& scene, const Resolved& job, const PassPlan& pass, const Guide& guide)
+        : max_depth(job.integrator.max_depth),
+          next_event(pass.next_event && scene.emitters().can_sample()),
+          delta_alone(!pass.next_event && scene.emitters().has_delta_lights()),
+          mis(job.integrator.mis),
+          strict_normals(job.integrator.strict_normals),
+          hide_emitters(job.integrator.hide_emitters),
+          split_glass(job.integrator.split_glass),
+          record_light_samples(job.integrator.next_event == NextEvent::kickstart && pass.next_event),
+          profile(job.farm.profile),
+          textured(!scene.plainly_diffuse() && scene.materials().varies()),
+          probe(pass.probe ? ProbePixels(scene.film().pixel_count(), pass.index) : ProbePixels()),
+          jitter_records(job.guiding.spatial_filter == SpatialFilter::stochastic),
+          candidates(static_cast<std::uint32_t>(job.guiding.candidates)),
+          candidate_depth(job.guiding.candidate_depth),
+          splitting(pass.split ? static_cast<std::uint32_t>(job.guiding.splitting) : 1u),
+          compare_splitting(pass.record && splitting > 1),
+          target(job.guiding.target),
+          view_records(job.guiding.view_records),
+          roulette(!pass.guided                                       ? Roulette::Rule::unguided
+                   : !guide.trained()                                 ? Roulette::Rule::untrained
+                   : job.guiding.roulette == GuidingRoulette::adjoint ? Roulette::Rule::adjoint
+                                                                      : Roulette::Rule::constant,
+                   job.integrator.rr_depth),
+          unguided_roulette(Roulette::Rule::unguided, job.integrator.rr_depth),
+          film(scene.film()) {}
+};
+
+}  // namespace treefarm

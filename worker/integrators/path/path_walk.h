@@ -1,0 +1,400 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <vector>
+
+#include "common/film/trace_stats.h"
+#include "worker/integrators/path/branches.h"
+#include "worker/integrators/path/direction_choice.h"
+#include "worker/integrators/path/emission.h"
+#include "worker/integrators/path/emitter_choice.h"
+#include "worker/integrators/path/ended_paths.h"
+#include "worker/integrators/path/path_observer.h"
+#include "worker/integrators/path/path_roulette.h"
+#include "worker/integrators/path/phase_clock.h"
+#include "worker/integrators/path/vertex_records.h"
+#include "worker/integrators/subpath/mis.h"
+#include "worker/scene/surface.h"
+
+namespace treefarm {
+
+/// Path tracing with optional next event, guiding and recording (Mueller et al. 2017; tests in the order of their
+/// program). Depth counts path edges: a surface seen by the camera has depth 1. `Surface` is one of surface.h.
+///
+/// Paths walk in step, up to kBatch of them: what one waits for (memory, square roots) another works through, and the
+/// shadow rays of a step are traced together. A path's result does not depend on its company.
+template <class Surface, bool kGuided, bool kRecord, class Observer = NoObserver>
+class PathWalk {
+  public:
+    static constexpr std::uint32_t kBatch = kDrawBatch;
+    using Path = PathState<Surface>;
+
+    PathWalk(const TraceScene& scene, const Guide& guide, const PathSettings& settings, TraceStats& stats)
+        : scene_(scene),
+          guide_(guide),
+          settings_(settings),
+          stats_(stats),
+          clock_(settings.profile, stats),
+          scratch_(kBatch, Surface::make_scratch(scene)),
+          emitters_(scene.emitters(), settings),
+          directions_(guide, settings),
+          direction_records_(guide, settings),
+          emission_(scene, settings_, observer_) {
+        recorders_.fill(PathRecorder(settings.target, settings.view_records));
+    }
+
+    PathWalk(const PathWalk&) = delete;
+    PathWalk& operator=(const PathWalk&) = delete;
+
+    /// The places of a batch: whoever sets one up says so to walk().
+    Path& operator[](std::uint32_t place) { return paths_[place]; }
+    PathRecorder& recorder(std::uint32_t place) { return recorders_[place]; }
+
+    /// Traces the paths in these places, at most kBatch, to their ends. `follow(places)` is told where some have ended,
+    /// and sets up others in the first of these places; it returns how many.
+    template <class Follow>
+    void walk(std::span<const std::uint8_t> places, Follow follow) {
+        std::copy(places.begin(), places.end(), alive_.begin());
+        ended_.clear();
+        for (auto alive = static_cast<std::uint32_t>(places.size()); alive != 0;)
+            alive = ended_.replace(step(alive), alive_, follow);
+    }
+
+    /// Other ways out of glass, and copies, that the paths left; whoever follows them takes them away.
+    Branches& branches() { return branches_; }
+    PathCopies& copies() { return copies_; }
+
+    const PathSettings& settings() const { return settings_; }
+    Observer& observer() { return observer_; }
+    PhaseClock& clock() { return clock_; }
+
+  private:
+    /// Whether directions have to be converted before a path can leave.
+    static constexpr bool kConverts = kGuided || kRecord;
+    static constexpr bool kViews = kConverts && Surface::kViews;
+
+    /// One more edge for the first `alive` of alive_; returns how many go on.
+    std::uint32_t step(std::uint32_t alive) {
+        clock_.start();
+        std::array<EmbreeScene::Query, kBatch> queries;
+        std::uint32_t count = 0;
+        for (std::uint32_t lane = 0; lane < alive; ++lane) {
+            Path& path = paths_[alive_[lane]];
+            path.lane = static_cast<std::uint8_t>(lane);
+            ++path.vertex;
+            ++path.depth;
+            if (kGuided && path.copied) continue;
+            ++stats_.rays;
+            if constexpr (kGuided) stats_.probe_rays += path.probe;
+            observer_.ray(path.ray);
+            queries[count++] = {&path.ray, &path.meeting, &path.found};
+        }
+        scene_.geometry().meet({queries.data(), count});
+        clock_.lap(TracePhase::intersect);
+        if constexpr (Surface::kGeneral)  // others are of small scenes mostly
+            arrivals(alive, [&](std::uint32_t, Path& path) { scene_.geometry().prefetch_point(path.meeting); });
+        draw_numbers(alive);
+        arrivals(alive, [&](std::uint32_t, Path& path) { scene_.geometry().set_point(path.hit, path.meeting); });
+        if (settings_.textured)
+            arrivals(alive, [&](std::uint32_t, Path& path) { Surface::prefetch(scene_, path.hit); });
+        clock_.lap(TracePhase::surface);
+        if constexpr (kConverts) find_regions(alive);
+        pending_.clear();
+        alive = keep(alive, [&](std::uint8_t path) {
+            if constexpr (kGuided) directions_.prefetch_cell(paths_[path]);
+            return visit(path);
+        });
+        if (emitters_.together()) [[unlikely]]
+            sample_emitters_together(alive);
+        clock_.lap(TracePhase::surface);
+        if (!pending_.empty()) look_at_lights();
+        clock_.lap(TracePhase::shadow);
+        alive = go_on(alive);
+        clock_.lap(TracePhase::direction);
+        if constexpr (kRecord) {
+            direction_records_.template add<Surface>(paths_, {alive_.data(), alive}, recorders_);
+            clock_.lap(TracePhase::record);
+        }
+        return alive;
+    }
+
+    /// The next directions.
+    std::uint32_t go_on(std::uint32_t alive) {
+        const auto draws = [&](std::uint8_t path) { return directions_.draw(paths_[path]) || end("no direction"); };
+        const auto leaves = [&](std::uint8_t path) {
+            directions_.complete(paths_[path]);
+            return leave(path);
+        };
+        directions_.start(paths_, {alive_.data(), alive});
+        if constexpr (!kConverts) return keep(alive, [&](std::uint8_t path) { return draws(path) && leaves(path); });
+        alive = keep(alive, draws);
+        directions_.convert();
+        if constexpr (kGuided) directions_.choose(paths_, {alive_.data(), alive});
+        return keep(alive, leaves);
+    }
+
+    /// Keeps those of the first `alive` paths of alive_ for which `goes_on`; returns their number.
+    template <class GoesOn>
+    std::uint32_t keep(std::uint32_t alive, GoesOn goes_on) {
+        std::uint32_t left = 0;
+        for (std::uint32_t i = 0; i < alive; ++i) {
+            const std::uint8_t path = alive_[i];
+            if (goes_on(path))
+                alive_[left++] = path;
+            else
+                ended_.add(path);
+        }
+        return left;
+    }
+
+    /// Calls visit(lane, path) for the first `alive` of alive_ that have met a surface.
+    template <class Visit>
+    void arrivals(std::uint32_t alive, Visit visit) {
+        for (std::uint32_t lane = 0; lane < alive; ++lane)
+            if (Path& path = paths_[alive_[lane]]; path.found) visit(lane, path);
+    }
+
+    void find_regions(std::uint32_t alive) {
+        VectorBatch places;
+        std::array<std::uint32_t, kBatch> regions;
+        std::uint32_t count = 0;
+        arrivals(alive, [&](std::uint32_t, Path& path) { places.set(count++, path.hit.p); });
+        guide_.regions(places, count, regions);
+        count = 0;
+        arrivals(alive, [&](std::uint32_t lane, Path& path) {
+            const std::uint32_t region = path.guidance.region = regions[count++];
+            if (kGuided && path.depth == 1) path.first_exponent = guide_.quantum_exponent(region);
+            if constexpr (kGuided) directions_.prefetch(region, lane);
+        });
+        clock_.lap(TracePhase::direction);
+    }
+
+    /// The random numbers of a step, for all paths together.
+    void draw_numbers(std::uint32_t alive) {
+        KeyBatch keys;
+        int depth = 0;
+        for (std::uint32_t i = 0; i < alive; ++i) {
+            const Path& path = paths_[alive_[i]];
+            keys.pixel[i] = path.key.pixel;
+            keys.sample[i] = path.key.sample;
+            keys.vertex[i] = path.vertex;
+            depth = std::max(depth, path.depth);
+        }
+        const std::uint64_t seed = paths_[alive_[0]].key.seed;
+        directions_.draw_numbers(seed, keys, paths_, {alive_.data(), alive});
+        emitters_.draw_numbers(seed, keys, alive);
+        if (depth > 1 && settings_.roulette.plays(depth - 1))
+            draw_batch(seed, keys, alive, ~0u, Stream::roulette, roulette_draws_);  // of the vertex before
+        if constexpr (kRecord) direction_records_.draw_numbers(seed, keys, alive);
+    }
+
+    /// Arrival of a path's ray: emission, and whether the path goes on from there, as one or as several.
+    bool arrive(Path& path, PathRecorder* recorder) {
+        if (!path.found) {
+            if (scene_.emitters().shines_from_infinity()) [[unlikely]]
+                emission_.from_infinity(path, recorder);
+            return end("left the scene");
+        }
+        if (scene_.emitters().emits(path.hit.shape)) [[unlikely]]
+            emission_.from_emitter(path, recorder);
+        if (path.depth == settings_.max_depth) return end("depth limit");
+        if (path.depth == 1) return true;
+
+        if (settings_.roulette.plays(path.depth - 1)) {
+            const float chance = survival<kGuided>(path, guide_, settings_);
+            const bool survives = to_unit(roulette_draws_.word[0][path.lane]) < chance;
+            observer_.roulette(chance, survives);
+            if (!survives) return end("roulette");
+            path.throughput *= 1.0f / chance;
+            if constexpr (kRecord) recorder->survive(chance);
+        }
+        if constexpr (kGuided)
+            if (const std::uint32_t paths = splitting(path, guide_, settings_); paths > 1) [[unlikely]]
+                split(path, paths);
+        return true;
+    }
+
+    /// The path goes on as several; it is one of them.
+    [[gnu::noinline]] void split(Path& path, std::uint32_t paths) {
+        paths = path.copies.split(paths);
+        path.unsplit.split(paths, luminance(path.radiance));
+        path.throughput *= 1.0f / static_cast<float>(paths);
+        observer_.split(paths, path.throughput);
+        for (std::uint32_t i = 1; i < paths; ++i)
+            copies_.leave(path.copy());
+    }
+
+    /// Visit of the surface where a path's ray has arrived. False if the path ends.
+    bool visit(std::uint8_t index) {
+        Path& path = paths_[index];
+        const Hit& hit = path.hit;
+        const Ray& ray = path.ray;
+        observer_.arrive(path.depth, path.found ? &hit : nullptr);
+        if (kGuided && path.copied) [[unlikely]]
+            path.copied = false;
+        else if (!arrive(path, kRecord ? &recorders_[index] : nullptr))
+            return false;
+        else
+            scene_.geometry().keep_inside(path.hit, ray);
+        const Surface& surface = path.surface.emplace(scene_, hit, -ray.direction, scratch_[index]);
+        if (surface.black()) return end("black surface");
+        if (settings_.strict_normals && -dot(surface.ng(), ray.direction) * surface.wo().z < 0.0f)
+            return end("normals disagree");
+        ++stats_.vertices;
+        path.guidance.bsdf_fraction = kGuided && surface.smooth() ? guide_.bsdf_fraction(path.guidance.region) : 1.0f;
+        if constexpr (kViews)
+            find_view<kGuided>(guide_, surface.view_dependent(), -ray.direction, path.outgoing_code, path.guidance);
+        if constexpr (kGuided && kViews) directions_.prefetch_view(path);
+        if (kGuided && path.probe) path.guidance.sample_bsdf_alone();
+        if constexpr (kRecord)
+            if (surface.smooth() && !guide_.contains(hit.p)) recorders_[index].add_outside();
+        if (emitters_.any() && !emitters_.together() && surface.smooth()) next_event(index);
+        return true;
+    }
+
+    /// The path takes the direction that was drawn. False if it carries nothing.
+    bool leave(std::uint8_t index) {
+        Path& path = paths_[index];
+        const Surface& surface = *path.surface;
+        const ScatterSample& s = path.scatter;
+        if constexpr (Surface::kTransmits)
+            if (s.delta && path.depth == 1 && settings_.split_glass) branches_.split(path, settings_.strict_normals);
+        if (!(s.pdf > 0.0f) || is_black(s.f_cos)) return end("no direction");
+        if (settings_.strict_normals && dot(surface.ng(), s.world) * s.local.z <= 0.0f) return end("normals disagree");
+        path.weight = s.f_cos * (1.0f / s.effective_pdf);
+        path.throughput *= path.weight;
+        observer_.scatter(s, path.throughput);
+        path.scatter_pdf = s.pdf;
+        path.scatter_point = path.hit.p;
+        path.scatter_lights = light_share(path);
+        // One question for what is rare: the same bits say that a lobe may be delta, or refract.
+        const bool rare = Surface::kGeneral && surface.delta_or_transmitting();
+        if constexpr (Surface::kTransmits)
+            if (rare && s.local.z < 0.0f) path.spread *= surface.eta2();
+        assert(path.spread == 1.0f || scene_.effects().transmission);
+        if (rare && s.delta) path.scatter_pdf = std::numeric_limits<float>::infinity();
+        path.ray = {offset_origin(path.hit, s.world), s.world};
+        return true;
+    }
+
+    bool end(const char* why) {
+        observer_.end(why);
+        return false;
+    }
+
+    /// Out of line: most scenes pay one test for it.
+    [[gnu::noinline]] void sample_emitters_together(std::uint32_t alive) {
+        std::array<std::uint8_t, kBatch> smooth;
+        std::uint32_t count = 0;
+        emitters_.clear();
+        for (std::uint32_t i = 0; i < alive; ++i) {
+            const Path& path = paths_[alive_[i]];
+            if (!path.surface->smooth()) continue;
+            smooth[count++] = alive_[i];
+            emitters_.choose(path.lane, path.hit.p, light_share(path));
+        }
+        emitters_.draw();
+        for (std::uint32_t i = 0; i < count; ++i)
+            next_event(smooth[i]);
+    }
+
+    /// How next event chooses an emitter where the path is: nullptr, by power.
+    const LightShare* light_share(const Path& path) const {
+        return !kConverts || (kGuided && path.probe) ? nullptr : guide_.light_share(path.guidance.region);
+    }
+
+    /// Samples an emitter; whether it is seen is asked for all paths of a step together.
+    void next_event(std::uint8_t index) {
+        const Path& path = paths_[index];
+        const Surface& surface = *path.surface;
+        const LightShare* const share = settings_.delta_alone ? nullptr : light_share(path);
+        const Vec3 front = surface.front();
+        const DirectSample light =
+            emitters_.sample(path.hit.p, path.lane, share, surface.transmits() ? nullptr : &front);
+        if (!(light.pdf > 0.0f) || light.black()) return;
+        BsdfValue bsdf;
+        if (surface.evaluate_late()) {
+            if (!surface.transmits() && !(dot(front, light.wi) > 0.0f)) return;
+        } else {
+            bsdf = bsdf_value(surface, light.wi);
+            if (is_black(bsdf.f_cos)) return;
+        }
+        if (settings_.strict_normals && dot(surface.ng(), light.wi) * dot(surface.frame().n, light.wi) <= 0.0f) return;
+        ++stats_.shadow_rays;
+        const std::uint32_t vertex = kRecord ? recorders_[index].vertex_count() : 0;
+        pending_.add(path.hit, light, {index, vertex, share != nullptr, path.guidance, path.throughput}, bsdf);
+    }
+
+    static BsdfValue bsdf_value(const Surface& surface, const Vec3& wi) {
+        return surface.bsdf().value(surface.wo(), surface.frame().to_local(wi));
+    }
+
+    /// Finds out how the surface scatters what it sees, unless that is known; false if not at all.
+    bool reflects(PendingLight& light) {
+        const Surface& surface = *paths_[light.from.path].surface;
+        if (!surface.evaluate_late()) return true;
+        light.set(bsdf_value(surface, light.wi));
+        return !is_black(light.f_cos);
+    }
+
+    /// Traces the step's shadow rays, and adds what is seen, weighted against scattering.
+    void look_at_lights() {
+        const std::span<const bool> shadowed = pending_.trace(scene_.geometry(), observer_);
+        std::array<std::uint8_t, kBatch> seen;
+        std::uint32_t count = 0;
+        light_codes_.clear();
+        for (std::uint32_t i = 0; i < pending_.size(); ++i) {
+            if (shadowed[i] || !reflects(pending_[i])) continue;
+            seen[count++] = static_cast<std::uint8_t>(i);
+            if constexpr (kConverts) light_codes_.add(pending_[i].wi, pending_[i].from.guidance);
+        }
+        if constexpr (kConverts) light_codes_.convert();
+        if constexpr (kGuided) light_codes_.prefetch(guide_);
+        emitters_.shine_from_infinity(
+            pending_, {seen.data(), count}, [&](const PendingLight& light) { return paths_[light.from.path].lane; },
+            [&](const PendingLight& light) { return light_share(paths_[light.from.path]); });
+        if constexpr (kGuided) light_codes_.prefetch_cells(guide_);
+        for (std::uint32_t i = 0; i < count; ++i)
+            add_light(pending_[seen[i]], light_codes_[i]);
+    }
+
+    void add_light(const PendingLight& light, std::uint32_t code) {
+        if (!(light.pdf > 0.0f)) return;  // of an environment map: only now known
+        float scatter_pdf = light.delta ? 0.0f : light.bsdf_pdf;
+        if constexpr (kGuided)
+            if (!light.delta) scatter_pdf = mixed_pdf_at<kViews>(guide_, light.from.guidance, light.bsdf_pdf, code);
+        const float weight = mis_weight(settings_.mis, light.pdf, scatter_pdf);
+        const Rgb reflected = light.f_cos * light.radiance * (weight / light.pdf);
+        Path& path = paths_[light.from.path];
+        path.radiance += light.from.throughput * reflected;
+        observer_.next_event(light, scatter_pdf, weight, light.from.throughput * reflected);
+        if constexpr (kRecord)
+            record_light<kViews>(light, reflected, weight, code, path, guide_, settings_, recorders_[light.from.path]);
+    }
+
+    const TraceScene& scene_;
+    const Guide& guide_;
+    const PathSettings settings_;
+    TraceStats& stats_;
+    PhaseClock clock_;
+    std::vector<typename Surface::Scratch> scratch_;  ///< a path's surface lasts for a step
+    std::array<Path, kBatch> paths_;
+    std::array<std::uint8_t, kBatch> alive_;
+    EndedPaths ended_;
+    Branches branches_;
+    PathCopies copies_;
+    DrawBatch roulette_draws_;
+    EmitterChoice emitters_;
+    DirectionChoice<Surface, kGuided, kConverts, kViews> directions_;
+    CodeBatch<kViews> light_codes_;
+    PendingLights pending_;
+    std::array<PathRecorder, kRecord ? kBatch : 0> recorders_;
+    DirectionRecords<kViews> direction_records_;
+    [[no_unique_address]] Observer observer_;
+    Emission<Surface, kRecord, Observer> emission_;
+};
+
+}  // namespace treefarm

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cassert>
+#include <cstdint>
+#include <span>
+
+#include "worker/geometry/embree_scene.h"
+#include "worker/integrators/path/guided_sampling.h"
+#include "worker/integrators/record_log.h"
+#include "worker/lights/direct_sample.h"
+
+namespace treefarm {
+
+/// The vertex from which an emitter was sampled.
+struct LightSeeker {
+    std::uint32_t path;    ///< of the batch
+    std::uint32_t vertex;  ///< vertices that the path has recorded before this one
+    bool learned_choice;   ///< the emitter was chosen by what is learned of this region
+    Guidance guidance;
+    Rgb throughput;
+};
+
+/// A sampled emitter of which it is not yet known whether it is seen.
+struct PendingLight {
+    LightSeeker from;
+    Vec3 wi;  ///< as in DirectSample, like all to cluster_probability
+    float distance;
+    float pdf;
+    bool delta;
+    bool from_environment;
+    std::uint8_t cluster;
+    float cluster_probability;
+    float bsdf_pdf;  ///< of scattering along wi
+    Rgb f_cos;
+    Rgb radiance;  ///< of the emitter, unless it is the environment
+
+    void set(const BsdfValue& bsdf) {
+        bsdf_pdf = bsdf.pdf;
+        f_cos = bsdf.f_cos;
+    }
+
+    /// Record from which the choice of emitters learns, of a sample that brought `reflected`.
+    Record record(const Guide& guide, float reflected) const {
+        const std::uint32_t region = from.guidance.region;
+        return light_record(region, guide.quantum_exponent(region), cluster, cluster_probability, reflected);
+    }
+};
+
+/// Shadow rays of one step of a batch of paths, with the light samples that they belong to.
+class PendingLights {
+  public:
+    static constexpr std::uint32_t kMost = EmbreeScene::kMostTogether;
+
+    void clear() { count_ = 0; }
+    bool empty() const { return count_ == 0; }
+    std::uint32_t size() const { return count_; }
+    PendingLight& operator[](std::size_t i) { return lights_[i]; }
+
+    /// Adds what was sampled where `hit` is, with the BSDF's value for it, if it is known already.
+    void add(const Hit& hit, const DirectSample& light, const LightSeeker& from, const BsdfValue& bsdf) {
+        assert(count_ < kMost);
+        PendingLight& pending = lights_[count_];
+        pending.from = from;
+        pending.wi = light.wi;
+        pending.distance = light.distance;
+        pending.pdf = light.pdf;
+        pending.delta = light.delta;
+        pending.from_environment = light.from_environment;
+        pending.cluster = light.cluster;
+        pending.cluster_probability = light.cluster_probability;
+        pending.set(bsdf);
+        pending.radiance = light.radiance;
+        aim(rays_[count_++], hit, light);
+    }
+
+    /// Traces the shadow rays; which of the lights are hidden.
+    template <class Observer>
+    std::span<const bool> trace(const EmbreeScene& geometry, Observer& observer) {
+        for (std::uint32_t i = 0; i < count_; ++i)
+            observer.shadow(rays_[i]);
+        geometry.occluded({rays_.data(), count_}, shadowed_.data());
+        return {shadowed_.data(), count_};
+    }
+
+  private:
+    /// The shadow ray. Both ends of the segment are moved off their surfaces towards each other.
+    static void aim(Ray& ray, const Hit& hit, const DirectSample& light) {
+        ray = {offset_origin(hit, light.wi), light.wi};
+        if (light.at_infinity()) return;
+        ray.direction = offset_origin(light.on_light, -light.wi) - ray.origin;
+        // Closer than the offsets: nothing fits between.
+        ray.length = dot(ray.direction, light.wi) > 0.0f ? 1.0f : -1.0f;
+    }
+
+    std::uint32_t count_ = 0;
+    std::array<PendingLight, kMost> lights_;
+    std::array<Ray, kMost> rays_;
+    std::array<bool, kMost> shadowed_;
+};
+
+}  // namespace treefarm

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include "common/film/pass_film.h"
+#include "common/film/splitting_gain.h"
+#include "common/plan/kernel.h"
+#include "worker/integrators/path/path_kernel.h"
+#include "worker/integrators/path/path_roulette.h"
+#include "worker/integrators/path/tile_renderer.h"
+
+namespace treefarm {
+
+/// A work unit with all that it is rendered by, and what it is filled into.
+struct TileJob {
+    const TraceScene& scene;
+    const Resolved& job;
+    const PassPlan& pass;
+    const Guide& guide;
+    const WorkUnit& unit;
+    std::vector<PixelEstimate>& pixels;
+    RecordLog& log;
+    TraceStats& stats;
+};
+
+/// An instance of the path kernel.
+struct TileKernel {
+    KernelChoice choice;
+    void (*render)(const TileJob&);
+};
+
+/// The kernels of a kind of surface. Each kind is compiled by itself: the compiler inlines less where there are more.
+std::span<const TileKernel> diffuse_kernels();
+std::span<const TileKernel> general_kernels();
+std::span<const TileKernel> viewed_kernels();
+
+/// The film's door: what is not a radiance counts as black, is counted, and can be reproduced from what is kept.
+void refuse_invalid(Rgb& radiance, const WorkUnit& unit, int x, int y, std::uint32_t sample, TraceStats& stats);
+
+/// Walks through the samples of a unit: pixel by pixel, row by row.
+struct UnitCursor {
+    const WorkUnit& unit;
+    std::uint32_t first, last;  ///< samples of a pixel
+    int x = unit.x0, y = unit.y0;
+    std::uint32_t sample = first;
+
+    bool done() const { return y == unit.y1 || first >= last; }
+    /// Goes on to the next sample; true if the last one was its pixel's last.
+    bool advance() {
+        if (++sample < last) return false;
+        sample = first;
+        if (++x == unit.x1) {
+            x = unit.x0;
+            ++y;
+        }
+        return true;
+    }
+};
+
+template <class Surface, bool kGuided, bool kRecord>
+void render_with(const TileJob& tile) {
+    const auto& [scene, job, pass, guide, unit, pixels, log, stats] = tile;
+    const PathSettings settings(scene, job, pass, guide);
+    PathKernel<Surface, kGuided, kRecord> kernel(scene, guide, settings, stats, &log);
+    const std::uint32_t first = unit.chunk * pass.blocks_per_unit * kBlockSamples;
+    const std::uint32_t last = std::min(first + pass.blocks_per_unit * kBlockSamples, pass.spp);
+    const bool is_signed = scene.film().is_signed();
+    const auto key = [&tile](const UnitCursor& at) {
+        return PathKey{tile.job.sampler.seed, tile.scene.film().key_of(at.x, at.y), tile.pass.first_sample + at.sample};
+    };
+    std::vector<PixelEstimate> blocks;
+    PairedSamples pairs;
+    UnitCursor start{unit, first, last}, end{unit, first, last};
+    while (!start.done()) {
+        kernel.clear();
+        while (!kernel.full() && !start.done()) {
+            kernel.add(key(start), scene.camera().generate(start.x, start.y, key(start)));
+            start.advance();
+        }
+        kernel.trace();
+        kernel.clock().start();
+        for (std::uint32_t i = 0; i < kernel.count(); ++i) {
+            if (end.sample % kBlockSamples == 0) {
+                blocks.emplace_back();
+                pairs.finish(stats.splitting);
+            }
+            Rgb radiance = kernel.radiance(i);
+            refuse_invalid(radiance, unit, end.x, end.y, end.sample, stats);
+            if (!is_black(radiance)) ++stats.nonzero_paths;
+            blocks.back().add(key(end).sample, is_signed ? radiance * scene.camera().weight(key(end)) : radiance);
+            if (kGuided && kRecord && settings.compare_splitting && !settings.is_probe(key(end).pixel)) {
+                const int record = kernel.first_exponent(i) + kMeanRecordBits;
+                const double scale = std::ldexp(1.0, -light_exponent(record, settings.target));
+                pairs.add(scale * luminance(radiance), scale * kernel.unsplit(i));
+            }
+            if (end.advance()) {
+                pixels.push_back(reduce_blocks(blocks));
+                blocks.clear();
+            }
+        }
+        kernel.clock().lap(TracePhase::record);
+        stats.paths += kernel.count();
+    }
+    pairs.finish(stats.splitting);
+}
+
+/// Kernels of a kind of surface that use a tree.
+template <class Surface>
+inline constexpr TileKernel kTreeKernelsOf[] = {
+    {{!Surface::kGeneral, false, true, Surface::kViews}, render_with<Surface, false, true>},
+    {{!Surface::kGeneral, true, false, Surface::kViews}, render_with<Surface, true, false>},
+    {{!Surface::kGeneral, true, true, Surface::kViews}, render_with<Surface, true, true>},
+};
+
+/// All kernels of a kind of surface that does without a tree, too.
+template <class Surface>
+inline constexpr TileKernel kKernelsOf[] = {
+    {{!Surface::kGeneral, false, false}, render_with<Surface, false, false>},
+    kTreeKernelsOf<Surface>[0],
+    kTreeKernelsOf<Surface>[1],
+    kTreeKernelsOf<Surface>[2],
+};
+
+}  // namespace treefarm

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "common/math/frame.h"
+#include "worker/scene/trace_scene.h"
+
+namespace treefarm {
+
+/// The surface that the walk stands on, as far as it needs it. Three kinds, a template argument of the path kernel, so
+/// that plainly diffuse scenes pay for no other material, and only trees with views for views.
+
+/// A surface of a plainly diffuse scene (is_plainly_diffuse()): no delta lobes, no transmission, no textures.
+class DiffuseSurface {
+  public:
+    using Bsdf = PlainDiffuse;
+    static constexpr bool kGeneral = false, kTransmits = false, kViews = false;
+    struct Scratch {};
+    static Scratch make_scratch(const TraceScene&) { return {}; }
+    static void prefetch(const TraceScene&, const Hit&) {}
+
+    /// `outgoing`: unit, in world space, to where light goes.
+    DiffuseSurface(const TraceScene& scene, const Hit& hit, const Vec3& outgoing, Scratch&)
+        : bsdf_(scene.plain_diffuse(hit.shape)), hit_(hit), frame_(hit.ns), wo_(frame_.to_local(outgoing)) {}
+
+    bool black() const { return !bsdf_.reflects(wo_); }
+    const Bsdf& bsdf() const { return bsdf_; }
+    const Frame& frame() const { return frame_; }
+    const Vec3& wo() const { return wo_; }
+    const Vec3& ng() const { return hit_.ng; }
+    /// Normal on wo's side.
+    Vec3 front() const { return wo_.z < 0.0f ? -frame_.n : frame_.n; }
+    static constexpr bool smooth() { return true; }
+    static constexpr bool evaluate_late() { return false; }
+    static constexpr bool transmits() { return false; }
+    static constexpr bool has_delta() { return false; }
+    static constexpr bool delta_or_transmitting() { return false; }
+
+  private:
+    const Bsdf& bsdf_;
+    const Hit& hit_;
+    Frame frame_;
+    Vec3 wo_;
+};
+
+/// A surface of any material. Its frame is turned so that `wo` is on the side of +z; textures, bumps and tangents are
+/// looked up only for the materials that have them.
+class GeneralSurface {
+  public:
+    using Bsdf = treefarm::Bsdf;
+    static constexpr bool kGeneral = true, kTransmits = true, kViews = false;
+    using Scratch = BsdfScratch;
+    static Scratch make_scratch(const TraceScene& scene) { return scene.materials().make_scratch(); }
+
+    GeneralSurface(const TraceScene& scene, const Hit& hit, const Vec3& outgoing, Scratch& scratch)
+        : frame_(hit.ns), wo_(frame_.to_local(outgoing)), ng_(hit.ng) {
+        const bool back = wo_.z < 0.0f;
+        if (back) {
+            frame_.n = -frame_.n;
+            wo_.z = -wo_.z;
+            ng_ = -ng_;
+        }
+        const MaterialSet::Side& side = scene.materials().side(hit.shape, back);
+        bsdf_ = side.bsdf;
+        lobes_ = side.lobes;
+        if (!bsdf_ && side.material != kNone) look_up(scene, hit, side.material, back, scratch);
+    }
+
+    /// Fetches what a hit's material will look up.
+    static void prefetch(const TraceScene& scene, const Hit& hit) {
+        const std::int32_t material = scene.materials().side(hit.shape, false).material;
+        if (material != kNone) prefetch(scene, hit, material);
+    }
+
+    bool black() const { return !bsdf_ || !(wo_.z > 0.0f); }
+    const Bsdf& bsdf() const { return *bsdf_; }
+    const Frame& frame() const { return frame_; }
+    const Vec3& wo() const { return wo_; }
+    /// Geometric normal on wo's side of the shading normal's plane.
+    const Vec3& ng() const { return ng_; }
+    /// Whether any lobe has a density: next event and guides are of no use without.
+    bool smooth() const { return lobes_ & kSmoothLobe; }
+    /// Whether next event gains by asking for the BSDF's value only once it sees the emitter. Not where a black value
+    /// often spares the shadow ray, nor where the value costs next to nothing.
+    bool evaluate_late() const { return lobes_ & kWideLobe; }
+    /// Normal on wo's side.
+    const Vec3& front() const { return frame_.n; }
+    bool transmits() const { return lobes_ & kTransmittingLobe; }
+    /// Whether the directions that it prefers depend on wo.
+    bool view_dependent() const { return lobes_ & kViewLobe; }
+    bool has_delta() const { return lobes_ & kDeltaLobe; }
+    bool delta_or_transmitting() const { return lobes_ & (kDeltaLobe | kTransmittingLobe); }
+
+    /// Squared relative index: what refraction to the far side takes from a path's throughput.
+    float eta2() const {
+        const float eta = refraction_of(*bsdf_);
+        return eta * eta;
+    }
+
+  private:
+    static void prefetch(const TraceScene& scene, const Hit& hit, std::int32_t material);
+    void look_up(const TraceScene& scene, const Hit& hit, std::int32_t material, bool back, Scratch& scratch);
+
+    const Bsdf* bsdf_;
+    Frame frame_;
+    Vec3 wo_, ng_;
+    LobeBits lobes_;
+};
+
+/// A surface of any scene where the tree has views.
+class ViewedSurface : public GeneralSurface {
+  public:
+    static constexpr bool kViews = true;
+    using GeneralSurface::GeneralSurface;
+};
+
+}  // namespace treefarm

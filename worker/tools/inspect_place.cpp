@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "worker/tools/inspect_place.h"
+
+#include <array>
+#include <atomic>
+#include <memory>
+#include <thread>
+
+#include "worker/integrators/path/path_kernel.h"
+
+namespace treefarm {
+namespace {
+
+/// A number in the middle of all 32-bit numbers: what it draws lies in the middle, too.
+constexpr std::uint32_t kMiddle = 0x80000000u;
+
+/// The BSDF of a place for one direction.
+struct Scattering {
+    Rgb f_cos{1.0f};     ///< per steradian; 1 for a bare point
+    float bsdf_pdf = 0;  ///< per steradian
+    bool reflects = true;
+};
+
+/// How a place scatters, one per thread. A bare point is taken for a diffuse surface, without normal for one that
+/// scatters evenly.
+template <class Surface>
+class Scatterer {
+  public:
+    Scatterer(const TraceScene& scene, const InspectedPlace& place, bool strict_normals)
+        : place_(place), strict_(strict_normals), scratch_(Surface::make_scratch(scene)) {
+        if (place.surface) surface_.emplace(scene, place.hit, place.outgoing, scratch_);
+    }
+
+    const Surface& surface() const { return *surface_; }
+
+    Scattering toward(const Vec3& d) const {
+        if (!surface_) {
+            if (!place_.normal) return {Rgb(1.0f), 0.25f / kPi, true};
+            const float cosine = dot(place_.hit.ns, d);
+            return {Rgb(1.0f), std::max(cosine, 0.0f) / kPi, cosine > 0.0f};
+        }
+        const Vec3 wi = surface_->frame().to_local(d);
+        const BsdfValue value = surface_->bsdf().value(surface_->wo(), wi);
+        const bool against = strict_ && dot(surface_->ng(), d) * wi.z <= 0.0f;
+        return {value.f_cos, value.pdf, !against && !is_black(value.f_cos)};
+    }
+
+  private:
+    const InspectedPlace& place_;
+    const bool strict_;
+    typename Surface::Scratch scratch_;
+    std::optional<Surface> surface_;
+};
+
+/// Emission that a ray from the place meets first, as next event and as scattering would see it.
+struct Met {
+    Rgb emitted{0.0f};
+    float light_pdf = 0;  ///< of next event
+};
+
+Met meet_emitter(const TraceScene& scene, const Vec3& from, const Ray& ray, const LightShare* share) {
+    const Emitters& emitters = scene.emitters();
+    Hit hit;
+    if (!scene.geometry().intersect(ray, hit)) {
+        if (!emitters.shines_from_infinity()) return {};
+        return {emitters.environment(ray.direction), emitters.pdf_environment(ray.direction, share)};
+    }
+    if (!emitters.emits(hit.shape)) return {};
+    return {emitters.emitted(hit, -ray.direction), emitters.pdf_direct(from, ray.direction, hit, share)};
+}
+
+/// The job of the paths that start at the place: their first edge is the second of a path from the camera, and what it
+/// meets shining is added apart.
+Resolved unguided(const Resolved& job) {
+    Resolved plain = job;
+    plain.guiding.splitting = 1;
+    plain.integrator.hide_emitters = true;
+    if (plain.integrator.max_depth > 0) --plain.integrator.max_depth;
+    return plain;
+}
+
+/// Sums over the samples of a square.
+struct Square {
+    double radiance = 0, left = 0, reflected = 0, left_reflected = 0, sampled = 0;
+};
+
+template <class Surface>
+class PlaceTracer {
+  public:
+    PlaceTracer(const TraceScene& scene, const Resolved& job, const Guide& guide, const InspectedPlace& place,
+                const BruteForce& settings)
+        : scene_(scene),
+          guide_(guide),
+          place_(place),
+          settings_(settings),
+          facts_(place_facts(scene, guide, place)),
+          mis_(job.integrator.mis),
+          seed_(job.sampler.seed),
+          scatterer_(scene, place, job.integrator.strict_normals),
+          kernel_(scene, guide, PathSettings(scene, unguided(job), next_event_pass(), guide), stats_) {}
+
+    Square square(std::uint32_t column, std::uint32_t row) {
+        Square sums;
+        for (std::uint32_t sample = 0; sample < settings_.samples; ++sample) {
+            add(column, row, sample, sums);
+            if (kernel_.full()) finish(sums);
+        }
+        finish(sums);
+        return sums;
+    }
+
+  private:
+    static PassPlan next_event_pass() {
+        PassPlan pass;
+        pass.next_event = true;
+        pass.guided = false;
+        return pass;
+    }
+
+    void add(std::uint32_t column, std::uint32_t row, std::uint32_t sample, Square& sums) {
+        const std::uint32_t side = 1u << settings_.bits;
+        const PathKey key{seed_, row * side + column, sample};
+        const Draw random = draw(key, 0, Stream::camera);
+        const Vec2 at((static_cast<float>(column) + to_unit(random[0])) / static_cast<float>(side),
+                      (static_cast<float>(row) + to_unit(random[1])) / static_cast<float>(side));
+        const Vec3 d = square_to_direction(at);
+        const Scattering scattering = scatterer_.toward(d);
+        const float pdf = mixed_pdf_at<true>(guide_, facts_.guidance, scattering.bsdf_pdf, square_to_code(at));
+        sums.sampled += static_cast<double>(pdf);
+        if (!scattering.reflects) return;
+        const Ray ray{offset_origin(place_.hit, d), d};
+        const Met met = meet_emitter(scene_, place_.hit.p, ray, guide_.light_share(facts_.guidance.region));
+        if (!is_black(met.emitted)) {
+            const double weight = double(mis_weight(mis_, pdf, met.light_pdf));
+            count(scattering.f_cos, met.emitted, 1.0, weight, sums);
+        }
+        waiting_[kernel_.count()] = scattering.f_cos;
+        kernel_.add(key, ray);
+    }
+
+    static void count(const Rgb& f_cos, const Rgb& radiance, double all, double left, Square& sums) {
+        const double incident = static_cast<double>(average(radiance));
+        const double reflected = static_cast<double>(average(f_cos * radiance));
+        sums.radiance += all * incident;
+        sums.left += left * incident;
+        sums.reflected += all * reflected;
+        sums.left_reflected += left * reflected;
+    }
+
+    void finish(Square& sums) {
+        kernel_.trace();
+        for (std::uint32_t i = 0; i < kernel_.count(); ++i)
+            if (is_finite(kernel_.radiance(i))) count(waiting_[i], kernel_.radiance(i), 1.0, 1.0, sums);
+        kernel_.clear();
+    }
+
+    const TraceScene& scene_;
+    const Guide& guide_;
+    const InspectedPlace& place_;
+    const BruteForce& settings_;
+    const PlaceFacts facts_;
+    const MisHeuristic mis_;
+    const std::uint64_t seed_;
+    TraceStats stats_;
+    Scatterer<Surface> scatterer_;
+    using Kernel = PathKernel<Surface, false, false>;
+    Kernel kernel_;
+    std::array<Rgb, Kernel::kGroup> waiting_;  ///< f |cos| of the directions that the kernel's paths start into
+};
+
+template <class Surface>
+PlaceTruth trace_with(const TraceScene& scene, const Resolved& job, const Guide& guide, const InspectedPlace& place,
+                      const BruteForce& settings) {
+    const std::uint32_t side = 1u << settings.bits;
+    std::vector<Square> squares(std::size_t{side} * side);
+    std::atomic<std::uint32_t> next_row = 0;
+    const auto work = [&] {
+        const auto tracer = std::make_unique<PlaceTracer<Surface>>(scene, job, guide, place, settings);
+        for (std::uint32_t row; (row = next_row++) < side;)
+            for (std::uint32_t column = 0; column < side; ++column)
+                squares[std::size_t{row} * side + column] = tracer->square(column, row);
+    };
+    std::vector<std::jthread> others;
+    for (unsigned k = 1; k < settings.threads; ++k)
+        others.emplace_back(work);
+    work();
+    others.clear();
+    const auto mean = [&](double Square::*value) {
+        std::vector<float> means;
+        for (const Square& square : squares)
+            means.push_back(static_cast<float>(square.*value / settings.samples));
+        return means;
+    };
+    PlaceTruth truth;
+    truth.radiance = mean(&Square::radiance);
+    if (settings.next_event) truth.left = mean(&Square::left);
+    if (place.surface) truth.reflected = mean(&Square::reflected);
+    if (place.surface && settings.next_event) truth.left_reflected = mean(&Square::left_reflected);
+    truth.sampled = mean(&Square::sampled);
+    return truth;
+}
+
+template <class Surface>
+void add_surface_facts(const TraceScene& scene, const InspectedPlace& place, PlaceFacts& facts) {
+    const Scatterer<Surface> scatterer(scene, place, false);
+    facts.black = scatterer.surface().black();
+    if (facts.black) return;
+    facts.smooth = scatterer.surface().smooth();
+    if constexpr (Surface::kGeneral) facts.view_dependent = scatterer.surface().view_dependent();
+}
+
+}  // namespace
+
+std::optional<InspectedPlace> seen_place(const TraceScene& scene, int x, int y) {
+    const Ray ray = scene.camera().generate(x, y, Draw{kMiddle, kMiddle, kMiddle, kMiddle});
+    InspectedPlace place;
+    if (!scene.geometry().intersect(ray, place.hit)) return std::nullopt;
+    place.outgoing = -ray.direction;
+    place.surface = place.normal = true;
+    return place;
+}
+
+PlaceFacts place_facts(const TraceScene& scene, const Guide& guide, const InspectedPlace& place) {
+    PlaceFacts facts;
+    facts.inside = guide.contains(place.hit.p);
+    if (place.surface && scene.plainly_diffuse()) add_surface_facts<DiffuseSurface>(scene, place, facts);
+    if (place.surface && !scene.plainly_diffuse()) add_surface_facts<GeneralSurface>(scene, place, facts);
+    Guidance& guidance = facts.guidance;
+    guidance = {guide.region(place.hit.p), Guide::kNoView, 1.0f, 0.0f};
+    if (facts.smooth) guidance.bsdf_fraction = guide.bsdf_fraction(guidance.region);
+    std::uint32_t outgoing_code = 0;
+    find_view<true>(guide, place.surface && facts.smooth && facts.view_dependent, place.outgoing, outgoing_code,
+                    guidance);
+    return facts;
+}
+
+PlaceTruth trace_place(const TraceScene& scene, const Resolved& job, const Guide& guide, const InspectedPlace& place,
+                       const BruteForce& settings) {
+    return scene.plainly_diffuse() ? trace_with<DiffuseSurface>(scene, job, guide, place, settings)
+                                   : trace_with<GeneralSurface>(scene, job, guide, place, settings);
+}
+
+}  // namespace treefarm

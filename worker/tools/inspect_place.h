@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "common/guiding/guide.h"
+#include "common/plan/resolve.h"
+#include "worker/integrators/path/guided_sampling.h"
+#include "worker/scene/trace_scene.h"
+
+namespace treefarm {
+
+/// A point where one looks at what the tree has learned: of a surface as a pixel sees it, or anywhere in the scene.
+struct InspectedPlace {
+    Hit hit;        ///< of a bare point: `p`, and the normals if they are known
+    Vec3 outgoing;  ///< unit, to where light goes; of a surface alone
+    bool surface = false;
+    bool normal = false;  ///< whether the hit's normals mean something
+};
+
+/// What the tree uses at a place, and whether the material gives it anything to do.
+struct PlaceFacts {
+    Guidance guidance;            ///< fractions as the walk uses them; of a bare point: of its region, without view
+    bool inside = true;           ///< the tree's cube
+    bool black = false;           ///< the surface reflects nothing to there
+    bool smooth = true;           ///< it has a lobe that a tree can learn about
+    bool view_dependent = false;  ///< it has one that T2 learns about, too
+};
+
+/// The place that the centre of a pixel sees (through the centre of a lens); nothing if it sees no surface.
+std::optional<InspectedPlace> seen_place(const TraceScene& scene, int x, int y);
+
+PlaceFacts place_facts(const TraceScene& scene, const Guide& guide, const InspectedPlace& place);
+
+/// How the truth is found: by path tracing from the place, with next event, without guides.
+struct BruteForce {
+    int bits = 6;                ///< 2^bits by 2^bits squares of the direction square
+    std::uint32_t samples = 64;  ///< per square
+    unsigned threads = 1;
+    bool next_event = false;  ///< whether the passes that taught the tree sampled emitters
+};
+
+/// Averages over the squares of the direction square, in row order from v = 0. Radiance is the mean of its channels, as
+/// the tree records it; directions in which the surface reflects nothing (or below the normal) are 0. What is `left` is
+/// what next event leaves to scattering: emission that is met directly counts by its MIS weight.
+struct PlaceTruth {
+    std::vector<float> radiance;        ///< incident: all of it
+    std::vector<float> left;            ///< of it; empty if next event took no part
+    std::vector<float> reflected;       ///< f |cos| times incident radiance; empty without a surface
+    std::vector<float> left_reflected;  ///< of it; empty if next event took no part
+    std::vector<float> sampled;         ///< density per steradian of the smooth part of what the walk samples here
+};
+
+/// Traces what a place scatters and receives. Pure but for its time: the same numbers for any number of threads.
+PlaceTruth trace_place(const TraceScene& scene, const Resolved& job, const Guide& guide, const InspectedPlace& place,
+                       const BruteForce& settings);
+
+}  // namespace treefarm
