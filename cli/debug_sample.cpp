@@ -13,6 +13,7 @@
 #include "common/scene/pack/scene_codec.h"
 #include "coordinator/pass_loop.h"
 #include "worker/tools/describe_sample.h"
+#include "worker/integrators/registry.h"
 #include "worker/worker_loop.h"
 
 namespace treefarm {
@@ -32,7 +33,7 @@ SdTree learn_tree(const RenderRequest& request, const std::vector<PassPlan>& pla
         settings.threads = affinity_threads();
         settings.host = this_host().name;
         settings.fingerprint = request.fingerprint.hash();
-        run_worker(*channels[1], settings, make_path_renderer, log);
+        run_worker(*channels[1], settings, make_renderer, log);
     });
     const auto send_away = [&] {
         dismiss_workers(*channels[0], {}, 5.0);

@@ -16,6 +16,7 @@
 #include "common/comm/mpi_channel.h"
 #include "coordinator/farm.h"
 #include "coordinator/pulse.h"
+#include "worker/integrators/registry.h"
 #include "worker/worker_loop.h"
 
 namespace treefarm {
@@ -42,7 +43,7 @@ int run_here(const FarmOptions& options, const Voice& voice, const FarmTask& tas
             WorkerSettings settings = worker_settings(threads);
             settings.silence_seconds = 1e9;  // nobody is gone who is in the same process
             try {
-                run_worker(channel, settings, make_path_renderer, log);
+                run_worker(channel, settings, make_renderer, log);
             } catch (const std::exception& error) {  // the coordinator notices the silence
                 log->error("{}", error.what());
             }
@@ -116,7 +117,7 @@ int work(MpiSession& session, const FarmOptions& options, const Voice& voice) {
     for (const std::string& warning : warnings)
         log->warn("{}", warning);
     try {
-        const WorkerEnd end = run_worker(session.channel(), worker_settings(threads), make_path_renderer, log);
+        const WorkerEnd end = run_worker(session.channel(), worker_settings(threads), make_renderer, log);
         const int code = end == WorkerEnd::orphaned ? 1 : 0;
         session.finish(end == WorkerEnd::orderly, code, kFinalizeSeconds);
         return code;

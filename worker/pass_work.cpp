@@ -11,17 +11,17 @@ PassWork::PassWork(const PassPlan& plan, const SdTree& tree, DirectionalFilter f
     if (plan_.record) accumulator_.emplace(plan_.index, guide_, filter, plan_.learn_mixture);
 }
 
-void PassWork::deliver(UnitResult unit, RecordLog& log, TraceStats stats) {
+void PassWork::deliver(const WorkUnit& unit, UnitOutput& output) {
     const std::shared_lock bundle(bundle_);
     if (accumulator_) {
         const double start = thread_cpu_seconds();
-        accumulator_->commit(log.records, log.counts, log.caps);
-        stats.splat_seconds += thread_cpu_seconds() - start;
+        accumulator_->commit(output.log.records, output.log.counts, output.log.caps);
+        output.stats.splat_seconds += thread_cpu_seconds() - start;
     }
     const std::scoped_lock lock(units_lock_);
-    bundle_bytes_ += unit.pixels.size() * sizeof(PixelEstimate);
-    units_.push_back(std::move(unit));
-    stats_.add(stats);
+    bundle_bytes_ += output.pixels.size() * sizeof(PixelEstimate);
+    units_.push_back({unit, std::exchange(output.pixels, {})});
+    stats_.add(output.stats);
 }
 
 std::optional<Result> PassWork::close() {

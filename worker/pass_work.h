@@ -10,7 +10,7 @@
 
 #include "common/guiding/splat.h"
 #include "common/protocol/messages.h"
-#include "worker/integrators/record_log.h"
+#include "worker/integrators/unit_output.h"
 
 namespace treefarm {
 
@@ -23,8 +23,9 @@ class PassWork {
     const PassPlan& plan() const { return plan_; }
     const Guide& guide() const { return guide_; }
 
-    /// Adds a finished unit and its records to the open bundle. Thread-safe; `log` is reordered.
-    void deliver(UnitResult unit, RecordLog& log, TraceStats stats);
+    /// Adds a finished unit and its records to the open bundle. Thread-safe; `output` gives up its pixels, and its
+    /// records are reordered.
+    void deliver(const WorkUnit& unit, UnitOutput& output);
 
     /// Closes the bundle and opens a new one; nothing if no unit was delivered since. The message's incarnation is the
     /// caller's to fill in. Waits for deliveries that are under way, not for tracing.

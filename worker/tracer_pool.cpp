@@ -64,7 +64,7 @@ std::optional<std::string> TracerPool::failure() const {
 }
 
 void TracerPool::run() {
-    RecordLog log;
+    UnitOutput output;
     std::unique_lock lock(mutex_);
     for (;;) {
         changed_.wait(lock, [&] { return stop_ || !queue_.empty(); });
@@ -76,7 +76,7 @@ void TracerPool::run() {
         lock.unlock();
         std::optional<std::string> failure;
         try {
-            trace(*pass, unit, log);
+            trace(*pass, unit, output);
         } catch (const std::exception& error) {
             failure = error.what();
         }
@@ -89,14 +89,12 @@ void TracerPool::run() {
     }
 }
 
-void TracerPool::trace(PassWork& pass, const WorkUnit& unit, RecordLog& log) {
-    UnitResult result{unit, {}};
-    TraceStats stats;
-    log.begin(pass.guide().distribution_count());
-    render_(pass.plan(), pass.guide(), unit, result.pixels, log, stats);
-    samples_ += stats.paths;
-    rays_ += stats.rays + stats.shadow_rays;
-    pass.deliver(std::move(result), log, std::move(stats));
+void TracerPool::trace(PassWork& pass, const WorkUnit& unit, UnitOutput& output) {
+    output.begin(pass.guide().distribution_count());
+    render_(pass.plan(), pass.guide(), unit, output);
+    samples_ += output.stats.paths;
+    rays_ += output.stats.rays + output.stats.shadow_rays;
+    pass.deliver(unit, output);
 }
 
 }  // namespace treefarm

@@ -12,8 +12,8 @@
 #include <thread>
 #include <vector>
 
+#include "worker/integrators/contract.h"
 #include "worker/pass_work.h"
-#include "worker/render_function.h"
 
 namespace treefarm {
 
@@ -44,7 +44,7 @@ class TracerPool {
   private:
     void run();
     void stop();
-    void trace(PassWork& pass, const WorkUnit& unit, RecordLog& log);
+    void trace(PassWork& pass, const WorkUnit& unit, UnitOutput& output);
 
     RenderUnit render_;
     mutable std::mutex mutex_;

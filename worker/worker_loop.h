@@ -6,7 +6,7 @@
 
 #include "common/base/log.h"
 #include "common/comm/channel.h"
-#include "worker/render_function.h"
+#include "worker/integrators/contract.h"
 
 namespace treefarm {
 

@@ -5,16 +5,16 @@
 
 #include "common/base/random.h"
 #include "common/film/pass_film.h"
+#include "worker/integrators/contract.h"
 #include "worker/pass_work.h"
-#include "worker/render_function.h"
 
 namespace treefarm::test {
 
 /// A renderer without a scene, on a film of so many columns: radiance and records come straight from the keyed
 /// generator.
 inline RenderUnit fake_renderer(std::uint64_t seed, std::uint32_t width) {
-    return [seed, width](const PassPlan& pass, const Guide& guide, const WorkUnit& unit,
-                         std::vector<PixelEstimate>& pixels, RecordLog& log, TraceStats& stats) {
+    return [seed, width](const PassPlan& pass, const Guide& guide, const WorkUnit& unit, UnitOutput& output) {
+        auto& [pixels, log, stats] = output;
         const std::uint32_t run = kBlockSamples * pass.blocks_per_unit;
         const std::uint32_t first = run * unit.chunk, last = std::min(first + run, pass.spp);
         for (std::uint32_t y = unit.y0; y < unit.y1; ++y)
@@ -45,12 +45,10 @@ inline Result fake_result(const PassPlan& plan, std::span<const std::uint8_t> tr
     PassWork work(plan, decode_tree(tree), DirectionalFilter::box);
     const RenderUnit render = fake_renderer(0, width);
     for (const WorkUnit& unit : units) {
-        UnitResult result{unit, {}};
-        RecordLog log;
-        TraceStats stats;
-        log.begin(work.guide().distribution_count());
-        render(plan, work.guide(), unit, result.pixels, log, stats);
-        work.deliver(std::move(result), log, std::move(stats));
+        UnitOutput output;
+        output.begin(work.guide().distribution_count());
+        render(plan, work.guide(), unit, output);
+        work.deliver(unit, output);
     }
     return std::move(*work.close());
 }

@@ -12,8 +12,9 @@ namespace {
 TEST(PassWork, ABundleHoldsWhatItsOwnUnitsTaught) {
     const SdTree tree = test::random_tree(3, 20000, 2000, 1);
     PassWork work({.index = tree.pass, .spp = 1, .record = true, .learn_mixture = true}, tree, DirectionalFilter::box);
-    RecordLog log;
-    log.begin(work.guide().distribution_count());
+    UnitOutput output;
+    output.begin(work.guide().distribution_count());
+    RecordLog& log = output.log;
     for (const Record& record : test::random_records(work.guide(), 5000, 9)) {
         log.records.push_back(record);
         ++log.counts[record.distribution];
@@ -23,7 +24,8 @@ TEST(PassWork, ABundleHoldsWhatItsOwnUnitsTaught) {
     EXPECT_FALSE(work.close().has_value());
     Bytes first;
     for (int bundle = 0; bundle < 4; ++bundle) {
-        work.deliver({unit, std::vector<PixelEstimate>(1)}, log, {});
+        output.pixels.resize(1);
+        work.deliver(unit, output);
         const std::optional<Result> result = work.close();
         ASSERT_TRUE(result.has_value());
         EXPECT_EQ(result->units.size(), 1u);

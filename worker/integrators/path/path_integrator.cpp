@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "worker/integrators/path/path_integrator.h"
+
+#include "common/base/error.h"
+#include "common/plan/kernel.h"
+#include "worker/integrators/path/tile_renderer.h"
+
+namespace treefarm {
+
+RenderUnit prepare_path(std::shared_ptr<const TraceScene> scene, const Resolved& job) {
+    return [scene = std::move(scene), job](const PassPlan& pass, const Guide& guide, const WorkUnit& unit,
+                                           UnitOutput& output) {
+        if (!fits(pass, scene->plainly_diffuse(), {guide.trained(), guide.view_count() > 0}))
+            throw RunError("a pass whose kernel does not fit the scene and the tree");
+        render_unit(*scene, job, pass, guide, unit, output.pixels, output.log, output.stats);
+    };
+}
+
+}  // namespace treefarm

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "common/film/pixel_estimate.h"
+#include "common/film/trace_stats.h"
+#include "worker/integrators/record_log.h"
+
+namespace treefarm {
+
+/// What rendering a work unit gives. A thread keeps one for all of its units: memory is reused.
+struct UnitOutput {
+    std::vector<PixelEstimate> pixels;  ///< row by row
+    RecordLog log;                      ///< what the unit teaches the guide
+    TraceStats stats;
+
+    /// Empties it for the next unit; `distributions`: of the guide.
+    void begin(std::uint32_t distributions) {
+        pixels.clear();
+        log.begin(distributions);
+        stats = {};
+    }
+};
+
+}  // namespace treefarm
