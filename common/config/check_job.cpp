@@ -2,6 +2,7 @@
 #include "common/config/check_job.h"
 
 #include "common/base/error.h"
+#include "common/config/estimators.h"
 
 namespace treefarm {
 
@@ -13,6 +14,17 @@ void check_job(const Job& job) {
             "paths without a depth limit play roulette from depth " + std::to_string(rr_depth) +
                 " only: in a closed scene they would not end",
             "set integrator.max_depth, or integrator.rr_depth to at most " + std::to_string(kLatestRoulette));
+    if (const Estimator* estimator = find_estimator(job.integrator.type);
+        estimator && estimator->by_numbers && job.integrator.emitter_samples + job.integrator.bsdf_samples == 0)
+        throw InputError(Location{"integrator.emitter_samples", 0, 0},
+                         "neither emitters nor BSDFs are sampled: there is no light",
+                         "set integrator.emitter_samples or integrator.bsdf_samples to 1 or more");
+    if (const Estimator* estimator = find_estimator(job.integrator.type); estimator && !estimator->guides) {
+        if (job.guiding.type != GuidingType::none && job.guiding.type != GuidingType::automatic)
+            throw InputError(
+                Location{"guiding.type", 0, 0}, "nothing guides the estimator \"" + job.integrator.type + "\"",
+                std::string("set guiding.type = \"none\", or integrator.type = \"") + estimators()[0].type + "\"");
+    }
     if (job.guiding.splitting > 1 && job.guiding.roulette == GuidingRoulette::constant)
         throw InputError(Location{"guiding.splitting", 0, 0},
                          "where roulette is constant nobody knows what a path is expected to carry, so none is split",

@@ -71,14 +71,16 @@ struct Job {
     } image;
 
     struct Integrator {
-        std::string type = "path";
-        int max_depth = -1;  ///< path edges from the camera; 1 sees emitters only; -1: no limit
-        int rr_depth = 5;    ///< roulette from this depth on
+        std::string type = "path";  ///< the estimator (config/estimators.h)
+        int max_depth = -1;         ///< path edges from the camera; 1 sees emitters only; -1: no limit
+        int rr_depth = 5;           ///< roulette from this depth on
         NextEvent next_event = NextEvent::always;
         MisHeuristic mis = MisHeuristic::balance;
         bool strict_normals = false;  ///< drop light that geometric and shading normal disagree about
         bool hide_emitters = false;   ///< the camera does not see emitters directly
-        bool split_glass = true;      ///< at the first surface: both ways out of smooth glass
+        int emitter_samples = 1;      ///< per surface that the camera sees, where the estimator goes by numbers
+        int bsdf_samples = 1;
+        bool split_glass = true;  ///< at the first surface: both ways out of smooth glass
     } integrator;
 
     struct Effects {

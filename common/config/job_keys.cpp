@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "common/config/effect_switches.h"
+#include "common/config/estimators.h"
 #include "common/config/job_key_makers.h"
 #include "common/config/parse_text.h"
 #include "common/config/quantities.h"
@@ -41,6 +42,20 @@ JobKey bsdf_fraction_key() {
     key.print = [number = key.print](const Job& job) {
         return job.guiding.learn_bsdf_fraction ? std::string("learned") : number(job);
     };
+    return key;
+}
+
+/// The estimator, by the list of all.
+JobKey estimator_key() {
+    std::vector<std::pair<std::string, std::string>> words;
+    std::string meaning = "how the image is estimated;";
+    for (const Estimator& estimator : estimators()) {
+        meaning += std::string(words.empty() ? " " : "; ") + estimator.type + ": " + estimator.meaning;
+        words.push_back({estimator.type, estimator.type});
+    }
+    JobKey key = word_key(
+        "integrator.type", "", [](auto& j) -> auto& { return j.integrator.type; }, std::move(words));
+    key.doc = meaning;
     return key;
 }
 
@@ -84,10 +99,7 @@ std::vector<JobKey> make_job_keys() {
         "image.height", "0 to 65535", "pixels; 0: as the scene says", [](auto& j) -> auto& { return j.image.height; },
         0, 65535));
 
-    add(word_key(
-        "integrator.type", "how light is transported: unidirectional path tracing",
-        [](auto& j) -> auto& { return j.integrator.type; },
-        std::vector<std::pair<std::string, std::string>>{{"path", "path"}}));
+    add(estimator_key());
     add(integer_key(
         "integrator.max_depth", "-1, or 1 and more", "path edges from the camera: 1 sees emitters only; -1: no limit",
         [](auto& j) -> auto& { return j.integrator.max_depth; }, 1, kMaxInt, -1));
@@ -115,6 +127,13 @@ std::vector<JobKey> make_job_keys() {
         "integrator.split_glass",
         "where the camera sees smooth glass, a path follows what it mirrors and what is behind it, not one by chance",
         [](auto& j) -> auto& { return j.integrator.split_glass; }));
+
+    add(integer_key(
+        "integrator.emitter_samples", "0 to 65535", "direct: emitters that are sampled at what the camera sees",
+        [](auto& j) -> auto& { return j.integrator.emitter_samples; }, 0, 65535));
+    add(integer_key(
+        "integrator.bsdf_samples", "0 to 65535", "direct: directions of the BSDF that are sampled there",
+        [](auto& j) -> auto& { return j.integrator.bsdf_samples; }, 0, 65535));
 
     for (const EffectSwitch& effect : effect_switches())
         add(effect_key(effect));

@@ -8,6 +8,7 @@
 #include <sstream>
 #include <string_view>
 
+#include "common/config/estimators.h"
 #include "common/config/job_keys.h"
 #include "common/config/parse_text.h"
 #include "common/config/presets.h"
@@ -93,7 +94,13 @@ std::vector<Setting> scene_layer(std::span<const Setting> scene,
     const auto drop = [&](std::string_view key) {
         std::erase_if(layer, [&](const Setting& s) { return s.key == key; });
     };
-    if (chosen({"guiding.type", "guiding.preset"})) drop("guiding.preset");
+    const bool unguided = std::any_of(above.begin(), above.end(), [](std::span<const Setting> settings) {
+        return std::any_of(settings.begin(), settings.end(), [](const Setting& s) {
+            const Estimator* estimator = s.key == "integrator.type" ? find_estimator(s.value) : nullptr;
+            return estimator && !estimator->guides;
+        });
+    });
+    if (unguided || chosen({"guiding.type", "guiding.preset"})) drop("guiding.preset");
     // It would win over samples that the job asks for.
     if (chosen({"budget.spp", "budget.seconds", "budget.error"})) drop("budget.seconds");
     return layer;

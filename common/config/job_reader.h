@@ -21,7 +21,8 @@ void apply_setting(Job& job, const std::string& key, const std::string& value, c
 void apply_layer(Job& job, std::span<const Setting> layer);
 
 /// A scene's settings for jobs with these layers above it. Its integrator may stand for a preset (`guided_path`:
-/// paper); where a layer chooses guiding.type or a preset, guiding is the job's, and the scene's preset does not hold.
+/// paper); where a layer chooses guiding.type, a preset or an estimator that nothing guides, guiding is the job's, and
+/// the scene's preset does not hold.
 /// Where one has a budget, the scene's seconds do not hold.
 std::vector<Setting> scene_layer(std::span<const Setting> scene, std::initializer_list<std::span<const Setting>> above);
 

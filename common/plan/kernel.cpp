@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "common/config/estimators.h"
 namespace treefarm {
 
 namespace {
@@ -40,6 +41,7 @@ bool fits(const PassPlan& pass, bool plainly_diffuse, const TreeFacts& tree) {
 
 std::vector<KernelUse> kernels_of(const Resolved& job) {
     std::vector<KernelUse> uses;
+    if (const Estimator* estimator = find_estimator(job.integrator.type); estimator && !estimator->guides) return uses;
     for (const PassPlan& pass : plan_passes(job)) {
         const KernelChoice kernel = kernel_of(job, pass, {pass.index > 0, job.learns_views});
         const auto known =

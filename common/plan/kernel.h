@@ -33,7 +33,7 @@ struct KernelUse {
     std::vector<std::uint32_t> passes;
 };
 
-/// The kernels of a render, in the order in which they come.
+/// The kernels of a render, in the order in which they come; none for an estimator that has no kernels.
 std::vector<KernelUse> kernels_of(const Resolved& job);
 
 }  // namespace treefarm

@@ -119,7 +119,10 @@ std::string plan_text(const EffectPlan& plan, const std::string& scene) {
     std::vector<Row> kernels;
     for (const KernelUse& use : plan.kernels)
         kernels.push_back({use.kernel.name(), passes_text(use.passes)});
-    text += "\nkernels, of " + std::to_string(kKernelCount) + " in the program\n" + aligned(kernels);
+    if (kernels.empty())
+        text += "\nestimator: " + plan.job.integrator.type + "\n";
+    else
+        text += "\nkernels, of " + std::to_string(kKernelCount) + " in the program\n" + aligned(kernels);
     text += memory_section("each worker", plan.memory.worker, plan.memory.worker_bytes());
     text += memory_section("coordinator", plan.memory.coordinator, plan.memory.coordinator_bytes());
     if (!plan.warnings.empty()) text += "\nwarnings\n";

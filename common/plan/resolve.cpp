@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/plan/resolve.h"
 
+#include <algorithm>
 #include <cmath>
 
+#include "common/config/estimators.h"
 #include "common/config/job_keys.h"
 #include "common/plan/policy.h"
 #include "common/scene/model/material_traits.h"
@@ -32,6 +34,22 @@ void resolve_rules(Job::Guiding& guiding) {
         guiding.splitting_rule = guiding.splitting == 0 ? Rule::while_it_pays : Rule::always;
 }
 
+/// Takes away what the job's estimator does not use.
+void resolve_estimator(Job& job) {
+    const Estimator* estimator = find_estimator(job.integrator.type);
+    if (!estimator || estimator->guides) return;
+    job.guiding.type = GuidingType::none;
+    job.guiding.splitting = job.guiding.candidates = 1;
+    job.integrator.split_glass = false;
+    if (!estimator->sees_light) job.integrator.next_event = NextEvent::never;
+    if (estimator->by_numbers)
+        job.integrator.next_event = job.integrator.emitter_samples > 0 ? NextEvent::always : NextEvent::never;
+    if (estimator->depth == 0) return;
+    const int asked = job.integrator.max_depth;
+    job.integrator.max_depth = asked < 0 ? estimator->depth : std::min(asked, estimator->depth);
+    job.integrator.rr_depth = std::max(job.integrator.rr_depth, job.integrator.max_depth);
+}
+
 }  // namespace
 
 SceneFacts facts_of(const Scene& scene) {
@@ -47,6 +65,7 @@ Resolved resolve(const Job& job, const SceneFacts& scene) {
     Resolved resolved{job, scene};
     Job::Guiding& guiding = resolved.guiding;
     resolved.image = {scene.whole_width, scene.whole_height};
+    resolve_estimator(resolved);
     resolve_rules(guiding);
     const bool by_view = guiding.type == GuidingType::view;
     if (guiding.splitting == 0)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include "common/config/estimators.h"
 #include "tests/mpi/program.h"
 #include "tests/support/support.h"
 
@@ -18,8 +19,9 @@ std::ostream& operator<<(std::ostream& out, const Hashes& h) {
     return out << "image " << h.image << " tree " << h.tree;
 }
 
-/// `options` begin with the scene.
-Hashes render_scene(const std::vector<std::string>& launcher, const std::vector<std::string>& options) {
+/// `options` begin with the scene. `learns`: the render is to have a tree.
+Hashes render_scene(const std::vector<std::string>& launcher, const std::vector<std::string>& options,
+                    bool learns = true) {
     const auto folder = fresh_folder("same");
     Program program(launcher + std::vector<std::string>{TREEFARM_PROGRAM, "render"} + options +
                     std::vector<std::string>{"--set", "farm.update_seconds=0.05", "--run-dir", folder.string()});
@@ -29,8 +31,10 @@ Hashes render_scene(const std::vector<std::string>& launcher, const std::vector<
     EXPECT_EQ(summary["state"], "done") << ending.output;
     if (summary["state"] != "done") return {};
     EXPECT_EQ(summary["farm"]["reissued_units"], 0);
-    EXPECT_GE(summary["passes"].size(), 3u) << "the test must exercise the tree";
-    EXPECT_GT(summary["passes"].back()["tree_regions"], 8) << "the test must exercise the tree";
+    EXPECT_GE(summary["passes"].size(), 3u) << "the test must exercise several passes";
+    if (learns) {
+        EXPECT_GT(summary["passes"].back()["tree_regions"], 8) << "the test must exercise the tree";
+    }
     std::filesystem::remove_all(folder);
     return {summary["image_hash"], summary["tree_hash"]};
 }
@@ -106,6 +110,27 @@ TEST(SameBits, Ranks5) {
 
 TEST(SameBits, Ranks3OverTcp) {
     EXPECT_EQ(render(mpirun(3, {"--mca", "btl", "tcp,self"}), {"--threads", "1"}), one_thread());
+}
+
+/// Estimators that nothing guides: ranks, threads and tiles change together.
+TEST(SameBits, Estimators) {
+    for (const Estimator& estimator : estimators()) {
+        if (estimator.guides) continue;
+        const auto render = [&](const std::vector<std::string>& launcher, const char* threads, const char* tile) {
+            return render_scene(launcher,
+                                {own_scene("glossy-room.xml"), "--set", "image.width=72", "--set", "image.height=60",
+                                 "--spp", "12", "--threads", threads, "--set", std::string("farm.tile_size=") + tile,
+                                 "--set", std::string("integrator.type=") + estimator.type},
+                                false);
+        };
+        const Hashes alone = render({}, "1", "32");
+        EXPECT_FALSE(alone.image.empty());
+        EXPECT_EQ(render({}, "3", "8"), alone) << estimator.type;
+        EXPECT_EQ(render(mpirun(1), "3", "50"), alone) << estimator.type;
+        EXPECT_EQ(render(mpirun(2), "1", "8"), alone) << estimator.type;
+        EXPECT_EQ(render(mpirun(3), "1", "50"), alone) << estimator.type;
+        EXPECT_EQ(render(mpirun(5), "1", "32"), alone) << estimator.type;
+    }
 }
 
 TEST(SameBitsOfScenes, GlossyRoom) {

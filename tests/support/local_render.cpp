@@ -9,7 +9,7 @@
 #include "common/guiding/tree_learner.h"
 #include "common/plan/kernel.h"
 #include "common/plan/learning.h"
-#include "worker/integrators/path/tile_renderer.h"
+#include "worker/integrators/registry.h"
 
 namespace treefarm::test {
 namespace {
@@ -27,7 +27,7 @@ LocalRender render_locally(const Scene& scene, const Job& asked) {
     const Resolved job = resolve(asked, scene);
     const PassChooser choose = passes_of(job);
     const bool guided = job.guides;
-    const TraceScene trace(scene, job);
+    const RenderUnit render_unit = integrator_of(job).prepare(std::make_shared<const TraceScene>(scene, job), job);
     run.tree = first_tree(job, guiding_bounds(scene), 1.0f);
     TreeLearner learner;
     RenderState state;
@@ -42,13 +42,14 @@ LocalRender render_locally(const Scene& scene, const Job& asked) {
         Accumulator accumulator(pass.index, guide, job.guiding.directional_filter, pass.learn_mixture);
         PassFilm film(scene.film.width, scene.film.height, pass.chunks);
         TraceStats stats;
-        RecordLog log;
-        std::vector<PixelEstimate> pixels;
+        UnitOutput output;
         for (const WorkUnit& unit :
              cut_pass(pass.index, pass.chunks, scene.film.width, scene.film.height, job.farm.tile_size)) {
-            render_unit(trace, job, pass, guide, unit, pixels, log, stats);
-            film.add(unit, pixels);
-            if (pass.record) accumulator.commit(log.records, log.counts, log.caps);
+            output.begin(pass.record ? guide.distribution_count() : 0);
+            render_unit(pass, guide, unit, output);
+            film.add(unit, output.pixels);
+            stats.add(output.stats);
+            if (pass.record) accumulator.commit(output.log.records, output.log.counts, output.log.caps);
         }
         run.stats.push_back(stats);
         PassResult shown = finished_pass(pass, before ? &*before : nullptr, film.pixels());

@@ -306,7 +306,8 @@ TEST_F(Malformed, SensorsAndFilms) {
 
 TEST_F(Malformed, Integrators) {
     for (const char* line :
-         {"<integrator type=\"ao\"/>",
+         {"<integrator type=\"field\"/>",
+          "<integrator type=\"direct\"><integer name=\"bsdfSamples\" value=\"-1\"/></integrator>",
           "<integrator type=\"path\"><integer name=\"maxDepth\" value=\"0\"/></integrator>",
           "<integrator type=\"guided_path\"><float name=\"budget\" value=\"0\"/></integrator>",
           "<integrator type=\"guided_path\"><string name=\"budgetType\" value=\"hours\"/></integrator>",

@@ -84,6 +84,16 @@ constexpr Mapped kPath[] = {
     {"boolean", "hideEmitters", "true", "integrator.hide_emitters", "true"},
 };
 
+/// Parameters of direct light: each number of samples, in 0.6 and 3 alike.
+constexpr Mapped kDirect[] = {
+    {"integer", "emitterSamples", "4", "integrator.emitter_samples", "4"},
+    {"integer", "bsdfSamples", "0", "integrator.bsdf_samples", "0"},
+    {"integer", "shadingSamples", "3", "integrator.emitter_samples", "3"},
+    {"integer", "shadingSamples", "3", "integrator.bsdf_samples", "3"},
+    {"boolean", "strictNormals", "true", "integrator.strict_normals", "true"},
+    {"boolean", "hideEmitters", "true", "integrator.hide_emitters", "true"},
+};
+
 /// Parameters of every sampler.
 constexpr Mapped kSampler[] = {
     {"integer", "sampleCount", "9", "budget.spp", "9"},
@@ -128,6 +138,7 @@ constexpr const char* kOwn[] = {
 TEST_F(MitsubaIntegrators, EveryKeyIsAParametersOrOurOwn) {
     std::set<std::string> mapped;
     for (const auto table : {std::span<const Mapped>(kGuidedPath), std::span<const Mapped>(kPath),
+                             std::span<const Mapped>(kDirect),
                              std::span<const Mapped>(kSampler), std::span<const Mapped>(kScene)})
         for (const Mapped& row : table)
             mapped.insert(row.key);
@@ -157,6 +168,9 @@ TEST_F(MitsubaIntegrators, WhatHasAKeyIsNotRefused) {
     };
     for (const Mapped& mapped : kGuidedPath)
         expect(mapped, "guided_path", "0.6.0");
+    for (const Mapped& mapped : kDirect)
+        for (const char* version : {"0.6.0", "3.0.0"})
+            expect(mapped, "direct", version);
     for (const Mapped& mapped : kPath)
         for (const char* type : {"path", "volpath", "guided_path", "bdpt"})
             for (const char* version : {"0.6.0", "3.0.0"})
@@ -172,9 +186,23 @@ TEST_F(MitsubaIntegrators, WholeScene) {
     EXPECT_FALSE(robust("false"));
 }
 
+/// Each number of direct light is its own, whatever shadingSamples says; and the estimator is the scene's.
+TEST_F(MitsubaIntegrators, DirectLight) {
+    for (const bool first : {true, false}) {
+        const std::string both = property("integer", "shadingSamples", "5"),
+                          one = property("integer", "bsdfSamples", "2");
+        const Job job = job_of(load_with_sensor(integrator("direct", first ? both + one : one + both)));
+        EXPECT_EQ(job.integrator.type, "direct");
+        EXPECT_EQ(job.integrator.emitter_samples, 5);
+        EXPECT_EQ(job.integrator.bsdf_samples, 2);
+    }
+    EXPECT_EQ(job_of(load_with_sensor(integrator("direct", ""))).integrator.emitter_samples, 1);
+    EXPECT_NE(refusal(integrator("direct", property("integer", "bsdfSamples", "-1")), "3.0.0"), "");
+}
+
 /// A way to transport light leaves guiding to the job, and the log says so.
 TEST_F(MitsubaIntegrators, PathSaysNothingOfGuiding) {
-    for (const char* type : {"path", "volpath", "direct"}) {
+    for (const char* type : {"path", "volpath"}) {
         const auto loaded = load_with_sensor(integrator(type, ""));
         EXPECT_EQ(job_of(loaded).guiding.type, Job().guiding.type) << type;
         EXPECT_TRUE(std::none_of(loaded.settings.begin(), loaded.settings.end(),

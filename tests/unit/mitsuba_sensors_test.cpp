@@ -204,10 +204,10 @@ TEST_F(MitsubaSensors, IntegratorsThatTracePaths) {
         job("<integrator type=\"volpath\"><integer name=\"maxDepth\" value=\"9\"/></integrator>").integrator.max_depth,
         9);
     EXPECT_EQ(job("<integrator type=\"direct\"><integer name=\"emitterSamples\" value=\"4\"/></integrator>")
-                  .integrator.max_depth,
-              2);
+                  .integrator.emitter_samples,
+              4);
     EXPECT_EQ(job("<integrator type=\"direct\"/>").guiding.type, Job().guiding.type);
-    EXPECT_THROW(job("<integrator type=\"ao\"/>"), InputError);
+    EXPECT_THROW(job("<integrator type=\"field\"/>"), InputError);
 }
 
 }  // namespace

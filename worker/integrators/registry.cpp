@@ -4,21 +4,18 @@
 #include "common/base/error.h"
 #include "common/plan/resolve.h"
 #include "common/scene/pack/scene_codec.h"
+#include "worker/integrators/direct/direct_integrator.h"
+#include "worker/integrators/normals/normals_integrator.h"
 #include "worker/integrators/path/path_integrator.h"
+#include "worker/integrators/reference/reference_integrator.h"
 
 namespace treefarm {
 
 namespace {
 
 constexpr Integrator kIntegrators[] = {
-    {"path", prepare_path},
+    {"path", prepare_path}, {"reference", prepare_reference}, {"direct", prepare_direct}, {"normals", prepare_normals},
 };
-
-const Integrator& integrator_of(const Job& job) {
-    for (const Integrator& integrator : kIntegrators)
-        if (job.integrator.type == integrator.type) return integrator;
-    throw RunError("the program has no integrator \"" + job.integrator.type + "\"");
-}
 
 /// Units come in messages, and a message may say anything.
 void check_unit(const WorkUnit& unit, const PassPlan& pass, const TraceScene& scene) {
@@ -32,6 +29,12 @@ void check_unit(const WorkUnit& unit, const PassPlan& pass, const TraceScene& sc
 
 std::span<const Integrator> integrators() {
     return kIntegrators;
+}
+
+const Integrator& integrator_of(const Job& job) {
+    for (const Integrator& integrator : kIntegrators)
+        if (job.integrator.type == integrator.type) return integrator;
+    throw RunError("the program has no integrator \"" + job.integrator.type + "\"");
 }
 
 RenderUnit make_renderer(std::span<const std::uint8_t> scene, const Job& job) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "worker/geometry/hit.h"
+#include "worker/geometry/ray.h"
 
 namespace treefarm {
 
@@ -23,5 +24,16 @@ struct DirectSample {
     bool at_infinity() const { return std::isinf(distance); }
     bool black() const { return !from_environment && is_black(radiance); }
 };
+
+/// The ray from a surface to a sampled emitter, whose occlusion hides it. Both ends of the segment are moved off their
+/// surfaces towards each other.
+inline Ray shadow_ray(const Hit& hit, const DirectSample& light) {
+    Ray ray{offset_origin(hit, light.wi), light.wi};
+    if (light.at_infinity()) return ray;
+    ray.direction = offset_origin(light.on_light, -light.wi) - ray.origin;
+    // Closer than the offsets: nothing fits between.
+    ray.length = dot(ray.direction, light.wi) > 0.0f ? 1.0f : -1.0f;
+    return ray;
+}
 
 }  // namespace treefarm

@@ -40,7 +40,7 @@ void validate_scene(Scene& scene, std::vector<Warning>& warnings) {
     check_film(scene.film);
     check_camera(scene.camera);
     if (scene.shapes.empty()) warnings.push_back(Warning{Location{}, "the scene has no shapes"});
-    if (scene.emitters.empty()) warnings.push_back(Warning{Location{}, "the scene has no emitters: it renders black"});
+    if (scene.emitters.empty()) warnings.push_back(Warning{Location{}, "the scene has no emitters: it renders black, unless the integrator needs no light"});
 }
 
 }  // namespace treefarm

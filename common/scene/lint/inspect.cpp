@@ -78,7 +78,7 @@ void inspect_scale(const Scene& scene, std::vector<Finding>& findings) {
         findings.push_back({severity, kind, {}, what, cure});
     };
     if (scene.shapes.empty()) add(warning, "no shapes", "the scene has no shapes", "");
-    if (scene.emitters.empty()) add(warning, "no emitters", "the scene has no emitters: it renders black", "");
+    if (scene.emitters.empty()) add(warning, "no emitters", "the scene has no emitters: it renders black, unless the integrator needs no light", "");
     const Box3 box = finite_bounds(scene);
     if (box.isEmpty()) return;
     const Imath::V3d size = Imath::V3d(box.max) - Imath::V3d(box.min);

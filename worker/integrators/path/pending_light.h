@@ -72,7 +72,7 @@ class PendingLights {
         pending.cluster_probability = light.cluster_probability;
         pending.set(bsdf);
         pending.radiance = light.radiance;
-        aim(rays_[count_++], hit, light);
+        rays_[count_++] = shadow_ray(hit, light);
     }
 
     /// Traces the shadow rays; which of the lights are hidden.
@@ -85,15 +85,6 @@ class PendingLights {
     }
 
   private:
-    /// The shadow ray. Both ends of the segment are moved off their surfaces towards each other.
-    static void aim(Ray& ray, const Hit& hit, const DirectSample& light) {
-        ray = {offset_origin(hit, light.wi), light.wi};
-        if (light.at_infinity()) return;
-        ray.direction = offset_origin(light.on_light, -light.wi) - ray.origin;
-        // Closer than the offsets: nothing fits between.
-        ray.length = dot(ray.direction, light.wi) > 0.0f ? 1.0f : -1.0f;
-    }
-
     std::uint32_t count_ = 0;
     std::array<PendingLight, kMost> lights_;
     std::array<Ray, kMost> rays_;

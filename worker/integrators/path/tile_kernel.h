@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <span>
 
-#include "common/film/pass_film.h"
 #include "common/film/splitting_gain.h"
 #include "common/plan/kernel.h"
 #include "worker/integrators/path/path_kernel.h"
 #include "worker/integrators/path/path_roulette.h"
 #include "worker/integrators/path/tile_renderer.h"
+#include "worker/integrators/sample_loop.h"
 
 namespace treefarm {
 
@@ -37,43 +36,18 @@ std::span<const TileKernel> diffuse_kernels();
 std::span<const TileKernel> general_kernels();
 std::span<const TileKernel> viewed_kernels();
 
-/// The film's door: what is not a radiance counts as black, is counted, and can be reproduced from what is kept.
-void refuse_invalid(Rgb& radiance, const WorkUnit& unit, int x, int y, std::uint32_t sample, TraceStats& stats);
-
-/// Walks through the samples of a unit: pixel by pixel, row by row.
-struct UnitCursor {
-    const WorkUnit& unit;
-    std::uint32_t first, last;  ///< samples of a pixel
-    int x = unit.x0, y = unit.y0;
-    std::uint32_t sample = first;
-
-    bool done() const { return y == unit.y1 || first >= last; }
-    /// Goes on to the next sample; true if the last one was its pixel's last.
-    bool advance() {
-        if (++sample < last) return false;
-        sample = first;
-        if (++x == unit.x1) {
-            x = unit.x0;
-            ++y;
-        }
-        return true;
-    }
-};
-
 template <class Surface, bool kGuided, bool kRecord>
 void render_with(const TileJob& tile) {
     const auto& [scene, job, pass, guide, unit, pixels, log, stats] = tile;
     const PathSettings settings(scene, job, pass, guide);
     PathKernel<Surface, kGuided, kRecord> kernel(scene, guide, settings, stats, &log);
-    const std::uint32_t first = unit.chunk * pass.blocks_per_unit * kBlockSamples;
-    const std::uint32_t last = std::min(first + pass.blocks_per_unit * kBlockSamples, pass.spp);
     const bool is_signed = scene.film().is_signed();
     const auto key = [&tile](const UnitCursor& at) {
         return PathKey{tile.job.sampler.seed, tile.scene.film().key_of(at.x, at.y), tile.pass.first_sample + at.sample};
     };
     std::vector<PixelEstimate> blocks;
     PairedSamples pairs;
-    UnitCursor start{unit, first, last}, end{unit, first, last};
+    UnitCursor start(pass, unit), end(pass, unit);
     while (!start.done()) {
         kernel.clear();
         while (!kernel.full() && !start.done()) {

@@ -23,18 +23,6 @@ std::vector<KernelChoice> compiled_kernels() {
     return choices;
 }
 
-void refuse_invalid(Rgb& radiance, const WorkUnit& unit, int x, int y, std::uint32_t sample, TraceStats& stats) {
-    if (is_radiance(radiance)) return;
-    ++stats.invalid_samples;
-    if (stats.first_invalid.size() < TraceStats::kMaxReported)
-        stats.first_invalid.push_back({unit.pass,
-                                       static_cast<std::uint16_t>(x),
-                                       static_cast<std::uint16_t>(y),
-                                       sample,
-                                       {radiance.x, radiance.y, radiance.z}});
-    radiance = Rgb(0.0f);
-}
-
 void render_unit(const TraceScene& scene, const Resolved& job, const PassPlan& pass, const Guide& guide,
                  const WorkUnit& unit, std::vector<PixelEstimate>& pixels, RecordLog& log, TraceStats& stats) {
     const double start = thread_cpu_seconds();

@@ -19,12 +19,14 @@ void read_path(IntegratorSettings& settings) {
     settings.read_common();
 }
 
-/// Light that comes straight from an emitter: paths of two edges, whatever the numbers of samples are.
+/// Reads light that comes straight from an emitter; shading_samples stands for both numbers of samples, where they are
+/// not given.
 void read_direct(IntegratorSettings& settings) {
-    const Location& where = settings.properties().where();
-    settings.set("integrator.next_event", "always", where);
-    settings.set("integrator.max_depth", "2", where);
-    settings.properties().ignore({"shading_samples", "emitter_samples", "bsdf_samples"});
+    settings.set("integrator.type", "direct", settings.properties().where());
+    for (const char* key : {"integrator.emitter_samples", "integrator.bsdf_samples"})
+        settings.read_integer("shading_samples", key);
+    settings.read_integer("emitter_samples", "integrator.emitter_samples");
+    settings.read_integer("bsdf_samples", "integrator.bsdf_samples");
     settings.read_flags();
 }
 
@@ -66,14 +68,13 @@ void read_integrator(const XmlElement& integrator, std::vector<Setting>& setting
     Properties properties(integrator, document, diagnostics);
     const std::string type = properties.type();
     IntegratorSettings reader(properties, settings, diagnostics);
-    if (is_path_tracer(type) || type == "direct") {
+    if (type == "direct") {
+        read_direct(reader);
+    } else if (is_path_tracer(type)) {
         diagnostics.note(integrator.where, "the integrator " + in_quotes(type) +
                                                " says how light is transported; whether paths are guided says the job "
                                                "(guiding.type, none for plain path tracing)");
-        if (type == "direct")
-            read_direct(reader);
-        else
-            read_path(reader);
+        read_path(reader);
     } else if (type == "guided_path") {
         read_guided_path(reader);
     } else if (is_other_estimator(type)) {

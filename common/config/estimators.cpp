@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "common/config/estimators.h"
+
+#include <algorithm>
+#include <iterator>
+
+namespace treefarm {
+
+namespace {
+
+constexpr Estimator kEstimators[] = {
+    {.type = "path", .meaning = "unidirectional path tracing, guided or not", .guides = true},
+    {.type = "reference", .meaning = "unguided path tracing by the shortest code, to check others against"},
+    {.type = "direct",
+     .meaning = "light that comes straight from emitters to what the camera sees",
+     .depth = 2,
+     .by_numbers = true},
+    {.type = "normals",
+     .meaning = "the shading normal n of what the camera sees, as the colour (1 + n) / 2",
+     .depth = 1,
+     .sees_light = false},
+};
+
+}  // namespace
+
+std::span<const Estimator> estimators() {
+    return kEstimators;
+}
+
+const Estimator* find_estimator(std::string_view type) {
+    const auto found = std::find_if(std::begin(kEstimators), std::end(kEstimators),
+                                    [&](const Estimator& estimator) { return type == estimator.type; });
+    return found == std::end(kEstimators) ? nullptr : found;
+}
+
+}  // namespace treefarm

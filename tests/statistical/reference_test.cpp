@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include "common/config/job_reader.h"
+#include "common/metrics/z_test.h"
+#include "common/scene/readers/load.h"
+#include "tests/support/chi_square.h"
+#include "tests/support/local_render.h"
+#include "tests/support/support.h"
+#include "tests/support/test_scenes.h"
+
+namespace treefarm {
+namespace {
+
+struct Rendered {
+    RgbImage mean, variance;
+};
+
+Rendered render(const Scene& scene, const Job& job) {
+    const test::LocalRender run = test::render_locally(scene, job);
+    Rendered rendered;
+    rendered.mean = rendered.variance = RgbImage(scene.film.width, scene.film.height);
+    for (std::size_t p = 0; p < rendered.mean.pixels.size(); ++p) {
+        rendered.mean.pixels[p] = Rgb(run.image.mean[p]);
+        rendered.variance.pixels[p] = Rgb(run.image.variance[p]);
+    }
+    return rendered;
+}
+
+class OwnScenes : public testing::TestWithParam<const char*> {};
+
+/// With other random numbers, and with glass split in one of them: equal in expectation.
+TEST_P(OwnScenes, ReferenceAndUnguidedPathAgree) {
+    const LoadedScene loaded = load_scene(test::own_scene(std::string(GetParam()) + ".xml"), {}, false, 48, 32);
+    Job job;
+    apply_layer(job, loaded.settings);
+    job.budget.spp = 252;
+    job.guiding.type = GuidingType::none;
+    job.sampler.seed = 21;
+    const Rendered path = render(loaded.scene, job);
+    job.integrator.type = "reference";
+    job.sampler.seed = 22;
+    const Rendered reference = render(loaded.scene, job);
+    ZTestOptions options;
+    options.block = 8;
+    const ZTestInput input{path.mean, reference.mean, &path.variance, &reference.variance};
+    const BlockZTest blocks = block_z_test(input, options);
+    const PixelZTest pixels = pixel_z_test(input, options);
+    EXPECT_TRUE(blocks.pass) << "worst block z " << blocks.max_abs_z << " of " << blocks.limit;
+    EXPECT_LT(blocks.mean_z2, 2.0);
+    EXPECT_TRUE(pixels.pass) << pixels.accepted << " of " << pixels.tests;
+    for (const double z : blocks.image_z)
+        EXPECT_LT(std::abs(z), 4.0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, OwnScenes,
+                         testing::Values("caustic", "cornell-box", "diffuse-room", "door-ajar", "features",
+                                         "glossy-room", "matte-room", "mixed-room", "white-furnace"),
+                         [](const auto& info) {
+                             std::string name = info.param;
+                             std::erase(name, '-');
+                             return name;
+                         });
+
+TEST(Reference, FurnaceHasTheExactMean) {
+    for (const float albedo : {0.5f, 0.8f})
+        for (const NextEvent next_event : {NextEvent::never, NextEvent::always})
+            for (const MisHeuristic mis : {MisHeuristic::balance, MisHeuristic::power, MisHeuristic::equal}) {
+                const Scene scene = test::furnace(albedo, 1.0f, 2.0f, Vec3(0.3f, -0.2f, 0.1f));
+                Job job;
+                job.integrator.type = "reference";
+                job.integrator.next_event = next_event;
+                job.integrator.mis = mis;
+                job.budget.spp = 1020;
+                job.sampler.seed = 3;
+                Moments all;
+                for (const PixelEstimate& pixel : test::render_locally(scene, job).passes.back().pixels)
+                    all = Moments::merge(all, pixel.whole());
+                const double exact = 1.0 / (1.0 - double(albedo)), error = std::sqrt(all.sample_variance().x / all.n);
+                const double z = std::max(0.0, std::abs(all.mean.x - exact) - 1e-5 * exact) / std::max(error, 1e-9);
+                EXPECT_GT(test::normal_p_value(z), 1e-4) << all.mean.x << " +- " << error << ", not " << exact;
+            }
+}
+
+}  // namespace
+}  // namespace treefarm

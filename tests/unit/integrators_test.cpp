@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: Apache-2.0
+// Estimators against what is known exactly, and the lists of them against each other.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "common/base/error.h"
+#include "common/config/check_job.h"
+#include "common/config/estimators.h"
+#include "common/plan/effects.h"
+#include "common/plan/plan_text.h"
+#include "tests/support/local_render.h"
+#include "tests/support/test_scenes.h"
+#include "worker/integrators/registry.h"
+
+namespace treefarm {
+namespace {
+
+Job job_of(const std::string& type, std::uint32_t spp = 64) {
+    Job job;
+    job.integrator.type = type;
+    job.budget.spp = spp;
+    job.sampler.seed = 9;
+    return job;
+}
+
+/// A floor of 20 x 20 about the origin, its front up, seen from above: every pixel sees nearly the origin.
+Scene floor_from_above(float albedo = 0.5f) {
+    Scene scene;
+    test::add_shape(scene, test::quad({-10, 0, -10}, {0, 0, 20}, {20, 0, 0}), test::add_diffuse(scene, Rgb(albedo)));
+    scene.camera = test::look_at({0.4f, 0.5f, 0.0f}, Vec3(0.0f), {0, 0, 1}, 1e-4f);
+    test::set_film(scene, 8, 8);
+    return scene;
+}
+
+/// Mean of all pixels of the last pass, and its standard error.
+struct Mean {
+    Rgb64 value{0.0};
+    double error = 0;
+};
+
+Mean mean_of(const test::LocalRender& run) {
+    Moments all;
+    for (const PixelEstimate& pixel : run.passes.back().pixels)
+        all = Moments::merge(all, pixel.whole());
+    return {all.mean, std::sqrt(all.sample_variance().x / all.n)};
+}
+
+void expect_mean(const Scene& scene, const Job& job, double exact, const std::string& what) {
+    const Mean mean = mean_of(test::render_locally(scene, job));
+    EXPECT_NEAR(mean.value.x, exact, 4.5 * mean.error + 1e-3 * exact) << what;
+    EXPECT_LT(mean.error, 0.05) << what << ": nothing was tested";
+}
+
+void expect_same_pixels(const test::LocalRender& a, const test::LocalRender& b) {
+    ASSERT_EQ(a.passes.size(), b.passes.size());
+    for (std::size_t k = 0; k < a.passes.size(); ++k)
+        for (std::size_t p = 0; p < a.passes[k].pixels.size(); ++p)
+            ASSERT_EQ(a.passes[k].pixels[p].whole().mean, b.passes[k].pixels[p].whole().mean) << "pixel " << p;
+}
+
+TEST(Estimators, OfJobsAndWorkersAreTheSame) {
+    ASSERT_EQ(integrators().size(), estimators().size());
+    for (std::size_t i = 0; i < estimators().size(); ++i)
+        EXPECT_STREQ(integrators()[i].type, estimators()[i].type);
+    EXPECT_EQ(find_estimator("nonsense"), nullptr);
+    EXPECT_THROW(integrator_of(job_of("nonsense")), RunError);
+    EXPECT_EQ(Job().integrator.type, estimators()[0].type) << "the usual one comes first";
+}
+
+/// What a pass does not use, its plan does not have.
+TEST(Estimators, UnguidedOnesLearnNothing) {
+    for (const Estimator& estimator : estimators()) {
+        if (estimator.guides) continue;
+        Scene scene = test::cornell_box(1.0f, Vec3(0.0f));
+        const Resolved job = resolve(job_of(estimator.type), scene);
+        EXPECT_FALSE(job.guides || job.learns_lights || job.learns_views || job.cells_follow_use) << estimator.type;
+        EXPECT_FALSE(job.integrator.split_glass) << estimator.type;
+        for (const PassPlan& pass : plan_passes(job)) {
+            EXPECT_FALSE(pass.record || pass.guided || pass.probe) << estimator.type;
+            EXPECT_TRUE(estimator.sees_light || !pass.next_event) << estimator.type;
+        }
+        EXPECT_NE(plan_text(plan_effects(scene, job_of(estimator.type)), "s.xml")
+                      .find(std::string("\nestimator: ") + estimator.type + "\n"),
+                  std::string::npos);
+        for (const GuidingType type : {GuidingType::ppg, GuidingType::view}) {
+            Job asked = job_of(estimator.type);
+            asked.guiding.type = type;
+            EXPECT_THROW(check_job(asked), InputError) << estimator.type;
+        }
+        EXPECT_NO_THROW(check_job(job_of(estimator.type)));
+        EXPECT_NO_THROW(check_job(job));
+    }
+}
+
+/// The coordinator plans passes and adds up films, whatever renders them. A study's "reference" is an image.
+TEST(Estimators, TheCoordinatorNamesNone) {
+    const std::filesystem::path room = std::filesystem::path(TREEFARM_SOURCE_DIR) / "coordinator";
+    std::size_t files = 0;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(room)) {
+        if (entry.path().extension() != ".h" && entry.path().extension() != ".cpp") continue;
+        ++files;
+        std::ifstream file(entry.path());
+        const std::string text{std::istreambuf_iterator<char>(file), {}};
+        const bool study = entry.path().parent_path().filename() == "study";
+        for (const Estimator& estimator : estimators()) {
+            if (study && std::string(estimator.type) == "reference") continue;
+            EXPECT_EQ(text.find('"' + std::string(estimator.type) + '"'), std::string::npos)
+                << entry.path() << " names " << estimator.type;
+        }
+        EXPECT_EQ(text.find("integrator.type"), std::string::npos) << entry.path();
+    }
+    EXPECT_GT(files, 20u);
+}
+
+/// E = I cos / d^2 on the floor, of which it reflects albedo / pi.
+TEST(Direct, PointLightOverAPlane) {
+    Scene scene = floor_from_above();
+    scene.emitters.push_back({PointEmitter{{0.6f, 0.8f, 0.0f}, Rgb(3.0f)}, {}});
+    for (const auto& [emitters, bsdfs] : {std::pair(1, 1), {4, 1}, {1, 3}, {2, 0}}) {
+        Job job = job_of("direct");
+        job.integrator.emitter_samples = emitters;
+        job.integrator.bsdf_samples = bsdfs;
+        expect_mean(scene, job, 0.5 / double(kPi) * 3.0 * 0.8, std::to_string(emitters));
+    }
+    Job job = job_of("direct");
+    job.integrator.emitter_samples = 0;
+    EXPECT_EQ(mean_of(test::render_locally(scene, job)).value, Rgb64(0.0)) << "no direction finds a point";
+}
+
+/// A ball of radius r and radiance L at distance d above the floor gives pi L (r / d)^2 (whole above its plane).
+TEST(Direct, BallOverAPlane) {
+    Scene scene = floor_from_above();
+    test::add_shape(scene, Sphere{{0.0f, 2.0f, 0.0f}, 1.0f, false}, kNone, Rgb(2.0f));
+    for (const MisHeuristic mis : {MisHeuristic::balance, MisHeuristic::power, MisHeuristic::equal})
+        for (const auto& [emitters, bsdfs] : {std::pair(1, 1), {4, 1}, {1, 4}, {0, 2}, {2, 0}}) {
+            Job job = job_of("direct", 252);
+            job.integrator.mis = mis;
+            job.integrator.emitter_samples = emitters;
+            job.integrator.bsdf_samples = bsdfs;
+            expect_mean(scene, job, 0.5 * 2.0 * 0.25,
+                        std::to_string(emitters) + " emitter and " + std::to_string(bsdfs) + " BSDF samples");
+        }
+}
+
+/// One sample of each draws the numbers of a path of two edges.
+TEST(Direct, IsTheReferenceOfTwoEdges) {
+    Scene scene = test::cornell_box(1.0f, Vec3(0.0f));
+    test::set_film(scene, 16, 16);
+    for (const int depth : {1, 2}) {
+        Job direct = job_of("direct", 12), reference = job_of("reference", 12);
+        direct.integrator.max_depth = reference.integrator.max_depth = depth;
+        expect_same_pixels(test::render_locally(scene, direct), test::render_locally(scene, reference));
+    }
+}
+
+TEST(Direct, NeedsASampleOfSomeKind) {
+    Job job = job_of("direct");
+    job.integrator.emitter_samples = job.integrator.bsdf_samples = 0;
+    EXPECT_THROW(check_job(job), InputError);
+    job.integrator.type = "path";
+    EXPECT_NO_THROW(check_job(job)) << "the numbers are another estimator's";
+}
+
+TEST(Normals, OfAPlaneABallAndNothing) {
+    const auto colour = [](const Scene& scene) {
+        return mean_of(test::render_locally(scene, job_of("normals", 4))).value;
+    };
+    Scene scene = floor_from_above();
+    EXPECT_EQ(colour(scene), Rgb64(0.5, 1.0, 0.5));
+    scene.camera = test::look_at({0.0f, -1.0f, 0.0f}, Vec3(0.0f), {0, 0, 1}, 1e-4f);
+    EXPECT_EQ(colour(scene), Rgb64(0.5, 1.0, 0.5)) << "seen from behind it stays what it is";
+    scene.camera = test::look_at({0.0f, 1.0f, 0.0f}, {0, 2, 0}, {0, 0, 1}, 1e-4f);
+    EXPECT_EQ(colour(scene), Rgb64(0.0)) << "there is nothing above";
+    test::add_shape(scene, Sphere{{0.0f, 3.0f, 0.0f}, 1.0f, false}, kNone);
+    scene.camera = test::look_at({0.6f, 3.0f, -5.0f}, {0.6f, 3.0f, 0.0f}, {0, 1, 0}, 1e-6f);
+    const Rgb64 ball = colour(scene);
+    EXPECT_NEAR(ball.x, 0.5 + 0.5 * 0.6, 1e-4);
+    EXPECT_NEAR(ball.y, 0.5, 1e-4);
+    EXPECT_NEAR(ball.z, 0.5 - 0.5 * 0.8, 1e-4);
+}
+
+}  // namespace
+}  // namespace treefarm

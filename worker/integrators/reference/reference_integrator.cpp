@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "worker/integrators/reference/reference_integrator.h"
+
+#include <limits>
+
+#include "worker/integrators/sample_loop.h"
+#include "worker/integrators/subpath/mis.h"
+#include "worker/integrators/subpath/roulette.h"
+#include "worker/integrators/subpath/surface_light.h"
+
+// Light that arrives at the camera along a ray is the sum over all paths from there to an emitter. A path tracer
+// follows one of them, vertex by vertex, and estimates at each what is emitted towards the one before:
+//
+//     L = E_1 + T_1 (D_1 + E_2) + T_2 (D_2 + E_3) + ...
+//
+// T_k is the throughput, the product of f |cos| / pdf over the first k vertices: what is left of the light that comes
+// from vertex k + 1, over the density with which the path went there. E_k is what the ray meets at vertex k, and D_k,
+// next event, what a sampled emitter sends there. Both E_k+1 and D_k estimate the same light; weights that sum to one
+// for each direction make their sum an estimate of it (multiple importance sampling, Veach 1997). Russian roulette ends
+// paths that carry little, and weighs the others up. Nothing here is biased.
+
+namespace treefarm {
+
+namespace {
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+/// What job and pass say of paths.
+struct Rules {
+    int max_depth;     ///< edges of a path; -1: no limit
+    bool next_event;   ///< emitters are sampled
+    bool delta_alone;  ///< only those without extent are, which nothing else finds
+    MisHeuristic mis;
+    bool strict_normals;
+    bool hide_emitters;  ///< from the camera
+    Roulette roulette;
+
+    Rules(const TraceScene& scene, const Job::Integrator& job, const PassPlan& pass)
+        : max_depth(job.max_depth),
+          next_event(pass.next_event && scene.emitters().can_sample()),
+          delta_alone(!pass.next_event && scene.emitters().has_delta_lights()),
+          mis(job.mis),
+          strict_normals(job.strict_normals),
+          hide_emitters(job.hide_emitters),
+          roulette(Roulette::Rule::unguided, job.rr_depth) {}
+};
+
+/// Where a path is, and what it carries there.
+struct Path {
+    Ray ray;
+    Rgb throughput{1.0f};
+    Vec3 from{0.0f};           ///< the vertex that the ray left
+    float scatter_pdf = 0.0f;  ///< of the ray's direction there; infinite: nothing else could have found it
+    float spread = 1.0f;  ///< product of eta^2: refraction takes it from the radiance, and gives it back on leaving
+};
+
+/// Traces paths over one kind of surface: DiffuseSurface or GeneralSurface.
+template <class Surface>
+class PathTracer {
+  public:
+    PathTracer(const TraceScene& scene, const Rules& rules, TraceStats& stats)
+        : scene_(scene), rules_(rules), stats_(stats), scratch_(Surface::make_scratch(scene)) {}
+
+    /// Radiance along a ray of the camera, by the random numbers of `key`: each vertex has its own, numbered from 1.
+    Rgb radiance(const PathKey& key, const Ray& camera_ray) {
+        Path path{camera_ray};
+        Rgb sum(0.0f);
+        for (int depth = 1;; ++depth) {
+            const auto vertex = static_cast<std::uint32_t>(depth);
+            Hit hit;
+            const bool found = scene_.geometry().intersect(path.ray, hit);
+            ++stats_.rays;
+            add(sum, path.throughput, emission(path, found ? &hit : nullptr, depth));
+
+            if (!found || depth == rules_.max_depth) return sum;
+            if (depth > 1 && !survives(path, depth - 1, draw(key, vertex - 1, Stream::roulette))) return sum;
+
+            scene_.geometry().keep_inside(hit, path.ray);
+            const Surface surface(scene_, hit, -path.ray.direction, scratch_);
+            if (surface.black()) return sum;
+            if (rules_.strict_normals && -dot(surface.ng(), path.ray.direction) * surface.wo().z < 0.0f) return sum;
+            ++stats_.vertices;
+
+            if (surface.smooth()) add(sum, path.throughput, next_event(hit, surface, draw(key, vertex, Stream::light)));
+            if (!scatter(path, hit, surface, draw(key, vertex, Stream::scatter))) return sum;
+        }
+    }
+
+  private:
+    static void add(Rgb& sum, const Rgb& throughput, const Rgb& light) {
+        if (!is_black(light)) sum += throughput * light;
+    }
+
+    /// E_k: what the path's ray has met, weighed against next event at the vertex that it came from.
+    Rgb emission(const Path& path, const Hit* arrival, int depth) const {
+        const Rgb light = emitted(scene_.emitters(), path.ray, arrival);
+        if (depth == 1) return rules_.hide_emitters ? Rgb(0.0f) : light;
+        if (is_black(light) || !rules_.next_event) return light;
+        const float light_pdf = emitter_pdf(scene_.emitters(), path.from, path.ray, arrival);
+        return light * mis_weight(rules_.mis, path.scatter_pdf, light_pdf);
+    }
+
+    /// D_k: the light of a sampled emitter that the surface scatters back, weighed against scattering towards it.
+    Rgb next_event(const Hit& hit, const Surface& surface, const Draw& random) const {
+        if (!rules_.next_event && !rules_.delta_alone) return Rgb(0.0f);
+        const Emitters& emitters = scene_.emitters();
+        const DirectSample sample =
+            rules_.delta_alone ? emitters.sample_delta(hit.p, random) : emitters.sample_direct(hit.p, random);
+        const LightAtSurface light = light_at_surface(scene_, hit, surface, sample, rules_.strict_normals, stats_);
+        if (!(light.pdf > 0.0f)) return Rgb(0.0f);
+        return light.reflected * (mis_weight(rules_.mis, light.pdf, light.bsdf_pdf) / light.pdf);
+    }
+
+    /// From T_k-1 to T_k: the path goes on in a direction drawn from the BSDF. False if there is none.
+    bool scatter(Path& path, const Hit& hit, const Surface& surface, const Draw& random) const {
+        const BsdfSample sample = sample_bsdf(surface, random);
+        if (!(sample.pdf > 0.0f) || is_black(sample.f_cos)) return false;
+        const Vec3 direction = surface.frame().to_world(sample.wi);
+        if (rules_.strict_normals && !normals_agree(surface, direction, sample.wi.z)) return false;
+        path.throughput *= sample.f_cos * (1.0f / sample.pdf);
+        path.scatter_pdf = sample.delta ? kInfinity : sample.pdf;
+        if constexpr (Surface::kTransmits)
+            if (sample.wi.z < 0.0f) path.spread *= surface.eta2();
+        path.from = hit.p;
+        path.ray = {offset_origin(hit, direction), direction};
+        return true;
+    }
+
+    /// Russian roulette of a path that scattered at `depth`. What refraction has taken does not count against it.
+    bool survives(Path& path, int depth, const Draw& random) const {
+        if (!rules_.roulette.plays(depth)) return true;
+        const float chance = rules_.roulette.survival(path.throughput, path.spread);
+        if (!(to_unit(random[0]) < chance)) return false;
+        path.throughput *= 1.0f / chance;
+        return true;
+    }
+
+    const TraceScene& scene_;
+    const Rules rules_;
+    TraceStats& stats_;
+    typename Surface::Scratch scratch_;
+};
+
+}  // namespace
+
+RenderUnit prepare_reference(std::shared_ptr<const TraceScene> scene, const Resolved& job) {
+    return
+        [scene = std::move(scene), job](const PassPlan& pass, const Guide&, const WorkUnit& unit, UnitOutput& output) {
+            with_surface(*scene, [&]<class Surface>() {
+                PathTracer<Surface> tracer(*scene, Rules(*scene, job.integrator, pass), output.stats);
+                render_samples(*scene, job, pass, unit, output,
+                               [&](const PathKey& key, const Ray& ray) { return tracer.radiance(key, ray); });
+            });
+        };
+}
+
+}  // namespace treefarm
