@@ -157,7 +157,11 @@ class Darkness {
                 const double x = (film.place.x + (column + 0.5) / kColumns * film.width) / film.whole_width();
                 const double y = (film.place.y + (row + 0.5) / kRows * film.height) / film.whole_height();
                 const V3d place = V3d(camera.corner) + V3d(camera.across) * x + V3d(camera.down) * y;
-                if (camera.is_orthographic())
+                if (camera.panoramic)
+                    cast(V3d(camera.origin),
+                         V3d(camera.panorama_direction(static_cast<float>(x), static_cast<float>(y))).normalized(),
+                         met);
+                else if (camera.is_orthographic())
                     cast(V3d(camera.origin) + place, V3d(camera.parallel), met);
                 else
                     cast(V3d(camera.origin), place.normalized(), met);
