@@ -17,8 +17,8 @@ double t_quantile(std::size_t freedom) {
     return boost::math::quantile(boost::math::students_t(static_cast<double>(freedom)), 0.975);
 }
 
-double log_interpolate(const CurvePoint& a, const CurvePoint& b, double share) {
-    return std::exp(std::log(a.error) + share * (std::log(b.error) - std::log(a.error)));
+double log_interpolate(const CurvePoint& a, const CurvePoint& b, double fraction) {
+    return std::exp(std::log(a.error) + fraction * (std::log(b.error) - std::log(a.error)));
 }
 
 }  // namespace
@@ -50,8 +50,8 @@ Crossing time_to(std::span<const CurvePoint> curve, double target) {
     for (std::size_t k = 1; k < curve.size(); ++k) {
         const CurvePoint &a = curve[k - 1], &b = curve[k];
         if (b.error > target) continue;
-        const double share = (std::log(a.error) - std::log(target)) / (std::log(a.error) - std::log(b.error));
-        return {std::exp(std::log(a.seconds) + share * (std::log(b.seconds) - std::log(a.seconds))), false};
+        const double fraction = (std::log(a.error) - std::log(target)) / (std::log(a.error) - std::log(b.error));
+        return {std::exp(std::log(a.seconds) + fraction * (std::log(b.seconds) - std::log(a.seconds))), false};
     }
     const double ratio = curve.back().error / target;
     return {curve.back().seconds * ratio * ratio, true};
@@ -63,8 +63,8 @@ double error_at(std::span<const CurvePoint> curve, double seconds) {
         const CurvePoint &a = curve[k - 1], &b = curve[k];
         if (seconds > b.seconds && k + 1 < curve.size()) continue;
         const double length = std::log(b.seconds) - std::log(a.seconds);
-        const double share = length > 0 ? (std::log(seconds) - std::log(a.seconds)) / length : 1.0;
-        return log_interpolate(a, b, std::clamp(share, 0.0, 1.0));
+        const double fraction = length > 0 ? (std::log(seconds) - std::log(a.seconds)) / length : 1.0;
+        return log_interpolate(a, b, std::clamp(fraction, 0.0, 1.0));
     }
     return curve.front().error;
 }
