@@ -76,6 +76,10 @@ SampleName parse_sample_name(const std::string& text) {
 }
 
 int debug_sample(const RenderRequest& request, const SampleName& name) {
+    const std::string& type = request.plan.job.integrator.type;
+    if (type != Job().integrator.type)
+        throw InputError(kHere, "the estimator \"" + type + "\" has no paths that can be described",
+                         "add --set integrator.type=" + Job().integrator.type);
     if (request.schedule.empty() && has_open_budget(request.plan.job))
         throw InputError(kHere, "the passes of this job depend on clock or error",
                          "add --schedule with the schedule.toml of the run");

@@ -8,16 +8,20 @@
 #include "worker/integrators/subpath/roulette.h"
 #include "worker/integrators/subpath/surface_light.h"
 
-// Light that arrives at the camera along a ray is the sum over all paths from there to an emitter. A path tracer
-// follows one of them, vertex by vertex, and estimates at each what is emitted towards the one before:
+// The radiance that reaches the camera along a ray is an integral over all paths by which light gets there (Kajiya
+// 1986, "The rendering equation"). A path tracer draws one path, backwards and vertex by vertex, and sums up what each
+// adds:
 //
-//     L = E_1 + T_1 (D_1 + E_2) + T_2 (D_2 + E_3) + ...
+//     L = sum over k = 1, 2, ... of T_(k-1) (E_k + D_k)        T_0 = 1,  T_k = T_(k-1) f |cos| / pdf
 //
-// T_k is the throughput, the product of f |cos| / pdf over the first k vertices: what is left of the light that comes
-// from vertex k + 1, over the density with which the path went there. E_k is what the ray meets at vertex k, and D_k,
-// next event, what a sampled emitter sends there. Both E_k+1 and D_k estimate the same light; weights that sum to one
-// for each direction make their sum an estimate of it (multiple importance sampling, Veach 1997). Russian roulette ends
-// paths that carry little, and weighs the others up. Nothing here is biased.
+// E_k is what vertex k emits towards the one before. D_k, next event, is what a sampled emitter sends to vertex k, and
+// the surface on from there. T_k, the throughput, is how much of what arrives at vertex k gets to the camera, over the
+// density with which the path's directions were drawn.
+//
+// E_(k+1) and D_k estimate the same light, one by a direction of the BSDF, one by a place on an emitter. Each is
+// weighed by how likely its technique was to go there; the two weights of a direction sum to one (multiple importance
+// sampling, Veach 1997). Russian roulette ends paths at random, and weighs up those that go on. No step changes the
+// expectation: the mean of many samples is the image, whatever the numbers.
 
 namespace treefarm {
 
@@ -87,11 +91,12 @@ class PathTracer {
     }
 
   private:
+    /// Adds T light to the sum: nothing where it is dark, however large T is.
     static void add(Rgb& sum, const Rgb& throughput, const Rgb& light) {
         if (!is_black(light)) sum += throughput * light;
     }
 
-    /// E_k: what the path's ray has met, weighed against next event at the vertex that it came from.
+    /// E_k: what the path's ray has found, weighed against next event at the vertex that it came from.
     Rgb emission(const Path& path, const Hit* arrival, int depth) const {
         const Rgb light = emitted(scene_.emitters(), path.ray, arrival);
         if (depth == 1) return rules_.hide_emitters ? Rgb(0.0f) : light;
@@ -100,7 +105,7 @@ class PathTracer {
         return light * mis_weight(rules_.mis, path.scatter_pdf, light_pdf);
     }
 
-    /// D_k: the light of a sampled emitter that the surface scatters back, weighed against scattering towards it.
+    /// D_k: what the surface scatters of a sampled emitter's light, weighed against a direction of the BSDF.
     Rgb next_event(const Hit& hit, const Surface& surface, const Draw& random) const {
         if (!rules_.next_event && !rules_.delta_alone) return Rgb(0.0f);
         const Emitters& emitters = scene_.emitters();
