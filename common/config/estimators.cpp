@@ -19,6 +19,10 @@ constexpr Estimator kEstimators[] = {
      .meaning = "the shading normal n of what the camera sees, as the colour (1 + n) / 2",
      .depth = 1,
      .sees_light = false},
+    {.type = "ao",
+     .meaning = "ambient occlusion, the share of an even sky that the surface is open to",
+     .depth = 2,
+     .sees_light = false},
 };
 
 }  // namespace

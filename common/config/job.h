@@ -80,6 +80,7 @@ struct Job {
         bool hide_emitters = false;   ///< the camera does not see emitters directly
         int emitter_samples = 1;      ///< per surface that the camera sees, where the estimator goes by numbers
         int bsdf_samples = 1;
+        float ao_distance = 0;    ///< scene units; 0: by the scene's size
         bool split_glass = true;  ///< at the first surface: both ways out of smooth glass
     } integrator;
 

@@ -134,6 +134,10 @@ std::vector<JobKey> make_job_keys() {
     add(integer_key(
         "integrator.bsdf_samples", "0 to 65535", "direct: directions of the BSDF that are sampled there",
         [](auto& j) -> auto& { return j.integrator.bsdf_samples; }, 0, 65535));
+    add(number_key(
+        "integrator.ao_distance", "0 and more",
+        "ao: how far away something darkens, in scene units; 0: a quarter of the diagonal of the scene's box",
+        [](auto& j) -> auto& { return j.integrator.ao_distance; }, [](float v) { return v >= 0.0f; }));
 
     for (const EffectSwitch& effect : effect_switches())
         add(effect_key(effect));

@@ -181,5 +181,41 @@ TEST(Normals, OfAPlaneABallAndNothing) {
     EXPECT_NEAR(ball.z, 0.5 - 0.5 * 0.8, 1e-4);
 }
 
+TEST(AmbientOcclusion, OfAnOpenPlaneAndTheSkyIsOne) {
+    Scene scene = floor_from_above();
+    EXPECT_EQ(mean_of(test::render_locally(scene, job_of("ao"))).value, Rgb64(1.0));
+    scene.camera = test::look_at({0.0f, 1.0f, 0.0f}, {0, 2, 0}, {0, 0, 1}, 1e-4f);
+    EXPECT_EQ(mean_of(test::render_locally(scene, job_of("ao"))).value, Rgb64(1.0));
+}
+
+/// Below a ceiling at height h a ray of length R stays free where cos < h / R: a share of (h / R)^2, by the cosine.
+TEST(AmbientOcclusion, BelowACeiling) {
+    Scene scene = floor_from_above();
+    test::add_shape(scene, test::quad({-10, 1, -10}, {20, 0, 0}, {0, 0, 20}), kNone);
+    for (const float length : {1.25f, 2.0f, 4.0f}) {
+        Job job = job_of("ao", 252);
+        job.integrator.ao_distance = length;
+        expect_mean(scene, job, 1.0 / (length * length), std::to_string(length));
+    }
+    Job job = job_of("ao");
+    job.integrator.ao_distance = 0.75f;
+    EXPECT_EQ(mean_of(test::render_locally(scene, job)).value, Rgb64(1.0));
+}
+
+TEST(AmbientOcclusion, ReachesAQuarterOfTheScenesDiagonalUnlessTold) {
+    Scene scene = floor_from_above();
+    test::add_shape(scene, test::quad({-10, 1, -10}, {20, 0, 0}, {0, 0, 20}), kNone);
+    Job told = job_of("ao");
+    told.integrator.ao_distance = static_cast<float>(0.25 * std::sqrt(400.0 + 1.0 + 400.0));
+    expect_same_pixels(test::render_locally(scene, job_of("ao")), test::render_locally(scene, told));
+}
+
+TEST(AmbientOcclusion, OfAClosedRoomIsDarkAtLast) {
+    const Scene scene = test::furnace(0.5f, 1.0f, 2.0f, Vec3(0.0f));
+    Job job = job_of("ao");
+    job.integrator.ao_distance = 4.0f;
+    EXPECT_EQ(mean_of(test::render_locally(scene, job)).value, Rgb64(0.0)) << "and emission does not count";
+}
+
 }  // namespace
 }  // namespace treefarm

@@ -94,6 +94,13 @@ constexpr Mapped kDirect[] = {
     {"boolean", "hideEmitters", "true", "integrator.hide_emitters", "true"},
 };
 
+/// Parameters of ambient occlusion, of 0.6 alone.
+constexpr Mapped kAmbientOcclusion[] = {
+    {"integer", "shadingSamples", "3", "integrator.type", "ao"},
+    {"float", "rayLength", "2.5", "integrator.ao_distance", "2.5"},
+    {"float", "rayLength", "-1", "integrator.ao_distance", "0"},
+};
+
 /// Parameters of every sampler.
 constexpr Mapped kSampler[] = {
     {"integer", "sampleCount", "9", "budget.spp", "9"},
@@ -112,7 +119,6 @@ constexpr const char* kOwn[] = {
     "image.",
     "effects.",
     "output.",
-    "integrator.type",
     "integrator.mis",
     "integrator.split_glass",
     "guiding.preset",
@@ -138,7 +144,7 @@ constexpr const char* kOwn[] = {
 TEST_F(MitsubaIntegrators, EveryKeyIsAParametersOrOurOwn) {
     std::set<std::string> mapped;
     for (const auto table : {std::span<const Mapped>(kGuidedPath), std::span<const Mapped>(kPath),
-                             std::span<const Mapped>(kDirect),
+                             std::span<const Mapped>(kDirect), std::span<const Mapped>(kAmbientOcclusion),
                              std::span<const Mapped>(kSampler), std::span<const Mapped>(kScene)})
         for (const Mapped& row : table)
             mapped.insert(row.key);
@@ -171,6 +177,8 @@ TEST_F(MitsubaIntegrators, WhatHasAKeyIsNotRefused) {
     for (const Mapped& mapped : kDirect)
         for (const char* version : {"0.6.0", "3.0.0"})
             expect(mapped, "direct", version);
+    for (const Mapped& mapped : kAmbientOcclusion)
+        expect(mapped, "ao", "0.6.0");
     for (const Mapped& mapped : kPath)
         for (const char* type : {"path", "volpath", "guided_path", "bdpt"})
             for (const char* version : {"0.6.0", "3.0.0"})
@@ -198,6 +206,7 @@ TEST_F(MitsubaIntegrators, DirectLight) {
     }
     EXPECT_EQ(job_of(load_with_sensor(integrator("direct", ""))).integrator.emitter_samples, 1);
     EXPECT_NE(refusal(integrator("direct", property("integer", "bsdfSamples", "-1")), "3.0.0"), "");
+    EXPECT_NE(refusal(integrator("ao", property("float", "rayLength", "0")), "0.6.0"), "");
 }
 
 /// A way to transport light leaves guiding to the job, and the log says so.

@@ -4,6 +4,7 @@
 #include "common/base/error.h"
 #include "common/plan/resolve.h"
 #include "common/scene/pack/scene_codec.h"
+#include "worker/integrators/ao/ao_integrator.h"
 #include "worker/integrators/direct/direct_integrator.h"
 #include "worker/integrators/normals/normals_integrator.h"
 #include "worker/integrators/path/path_integrator.h"
@@ -15,6 +16,7 @@ namespace {
 
 constexpr Integrator kIntegrators[] = {
     {"path", prepare_path}, {"reference", prepare_reference}, {"direct", prepare_direct}, {"normals", prepare_normals},
+    {"ao", prepare_ao},
 };
 
 /// Units come in messages, and a message may say anything.

@@ -27,6 +27,8 @@ class TraceScene {
     const CameraRays& camera() const { return camera_; }
     const TextureSet& textures() const { return textures_; }
     const Film& film() const { return film_; }
+    /// The box of all shapes.
+    const Box3& bounds() const { return bounds_; }
     /// Effects that the scene calls for: for assertions, not for choices.
     const SceneEffects& effects() const { return effects_; }
     /// Whether plain_diffuse() holds every material; otherwise materials() does.

@@ -11,7 +11,7 @@
 namespace treefarm::mitsuba {
 namespace {
 
-constexpr std::array<std::string_view, 4> kIntegrators = {"path", "volpath", "direct", "guided_path"};
+constexpr std::array<std::string_view, 5> kIntegrators = {"path", "volpath", "direct", "ao", "guided_path"};
 
 /// How light is transported; whether something guides is the job's business.
 void read_path(IntegratorSettings& settings) {
@@ -27,6 +27,19 @@ void read_direct(IntegratorSettings& settings) {
         settings.read_integer("shading_samples", key);
     settings.read_integer("emitter_samples", "integrator.emitter_samples");
     settings.read_integer("bsdf_samples", "integrator.bsdf_samples");
+    settings.read_flags();
+}
+
+/// Reads ambient occlusion. How many directions a sample tries does not change the image.
+void read_ambient_occlusion(IntegratorSettings& settings) {
+    Properties& properties = settings.properties();
+    settings.set("integrator.type", "ao", properties.where());
+    properties.ignore({"shading_samples"});
+    const double length = properties.number("ray_length", -1.0);
+    if (length == 0.0)
+        throw InputError(properties.where("ray_length"), "rays of length 0 meet nothing",
+                         "write a length, or -1 for one by the size of the scene");
+    if (length > 0.0) settings.set_by("ray_length", "integrator.ao_distance", number_text(length));
     settings.read_flags();
 }
 
@@ -70,6 +83,8 @@ void read_integrator(const XmlElement& integrator, std::vector<Setting>& setting
     IntegratorSettings reader(properties, settings, diagnostics);
     if (type == "direct") {
         read_direct(reader);
+    } else if (type == "ao") {
+        read_ambient_occlusion(reader);
     } else if (is_path_tracer(type)) {
         diagnostics.note(integrator.where, "the integrator " + in_quotes(type) +
                                                " says how light is transported; whether paths are guided says the job "
