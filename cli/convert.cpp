@@ -24,7 +24,7 @@ constexpr double kMostStops = 60;
 
 /// The layer alone: its channels without its name, colours by the exposure.
 Image layer_alone(const Image& image, const ImageLayer& layer, float factor) {
-    Image alone{image.width, image.height, {}, {}, image.place};
+    Image alone{image.width, image.height, {}, {}, image.crop};
     for (const std::size_t c : layer.channels) {
         const std::string& name = image.channel_names[c];
         const std::size_t dot = name.rfind('.');

@@ -110,7 +110,7 @@ class Follower {
             const Surface surface(scene_, hit, -ray.direction, scratch_);
             if (!seen && !is_nothing(surface)) {
                 seen = true;
-                meet(hit, ray, from, first, row);
+                take_if_nearer(hit, ray, from, first, row);
             }
             if (!beyond && seen) return;
             if (!surface.has_delta() || surface.smooth() || surface.black()) {
@@ -133,7 +133,7 @@ class Follower {
     }
 
     /// The first surface of the camera ray.
-    void meet(const Hit& hit, const Ray& ray, const Vec3& from, bool first, Row& row) {
+    void take_if_nearer(const Hit& hit, const Ray& ray, const Vec3& from, bool first, Row& row) {
         row.add(Aov::alpha, 1.0f);
         row.add(Aov::geometric_normal, towards(hit.ng, ray));
         row.add(Aov::depth, dot(hit.p - eye_, axis_));
