@@ -26,7 +26,7 @@ BsdfRandom albedo_point(std::uint32_t i) {
     return {coordinate(0), {coordinate(1), coordinate(2)}};
 }
 
-/// Share of light from all around that the surface sends towards wo, delta lobes included.
+/// Fraction of light from all around that the surface sends towards wo, delta lobes included.
 template <class Surface>
 Rgb albedo_of(const Surface& surface) {
     if (surface.black()) return Rgb(0.0f);
@@ -136,7 +136,7 @@ class Follower {
     void take_if_nearer(const Hit& hit, const Ray& ray, const Vec3& from, bool first, Row& row) {
         row.add(Aov::alpha, 1.0f);
         row.add(Aov::geometric_normal, towards(hit.ng, ray));
-        row.add(Aov::depth, dot(hit.p - eye_, axis_));
+        row.add(Aov::depth, axis_ == Vec3(0.0f) ? (hit.p - eye_).length() : dot(hit.p - eye_, axis_));
         row.add(Aov::distance, (hit.p - from).length());
         row.add(Aov::position, hit.p);
         if (layout_.has(Aov::uv)) row.add(Aov::uv, scene_.geometry().uv(hit));
@@ -154,6 +154,7 @@ class Follower {
 }  // namespace
 
 Vec3 camera_axis(const Camera& camera) {
+    if (camera.panoramic) return Vec3(0.0f);
     const Vec3 normal = cross(camera.across, camera.down);
     const Vec3 ahead = camera.is_orthographic() ? camera.parallel : camera.corner;
     const float side = dot(normal, ahead);

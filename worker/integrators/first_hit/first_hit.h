@@ -35,7 +35,7 @@ class FirstHitRenderer {
     Vec3 eye_, axis_;  ///< where depth is measured from, and along which unit vector
 };
 
-/// Unit vector along which a camera looks: normal to the plane of its film.
+/// Unit vector along which a camera looks: normal to the plane of its film; 0 for a panorama, whose depth is distance.
 Vec3 camera_axis(const Camera& camera);
 
 }  // namespace treefarm
