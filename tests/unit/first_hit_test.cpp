@@ -274,7 +274,7 @@ TEST(DirectLight, IsPartOfEachGuidedSample) {
         output.begin(guide.distribution_count());
         renderer(pass, guide, {3, 0, 0, 16, 16, 0}, output);
         EXPECT_GT(output.log.records.size(), 0u) << "the direct part must not take the records along";
-        EXPECT_GT(output.stats.copy_rays, 0u) << "the test must exercise splitting";
+        EXPECT_GT(output.stats.split_path_rays, 0u) << "the test must exercise splitting";
         for (std::size_t p = 0; p < 256; ++p) {
             const Rgb64 whole = output.pixels[p].whole().mean, direct = output.aovs.direct[p].whole().mean;
             EXPECT_GE(whole.x - direct.x, -1e-6 * whole.x) << p;
