@@ -50,6 +50,8 @@ const char* type_name(ValueKind kind) {
             return "boolean";
         case ValueKind::off_switch:
             return "false or \"auto\"";
+        case ValueKind::text_list:
+            return "list of texts";
         case ValueKind::text:
             break;
     }

@@ -10,6 +10,7 @@
 
 #include "cli/check.h"
 #include "cli/compare.h"
+#include "cli/convert.h"
 #include "cli/inspect.h"
 #include "cli/keys.h"
 #include "cli/launch.h"
@@ -57,6 +58,7 @@ int run(int argc, char** argv) {
     add_plan_command(app, launch, exit_code);
     add_check_command(app, launch, exit_code);
     add_compare_command(app, launch, exit_code);
+    add_convert_command(app, launch, exit_code);
     add_inspect_command(app, launch, exit_code);
     add_study_command(app, launch, joined(argc, argv), exit_code);
     add_report_command(app, launch);

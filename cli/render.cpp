@@ -58,7 +58,9 @@ void add_render_command(CLI::App& app, const LaunchEnvironment& launch, const st
     options->command = command_line;
     CLI::App* command = app.add_subcommand("render", "Renders a scene, under mpirun on all its processes");
     command->add_option("input", options->input, "Mitsuba scene (.xml) or job (.toml)")->required();
-    add_text_option(*command, "-o,--output", options->output, "also write the image to this EXR file");
+    add_text_option(*command, "-o,--output", options->output,
+                    "also write the image here: an .exr file, or a .png to look at (image.exr is "
+                    "in the run directory in any case)");
     add_samples_option(*command, options->spp, "samples per pixel, rounded up to whole passes' units (default: 64)");
     add_seconds_option(*command, "--seconds", options->seconds, "seconds of rendering; 2min and 1h, too");
     add_error_option(*command, options->error, "stop at this RMSE / mean luminance: 0.05, or 5%");

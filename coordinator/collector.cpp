@@ -22,10 +22,12 @@ bool is_duration(double seconds) {
 
 }  // namespace
 
-Collector::Collector(const PassPlan& plan, const SdTree& tree, int width, int height, bool signed_pixels)
+Collector::Collector(const PassPlan& plan, const SdTree& tree, int width, int height, bool signed_pixels,
+                     const AovLayout& aovs)
     : plan_(plan),
       signed_pixels_(signed_pixels),
       film_(width, height, plan.chunks),
+      aovs_(aovs, width, height, plan.chunks),
       sums_(plan.record ? TreeSums(plan.index, sums_shape(plan, tree)) : TreeSums()) {}
 
 void Collector::check_pixels(const UnitResult& result) const {
@@ -68,6 +70,7 @@ bool Collector::take(int worker, Result result, Ledger& ledger) {
     std::vector<WorkUnit> units;
     for (const UnitResult& unit : result.units) {
         check_pixels(unit);
+        aovs_.check(unit.unit, unit.aovs);
         units.push_back(unit.unit);
     }
     check_stats(result);
@@ -82,6 +85,7 @@ bool Collector::take(int worker, Result result, Ledger& ledger) {
     WorkerContribution& contribution = contributions_[worker];
     for (const UnitResult& unit : result.units) {
         film_.add(unit.unit, unit.pixels);
+        aovs_.add(unit.unit, unit.aovs);
         contribution.pixels += unit.unit.pixel_count();
     }
     contribution.stats.add(result.stats);

@@ -5,6 +5,7 @@
 #include <map>
 #include <vector>
 
+#include "common/film/aov_film.h"
 #include "common/film/pass_film.h"
 #include "common/guiding/sd_tree.h"
 #include "common/guiding/tree_update.h"
@@ -23,7 +24,8 @@ struct WorkerContribution {
 class Collector {
   public:
     /// `signed_pixels`: of a filter with negative lobes, so that means may be negative.
-    Collector(const PassPlan& plan, const SdTree& tree, int width, int height, bool signed_pixels);
+    Collector(const PassPlan& plan, const SdTree& tree, int width, int height, bool signed_pixels,
+              const AovLayout& aovs = {});
 
     /// Merges a worker's result if the ledger says that the worker has all of its units; otherwise nothing changes and
     /// false is returned. Throws FormatError if the content does not fit the pass (nothing was accepted then).
@@ -31,6 +33,7 @@ class Collector {
 
     const PassFilm& film() const { return film_; }
     std::vector<PixelEstimate> take_pixels() { return film_.take_pixels(); }  ///< once, of a complete film
+    AovPixels take_aovs() { return aovs_.take(); }                            ///< as take_pixels()
     const TreeSums& sums() const { return sums_; }
     TraceStats totals() const;
     const std::map<int, WorkerContribution>& contributions() const { return contributions_; }
@@ -47,6 +50,7 @@ class Collector {
     PassPlan plan_;
     bool signed_pixels_;
     PassFilm film_;
+    AovFilm aovs_;
     TreeSums sums_;
     std::map<int, WorkerContribution> contributions_;
     std::uint64_t update_bytes_ = 0;   ///< of all encoded tree updates

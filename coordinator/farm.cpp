@@ -6,6 +6,7 @@
 
 #include "common/base/hash.h"
 #include "common/comm/rest.h"
+#include "common/config/aov_list.h"
 #include "common/config/job_reader.h"
 #include "coordinator/pulse.h"
 
@@ -77,7 +78,8 @@ void Farm::begin_pass(const PassPlan& plan, const SdTree& tree, Bytes encoded_tr
     if (!std::exchange(scene_sent_, true)) send_blob(Blob::scene, 0, chain_without_scene());
     send_blob(Blob::tree, 0, chain_of_present());
     // Its sums take a while to make, as the workers do to unpack the tree.
-    collector_ = std::make_unique<Collector>(plan, tree, width, height, negative_allowed_);
+    collector_ =
+        std::make_unique<Collector>(plan, tree, width, height, negative_allowed_, AovLayout(aov_requests(job_)));
 }
 
 void Farm::announce(int peer) {

@@ -59,6 +59,7 @@ class Farm {
     bool pass_complete() const { return collector_ && collector_->film().complete(); }
     const Collector& collector() const { return *collector_; }
     std::vector<PixelEstimate> take_pixels() { return collector_->take_pixels(); }  ///< of the complete pass, once
+    AovPixels take_aovs() { return collector_->take_aovs(); }                       ///< of it, once
     const Ledger& ledger() const { return *ledger_; }
     /// Seconds from begin_pass() until the last of those present asked for work.
     double broadcast_seconds() const { return broadcast_seconds_; }

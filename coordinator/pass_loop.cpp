@@ -5,6 +5,7 @@
 #include <future>
 
 #include "common/base/hash.h"
+#include "common/config/aov_list.h"
 #include "common/film/guiding_probe.h"
 #include "common/guiding/tree_learner.h"
 #include "common/plan/kernel.h"
@@ -19,11 +20,23 @@ std::uint64_t hash_image(const CombinedImage& image) {
     return hash_bytes({reinterpret_cast<const std::uint8_t*>(image.mean.data()), image.mean.size() * sizeof(Rgb64)});
 }
 
+std::uint64_t hash_aovs(const std::vector<AovChannel>& channels) {
+    std::vector<std::uint64_t> hashes;
+    for (const AovChannel& channel : channels)
+        hashes.push_back(hash_bytes(
+            {reinterpret_cast<const std::uint8_t*>(channel.values.data()), channel.values.size() * sizeof(float)}));
+    return hash_bytes({reinterpret_cast<const std::uint8_t*>(hashes.data()), hashes.size() * sizeof(std::uint64_t)});
+}
+
 class PassLoop {
   public:
     PassLoop(Farm& farm, const Resolved& job, const PassChooser& choose, SdTree tree, int width, int height,
              const PassHooks& hooks)
-        : farm_(farm), job_(job), choose_(choose), hooks_(hooks) {
+        : farm_(farm),
+          job_(job),
+          choose_(choose),
+          hooks_(hooks),
+          aovs_(aov_requests(job), static_cast<std::size_t>(width) * static_cast<std::size_t>(height)) {
         result_.width = width;
         result_.height = height;
         result_.tree = std::move(tree);
@@ -94,6 +107,7 @@ class PassLoop {
             if (!shows_last_tree_only(job_)) set_aside_.take_out(pass.pixels, plan.index, finished_.size());
         }
         show(std::move(pass), job_, finished_);
+        if (aovs_.requested()) aovs_.add(farm_.take_aovs(), plan.spp);
     }
 
     void combine(PassReport& report) {
@@ -110,6 +124,8 @@ class PassLoop {
             std::async(std::launch::async, [&] { return estimate_error(*coming_.image, job_.sampler.seed); });
         std::future<std::uint64_t> hash = std::async(std::launch::async, [&] { return hash_image(*coming_.image); });
         find_gain(report);
+        if (aovs_.requested())
+            coming_.aovs = std::make_shared<std::vector<AovChannel>>(aovs_.channels(*coming_.image, finished_));
         coming_.image_hash = hash.get();
         report.variance = variance.get();
         state_.error = report.error = error.get();
@@ -182,6 +198,10 @@ class PassLoop {
         result_.passes.push_back(report);
         result_.image = std::move(coming_.image);
         result_.image_hash = coming_.image_hash;
+        if (coming_.aovs) {
+            result_.aovs = std::move(coming_.aovs);
+            result_.aov_hash = hash_aovs(*result_.aovs);
+        }
         result_.spp = report.spp_done;
         result_.tree_hash = coming_tree_hash_;
         if (coming_.tree) result_.tree = std::move(*coming_.tree);
@@ -226,12 +246,14 @@ class PassLoop {
     TreeLearner learner_;
     RenderResult result_;
     std::vector<PassResult> finished_;
+    AovSums aovs_;
     GuidingProbe probe_;
     ProbesSetAside set_aside_;
     std::uint64_t coming_tree_hash_ = 0;
     /// Image and tree of a pass that is being finished.
     struct {
         std::shared_ptr<const CombinedImage> image;
+        std::shared_ptr<const std::vector<AovChannel>> aovs;
         std::uint64_t image_hash = 0;
         std::optional<SdTree> tree;  ///< that it taught
     } coming_;

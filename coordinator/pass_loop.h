@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "common/film/aov_film.h"
 #include "common/film/combine.h"
 #include "common/guiding/sd_tree.h"
 #include "common/plan/budget.h"
@@ -46,12 +47,15 @@ struct PassHooks {
 struct RenderResult {
     /// Never null; empty if no pass was finished. Each pass makes a new one, so who keeps one needs no copy.
     std::shared_ptr<const CombinedImage> image = std::make_shared<CombinedImage>();
+    /// The image's other layers, as the job asks for. Never null; each pass makes new ones, too.
+    std::shared_ptr<const std::vector<AovChannel>> aovs = std::make_shared<std::vector<AovChannel>>();
     int width = 0, height = 0;
     std::uint32_t spp = 0;
     bool interrupted = false;
     std::vector<PassReport> passes;
     SdTree tree;                   ///< that guides the pass after the last finished one, or guided the last of all
     std::uint64_t image_hash = 0;  ///< of the combined means
+    std::uint64_t aov_hash = 0;    ///< of the other layers
     std::uint64_t tree_hash = 0;   ///< of the encoded tree that guided the last pass
 };
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "coordinator/result_image.h"
 
+#include <algorithm>
+
 namespace treefarm {
 
 namespace {
@@ -25,14 +27,26 @@ RgbImage result_colours(const CombinedImage& image, int width, int height) {
     return colours;
 }
 
-Image result_channels(const CombinedImage& image, int width, int height) {
-    Image channels{width, height, {}, {}};
-    channels.data.reserve(12 * channels.pixel_count());
-    add_layer(channels, "", image.mean);
-    add_layer(channels, "variance", image.variance);
-    add_layer(channels, "halfA", image.half[0]);
-    add_layer(channels, "halfB", image.half[1]);
-    return channels;
+StoredChannels result_channels(const CombinedImage& image, std::span<const AovChannel> aovs, int width, int height,
+                               bool half) {
+    StoredChannels stored{Image{width, height, {}, {}}, {}};
+    Image& channels = stored.image;
+    channels.data.reserve((12 + aovs.size()) * channels.pixel_count());
+    const PixelType colours = half ? PixelType::half : PixelType::float32;
+    const auto add = [&](const std::string& layer, const std::vector<Rgb64>& values, PixelType type) {
+        add_layer(channels, layer, values);
+        stored.types.insert(stored.types.end(), 3, type);
+    };
+    add("", image.mean, colours);
+    add("variance", image.variance, PixelType::float32);
+    add("halfA", image.half[0], colours);
+    add("halfB", image.half[1], colours);
+    for (const AovChannel& aov : aovs) {
+        const std::span<float> channel = channels.add_channel(aov.name);
+        std::copy(aov.values.begin(), aov.values.end(), channel.begin());
+        stored.types.push_back(aov.precise ? PixelType::float32 : colours);
+    }
+    return stored;
 }
 
 }  // namespace treefarm

@@ -43,8 +43,9 @@ double processors() {
 void check_output_file(const std::string& file) {
     if (file.empty()) return;
     const fs::path path(file), folder = path.has_parent_path() ? path.parent_path() : ".";
-    if (path.extension() != ".exr")
-        throw InputError(Location{file, 0, 0}, "the image is written as EXR", "give it a name that ends in .exr");
+    if (path.extension() != ".exr" && path.extension() != ".png")
+        throw InputError(Location{file, 0, 0}, "the image is written as EXR, or as a PNG to look at",
+                         "give it a name that ends in .exr or .png");
     if (!fs::is_directory(folder))
         throw InputError(Location{file, 0, 0}, "there is no folder " + folder.string(), "make it first");
     if (fs::is_directory(path)) throw InputError(Location{file, 0, 0}, "is a folder", "name a file");
@@ -65,23 +66,26 @@ bool has_preview(std::size_t pixels) {
     return pixels <= kMostPixels;
 }
 
+/// Where it was written is no part of a job that somebody repeats; what was written is.
 std::string job_without_output(Job job) {
-    job.output = {};
+    job.output.directory.clear();
+    job.output.file.clear();
     return write_job(job);
 }
 
 std::string resolved_text(const Resolved& job) {
-    const std::string text = job_without_output(job);
     return "# The job as it was used: what job.toml leaves to the program has its value here, and so have the tuned\n"
            "# constants. treefarm render resolved.toml repeats the experiment, or says why this build cannot.\n" +
-           text.substr(0, text.find("[output]")) + write_policy();
+           job_without_output(job) + "\n" + write_policy();
 }
 
-std::vector<std::uint8_t> encode_image(const fs::path& path, const CombinedImage& image, int width, int height,
-                                       const CropWindow& crop, const Attributes& attributes) {
-    Image channels = result_channels(image, width, height);
-    channels.crop = crop;
-    return encode_exr(path, channels, attributes);
+std::vector<std::uint8_t> encode_image(const fs::path& path, const CombinedImage& image,
+                                       std::span<const AovChannel> aovs, int width, int height, const CropWindow& crop,
+                                       const Attributes& attributes, const Job::Output& output) {
+    StoredChannels channels = result_channels(image, aovs, width, height, output.half);
+    channels.image.crop = crop;
+    return encode_exr(path, channels.image, attributes,
+                      {std::move(channels.types), *find_compression(output.compression), output.tiles});
 }
 
 }  // namespace
@@ -175,6 +179,7 @@ Attributes RunDirectory::image_attributes(const RenderResult& result) const {
         {"treefarm.passes", passes_csv_},
         {"treefarm.schedule", write_schedule(passes_)},
     };
+    if (!result.aovs->empty()) attributes["treefarm.aov_hash"] = hash_text(result.aov_hash);
     if (last.error.known) {
         attributes["treefarm.error"] = number_text(last.error.relative());
         attributes["treefarm.estimated_rmse"] = number_text(last.error.rmse);
@@ -191,10 +196,12 @@ void RunDirectory::write_image(const RenderResult& result) {
     newest_spp_ = result.spp;
     writer_.put(
         "image.exr",
-        [this, image = result.image, width = result.width, height = result.height,
+        [this, image = result.image, aovs = result.aovs, width = result.width, height = result.height,
          attributes = image_attributes(result)] {
-            write_bytes("image.exr", encode_image(path() / "image.exr", *image, width, height, facts_.crop, attributes),
-                        Outlives::power);
+            write_bytes(
+                "image.exr",
+                encode_image(path() / "image.exr", *image, *aovs, width, height, facts_.crop, attributes, job_.output),
+                Outlives::power);
             const std::lock_guard lock(on_disk_mutex_);
             on_disk_ = image;
         },
@@ -217,9 +224,12 @@ std::vector<LastFile> RunDirectory::last_files(const RenderResult& result, Outli
         const auto encoded = std::make_shared<std::vector<std::uint8_t>>();  // once for both files
         const auto image = [this, encoded, &result]() -> const std::vector<std::uint8_t>& {
             if (encoded->empty())
-                *encoded = encode_image(path() / "image.exr", *result.image, result.width, result.height, facts_.crop,
-                                        image_attributes(result));
+                *encoded = encode_image(path() / "image.exr", *result.image, *result.aovs, result.width, result.height,
+                                        facts_.crop, image_attributes(result), job_.output);
             return *encoded;
+        };
+        const auto picture = [&result] {
+            return encode_png(result_colours(*result.image, result.width, result.height));
         };
         if (!image_is_on_disk(result))
             add("image.exr", [=, this, &result] {
@@ -228,8 +238,12 @@ std::vector<LastFile> RunDirectory::last_files(const RenderResult& result, Outli
                 on_disk_ = result.image;
             });
         if (!job_.output.file.empty())
-            files.push_back(
-                {job_.output.file, [=, this] { write_file_atomically(job_.output.file, image(), outlives); }});
+            files.push_back({job_.output.file, [=, this] {
+                                 if (fs::path(job_.output.file).extension() == ".png")
+                                     write_file_atomically(job_.output.file, picture(), outlives);
+                                 else
+                                     write_file_atomically(job_.output.file, image(), outlives);
+                             }});
         add("passes.csv", [=, this] { write_text("passes.csv", passes_csv_, outlives); });
         add("schedule.toml", [=, this] { write_text("schedule.toml", write_schedule(passes_), outlives); });
         if (result.tree.trained)
@@ -239,10 +253,7 @@ std::vector<LastFile> RunDirectory::last_files(const RenderResult& result, Outli
                 end.tree_file_hash = hash_text(hash_bytes(tree));
             });
         if (has_preview(result.image->mean.size()))
-            add("preview.png", [=, this, &result] {
-                write_bytes("preview.png", encode_png(result_colours(*result.image, result.width, result.height)),
-                            outlives);
-            });
+            add("preview.png", [=, this] { write_bytes("preview.png", picture(), outlives); });
     }
     // Only where the folder vanished: they were written at the start.
     for (const auto& [name, text] : {std::pair("job.toml", &job_toml_), std::pair("resolved.toml", &resolved_toml_),

@@ -196,6 +196,7 @@ std::string summary_json(const Job& job, const RunFacts& facts, const RenderResu
                     {"spp", result.spp},
                     {"seconds", end.elapsed_seconds},
                     {"image_hash", result.spp > 0 ? hash_text(result.image_hash) : ""},
+                    {"aov_hash", result.aovs->empty() ? "" : hash_text(result.aov_hash)},
                     {"tree_hash", result.spp > 0 ? hash_text(result.tree_hash) : ""},
                     {"tree_file_hash", end.tree_file_hash},
                     {"image_error", result.passes.empty() ? Json() : error_json(result.passes.back().error)},

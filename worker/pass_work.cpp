@@ -19,8 +19,9 @@ void PassWork::deliver(const WorkUnit& unit, UnitOutput& output) {
         output.stats.splat_seconds += thread_cpu_seconds() - start;
     }
     const std::scoped_lock lock(units_lock_);
-    bundle_bytes_ += output.pixels.size() * sizeof(PixelEstimate);
-    units_.push_back({unit, std::exchange(output.pixels, {})});
+    bundle_bytes_ += (output.pixels.size() + output.aovs.direct.size()) * sizeof(PixelEstimate) +
+                     output.aovs.values.size() * sizeof(double);
+    units_.push_back({unit, std::exchange(output.pixels, {}), std::exchange(output.aovs, {})});
     stats_.add(output.stats);
 }
 

@@ -23,8 +23,8 @@ class PassWork {
     const PassPlan& plan() const { return plan_; }
     const Guide& guide() const { return guide_; }
 
-    /// Adds a finished unit and its records to the open bundle. Thread-safe; `output` gives up its pixels, and its
-    /// records are reordered.
+    /// Adds a finished unit and its records to the open bundle. Thread-safe; `output` gives up its pixels and AOVs, and
+    /// its records are reordered.
     void deliver(const WorkUnit& unit, UnitOutput& output);
 
     /// Closes the bundle and opens a new one; nothing if no unit was delivered since. The message's incarnation is the

@@ -135,8 +135,12 @@ struct Job {
     } farm;
 
     struct Output {
-        std::string directory;  ///< the run directory; empty: runs/<scene>-<time>
-        std::string file;       ///< -o: also write the image here
+        std::string directory;             ///< the run directory; empty: runs/<scene>-<time>
+        std::string file;                  ///< -o: also write the image here
+        std::string aovs;                  ///< layers besides colour, with commas between (aov_list.h)
+        bool half = false;                 ///< EXR stores colours as 16-bit floats
+        std::string compression = "auto";  ///< of EXR: auto, none, rle, zips, zip, piz
+        int tiles = 0;                     ///< edge of the EXR file's tiles, pixels; 0: scan lines
     } output;
 };
 

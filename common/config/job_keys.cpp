@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "common/config/aov_list.h"
 #include "common/config/effect_switches.h"
 #include "common/config/estimators.h"
 #include "common/config/job_key_makers.h"
@@ -73,6 +74,33 @@ JobKey effect_key(const EffectSwitch& effect) {
             },
             [name](const Job& job) { return std::string(job.effects.off.contains(name) ? "false" : "auto"); },
             {}};
+}
+
+/// The layers of the image besides colour.
+JobKey aovs_key() {
+    std::string range;
+    for (const AovKind& kind : aov_kinds())
+        range += (range.empty() ? "list of \"" : "\", \"") + std::string(kind.name);
+    return {"output.aovs",
+            ValueKind::text_list,
+            range + "\"; \"NAME:depth\" calls the layer NAME",
+            "layers of the image besides colour (docs/use/outputs.md)",
+            [](Job& job, const std::string& text) {
+                std::string why, canonical;
+                const std::vector<AovRequest> requests = parse_aovs(text, why);
+                if (!why.empty()) return false;
+                for (const AovRequest& request : requests)
+                    canonical += (canonical.empty() ? "" : ",") + aov_text(request);
+                job.output.aovs = canonical;
+                return true;
+            },
+            [](const Job& job) { return job.output.aovs; },
+            {},
+            [](const std::string& text) {
+                std::string why;
+                parse_aovs(text, why);
+                return why;
+            }};
 }
 
 std::vector<JobKey> make_job_keys() {
@@ -303,8 +331,22 @@ std::vector<JobKey> make_job_keys() {
         "output.directory", "the run directory; empty: runs/<scene>-<time>",
         [](auto& j) -> auto& { return j.output.directory; }));
     add(text_key(
-        "output.file", "also write the image here (an .exr file); empty: nowhere else",
+        "output.file", "also write the image here (an .exr file, or a .png to look at); empty: nowhere else",
         [](auto& j) -> auto& { return j.output.file; }));
+    add(aovs_key());
+    add(boolean_key(
+        "output.half",
+        "image.exr stores colours, normals and alpha as 16-bit floats; variance, distances, positions, uv and numbers "
+        "stay 32 bits wide",
+        [](auto& j) -> auto& { return j.output.half; }));
+    const std::vector<std::pair<std::string, std::string>> compressions{
+        {"auto", "auto"}, {"none", "none"}, {"rle", "rle"}, {"zips", "zips"}, {"zip", "zip"}, {"piz", "piz"}};
+    add(word_key(
+        "output.compression", "of image.exr, lossless in any case; auto: zip where output.half is on, else rle",
+        [](auto& j) -> auto& { return j.output.compression; }, compressions));
+    add(integer_key(
+        "output.tiles", "0, or 16 to 4096", "edge of the tiles in image.exr, pixels; 0: scan lines",
+        [](auto& j) -> auto& { return j.output.tiles; }, 16, 4096, 0));
     return keys;
 }
 

@@ -19,6 +19,7 @@ enum class ValueKind {
     number_or_text,
     boolean,
     text,
+    text_list,   ///< a list of texts, or one with commas between
     off_switch,  ///< false, or the text "auto"
 };
 
@@ -37,6 +38,7 @@ struct JobKey {
     std::function<bool(Job&, const std::string& text)> parse;  ///< false: not in `range`; the job is unchanged
     std::function<std::string(const Job&)> print;  ///< the value as parse() takes it; empty: a key that stores nothing
     std::vector<UnavailableValue> unavailable;
+    std::function<std::string(const std::string&)> refusal = {};  ///< why parse() refuses a text; empty: by the range
 
     bool stored() const { return static_cast<bool>(print); }
 };

@@ -32,6 +32,17 @@ std::string toml_string(const std::string& text) {
     return out.str();
 }
 
+/// Texts with commas between, as a list.
+std::string toml_list(const std::string& text) {
+    std::string list;
+    for (std::size_t begin = 0; begin < text.size();) {
+        const std::size_t end = std::min(text.find(',', begin), text.size());
+        list += (list.empty() ? "" : ", ") + toml_string(text.substr(begin, end - begin));
+        begin = end + 1;
+    }
+    return "[" + list + "]";
+}
+
 std::string toml_key(const std::string& key) {
     constexpr std::string_view bare = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-";
     return !key.empty() && key.find_first_not_of(bare) == std::string::npos ? key : toml_string(key);
@@ -64,8 +75,10 @@ void apply_setting(Job& job, const std::string& key_name, const std::string& val
     if (key.kind == ValueKind::off_switch && value == "true")
         throw InputError(where, key.name + " cannot be forced on: it is on wherever the scene calls for it",
                          "leave the key out; treefarm plan tells what is on and why");
-    if (!key.parse(job, value))
-        throw InputError(where, key.name + " = " + in_quotes(value) + " is not allowed", "allowed: " + key.range);
+    if (!key.parse(job, value)) {
+        const std::string reason = key.refusal ? ": " + key.refusal(value) : " is not allowed";
+        throw InputError(where, key.name + " = " + in_quotes(value) + reason, "allowed: " + key.range);
+    }
     if (key.name == "guiding.preset")
         for (const Setting& setting : preset_settings(value))
             apply_setting(job, setting.key, setting.value, where);
@@ -198,6 +211,7 @@ std::string write_job(const Job& job) {
         const bool word = key.kind == ValueKind::text || (key.kind == ValueKind::off_switch && value != "false") ||
                           (key.kind == ValueKind::number_or_text && !parse_number(value));
         if (word) value = toml_string(value);
+        if (key.kind == ValueKind::text_list) value = toml_list(value);
         // TOML tells numbers from integers by the point; reading takes both.
         text += key.name.substr(dot + 1) + " = " + value + "\n";
     }

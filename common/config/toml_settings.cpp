@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/config/toml_settings.h"
 
+#include <algorithm>
 #include <string_view>
 
 #include "common/config/effect_switches.h"
@@ -42,10 +43,18 @@ std::string wanted_type_name(ValueKind kind) {
             return "true or false";
         case ValueKind::off_switch:
             return "false";
+        case ValueKind::text_list:
+            return "a list of texts in quotes";
         case ValueKind::text:
             break;
     }
     return "text in quotes";
+}
+
+bool is_text_list(const toml::node& node) {
+    const toml::array* list = node.as_array();
+    return list != nullptr &&
+           std::all_of(list->begin(), list->end(), [](const toml::node& entry) { return entry.is_string(); });
 }
 
 bool matches(const toml::node& node, ValueKind kind) {
@@ -60,6 +69,8 @@ bool matches(const toml::node& node, ValueKind kind) {
             return node.is_boolean();
         case ValueKind::off_switch:
             return node.is_boolean() || node.is_string();
+        case ValueKind::text_list:
+            return node.is_string() || is_text_list(node);
         case ValueKind::text:
             break;
     }
@@ -71,6 +82,12 @@ std::string value_text(const toml::node& node) {
     if (const auto* integer = node.as_integer()) return std::to_string(integer->get());
     if (const auto* number = node.as_floating_point()) return number_text(number->get());
     if (const auto* boolean = node.as_boolean()) return boolean->get() ? "true" : "false";
+    if (const auto* list = node.as_array()) {
+        std::string text;
+        for (const toml::node& entry : *list)
+            text += (text.empty() ? "" : ",") + value_text(entry);
+        return text;
+    }
     return {};
 }
 

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -45,9 +46,26 @@ struct ExrRgb {
 /// exists.
 ExrRgb read_exr_rgb(const std::filesystem::path& path, const std::string& layer = "");
 
-/// An EXR file of all channels with one type (half: values beyond +-65504 are clamped, not turned into infinities),
-/// scan lines, lossless. A placed image is the data window inside the display window. The same image gives the same
-/// bytes. `path` is for messages. Throws RunError.
+/// How an EXR file is packed, without loss. Of noisy floats nothing saves much: automatic takes the fast one, ZIP where
+/// there are halves or integers.
+enum class ExrCompression { automatic, none, rle, zips, zip, piz };
+
+/// The compression of that name ("auto", "none", ...), if there is one.
+std::optional<ExrCompression> find_compression(const std::string& name);
+
+/// The form of an EXR file.
+struct ExrStorage {
+    std::vector<PixelType> types;  ///< one per channel, or one for all
+    ExrCompression compression = ExrCompression::automatic;
+    int tiles = 0;  ///< edge of its tiles, pixels; 0: scan lines
+};
+
+/// An EXR file of all channels (half: values beyond +-65504 are clamped, not turned into infinities), lossless. A
+/// placed image is the data window inside the display window. The same image gives the same bytes. `path` is for
+/// messages. Throws RunError.
+std::vector<std::uint8_t> encode_exr(const std::filesystem::path& path, const Image& image,
+                                     const Attributes& attributes, const ExrStorage& storage);
+/// A file of scan lines, with all channels of one type.
 std::vector<std::uint8_t> encode_exr(const std::filesystem::path& path, const Image& image,
                                      const Attributes& attributes = {}, PixelType type = PixelType::float32);
 

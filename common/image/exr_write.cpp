@@ -7,12 +7,17 @@
 #include <ImfOutputFile.h>
 #include <ImfStringAttribute.h>
 #include <ImfThreading.h>
+#include <ImfTiledOutputFile.h>
 #include <half.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <deque>
 #include <set>
+#include <stdexcept>
+#include <type_traits>
+#include <utility>
 
 #include "common/base/error.h"
 #include "common/base/parallel.h"
@@ -71,15 +76,6 @@ Imf::Header header_of(const Image& image) {
     return {{{0, 0}, {image.crop.whole_width - 1, image.crop.whole_height - 1}}, window_of(image)};
 }
 
-template <class T>
-void insert(Imf::FrameBuffer& buffer, const Image& image, Imf::PixelType type, const T* values) {
-    // FrameBuffer serves reading and writing and takes no pointer to const; writing leaves the pixels alone.
-    const auto row = sizeof(T) * static_cast<std::size_t>(image.width);
-    for (std::size_t c = 0; c < image.channel_names.size(); ++c)
-        buffer.insert(image.channel_names[c], Imf::Slice::Make(type, const_cast<T*>(values + c * image.pixel_count()),
-                                                               window_of(image), sizeof(T), row));
-}
-
 void check(const std::filesystem::path& path, const Image& image) {
     if (image.width < 1 || image.height < 1 || image.channel_names.empty() ||
         image.data.size() != image.channel_names.size() * image.pixel_count())
@@ -102,49 +98,115 @@ int compression_threads() {
     return threads;
 }
 
-void write_pixels(Imf::OStream& stream, const Image& image, const Attributes& attributes, PixelType type) {
-    const Imf::PixelType stored = type == PixelType::half     ? Imf::HALF
-                                  : type == PixelType::uint32 ? Imf::UINT
-                                                              : Imf::FLOAT;
+Imf::PixelType stored_as(PixelType type) {
+    return type == PixelType::half ? Imf::HALF : type == PixelType::uint32 ? Imf::UINT : Imf::FLOAT;
+}
+
+/// Of 512 x 512 pixels of twelve channels of noise ZIP saves 9 % in 0.16 s, RLE 6 % in 0.03 s.
+Imf::Compression packed_by(ExrCompression compression, const std::vector<PixelType>& types) {
+    switch (compression) {
+        case ExrCompression::none:
+            return Imf::NO_COMPRESSION;
+        case ExrCompression::rle:
+            return Imf::RLE_COMPRESSION;
+        case ExrCompression::zips:
+            return Imf::ZIPS_COMPRESSION;
+        case ExrCompression::zip:
+            return Imf::ZIP_COMPRESSION;
+        case ExrCompression::piz:
+            return Imf::PIZ_COMPRESSION;
+        case ExrCompression::automatic:
+            break;
+    }
+    const bool all_floats =
+        std::all_of(types.begin(), types.end(), [](PixelType type) { return type == PixelType::float32; });
+    return all_floats ? Imf::RLE_COMPRESSION : Imf::ZIP_COMPRESSION;
+}
+
+/// Channels in the types that the file stores, where OpenEXR finds them.
+class StoredPixels {
+  public:
+    void insert(const Image& image, std::size_t c, PixelType type) {
+        const std::span<const float> values = image.channel(c);
+        if (type == PixelType::half)
+            insert(image, c, halves_.emplace_back(to_half(values)).data());
+        else if (type == PixelType::uint32)
+            insert(image, c, integers_.emplace_back(to_uint(values)).data());
+        else
+            insert(image, c, values.data());
+    }
+    const Imf::FrameBuffer& buffer() const { return buffer_; }
+
+  private:
+    template <class T>
+    void insert(const Image& image, std::size_t c, const T* values) {
+        constexpr Imf::PixelType type = std::is_same_v<T, half>    ? Imf::HALF
+                                        : std::is_same_v<T, float> ? Imf::FLOAT
+                                                                   : Imf::UINT;
+        // FrameBuffer serves reading and writing and takes no pointer to const; writing leaves the pixels alone.
+        buffer_.insert(image.channel_names[c],
+                       Imf::Slice::Make(type, const_cast<T*>(values), window_of(image), sizeof(T),
+                                        sizeof(T) * static_cast<std::size_t>(image.width)));
+    }
+
+    std::deque<std::vector<half>> halves_;
+    std::deque<std::vector<std::uint32_t>> integers_;
+    Imf::FrameBuffer buffer_;
+};
+
+void write_pixels(Imf::OStream& stream, const Image& image, const Attributes& attributes, const ExrStorage& storage) {
+    std::vector<PixelType> types = storage.types;
+    if (types.size() == 1) types.assign(image.channel_names.size(), types[0]);
+    if (types.size() != image.channel_names.size()) throw std::invalid_argument("as many types as channels are needed");
     Imf::Header header = header_of(image);
-    // Of noisy floats nothing saves much: 9 % by ZIP, in 0.16 s for 512 x 512 pixels of twelve channels, 6 % by runs,
-    // in 0.03 s.
-    header.compression() = stored == Imf::FLOAT ? Imf::RLE_COMPRESSION : Imf::ZIP_COMPRESSION;
+    header.compression() = packed_by(storage.compression, types);
     for (const auto& [name, text] : attributes)
         header.insert(name, Imf::StringAttribute(text));
-    for (const std::string& name : image.channel_names)
-        header.channels().insert(name, Imf::Channel(stored));
-
-    std::vector<half> halves;
-    std::vector<std::uint32_t> integers;
-    Imf::FrameBuffer buffer;
-    if (type == PixelType::half) {
-        halves = to_half(image.data);
-        insert(buffer, image, stored, halves.data());
-    } else if (type == PixelType::uint32) {
-        integers = to_uint(image.data);
-        insert(buffer, image, stored, integers.data());
-    } else {
-        insert(buffer, image, stored, image.data.data());
+    StoredPixels pixels;
+    for (std::size_t c = 0; c < types.size(); ++c) {
+        header.channels().insert(image.channel_names[c], Imf::Channel(stored_as(types[c])));
+        pixels.insert(image, c, types[c]);
+    }
+    if (storage.tiles > 0) {
+        const auto edge = static_cast<unsigned>(storage.tiles);
+        header.setTileDescription(Imf::TileDescription(edge, edge, Imf::ONE_LEVEL));
+        Imf::TiledOutputFile file(stream, header, compression_threads());
+        file.setFrameBuffer(pixels.buffer());
+        file.writeTiles(0, file.numXTiles() - 1, 0, file.numYTiles() - 1);
+        return;
     }
     Imf::OutputFile file(stream, header, compression_threads());
-    file.setFrameBuffer(buffer);
+    file.setFrameBuffer(pixels.buffer());
     file.writePixels(image.height);
 }
 
 }  // namespace
 
+std::optional<ExrCompression> find_compression(const std::string& name) {
+    constexpr std::pair<const char*, ExrCompression> kNames[] = {
+        {"auto", ExrCompression::automatic}, {"none", ExrCompression::none}, {"rle", ExrCompression::rle},
+        {"zips", ExrCompression::zips},      {"zip", ExrCompression::zip},   {"piz", ExrCompression::piz}};
+    for (const auto& [known, compression] : kNames)
+        if (name == known) return compression;
+    return std::nullopt;
+}
+
 std::vector<std::uint8_t> encode_exr(const std::filesystem::path& path, const Image& image,
-                                     const Attributes& attributes, PixelType type) {
+                                     const Attributes& attributes, const ExrStorage& storage) {
     check(path, image);
     check_names(path, image);
     MemoryStream stream(path.c_str());
     try {
-        write_pixels(stream, image, attributes, type);
+        write_pixels(stream, image, attributes, storage);
     } catch (const std::exception& error) {
         throw RunError(path.string() + ": cannot encode the image (" + error.what() + ")");
     }
     return stream.take();
+}
+
+std::vector<std::uint8_t> encode_exr(const std::filesystem::path& path, const Image& image,
+                                     const Attributes& attributes, PixelType type) {
+    return encode_exr(path, image, attributes, ExrStorage{{type}});
 }
 
 void write_exr(const std::filesystem::path& path, const Image& image, const Attributes& attributes, PixelType type) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <span>
 
+#include "common/config/aov_list.h"
 #include "common/film/pixel_estimate.h"
 #include "common/guiding/tree_update.h"
 #include "common/plan/kernel.h"
@@ -160,6 +161,21 @@ MemoryPlan expected_memory(const Scene& scene, const Resolved& job) {
     plan.coordinator.push_back(
         {"film", pixels * ((passes + 1) * sizeof(PixelEstimate) + 2 * 4 * sizeof(Rgb64) + 2 * 12 * sizeof(float)),
          count_text(pixels, "pixels, ") + count_text(passes, "passes")});
+    if (const AovLayout aovs(aov_requests(job)); !job.output.aovs.empty()) {
+        std::size_t channels = 0;
+        for (const AovRequest& request : aov_requests(job))
+            channels += request.channels().size();
+        // Of the pass in hand and of all; direct light's film and sums; channels of the image, of the one before while
+        // it is written, and its file.
+        const std::uint64_t bytes = 2 * sizeof(double) * aovs.size() +
+                                    (aovs.direct() ? sizeof(PixelEstimate) + sizeof(Rgb64) : 0) +
+                                    4 * sizeof(float) * channels;
+        plan.coordinator.push_back(
+            {"aovs", pixels * bytes,
+             count_text(channels, "channels: in image.exr ") +
+                 count_text(sizeof(float) * channels, "bytes a pixel more, from workers ") +
+                 count_text(sizeof(double) * aovs.size() + (aovs.direct() ? 96 : 0), "per unit's pixel more")});
+    }
     plan.coordinator.push_back({"tree", 2 * tree.sum_bytes(), tree_text + ", before and after refinement"});
     return plan;
 }

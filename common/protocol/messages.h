@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/base/bytes.h"
+#include "common/film/aov_film.h"
 #include "common/film/pixel_estimate.h"
 #include "common/film/trace_stats.h"
 #include "common/film/work_unit.h"
@@ -119,6 +120,7 @@ struct Work {
 struct UnitResult {
     WorkUnit unit;
     std::vector<PixelEstimate> pixels;
+    AovPixels aovs;  ///< as the job asks for
 };
 
 /// Finished units and what exactly these units taught the tree: result and acknowledgement in one.

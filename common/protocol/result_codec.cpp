@@ -18,14 +18,8 @@ Moments read_moments(std::uint32_t n, const double* in) {
     return {n, Rgb64(in[0], in[1], in[2]), Rgb64(in[3], in[4], in[5])};
 }
 
-void write_unit_result(ByteWriter& writer, const UnitResult& result) {
-    const std::vector<PixelEstimate>& pixels = result.pixels;
-    if (pixels.size() != result.unit.pixel_count() || pixels.empty())
-        throw RunError("a work unit was finished with the wrong number of pixels");
-    const std::uint32_t n[2] = {pixels[0].half[0].n, pixels[0].half[1].n};
-    write_unit(writer, result.unit);
-    writer.put(n[0]);
-    writer.put(n[1]);
+/// Estimates of pixels that have the same numbers of samples.
+void write_pixels(ByteWriter& writer, const std::vector<PixelEstimate>& pixels, const std::uint32_t (&n)[2]) {
     std::vector<double> values(pixels.size() * 12);
     double* out = values.data();
     for (const PixelEstimate& pixel : pixels)
@@ -37,17 +31,41 @@ void write_unit_result(ByteWriter& writer, const UnitResult& result) {
     writer.put_array(std::span<const double>(values));
 }
 
+/// `count`: of pixels; or there are none.
+std::vector<PixelEstimate> read_pixels(ByteReader& reader, std::size_t count, std::uint32_t n0, std::uint32_t n1) {
+    const std::vector<double> values = reader.get_array<double>();
+    if (values.size() != std::size_t{12} * count) throw FormatError("a work unit with the wrong number of pixels");
+    std::vector<PixelEstimate> pixels;
+    pixels.reserve(count);
+    for (std::size_t at = 0; at < values.size(); at += 12)
+        pixels.push_back({{read_moments(n0, &values[at]), read_moments(n1, &values[at + 6])}});
+    return pixels;
+}
+
+void write_unit_result(ByteWriter& writer, const UnitResult& result) {
+    const std::vector<PixelEstimate>& pixels = result.pixels;
+    if (pixels.size() != result.unit.pixel_count() || pixels.empty())
+        throw RunError("a work unit was finished with the wrong number of pixels");
+    const std::uint32_t n[2] = {pixels[0].half[0].n, pixels[0].half[1].n};
+    write_unit(writer, result.unit);
+    writer.put(n[0]);
+    writer.put(n[1]);
+    write_pixels(writer, pixels, n);
+    writer.put_array(std::span<const double>(result.aovs.values));
+    writer.put<std::uint8_t>(result.aovs.direct.empty() ? 0 : 1);
+    if (!result.aovs.direct.empty()) write_pixels(writer, result.aovs.direct, n);
+}
+
 UnitResult read_unit_result(ByteReader& reader, std::uint32_t pass) {
     UnitResult result;
     result.unit = read_unit(reader, pass);
     const auto n0 = reader.get<std::uint32_t>();
     const auto n1 = reader.get<std::uint32_t>();
-    const std::vector<double> values = reader.get_array<double>();
-    if (values.size() != std::size_t{12} * result.unit.pixel_count())
-        throw FormatError("a work unit with the wrong number of pixels");
-    result.pixels.reserve(result.unit.pixel_count());
-    for (std::size_t at = 0; at < values.size(); at += 12)
-        result.pixels.push_back({{read_moments(n0, &values[at]), read_moments(n1, &values[at + 6])}});
+    result.pixels = read_pixels(reader, result.unit.pixel_count(), n0, n1);
+    result.aovs.values = reader.get_array<double>();
+    const auto direct = reader.get<std::uint8_t>();
+    if (direct > 1) throw FormatError("a work unit whose direct light is neither there nor absent");
+    if (direct == 1) result.aovs.direct = read_pixels(reader, result.unit.pixel_count(), n0, n1);
     return result;
 }
 
@@ -104,7 +122,9 @@ std::size_t size_bound(const Result& result) {
     constexpr std::size_t kMostVarint = 10, kMostStats = 512;
     std::size_t bytes = kMostStats + kInvalidSampleBytes * result.stats.first_invalid.size() + result.update.size();
     for (const UnitResult& unit : result.units)
-        bytes += kUnitBytes + 2 * sizeof(std::uint32_t) + kMostVarint + kPixelBytes * unit.pixels.size();
+        bytes += kUnitBytes + 2 * sizeof(std::uint32_t) + 1 + 3 * kMostVarint +
+                 kPixelBytes * (unit.pixels.size() + unit.aovs.direct.size()) +
+                 sizeof(double) * unit.aovs.values.size();
     return bytes;
 }
 

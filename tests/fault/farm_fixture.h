@@ -13,6 +13,7 @@
 
 #include "common/base/hash.h"
 #include "common/comm/in_process_channel.h"
+#include "common/config/aov_list.h"
 #include "coordinator/farm.h"
 #include "coordinator/pass_loop.h"
 #include "tests/support/fake_work.h"
@@ -30,6 +31,7 @@ inline Job test_job() {
     job.guiding.spp_unit = 4;
     job.guiding.spatial_threshold = 100;
     job.farm.tile_size = 8;
+    job.output.aovs = "albedo,depth,material,direct,indirect,spp";
     job.farm.heartbeat_seconds = 0.02;
     job.farm.update_seconds = 0.01;
     return job;
@@ -39,8 +41,33 @@ inline Log quiet_log() {
     return std::make_shared<spdlog::logger>("test");
 }
 
+/// AOVs of a unit, from the keyed generator as its pixels are.
+inline void fill_aovs(const AovLayout& layout, const Job& job, const PassPlan& pass, const WorkUnit& unit,
+                      UnitOutput& output) {
+    const std::uint32_t run = kBlockSamples * pass.blocks_per_unit;
+    const std::uint32_t first = run * unit.chunk, last = std::min(first + run, pass.spp);
+    for (std::uint32_t y = unit.y0; y < unit.y1; ++y)
+        for (std::uint32_t x = unit.x0; x < unit.x1; ++x) {
+            std::vector<double> blocks;
+            for (std::uint32_t sample = first; sample < last; ++sample) {
+                if (sample % kBlockSamples == 0) blocks.resize(blocks.size() + layout.size());
+                const Draw d = draw({job.sampler.seed, y * kWidth + x, pass.first_sample + sample}, 0, Stream::light);
+                for (std::size_t i = 0; i < layout.size(); ++i)
+                    blocks[blocks.size() - layout.size() + i] += 0.1 * to_unit(d[i % 4]);
+            }
+            reduce_aov_blocks(layout, blocks);
+            blocks.resize(layout.size());
+            output.aovs.values.insert(output.aovs.values.end(), blocks.begin(), blocks.end());
+        }
+    if (layout.direct()) output.aovs.direct = output.pixels;
+}
+
 inline RenderUnit fake_renderer(const Job& job) {
-    return fake_renderer(job.sampler.seed, kWidth);
+    return [job, layout = AovLayout(aov_requests(job)), render = fake_renderer(job.sampler.seed, kWidth)](
+               const PassPlan& pass, const Guide& guide, const WorkUnit& unit, UnitOutput& output) {
+        render(pass, guide, unit, output);
+        fill_aovs(layout, job, pass, unit, output);
+    };
 }
 
 inline MakeRenderer make_fake() {
@@ -171,6 +198,7 @@ class FarmTest : public ::testing::Test {
 
     void expect_truth(const RenderResult& result) {
         EXPECT_EQ(hash_text(result.image_hash), hash_text(truth().image_hash));
+        EXPECT_EQ(hash_text(result.aov_hash), hash_text(truth().aov_hash));
         EXPECT_EQ(hash_text(result.tree_hash), hash_text(truth().tree_hash));
         EXPECT_EQ(result.spp, 100u);
         ASSERT_EQ(result.passes.size(), truth().passes.size());

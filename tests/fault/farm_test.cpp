@@ -10,6 +10,8 @@ constexpr FarmLimits kShort{.gather = 20, .lost = 0.3, .dismiss = 20};
 TEST_F(FarmTest, TheTruthTeaches) {
     EXPECT_GT(truth().passes.back().tree.regions, 4u) << "the test must exercise refinement";
     EXPECT_GT(truth().passes.size(), 2u);
+    EXPECT_EQ(truth().aovs->size(), 3u + 1 + 1 + 3 + 3 + 1);
+    EXPECT_NE(truth().aov_hash, 0u);
 }
 
 TEST_F(FarmTest, AnyNumberOfWorkersGivesTheSameBits) {

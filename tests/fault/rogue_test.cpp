@@ -45,34 +45,39 @@ TEST_P(ResultThatCannotBe, CostsTheWorkerItsPlaceAndIsCounted) {
 
 INSTANTIATE_TEST_SUITE_P(
     Lies, ResultThatCannotBe,
-    ::testing::Values(Lie{"a mean that is no number", [](Result& r) { moments(r).mean.x = kNan; }},
-                      Lie{"an infinite mean", [](Result& r) { moments(r).mean.y = kInfinity; }},
-                      Lie{"a negative mean", [](Result& r) { moments(r).mean.z = -1e-6; }},
-                      Lie{"deviations that are no number", [](Result& r) { moments(r).m2.y = kNan; }},
-                      Lie{"negative deviations", [](Result& r) { moments(r).m2.x = -1; }},
-                      Lie{"samples in the wrong half",
-                          [](Result& r) {
-                              for (PixelEstimate& pixel : r.units[0].pixels) {
-                                  pixel.half[0].n += pixel.half[1].n;
-                                  pixel.half[1].n = 0;
-                              }
-                          }},
-                      Lie{"seconds that are no number", [](Result& r) { r.stats.trace_seconds = kNan; }},
-                      Lie{"negative seconds", [](Result& r) { r.stats.splat_seconds = -1; }},
-                      Lie{"endless seconds", [](Result& r) { r.stats.phase_seconds[2] = kInfinity; }},
-                      Lie{"more paths than were asked for", [](Result& r) { ++r.stats.paths; }},
-                      Lie{"more paths with light than paths",
-                          [](Result& r) { r.stats.nonzero_paths = r.stats.paths + 1; }},
-                      Lie{"probes in a pass without", [](Result& r) { r.stats.probe_paths = r.stats.paths + 1; }},
-                      Lie{"an invalid sample outside the film",
-                          [](Result& r) {
-                              r.stats.first_invalid.push_back({r.pass, 60000, 0, 0, {0, 0, 0}});
-                          }},
-                      Lie{"thousands of invalid samples",
-                          [](Result& r) {
-                              r.stats.first_invalid.resize(5000, {r.pass, 0, 0, 0, {0, 0, 0}});
-                          }},
-                      Lie{"work of another pass", [](Result& r) { r.pass += 1; }}),
+    ::testing::Values(
+        Lie{"a mean that is no number", [](Result& r) { moments(r).mean.x = kNan; }},
+        Lie{"an infinite mean", [](Result& r) { moments(r).mean.y = kInfinity; }},
+        Lie{"a negative mean", [](Result& r) { moments(r).mean.z = -1e-6; }},
+        Lie{"deviations that are no number", [](Result& r) { moments(r).m2.y = kNan; }},
+        Lie{"negative deviations", [](Result& r) { moments(r).m2.x = -1; }},
+        Lie{"samples in the wrong half",
+            [](Result& r) {
+                for (auto* pixels : {&r.units[0].pixels, &r.units[0].aovs.direct})
+                    for (PixelEstimate& pixel : *pixels) {
+                        pixel.half[0].n += pixel.half[1].n;
+                        pixel.half[1].n = 0;
+                    }
+            }},
+        Lie{"an AOV that is no number", [](Result& r) { r.units.back().aovs.values.back() = kNan; }},
+        Lie{"an AOV less", [](Result& r) { r.units.back().aovs.values.pop_back(); }},
+        Lie{"no direct light", [](Result& r) { r.units[0].aovs.direct.clear(); }},
+        Lie{"infinite direct light", [](Result& r) { r.units[0].aovs.direct[0].half[1].mean.x = kInfinity; }},
+        Lie{"seconds that are no number", [](Result& r) { r.stats.trace_seconds = kNan; }},
+        Lie{"negative seconds", [](Result& r) { r.stats.splat_seconds = -1; }},
+        Lie{"endless seconds", [](Result& r) { r.stats.phase_seconds[2] = kInfinity; }},
+        Lie{"more paths than were asked for", [](Result& r) { ++r.stats.paths; }},
+        Lie{"more paths with light than paths", [](Result& r) { r.stats.nonzero_paths = r.stats.paths + 1; }},
+        Lie{"probes in a pass without", [](Result& r) { r.stats.probe_paths = r.stats.paths + 1; }},
+        Lie{"an invalid sample outside the film",
+            [](Result& r) {
+                r.stats.first_invalid.push_back({r.pass, 60000, 0, 0, {0, 0, 0}});
+            }},
+        Lie{"thousands of invalid samples",
+            [](Result& r) {
+                r.stats.first_invalid.resize(5000, {r.pass, 0, 0, 0, {0, 0, 0}});
+            }},
+        Lie{"work of another pass", [](Result& r) { r.pass += 1; }}),
     [](const auto& info) { return "Lie" + std::to_string(info.index); });
 
 /// Messages that a rogue may send to anybody at any time: well-formed, and none of its business.

@@ -10,13 +10,17 @@
 namespace treefarm::test {
 namespace {
 
+/// Every layer that the program has.
+constexpr const char* kAovs =
+    "albedo,normal,geometric_normal,depth,distance,position,uv,shape,material,alpha,direct,indirect,spp";
+
 struct Hashes {
-    std::string image, tree;
+    std::string image, tree, aovs;
     bool operator==(const Hashes&) const = default;
 };
 
 std::ostream& operator<<(std::ostream& out, const Hashes& h) {
-    return out << "image " << h.image << " tree " << h.tree;
+    return out << "image " << h.image << " tree " << h.tree << " AOVs " << h.aovs;
 }
 
 /// `options` begin with the scene. `learns`: the render is to have a tree.
@@ -24,7 +28,8 @@ Hashes render_scene(const std::vector<std::string>& launcher, const std::vector<
                     bool learns = true) {
     const auto folder = fresh_folder("same");
     Program program(launcher + std::vector<std::string>{TREEFARM_PROGRAM, "render"} + options +
-                    std::vector<std::string>{"--set", "farm.update_seconds=0.05", "--run-dir", folder.string()});
+                    std::vector<std::string>{"--set", std::string("output.aovs=") + kAovs, "--set",
+                                             "farm.update_seconds=0.05", "--run-dir", folder.string()});
     const Ending ending = program.wait(240);
     EXPECT_EQ(ending.code, 0) << ending.output;
     const nlohmann::json summary = read_summary(folder);
@@ -36,7 +41,8 @@ Hashes render_scene(const std::vector<std::string>& launcher, const std::vector<
         EXPECT_GT(summary["passes"].back()["tree_regions"], 8) << "the test must exercise the tree";
     }
     std::filesystem::remove_all(folder);
-    return {summary["image_hash"], summary["tree_hash"]};
+    EXPECT_NE(summary["aov_hash"], "");
+    return {summary["image_hash"], summary["tree_hash"], summary["aov_hash"]};
 }
 
 Hashes render(const std::vector<std::string>& launcher, const std::vector<std::string>& options) {

@@ -14,7 +14,7 @@ namespace treefarm::test {
 /// generator.
 inline RenderUnit fake_renderer(std::uint64_t seed, std::uint32_t width) {
     return [seed, width](const PassPlan& pass, const Guide& guide, const WorkUnit& unit, UnitOutput& output) {
-        auto& [pixels, log, stats] = output;
+        auto& [pixels, log, stats, aovs] = output;
         const std::uint32_t run = kBlockSamples * pass.blocks_per_unit;
         const std::uint32_t first = run * unit.chunk, last = std::min(first + run, pass.spp);
         for (std::uint32_t y = unit.y0; y < unit.y1; ++y)

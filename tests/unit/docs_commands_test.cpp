@@ -29,7 +29,8 @@ struct Command {
 
 /// Commands of all pages but frozen ones and the changelog, which speaks of the past.
 std::vector<Command> commands() {
-    static const std::regex command(R"(\btreefarm (render|plan|check|compare|inspect|study|report|keys)\b([^#`|&;]*))");
+    static const std::regex command(
+        R"(\btreefarm (render|plan|check|compare|convert|inspect|study|report|keys)\b([^#`|&;]*))");
     std::vector<Command> found;
     for (const fs::path& page : test::markdown_pages()) {
         const std::string name = fs::relative(page, kRoot).string();

@@ -247,5 +247,34 @@ TEST_F(MitsubaIntegrators, ForksKeepWhatAllHaveWhenLenient) {
     }
 }
 
+TEST_F(MitsubaIntegrators, AovsBecomeLayersByTheirNames) {
+    const std::string inner = integrator("path", property("integer", "max_depth", "7"));
+    const Job job = job_of(load_with_sensor(
+        integrator("aov", property("string", "aovs", "dd.y:depth, nn:sh_normal,id:shape_index") + inner), "3.0.0"));
+    EXPECT_EQ(job.output.aovs, "dd.y:distance,nn:normal,id:shape") << "Mitsuba's depth is the ray's length";
+    EXPECT_EQ(job.integrator.max_depth, 7);
+    EXPECT_EQ(job_of(load_with_sensor(integrator("aov", property("string", "aovs", "a:albedo")), "3.0.0")).output.aovs,
+              "a:albedo");
+    const std::string unknown = integrator("aov", property("string", "aovs", "a:albedo,b:boundary_test") + inner);
+    EXPECT_NE(refusal(unknown, "3.0.0").find("boundary_test"), std::string::npos);
+    const LoadedScene lenient = load("<sensor type=\"perspective\"/>" + unknown, "3.0.0", {}, true);
+    EXPECT_EQ(job_of(lenient).output.aovs, "a:albedo");
+    EXPECT_NE(refusal(integrator("aov", property("string", "aovs", "albedo") + inner), "3.0.0").find("NAME:VARIABLE"),
+              std::string::npos);
+}
+
+TEST_F(MitsubaIntegrators, AFormatWithAlphaAsksForIt) {
+    const auto aovs = [&](const std::string& format, const std::string& more) {
+        return job_of(load("<sensor type=\"perspective\"><film type=\"hdrfilm\">" +
+                               property("string", "pixelFormat", format) + "</film></sensor>\n" + more,
+                           "0.6.0"))
+            .output.aovs;
+    };
+    EXPECT_EQ(aovs("rgba", ""), "alpha");
+    EXPECT_EQ(aovs("luminanceAlpha", ""), "alpha");
+    EXPECT_EQ(aovs("rgb", ""), "");
+    EXPECT_EQ(aovs("rgba", integrator("aov", property("string", "aovs", "a:albedo"))), "alpha,a:albedo");
+}
+
 }  // namespace
 }  // namespace treefarm

@@ -27,6 +27,8 @@ Result sample_result() {
                 pixel.add(s, Rgb(0.1f * static_cast<float>(p), static_cast<float>(s), static_cast<float>(k)));
             unit.pixels.push_back(pixel);
         }
+        unit.aovs.values = {1.5, -2.0, k + 0.25};
+        if (k == 1) unit.aovs.direct.assign(unit.pixels.rbegin(), unit.pixels.rend());
         result.units.push_back(unit);
     }
     return result;
@@ -113,6 +115,8 @@ TEST(Protocol, FieldsArriveAsTheyWereSent) {
     EXPECT_EQ(got.units[1].unit, sent.units[1].unit);
     for (std::size_t p = 0; p < 6; ++p)
         for (int half = 0; half < 2; ++half) {
+            EXPECT_EQ(got.units[1].aovs.direct[p].half[half].n, sent.units[1].aovs.direct[p].half[half].n);
+            EXPECT_EQ(got.units[1].aovs.direct[p].half[half].mean, sent.units[1].aovs.direct[p].half[half].mean);
             EXPECT_EQ(got.units[1].pixels[p].half[half].n, sent.units[1].pixels[p].half[half].n);
             EXPECT_EQ(got.units[1].pixels[p].half[half].mean, sent.units[1].pixels[p].half[half].mean);
             EXPECT_EQ(got.units[1].pixels[p].half[half].m2, sent.units[1].pixels[p].half[half].m2);

@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "worker/integrators/registry.h"
 
+#include <algorithm>
+
 #include "common/base/error.h"
+#include "common/base/timer.h"
+#include "common/config/aov_list.h"
 #include "common/plan/resolve.h"
 #include "common/scene/pack/scene_codec.h"
 #include "worker/integrators/ao/ao_integrator.h"
 #include "worker/integrators/direct/direct_integrator.h"
+#include "worker/integrators/first_hit/first_hit.h"
 #include "worker/integrators/normals/normals_integrator.h"
 #include "worker/integrators/path/path_integrator.h"
 #include "worker/integrators/reference/reference_integrator.h"
@@ -27,6 +32,34 @@ void check_unit(const WorkUnit& unit, const PassPlan& pass, const TraceScene& sc
         throw RunError("a work unit that does not fit the film");
 }
 
+/// Renders units as an integrator does that knows nothing of AOVs, and fills these, too.
+///
+/// Direct light is what the same integrator makes of the same unit where paths end after two edges. Random numbers are
+/// keyed, and neither roulette nor splitting comes before: each sample is the other's up to there, by the same guide.
+/// What it would teach the guide is dropped.
+RenderUnit with_aovs(const Integrator& integrator, const std::shared_ptr<const TraceScene>& scene, const Camera& camera,
+                     const Resolved& job, const AovLayout& layout) {
+    constexpr int kDirectDepth = 2;
+    Resolved direct_job = job;
+    direct_job.integrator.max_depth =
+        job.integrator.max_depth < 0 ? kDirectDepth : std::min(job.integrator.max_depth, kDirectDepth);
+    return
+        [first_hit = FirstHitRenderer(scene, camera, job.sampler.seed, layout), render = integrator.prepare(scene, job),
+         direct = layout.direct() ? integrator.prepare(scene, direct_job) : RenderUnit()](
+            const PassPlan& pass, const Guide& guide, const WorkUnit& unit, UnitOutput& output) {
+            render(pass, guide, unit, output);
+            const double start = thread_cpu_seconds();
+            first_hit.render(pass, unit, output.aovs);
+            if (direct) {
+                UnitOutput part;
+                part.begin(guide.distribution_count());
+                direct(pass, guide, unit, part);
+                output.aovs.direct = std::move(part.pixels);
+            }
+            output.stats.trace_seconds += thread_cpu_seconds() - start;
+        };
+}
+
 }  // namespace
 
 std::span<const Integrator> integrators() {
@@ -43,9 +76,13 @@ RenderUnit make_renderer(std::span<const std::uint8_t> scene, const Job& job) {
     Scene decoded = decode_scene(scene);
     const Resolved resolved = resolve(job, decoded);
     const Integrator& integrator = integrator_of(resolved);
+    const Camera camera = decoded.camera;
     const auto trace_scene = std::make_shared<const TraceScene>(std::move(decoded), job);
-    return [trace_scene, render = integrator.prepare(trace_scene, resolved)](const PassPlan& pass, const Guide& guide,
-                                                                             const WorkUnit& unit, UnitOutput& output) {
+    const AovLayout layout(aov_requests(resolved));
+    RenderUnit render = layout.empty() ? integrator.prepare(trace_scene, resolved)
+                                       : with_aovs(integrator, trace_scene, camera, resolved, layout);
+    return [trace_scene, render = std::move(render)](const PassPlan& pass, const Guide& guide, const WorkUnit& unit,
+                                                     UnitOutput& output) {
         check_unit(unit, pass, *trace_scene);
         render(pass, guide, unit, output);
     };

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "common/film/aov_film.h"
 #include "common/film/pixel_estimate.h"
 #include "common/film/trace_stats.h"
 #include "worker/integrators/record_log.h"
@@ -15,12 +16,15 @@ struct UnitOutput {
     std::vector<PixelEstimate> pixels;  ///< row by row
     RecordLog log;                      ///< what the unit teaches the guide
     TraceStats stats;
+    AovPixels aovs;  ///< beside what the integrator makes (first_hit/)
 
     /// Empties it for the next unit; `distributions`: of the guide.
     void begin(std::uint32_t distributions) {
         pixels.clear();
         log.begin(distributions);
         stats = {};
+        aovs.values.clear();
+        aovs.direct.clear();
     }
 };
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "common/config/parse_text.h"
+#include "common/scene/readers/mitsuba/integrator_settings.h"
 
 namespace treefarm::mitsuba {
 namespace {
@@ -128,8 +129,8 @@ void read_size(Properties& properties, const FilmSize& wanted, Film& film) {
 
 }  // namespace
 
-Film read_film(const XmlElement* element, const FilmSize& wanted, int version, const SceneDocument& document,
-               Diagnostics& diagnostics) {
+Film read_film(const XmlElement* element, const FilmSize& wanted, int version, std::vector<Setting>& settings,
+               const SceneDocument& document, Diagnostics& diagnostics) {
     Film film;
     use_gaussian(film, 0.5);
     if (element == nullptr) {
@@ -151,7 +152,12 @@ Film read_film(const XmlElement* element, const FilmSize& wanted, int version, c
     properties.ignore({"gamma", "exposure", "tonemap_method", "key", "burn", "digits", "variable"});
     read_size(properties, wanted, film);
     if (const XmlElement* filter = properties.only_child("rfilter")) read_filter(*filter, film, document, diagnostics);
-    // How the image is stored is not the scene's business here, and no filter crosses a pixel's own samples.
+    if (properties.tag_of("pixel_format") == "string") {
+        const std::string format = lower_case(properties.text("pixel_format", ""));
+        if (format == "rgba" || format == "luminance_alpha" || format == "luminancealpha" || format == "xyza")
+            IntegratorSettings::add_aovs(settings, "alpha", properties.where("pixel_format"));
+    }
+    // How else the image is stored is not the scene's business here, and no filter crosses a pixel's own samples.
     properties.ignore({"banner", "attach_log", "file_format", "pixel_format", "component_format", "channel_names",
                        "high_quality_edges"});
     if (version >= 2) properties.ignore({"sample_border", "compensate"});

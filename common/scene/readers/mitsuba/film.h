@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "common/config/setting.h"
 #include "common/scene/model/scene.h"
 #include "common/scene/readers/mitsuba/properties.h"
 #include "common/scene/readers/mitsuba/sensor.h"
@@ -9,8 +10,8 @@ namespace treefarm::mitsuba {
 
 /// Reads <film type="hdrfilm">; without an element: 768 x 576 pixels. Without a filter: a Gaussian of 0.5 pixels, as in
 /// Mitsuba. `wanted` replaces the size where it is not 0, and a crop window keeps its share of it; `version` is
-/// the sensor's.
-Film read_film(const XmlElement* film, const FilmSize& wanted, int version, const SceneDocument& document,
-               Diagnostics& diagnostics);
+/// the sensor's. A format of pixels with alpha becomes a setting.
+Film read_film(const XmlElement* film, const FilmSize& wanted, int version, std::vector<Setting>& settings,
+               const SceneDocument& document, Diagnostics& diagnostics);
 
 }  // namespace treefarm::mitsuba

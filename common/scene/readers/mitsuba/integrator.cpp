@@ -66,7 +66,45 @@ bool is_other_estimator(const std::string& type) {
 
 /// Integrators around another one, which makes the image.
 bool is_wrapper(const std::string& type) {
-    return type == "aov" || type == "moment" || type == "adaptive" || type == "irrcache";
+    return type == "moment" || type == "adaptive" || type == "irrcache";
+}
+
+/// The AOV that a variable of Mitsuba's plugin `aov` is, or "".
+std::string aov_named(const std::string& variable) {
+    constexpr std::pair<std::string_view, const char*> kVariables[] = {
+        {"albedo", "albedo"},     {"depth", "distance"},
+        {"position", "position"}, {"uv", "uv"},
+        {"sh_normal", "normal"},  {"geo_normal", "geometric_normal"},
+        {"shape_index", "shape"}};
+    for (const auto& [name, aov] : kVariables)
+        if (name == variable) return aov;
+    return "";
+}
+
+/// Reads the list NAME:VARIABLE, ... of the plugin `aov`: NAME becomes the name of the layer.
+void read_aovs(IntegratorSettings& settings) {
+    Properties& properties = settings.properties();
+    const std::string list = properties.text("aovs", "");
+    const Location& where = properties.where("aovs");
+    std::string wanted;
+    for (std::size_t begin = 0; begin < list.size();) {
+        const std::size_t end = std::min(list.find(',', begin), list.size());
+        const std::string entry(trim(std::string_view(list).substr(begin, end - begin)));
+        begin = end + 1;
+        const std::size_t colon = entry.find(':');
+        if (colon == std::string::npos || colon == 0)
+            throw InputError(where, in_quotes(entry) + " is no layer with its name",
+                             "write NAME:VARIABLE, for instance n:sh_normal");
+        const std::string variable(trim(std::string_view(entry).substr(colon + 1)));
+        const std::string aov = aov_named(variable);
+        if (aov.empty())
+            settings.diagnostics().unsupported(where, "the AOV " + in_quotes(variable) + " is not available",
+                                               "use albedo, depth, position, uv, sh_normal, geo_normal or shape_index",
+                                               "it is left out");
+        else
+            wanted += (wanted.empty() ? "" : ",") + std::string(trim(entry.substr(0, colon))) + ":" + aov;
+    }
+    settings.add_aovs(wanted, where);
 }
 
 /// Whether an integrator is a path tracer. Without media, which are refused, the volumetric ones are.
@@ -92,6 +130,10 @@ void read_integrator(const XmlElement& integrator, std::vector<Setting>& setting
         read_path(reader);
     } else if (type == "guided_path") {
         read_guided_path(reader);
+    } else if (type == "aov") {
+        read_aovs(reader);
+        if (const XmlElement* inner = properties.only_child("integrator"))
+            read_integrator(*inner, settings, document, diagnostics);
     } else if (is_other_estimator(type)) {
         read_other(reader, type);
     } else if (const XmlElement* inner = is_wrapper(type) ? properties.only_child("integrator") : nullptr) {

@@ -5,6 +5,16 @@
 
 namespace treefarm::mitsuba {
 
+void IntegratorSettings::add_aovs(std::vector<Setting>& settings, const std::string& list, const Location& where) {
+    if (list.empty()) return;
+    for (Setting& setting : settings)
+        if (setting.key == "output.aovs") {
+            setting.value += "," + list;
+            return;
+        }
+    settings.push_back({"output.aovs", list, where});
+}
+
 void IntegratorSettings::read_integer(const char* name, const char* key) {
     const std::int64_t value = properties_.integer(name, 0);
     if (properties_.has(name)) set_by(name, key, std::to_string(value));

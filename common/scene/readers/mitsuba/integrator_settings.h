@@ -26,6 +26,10 @@ class IntegratorSettings {
         set(key, value, properties_.where(name));
     }
 
+    /// Adds to the list of layers that the scene asks for; `list` has commas between its entries.
+    void add_aovs(const std::string& list, const Location& where) { add_aovs(settings_, list, where); }
+    static void add_aovs(std::vector<Setting>& settings, const std::string& list, const Location& where);
+
     void read_integer(const char* name, const char* key);
     void read_number(const char* name, const char* key);
     void read_boolean(const char* name, const char* key);

@@ -145,7 +145,7 @@ void read_sensor(const XmlElement& sensor, const FilmSize& wanted, Scene& scene,
     if (properties.number("shutter_close", 0.0) != properties.number("shutter_open", 0.0))
         diagnostics.warn(properties.where("shutter_close"),
                          "the shutter stays open for a while, but nothing moves: no motion is simulated");
-    scene.film = read_film(properties.only_child("film"), wanted, sensor.version, document, diagnostics);
+    scene.film = read_film(properties.only_child("film"), wanted, sensor.version, settings, document, diagnostics);
     if (const XmlElement* sampler = properties.only_child("sampler"))
         read_sampler(*sampler, settings, document, diagnostics);
 

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "worker/integrators/first_hit/first_hit.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "worker/scene/surface.h"
+
+namespace treefarm {
+
+namespace {
+
+/// Directions by which the albedo of a surface that is not plainly diffuse is estimated: always the same, so that the
+/// layer has no noise.
+constexpr std::uint32_t kAlbedoSamples = 8;
+
+/// Point i of a sequence that fills the unit cube evenly (Roberts 2018, "the unreasonable effectiveness of
+/// quasirandom sequences": multiples of powers of the root of x^4 = x + 1).
+BsdfRandom albedo_point(std::uint32_t i) {
+    constexpr double kSteps[] = {0.8191725133961645, 0.6710436067037893, 0.5497004779019703};
+    const auto coordinate = [&](int axis) {
+        const double value = 0.5 + (i + 1) * kSteps[axis];
+        return std::min(static_cast<float>(value - std::floor(value)), 0x1.fffffep-1f);
+    };
+    return {coordinate(0), {coordinate(1), coordinate(2)}};
+}
+
+/// Fraction of light from all around that the surface sends towards wo, delta lobes included.
+template <class Surface>
+Rgb albedo_of(const Surface& surface) {
+    if (surface.black()) return Rgb(0.0f);
+    std::uint32_t count = kAlbedoSamples;
+    if constexpr (!Surface::kGeneral)
+        count = 1;
+    else if (std::holds_alternative<DiffuseBsdf>(surface.bsdf().kind))
+        count = 1;
+    Rgb sum(0.0f);
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const BsdfSample s = surface.bsdf().sample(surface.wo(), albedo_point(i));
+        if (!(s.pdf > 0.0f)) continue;
+        float back = 1.0f;  // radiance that is refracted is squeezed or stretched: no matter of the surface's
+        if constexpr (Surface::kGeneral)
+            if (s.wi.z < 0.0f) back = surface.eta2();
+        sum += s.f_cos * (back / s.pdf);
+    }
+    Rgb albedo = sum * (1.0f / static_cast<float>(count));
+    for (int c = 0; c < 3; ++c)
+        albedo[c] = albedo[c] > 0.0f ? std::min(albedo[c], 1.0f) : 0.0f;
+    return albedo;
+}
+
+/// Whether nothing is there: light goes straight on.
+template <class Surface>
+bool is_nothing(const Surface& surface) {
+    if constexpr (Surface::kGeneral)
+        return !surface.black() && std::holds_alternative<NullBsdf>(surface.bsdf().kind);
+    else
+        return false;
+}
+
+double finite(float value) {
+    return std::isfinite(value) ? static_cast<double>(value) : 0.0;
+}
+
+/// Adds to a sample's numbers.
+class Row {
+  public:
+    Row(const AovLayout& layout, double* values) : layout_(layout), values_(values) {}
+
+    void add(Aov aov, float value) {
+        if (layout_.has(aov)) values_[layout_.at(aov)] += finite(value);
+    }
+    void add(Aov aov, const Vec3& v) {
+        if (!layout_.has(aov)) return;
+        for (int c = 0; c < 3; ++c)
+            values_[layout_.at(aov) + static_cast<std::uint32_t>(c)] += finite(v[c]);
+    }
+    void add(Aov aov, const Vec2& v) {
+        if (!layout_.has(aov)) return;
+        values_[layout_.at(aov)] += finite(v.x);
+        values_[layout_.at(aov) + 1] += finite(v.y);
+    }
+    void set(Aov aov, std::int64_t id) {
+        if (layout_.has(aov)) values_[layout_.at(aov)] = static_cast<double>(id);
+    }
+
+  private:
+    const AovLayout& layout_;
+    double* values_;
+};
+
+/// Follows one camera ray.
+template <class Surface>
+class Follower {
+  public:
+    Follower(const TraceScene& scene, const AovLayout& layout, const Vec3& eye, const Vec3& axis)
+        : scene_(scene), layout_(layout), eye_(eye), axis_(axis), scratch_(Surface::make_scratch(scene)) {}
+
+    /// `first`: the pixel's first sample, whose ids count.
+    void follow(const PathKey& key, Ray ray, bool first, double* values) {
+        Row row(layout_, values);
+        const bool beyond = layout_.has(Aov::albedo) || layout_.has(Aov::normal);
+        const Vec3 from = ray.origin;
+        bool seen = false;
+        for (std::uint32_t vertex = 1; vertex <= kMostSmoothSurfaces; ++vertex) {
+            Hit hit;
+            if (!scene_.geometry().intersect(ray, hit)) return;
+            scene_.geometry().keep_inside(hit, ray);
+            const Surface surface(scene_, hit, -ray.direction, scratch_);
+            if (!seen && !is_nothing(surface)) {
+                seen = true;
+                take_if_nearer(hit, ray, from, first, row);
+            }
+            if (!beyond && seen) return;
+            if (!surface.has_delta() || surface.smooth() || surface.black()) {
+                row.add(Aov::albedo, albedo_of(surface));
+                row.add(Aov::normal, towards(hit.ns, ray));
+                return;
+            }
+            const Draw random = draw(key, vertex, Stream::scatter);
+            const BsdfSample s =
+                surface.bsdf().sample(surface.wo(), {to_unit(random[1]), {to_unit(random[2]), to_unit(random[3])}});
+            if (!(s.pdf > 0.0f)) return;
+            const Vec3 direction = surface.frame().to_world(s.wi);
+            ray = {offset_origin(hit, direction), direction};
+        }
+    }
+
+  private:
+    static Vec3 towards(const Vec3& normal, const Ray& ray) {
+        return dot(normal, ray.direction) > 0.0f ? -normal : normal;
+    }
+
+    /// The first surface of the camera ray.
+    void take_if_nearer(const Hit& hit, const Ray& ray, const Vec3& from, bool first, Row& row) {
+        row.add(Aov::alpha, 1.0f);
+        row.add(Aov::geometric_normal, towards(hit.ng, ray));
+        row.add(Aov::depth, axis_ == Vec3(0.0f) ? (hit.p - eye_).length() : dot(hit.p - eye_, axis_));
+        row.add(Aov::distance, (hit.p - from).length());
+        row.add(Aov::position, hit.p);
+        if (layout_.has(Aov::uv)) row.add(Aov::uv, scene_.geometry().uv(hit));
+        if (!first) return;
+        row.set(Aov::shape, hit.instance != 0 ? std::int64_t{hit.instance} : std::int64_t{hit.shape} + 1);
+        row.set(Aov::material, std::int64_t{scene_.geometry().shape(hit.shape).material} + 1);
+    }
+
+    const TraceScene& scene_;
+    const AovLayout& layout_;
+    Vec3 eye_, axis_;
+    typename Surface::Scratch scratch_;
+};
+
+}  // namespace
+
+Vec3 camera_axis(const Camera& camera) {
+    if (camera.panoramic) return Vec3(0.0f);
+    const Vec3 normal = cross(camera.across, camera.down);
+    const Vec3 ahead = camera.is_orthographic() ? camera.parallel : camera.corner;
+    const float side = dot(normal, ahead);
+    const float length = normal.length();
+    if (!(length > 0.0f) || side == 0.0f) return normalize(ahead);
+    return normal * ((side < 0.0f ? -1.0f : 1.0f) / length);
+}
+
+FirstHitRenderer::FirstHitRenderer(std::shared_ptr<const TraceScene> scene, const Camera& camera, std::uint64_t seed,
+                                   const AovLayout& layout)
+    : scene_(std::move(scene)), seed_(seed), layout_(layout), eye_(camera.origin), axis_(camera_axis(camera)) {}
+
+template <class Surface>
+void FirstHitRenderer::render_unit(const PassPlan& pass, const WorkUnit& unit, AovPixels& output) const {
+    const std::uint32_t begin = unit.chunk * pass.blocks_per_unit * kBlockSamples;
+    const std::uint32_t end = std::min(begin + pass.blocks_per_unit * kBlockSamples, pass.spp);
+    const std::size_t row = layout_.size();
+    Follower<Surface> follower(*scene_, layout_, eye_, axis_);
+    std::vector<double> blocks;
+    for (int y = unit.y0; y < unit.y1; ++y)
+        for (int x = unit.x0; x < unit.x1; ++x) {
+            blocks.clear();
+            for (std::uint32_t sample = begin; sample < end; ++sample) {
+                if (sample % kBlockSamples == 0) blocks.resize(blocks.size() + row);
+                const PathKey key{seed_, scene_->film().key_of(x, y), pass.first_sample + sample};
+                follower.follow(key, scene_->camera().generate(x, y, key), sample == 0, &blocks[blocks.size() - row]);
+            }
+            reduce_aov_blocks(layout_, blocks);
+            blocks.resize(row);
+            output.values.insert(output.values.end(), blocks.begin(), blocks.end());
+        }
+}
+
+void FirstHitRenderer::render(const PassPlan& pass, const WorkUnit& unit, AovPixels& output) const {
+    if (layout_.size() == 0) return;
+    output.values.reserve(layout_.size() * std::size_t{unit.pixel_count()});
+    if (scene_->plainly_diffuse())
+        render_unit<DiffuseSurface>(pass, unit, output);
+    else
+        render_unit<GeneralSurface>(pass, unit, output);
+}
+
+}  // namespace treefarm
