@@ -73,20 +73,20 @@ double per_path(std::uint64_t rays, std::uint64_t paths) {
 
 ProbePixels::ProbePixels(std::size_t film_pixels, std::uint32_t pass) {
     constexpr std::uint64_t kAll = std::uint64_t{1} << 32;
-    const std::uint64_t share = kPolicy.guiding.probe_pixels * kAll / std::max<std::uint64_t>(film_pixels, 1);
-    count_ = static_cast<std::uint32_t>(std::clamp(share, kAll / 128, kAll / 8));
+    const std::uint64_t fraction = kPolicy.guiding.probe_pixels * kAll / std::max<std::uint64_t>(film_pixels, 1);
+    count_ = static_cast<std::uint32_t>(std::clamp(fraction, kAll / 128, kAll / 8));
     first_ = pass % 8 * count_;
 }
 
-void ProbesSetAside::take_out(std::span<PixelEstimate> pixels, std::uint32_t pass, std::size_t place) {
+void ProbesSetAside::take_out(std::span<PixelEstimate> pixels, std::uint32_t pass, std::size_t index) {
     const ProbePixels probe(pixels.size(), pass);
     for (std::size_t p = 0; p < pixels.size(); ++p)
-        if (probe.holds(static_cast<std::uint32_t>(p))) probes_.push_back({place, p, std::exchange(pixels[p], {})});
+        if (probe.holds(static_cast<std::uint32_t>(p))) probes_.push_back({index, p, std::exchange(pixels[p], {})});
 }
 
 void ProbesSetAside::put_back(std::span<PassResult> passes) {
     for (const Probe& probe : std::exchange(probes_, {}))
-        passes[probe.place].pixels[probe.pixel] = probe.estimate;
+        passes[probe.index].pixels[probe.pixel] = probe.estimate;
     for (PassResult& pass : passes)
         pass.noise = {};
 }

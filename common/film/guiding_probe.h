@@ -31,14 +31,15 @@ class ProbePixels {
 /// where guiding is given up.
 class ProbesSetAside {
   public:
-    /// Takes the unguided pixels out of a probe pass, the one that will be at `place` among the passes of the image.
-    void take_out(std::span<PixelEstimate> pixels, std::uint32_t pass, std::size_t place);
+    /// Takes the unguided pixels out of a probe pass, the one that will be number `index` among the passes of the
+    /// image.
+    void take_out(std::span<PixelEstimate> pixels, std::uint32_t pass, std::size_t index);
     /// Gives the pixels back to their passes, once.
     void put_back(std::span<PassResult> passes);
 
   private:
     struct Probe {
-        std::size_t place, pixel;
+        std::size_t index, pixel;
         PixelEstimate estimate;
     };
     std::vector<Probe> probes_;
