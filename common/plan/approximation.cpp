@@ -2,11 +2,10 @@
 #include "common/plan/approximation.h"
 
 #include <cmath>
-#include <functional>
-#include <map>
 #include <optional>
 
 #include "common/config/effect_switches.h"
+#include "common/plan/effects/table.h"
 #include "common/plan/strip_scene.h"
 #include "common/plan/texture_mean.h"
 #include "common/scene/model/material_traits.h"
@@ -164,20 +163,12 @@ class Remover {
     Location where_;
 };
 
-using Removal = void (Remover::*)();
-
-Removal removal_of(const std::string& effect) {
-    static const std::map<std::string, Removal> removals = {{"textures", &Remover::textures},
-                                                            {"masks", &Remover::masks},
-                                                            {"bump", &Remover::bump},
-                                                            {"normal_maps", &Remover::normal_maps},
-                                                            {"transmission", &Remover::transmission},
-                                                            {"anisotropy", &Remover::anisotropy},
-                                                            {"textured_area", &Remover::textured_area},
-                                                            {"delta_lights", &Remover::delta_lights},
-                                                            {"environment", &Remover::environment},
-                                                            {"lens", &Remover::lens}};
-    return removals.at(effect);
+/// Takes the effect of this name out, as its row says.
+void remove_effect(const std::string& name, Remover& remover) {
+    for_each_effect([&](const auto& row) {
+        if constexpr (kHasSwitch<decltype(row.off)>)
+            if (name == row.text.name) row.off.remove(remover);
+    });
 }
 
 }  // namespace
@@ -187,7 +178,7 @@ std::vector<Approximation> switch_effects_off(Scene& scene, const Job& job) {
     for (const EffectSwitch& effect : effect_switches()) {
         if (!job.effects.off.contains(effect.name)) continue;
         Remover remover(scene);
-        (remover.*removal_of(effect.name))();
+        remove_effect(effect.name, remover);
         if (remover.uses() > 0)
             approximations.push_back({effect.name, remover.uses(), remover.where(), effect.replacement});
     }

@@ -5,6 +5,7 @@
 #include "common/plan/texture_mean.h"
 #include "common/scene/uses/emitter_uses.h"
 #include "common/scene/uses/material_uses.h"
+#include "common/scene/uses/texture_uses.h"
 
 namespace treefarm {
 namespace {
@@ -20,6 +21,63 @@ const char* next_event_name(NextEvent next_event) {
     }
     return "";
 }
+
+/// Whether an effect goes off with another one, as the table has it.
+constexpr bool is_part(std::string_view part, std::string_view whole) {
+    return find_effect([&](const auto& row) {
+               if constexpr (requires { row.off.whole; }) return part == row.text.name && whole == row.off.whole;
+               return false;
+           }) < kEffectCount;
+}
+
+/// The effect that a kind names as its own, or nothing.
+template <class Kind>
+constexpr std::string_view own_effect() {
+    if constexpr (requires { Kind::kTraits; })
+        return Kind::kTraits.effect;
+    else if constexpr (requires { Kind::kEffect; })
+        return Kind::kEffect.name;
+    else
+        return {};
+}
+
+/// Whether the effects that kinds name are rows of their family, and each such row is the effect of a kind.
+template <class Variant>
+constexpr bool kinds_have_rows(EffectFamily family) {
+    bool all = true;
+    for_each_kind<Variant>([&]<class Kind>() {
+        if (!own_effect<Kind>().empty() && !is_effect_of(family, own_effect<Kind>())) all = false;
+    });
+    return all;
+}
+template <class Variant>
+constexpr bool rows_have_kinds(EffectFamily family) {
+    bool all = true;
+    for_each_effect([&](const auto& row) {
+        bool found = row.family != family;
+        for_each_kind<Variant>([&]<class Kind>() { found = found || own_effect<Kind>() == row.text.name; });
+        all = all && found;
+    });
+    return all;
+}
+static_assert(kinds_have_rows<EmitterKind>(EffectFamily::emitters) &&
+              rows_have_kinds<EmitterKind>(EffectFamily::emitters));
+static_assert(kinds_have_rows<MaterialKind>(EffectFamily::materials) &&
+              rows_have_kinds<MaterialKind>(EffectFamily::materials));
+static_assert(kinds_have_rows<TextureKind>(EffectFamily::textures) &&
+              rows_have_kinds<TextureKind>(EffectFamily::textures));
+
+/// Delta lights go off together, and so do environments.
+constexpr bool emitters_go_off_with_their_type() {
+    bool all = true;
+    for_each_kind<EmitterKind>([&]<class Kind>() {
+        constexpr LightType kType = Kind::kTraits.type;
+        if (kType == LightType::delta) all = all && is_part(Kind::kTraits.effect, "delta_lights");
+        if (kType == LightType::environment) all = all && is_part(Kind::kTraits.effect, "environment");
+    });
+    return all;
+}
+static_assert(emitters_go_off_with_their_type());
 
 }  // namespace
 
@@ -51,8 +109,7 @@ EffectFinder::EffectFinder(const Scene& scene, const Resolved& job)
       job_(job),
       used_(used_materials(scene)),
       used_directly_(scene.materials.size(), false),
-      texture_in_use_(scene.textures.size(), false),
-      image_of_textures_(scene.images.size(), false) {
+      texture_in_use_(scene.textures.size(), false) {
     for (const Shape& shape : scene.shapes)
         if (shape.material != kNone) used_directly_[static_cast<std::size_t>(shape.material)] = true;
     const auto use = [&](std::int32_t texture) { texture_in_use_[static_cast<std::size_t>(texture)] = true; };
@@ -60,32 +117,61 @@ EffectFinder::EffectFinder(const Scene& scene, const Resolved& job)
         if (used_[i]) for_each_texture(scene.materials[i], use);
     for (const Emitter& emitter : scene.emitters)
         for_each_texture(emitter, use);
-    for (std::size_t i = 0; i < scene.textures.size(); ++i)
-        if (const auto* bitmap = std::get_if<BitmapTexture>(&scene.textures[i].kind); bitmap && texture_in_use_[i])
-            image_of_textures_[static_cast<std::size_t>(bitmap->image)] = true;
-    add_light();
-    add_materials();
-    add_textures();
-    add_shapes();
-    add_transport();
-    for (const char* never : {"media", "subsurface", "motion", "polarisation", "dispersion"})
-        finders_[never] = [] { return effect_off("not simulated by this program"); };
 }
 
-template <class Test>
-EffectFinder::Finder EffectFinder::material_finder(const std::string& what, Test test) const {
-    return [this, what, test] {
-        return called_by(scene_.materials, what,
-                         [&](const Material& m, std::size_t i) { return used_[i] && test(own_traits(m)); });
-    };
+Effect EffectFinder::find(EffectId effect) const {
+    Effect found;
+    std::size_t index = 0;
+    for_each_effect([&](const auto& row) {
+        if (index++ == effect.index()) found = find(row);
+    });
+    return found;
 }
 
-template <class Test>
-EffectFinder::Finder EffectFinder::texture_finder(const std::string& what, Test test) const {
-    return [this, what, test] {
-        return called_by(scene_.textures, what,
-                         [&](const Texture& t, std::size_t i) { return texture_in_use_[i] && test(t); });
+Effect EffectFinder::kind(EffectFamily family, std::string_view effect) const {
+    Effect found;
+    for_each_emitter_kind([&]<class Kind>() {
+        if (family == EffectFamily::emitters && effect == Kind::kTraits.effect) found = emitter_kind<Kind>();
+    });
+    for_each_kind<TextureKind>([&]<class Kind>() {
+        if (family == EffectFamily::textures && effect == Kind::kEffect.name) found = texture_kind<Kind>();
+    });
+    for_each_kind<MaterialKind>([&]<class Kind>() {
+        if constexpr (requires { Kind::kEffect; })
+            if (family == EffectFamily::materials && effect == Kind::kEffect.name)
+                found = called_by(scene_.materials, Kind::kEffect.title, [&](const Material& m, std::size_t i) {
+                    return used_[i] && std::holds_alternative<Kind>(m.bsdf);
+                });
+    });
+    return found;
+}
+
+template <class Kind>
+Effect EffectFinder::emitter_kind() const {
+    const auto is = [](const Emitter& emitter) { return std::holds_alternative<Kind>(emitter.kind); };
+    Effect effect = called_by(scene_.emitters, Kind::kTraits.title,
+                              [&](const Emitter& emitter, std::size_t) { return is(emitter); });
+    // delta_lights counts those of its kinds.
+    if (Kind::kTraits.type != LightType::delta) effect.bytes = emitter_bytes(is);
+    return effect;
+}
+
+template <class Kind>
+Effect EffectFinder::texture_kind() const {
+    const auto is = [&](std::size_t i) {
+        return texture_in_use_[i] && std::holds_alternative<Kind>(scene_.textures[i].kind);
     };
+    Effect effect =
+        called_by(scene_.textures, Kind::kEffect.title, [&](const Texture&, std::size_t i) { return is(i); });
+    std::vector<bool> counted(scene_.images.size(), false);
+    for (std::size_t i = 0; i < scene_.textures.size(); ++i)
+        if (is(i))
+            for_each_image(scene_.textures[i], [&](std::int32_t image) {
+                const auto at = static_cast<std::size_t>(image);
+                if (!counted[at]) effect.bytes += image_bytes(scene_.images[at]);
+                counted[at] = true;
+            });
+    return effect;
 }
 
 std::uint64_t EffectFinder::emitter_bytes(const std::function<bool(const Emitter&)>& test) const {
@@ -99,103 +185,50 @@ std::uint64_t EffectFinder::emitter_bytes(const std::function<bool(const Emitter
     return bytes;
 }
 
-void EffectFinder::add_light() {
-    const auto sampled = [this] {
-        if (job_.integrator.next_event == NextEvent::never) return effect_off("integrator.next_event = \"never\"");
-        if (scene_.emitters.empty()) return effect_off("there are no emitters");
-        return effect_on(std::string("integrator.next_event = \"") + next_event_name(job_.integrator.next_event) +
-                         "\", " + plural(scene_.emitters.size(), "emitter"));
-    };
-    finders_["next_event"] = sampled;
-    finders_["mis"] = [this, sampled] {
-        if (!sampled().on) return effect_off("there is no next event to weigh");
-        const MisHeuristic mis = job_.integrator.mis;
-        return effect_on(mis == MisHeuristic::power     ? "integrator.mis = \"power\""
-                         : mis == MisHeuristic::balance ? "integrator.mis = \"balance\""
-                                                        : "integrator.mis = \"equal\"");
-    };
-    finders_["kickstart"] = [this] {
-        if (job_.integrator.next_event == NextEvent::kickstart)
-            return effect_on("integrator.next_event = \"kickstart\"");
-        return effect_off(std::string("integrator.next_event = \"") + next_event_name(job_.integrator.next_event) +
-                          "\"");
-    };
-    for_each_emitter_kind([this]<class Kind>() {
-        finders_[Kind::kTraits.effect] = [this] {
-            const auto is = [](const Emitter& emitter) { return std::holds_alternative<Kind>(emitter.kind); };
-            Effect effect = called_by(scene_.emitters, Kind::kTraits.title,
-                                      [&](const Emitter& emitter, std::size_t) { return is(emitter); });
-            // delta_lights counts those of its kinds.
-            if (Kind::kTraits.type != LightType::delta) effect.bytes = emitter_bytes(is);
-            return effect;
-        };
+Effect EffectFinder::next_event() const {
+    if (job_.integrator.next_event == NextEvent::never) return effect_off("integrator.next_event = \"never\"");
+    if (scene_.emitters.empty()) return effect_off("there are no emitters");
+    return effect_on(std::string("integrator.next_event = \"") + next_event_name(job_.integrator.next_event) + "\", " +
+                     plural(scene_.emitters.size(), "emitter"));
+}
+
+Effect EffectFinder::mis() const {
+    if (!next_event().on) return effect_off("there is no next event to weigh");
+    const MisHeuristic mis = job_.integrator.mis;
+    return effect_on(mis == MisHeuristic::power     ? "integrator.mis = \"power\""
+                     : mis == MisHeuristic::balance ? "integrator.mis = \"balance\""
+                                                    : "integrator.mis = \"equal\"");
+}
+
+Effect EffectFinder::kickstart() const {
+    if (job_.integrator.next_event == NextEvent::kickstart) return effect_on("integrator.next_event = \"kickstart\"");
+    return effect_off(std::string("integrator.next_event = \"") + next_event_name(job_.integrator.next_event) + "\"");
+}
+
+Effect EffectFinder::textured_area() const {
+    return called_by(scene_.emitters, "textured area emitter", [](const Emitter& emitter, std::size_t) {
+        return emitter.type() == LightType::area && is_textured(emitter);
     });
-    finders_["textured_area"] = [this] {
-        return called_by(scene_.emitters, "textured area emitter", [](const Emitter& emitter, std::size_t) {
-            return emitter.type() == LightType::area && is_textured(emitter);
-        });
-    };
-    finders_["delta_lights"] = [this] {
-        const auto is = [](const Emitter& emitter) { return emitter.type() == LightType::delta; };
-        Effect effect = called_by(scene_.emitters, delta_light_names() + " emitter",
-                                  [&](const Emitter& emitter, std::size_t) { return is(emitter); });
-        effect.bytes = emitter_bytes(is);
-        return effect;
-    };
-    finders_["environment"] = [this] {
-        return called_by(scene_.emitters, "emitter around the scene",
-                         [](const Emitter& emitter, std::size_t) { return emitter.type() == LightType::environment; });
-    };
 }
 
-void EffectFinder::add_materials() {
-    using Traits = MaterialTraits;
-    const auto add = [this](const char* name, const char* what, auto test) {
-        finders_[name] = material_finder(what, test);
-    };
-    add("diffuse", "material with a diffuse lobe", [](const Traits& t) { return t.lobes.diffuse; });
-    add("delta_reflection", "smooth material", [](const Traits& t) { return t.lobes.delta_reflection; });
-    add("microfacets", "rough material", [](const Traits& t) { return t.microfacets; });
-    add("anisotropy", "anisotropic material", [](const Traits& t) { return t.anisotropic; });
-    add("transmission", "dielectric",
-        [](const Traits& t) { return t.lobes.glossy_transmission || t.lobes.delta_transmission; });
-    add("coats", "plastic", [](const Traits& t) { return t.coated; });
-    const auto add_kind = [this]<class Kind>(const char* name, const char* what, std::in_place_type_t<Kind>) {
-        finders_[name] = [this, what] {
-            return called_by(scene_.materials, what, [&](const Material& m, std::size_t i) {
-                return used_[i] && std::holds_alternative<Kind>(m.bsdf);
-            });
-        };
-    };
-    add_kind("rough_diffuse", "rough diffuse material", std::in_place_type<RoughDiffuseMaterial>);
-    add_kind("phong", "Phong material", std::in_place_type<PhongMaterial>);
-    add_kind("principled", "principled material", std::in_place_type<PrincipledMaterial>);
-    add_kind("principled_thin", "thin principled material", std::in_place_type<PrincipledThinMaterial>);
-    add_kind("coatings", "coated material", std::in_place_type<CoatingMaterial>);
-    add_kind("ward", "Ward material", std::in_place_type<WardMaterial>);
-    add("blends", "blend", [](const Traits& t) { return t.blended; });
-    add("null", "null material", [](const Traits& t) { return t.lobes.null; });
-    add("twosided", "twosided material", [](const Traits& t) { return t.twosided; });
-    add("bump", "bumpy material", [](const Traits& t) { return t.bumped; });
-    add("normal_maps", "material with a normal map", [](const Traits& t) { return t.normal_mapped; });
+Effect EffectFinder::delta_lights() const {
+    const auto is = [](const Emitter& emitter) { return emitter.type() == LightType::delta; };
+    Effect effect = called_by(scene_.emitters, names_of_parts("delta_lights") + " emitter",
+                              [&](const Emitter& emitter, std::size_t) { return is(emitter); });
+    effect.bytes = emitter_bytes(is);
+    return effect;
 }
 
-void EffectFinder::add_textures() {
-    finders_["textures"] = [this] {
-        Effect effect = material_finder("textured material", [](const MaterialTraits& t) { return t.textured; })();
-        for (const Shape& shape : scene_.shapes)
-            if (const auto* mesh = std::get_if<Mesh>(&shape.geometry)) effect.bytes += mesh->uvs.size() * sizeof(Vec2);
-        return effect;
-    };
-    finders_["bitmaps"] = [this] {
-        Effect effect =
-            texture_finder("bitmap", [](const Texture& t) { return std::holds_alternative<BitmapTexture>(t.kind); })();
-        for (std::size_t i = 0; i < scene_.images.size(); ++i)
-            if (image_of_textures_[i]) effect.bytes += image_bytes(scene_.images[i]);
-        return effect;
-    };
-    finders_["checkerboards"] = texture_finder(
-        "checkerboard", [](const Texture& t) { return std::holds_alternative<CheckerboardTexture>(t.kind); });
+Effect EffectFinder::environment() const {
+    return called_by(scene_.emitters, "emitter around the scene",
+                     [](const Emitter& emitter, std::size_t) { return emitter.type() == LightType::environment; });
+}
+
+Effect EffectFinder::textures() const {
+    Effect effect = materials("textured material", [](const MaterialTraits& t) { return t.textured; });
+    for (const Shape& shape : scene_.shapes)
+        if (const auto* mesh = std::get_if<Mesh>(&shape.geometry)) effect.bytes += mesh->uvs.size() * sizeof(Vec2);
+    return effect;
 }
 
 }  // namespace treefarm

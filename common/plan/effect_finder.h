@@ -2,10 +2,11 @@
 #pragma once
 
 #include <functional>
-#include <map>
 #include <string>
+#include <string_view>
 
 #include "common/plan/effects.h"
+#include "common/plan/effects/table.h"
 #include "common/scene/model/material_traits.h"
 
 namespace treefarm {
@@ -16,23 +17,53 @@ Effect effect_on(const std::string& reason, std::uint64_t bytes = 0);
 /// "1 disk", "2 disks", "2 meshes".
 std::string plural(std::size_t count, const std::string& what);
 
-/// Looks in a scene and its job for what calls for each effect. The scene and the job must outlive it.
+/// Looks in a scene and its job for what calls for each effect. The rows of effects/table.h say what they ask it: its
+/// members without arguments are named as the effects whose state they find. The scene and the job must outlive it.
 class EffectFinder {
   public:
     EffectFinder(const Scene& scene, const Resolved& job);
 
-    /// State, reason, place and bytes of an effect of effect_table(). Throws std::out_of_range for another name.
-    Effect find(const std::string& name) const { return finders_.at(name)(); }
+    /// State, reason, place and bytes of an effect.
+    template <class Find, class Off>
+    Effect find(const EffectRow<Find, Off>& row) const {
+        return row.find(*this);
+    }
+    Effect find(EffectId effect) const;
+
+    /// On if a material that is in use has a trait.
+    template <class Test>
+    Effect materials(const std::string& what, Test test) const {
+        return called_by(scene_.materials, what,
+                         [&](const Material& m, std::size_t i) { return used_[i] && test(own_traits(m)); });
+    }
+    /// On if a kind that names the effect as its own is in use.
+    Effect kind(EffectFamily family, std::string_view effect) const;
+
+    Effect next_event() const;
+    Effect mis() const;
+    Effect kickstart() const;
+    Effect textured_area() const;
+    Effect delta_lights() const;
+    Effect environment() const;
+    Effect textures() const;
+    Effect masks() const;
+    Effect triangles() const;
+    Effect smooth_normals() const;
+    Effect analytic_shapes() const;
+    Effect instances() const;
+    Effect lens() const;
+    Effect pixel_filter() const;
+    Effect guiding() const;
+    Effect views() const;
+    Effect recording() const;
+    Effect roulette() const;
+    Effect depth_limit() const;
+    Effect strict_normals() const;
+    Effect hidden_emitters() const;
+    /// That of what the program does not simulate.
+    Effect never() const { return effect_off("not simulated by this program"); }
 
   private:
-    using Finder = std::function<Effect()>;
-
-    void add_light();
-    void add_materials();
-    void add_textures();
-    void add_shapes();
-    void add_transport();
-
     /// On if test(entry, index) holds for an entry of a list of the scene.
     template <class Range, class Test>
     static Effect called_by(const Range& range, const std::string& what, Test test) {
@@ -45,23 +76,27 @@ class EffectFinder {
         effect.where = first;
         return effect;
     }
+    template <class Test>
+    Effect shapes(const std::string& what, Test test) const {
+        return called_by(scene_.shapes, what, [&](const Shape& shape, std::size_t) { return test(shape); });
+    }
+    /// Shapes other than meshes, with what Embree keeps for each.
+    template <class Test>
+    Effect objects(const std::string& what, Test test) const;
 
-    /// On if a material that is in use has a trait.
-    template <class Test>
-    Finder material_finder(const std::string& what, Test test) const;
-    template <class Test>
-    Finder texture_finder(const std::string& what, Test test) const;
+    template <class Kind>
+    Effect emitter_kind() const;
+    template <class Kind>
+    Effect texture_kind() const;
 
     /// With tables and images.
     std::uint64_t emitter_bytes(const std::function<bool(const Emitter&)>& test) const;
 
     const Scene& scene_;
     const Resolved& job_;
-    const std::vector<bool> used_;         ///< per material
-    std::vector<bool> used_directly_;      ///< per material: a shape's own
-    std::vector<bool> texture_in_use_;     ///< per texture
-    std::vector<bool> image_of_textures_;  ///< per image
-    std::map<std::string, Finder> finders_;
+    const std::vector<bool> used_;      ///< per material
+    std::vector<bool> used_directly_;   ///< per material: a shape's own
+    std::vector<bool> texture_in_use_;  ///< per texture
 };
 
 }  // namespace treefarm

@@ -3,10 +3,11 @@
 
 #include <span>
 #include <string>
+#include <string_view>
 
 namespace treefarm {
 
-/// What an effect of the program is, for people: the rows of docs/generated/effects.md.
+/// An effect as docs/generated/effects.md has it, made from its row (common/plan/effects/table.h).
 struct EffectDescription {
     std::string name;   ///< "bump"
     std::string group;  ///< "materials"
@@ -19,8 +20,8 @@ struct EffectDescription {
 /// Every effect that the program knows, those that it never simulates last.
 std::span<const EffectDescription> effect_table();
 
-/// The kinds of emitters that no ray can hit: "point, spot or directional".
-std::string delta_light_names();
+/// Names of the effects that go off with this one: "point, spot or directional".
+std::string names_of_parts(std::string_view whole);
 
 /// A Markdown table of all effects, for docs/generated/effects.md.
 std::string effect_documentation();

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "common/plan/effect_finder.h"
-#include "common/plan/effect_table.h"
+#include "common/plan/effects/table.h"
 
 namespace treefarm {
 namespace {
@@ -27,15 +27,15 @@ void tell_forced_off(Effect& after, const Effect& before, const std::vector<Appr
 }  // namespace
 
 std::vector<Effect> find_effects(const Scene& scene, const Resolved& job) {
-    EffectFinder finder(scene, job);
+    const EffectFinder finder(scene, job);
     std::vector<Effect> effects;
-    for (const EffectDescription& description : effect_table()) {
-        Effect effect = finder.find(description.name);
-        effect.name = description.name;
-        effect.group = description.group;
+    for_each_effect([&](const auto& row) {
+        Effect effect = finder.find(row);
+        effect.name = row.text.name;
+        effect.group = row.text.group;
         if (!effect.on) effect.bytes = 0;
         effects.push_back(std::move(effect));
-    }
+    });
     return effects;
 }
 

@@ -1,23 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/plan/scene_effects.h"
 
-#include <utility>
-
 #include "common/plan/effect_finder.h"
+#include "common/plan/effects/table.h"
 
 namespace treefarm {
 
 SceneEffects find_scene_effects(const Scene& scene, const Job& job) {
-    static constexpr std::pair<const char*, bool SceneEffects::*> kFlags[] = {
-        {"textures", &SceneEffects::textures},
-        {"textured_area", &SceneEffects::textures},
-        {"masks", &SceneEffects::masks},
-        {"bump", &SceneEffects::bump},
-        {"normal_maps", &SceneEffects::bump},
-        {"anisotropy", &SceneEffects::anisotropy},
-        {"transmission", &SceneEffects::transmission},
-        {"environment", &SceneEffects::environment},
-        {"lens", &SceneEffects::lens}};
+    static constexpr struct {
+        EffectId effect;
+        bool SceneEffects::*flag;
+    } kFlags[] = {{"textures", &SceneEffects::textures},
+                  {"textured_area", &SceneEffects::textures},
+                  {"masks", &SceneEffects::masks},
+                  {"bump", &SceneEffects::bump},
+                  {"normal_maps", &SceneEffects::bump},
+                  {"anisotropy", &SceneEffects::anisotropy},
+                  {"transmission", &SceneEffects::transmission},
+                  {"environment", &SceneEffects::environment},
+                  {"lens", &SceneEffects::lens}};
     const Resolved resolved = resolve(job, scene);
     const EffectFinder finder(scene, resolved);
     SceneEffects on;

@@ -17,14 +17,16 @@ Rgb image_mean(const TextureImage& image) {
     return mean;
 }
 
+struct ImageMeans {
+    const std::vector<TextureImage>& images;
+    Rgb mean_of_image(std::int32_t image) const { return image_mean(images[static_cast<std::size_t>(image)]); }
+};
+
 }  // namespace
 
 Rgb texture_mean(const Scene& scene, std::int32_t texture) {
-    const Texture& described = scene.textures[static_cast<std::size_t>(texture)];
-    if (const auto* squares = std::get_if<CheckerboardTexture>(&described.kind))
-        return (squares->color0 + squares->color1) * 0.5f;
-    const auto& bitmap = std::get<BitmapTexture>(described.kind);
-    return image_mean(scene.images[static_cast<std::size_t>(bitmap.image)]);
+    return std::visit([&](const auto& kind) { return kind.mean(ImageMeans{scene.images}); },
+                      scene.textures[static_cast<std::size_t>(texture)].kind);
 }
 
 std::size_t image_bytes(const TextureImage& image) {

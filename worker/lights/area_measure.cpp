@@ -34,19 +34,33 @@ Hit uniform_point(const EmbreeScene& geometry, std::uint32_t shape, const Vec2& 
     return geometry.cylinder_point(shape, u.x, c.meridian * turn.cos + side * turn.sin);
 }
 
+namespace {
+
+struct ImageMeans {
+    const std::vector<TextureImage>& images;
+
+    Rgb mean_of_image(std::int32_t index) const {
+        const TextureImage& image = images[static_cast<std::size_t>(index)];
+        Imath::V3d sum(0.0);
+        for (int y = 0; y < image.height; ++y)
+            for (int x = 0; x < image.width; ++x)
+                sum += Imath::V3d(texel(image, x, y));
+        return Rgb(Vec3(sum / (double(image.width) * double(image.height))));
+    }
+};
+
+}  // namespace
+
 Rgb mean_color(const TextureSet& textures, std::int32_t texture) {
-    const auto& kind = textures.textures()[static_cast<std::size_t>(texture)].kind;
-    if (const auto* board = std::get_if<CheckerboardTexture>(&kind)) return (board->color0 + board->color1) * 0.5f;
-    const auto& bitmap = std::get<BitmapTexture>(kind);
-    const TextureImage& image = textures.images()[static_cast<std::size_t>(bitmap.image)];
-    Imath::V3d sum(0.0);
-    for (int y = 0; y < image.height; ++y)
-        for (int x = 0; x < image.width; ++x)
-            sum += Imath::V3d(texel(image, x, y));
-    Rgb mean(Vec3(sum / (double(image.width) * double(image.height))));
-    // White beyond the image may be all that is seen of it.
-    if (bitmap.wrap_u == Wrap::one || bitmap.wrap_v == Wrap::one) mean = mean * 0.5f + Rgb(0.5f);
-    return mean;
+    return std::visit(
+        [&]<class Kind>(const Kind& kind) {
+            Rgb mean = kind.mean(ImageMeans{textures.images()});
+            // White beyond the image may be all that is seen of it.
+            if constexpr (requires { kind.has_beyond(Wrap::one); })
+                if (kind.has_beyond(Wrap::one)) mean = mean * 0.5f + Rgb(0.5f);
+            return mean;
+        },
+        textures.textures()[static_cast<std::size_t>(texture)].kind);
 }
 
 }  // namespace treefarm

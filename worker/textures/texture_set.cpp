@@ -80,6 +80,15 @@ bool in_upper_half(float x) {
     return x - std::floor(x) >= 0.5f;
 }
 
+/// What a texture without an image has at a place: an overload for each kind, or it does not compile.
+Rgb procedural(const CheckerboardTexture& board, const Vec2& uv) {
+    const Vec2 at = transformed(board.uv, uv);
+    return in_upper_half(at.x) == in_upper_half(at.y) ? board.color0 : board.color1;
+}
+Rgb procedural(const BitmapTexture&, const Vec2&) {
+    return Rgb(0.0f);  // looked up before
+}
+
 /// Index of a texel's first value.
 std::size_t offset_of(const TextureImage& image, int x, int y) {
     return (static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) + static_cast<std::size_t>(x)) *
@@ -113,12 +122,10 @@ TextureSet::TextureSet(std::vector<Texture> textures, std::vector<TextureImage> 
     : textures_(std::move(textures)), images_(std::move(images)) {}
 
 Rgb TextureSet::color(std::int32_t texture, const Vec2& uv) const {
-    const auto& kind = textures_[static_cast<std::size_t>(texture)].kind;
+    const TextureKind& kind = textures_[static_cast<std::size_t>(texture)].kind;
     if (const auto* bitmap = std::get_if<BitmapTexture>(&kind))
         return look_up(images_[static_cast<std::size_t>(bitmap->image)], *bitmap, uv);
-    const auto& board = std::get<CheckerboardTexture>(kind);
-    const Vec2 at = transformed(board.uv, uv);
-    return in_upper_half(at.x) == in_upper_half(at.y) ? board.color0 : board.color1;
+    return std::visit([&](const auto& other) { return procedural(other, uv); }, kind);
 }
 
 void TextureSet::prefetch(std::int32_t texture, const Vec2& uv) const {

@@ -42,26 +42,44 @@ ValueRange check_image(const TextureImage& image) {
     return range_of_bytes(image);
 }
 
-ValueRange check_bitmap(const BitmapTexture& bitmap, const std::vector<ValueRange>& images, const Location& where) {
-    if (bitmap.image < 0 || static_cast<std::size_t>(bitmap.image) >= images.size())
-        throw InputError(where, "the texture has no image", "give it a file");
-    ValueRange range = images[static_cast<std::size_t>(bitmap.image)];
-    for (const Wrap wrap : {bitmap.wrap_u, bitmap.wrap_v}) {
-        if (wrap == Wrap::zero) range = {std::min(range.min, 0.0f), std::max(range.max, 0.0f)};
-        if (wrap == Wrap::one) range = {std::min(range.min, 1.0f), std::max(range.max, 1.0f)};
-    }
-    return range;
-}
+class TextureCheck {
+  public:
+    TextureCheck(const Texture& texture, const std::vector<ValueRange>& images) : texture_(texture), images_(images) {}
 
-ValueRange check_checkerboard(const CheckerboardTexture& board, const Location& where) {
-    const float values[6] = {board.color0.x, board.color0.y, board.color0.z,
-                             board.color1.x, board.color1.y, board.color1.z};
-    for (const float value : values)
-        if (!std::isfinite(value))
-            throw InputError(where, "the checkerboard has a colour that is not finite", "give finite colours");
-    const auto [min, max] = std::minmax_element(std::begin(values), std::end(values));
-    return {*min, *max};
-}
+    /// The range of its values.
+    ValueRange run() const {
+        visit_fields(texture_.kind, *this);
+        return std::visit([this](const auto& kind) { return kind.range(*this); }, texture_.kind);
+    }
+    ValueRange range_of_image(std::int32_t image) const { return images_[static_cast<std::size_t>(image)]; }
+
+    void image(std::int32_t image) const {
+        if (image < 0 || static_cast<std::size_t>(image) >= images_.size())
+            refuse("the texture has no image", "give it a file");
+    }
+    void flag(const char*, bool) const {}
+    void choice(const char*, auto, auto) const {}
+    void color(const char* name, const Rgb& value) const {
+        if (!is_finite(value))
+            refuse("the " + title() + " has a " + name + " that is not finite",
+                   std::string("give finite ") + name + "s");
+    }
+    void coordinates(const UvTransform& uv) const {
+        if (!is_finite(uv.u_row) || !is_finite(uv.v_row))
+            refuse("the transformation of texture coordinates is not finite", "check the texture's scale and offset");
+    }
+
+  private:
+    std::string title() const {
+        return std::visit([](const auto& kind) { return kind.kEffect.title; }, texture_.kind);
+    }
+    [[noreturn]] void refuse(const std::string& what, const std::string& cure) const {
+        throw InputError(texture_.where, what, cure);
+    }
+
+    const Texture& texture_;
+    const std::vector<ValueRange>& images_;
+};
 
 }  // namespace
 
@@ -74,15 +92,8 @@ std::vector<ValueRange> check_images(const std::vector<TextureImage>& images) {
 
 std::vector<ValueRange> check_textures(const std::vector<Texture>& textures, const std::vector<ValueRange>& images) {
     std::vector<ValueRange> ranges;
-    for (const Texture& texture : textures) {
-        const auto* bitmap = std::get_if<BitmapTexture>(&texture.kind);
-        const UvTransform& uv = bitmap ? bitmap->uv : std::get<CheckerboardTexture>(texture.kind).uv;
-        if (!is_finite(uv.u_row) || !is_finite(uv.v_row))
-            throw InputError(texture.where, "the transformation of texture coordinates is not finite",
-                             "check the texture's scale and offset");
-        ranges.push_back(bitmap ? check_bitmap(*bitmap, images, texture.where)
-                                : check_checkerboard(std::get<CheckerboardTexture>(texture.kind), texture.where));
-    }
+    for (const Texture& texture : textures)
+        ranges.push_back(TextureCheck(texture, images).run());
     return ranges;
 }
 

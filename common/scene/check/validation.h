@@ -24,11 +24,6 @@ inline bool is_unit(const Vec3& v) {
     return std::abs(dot(v, v) - 1.0f) < 1e-3f;
 }
 
-/// Limits between which the values of an image or a texture lie.
-struct ValueRange {
-    float min = 0.0f, max = 0.0f;
-};
-
 /// Checks sizes and that all values are finite; the range of each.
 std::vector<ValueRange> check_images(const std::vector<TextureImage>& images);
 

@@ -15,14 +15,11 @@ enum class LightType : std::uint8_t {
     environment,  ///< infinity, where rays go that hit nothing; a scene has one at most
 };
 
-/// What a kind of emitter is. The words are those of its effect (common/plan/effect_table.h).
+/// What a kind of emitter is.
 struct EmitterTraits {
     LightType type;
-    const char* effect;  ///< "spot"
+    const char* effect;  ///< "spot": its row in the table of effects (common/plan/effects/light.h)
     const char* title;   ///< "spot emitter"
-    const char* what;    ///< one line
-    const char* when;    ///< when the effect is on
-    const char* cost;    ///< in memory and in time
 };
 
 /// All directions in which a point shines are within a cone.

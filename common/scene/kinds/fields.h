@@ -6,9 +6,9 @@
 
 namespace treefarm {
 
-/// Kinds of materials and emitters name each of their values once, in fields(self, visitor), in the order in which they
-/// are packed. Packing, range checks, `treefarm check`, use of textures and images and removal of what is unused follow
-/// from that. A visitor has, for what a value is, of any kind:
+/// Kinds of materials, emitters and textures name each of their values once, in fields(self, visitor), in the order in
+/// which they are packed. Packing, range checks, `treefarm check`, use of textures and images and removal of what is
+/// unused follow from that. A visitor has, for what a value is, of any kind:
 ///
 ///     flag(name, bool&)
 ///
@@ -35,6 +35,13 @@ namespace treefarm {
 ///     shape(std::int32_t&)                        index of the shape that shines
 ///     rule(bool holds, what, cure)                a condition on values named before, and the words where it does not
 ///
+/// of a texture:
+///
+///     image(std::int32_t&)                        index of an image
+///     choice(name, Enum&, last)                   as of a material
+///     color(name, Rgb&)                           a finite colour
+///     coordinates(UvTransform&)                   what texture coordinates go through
+///
 /// Names are words for messages: "specular reflectance".
 
 /// A visitor that looks at nothing: others derive from it and hide what they care for.
@@ -57,12 +64,23 @@ struct IgnoreFields {
     void image(const auto&) {}
     void shape(const auto&) {}
     void rule(bool, const char*, const char*) {}
+    void color(const char*, const auto&) {}
+    void coordinates(const auto&) {}
 };
 
 /// Shows a visitor each value of what a variant of kinds holds, const or not.
 template <class Kind, class Visitor>
 void visit_fields(Kind& kind, Visitor&& visitor) {
     std::visit([&](auto& held) { std::decay_t<decltype(held)>::fields(held, visitor); }, kind);
+}
+
+/// Calls f.operator()<Kind>() for every kind of a variant.
+template <class Variant, class F>
+constexpr void for_each_kind(F&& f) {
+    const auto call = [&]<class... Kinds>(std::type_identity<std::variant<Kinds...>>) {
+        (f.template operator()<Kinds>(), ...);
+    };
+    call(std::type_identity<Variant>());
 }
 
 }  // namespace treefarm

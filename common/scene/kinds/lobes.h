@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "common/scene/kinds/kind_effect.h"
+
 namespace treefarm {
 
 /// The ways in which a surface sends light on. Glossy: over a range of directions about one; delta: in a single

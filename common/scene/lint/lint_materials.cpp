@@ -8,21 +8,27 @@ namespace {
 
 using enum Finding::Severity;
 
+/// Ranges of a scene's images, of what is missing 0 to 1.
+struct ImageRanges {
+    const std::vector<TextureImage>& images;
+
+    ValueRange range_of_image(std::int32_t index) const {
+        if (index < 0 || static_cast<std::size_t>(index) >= images.size()) return {0.0f, 1.0f};
+        const TextureImage& image = images[static_cast<std::size_t>(index)];
+        ValueRange range;
+        for (const float value : image.floats)
+            range = range.with(value);
+        for (const std::uint8_t byte : image.bytes)
+            range = range.with(image.decode[byte]);
+        return range;
+    }
+};
+
 /// The largest value of a texture.
 float largest_of(const Scene& scene, std::int32_t texture) {
     if (texture < 0 || static_cast<std::size_t>(texture) >= scene.textures.size()) return 1.0f;
-    const auto& kind = scene.textures[static_cast<std::size_t>(texture)].kind;
-    if (const auto* board = std::get_if<CheckerboardTexture>(&kind))
-        return std::max(max_component(board->color0), max_component(board->color1));
-    const std::int32_t index = std::get<BitmapTexture>(kind).image;
-    if (index < 0 || static_cast<std::size_t>(index) >= scene.images.size()) return 1.0f;
-    const TextureImage& image = scene.images[static_cast<std::size_t>(index)];
-    float most = 0.0f;
-    for (const float value : image.floats)
-        most = std::max(most, value);
-    for (const std::uint8_t byte : image.bytes)
-        most = std::max(most, image.decode[byte]);
-    return most;
+    return std::visit([&](const auto& kind) { return kind.range(ImageRanges{scene.images}).max; },
+                      scene.textures[static_cast<std::size_t>(texture)].kind);
 }
 
 class MaterialLint {

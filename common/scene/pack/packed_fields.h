@@ -46,6 +46,12 @@ class PutFields {
     void shape(std::int32_t index) { out_.put(index); }
     void rule(bool, const char*, const char*) {}
 
+    void color(const char*, const Rgb& value) { put_vector(out_, value); }
+    void coordinates(const UvTransform& uv) {
+        put_vector(out_, uv.u_row);
+        put_vector(out_, uv.v_row);
+    }
+
   private:
     ByteWriter& out_;
 };
@@ -88,9 +94,15 @@ class GetFields {
     void direction(Vec3& value) { value = get_vector<Vec3>(in_); }
     void value(float& value) { value = in_.get<float>(); }
     void texture(std::int32_t& index) { index = get_optional_index(in_, counts_.textures, "texture of an emitter"); }
-    void image(std::int32_t& index) { index = get_index(in_, counts_.images, "image of an emitter"); }
+    void image(std::int32_t& index) { index = get_index(in_, counts_.images, "image"); }
     void shape(std::int32_t& index) { index = get_index(in_, counts_.shapes, "emitting shape"); }
     void rule(bool, const char*, const char*) {}
+
+    void color(const char*, Rgb& value) { value = get_vector<Rgb>(in_); }
+    void coordinates(UvTransform& uv) {
+        uv.u_row = get_vector<Vec3>(in_);
+        uv.v_row = get_vector<Vec3>(in_);
+    }
 
   private:
     ByteReader& in_;

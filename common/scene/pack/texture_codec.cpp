@@ -1,27 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/scene/pack/texture_codec.h"
 
-#include "common/scene/pack/packed_values.h"
+#include "common/scene/pack/packed_fields.h"
 
 namespace treefarm::packed {
-namespace {
-
-enum class TextureKind : std::uint8_t { bitmap, checkerboard };
-
-void put_uv(ByteWriter& out, const UvTransform& uv) {
-    put_vector(out, uv.u_row);
-    put_vector(out, uv.v_row);
-}
-
-UvTransform get_uv(ByteReader& in) {
-    UvTransform uv;
-    uv.u_row = get_vector<Vec3>(in);
-    uv.v_row = get_vector<Vec3>(in);
-    return uv;
-}
-
-}  // namespace
-
 void put_image(ByteWriter& out, const TextureImage& image) {
     out.put(static_cast<std::uint16_t>(image.width));
     out.put(static_cast<std::uint16_t>(image.height));
@@ -62,46 +44,16 @@ TextureImage get_image(ByteReader& in) {
 }
 
 void put_texture(ByteWriter& out, const Texture& texture) {
-    if (const auto* bitmap = std::get_if<BitmapTexture>(&texture.kind)) {
-        put_enum(out, TextureKind::bitmap);
-        out.put(bitmap->image);
-        put_flag(out, bitmap->bilinear);
-        put_enum(out, bitmap->wrap_u);
-        put_enum(out, bitmap->wrap_v);
-        put_uv(out, bitmap->uv);
-    } else {
-        const auto& board = std::get<CheckerboardTexture>(texture.kind);
-        put_enum(out, TextureKind::checkerboard);
-        put_vector(out, board.color0);
-        put_vector(out, board.color1);
-        put_uv(out, board.uv);
-    }
+    out.put(static_cast<std::uint8_t>(texture.kind.index()));
+    visit_fields(texture.kind, PutFields(out));
     out.put_string(texture.name);
     put_location(out, texture.where);
 }
 
 Texture get_texture(ByteReader& in, std::size_t image_count) {
     Texture texture;
-    switch (get_enum(in, TextureKind::checkerboard, "kind of texture")) {
-        case TextureKind::bitmap: {
-            BitmapTexture bitmap;
-            bitmap.image = get_index(in, image_count, "image");
-            bitmap.bilinear = get_flag(in, "bilinear");
-            bitmap.wrap_u = get_enum(in, Wrap::one, "wrap mode");
-            bitmap.wrap_v = get_enum(in, Wrap::one, "wrap mode");
-            bitmap.uv = get_uv(in);
-            texture.kind = bitmap;
-            break;
-        }
-        case TextureKind::checkerboard: {
-            CheckerboardTexture board;
-            board.color0 = get_vector<Rgb>(in);
-            board.color1 = get_vector<Rgb>(in);
-            board.uv = get_uv(in);
-            texture.kind = board;
-            break;
-        }
-    }
+    texture.kind = kind_of<TextureKind>(in.get<std::uint8_t>(), "texture");
+    visit_fields(texture.kind, GetFields(in, {.images = image_count}));
     texture.name = in.get_string();
     texture.where = get_location(in);
     return texture;

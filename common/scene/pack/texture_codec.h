@@ -7,10 +7,10 @@
 namespace treefarm::packed {
 
 ///     image    := width:u16 height:u16 channels:u8 name floating:u8 (decode:f32[256] bytes | floats)
-///     texture  := kind:u8 (bitmap | checkerboard) name location
-///     bitmap   := image:i32 bilinear:u8 wrap_u:u8 wrap_v:u8 uv
-///     checkerboard := rgb rgb uv
-///     uv       := u_row v_row
+///     texture  := kind:u8 value* name location
+///
+/// kind: its place in TextureKind (kinds/textures.h); values: as fields() of that kind names them, indices as i32,
+/// flags and choices as u8, colours as three f32, the transform of coordinates as its two rows.
 
 inline constexpr std::size_t kMinImageBytes = 8, kMinTextureBytes = 42;
 

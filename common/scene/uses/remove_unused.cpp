@@ -5,6 +5,7 @@
 
 #include "common/scene/uses/emitter_uses.h"
 #include "common/scene/uses/material_uses.h"
+#include "common/scene/uses/texture_uses.h"
 
 namespace treefarm {
 namespace {
@@ -60,8 +61,7 @@ std::vector<std::int32_t> remove_unused(Scene& scene) {
         for_each_image(emitter, [&](std::int32_t image) { images.mark(image); });
     }
     for (std::size_t i = 0; i < scene.textures.size(); ++i)
-        if (const auto* bitmap = std::get_if<BitmapTexture>(&scene.textures[i].kind); bitmap && textures.marked(i))
-            images.mark(bitmap->image);
+        if (textures.marked(i)) for_each_image(scene.textures[i], [&](std::int32_t image) { images.mark(image); });
 
     materials.compact(scene.materials);
     textures.compact(scene.textures);
@@ -74,7 +74,7 @@ std::vector<std::int32_t> remove_unused(Scene& scene) {
         for_each_texture(material, [&](std::int32_t& texture) { textures.renumber(texture); });
     }
     for (Texture& texture : scene.textures)
-        if (auto* bitmap = std::get_if<BitmapTexture>(&texture.kind)) images.renumber(bitmap->image);
+        for_each_image(texture, [&](std::int32_t& image) { images.renumber(image); });
     for (Emitter& emitter : scene.emitters) {
         for_each_texture(emitter, [&](std::int32_t& texture) { textures.renumber(texture); });
         for_each_image(emitter, [&](std::int32_t& image) { images.renumber(image); });

@@ -10,9 +10,7 @@ struct AreaEmitter {
     ColorInput radiance{Rgb(1.0f)};  ///< W / (m^2 sr), per channel
     std::int32_t shape = kNone;
 
-    static constexpr EmitterTraits kTraits{LightType::area,          "area",
-                                           "area emitter",           "surfaces that emit",
-                                           "a shape has an emitter", "128 bytes per emitter, 12 per emitting triangle"};
+    static constexpr EmitterTraits kTraits{LightType::area, "area", "area emitter"};
     float radiance_scale(const LitScene&) const { return average(radiance.value); }
     static void fields(auto& self, auto& visitor) {
         visitor.light("radiance", self.radiance);

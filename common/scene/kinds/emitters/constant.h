@@ -9,9 +9,7 @@ namespace treefarm {
 struct ConstantEmitter {
     Rgb radiance{1.0f};
 
-    static constexpr EmitterTraits kTraits{LightType::environment, "constant",
-                                           "constant emitter",     "the same radiance from everywhere",
-                                           "the scene has one",    "128 bytes"};
+    static constexpr EmitterTraits kTraits{LightType::environment, "constant", "constant emitter"};
     float radiance_scale(const LitScene&) const { return average(radiance); }
     static void fields(auto& self, auto& visitor) { visitor.light("radiance", self.radiance); }
 };

@@ -10,8 +10,7 @@ struct DirectionalEmitter {
     Vec3 direction{0.0f, 0.0f, 1.0f};  ///< unit, along which the light travels
     Rgb irradiance{1.0f};              ///< W / m^2 on a surface that faces it
 
-    static constexpr EmitterTraits kTraits{LightType::delta, "directional",       "directional emitter",
-                                           "parallel light", "the scene has one", "with delta_lights"};
+    static constexpr EmitterTraits kTraits{LightType::delta, "directional", "directional emitter"};
     std::optional<LightCone> cone() const { return std::nullopt; }
     float radiance_scale(const LitScene&) const { return average(irradiance); }
     static void fields(auto& self, auto& visitor) {

@@ -16,10 +16,7 @@ struct EnvironmentEmitter {
     /// The centres of the first and the last row of pixels lie on the poles (Mitsuba 2 and 3), not their edges (0.6).
     bool rows_at_poles = false;
 
-    static constexpr EmitterTraits kTraits{
-        LightType::environment, "environment_map",
-        "environment map",      "an image around the scene, a sky model's among them",
-        "the scene has one",    "its pixels, 4 bytes per pixel to sample it; a lookup per ray that leaves"};
+    static constexpr EmitterTraits kTraits{LightType::environment, "environment_map", "environment map"};
     float radiance_scale(const LitScene& scene) const {
         return scale * mean_value(scene.images[static_cast<std::size_t>(image)]);
     }

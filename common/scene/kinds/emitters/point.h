@@ -9,9 +9,7 @@ struct PointEmitter {
     Vec3 position{0.0f};
     Rgb intensity{1.0f};  ///< W / sr
 
-    static constexpr EmitterTraits kTraits{LightType::delta,    "point",
-                                           "point emitter",     "a point that shines in all directions",
-                                           "the scene has one", "with delta_lights"};
+    static constexpr EmitterTraits kTraits{LightType::delta, "point", "point emitter"};
     std::optional<LightCone> cone() const { return LightCone{position}; }
     float radiance_scale(const LitScene& scene) const { return average(intensity) / scene.distance2; }
     static void fields(auto& self, auto& visitor) {

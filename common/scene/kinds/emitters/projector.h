@@ -16,9 +16,7 @@ struct ProjectorEmitter {
     float half_width = 1.0f, half_height = 1.0f;              ///< of the picture on the plane at distance 1, above 0
     ColorInput irradiance{Rgb(1.0f)};                         ///< W / m^2 on that plane
 
-    static constexpr EmitterTraits kTraits{LightType::delta,    "projector",
-                                           "projector emitter", "a picture thrown from a point",
-                                           "the scene has one", "with delta_lights"};
+    static constexpr EmitterTraits kTraits{LightType::delta, "projector", "projector emitter"};
     std::optional<LightCone> cone() const {
         return LightCone{position, axis, std::atan(std::sqrt(half_width * half_width + half_height * half_height))};
     }

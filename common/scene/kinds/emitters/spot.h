@@ -18,9 +18,7 @@ struct SpotEmitter {
     /// Unit, at right angles to `axis` and each other: along which u and v of the texture rise.
     Vec3 x_axis{1.0f, 0.0f, 0.0f}, y_axis{0.0f, 1.0f, 0.0f};
 
-    static constexpr EmitterTraits kTraits{LightType::delta,    "spot",
-                                           "spot emitter",      "a point that shines along a cone",
-                                           "the scene has one", "with delta_lights"};
+    static constexpr EmitterTraits kTraits{LightType::delta, "spot", "spot emitter"};
     std::optional<LightCone> cone() const { return LightCone{position, axis, cutoff}; }
     float radiance_scale(const LitScene& scene) const { return average(intensity) / scene.distance2; }
     static void fields(auto& self, auto& visitor) {

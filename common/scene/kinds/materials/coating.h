@@ -16,6 +16,7 @@ struct CoatingMaterial {
 
     /// The coat reflects on both sides; beneath it are the two sides of the other material.
     static constexpr bool kSidesOfParts = true;
+    static constexpr KindEffect kEffect{"coatings", "coated material"};
     Lobes lobes() const { return roughness.lobes(false); }
     static void fields(auto& self, auto& visitor) {
         visitor.eta(self.eta);

@@ -11,6 +11,7 @@ struct PhongMaterial {
     ColorInput diffuse_reflectance{Rgb(0.5f)}, specular_reflectance{Rgb(0.2f)};  ///< their sum at most 1
     FloatInput exponent{30.0f};
 
+    static constexpr KindEffect kEffect{"phong", "Phong material"};
     Lobes lobes() const { return {.diffuse = true, .glossy_reflection = true}; }
     static void fields(auto& self, auto& visitor) {
         visitor.fraction("diffuse reflectance", self.diffuse_reflectance);

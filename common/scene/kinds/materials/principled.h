@@ -17,6 +17,7 @@ struct PrincipledMaterial {
     float eta = 1.5f;  ///< of the inside over the outside; not 1 where light passes
 
     bool transmits() const { return spec_trans.varies() || spec_trans.value > 0.0f; }
+    static constexpr KindEffect kEffect{"principled", "principled material"};
     Lobes lobes() const { return {.diffuse = true, .glossy_reflection = true, .glossy_transmission = transmits()}; }
     /// What would be let through is lost: the base is as much darker.
     PrincipledMaterial opaque() const {

@@ -20,6 +20,7 @@ struct PrincipledThinMaterial {
     bool transmits() const {
         return spec_trans.varies() || spec_trans.value > 0.0f || diff_trans.varies() || diff_trans.value > 0.0f;
     }
+    static constexpr KindEffect kEffect{"principled_thin", "thin principled material"};
     Lobes lobes() const { return {.diffuse = true, .glossy_reflection = true, .glossy_transmission = transmits()}; }
     /// What would be let through is lost, and what such a sheet's facets reflect with it: the base is as much darker.
     PrincipledThinMaterial opaque() const {

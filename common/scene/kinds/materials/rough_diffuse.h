@@ -12,6 +12,7 @@ struct RoughDiffuseMaterial {
     FloatInput alpha{0.2f};             ///< root mean square slope of the facets, as of rough metals
     bool fast = false;                  ///< the paper's short form, without light from facet to facet
 
+    static constexpr KindEffect kEffect{"rough_diffuse", "rough diffuse material"};
     Lobes lobes() const { return {.diffuse = true}; }
     static void fields(auto& self, auto& visitor) {
         visitor.fraction("reflectance", self.reflectance);

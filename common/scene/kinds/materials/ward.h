@@ -18,6 +18,7 @@ struct WardMaterial {
     WardVariant variant = WardVariant::balanced;
     Roughness roughness{Microfacets::beckmann, {0.1f}, {0.1f}};  ///< Ward's lobe is Beckmann's
 
+    static constexpr KindEffect kEffect{"ward", "Ward material"};
     Lobes lobes() const { return {.diffuse = true, .glossy_reflection = true}; }
     static void fields(auto& self, auto& visitor) {
         visitor.fraction("diffuse reflectance", self.diffuse_reflectance);

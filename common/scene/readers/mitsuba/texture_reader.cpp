@@ -156,7 +156,7 @@ std::optional<ColorInput> TextureReader::read_constant(Properties& properties, c
     return nested;
 }
 
-std::int32_t TextureReader::add(decltype(Texture::kind) kind, const Properties& properties) {
+std::int32_t TextureReader::add(TextureKind kind, const Properties& properties) {
     scene_.textures.push_back({std::move(kind), properties.id(), properties.where()});
     return static_cast<std::int32_t>(scene_.textures.size() - 1);
 }

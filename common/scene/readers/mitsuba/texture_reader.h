@@ -54,7 +54,7 @@ class TextureReader {
     ColorInput convert_bitmap(Properties& properties, const Use& use);
     ColorInput convert_checkerboard(Properties& properties, const Use& use);
     ColorInput convert_scale(Properties& properties, const Use& use);
-    std::int32_t add(decltype(Texture::kind) kind, const Properties& properties);
+    std::int32_t add(TextureKind kind, const Properties& properties);
 
     Scene& scene_;
     const SceneDocument& document_;

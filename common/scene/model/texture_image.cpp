@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "common/scene/model/texture.h"
+#include "common/scene/model/texture_image.h"
 
 namespace treefarm {
 
