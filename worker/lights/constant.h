@@ -4,18 +4,33 @@
 #include "common/base/random.h"
 #include "common/math/warp.h"
 #include "common/scene/kinds/emitters/constant.h"
+#include "worker/textures/texture_set.h"
 
 namespace treefarm {
 
-/// Radiance that is alike from all directions, sampled uniformly.
-struct ConstantLight {
-    static constexpr float kPdf = kInvFourPi;  ///< per steradian
+/// Radiance that is alike from all directions, sampled uniformly (contract: environments.h).
+class ConstantLight {
+  public:
+    using Kind = ConstantEmitter;
+    struct Sample {
+        Vec3 direction;
+    };
 
-    Rgb radiance{0.0f};  ///< of all constant emitters together
+    void add(const ConstantEmitter& emitter, const TextureSet*) { radiance_ += emitter.radiance; }
+    static int part_count() { return 1; }
+    double power(int, double from_infinity) const { return from_infinity * double(average(radiance_)); }
+    void choose(int, float probability) { pdf_ = probability * kInvFourPi; }
 
-    void add(const ConstantEmitter& emitter) { radiance += emitter.radiance; }
-    double mean_radiance() const { return double(average(radiance)); }
-    Vec3 sample(const Draw& random) const { return square_to_sphere({to_unit(random[2]), to_unit(random[3])}); }
+    bool shines() const { return !is_black(radiance_); }
+    Rgb radiance(const Vec3&) const { return radiance_; }
+    static Sample sample(int, const Draw& random) {
+        return {square_to_sphere({to_unit(random[2]), to_unit(random[3])})};
+    }
+    float pdf(const auto&, const auto& factors) const { return pdf_ * factors(0); }
+
+  private:
+    Rgb radiance_{0.0f};  ///< of all constant emitters together
+    float pdf_ = 0;       ///< per steradian, with the probability that it is chosen
 };
 
 }  // namespace treefarm

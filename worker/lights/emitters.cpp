@@ -35,8 +35,7 @@ Emitters::Emitters(const std::vector<Emitter>& emitters, const EmbreeScene& geom
     : scene_{&geometry, textures}, light_of_shape_(geometry.shape_count(), kNone) {
     const double radius = bounding_radius(bounds);
     std::vector<double> power, delta_power;
-    // Each kind of emitter is named by its type of light, and environments by an overload: a new one does not compile
-    // before it is.
+    // Each kind of emitter is named by its type of light: a new one does not compile before there is a light for it.
     const auto add = [&]<class Kind>(const Kind& kind, const Emitter& emitter) {
         if constexpr (std::is_same_v<Kind, AreaEmitter>) {
             if (kind.shape != kNone) power.push_back(add_area_light(kind));
@@ -44,18 +43,16 @@ Emitters::Emitters(const std::vector<Emitter>& emitters, const EmbreeScene& geom
             delta_lights_.push_back(*DeltaLight::make(emitter, textures));
             delta_power.push_back(delta_lights_.back().power(radius));
         } else {
-            add_environment(kind);
+            environments_.add(kind, textures);
         }
     };
     for (const Emitter& emitter : emitters)
         std::visit([&](const auto& kind) { add(kind, emitter); }, emitter.kind);
-    shines_from_infinity_ = map_ || !is_black(constant_.radiance);
+    shines_from_infinity_ = environments_.shines();
     power.insert(power.end(), delta_power.begin(), delta_power.end());
     // What crosses the scene's bounding sphere, as seen by a surface: pi L times its cross-section.
     const double from_infinity = double(kPi) * radius * radius * double(kPi);
-    power.push_back(from_infinity * constant_.mean_radiance());
-    for (int part = 0; map_ && part < map_->part_count(); ++part)
-        power.push_back(from_infinity * map_->mean_radiance() * map_->part_weight(part));
+    environments_.for_each_power(from_infinity, [&](double of_part) { power.push_back(of_part); });
     select(std::move(power));
 }
 
@@ -66,18 +63,6 @@ double Emitters::add_area_light(const AreaEmitter& emitter) {
     const double power = light.power(scene_);
     area_lights_.push_back(std::move(light));
     return power;
-}
-
-void Emitters::add_environment(const ConstantEmitter& emitter) {
-    constant_.add(emitter);
-}
-
-void Emitters::add_environment(const EnvironmentEmitter& emitter) {
-    const TextureSet* textures = scene_.textures;
-    if (map_) throw RunError("the scene has two environment maps");
-    if (!textures || emitter.image < 0 || static_cast<std::size_t>(emitter.image) >= textures->images().size())
-        throw RunError("the image of an environment map is missing");
-    map_ = std::make_unique<EnvironmentMap>(emitter, textures->images()[static_cast<std::size_t>(emitter.image)]);
 }
 
 /// An emitter that is hardly ever chosen would be all noise where it is the only one that counts.
@@ -95,20 +80,8 @@ void Emitters::select(std::vector<double> power) {
         light.selection = selection_.probability(next++);
     for (std::size_t i = 0; i < delta_lights_.size(); ++i)
         delta_selection_.push_back(selection_.probability(next++));
-    constant_entry_ = next;
-    constant_pdf_ = selection_.probability(next++) * ConstantLight::kPdf;
-    for (int part = 0; map_ && part < map_->part_count(); ++part)
-        map_parts_[static_cast<std::size_t>(part)] = selection_.probability(next++);
+    environments_.choose(next, [&](std::uint32_t entry) { return selection_.probability(entry); });
     clusters_ = LightClusters(selection_);
-}
-
-EnvironmentMap::PartChoice Emitters::part_choice(const LightProbabilities* probabilities) const {
-    if (!probabilities) return map_parts_;
-    EnvironmentMap::PartChoice choice = map_parts_;
-    for (int part = 0; part < map_->part_count(); ++part)
-        choice[static_cast<std::size_t>(part)] *=
-            clusters_.factor(probabilities, constant_entry_ + 1 + static_cast<std::uint32_t>(part));
-    return choice;
 }
 
 /// Adds what is known of the choice of its emitter.
@@ -138,7 +111,7 @@ void Emitters::choose(LightBatch& batch, std::uint32_t lane, const Vec3& p, cons
     const ChosenEmitter chosen = batch.chosen[lane] = choose(random, probabilities);
     std::uint32_t number = LightBatch::kAlone;
     if (is_map(chosen.entry)) {
-        number = batch.map.add(part_of(chosen.entry), random);
+        number = batch.map.add(static_cast<int>(environments_.map_part(chosen.entry)), random);
     } else if (const AreaLight* light = sphere_light(chosen.entry)) {
         batch.by_cone[lane] = light->by_cone && has_cone(*light->sphere, p);
         number = batch.by_cone[lane] ? batch.cones.add(*light->sphere, p, random)
@@ -148,7 +121,7 @@ void Emitters::choose(LightBatch& batch, std::uint32_t lane, const Vec3& p, cons
 }
 
 void Emitters::draw(LightBatch& batch) const {
-    if (has_map()) map_->sample(batch.map);
+    if (has_map()) environments_.map().map().sample(batch.map);
     batch.cones.draw();
     batch.spheres.draw();
 }
@@ -172,13 +145,14 @@ float Emitters::environment_pdf(const LightBatch& batch, std::uint32_t lane, flo
 }
 
 Rgb Emitters::environment(const LightBatch& batch, std::uint32_t lane, const Vec3& direction) const {
-    return is_map(batch.chosen[lane].entry)
-               ? constant_.radiance + map_->radiance(batch.map.footprint(batch.number[lane]))
-               : environment(direction);
+    if (!is_map(batch.chosen[lane].entry)) return environment(direction);
+    return environments_.radiance_with<MapLight>(direction, [&](const MapLight& light) {
+        return light.map().radiance(batch.map.footprint(batch.number[lane]));
+    });
 }
 
 void Emitters::prefetch_environment(const LightBatch& batch, std::uint32_t lane) const {
-    if (is_map(batch.chosen[lane].entry)) map_->prefetch(batch.map.footprint(batch.number[lane]));
+    if (is_map(batch.chosen[lane].entry)) environments_.map().map().prefetch(batch.map.footprint(batch.number[lane]));
 }
 
 DirectSample Emitters::sample_delta(const Vec3& p, const Draw& random) const {
@@ -198,19 +172,15 @@ DirectSample Emitters::sample_without_area(std::uint32_t entry, const Vec3& p, c
     const std::size_t index = entry - area_lights_.size();
     if (index < delta_lights_.size()) return delta_lights_[index].sample(p, delta_selection_[index]);
     DirectSample sample;
-    if (is_map(entry)) {
-        const EnvironmentSample drawn = map_->sample(part_of(entry), random);
+    environments_.sample(entry, random, [&]<class Light>(const typename Light::Sample& drawn) {
         sample = towards_infinity(drawn.direction, front);
-        if (sample.pdf > 0.0f) sample.pdf = map_pdf(drawn, probabilities);
-        return sample;
-    }
-    sample = towards_infinity(constant_.sample(random), front);
-    if (sample.pdf > 0.0f) sample.pdf = pdf_environment(sample.wi, probabilities);
+        if (sample.pdf > 0.0f) sample.pdf = environments_.pdf_of<Light>(drawn, clusters_, probabilities);
+    });
     return sample;
 }
 
 float Emitters::map_pdf(const EnvironmentSample& drawn, const LightProbabilities* probabilities) const {
-    return constant_pdf(probabilities) + map_->pdf(drawn, part_choice(probabilities));
+    return environments_.pdf_of<MapLight>(drawn, clusters_, probabilities);
 }
 
 float Emitters::pdf_direct(const Vec3& p, const Vec3& wi, const Hit& hit,

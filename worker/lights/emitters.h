@@ -1,18 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <memory>
 #include <vector>
 
 #include "common/base/random.h"
 #include "common/scene/model/scene.h"
 #include "worker/geometry/embree_scene.h"
 #include "worker/lights/area.h"
-#include "worker/lights/constant.h"
 #include "worker/lights/delta_light.h"
 #include "worker/lights/direct_sample.h"
 #include "worker/lights/discrete_table.h"
-#include "worker/lights/environment_map.h"
+#include "worker/lights/environments.h"
 #include "worker/lights/light_batch.h"
 
 namespace treefarm {
@@ -53,7 +51,7 @@ class Emitters {
     DirectSample sample_direct(const Vec3& p, const LightBatch& batch, std::uint32_t lane, const Draw& random,
                                const LightProbabilities* probabilities, const Vec3* front) const;
     /// Whether some may be of an environment map.
-    bool has_map() const { return static_cast<bool>(map_); }
+    bool has_map() const { return environments_.map().shines(); }
     /// Radiance from infinity against a direction of such a sample.
     Rgb environment(const LightBatch& batch, std::uint32_t lane, const Vec3& direction) const;
     /// Density of such a sample, for which sample_direct() gave `pdf`.
@@ -87,26 +85,17 @@ class Emitters {
     }
 
     /// Radiance that comes from infinity, against the unit `direction`.
-    Rgb environment(const Vec3& direction) const {
-        return map_ ? constant_.radiance + map_->radiance(direction) : constant_.radiance;
-    }
+    Rgb environment(const Vec3& direction) const { return environments_.radiance(direction); }
 
     /// Density of sample_direct() for directions in which nothing is hit.
     float pdf_environment(const Vec3& direction, const LightProbabilities* probabilities = nullptr) const {
-        return map_ ? constant_pdf(probabilities) + map_->pdf(direction, part_choice(probabilities))
-                    : constant_pdf(probabilities);
+        return environments_.pdf(direction, clusters_, probabilities);
     }
 
   private:
     /// Returns its power.
     double add_area_light(const AreaEmitter& emitter);
-    void add_environment(const ConstantEmitter& emitter);
-    void add_environment(const EnvironmentEmitter& emitter);
     void select(std::vector<double> power);
-    float constant_pdf(const LightProbabilities* probabilities) const {
-        return constant_pdf_ * clusters_.factor(probabilities, constant_entry_);
-    }
-    EnvironmentMap::PartChoice part_choice(const LightProbabilities* probabilities) const;
     /// Kept out of line, so that plain meshes pay nothing for the other kinds.
     [[gnu::noinline]] DirectSample sample_other(std::uint32_t entry, const Vec3& p, const Draw& random,
                                                 const LightProbabilities* probabilities, const Vec3* front) const;
@@ -121,12 +110,11 @@ class Emitters {
     DirectSample sample(const ChosenEmitter& chosen, const Vec3& p, const Draw& random,
                         const LightProbabilities* probabilities, const Vec3* front) const;
     /// Whether an entry of the table is a part of the environment map.
-    bool is_map(std::uint32_t entry) const { return entry > constant_entry_; }
+    bool is_map(std::uint32_t entry) const { return environments_.is_map(entry); }
     /// That of the table's entry, if it is a sphere.
     const AreaLight* sphere_light(std::uint32_t entry) const {
         return entry < area_lights_.size() && area_lights_[entry].sphere ? &area_lights_[entry] : nullptr;
     }
-    int part_of(std::uint32_t entry) const { return static_cast<int>(entry - constant_entry_ - 1); }
 
     LightScene scene_;
     std::vector<AreaLight> area_lights_;
@@ -134,13 +122,9 @@ class Emitters {
     std::vector<DeltaLight> delta_lights_;
     std::vector<float> delta_selection_;  ///< probability that each is chosen
     DiscreteTable delta_alone_;           ///< over delta lights
-    DiscreteTable selection_;  ///< over area lights, delta lights, the constant environment, parts of the image
-    LightClusters clusters_;   ///< of its entries
-    ConstantLight constant_;
-    std::uint32_t constant_entry_ = 0;
-    float constant_pdf_ = 0;
-    std::unique_ptr<EnvironmentMap> map_;
-    EnvironmentMap::PartChoice map_parts_{};  ///< probability that each is chosen
+    DiscreteTable selection_;             ///< over area lights, delta lights, parts of environments
+    LightClusters clusters_;              ///< of its entries
+    Environments environments_;
     bool shines_from_infinity_ = false;
     bool has_spheres_ = false;  ///< among area lights
 };

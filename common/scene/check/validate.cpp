@@ -32,8 +32,8 @@ void check_camera(const Camera& camera) {
 }  // namespace
 
 void validate_scene(Scene& scene, std::vector<Warning>& warnings) {
-    const std::vector<validation::ValueRange> images = validation::check_images(scene.images);
-    const std::vector<validation::ValueRange> textures = validation::check_textures(scene.textures, images);
+    const std::vector<ValueRange> images = validation::check_images(scene.images);
+    const std::vector<ValueRange> textures = validation::check_textures(scene.textures, images);
     validation::check_materials(scene, textures, warnings);
     validation::check_shapes(scene, warnings);
     validation::check_emitters(scene, images, textures);

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <concepts>
+#include <tuple>
+#include <type_traits>
+#include <utility>
+
+#include "worker/lights/constant.h"
+#include "worker/lights/light_clusters.h"
+#include "worker/lights/map_light.h"
+
+namespace treefarm {
+
+/// How much likelier next event has learned to choose each part of a light than by power alone.
+struct PartFactors {
+    const LightClusters* clusters;
+    const LightProbabilities* probabilities;  ///< nullptr: all by power
+    std::uint32_t first;                      ///< entry of part 0 in the table that emitters are chosen by
+
+    bool even() const { return probabilities == nullptr; }
+    float operator()(int part) const {
+        return clusters->factor(probabilities, first + static_cast<std::uint32_t>(part));
+    }
+};
+
+/// What a light from infinity must say: the kind of emitter that it is made from; the parts of it that are chosen for
+/// themselves, each with its power (`from_infinity` times its mean radiance) and then the probability of that choice;
+/// whether it shines; its radiance against a direction; a sample of a part; and the density with which a direction is
+/// sampled, of all its parts together, per steradian.
+template <class Light>
+concept EnvironmentLight = requires(Light& light, const Light& given, const typename Light::Kind& kind,
+                                    const TextureSet* textures, const Draw& random, const Vec3& direction,
+                                    const typename Light::Sample& drawn, const PartFactors& factors) {
+    light.add(kind, textures);
+    light.choose(0, 0.0f);
+    { given.part_count() } -> std::same_as<int>;
+    { given.power(0, 0.0) } -> std::same_as<double>;
+    { given.shines() } -> std::same_as<bool>;
+    { given.radiance(direction) } -> std::same_as<Rgb>;
+    { given.sample(0, random) } -> std::same_as<typename Light::Sample>;
+    { drawn.direction } -> std::convertible_to<Vec3>;
+    { given.pdf(direction, factors) } -> std::same_as<float>;
+    { given.pdf(drawn, factors) } -> std::same_as<float>;
+};
+
+/// Everything that shines from infinity. A kind more is a line in `Lights`, at its end: all else follows, and without
+/// it an emitter of that kind does not compile.
+class Environments {
+  public:
+    using Lights = std::tuple<ConstantLight, MapLight>;
+
+    template <class Kind>
+    void add(const Kind& kind, const TextureSet* textures) {
+        static_assert(kLightsOf<Kind> == 1, "an environment needs one light in Environments::Lights");
+        std::apply([&](auto&... light) { (add_to(light, kind, textures), ...); }, lights_);
+    }
+
+    bool shines() const {
+        return std::apply([](const auto&... light) { return (light.shines() || ...); }, lights_);
+    }
+
+    /// Calls f(power) for each part of each light: the order in which choose() takes their probabilities.
+    template <class F>
+    void for_each_power(double from_infinity, F&& f) const {
+        const auto each = [&](const auto& light) {
+            for (int part = 0; part < light.part_count(); ++part)
+                f(light.power(part, from_infinity));
+        };
+        std::apply([&](const auto&... light) { (each(light), ...); }, lights_);
+    }
+    /// `probability(entry)` of each part, from entry `first` on.
+    template <class F>
+    void choose(std::uint32_t first, F&& probability) {
+        std::size_t number = 0;
+        const auto each = [&](auto& light) {
+            first_[number++] = first;
+            for (int part = 0; part < light.part_count(); ++part)
+                light.choose(part, probability(first++));
+        };
+        std::apply([&](auto&... light) { (each(light), ...); }, lights_);
+        map_parts_ = static_cast<std::uint32_t>(map().part_count());
+    }
+
+    /// Radiance that comes from infinity, against the unit `direction`.
+    Rgb radiance(const Vec3& direction) const {
+        return sum_of([&](const auto& light) { return light.radiance(direction); });
+    }
+    /// That where `of_light` says what one light of that type contributes.
+    template <class Light, class F>
+    Rgb radiance_with(const Vec3& direction, F&& of_light) const {
+        return sum_of([&]<class Other>(const Other& light) {
+            if constexpr (std::is_same_v<Other, Light>)
+                return of_light(light);
+            else
+                return light.radiance(direction);
+        });
+    }
+
+    /// Density of sample() for a direction.
+    float pdf(const Vec3& direction, const LightClusters& clusters, const LightProbabilities* probabilities) const {
+        return density<void>(direction, direction, clusters, probabilities);
+    }
+    /// That of a sample of one light.
+    template <class Light>
+    float pdf_of(const typename Light::Sample& drawn, const LightClusters& clusters,
+                 const LightProbabilities* probabilities) const {
+        return density<Light>(drawn.direction, drawn, clusters, probabilities);
+    }
+
+    /// Calls f.operator()<Light>(sample) with a sample of the part that has this entry.
+    template <class F>
+    void sample(std::uint32_t entry, const Draw& random, F&& f) const {
+        std::size_t number = 0;
+        const auto each = [&]<class Light>(const Light& light) {
+            const std::uint32_t part = entry - first_[number++];  // beyond all parts where the entry is before
+            if (part < static_cast<std::uint32_t>(light.part_count()))
+                f.template operator()<Light>(light.sample(static_cast<int>(part), random));
+        };
+        std::apply([&](const auto&... light) { (each(light), ...); }, lights_);
+    }
+
+    const MapLight& map() const { return std::get<MapLight>(lights_); }
+    /// The map's part that has this entry: beyond all where it has none.
+    std::uint32_t map_part(std::uint32_t entry) const { return entry - first_[kMap]; }
+    bool is_map(std::uint32_t entry) const { return map_part(entry) < map_parts_; }
+
+  private:
+    static constexpr std::size_t kCount = std::tuple_size_v<Lights>;
+    static constexpr std::size_t kMap = 1;
+    static_assert(std::is_same_v<std::tuple_element_t<kMap, Lights>, MapLight>);
+
+    template <class Kind>
+    static constexpr int kLightsOf = []<EnvironmentLight... Light>(std::type_identity<std::tuple<Light...>>) {
+        return (int(std::is_same_v<typename Light::Kind, Kind>) + ...);
+    }
+    (std::type_identity<Lights>());
+
+    template <class Light, class Kind>
+    static void add_to(Light& light, const Kind& kind, const TextureSet* textures) {
+        if constexpr (std::is_same_v<typename Light::Kind, Kind>) light.add(kind, textures);
+    }
+
+    /// The sum over lights, in their order; the first is asked whether it shines or not.
+    template <class F>
+    Rgb sum_of(F&& of_light) const {
+        Rgb sum = of_light(std::get<0>(lights_));
+        const auto more = [&](const auto& light) {
+            if (light.shines()) sum += of_light(light);
+        };
+        [&]<std::size_t... kMore>(std::index_sequence<kMore...>) {
+            (more(std::get<kMore + 1>(lights_)), ...);
+        }
+        (std::make_index_sequence<kCount - 1>());
+        return sum;
+    }
+
+    /// The sum of densities, where `Light` knows its part of it by what was drawn.
+    template <class Light, class Drawn>
+    float density(const Vec3& direction, const Drawn& drawn, const LightClusters& clusters,
+                  const LightProbabilities* probabilities) const {
+        const auto of_light = [&]<class Other>(const Other& light, std::uint32_t first) {
+            const PartFactors factors{&clusters, probabilities, first};
+            if constexpr (std::is_same_v<Other, Light>)
+                return light.pdf(drawn, factors);
+            else
+                return light.pdf(direction, factors);
+        };
+        float sum = of_light(std::get<0>(lights_), first_[0]);
+        const auto more = [&](const auto& light, std::uint32_t first) {
+            if (light.shines()) sum += of_light(light, first);
+        };
+        [&]<std::size_t... kMore>(std::index_sequence<kMore...>) {
+            (more(std::get<kMore + 1>(lights_), first_[kMore + 1]), ...);
+        }
+        (std::make_index_sequence<kCount - 1>());
+        return sum;
+    }
+
+    Lights lights_;
+    std::uint32_t map_parts_ = 0;
+    std::array<std::uint32_t, kCount> first_{};  ///< entry of each light's first part
+};
+
+}  // namespace treefarm
