@@ -73,8 +73,9 @@ TEST(Reference, FurnaceHasTheExactMean) {
                 job.integrator.mis = mis;
                 job.budget.spp = 1020;
                 job.sampler.seed = 3;
+                const test::LocalRender run = test::render_locally(scene, job);
                 Moments all;
-                for (const PixelEstimate& pixel : test::render_locally(scene, job).passes.back().pixels)
+                for (const PixelEstimate& pixel : run.passes.back().pixels)
                     all = Moments::merge(all, pixel.whole());
                 const double exact = 1.0 / (1.0 - double(albedo)), error = std::sqrt(all.sample_variance().x / all.n);
                 const double z = std::max(0.0, std::abs(all.mean.x - exact) - 1e-5 * exact) / std::max(error, 1e-9);
