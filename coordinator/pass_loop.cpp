@@ -5,6 +5,7 @@
 #include <future>
 
 #include "common/base/hash.h"
+#include "common/film/fold_passes.h"
 #include "common/film/guiding_probe.h"
 #include "common/guiding/tree_learner.h"
 #include "common/plan/kernel.h"
@@ -97,10 +98,11 @@ class PassLoop {
     }
 
     void combine(PassReport& report) {
+        Timer timer;
+        if (const std::optional<std::size_t> first = fold_passes(finished_)) set_aside_.follow_fold(*first);
         // The last pass's own figures, and those of the image, while others are being made.
         std::future<PassVariance> variance =
             std::async(std::launch::async, [&] { return pass_variance(finished_.back().pixels); });
-        Timer timer;
         remember_noise(finished_, job_.guiding.combination, guided());
         coming_.image = std::make_shared<CombinedImage>(combine_passes(finished_, job_.guiding.combination, guided()));
         report.seconds.film = timer.seconds();
@@ -225,7 +227,7 @@ class PassLoop {
     const PassHooks& hooks_;
     TreeLearner learner_;
     RenderResult result_;
-    std::vector<PassResult> finished_;
+    std::vector<PassResult> finished_;  ///< folded
     GuidingProbe probe_;
     ProbesSetAside set_aside_;
     std::uint64_t coming_tree_hash_ = 0;

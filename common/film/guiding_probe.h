@@ -33,6 +33,8 @@ class ProbesSetAside {
   public:
     /// Takes the unguided pixels out of a probe pass, the one that will be at `place` among the passes of the image.
     void take_out(std::span<PixelEstimate> pixels, std::uint32_t pass, std::size_t place);
+    /// Follows passes whose neighbours `first` and first + 1 have become one (fold_passes.h).
+    void follow_fold(std::size_t first);
     /// Gives the pixels back to their passes, once.
     void put_back(std::span<PassResult> passes);
 
