@@ -215,8 +215,8 @@ class Limit {
     /// Traces as many rays at a time as the renderer may have.
     void trace_together(const Mode& mode) const {
         constexpr std::size_t kMost = EmbreeScene::kMostTogether;
-        std::array<EmbreeScene::Meeting, kMost> meetings;
-        std::array<bool, kMost> told;
+        std::array<EmbreeScene::EmbreeHit, kMost> embree_hits;
+        std::array<bool, kMost> found;
         std::array<EmbreeScene::Query, kMost> queries;
         const auto in_parts = [](std::span<const Ray> rays, const auto& trace) {
             while (!rays.empty()) {
@@ -227,10 +227,10 @@ class Limit {
         };
         in_parts(mode.rays, [&](std::span<const Ray> rays) {
             for (std::size_t i = 0; i < rays.size(); ++i)
-                queries[i] = {&rays[i], &meetings[i], &told[i]};
-            scene_.geometry().meet({queries.data(), rays.size()});
+                queries[i] = {&rays[i], &embree_hits[i], &found[i]};
+            scene_.geometry().intersect({queries.data(), rays.size()});
         });
-        in_parts(mode.shadow_rays, [&](std::span<const Ray> rays) { scene_.geometry().occluded(rays, told.data()); });
+        in_parts(mode.shadow_rays, [&](std::span<const Ray> rays) { scene_.geometry().occluded(rays, found.data()); });
     }
 
     Job job_;

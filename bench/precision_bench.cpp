@@ -101,7 +101,7 @@ void sums_float(benchmark::State& state) {
     state.counters["bytes_per_cell"] = sizeof(float);
 }
 
-/// One region's directions by a cumulative table of another type, found as Guide finds them: 64 guide entries, then a
+/// One region's directions by a cumulative table of another type, found as Guide finds them: 64 look-up entries, then a
 /// search without branches.
 template <class Mass>
 class Table {
@@ -114,8 +114,9 @@ class Table {
     Table(const SdTree& tree, std::uint32_t region, Mass whole) : whole_(whole) {
         std::uint64_t code = 0, mass = 0;
         const auto add = [&] {
-            const double share = std::ldexp(static_cast<double>(mass), -kMassBits);
-            cells_.push_back({static_cast<std::uint32_t>(code), static_cast<Mass>(share * static_cast<double>(whole))});
+            const double fraction = std::ldexp(static_cast<double>(mass), -kMassBits);
+            cells_.push_back(
+                {static_cast<std::uint32_t>(code), static_cast<Mass>(fraction * static_cast<double>(whole))});
         };
         for (std::uint32_t c = tree.cell_begin[region]; c < tree.cell_begin[region + 1]; ++c) {
             add();
@@ -123,12 +124,12 @@ class Table {
             mass += tree.cell_mass[c];
         }
         add();
-        for (std::uint32_t k = 0; k <= kGuideSize; ++k) {
-            const auto key = static_cast<Mass>(static_cast<double>(whole) * k / kGuideSize);
+        for (std::uint32_t k = 0; k <= kLookupSize; ++k) {
+            const auto key = static_cast<Mass>(static_cast<double>(whole) * k / kLookupSize);
             std::uint32_t at = 0;
             while (at + 2 < cells_.size() && cells_[at + 1].mass_begin <= key)
                 ++at;
-            guide_[k] = at;
+            lookup_[k] = at;
         }
     }
 
@@ -136,8 +137,8 @@ class Table {
     std::pair<std::uint32_t, float> sample(std::uint32_t pick) const {
         const std::uint32_t entry = pick >> 26;
         const Mass key = key_of(pick);
-        const Cell* at = &cells_[guide_[entry]];
-        for (std::uint32_t count = guide_[entry + 1] - guide_[entry] + 1; count > 1; count -= count / 2)
+        const Cell* at = &cells_[lookup_[entry]];
+        for (std::uint32_t count = lookup_[entry + 1] - lookup_[entry] + 1; count > 1; count -= count / 2)
             at += at[count / 2].mass_begin <= key ? count / 2 : 0;
         return {at->code_begin, static_cast<float>(at[1].mass_begin - at[0].mass_begin) / static_cast<float>(whole_)};
     }
@@ -159,7 +160,7 @@ class Table {
     }
 
   private:
-    static constexpr std::uint32_t kGuideSize = 64;
+    static constexpr std::uint32_t kLookupSize = 64;
 
     Mass key_of(std::uint32_t pick) const {
         if constexpr (std::is_floating_point_v<Mass>)
@@ -170,7 +171,7 @@ class Table {
 
     Mass whole_;
     std::vector<Cell> cells_;
-    std::array<std::uint32_t, kGuideSize + 2> guide_{};
+    std::array<std::uint32_t, kLookupSize + 2> lookup_{};
 };
 
 template <class Mass>
@@ -194,9 +195,9 @@ void tables(benchmark::State& state, Mass whole) {
     state.SetItemsProcessed(state.iterations());
     double worst = 0, lost = 0;
     for (std::uint32_t r = 0; r < t.guide.region_count(); ++r) {
-        const auto [error, share] = all[r].errors(t.tree, r);
+        const auto [error, fraction] = all[r].errors(t.tree, r);
         worst = std::max(worst, error);
-        lost += share / t.guide.region_count();
+        lost += fraction / t.guide.region_count();
     }
     state.counters["worst_density_error"] = worst;
     state.counters["cells_lost"] = lost;

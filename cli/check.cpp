@@ -12,7 +12,7 @@
 
 #include "cli/option_values.h"
 #include "common/scene/check/validate.h"
-#include "common/scene/lint/inspect.h"
+#include "common/scene/lint/lint.h"
 #include "common/scene/readers/load.h"
 
 namespace treefarm {
@@ -61,7 +61,7 @@ std::vector<Finding> check(const CheckOptions& options) {
     SceneToCheck read = load_scene_to_check(options.scene, defined(options.defines), options.lenient, options.sensor);
     std::vector<Finding> findings = std::move(read.findings);
     const bool is_whole = std::none_of(findings.begin(), findings.end(), &is_error);
-    for (Finding& finding : inspect(read.scene))
+    for (Finding& finding : lint(read.scene))
         // Of a scene whose parts were left out it means nothing that it lacks some.
         if ((is_whole || !finding.kind.starts_with("no ")) && !(finding.kind == "far room" && is_robust(read.settings)))
             findings.push_back(std::move(finding));

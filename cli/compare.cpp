@@ -31,7 +31,7 @@ struct Side {
     std::optional<RgbImage> variance;
     bool half = false;
     std::optional<std::uint64_t> spp;
-    ImagePlace place;
+    CropWindow crop;
 };
 
 std::optional<std::uint64_t> samples_per_pixel(const Attributes& attributes) {
@@ -52,7 +52,7 @@ Side read_side(const std::string& path) {
     if (!colour)
         throw InputError(Location{path}, "has neither the channels R, G, B nor Y",
                          "check which channels it has (exrheader)");
-    Side side{*colour, rgb_layer(file.image, "variance"), false, samples_per_pixel(file.attributes), file.image.place};
+    Side side{*colour, rgb_layer(file.image, "variance"), false, samples_per_pixel(file.attributes), file.image.crop};
     for (std::size_t c = 0; c < file.types.size(); ++c) {
         const std::string& name = file.image.channel_names[c];
         const bool is_colour = name == "R" || name == "G" || name == "B" || name == "Y";
@@ -63,13 +63,13 @@ Side read_side(const std::string& path) {
 
 /// Cuts out of a whole image the part that the other shows.
 void cut_to_window(Side& whole, const Side& window) {
-    const ImagePlace& place = window.place;
-    if (whole.place.is_window() || !place.is_window() || whole.colour.width != place.whole_width ||
-        whole.colour.height != place.whole_height)
+    const CropWindow& crop = window.crop;
+    if (whole.crop.is_window() || !crop.is_window() || whole.colour.width != crop.whole_width ||
+        whole.colour.height != crop.whole_height)
         return;
-    whole.colour = cut_out(whole.colour, place, window.colour.width, window.colour.height);
-    if (whole.variance) whole.variance = cut_out(*whole.variance, place, window.colour.width, window.colour.height);
-    whole.place = place;
+    whole.colour = cut_out(whole.colour, crop, window.colour.width, window.colour.height);
+    if (whole.variance) whole.variance = cut_out(*whole.variance, crop, window.colour.width, window.colour.height);
+    whole.crop = crop;
 }
 
 /// The reference's variance from the image's, if --reference-spp says how; the text says where it comes from.
@@ -151,7 +151,7 @@ int run_compare(const CompareOptions& options, std::ostream& out) {
                              " pixels, " + options.reference + " has " + std::to_string(reference.colour.width) +
                              " x " + std::to_string(reference.colour.height),
                          "only images of one size can be compared, or a crop window with a whole");
-    if (image.place != reference.place && image.place.is_window() && reference.place.is_window())
+    if (image.crop != reference.crop && image.crop.is_window() && reference.crop.is_window())
         throw InputError(Location{options.image}, "shows another part of the film than " + options.reference,
                          "only images of one crop window can be compared");
     Comparison result;

@@ -51,12 +51,13 @@ void print_depths(const TreeStatistics& s, std::ostream& out) {
         std::string line = fmt::format("  {:>5}", depth);
         for (const Column& column : columns) {
             const std::uint32_t count = depth < column.counts->size() ? (*column.counts)[depth] : 0;
-            const double share = column.counts->empty()
-                                     ? 0
-                                     : double(count) / *std::max_element(column.counts->begin(), column.counts->end());
-            line += count == 0 ? fmt::format("{:>12} {:<{}}", "", "", kBar)
-                               : fmt::format("{:>12} {:<{}}", count,
-                                             std::string(static_cast<std::size_t>(std::ceil(share * kBar)), '#'), kBar);
+            const double fraction = column.counts->empty() ? 0
+                                                           : double(count) / *std::max_element(column.counts->begin(),
+                                                                                               column.counts->end());
+            line += count == 0
+                        ? fmt::format("{:>12} {:<{}}", "", "", kBar)
+                        : fmt::format("{:>12} {:<{}}", count,
+                                      std::string(static_cast<std::size_t>(std::ceil(fraction * kBar)), '#'), kBar);
         }
         line.erase(line.find_last_not_of(' ') + 1);
         if (line.size() > 7) out << line << '\n';

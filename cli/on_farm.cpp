@@ -106,8 +106,8 @@ int coordinate(MpiSession& session, const FarmTask& task, InterruptWatch& watch)
 
 int work(MpiSession& session, const FarmOptions& options, const Voice& voice) {
     const unsigned asked = options.threads;
-    const unsigned share = affinity_threads() / static_cast<unsigned>(std::max(1, session.workers_on_host()));
-    const unsigned threads = asked > 0 ? asked : std::max(1u, share);
+    const unsigned portion = affinity_threads() / static_cast<unsigned>(std::max(1, session.workers_on_host()));
+    const unsigned threads = asked > 0 ? asked : std::max(1u, portion);
     const Log log = make_log("worker " + std::to_string(session.rank()), {}, voice.console, voice.loudness);
     std::vector<std::string> warnings;
     warn_if_crowded(asked, warnings);

@@ -11,7 +11,7 @@
 #include "cli/plan_answer.h"
 #include "cli/render.h"
 #include "common/plan/plan_text.h"
-#include "common/scene/lint/inspect.h"
+#include "common/scene/lint/lint.h"
 
 namespace treefarm {
 

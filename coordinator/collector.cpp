@@ -79,20 +79,20 @@ bool Collector::take(int worker, Result result, Ledger& ledger) {
     timer.restart();
     ledger.accept(worker, units);
     update_bytes_ += result.update.size();
-    WorkerShare& share = shares_[worker];
+    WorkerContribution& contribution = contributions_[worker];
     for (const UnitResult& unit : result.units) {
         film_.add(unit.unit, unit.pixels);
-        share.pixels += unit.unit.pixel_count();
+        contribution.pixels += unit.unit.pixel_count();
     }
-    share.stats.add(result.stats);
+    contribution.stats.add(result.stats);
     film_seconds_ += timer.seconds();
     return true;
 }
 
 TraceStats Collector::totals() const {
     TraceStats totals;
-    for (const auto& [worker, share] : shares_)
-        totals.add(share.stats);
+    for (const auto& [worker, contribution] : contributions_)
+        totals.add(contribution.stats);
     return totals;
 }
 

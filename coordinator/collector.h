@@ -14,7 +14,7 @@
 namespace treefarm {
 
 /// One worker's contribution to a pass.
-struct WorkerShare {
+struct WorkerContribution {
     TraceStats stats;
     std::uint64_t pixels = 0;  ///< pixel-chunks accepted
 };
@@ -33,7 +33,7 @@ class Collector {
     std::vector<PixelEstimate> take_pixels() { return film_.take_pixels(); }  ///< once, of a complete film
     const TreeSums& sums() const { return sums_; }
     TraceStats totals() const;
-    const std::map<int, WorkerShare>& shares() const { return shares_; }
+    const std::map<int, WorkerContribution>& contributions() const { return contributions_; }
     std::uint64_t update_bytes() const { return update_bytes_; }
     std::uint64_t touched_cells() const { return touched_cells_; }
     double merge_seconds() const { return merge_seconds_; }  ///< adding tree updates
@@ -48,7 +48,7 @@ class Collector {
     bool signed_pixels_;
     PassFilm film_;
     TreeSums sums_;
-    std::map<int, WorkerShare> shares_;
+    std::map<int, WorkerContribution> contributions_;
     std::uint64_t update_bytes_ = 0;   ///< of all encoded tree updates
     std::uint64_t touched_cells_ = 0;  ///< of all of them, a cell once per update that touches it
     double merge_seconds_ = 0, film_seconds_ = 0;

@@ -199,8 +199,8 @@ void Farm::beat_during(const std::function<void()>& work) {
 /// it wants asks again when it has finished something. False if nothing is left.
 bool Farm::serve(Member& member) {
     const std::size_t waiting = ledger_->waiting(), threads = static_cast<std::size_t>(roster_.thread_count());
-    const std::size_t share = (waiting * member.hello.threads + threads - 1) / threads;
-    const std::size_t count = std::min<std::size_t>(member.credit, share);
+    const std::size_t portion = (waiting * member.hello.threads + threads - 1) / threads;
+    const std::size_t count = std::min<std::size_t>(member.credit, portion);
     Work work{pass_->plan.index, ledger_->issue(member.peer, count, kShrinkUnitsPerThread * threads)};
     if (work.units.empty()) return false;
     member.credit -= static_cast<std::uint32_t>(work.units.size());

@@ -19,7 +19,7 @@ constexpr std::uint32_t kMostCredit = 1u << 20;
 constexpr std::uint32_t kMostLives = 1000;
 
 /// Messages of one kind that are worth a line in the log.
-constexpr std::uint64_t kMostTold = 20;
+constexpr std::uint64_t kMostLogged = 20;
 
 }  // namespace
 
@@ -56,12 +56,12 @@ void Farm::take(const Received& received) {
 
 void Farm::on_bad_message(int peer, const std::string& why) {
     last_failure_ = "bad message from worker " + std::to_string(peer) + ": " + why;
-    const bool tell_it = ++bad_messages_ <= kMostTold;
+    const bool log_it = ++bad_messages_ <= kMostLogged;
     Member* member = roster_.find(peer);
     if (member) ++member->bad_messages;
     if (member && member->state == MemberState::present)
         give_up(*member, MemberState::barred, "sent a bad message: " + why);  // it may do so for ever
-    else if (tell_it)
+    else if (log_it)
         log_->warn("{}", last_failure_);
 }
 
@@ -139,7 +139,7 @@ void Farm::on(int peer, const Want& m) {
 
 void Farm::on(int peer, Result&& m) {
     if (!hear(peer, m.incarnation)) {
-        if (++dropped_results_ <= kMostTold)
+        if (++dropped_results_ <= kMostLogged)
             log_->warn("a result of worker {} came too late and was dropped: its work was issued again", peer);
         return;
     }

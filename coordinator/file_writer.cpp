@@ -108,7 +108,7 @@ void FileWriter::run(Slots::iterator slot, std::unique_lock<std::mutex>& lock) {
 }
 
 void FileWriter::tell_failure(int kind, const std::string& message) {
-    if (!told_.insert(kind).second) return;
+    if (!reported_.insert(kind).second) return;
     trouble_ = true;
     news_.push_back(message + "; the render goes on, and it is tried again each second");
 }

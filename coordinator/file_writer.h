@@ -63,8 +63,8 @@ class FileWriter {
     std::condition_variable changed_, idle_;
     const Timer clock_;
     Slots slots_;
-    std::set<int> told_;    ///< kinds of trouble
-    bool trouble_ = false;  ///< told, and not over
+    std::set<int> reported_;  ///< kinds of trouble
+    bool trouble_ = false;    ///< told, and not over
     std::vector<std::string> news_;
     bool stopping_ = false;
     std::string writing_;  ///< the name; empty: none

@@ -154,7 +154,7 @@ TreeFigures tree_figures(const SdTree& tree, std::uint64_t encoded_bytes) {
         tree.cell_depth.empty() ? 0 : *std::max_element(tree.cell_depth.begin(), tree.cell_depth.end());
     figures.bytes = encoded_bytes;
     figures.views = tree.view_count();
-    const TreeSize size{figures.regions, figures.cells, false, figures.views, !tree.light_share.empty()};
+    const TreeSize size{figures.regions, figures.cells, false, figures.views, !tree.light_probabilities.empty()};
     figures.memory = size.guide_bytes() + size.sum_bytes();
     return figures;
 }
@@ -190,10 +190,10 @@ void fill_from_collector(PassReport& report, const Collector& collector) {
     s.film += collector.film_seconds();
     s.splat = report.stats.splat_seconds;
     bool first = true;
-    for (const auto& [worker, share] : collector.shares()) {
-        const double trace = share.stats.trace_seconds;
-        s.worker[worker] = trace + share.stats.splat_seconds;
-        s.trace.mean += trace / static_cast<double>(collector.shares().size());
+    for (const auto& [worker, contribution] : collector.contributions()) {
+        const double trace = contribution.stats.trace_seconds;
+        s.worker[worker] = trace + contribution.stats.splat_seconds;
+        s.trace.mean += trace / static_cast<double>(collector.contributions().size());
         if (first || trace < s.trace.min) s.trace.min = trace;
         if (first || trace > s.trace.max) {
             s.trace.max = trace;

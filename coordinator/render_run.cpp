@@ -9,7 +9,7 @@
 #include "common/base/hash.h"
 #include "common/plan/learning.h"
 #include "common/plan/plan_text.h"
-#include "common/scene/lint/inspect.h"
+#include "common/scene/lint/lint.h"
 #include "common/scene/pack/scene_codec.h"
 #include "coordinator/memory_check.h"
 #include "coordinator/pass_text.h"
@@ -34,7 +34,7 @@ class RenderRun {
           scene_(encode_scene(request.scene)),
           directory_(request.job,
                      {request.command, hash_bytes(scene_), request.fingerprint, request.plan.approximations,
-                      request.scene.film.place},
+                      request.scene.film.crop},
                      request.plan, {request.overwrite, interrupted}),
           log_(make_log("treefarm", directory_.log_file(), request.console, request.loudness)),
           progress_(request.console, request.job.budget, request.status_frame),
@@ -127,8 +127,8 @@ class RenderRun {
 
     static std::string size_text(const Film& film) {
         const std::string size = fmt::format("{} x {}", film.width, film.height);
-        if (!film.place.is_window()) return size;
-        return fmt::format("{} at {},{} of {} x {}", size, film.place.x, film.place.y, film.whole_width(),
+        if (!film.crop.is_window()) return size;
+        return fmt::format("{} at {},{} of {} x {}", size, film.crop.x, film.crop.y, film.whole_width(),
                            film.whole_height());
     }
 
@@ -161,8 +161,8 @@ class RenderRun {
     /// Says, once, what in the scene makes an image black.
     void tell_if_black(const CombinedImage& image, std::uint32_t spp) {
         const auto is_dark = [](const Rgb64& mean) { return mean == Rgb64(0.0); };
-        if (told_black_ || !std::all_of(image.mean.begin(), image.mean.end(), is_dark)) return;
-        told_black_ = true;
+        if (reported_black_ || !std::all_of(image.mean.begin(), image.mean.end(), is_dark)) return;
+        reported_black_ = true;
         const std::vector<Finding> causes = dark_causes(request_.scene);
         log_->warn(
             "the image is black after {} spp{}", spp,
@@ -231,7 +231,7 @@ class RenderRun {
     const Log log_;
     Progress progress_;
     Farm farm_;
-    bool told_black_ = false;
+    bool reported_black_ = false;
     std::size_t pass_count_ = 0;  ///< 0: not known
     RenderResult result_;
 };

@@ -27,8 +27,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kStatusSeconds = 1.0;
-/// A preview may take one part in so many of the time, of all processors.
-constexpr double kPreviewShare = 200.0;
+/// Time from preview to preview, at least, over what one takes of all processors.
+constexpr double kPreviewInterval = 200.0;
 /// Core-seconds for a pixel that the first preview is expected to take.
 constexpr double kPreviewSecondsPerPixel = 4e-8;
 /// Tables and images of short passes share a writing.
@@ -78,9 +78,9 @@ std::string resolved_text(const Resolved& job) {
 }
 
 std::vector<std::uint8_t> encode_image(const fs::path& path, const CombinedImage& image, int width, int height,
-                                       const ImagePlace& place, const Attributes& attributes) {
+                                       const CropWindow& crop, const Attributes& attributes) {
     Image channels = result_channels(image, width, height);
-    channels.place = place;
+    channels.crop = crop;
     return encode_exr(path, channels, attributes);
 }
 
@@ -139,7 +139,7 @@ void RunDirectory::write_preview(std::span<const PixelEstimate> film, int width,
     if (film.size() != count || !has_preview(count)) return;
     if (next_preview_ == 0)
         next_preview_ =
-            std::max(1.0, kPreviewShare * kPreviewSecondsPerPixel * static_cast<double>(count) / processors());
+            std::max(1.0, kPreviewInterval * kPreviewSecondsPerPixel * static_cast<double>(count) / processors());
     if (elapsed_seconds < next_preview_) return;
     const Timer timer;
     auto pass = std::make_shared<const PartialPass>(partial_pass(film));
@@ -151,7 +151,7 @@ void RunDirectory::write_preview(std::span<const PixelEstimate> film, int width,
     const double cost =
         timer.seconds() +
         std::max(preview_seconds_.load(), kPreviewSecondsPerPixel * static_cast<double>(count)) / processors();
-    next_preview_ = elapsed_seconds + std::max(1.0, kPreviewShare * cost);
+    next_preview_ = elapsed_seconds + std::max(1.0, kPreviewInterval * cost);
 }
 
 void RunDirectory::add_pass(const PassReport& report) {
@@ -193,8 +193,7 @@ void RunDirectory::write_image(const RenderResult& result) {
         "image.exr",
         [this, image = result.image, width = result.width, height = result.height,
          attributes = image_attributes(result)] {
-            write_bytes("image.exr",
-                        encode_image(path() / "image.exr", *image, width, height, facts_.place, attributes),
+            write_bytes("image.exr", encode_image(path() / "image.exr", *image, width, height, facts_.crop, attributes),
                         Outlives::power);
             const std::lock_guard lock(on_disk_mutex_);
             on_disk_ = image;
@@ -218,7 +217,7 @@ std::vector<LastFile> RunDirectory::last_files(const RenderResult& result, Outli
         const auto encoded = std::make_shared<std::vector<std::uint8_t>>();  // once for both files
         const auto image = [this, encoded, &result]() -> const std::vector<std::uint8_t>& {
             if (encoded->empty())
-                *encoded = encode_image(path() / "image.exr", *result.image, result.width, result.height, facts_.place,
+                *encoded = encode_image(path() / "image.exr", *result.image, result.width, result.height, facts_.crop,
                                         image_attributes(result));
             return *encoded;
         };

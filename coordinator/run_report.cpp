@@ -134,9 +134,9 @@ Json farm_json(const Farm& farm) {
 }
 
 /// Place of the image on the whole film; null if it is that.
-Json crop_json(const ImagePlace& place) {
-    if (!place.is_window()) return {};
-    return {{"x", place.x}, {"y", place.y}, {"film_width", place.whole_width}, {"film_height", place.whole_height}};
+Json crop_json(const CropWindow& crop) {
+    if (!crop.is_window()) return {};
+    return {{"x", crop.x}, {"y", crop.y}, {"film_width", crop.whole_width}, {"film_height", crop.whole_height}};
 }
 
 }  // namespace
@@ -192,7 +192,7 @@ std::string summary_json(const Job& job, const RunFacts& facts, const RenderResu
                     {"started", time_text(std::time(nullptr) - static_cast<std::time_t>(end.elapsed_seconds))},
                     {"width", result.width},
                     {"height", result.height},
-                    {"crop", crop_json(facts.place)},
+                    {"crop", crop_json(facts.crop)},
                     {"spp", result.spp},
                     {"seconds", end.elapsed_seconds},
                     {"image_hash", result.spp > 0 ? hash_text(result.image_hash) : ""},

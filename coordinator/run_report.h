@@ -23,7 +23,7 @@ struct RunFacts {
     std::uint64_t scene_hash = 0;
     Fingerprint fingerprint;
     std::vector<Approximation> approximations;
-    ImagePlace place{};  ///< of a crop window's image
+    CropWindow crop{};  ///< of a crop window's image
 };
 
 /// How a run came out.

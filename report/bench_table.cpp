@@ -43,7 +43,7 @@ void add_measurement(const Json& json, std::vector<BenchChoice>& choices) {
     BenchVariant& variant = named(named(choices, name.substr(0, slash)).variants, variant_name);
     variant.nanoseconds.push_back(1e9 / json.at("items_per_second").get<double>());
     if (variant.nanoseconds.size() > 1) return;
-    variant.place = json.value("family_index", 0);
+    variant.index = json.value("family_index", 0);
     for (const auto& [key, value] : json.items())
         if (value.is_number() && !kOfEveryBenchmark.contains(key)) variant.counters[key] = value;
 }
@@ -92,7 +92,7 @@ std::vector<BenchChoice> read_bench(const std::filesystem::path& file) {
     // Repetitions may be interleaved at random: the program's own order is that of its families.
     for (BenchChoice& choice : choices)
         std::stable_sort(choice.variants.begin(), choice.variants.end(),
-                         [](const BenchVariant& a, const BenchVariant& b) { return a.place < b.place; });
+                         [](const BenchVariant& a, const BenchVariant& b) { return a.index < b.index; });
     return choices;
 }
 

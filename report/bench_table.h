@@ -13,7 +13,7 @@ namespace treefarm {
 /// A way of doing something, measured by a program of bench/.
 struct BenchVariant {
     std::string name;
-    int place = 0;                           ///< among the program's benchmarks
+    int index = 0;                           ///< among the program's benchmarks
     std::vector<double> nanoseconds;         ///< of the processor, per item, by repetition
     std::map<std::string, double> counters;  ///< what else the program says of it, of the first repetition
 };

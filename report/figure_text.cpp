@@ -52,8 +52,8 @@ std::string time_text(const Interval& seconds, bool of_cores) {
     return text + " [" + time_text(seconds.low, of_cores) + ", " + time_text(seconds.high, of_cores) + "]";
 }
 
-std::string percent_text(double share) {
-    return fmt::format("{:.3g} %", 100 * share);
+std::string percent_text(double fraction) {
+    return fmt::format("{:.3g} %", 100 * fraction);
 }
 
 std::string seeds_text(std::size_t seeds) {

@@ -27,7 +27,7 @@ std::string time_text(double seconds, bool of_cores);
 std::string time_text(const Interval& seconds, bool of_cores);
 
 /// "12.3 %"
-std::string percent_text(double share);
+std::string percent_text(double fraction);
 
 /// "3 seeds"
 std::string seeds_text(std::size_t seeds);

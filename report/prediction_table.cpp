@@ -39,7 +39,7 @@ std::string median_text(std::vector<double> values) {
     return fmt::format("{:.2f}", *middle);
 }
 
-std::string share_text(int part, int all) {
+std::string fraction_text(int part, int all) {
     return all == 0 ? "" : fmt::format("{} of {}", part, all);
 }
 
@@ -75,10 +75,11 @@ std::string prediction_table(const StudyResults& results, const SceneResult& sce
         const auto cells = results.of(scene.name, method.name);
         if (cells.empty()) continue;
         const Predictions p = predictions_of(cells);
-        rows.push_back(
-            {html_text(method.name), p.error_ratios.empty() ? "" : interval_text(geometric_mean(p.error_ratios)),
-             share_text(p.covered, p.intervals), share_text(p.firm.within, p.firm.made), median_text(p.firm.ratios),
-             share_text(p.learning.within, p.learning.made), share_text(p.noisy.within, p.noisy.made)});
+        rows.push_back({html_text(method.name),
+                        p.error_ratios.empty() ? "" : interval_text(geometric_mean(p.error_ratios)),
+                        fraction_text(p.covered, p.intervals), fraction_text(p.firm.within, p.firm.made),
+                        median_text(p.firm.ratios), fraction_text(p.learning.within, p.learning.made),
+                        fraction_text(p.noisy.within, p.noisy.made)});
     }
     return html_table(rows);
 }

@@ -20,8 +20,8 @@ double t_quantile(std::size_t freedom) {
     return z + (z * z * z + z) / (4 * n) + (5 * std::pow(z, 5) + 16 * z * z * z + 3 * z) / (96 * n * n);
 }
 
-double log_interpolate(const CurvePoint& a, const CurvePoint& b, double share) {
-    return std::exp(std::log(a.error) + share * (std::log(b.error) - std::log(a.error)));
+double log_interpolate(const CurvePoint& a, const CurvePoint& b, double fraction) {
+    return std::exp(std::log(a.error) + fraction * (std::log(b.error) - std::log(a.error)));
 }
 
 }  // namespace
@@ -53,8 +53,8 @@ Crossing time_to(std::span<const CurvePoint> curve, double target) {
     for (std::size_t k = 1; k < curve.size(); ++k) {
         const CurvePoint &a = curve[k - 1], &b = curve[k];
         if (b.error > target) continue;
-        const double share = (std::log(a.error) - std::log(target)) / (std::log(a.error) - std::log(b.error));
-        return {std::exp(std::log(a.seconds) + share * (std::log(b.seconds) - std::log(a.seconds))), false};
+        const double fraction = (std::log(a.error) - std::log(target)) / (std::log(a.error) - std::log(b.error));
+        return {std::exp(std::log(a.seconds) + fraction * (std::log(b.seconds) - std::log(a.seconds))), false};
     }
     const double ratio = curve.back().error / target;
     return {curve.back().seconds * ratio * ratio, true};
@@ -66,8 +66,8 @@ double error_at(std::span<const CurvePoint> curve, double seconds) {
         const CurvePoint &a = curve[k - 1], &b = curve[k];
         if (seconds > b.seconds && k + 1 < curve.size()) continue;
         const double length = std::log(b.seconds) - std::log(a.seconds);
-        const double share = length > 0 ? (std::log(seconds) - std::log(a.seconds)) / length : 1.0;
-        return log_interpolate(a, b, std::clamp(share, 0.0, 1.0));
+        const double fraction = length > 0 ? (std::log(seconds) - std::log(a.seconds)) / length : 1.0;
+        return log_interpolate(a, b, std::clamp(fraction, 0.0, 1.0));
     }
     return curve.front().error;
 }

@@ -12,7 +12,7 @@
 #include "report/html.h"
 #include "report/page_assets.h"
 #include "report/prediction_table.h"
-#include "report/processor_share.h"
+#include "report/processor_fraction.h"
 #include "report/study_charts.h"
 #include "report/study_tables.h"
 #include "report/tree_pictures.h"

@@ -2,7 +2,7 @@
 #include "report/study_report.h"
 
 #include "common/image/atomic_file.h"
-#include "report/processor_share.h"
+#include "report/processor_fraction.h"
 #include "report/study_csv.h"
 #include "report/study_page.h"
 #include "report/verdict.h"

@@ -70,13 +70,13 @@ PassRow read_pass(const Json& json) {
     return row;
 }
 
-CellResult read_cell(const Json& place, const std::filesystem::path& folder, const std::string& budget) {
+CellResult read_cell(const Json& entry, const std::filesystem::path& folder, const std::string& budget) {
     const Json json = read_json(folder / "cell.json");
     CellResult cell;
-    cell.scene = place.at("scene");
-    cell.method = place.at("method");
-    cell.seed = place.at("seed");
-    cell.repetition = place.at("repetition");
+    cell.scene = entry.at("scene");
+    cell.method = entry.at("method");
+    cell.seed = entry.at("seed");
+    cell.repetition = entry.at("repetition");
     cell.folder = folder;
     cell.width = json.at("width");
     cell.height = json.at("height");
@@ -159,11 +159,11 @@ StudyResults read_study_results(const std::filesystem::path& folder) {
     try {
         const Json json = read_json(folder / "study.json");
         read_description(json, results);
-        for (const Json& place : json.at("cells")) {
-            const std::filesystem::path cell = folder / "cells" / place.at("folder").get<std::string>();
+        for (const Json& entry : json.at("cells")) {
+            const std::filesystem::path cell = folder / "cells" / entry.at("folder").get<std::string>();
             if (std::filesystem::exists(cell / "cell.json")) {
-                const std::size_t budget = place.value("budget", std::size_t{0});
-                results.cells.push_back(read_cell(place, cell, results.budgets.at(budget)));
+                const std::size_t budget = entry.value("budget", std::size_t{0});
+                results.cells.push_back(read_cell(entry, cell, results.budgets.at(budget)));
             }
         }
     } catch (const Json::exception& error) {

@@ -9,7 +9,7 @@
 #include "report/figure_text.h"
 #include "report/gain.h"
 #include "report/html.h"
-#include "report/processor_share.h"
+#include "report/processor_fraction.h"
 
 namespace treefarm {
 
@@ -106,10 +106,10 @@ std::string figures_table(const StudyResults& results, const SceneResult& scene)
         const auto measured = [&](const char* key) {
             return mean(cells, last([key](const PassRow& row) { return row.measured.at(key); }));
         };
-        const double share = mean(cells, processor_share);
+        const double fraction = mean(cells, processor_fraction);
         rows.push_back({html_text(method.name), fmt::format("{:.3g}", mean(cells, last(clocks()[0].value))),
                         fmt::format("{:.3g}", mean(cells, last(clocks()[1].value))),
-                        std::isfinite(share) ? fmt::format("{:.0f} %", 100 * share) : "?"});
+                        std::isfinite(fraction) ? fmt::format("{:.0f} %", 100 * fraction) : "?"});
         if (!results.has_references) continue;
         rows.back().push_back(percent_text(measured("mape")));
         rows.back().push_back(fmt::format("{:.3g}", mean(cells, [](const CellResult& cell) { return cell.flip; })));

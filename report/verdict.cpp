@@ -8,7 +8,7 @@
 
 #include "report/figure_text.h"
 #include "report/gain.h"
-#include "report/processor_share.h"
+#include "report/processor_fraction.h"
 
 namespace treefarm {
 

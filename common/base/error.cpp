@@ -13,8 +13,8 @@ std::string Location::text() const {
 }
 
 static std::string join(const Location& where, const std::string& what, const std::string& cure) {
-    const std::string place = where.text();
-    return (place.empty() ? "" : place + ": ") + what + (cure.empty() ? "" : "; " + cure);
+    const std::string location = where.text();
+    return (location.empty() ? "" : location + ": ") + what + (cure.empty() ? "" : "; " + cure);
 }
 
 InputError::InputError(const Location& where, const std::string& what, const std::string& cure)

@@ -20,7 +20,7 @@ enum class Stream : std::uint32_t {
     light_record,  ///< as `record`, for next event's records
     bootstrap,     ///< the interval of the estimated error; keyed by block and resample instead of pixel and sample
     candidate,     ///< further directions to choose among, and which is taken; keyed by vertex and candidate
-    branch,        ///< whether the lesser way out of glass is followed, too
+    glass_split,   ///< whether the lesser way out of glass is followed, too
 };
 
 /// Names one camera path: the same key gives the same path on any machine, thread or rank.

@@ -7,7 +7,7 @@ namespace treefarm {
 
 namespace {
 
-Payload share(Bytes bytes) {
+Payload as_payload(Bytes bytes) {
     return std::make_shared<const Bytes>(std::move(bytes));
 }
 
@@ -21,7 +21,7 @@ void send_along_chain(Channel& channel, const BlobName& name, std::span<const st
         const std::size_t count = std::min<std::size_t>(chunk_bytes, bytes.size() - chunk.offset);
         const auto piece = bytes.subspan(chunk.offset, count);
         chunk.bytes.assign(piece.begin(), piece.end());
-        channel.send(static_cast<int>(chain.front()), share(encode(chunk)));
+        channel.send(static_cast<int>(chain.front()), as_payload(encode(chunk)));
         chunk.offset += count;
     } while (chunk.offset < bytes.size());
 }
@@ -42,7 +42,7 @@ void ChainReceiver::pass_on(const Chunk& chunk) {
         return;  // no chain that the coordinator made; who waits for the piece asks for it
     Chunk onward = chunk;
     onward.chain.erase(onward.chain.begin());
-    channel_.send(static_cast<int>(next), share(encode(onward)));
+    channel_.send(static_cast<int>(next), as_payload(encode(onward)));
 }
 
 bool ChainReceiver::has_room_for(const BlobName& name, std::size_t bytes) const {
@@ -123,7 +123,7 @@ void ChainReceiver::complain(double now, double patience) {
 void ChainReceiver::ask(const BlobName& name, Assembly& assembly, double now) {
     assembly.asked = true;
     assembly.last_heard = now;
-    channel_.send(0, share(encode(Resend{name.blob, name.job, name.epoch, assembly.bytes.size()})));
+    channel_.send(0, as_payload(encode(Resend{name.blob, name.job, name.epoch, assembly.bytes.size()})));
 }
 
 }  // namespace treefarm

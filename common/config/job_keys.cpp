@@ -236,7 +236,7 @@ std::vector<JobKey> make_job_keys() {
         "budget.error", "0, or 10^-6 to 1; or in percent, in quotes: \"5%\"",
         "estimated RMSE / mean luminance at which to stop: 0.05 or \"5%\"; 0: no such budget",
         [](auto& j) -> auto& { return j.budget.error; },
-        [](double v) { return v == 0.0 || (v >= kLeastError && v <= kGreatestError); }, &parse_share));
+        [](double v) { return v == 0.0 || (v >= kLeastError && v <= kGreatestError); }, &parse_fraction));
     add(integer_key(
         "budget.max_spp", "1 to 2^30",
         "samples per pixel at which `budget.seconds` and `budget.error` end at the latest",

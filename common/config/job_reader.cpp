@@ -41,7 +41,7 @@ void read_policy(const toml::table& section, const std::string& prefix, const st
                  std::vector<Setting>& settings) {
     for (const auto& [key, node] : section) {
         const std::string name = prefix + std::string(key.str());
-        const Location where = toml_place(node.source(), file);
+        const Location where = toml_location(node.source(), file);
         if (const toml::table* part = node.as_table())
             read_policy(*part, name + ".", file, settings);
         else if (const auto value = node.value<double>())
@@ -112,7 +112,7 @@ std::vector<Setting> parse_job_settings(const std::string& toml, const std::stri
         settings = read_settings(table, name);
         settings.insert(settings.end(), policy.begin(), policy.end());
     } catch (const toml::parse_error& error) {
-        throw InputError(toml_place(error.source(), name), "this is not TOML: " + one_line(error.description()),
+        throw InputError(toml_location(error.source(), name), "this is not TOML: " + one_line(error.description()),
                          "write key = value, text in quotes");
     }
     return settings;

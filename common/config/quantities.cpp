@@ -20,7 +20,7 @@ std::optional<double> parse_duration(std::string_view text) {
     return parse_number(text);
 }
 
-std::optional<double> parse_share(std::string_view text) {
+std::optional<double> parse_fraction(std::string_view text) {
     text = trim(text);
     if (!text.ends_with('%')) return parse_number(text);
     const auto percent = parse_number(text.substr(0, text.size() - 1));

@@ -10,7 +10,7 @@ namespace treefarm {
 std::optional<double> parse_duration(std::string_view text);
 
 /// A share of one, from a number or a percentage: "0.05", "5%", "5 %". Nothing for other text.
-std::optional<double> parse_share(std::string_view text);
+std::optional<double> parse_fraction(std::string_view text);
 
 /// budget.error. A black image is off by the root mean square of the true one, which is at least its mean: above 1 an
 /// image need not show anything.

@@ -16,7 +16,7 @@ struct StudyScene {
     std::string file;       ///< absolute
     std::string reference;  ///< absolute, an EXR file; empty: rendered
     Location where;         ///< of the file, for messages
-    Location reference_place;
+    Location reference_where;
     std::vector<Setting> settings;  ///< job keys of its own
 };
 

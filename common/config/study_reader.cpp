@@ -25,7 +25,7 @@ class StudyReader {
         require_kind(table, file_, TomlKind::study);
         for (const auto& [key, node] : table)
             if (std::find(std::begin(kKeys), std::end(kKeys), key.str()) == std::end(kKeys))
-                throw InputError(place(key.source()), "unknown key " + in_quotes(key.str()),
+                throw InputError(location(key.source()), "unknown key " + in_quotes(key.str()),
                                  did_you_mean(key.str(), kKeys, "see docs/use/studies.md for the keys"));
         study_.file = file_;
         read_directory(table);
@@ -41,14 +41,15 @@ class StudyReader {
         return std::move(study_);
     }
 
-    Location place(const toml::source_region& region) const { return toml_place(region, file_); }
+    Location location(const toml::source_region& region) const { return toml_location(region, file_); }
 
   private:
     const toml::table* section(const toml::table& table, std::string_view key) const {
         const toml::node* node = table.get(key);
         if (node == nullptr) return nullptr;
         if (!node->is_table())
-            throw InputError(place(node->source()), std::string(key) + " is " + toml_type_name(*node) + ", not a table",
+            throw InputError(location(node->source()),
+                             std::string(key) + " is " + toml_type_name(*node) + ", not a table",
                              "write [" + std::string(key) + "]");
         return node->as_table();
     }
@@ -68,7 +69,8 @@ class StudyReader {
 
     std::string text_of(const toml::node& node, const std::string& key) const {
         const auto text = node.value_exact<std::string>();
-        if (!text || text->empty()) throw InputError(place(node.source()), key + " is not text", "write it in quotes");
+        if (!text || text->empty())
+            throw InputError(location(node.source()), key + " is not text", "write it in quotes");
         return *text;
     }
 
@@ -81,7 +83,7 @@ class StudyReader {
         const std::filesystem::path file = path_.parent_path() / text_of(node, key);
         std::error_code error;
         if (!std::filesystem::is_regular_file(file, error))
-            throw InputError(place(node.source()), "there is no file " + path_in_quotes(file.string()),
+            throw InputError(location(node.source()), "there is no file " + path_in_quotes(file.string()),
                              "paths are relative to the study file's folder");
         return std::filesystem::absolute(file).lexically_normal().string();
     }
@@ -95,18 +97,18 @@ class StudyReader {
     }
 
     StudyScene read_scene(const std::string& name, const toml::node& node) const {
-        check_study_name(name, place(node.source()));
+        check_study_name(name, location(node.source()));
         const toml::table& keys = *require_table(node, "scene", name);
         StudyScene scene;
         scene.name = name;
         const toml::node* file = keys.get("file");
         if (file == nullptr)
-            throw InputError(place(node.source()), "scene." + name + " names no file", "add file = \"scene.xml\"");
+            throw InputError(location(node.source()), "scene." + name + " names no file", "add file = \"scene.xml\"");
         scene.file = existing_file(*file, "file");
-        scene.where = place(file->source());
+        scene.where = location(file->source());
         if (const toml::node* reference = keys.get("reference")) {
             scene.reference = existing_file(*reference, "reference");
-            scene.reference_place = place(reference->source());
+            scene.reference_where = location(reference->source());
         }
         scene.settings = settings_of(keys, StudyPart::scene);
         return scene;
@@ -115,7 +117,7 @@ class StudyReader {
     void read_methods(const toml::table& table) {
         if (const toml::table* methods = section(table, "method"))
             for (const auto& [name, node] : in_order(*methods)) {
-                check_study_name(name, place(node->source()));
+                check_study_name(name, location(node->source()));
                 study_.methods.push_back({name, settings_of(*require_table(*node, "method", name), StudyPart::method)});
             }
         if (study_.methods.empty()) study_.methods.push_back({"default", {}});
@@ -128,7 +130,7 @@ class StudyReader {
         for_each_job_key(*vary, file_, [&](const std::string& key, const Location& where, const toml::node& node) {
             const toml::array* values = node.as_array();
             if (values == nullptr || values->empty())
-                throw InputError(place(node.source()), key + " is not a list of values",
+                throw InputError(location(node.source()), key + " is not a list of values",
                                  "write " + key + " = [first, second]; a single value belongs into [job]");
             std::vector<StudyMethod> varied;
             for (const StudyMethod& method : study_.methods)
@@ -165,7 +167,7 @@ class StudyReader {
         std::vector<std::uint64_t> sorted = study_.seeds;
         std::sort(sorted.begin(), sorted.end());
         if (sorted.empty() || std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end())
-            throw InputError(place(node->source()), "seeds are a number of them, or a list without repetition",
+            throw InputError(location(node->source()), "seeds are a number of them, or a list without repetition",
                              "write seeds = 8 or seeds = [1, 2, 3]");
     }
 
@@ -179,7 +181,7 @@ class StudyReader {
                          std::int64_t greatest) const {
         const auto value = node.value_exact<std::int64_t>();
         if (!value || *value < least || *value > greatest)
-            throw InputError(place(node.source()), what + " is " + value_or_type(node) + ", which is not allowed",
+            throw InputError(location(node.source()), what + " is " + value_or_type(node) + ", which is not allowed",
                              "give an integer from " + std::to_string(least) + " to " + std::to_string(greatest));
         return *value;
     }
@@ -190,18 +192,18 @@ class StudyReader {
             "write one of seconds (equal time), spp (equal samples), error (equal error); a list for several: [1, 2, "
             "4]";
         if (budget == nullptr || budget->size() != 1)
-            throw InputError(budget ? place(budget->source()) : Location{file_, 1, 1},
+            throw InputError(budget ? location(budget->source()) : Location{file_, 1, 1},
                              "a study has one kind of budget for all cells", cure);
         const auto first = budget->cbegin();
         const toml::key& key = first->first;
         const toml::node& node = first->second;
         if (key.str() != "seconds" && key.str() != "spp" && key.str() != "error")
-            throw InputError(place(key.source()), "unknown budget " + in_quotes(key.str()), cure);
+            throw InputError(location(key.source()), "unknown budget " + in_quotes(key.str()), cure);
         const toml::array* list = node.as_array();
-        if (list != nullptr && list->empty()) throw InputError(place(node.source()), "a list without budgets", cure);
-        if (list == nullptr) add_budget(std::string(key.str()), place(key.source()), node, cure);
+        if (list != nullptr && list->empty()) throw InputError(location(node.source()), "a list without budgets", cure);
+        if (list == nullptr) add_budget(std::string(key.str()), location(key.source()), node, cure);
         for (std::size_t k = 0; list != nullptr && k < list->size(); ++k)
-            add_budget(std::string(key.str()), place(list->get(k)->source()), *list->get(k), cure);
+            add_budget(std::string(key.str()), location(list->get(k)->source()), *list->get(k), cure);
     }
 
     void add_budget(const std::string& key, const Location& where, const toml::node& node, const char* cure) {
@@ -209,10 +211,10 @@ class StudyReader {
         Job job;
         apply_layer(job, std::vector<Setting>{setting});
         if (key != "spp" && job.budget.seconds <= 0 && job.budget.error <= 0)
-            throw InputError(place(node.source()), "a budget of 0 renders nothing", cure);
+            throw InputError(location(node.source()), "a budget of 0 renders nothing", cure);
         for (const Setting& other : study_.budgets)
             if (other.value == setting.value)
-                throw InputError(place(node.source()), "the budget " + setting.value + " is listed twice",
+                throw InputError(location(node.source()), "the budget " + setting.value + " is listed twice",
                                  "name each once");
         study_.budgets.push_back(setting);
     }
@@ -229,7 +231,7 @@ class StudyReader {
         Job job;
         apply_layer(job, study_.reference.settings);
         if (std::find(study_.seeds.begin(), study_.seeds.end(), job.sampler.seed) != study_.seeds.end())
-            throw InputError(place(reference->source()),
+            throw InputError(location(reference->source()),
                              "the reference would share a seed with the cells, and their noise",
                              "set sampler.seed in [reference] to one that is not in seeds, for instance 1000000");
     }
@@ -249,13 +251,13 @@ class StudyReader {
             names.push_back(method.name);
         if (std::find(names.begin(), names.end(), study_.baseline) != names.end()) return;
         const std::string nearest = nearest_word(study_.baseline, names);
-        throw InputError(place(node->source()), "no method is called " + in_quotes(study_.baseline),
+        throw InputError(location(node->source()), "no method is called " + in_quotes(study_.baseline),
                          "did you mean " + in_quotes(nearest.empty() ? names.front() : nearest) + "?");
     }
 
     const toml::table* require_table(const toml::node& node, const char* kind, const std::string& name) const {
         if (!node.is_table())
-            throw InputError(place(node.source()), std::string(kind) + "." + name + " is " + toml_type_name(node),
+            throw InputError(location(node.source()), std::string(kind) + "." + name + " is " + toml_type_name(node),
                              std::string("write [") + kind + "." + name + "] and keys below it");
         return node.as_table();
     }
@@ -286,7 +288,7 @@ Study parse_study(const std::string& toml, const std::filesystem::path& path) {
     try {
         return reader.read(toml::parse(toml, path.string()));
     } catch (const toml::parse_error& error) {
-        throw InputError(reader.place(error.source()), "this is not TOML: " + one_line(error.description()),
+        throw InputError(reader.location(error.source()), "this is not TOML: " + one_line(error.description()),
                          "write key = value, text in quotes");
     }
 }

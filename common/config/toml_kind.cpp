@@ -39,7 +39,7 @@ const toml::key* job_key(const toml::table& table) {
 
 [[noreturn]] void refuse(const toml::key& key, const std::string& file, const std::string& what,
                          const std::string& cure) {
-    throw InputError(toml_place(key.source(), file), in_quotes(key.str()) + " is a key of " + what, cure);
+    throw InputError(toml_location(key.source(), file), in_quotes(key.str()) + " is a key of " + what, cure);
 }
 
 }  // namespace

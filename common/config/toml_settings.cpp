@@ -76,7 +76,7 @@ std::string value_text(const toml::node& node) {
 
 }  // namespace
 
-Location toml_place(const toml::source_region& region, const std::string& file) {
+Location toml_location(const toml::source_region& region, const std::string& file) {
     return {file, static_cast<int>(region.begin.line), static_cast<int>(region.begin.column)};
 }
 
@@ -115,40 +115,41 @@ void refuse_unavailable(const JobKey& key, const std::string& value, const Locat
             throw InputError(where, key.name + " = \"" + value + "\" is not available in this version", planned.cure);
 }
 
-Setting read_setting(const std::string& name, const Location& key_place, const toml::node& node,
+Setting read_setting(const std::string& name, const Location& key_location, const toml::node& node,
                      const std::string& file) {
-    const Location value_place = toml_place(node.source(), file);
+    const Location value_location = toml_location(node.source(), file);
     if (is_define(name)) {
         if (!node.is_value())
-            throw InputError(value_place, name + " is " + toml_type_name(node), "give text or a number");
+            throw InputError(value_location, name + " is " + toml_type_name(node), "give text or a number");
     } else {
-        const JobKey& key = require_job_key(name, key_place);
-        if (node.is_string()) refuse_unavailable(key, value_text(node), value_place);
+        const JobKey& key = require_job_key(name, key_location);
+        if (node.is_string()) refuse_unavailable(key, value_text(node), value_location);
         if (!matches(node, key.kind))
-            throw InputError(value_place, name + " is " + toml_type_name(node) + ", not " + wanted_type_name(key.kind),
+            throw InputError(value_location,
+                             name + " is " + toml_type_name(node) + ", not " + wanted_type_name(key.kind),
                              "allowed: " + key.range);
     }
-    return {name, value_text(node), value_place};
+    return {name, value_text(node), value_location};
 }
 
 void for_each_job_key(const toml::table& table, const std::string& file, const TakeJobKey& take,
                       const std::string& prefix) {
     for (const auto& [toml_key, node] : table) {
         const std::string name = prefix + std::string(toml_key.str());
-        const Location key_place = toml_place(toml_key.source(), file);
+        const Location key_location = toml_location(toml_key.source(), file);
         if (const toml::table* section = node.as_table(); section != nullptr && !is_define(name)) {
-            if (!is_section(name)) refuse_key(name, key_place);
+            if (!is_section(name)) refuse_key(name, key_location);
             for_each_job_key(*section, file, take, name + ".");
         } else {
-            take(name, key_place, node);
+            take(name, key_location, node);
         }
     }
 }
 
 std::vector<Setting> read_settings(const toml::table& table, const std::string& file) {
     std::vector<Setting> settings;
-    for_each_job_key(table, file, [&](const std::string& key, const Location& key_place, const toml::node& value) {
-        settings.push_back(read_setting(key, key_place, value, file));
+    for_each_job_key(table, file, [&](const std::string& key, const Location& key_location, const toml::node& value) {
+        settings.push_back(read_setting(key, key_location, value, file));
     });
     return settings;
 }

@@ -139,8 +139,8 @@ ErrorEstimate estimate_error(const CombinedImage& image, std::uint64_t seed) {
     const std::vector<double> ratios = resampled_ratios(blocks, seed);
     const double centre = whole.by_halves / whole.by_variance;
     const double exponent = 0.5 * small_sample_factor(blocks, centre);  // 0.5: of the root
-    const auto at = [&](double share) {
-        const double index = share * static_cast<double>(ratios.size() - 1);
+    const auto at = [&](double fraction) {
+        const double index = fraction * static_cast<double>(ratios.size() - 1);
         return std::pow(ratios[static_cast<std::size_t>(std::lround(index))] / centre, exponent);
     };
     estimate.low *= at(kTail);

@@ -73,25 +73,25 @@ double per_path(std::uint64_t rays, std::uint64_t paths) {
 
 ProbePixels::ProbePixels(std::size_t film_pixels, std::uint32_t pass) {
     constexpr std::uint64_t kAll = std::uint64_t{1} << 32;
-    const std::uint64_t share = kPolicy.guiding.probe_pixels * kAll / std::max<std::uint64_t>(film_pixels, 1);
-    count_ = static_cast<std::uint32_t>(std::clamp(share, kAll / 128, kAll / 8));
+    const std::uint64_t fraction = kPolicy.guiding.probe_pixels * kAll / std::max<std::uint64_t>(film_pixels, 1);
+    count_ = static_cast<std::uint32_t>(std::clamp(fraction, kAll / 128, kAll / 8));
     first_ = pass % 8 * count_;
 }
 
-void ProbesSetAside::take_out(std::span<PixelEstimate> pixels, std::uint32_t pass, std::size_t place) {
+void ProbesSetAside::take_out(std::span<PixelEstimate> pixels, std::uint32_t pass, std::size_t index) {
     const ProbePixels probe(pixels.size(), pass);
     for (std::size_t p = 0; p < pixels.size(); ++p)
-        if (probe.holds(static_cast<std::uint32_t>(p))) probes_.push_back({place, p, std::exchange(pixels[p], {})});
+        if (probe.holds(static_cast<std::uint32_t>(p))) probes_.push_back({index, p, std::exchange(pixels[p], {})});
 }
 
 void ProbesSetAside::follow_fold(std::size_t first) {
     for (Probe& probe : probes_)
-        if (probe.place > first) --probe.place;
+        if (probe.index > first) --probe.index;
 }
 
 void ProbesSetAside::put_back(std::span<PassResult> passes) {
     for (const Probe& probe : std::exchange(probes_, {})) {
-        PixelEstimate& pixel = passes[probe.place].pixels[probe.pixel];  // empty, but for passes that were merged
+        PixelEstimate& pixel = passes[probe.index].pixels[probe.pixel];  // empty, but for passes that were merged
         pixel = PixelEstimate::merge(pixel, probe.estimate);
     }
     for (PassResult& pass : passes)

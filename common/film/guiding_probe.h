@@ -31,8 +31,9 @@ class ProbePixels {
 /// where guiding is given up.
 class ProbesSetAside {
   public:
-    /// Takes the unguided pixels out of a probe pass, the one that will be at `place` among the passes of the image.
-    void take_out(std::span<PixelEstimate> pixels, std::uint32_t pass, std::size_t place);
+    /// Takes the unguided pixels out of a probe pass, the one that will be number `index` among the passes of the
+    /// image.
+    void take_out(std::span<PixelEstimate> pixels, std::uint32_t pass, std::size_t index);
     /// Follows passes whose neighbours `first` and first + 1 have become one (fold_passes.h).
     void follow_fold(std::size_t first);
     /// Gives the pixels back to their passes, once.
@@ -40,7 +41,7 @@ class ProbesSetAside {
 
   private:
     struct Probe {
-        std::size_t place, pixel;
+        std::size_t index, pixel;
         PixelEstimate estimate;
     };
     std::vector<Probe> probes_;

@@ -5,10 +5,10 @@ namespace treefarm {
 
 void Moments::add(const Rgb& value) {
     ++n;
-    const double share = 1.0 / n;
+    const double fraction = 1.0 / n;
     for (int c = 0; c < 3; ++c) {
         const double deviation = static_cast<double>(value[c]) - mean[c];
-        mean[c] += deviation * share;
+        mean[c] += deviation * fraction;
         m2[c] += deviation * (static_cast<double>(value[c]) - mean[c]);
     }
 }
@@ -18,11 +18,11 @@ Moments Moments::merge(const Moments& a, const Moments& b) {
     if (b.n == 0) return a;
     Moments whole;
     whole.n = a.n + b.n;
-    const double share = static_cast<double>(b.n) / whole.n;
+    const double fraction = static_cast<double>(b.n) / whole.n;
     for (int c = 0; c < 3; ++c) {
         const double difference = b.mean[c] - a.mean[c];
-        whole.mean[c] = a.mean[c] + difference * share;
-        whole.m2[c] = a.m2[c] + b.m2[c] + difference * difference * (a.n * share);
+        whole.mean[c] = a.mean[c] + difference * fraction;
+        whole.m2[c] = a.m2[c] + b.m2[c] + difference * difference * (a.n * fraction);
     }
     return whole;
 }

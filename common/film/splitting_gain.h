@@ -8,7 +8,7 @@
 namespace treefarm {
 
 /// Whether splitting paths pays, measured by the render itself: a path that was split also knows what it would have
-/// carried alone, so each camera path is two samples of its pixel, with copies and without. Told apart by the same
+/// carried alone, so each camera path is two samples of its pixel, with split paths and without. Told apart by the same
 /// paths, the two differ in nothing but the splitting, and a few samples tell.
 
 /// Samples of a pixel, each of them split and unsplit.

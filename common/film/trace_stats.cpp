@@ -19,7 +19,7 @@ void TraceStats::add(const TraceStats& other) {
     records += other.records;
     probe_paths += other.probe_paths;
     probe_rays += other.probe_rays;
-    copy_rays += other.copy_rays;
+    split_path_rays += other.split_path_rays;
     invalid_samples += other.invalid_samples;
     splitting.add(other.splitting);
     for (const InvalidSample& sample : other.first_invalid)

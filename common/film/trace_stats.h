@@ -25,7 +25,8 @@ enum class TracePhase : std::uint8_t {
 };
 inline constexpr std::size_t kTracePhases = 5;
 
-/// Sums over pixels of a pass whose paths may be split, with and without their copies (splitting_gain.h); whole units.
+/// Sums over pixels of a pass whose paths may be split, with and without their split paths (splitting_gain.h); whole
+/// units.
 struct SplittingSums {
     std::uint64_t split_mean = 0, unsplit_mean = 0;
     std::uint64_t split_variance = 0, unsplit_variance = 0;  ///< of one sample
@@ -42,7 +43,7 @@ struct TraceStats {
     std::uint64_t vertices = 0;                     ///< surface vertices at which a direction was sampled
     std::uint64_t records = 0;                      ///< of them, recorded for the tree
     std::uint64_t probe_paths = 0, probe_rays = 0;  ///< of them, of unguided paths in a probe pass
-    std::uint64_t copy_rays = 0;                    ///< of them, of copies that paths left where they were split
+    std::uint64_t split_path_rays = 0;              ///< of them, of split paths that paths left where they were split
     std::uint64_t invalid_samples = 0;
     SplittingSums splitting;
     std::vector<InvalidSample> first_invalid;          ///< at most kMaxReported of them, to reproduce

@@ -66,8 +66,8 @@ std::uint64_t BoxBlock::cut_part(std::uint32_t count) {
         capped += quanta_[kPart][i] >= kMostQuanta;
         if constexpr (kPart != 0) {
             const std::uint32_t random = scrambled(rounding_[i], 2 * part + 1);
-            place_[kPart][i] = folded_code(left_[i] + (right & before_x_[i]) + scaled(random & 0xffffu, width),
-                                           top_[i] + (lower & before_y_[i]) + scaled(random >> 16, height));
+            part_code_[kPart][i] = folded_code(left_[i] + (right & before_x_[i]) + scaled(random & 0xffffu, width),
+                                               top_[i] + (lower & before_y_[i]) + scaled(random >> 16, height));
         }
     }
     return static_cast<std::uint64_t>(capped);

@@ -33,8 +33,8 @@ class BoxBlock {
     std::uint64_t quanta(std::uint32_t part, std::uint32_t i) const {
         return static_cast<std::uint64_t>(static_cast<std::int64_t>(quanta_[part][i]));
     }
-    /// Z-order code of the place of part 1, 2 or 3.
-    std::uint32_t place(std::uint32_t part, std::uint32_t i) const { return place_[part][i]; }
+    /// Z-order code of the point of part 1, 2 or 3.
+    std::uint32_t part_code(std::uint32_t part, std::uint32_t i) const { return part_code_[part][i]; }
 
   private:
     template <class T>
@@ -53,7 +53,7 @@ class BoxBlock {
     alignas(32) Lanes<std::int32_t> left_{}, top_{}, before_x_{}, before_y_{};
     alignas(32) Lanes<std::uint32_t> own_{};
     alignas(32) std::array<Lanes<double>, kParts> quanta_{};
-    alignas(32) std::array<Lanes<std::uint32_t>, kParts> place_{};
+    alignas(32) std::array<Lanes<std::uint32_t>, kParts> part_code_{};
 };
 
 }  // namespace treefarm

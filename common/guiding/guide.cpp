@@ -41,7 +41,7 @@ Guide::Guide(const SdTree& tree)
       view_fraction_(tree.view_fraction),
       quantum_exponent_(tree.quantum_exponent),
       bsdf_fraction_(tree.bsdf_fraction),
-      light_share_(tree.light_share),
+      light_probabilities_(tree.light_probabilities),
       region_depth_(tree.region_count()) {
     for (int depth = 0; depth <= kMaxSpatialDepth; ++depth)
         for (int axis = 0; axis < 3; ++axis)
@@ -55,7 +55,7 @@ Guide::Guide(const SdTree& tree)
     for (std::uint32_t r = 0; r < region_count(); ++r) {
         const std::size_t first = cells_.size();
         add_distribution(tree, r);
-        fill_guides<kRegionBits>(region_mass_[r], region_code_[r], first);
+        fill_lookups<kRegionBits>(region_mass_[r], region_code_[r], first);
     }
     add_views(tree);
     cells_.resize(cells_.size() + kFewCells);
@@ -67,7 +67,7 @@ void Guide::add_views(const SdTree& tree) {
     for (std::uint32_t v = 0; v < tree.view_count(); ++v) {
         const std::size_t first = cells_.size();
         add_distribution(tree, region_count() + v);
-        fill_guides<kViewBits>(view_mass_[v], view_code_[v], first);
+        fill_lookups<kViewBits>(view_mass_[v], view_code_[v], first);
     }
     views_.resize(tree.view_set.size());
     for (std::uint32_t r = 0; r < views_.size(); ++r)
@@ -95,7 +95,7 @@ void Guide::add_distribution(const SdTree& tree, std::uint32_t distribution) {
 
 /// The binary search of a look-up runs between entries k and k + 1.
 template <int bits>
-void Guide::fill_guides(GuideTable<bits>& by_mass, GuideTable<bits>& by_code, std::size_t first) const {
+void Guide::fill_lookups(LookupTable<bits>& by_mass, LookupTable<bits>& by_code, std::size_t first) const {
     constexpr std::uint32_t kSize = 1u << bits;
     const std::size_t end = cells_.size() - 1;
     std::uint32_t next_mass = 0, next_code = 0;
@@ -206,8 +206,8 @@ float Guide::pdf(std::uint32_t distribution, std::uint32_t code) const {
     return density(find(distribution, code));
 }
 
-Guide::Place Guide::sample_place(std::uint32_t distribution, std::uint32_t pick, std::uint32_t u0,
-                                 std::uint32_t u1) const {
+Guide::SquareSample Guide::sample_square(std::uint32_t distribution, std::uint32_t pick, std::uint32_t u0,
+                                         std::uint32_t u1) const {
     const std::uint32_t mass = pick >> (32 - kMassBits);
     // The last cell whose probability begins at or before the pick is never an empty one.
     const Cell* const cell = last_before(range(by_mass(distribution, mass)), &Cell::mass_begin, mass);
@@ -218,17 +218,20 @@ Guide::Place Guide::sample_place(std::uint32_t distribution, std::uint32_t pick,
     const int shift = kFineBits + std::countr_zero(area) / 2;  // a cell is 2^shift steps wide
     const std::uint32_t x = (compact_bits(begin) << kFineBits) + (u0 >> (32 - shift));
     const std::uint32_t y = (compact_bits(begin >> 1) << kFineBits) + (u1 >> (32 - shift));
-    const auto place = [](std::uint32_t steps) {
+    const auto coordinate = [](std::uint32_t steps) {
         return static_cast<float>(static_cast<std::int32_t>(2 * steps + 1)) * 0x1p-24f;
     };
-    return {{place(x), place(y)}, spread_bits(x >> kFineBits) | (spread_bits(y >> kFineBits) << 1), density(cell)};
+    return {{coordinate(x), coordinate(y)},
+            spread_bits(x >> kFineBits) | (spread_bits(y >> kFineBits) << 1),
+            density(cell)};
 }
 
 std::size_t Guide::bytes() const {
     return treelets_.size() * sizeof(treelets_[0]) + top_.size() * 4 + cells_.size() * sizeof(Cell) +
            2 * region_mass_.size() * sizeof(region_mass_[0]) + 2 * view_mass_.size() * sizeof(view_mass_[0]) +
-           quantum_exponent_.size() * 2 + bsdf_fraction_.size() * 4 + light_share_.size() * sizeof(LightShare) +
-           region_depth_.size() + view_count() * 8 + views_.size() * sizeof(Views);
+           quantum_exponent_.size() * 2 + bsdf_fraction_.size() * 4 +
+           light_probabilities_.size() * sizeof(LightProbabilities) + region_depth_.size() + view_count() * 8 +
+           views_.size() * sizeof(Views);
 }
 
 }  // namespace treefarm

@@ -16,14 +16,14 @@
 namespace treefarm {
 
 /// The tree in the form that workers sample from: 8-way spatial treelets and, per region, a flat cumulative table with
-/// guide entries (bench/guide_bench.cpp shows why). Immutable; one per process, shared by its threads.
+/// look-up entries (bench/guide_bench.cpp shows why). Immutable; one per process, shared by its threads.
 class Guide {
   public:
     explicit Guide(const SdTree& tree);
 
-    /// A sampled place on the direction square (direction_map.h), with the density of exactly the cell it was drawn
+    /// A sampled point of the direction square (direction_map.h), with the density of exactly the cell it was drawn
     /// from.
-    struct Place {
+    struct SquareSample {
         Vec2 at;             ///< in [0, 1)^2
         std::uint32_t code;  ///< its Z-order code, inside the sampled cell
         float pdf;           ///< per steradian of the direction, > 0
@@ -51,10 +51,10 @@ class Guide {
     float view_fraction(std::uint32_t distribution) const { return view_fraction_[distribution - region_count()]; }
 
     /// Whether next event learns how to choose emitters.
-    bool learns_lights() const { return !light_share_.empty(); }
+    bool learns_lights() const { return !light_probabilities_.empty(); }
     /// How next event chooses emitters in a region: nullptr, by power.
-    const LightShare* light_share(std::uint32_t region) const {
-        return light_share_.empty() ? nullptr : &light_share_[region];
+    const LightProbabilities* light_probabilities(std::uint32_t region) const {
+        return light_probabilities_.empty() ? nullptr : &light_probabilities_[region];
     }
 
     /// The region of a point. Points outside the cube belong to the nearest region (the caller may count them with
@@ -101,11 +101,12 @@ class Guide {
 
     /// Draws a direction; `pick`, `u0` and `u1` are uniform 32-bit numbers.
     Sample sample(std::uint32_t distribution, std::uint32_t pick, std::uint32_t u0, std::uint32_t u1) const {
-        const Place place = sample_place(distribution, pick, u0, u1);
-        return {square_to_direction(place.at), place.code, place.pdf};
+        const SquareSample drawn = sample_square(distribution, pick, u0, u1);
+        return {square_to_direction(drawn.at), drawn.code, drawn.pdf};
     }
-    /// Draws a place as sample() does, without its direction, which is quicker found for many places together.
-    Place sample_place(std::uint32_t distribution, std::uint32_t pick, std::uint32_t u0, std::uint32_t u1) const;
+    /// Draws a point as sample() does, without its direction, which is quicker found for many points together.
+    SquareSample sample_square(std::uint32_t distribution, std::uint32_t pick, std::uint32_t u0,
+                               std::uint32_t u1) const;
 
     /// Fetches what pdf() and cell() with this code will read first.
     void prefetch_pdf(std::uint32_t distribution, std::uint32_t code) const {
@@ -144,7 +145,7 @@ class Guide {
     };
     /// Per distribution, entry k of 2^bits: the cell that holds what is k / 2^bits of a look-up's key, or may hold it.
     template <int bits>
-    using GuideTable = std::array<std::uint32_t, (1u << bits) + 1>;
+    using LookupTable = std::array<std::uint32_t, (1u << bits) + 1>;
     static constexpr int kRegionBits = 6;
     static constexpr int kViewBits = 4;  ///< views are many and small
     static constexpr std::uint32_t kLeafFlag = 0x80000000u;
@@ -153,7 +154,7 @@ class Guide {
     void build_top();
     static float density(const Cell* cell);
     template <int bits>
-    void fill_guides(GuideTable<bits>& by_mass, GuideTable<bits>& by_code, std::size_t first) const;
+    void fill_lookups(LookupTable<bits>& by_mass, LookupTable<bits>& by_code, std::size_t first) const;
     /// Entries of the tables: the cell is among those from this entry's to the next one's.
     const std::uint32_t* by_mass(std::uint32_t distribution, std::uint32_t mass) const {
         return distribution < region_count()
@@ -201,8 +202,8 @@ class Guide {
     std::vector<std::uint32_t> top_;  ///< the entries that kTopBits treelets lead to, or the leaf before
     LargeTable<Cell> cells_;  ///< each distribution's, then one at which the next would begin: cell c of distribution
                               ///< d is c + d; kFewCells more at the end
-    LargeTable<GuideTable<kRegionBits>> region_mass_, region_code_;
-    LargeTable<GuideTable<kViewBits>> view_mass_, view_code_;
+    LargeTable<LookupTable<kRegionBits>> region_mass_, region_code_;
+    LargeTable<LookupTable<kViewBits>> view_mass_, view_code_;
     struct Views {
         std::uint32_t first = 0, count = 0;  ///< of the views that a region has
     };
@@ -211,7 +212,7 @@ class Guide {
     std::vector<float> view_fraction_;
     std::vector<std::int16_t> quantum_exponent_;
     std::vector<float> bsdf_fraction_;
-    std::vector<LightShare> light_share_;
+    std::vector<LightProbabilities> light_probabilities_;
     std::vector<std::uint8_t> region_depth_;                ///< halvings from the cube to the region
     std::array<Vec3, kMaxSpatialDepth + 1> region_size_{};  ///< per depth, in scene units
 };

@@ -39,7 +39,7 @@ void MixtureLearner::learn(const SdTree& tree, const TreeSums& sums, std::span<c
                            SdTree& next) {
     const std::size_t regions = tree.region_count();
     if (sums.shape() !=
-        SumsShape(tree.region_count(), tree.cell_count(), true, tree.view_count(), !tree.light_share.empty()))
+        SumsShape(tree.region_count(), tree.cell_count(), true, tree.view_count(), !tree.light_probabilities.empty()))
         throw RunError("the sums to learn the mixture from belong to another tree");
     histograms_.resize(regions);
     std::vector<float> fraction(regions);

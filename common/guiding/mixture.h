@@ -22,9 +22,9 @@ namespace treefarm {
 /// Bin of a direction with these densities (per steradian).
 inline std::uint8_t mixture_bin(float bsdf_pdf, float tree_pdf) {
     if (!(bsdf_pdf > 0.0f)) return 0;  // also where neither has a density: only a view reaches it
-    const float place = bsdf_pdf / (bsdf_pdf + tree_pdf) * static_cast<float>(kMixtureBins);
-    if (!(place > 0.0f)) return 0;  // also NaN
-    return static_cast<std::uint8_t>(place < static_cast<float>(kMixtureBins) ? place : kMixtureBins - 1);
+    const float position = bsdf_pdf / (bsdf_pdf + tree_pdf) * static_cast<float>(kMixtureBins);
+    if (!(position > 0.0f)) return 0;  // also NaN
+    return static_cast<std::uint8_t>(position < static_cast<float>(kMixtureBins) ? position : kMixtureBins - 1);
 }
 
 /// r at the centre of a bin, (0, 1).

@@ -171,9 +171,9 @@ class ViewRefiner {
         for (std::uint32_t t = 0; t < sets_.size(); ++t) {
             if (!sets_[t].kept) continue;
             // Parts share the records; as published they are not counted as shared.
-            const double parts = sets_[t].parts, share = settings_.views_record_alone ? 1.0 : parts;
+            const double parts = sets_[t].parts, parts_counted = settings_.views_record_alone ? 1.0 : parts;
             for (std::uint32_t v = old_.view_begin[t]; v < old_.view_begin[t + 1]; ++v) {
-                if (!(records(v) > settings_.view_threshold * share)) continue;
+                if (!(records(v) > settings_.view_threshold * parts_counted)) continue;
                 if (!advice_.empty() && !(gain(v) > 0)) continue;
                 if (old_.view_depth[v] == kMaxViewDepth) {
                     ++report_.views_capped;

@@ -44,7 +44,7 @@ SdTree initial_tree(const Box3& bounds, const InitialTree& settings) {
         if (settings.view_fraction == 0.0f)
             tree.bsdf_fraction.back() = static_cast<float>(kPolicy.learning.least_bsdf_fraction);
     }
-    if (settings.with_lights) tree.light_share = {{kLightShareOne}};
+    if (settings.with_lights) tree.light_probabilities = {{kLightProbabilityOne}};
     return tree;
 }
 

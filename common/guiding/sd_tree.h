@@ -10,11 +10,11 @@
 
 namespace treefarm {
 
-/// How next event chooses an emitter in a region, in parts of kLightShareOne, to which they sum: [0] by power among all
-/// of them, [c + 1] among those of cluster c (worker/lights/light_clusters.h).
+/// How next event chooses an emitter in a region, in parts of kLightProbabilityOne, to which they sum: [0] by power
+/// among all of them, [c + 1] among those of cluster c (worker/lights/light_clusters.h).
 inline constexpr int kLightClusters = 15;
-inline constexpr std::uint16_t kLightShareOne = 1 << 15;
-using LightShare = std::array<std::uint16_t, kLightClusters + 1>;
+inline constexpr std::uint16_t kLightProbabilityOne = 1 << 15;
+using LightProbabilities = std::array<std::uint16_t, kLightClusters + 1>;
 
 /// The SD-tree as plain values (Mueller et al. 2017): a binary tree over a cube of space, axes cycling x, y, z,
 /// midpoint splits, whose leaves ("regions") each hold a quadtree over directions, T1. Frozen for a pass; node, region
@@ -52,7 +52,8 @@ struct SdTree {
     std::vector<float> bsdf_fraction;  ///< per region: probability of sampling the BSDF rather than the tree; per view:
                                        ///< the least that is left of it, (0, 1]
 
-    std::vector<LightShare> light_share;  ///< per region; empty: emitters are chosen by power, and nothing is learned
+    /// Per region; empty: emitters are chosen by power, and nothing is learned.
+    std::vector<LightProbabilities> light_probabilities;
 
     std::uint32_t distribution_count() const { return static_cast<std::uint32_t>(quantum_exponent.size()); }
     std::uint32_t view_count() const { return static_cast<std::uint32_t>(view_depth.size()); }

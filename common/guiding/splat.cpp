@@ -11,7 +11,7 @@ namespace {
 
 /// Records in the order of their distributions.
 struct Order {
-    std::vector<std::uint32_t> records;  ///< their places in the log
+    std::vector<std::uint32_t> records;  ///< their indices in the log
     std::vector<std::uint32_t> ends;     ///< per distribution: where among `records` the next one's begin
 };
 
@@ -29,12 +29,12 @@ Order order_by_distribution(std::span<const Record> records, std::size_t distrib
 }
 
 /// Copies the records at the first `count` of `places`, and has as many that follow fetched meanwhile.
-void gather(std::span<const Record> records, std::span<const std::uint32_t> places, std::size_t count,
+void gather(std::span<const Record> records, std::span<const std::uint32_t> indices, std::size_t count,
             std::array<Record, BoxBlock::kRecords>& block) {
-    const std::size_t last = places.size() - 1;
+    const std::size_t last = indices.size() - 1;
     for (std::size_t i = 0; i < count; ++i) {
-        prefetch_line(&records[places[std::min(i + count, last)]]);
-        block[i] = records[places[i]];
+        prefetch_line(&records[indices[std::min(i + count, last)]]);
+        block[i] = records[indices[i]];
     }
 }
 
@@ -86,12 +86,12 @@ void Accumulator::add_boxes(std::span<const Record> records, const BlockCells& c
     for (std::uint32_t i = 0; i < records.size(); ++i)
         boxes.set(i, records[i], guide_.cell_side(records[i].distribution, cells[i]), exponent(records[i]));
     met.capped_records += boxes.cut(static_cast<std::uint32_t>(records.size()));
-    Shares others;
+    Overlaps others;
     for (std::uint32_t i = 0; i < records.size(); ++i) {
         add_to_cell(cells[i], boxes.quanta(0, i), met);
         for (std::uint32_t part = 1; part < BoxBlock::kParts; ++part) {
             others.distribution[others.count] = records[i].distribution;
-            others.code[others.count] = boxes.place(part, i);
+            others.code[others.count] = boxes.part_code(part, i);
             others.quanta[others.count] = boxes.quanta(part, i);
             others.count += others.quanta[others.count] != 0;
         }

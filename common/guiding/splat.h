@@ -38,7 +38,7 @@ class Accumulator {
     using BlockCells = std::array<std::uint32_t, BoxBlock::kRecords>;
 
     /// Quanta for the cells of so many codes.
-    struct Shares {
+    struct Overlaps {
         static constexpr std::uint32_t kMost = BoxBlock::kRecords * (BoxBlock::kParts - 1);
         std::uint32_t count = 0;
         std::array<std::uint32_t, kMost> distribution, code, cell;

@@ -111,9 +111,9 @@ void write_views(ByteWriter& out, const SdTree& tree) {
 }
 
 void write_lights(ByteWriter& out, const SdTree& tree) {
-    out.put<std::uint8_t>(!tree.light_share.empty());
-    for (const LightShare& share : tree.light_share)
-        for (const std::uint16_t part : share)
+    out.put<std::uint8_t>(!tree.light_probabilities.empty());
+    for (const LightProbabilities& probabilities : tree.light_probabilities)
+        for (const std::uint16_t part : probabilities)
             out.put(part);
 }
 
@@ -121,13 +121,14 @@ void read_lights(ByteReader& in, SdTree& tree, std::uint32_t regions) {
     const auto present = in.get<std::uint8_t>();
     if (present > 1) throw FormatError("a tree's choice of emitters is malformed");
     if (present == 0) return;
-    if (regions > in.remaining() / sizeof(LightShare)) throw FormatError("a tree's choice of emitters is cut short");
-    tree.light_share.resize(regions);
-    for (LightShare& share : tree.light_share) {
+    if (regions > in.remaining() / sizeof(LightProbabilities))
+        throw FormatError("a tree's choice of emitters is cut short");
+    tree.light_probabilities.resize(regions);
+    for (LightProbabilities& probabilities : tree.light_probabilities) {
         std::uint32_t sum = 0;
-        for (std::uint16_t& part : share)
+        for (std::uint16_t& part : probabilities)
             sum += part = in.get<std::uint16_t>();
-        if (sum != kLightShareOne) throw FormatError("a region's choice of emitters does not sum to one");
+        if (sum != kLightProbabilityOne) throw FormatError("a region's choice of emitters does not sum to one");
     }
 }
 

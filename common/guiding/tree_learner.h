@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "common/guiding/light_share.h"
+#include "common/guiding/light_probabilities.h"
 #include "common/guiding/mixture.h"
 #include "common/guiding/refine.h"
 #include "common/guiding/view_mixture.h"

@@ -78,8 +78,8 @@ Quantiles quantiles_of(std::vector<double> values) {
     double sum = 0;
     for (const double value : values)
         sum += value;
-    const auto quantile = [&](double share) {
-        const double rank = std::ceil(share * static_cast<double>(values.size()));
+    const auto quantile = [&](double fraction) {
+        const double rank = std::ceil(fraction * static_cast<double>(values.size()));
         return values[static_cast<std::size_t>(std::max(rank, 1.0)) - 1];
     };
     spread.mean = sum / static_cast<double>(values.size());

@@ -30,9 +30,9 @@ struct Record {
     std::uint8_t bin = 0;    ///< of the mixture histogram, or kLightBin and a cluster
 };
 
-/// Second moments of emitters are counted in units of 2^light_exponent(e), where records are in units of 2^e: one like
-/// the average record is then 2^16 units, and sums hold from 2^-8 to 2^11 times what the average is.
-inline constexpr int light_exponent(int quantum_exponent) {
+/// Second moments of emitters are counted in units of 2^light_sum_exponent(e), where records are in units of 2^e: one
+/// like the average record is then 2^16 units, and sums hold from 2^-8 to 2^11 times what the average is.
+inline constexpr int light_sum_exponent(int quantum_exponent) {
     return 2 * quantum_exponent + kMeanRecordBits;
 }
 

@@ -28,9 +28,9 @@ double view_gain(const MixtureHistogram& histogram, double others) {
     return sum / whole;
 }
 
-std::vector<ViewAdvice> ViewLearner::judge(const SdTree& tree, const TreeSums& sums, bool last_lesson) {
+std::vector<ViewAdvice> ViewLearner::judge(const SdTree& tree, const TreeSums& sums, bool last_update) {
     const std::uint32_t regions = tree.region_count(), views = tree.view_count();
-    if (sums.shape() != SumsShape(regions, tree.cell_count(), true, views, !tree.light_share.empty()))
+    if (sums.shape() != SumsShape(regions, tree.cell_count(), true, views, !tree.light_probabilities.empty()))
         throw RunError("the sums to learn the mixture from belong to another tree");
     views_.resize(views);
     std::vector<ViewAdvice> advice(views);
@@ -62,7 +62,7 @@ std::vector<ViewAdvice> ViewLearner::judge(const SdTree& tree, const TreeSums& s
     for (std::uint32_t v = 0; v < views; ++v) {
         int& idle_passes = views_[v].idle_passes;
         idle_passes = idle[v] || all_idle ? idle_passes + 1 : 0;
-        advice[v].keep = idle_passes < (last_lesson ? 1 : kPolicy.learning.idle_passes);
+        advice[v].keep = idle_passes < (last_update ? 1 : kPolicy.learning.idle_passes);
     }
     return advice;
 }

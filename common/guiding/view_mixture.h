@@ -24,8 +24,8 @@ double view_gain(const MixtureHistogram& histogram, double others);
 class ViewLearner {
   public:
     /// Adds what the pass over `tree` recorded; returns advice about its views, for refine(). A T2 gets a second
-    /// chance, but for the `last_lesson`.
-    std::vector<ViewAdvice> judge(const SdTree& tree, const TreeSums& sums, bool last_lesson);
+    /// chance, but for the `last_update`.
+    std::vector<ViewAdvice> judge(const SdTree& tree, const TreeSums& sums, bool last_update);
     /// Sets the fractions of the refined tree's views. `origins` as in RefineReport.
     void hand_down(std::span<const ViewOrigin> origins, SdTree& next);
 

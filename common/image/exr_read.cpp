@@ -72,7 +72,7 @@ void select_channels(const std::filesystem::path& path, const Imf::ChannelList& 
 }
 
 /// Place of a data window inside the display window; none for one that fills it, or reaches beyond.
-ImagePlace place_of(const Imath::Box2i& data, const Imath::Box2i& display) {
+CropWindow crop_of(const Imath::Box2i& data, const Imath::Box2i& display) {
     if (data == display || !display.intersects(data.min) || !display.intersects(data.max)) return {};
     const auto span = [](int low, int high) { return std::int64_t{high} - low; };
     if (span(display.min.x, display.max.x) >= kMaxImageSide || span(display.min.y, display.max.y) >= kMaxImageSide)
@@ -95,7 +95,7 @@ ExrImage read_checked(const std::filesystem::path& path, const std::function<boo
     Image& image = result.image;
     image.width = window.max.x - window.min.x + 1;
     image.height = window.max.y - window.min.y + 1;
-    image.place = place_of(window, header.displayWindow());
+    image.crop = crop_of(window, header.displayWindow());
     image.data.resize(image.channel_names.size() * image.pixel_count());
     Imf::FrameBuffer buffer;
     for (std::size_t c = 0; c < image.channel_names.size(); ++c)

@@ -63,12 +63,12 @@ std::vector<std::uint32_t> to_uint(std::span<const float> values) {
 
 /// The image's pixels; its place in the whole.
 Imath::Box2i window_of(const Image& image) {
-    return {{image.place.x, image.place.y}, {image.place.x + image.width - 1, image.place.y + image.height - 1}};
+    return {{image.crop.x, image.crop.y}, {image.crop.x + image.width - 1, image.crop.y + image.height - 1}};
 }
 
 Imf::Header header_of(const Image& image) {
-    if (!image.place.is_window()) return {image.width, image.height};
-    return {{{0, 0}, {image.place.whole_width - 1, image.place.whole_height - 1}}, window_of(image)};
+    if (!image.crop.is_window()) return {image.width, image.height};
+    return {{{0, 0}, {image.crop.whole_width - 1, image.crop.whole_height - 1}}, window_of(image)};
 }
 
 template <class T>

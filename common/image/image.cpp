@@ -63,12 +63,12 @@ void add_rgb_layer(Image& image, const std::string& layer, const RgbImage& rgb) 
     }
 }
 
-RgbImage cut_out(const RgbImage& image, const ImagePlace& place, int width, int height) {
-    if (place.x < 0 || place.y < 0 || place.x > image.width - width || place.y > image.height - height)
+RgbImage cut_out(const RgbImage& image, const CropWindow& crop, int width, int height) {
+    if (crop.x < 0 || crop.y < 0 || crop.x > image.width - width || crop.y > image.height - height)
         throw RunError("a window that is not on its image");
     RgbImage part(width, height);
     for (int y = 0; y < height; ++y) {
-        const auto row = image.pixels.begin() + std::ptrdiff_t{place.y + y} * image.width + place.x;
+        const auto row = image.pixels.begin() + std::ptrdiff_t{crop.y + y} * image.width + crop.x;
         std::copy(row, row + width, part.pixels.begin() + std::ptrdiff_t{y} * width);
     }
     return part;

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "common/image/image_place.h"
+#include "common/image/crop_window.h"
 #include "common/math/vec.h"
 
 namespace treefarm {
@@ -25,7 +25,7 @@ struct Image {
     std::vector<std::string> channel_names;
     /// Planar: channel by channel in the order of `channel_names`, each row by row from the top.
     std::vector<float> data;
-    ImagePlace place{};  ///< the EXR file's data window inside its display window
+    CropWindow crop{};  ///< the EXR file's data window inside its display window
 
     std::size_t pixel_count() const { return static_cast<std::size_t>(width) * static_cast<std::size_t>(height); }
 
@@ -56,7 +56,7 @@ struct RgbImage {
 };
 
 /// The pixels of an image at `place`, of `width` x `height`.
-RgbImage cut_out(const RgbImage& image, const ImagePlace& place, int width, int height);
+RgbImage cut_out(const RgbImage& image, const CropWindow& crop, int width, int height);
 
 /// "R" for the layer "", "variance.R" for the layer "variance".
 std::string channel_name(const std::string& layer, const std::string& component);

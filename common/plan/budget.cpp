@@ -79,12 +79,12 @@ class OpenBudget {
     }
 
     /// Samples that a pass can have which takes this share of the time left.
-    double by_time(const RenderState& state, double share) const {
+    double by_time(const RenderState& state, double fraction) const {
         if (job_.budget.seconds == 0) return kUnlimited;
         const double left = job_.budget.seconds - state.seconds;
         if (left < 0.25 * tolerance()) return 0;
         const double of_one = seconds_of_pass(1) - seconds_of_pass(0);
-        const double spp = std::floor(std::max(0.0, share * left - seconds_of_pass(0)) / of_one);
+        const double spp = std::floor(std::max(0.0, fraction * left - seconds_of_pass(0)) / of_one);
         // The shortest pass may be a little too long: that may still be nearer to the budget than to stop here.
         const double too_long = seconds_of_pass(least_spp()) - left;
         return too_long < std::min(left, 0.75 * tolerance()) ? std::max(spp, least_spp()) : spp;

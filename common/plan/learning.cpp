@@ -27,7 +27,7 @@ RefineSettings refine_settings(const Resolved& job, const PassPlan& pass, const 
     settings.record_weight = pass.record_weight;
     settings.target = job.guiding.target;
     settings.view_threshold = split_growth(job, coming) * job.guiding.view_threshold;
-    settings.last_lesson = !coming.record;
+    settings.last_update = !coming.record;
     settings.views_record_alone = job.guiding.view_records == ViewRecords::radiance;
     if (job.cells_follow_use) settings.least_use = kPolicy.learning.least_use;
     if (job.guiding.view_records == ViewRecords::product) {
@@ -39,7 +39,8 @@ RefineSettings refine_settings(const Resolved& job, const PassPlan& pass, const 
 }
 
 SumsShape sums_shape(const PassPlan& pass, const SdTree& tree) {
-    return {tree.region_count(), tree.cell_count(), pass.learn_mixture, tree.view_count(), !tree.light_share.empty()};
+    return {tree.region_count(), tree.cell_count(), pass.learn_mixture, tree.view_count(),
+            !tree.light_probabilities.empty()};
 }
 
 }  // namespace treefarm

@@ -108,13 +108,13 @@ std::uint64_t emitter_table_bytes(const Scene& scene, const Emitter& emitter) {
 }
 
 std::uint64_t TreeSize::guide_bytes() const {
-    return regions * (kGuideBytesPerRegion + (with_lights ? sizeof(LightShare) : 0)) + views * kGuideBytesPerView +
-           cells * kGuideBytesPerCell;
+    return regions * (kGuideBytesPerRegion + (with_lights ? sizeof(LightProbabilities) : 0)) +
+           views * kGuideBytesPerView + cells * kGuideBytesPerCell;
 }
 
 std::uint64_t TreeSize::sum_bytes() const {
     return (regions + views) * kPlainTreeBytesPerRegion +
-           (with_lights ? regions * (sizeof(LightShare) + kLightClusters * kSumBytes) : 0) +
+           (with_lights ? regions * (sizeof(LightProbabilities) + kLightClusters * kSumBytes) : 0) +
            (with_mixture ? (regions + views) * kMixtureBins * kSumBytes : 0) +
            cells * (kPlainTreeBytesPerCell + kSumBytes);
 }

@@ -34,7 +34,7 @@ std::string aligned(const std::vector<Row>& rows) {
 }
 
 /// "place" of an effect; those of the scene file itself without its name.
-std::string place_text(const Location& where, const std::string& scene) {
+std::string location_text(const Location& where, const std::string& scene) {
     const std::string text = where.text();
     if (!scene.empty() && text.starts_with(scene + ":")) return "line " + text.substr(scene.size() + 1);
     return text;
@@ -46,9 +46,9 @@ std::string effect_section(const EffectPlan& plan, const std::string& scene, boo
         if (effect.on != on || effect.group == "never") continue;
         if (on)
             rows.push_back({effect.name, effect.bytes > 0 ? bytes_text(effect.bytes) : "-", effect.reason,
-                            place_text(effect.where, scene)});
+                            location_text(effect.where, scene)});
         else
-            rows.push_back({effect.name, "0 bytes", effect.reason, place_text(effect.where, scene)});
+            rows.push_back({effect.name, "0 bytes", effect.reason, location_text(effect.where, scene)});
     }
     return aligned(rows);
 }
@@ -72,7 +72,7 @@ std::string passes_text(const std::vector<std::uint32_t>& passes) {
     return "passes " + std::to_string(passes.front()) + " to " + std::to_string(passes.back());
 }
 
-Json place_json(const Location& where) {
+Json location_json(const Location& where) {
     if (where.file.empty()) return nullptr;
     return {{"file", where.file}, {"line", where.line}, {"column", where.column}};
 }
@@ -99,10 +99,10 @@ std::string bytes_text(std::uint64_t bytes) {
 }
 
 std::string approximation_text(const Approximation& approximation) {
-    const std::string place = approximation.where.text();
+    const std::string location = approximation.where.text();
     return approximation.effect + " is off for " + std::to_string(approximation.uses) +
            (approximation.uses == 1 ? " place" : " places") + " in the scene" +
-           (place.empty() ? "" : " (" + place + ")") + ": " + approximation.text;
+           (location.empty() ? "" : " (" + location + ")") + ": " + approximation.text;
 }
 
 std::string plan_text(const EffectPlan& plan, const std::string& scene) {
@@ -143,13 +143,13 @@ std::string plan_json(const EffectPlan& plan, const std::string& scene) {
                                    {"simulated", effect.group != "never"},
                                    {"on", effect.on},
                                    {"reason", effect.reason},
-                                   {"where", place_json(effect.where)},
+                                   {"where", location_json(effect.where)},
                                    {"bytes", effect.bytes}});
     json["approximations"] = Json::array();
     for (const Approximation& approximation : plan.approximations)
         json["approximations"].push_back({{"effect", approximation.effect},
                                           {"uses", approximation.uses},
-                                          {"where", place_json(approximation.where)},
+                                          {"where", location_json(approximation.where)},
                                           {"text", approximation.text}});
     json["kernels_in_program"] = kKernelCount;
     json["kernels"] = Json::array();

@@ -26,21 +26,21 @@ class ScheduleReader {
     std::vector<PassPlan> read(const toml::table& table) {
         for (const auto& [key, node] : table)
             if (key.str() != "pass")
-                throw InputError(place(key.source()), "unknown key " + in_quotes(key.str()),
+                throw InputError(location(key.source()), "unknown key " + in_quotes(key.str()),
                                  "a schedule holds [[pass]] tables only");
         const toml::array* passes = table["pass"].as_array();
         if (passes == nullptr || passes->empty())
-            throw InputError(table["pass"] ? place(table["pass"].node()->source()) : Location{file_, 1, 1},
+            throw InputError(table["pass"] ? location(table["pass"].node()->source()) : Location{file_, 1, 1},
                              "a schedule without passes", "write a [[pass]] table for each pass");
         if (passes->size() > kMostPasses)
-            throw InputError(place((*passes)[kMostPasses].source()),
+            throw InputError(location((*passes)[kMostPasses].source()),
                              "more than " + std::to_string(kMostPasses) + " passes", "give passes more samples");
         for (const toml::node& node : *passes)
             read_pass(node);
         return std::move(passes_);
     }
 
-    Location place(const toml::source_region& region) const {
+    Location location(const toml::source_region& region) const {
         return {file_, static_cast<int>(region.begin.line), static_cast<int>(region.begin.column)};
     }
 
@@ -48,21 +48,22 @@ class ScheduleReader {
     void read_pass(const toml::node& node) {
         const toml::table* pass = node.as_table();
         if (pass == nullptr)
-            throw InputError(place(node.source()), "a pass that is no table", "write a [[pass]] table for each pass");
+            throw InputError(location(node.source()), "a pass that is no table",
+                             "write a [[pass]] table for each pass");
         for (const auto& [key, value] : *pass)
             if (std::find(std::begin(kKeys), std::end(kKeys), key.str()) == std::end(kKeys))
-                throw InputError(place(key.source()), "unknown key " + in_quotes(key.str()), kKeyAdvice);
+                throw InputError(location(key.source()), "unknown key " + in_quotes(key.str()), kKeyAdvice);
         const auto spp = required(*pass, "spp");
         const auto samples = spp.value_exact<std::int64_t>();
         if (!samples || *samples < 1 || *samples > kMostSpp - done_)
-            throw InputError(place(spp.node()->source()), "spp is not an integer of at least 1, up to 2^30 in all",
+            throw InputError(location(spp.node()->source()), "spp is not an integer of at least 1, up to 2^30 in all",
                              "write the samples per pixel of this pass");
         PassPlan plan = make_pass(job_, static_cast<std::uint32_t>(passes_.size()), static_cast<std::uint32_t>(done_),
                                   static_cast<std::uint32_t>(*samples), true);
         set_next_event(plan, job_, flag(*pass, "next_event"));
         const bool record = flag(*pass, "record");
         if (record && !job_.guides)
-            throw InputError(place((*pass)["record"].node()->source()), "record = true, but guiding.type = \"none\"",
+            throw InputError(location((*pass)["record"].node()->source()), "record = true, but guiding.type = \"none\"",
                              "render with the job that the schedule was made by");
         set_record(plan, job_, record);
         plan.guided = job_.guides && (!pass->contains("guided") || flag(*pass, "guided"));
@@ -74,7 +75,7 @@ class ScheduleReader {
 
     toml::node_view<const toml::node> required(const toml::table& pass, std::string_view key) const {
         if (!pass.contains(key))
-            throw InputError(place(pass.source()), "a pass without " + std::string(key), kKeyAdvice);
+            throw InputError(location(pass.source()), "a pass without " + std::string(key), kKeyAdvice);
         return pass[key];
     }
 
@@ -82,7 +83,7 @@ class ScheduleReader {
         const auto value = required(pass, key);
         const auto truth = value.value_exact<bool>();
         if (!truth)
-            throw InputError(place(value.node()->source()), std::string(key) + " is not true or false",
+            throw InputError(location(value.node()->source()), std::string(key) + " is not true or false",
                              "write true or false, without quotes");
         return *truth;
     }
@@ -114,7 +115,7 @@ std::vector<PassPlan> parse_schedule(const std::string& toml, const std::string&
     try {
         return reader.read(toml::parse(toml, std::string_view(name)));
     } catch (const toml::parse_error& error) {
-        throw InputError(reader.place(error.source()), "this is not TOML: " + one_line(error.description()),
+        throw InputError(reader.location(error.source()), "this is not TOML: " + one_line(error.description()),
                          "write [[pass]] tables with key = value lines");
     }
 }

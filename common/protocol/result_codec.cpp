@@ -54,8 +54,8 @@ UnitResult read_unit_result(ByteReader& reader, std::uint32_t pass) {
 void write_stats(ByteWriter& writer, const TraceStats& s) {
     for (const std::uint64_t count :
          {s.paths, s.nonzero_paths, s.rays, s.shadow_rays, s.vertices, s.records, s.probe_paths, s.probe_rays,
-          s.copy_rays, s.invalid_samples, s.splitting.split_mean, s.splitting.unsplit_mean, s.splitting.split_variance,
-          s.splitting.unsplit_variance})
+          s.split_path_rays, s.invalid_samples, s.splitting.split_mean, s.splitting.unsplit_mean,
+          s.splitting.split_variance, s.splitting.unsplit_variance})
         writer.put_varint(count);
     writer.put(s.trace_seconds);
     writer.put(s.splat_seconds);
@@ -78,7 +78,7 @@ TraceStats read_stats(ByteReader& reader) {
     TraceStats s;
     for (std::uint64_t* count :
          {&s.paths, &s.nonzero_paths, &s.rays, &s.shadow_rays, &s.vertices, &s.records, &s.probe_paths, &s.probe_rays,
-          &s.copy_rays, &s.invalid_samples, &s.splitting.split_mean, &s.splitting.unsplit_mean,
+          &s.split_path_rays, &s.invalid_samples, &s.splitting.split_mean, &s.splitting.unsplit_mean,
           &s.splitting.split_variance, &s.splitting.unsplit_variance})
         *count = reader.get_varint();
     s.trace_seconds = reader.get<double>();

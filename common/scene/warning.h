@@ -14,8 +14,8 @@ struct Warning {
 
     /// One line: "file:line:col: what".
     std::string text() const {
-        const std::string place = where.text();
-        return place.empty() ? what : place + ": " + what;
+        const std::string location = where.text();
+        return location.empty() ? what : location + ": " + what;
     }
 };
 

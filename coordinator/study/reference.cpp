@@ -16,9 +16,9 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Throws InputError unless cells of this film can be measured against it.
-void check_given(const RgbImage& image, const Film& film, const Location& place) {
+void check_given(const RgbImage& image, const Film& film, const Location& where) {
     if (image.width != film.width || image.height != film.height)
-        throw InputError(place,
+        throw InputError(where,
                          fmt::format("the reference has {} x {} pixels, the scene {} x {}", image.width, image.height,
                                      film.width, film.height),
                          "set image.width and image.height, or render another reference");
@@ -26,7 +26,7 @@ void check_given(const RgbImage& image, const Film& film, const Location& place)
     const auto bad =
         image.pixels.size() - static_cast<std::size_t>(std::count_if(image.pixels.begin(), image.pixels.end(), finite));
     if (bad > 0)
-        throw InputError(place, fmt::format("the reference has {} pixels that are no finite numbers", bad),
+        throw InputError(where, fmt::format("the reference has {} pixels that are no finite numbers", bad),
                          "render another reference");
 }
 
@@ -38,10 +38,10 @@ std::string reference_key(const Study& study, const StudyScene& scene, const Loa
         ExrRgb given = read_exr_rgb(scene.reference);
         const Film& film = loaded.scene.film;
         // A picture of the whole film serves a crop window, too.
-        if (film.place.is_window() && given.image.width == film.whole_width() &&
+        if (film.crop.is_window() && given.image.width == film.whole_width() &&
             given.image.height == film.whole_height())
-            given.image = cut_out(given.image, film.place, film.width, film.height);
-        check_given(given.image, loaded.scene.film, scene.reference_place);
+            given.image = cut_out(given.image, film.crop, film.width, film.height);
+        check_given(given.image, loaded.scene.film, scene.reference_where);
         reference.file = scene.reference;
         reference.image = given.image;
         const auto* bytes = reinterpret_cast<const std::uint8_t*>(given.image.pixels.data());

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cstdlib>
 
-#include "common/guiding/light_share.h"
+#include "common/guiding/light_probabilities.h"
 #include "common/guiding/splat.h"
 #include "tests/fuzz/fuzz.h"
 #include "tests/support/random_tree.h"
@@ -13,7 +13,7 @@ namespace {
 const SdTree& small_tree() {
     static const SdTree tree = [] {
         SdTree grown = test::random_view_tree(2, 2000, 500, 500, 1);
-        grown.light_share.assign(grown.region_count(), kChoiceByPower);
+        grown.light_probabilities.assign(grown.region_count(), kChoiceByPower);
         return grown;
     }();
     return tree;

@@ -5,7 +5,7 @@
 #include <fstream>
 
 #include "common/image/exr.h"
-#include "common/scene/lint/inspect.h"
+#include "common/scene/lint/lint.h"
 #include "common/scene/pack/scene_codec.h"
 #include "common/scene/readers/load.h"
 #include "tests/fuzz/fuzz.h"
@@ -70,7 +70,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         }
     }
     try {
-        for (const Finding& finding : inspect(load_scene_to_check(file, {}, true).scene))
+        for (const Finding& finding : lint(load_scene_to_check(file, {}, true).scene))
             if (finding.text().empty()) std::abort();
     } catch (const InputError&) {
     }

@@ -122,10 +122,10 @@ TEST(RunDirectory, ADiskThatStaysFullKeepsWhatFits) {
     EXPECT_NE(ending.output.find(": cannot write"), std::string::npos) << ending.output;
     EXPECT_EQ(spp_of(folder / "image.exr"), kept) << "the last that fitted is whole";
     EXPECT_GE(std::stoi(spp_of(elsewhere)), std::stoi(kept));
-    std::size_t told = 0;
+    std::size_t reports = 0;
     for (std::size_t at = 0; (at = ending.output.find("the render goes on", at)) != std::string::npos; ++at)
-        ++told;
-    EXPECT_EQ(told, 1u) << ending.output;
+        ++reports;
+    EXPECT_EQ(reports, 1u) << ending.output;
 }
 
 TEST(RunDirectory, AnOutputFileThatCannotBeWrittenCostsOnlyItself) {
@@ -226,11 +226,11 @@ TEST(RunDirectory, NohupKeepsARenderAlive) {
 }
 
 TEST(RunDirectory, NamesThatAreNoUtf8DoNoHarm) {
-    const auto place = fresh_folder("place");
+    const auto parent = fresh_folder("place");
     const std::string odd = "caf\xe9\n\x1b[31mred";
-    fs::copy_file(own_scene("cornell-box.xml"), place / (odd + ".xml"));
-    const auto folder = place / (odd + "-run");
-    const Ending ending = Program(Words{TREEFARM_PROGRAM, "render", (place / (odd + ".xml")).string(), "-D", "size=16",
+    fs::copy_file(own_scene("cornell-box.xml"), parent / (odd + ".xml"));
+    const auto folder = parent / (odd + "-run");
+    const Ending ending = Program(Words{TREEFARM_PROGRAM, "render", (parent / (odd + ".xml")).string(), "-D", "size=16",
                                         "--spp", "3", "--run-dir", folder.string()})
                               .wait(kSoon);
     EXPECT_EQ(ending.code, 0) << ending.output;

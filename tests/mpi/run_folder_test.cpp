@@ -87,9 +87,9 @@ TEST(RunFolder, IsOneRendersAtATime) {
 }
 
 TEST(RunFolder, ItsJobRepeatsTheRunElsewhere) {
-    const auto place = fresh_folder("place"), folder = place / "run";
-    fs::copy_file(own_scene("cornell-box.xml"), place / "box.xml");
-    const std::string here = "cd " + place.string() + " && " + TREEFARM_PROGRAM + " render ";
+    const auto parent = fresh_folder("place"), folder = parent / "run";
+    fs::copy_file(own_scene("cornell-box.xml"), parent / "box.xml");
+    const std::string here = "cd " + parent.string() + " && " + TREEFARM_PROGRAM + " render ";
     const Ending first =
         Program(Words{"sh", "-c", here + "box.xml -D size=32 --seconds 0.5 -o out.exr --run-dir run"}).wait(kSoon);
     ASSERT_EQ(first.code, 0) << first.output;
@@ -98,14 +98,14 @@ TEST(RunFolder, ItsJobRepeatsTheRunElsewhere) {
     ASSERT_EQ(again.code, 0) << again.output;
     EXPECT_EQ(read_text(folder / "image.exr"), image) << "the record is untouched";
     int runs = 0;
-    for (const auto& entry : fs::directory_iterator(place / "runs")) {
+    for (const auto& entry : fs::directory_iterator(parent / "runs")) {
         ++runs;
         EXPECT_EQ(read_summary(entry.path())["image_hash"], read_summary(folder)["image_hash"]);
         EXPECT_EQ(entry.path().filename().string().find("box-"), 0u);
     }
     EXPECT_EQ(runs, 1);
 
-    std::ofstream(place / "job.toml")
+    std::ofstream(parent / "job.toml")
         << "[scene]\nfile = \"box.xml\"\n[budget]\nspp = 3\n[image]\nwidth = 16\nheight = 16\n";
     ASSERT_EQ(Program(Words{"sh", "-c", here + "job.toml --run-dir a"}).wait(kSoon).code, 0);
     ASSERT_EQ(Program(Words{"sh", "-c", here + "job.toml --set scene.file=box.xml --run-dir b"}).wait(kSoon).code, 0);
@@ -117,12 +117,12 @@ TEST(RunFolder, ItsJobRepeatsTheRunElsewhere) {
 }
 
 TEST(RunFolder, AStudysFolderIsNotForRenders) {
-    const auto place = fresh_folder("place"), folder = place / "study";
+    const auto parent = fresh_folder("place"), folder = parent / "study";
     const auto write_study = [&](const std::string& name) {
-        std::ofstream(place / name) << "seeds = 1\nwarmup = 0\n[budget]\nspp = 3\n[job]\nimage.width = 16\n"
-                                    << "image.height = 16\n[scene.box]\nfile = \"" << own_scene("cornell-box.xml")
-                                    << "\"\n[reference]\nbudget.spp = 3\nsampler.seed = 99\n";
-        return (place / name).string();
+        std::ofstream(parent / name) << "seeds = 1\nwarmup = 0\n[budget]\nspp = 3\n[job]\nimage.width = 16\n"
+                                     << "image.height = 16\n[scene.box]\nfile = \"" << own_scene("cornell-box.xml")
+                                     << "\"\n[reference]\nbudget.spp = 3\nsampler.seed = 99\n";
+        return (parent / name).string();
     };
     const auto study = [&](const std::string& name, const fs::path& directory, const Words& options = {}) {
         return Program(Words{TREEFARM_PROGRAM, "study", write_study(name), "--dir", directory.string()} + options)
@@ -141,7 +141,7 @@ TEST(RunFolder, AStudysFolderIsNotForRenders) {
     EXPECT_EQ(study("one.toml", folder).code, 0) << "the same study goes on";
     EXPECT_EQ(study("two.toml", folder, {"--overwrite"}).code, 0);
 
-    const auto run = place / "run";
+    const auto run = parent / "run";
     ASSERT_EQ(Program(render(run, "3")).wait(kSoon).code, 0);
     const Ending into_run = study("one.toml", run, {"--overwrite"});
     EXPECT_EQ(into_run.code, 2) << into_run.output;

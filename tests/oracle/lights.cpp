@@ -18,13 +18,13 @@ struct V {
     V cross(const V& o) const { return {y * o.z - z * o.y, z * o.x - x * o.z, x * o.y - y * o.x}; }
 };
 
-Vec3 place(Inputs& in, float size) {
+Vec3 random_point(Inputs& in, float size) {
     return Vec3(in.uniform(-1, 1), in.uniform(-1, 1), in.uniform(-1, 1)) * size;
 }
 
 /// Checks samples of a flat light with these half axes or edges, whose area is `share` of their cross product.
 template <class Geometry>
-void flat_light(Row& row, Inputs& in, const Geometry& geometry, const Vec3& a, const Vec3& b, Quad share) {
+void flat_light(Row& row, Inputs& in, const Geometry& geometry, const Vec3& a, const Vec3& b, Quad fraction) {
     Scene scene;
     test::add_shape(scene, geometry, kNone, Rgb(1.0f));
     const EmbreeScene embree(scene.shapes, "avx2");
@@ -33,13 +33,13 @@ void flat_light(Row& row, Inputs& in, const Geometry& geometry, const Vec3& a, c
     const Quad length = sqrtq(normal.dot(normal));
     const float size = std::max(a.length(), b.length());
     for (int j = 0; j < 64; ++j) {
-        const Vec3 p = place(in, size * in.scale(0.1f, 1e4f));
+        const Vec3 p = random_point(in, size * in.scale(0.1f, 1e4f));
         const DirectSample s = emitters.sample_direct(p, {in.bits(), in.bits(), in.bits(), in.bits()});
         if (!(s.pdf > 0.0f)) continue;
         const V d = V(s.on_light.p) - V(p);
         const Quad d2 = d.dot(d), cosine = fabsq(d.dot(normal)) / (length * sqrtq(d2));
         if (cosine < Quad(0.05)) continue;  // its own rounding, over itself
-        row.see(relative(s.pdf, d2 / (cosine * length * share)), a, b, p);
+        row.see(relative(s.pdf, d2 / (cosine * length * fraction)), a, b, p);
     }
 }
 
@@ -68,7 +68,7 @@ void lights(std::uint64_t count, std::vector<Row>& rows) {
         const float size = in.scale(1e-6f, 1e3f);
         const Vec3 a = in.direction() * size, b = in.direction() * (size * in.scale(1e-2f, 1.0f));
         if (normalize(a).cross(normalize(b)).length() < 0.1f) continue;
-        const Vec3 corner = place(in, size);
+        const Vec3 corner = random_point(in, size);
         Mesh mesh;
         mesh.positions = {corner, corner + a, corner + b};
         mesh.indices = {0, 1, 2};

@@ -44,8 +44,8 @@ void quadtrees(std::uint64_t count, std::vector<Row>& rows) {
             const std::uint32_t old = guide.cell(0, code);
             const std::uint64_t side = guide.cell_side(0, old);
             if (side * side >= size) {
-                const Quad share = Quad(energy.cells()[old]) / total * Quad(size) / Quad(side * side);
-                if (share > Quad(1e-4)) density.see(relative(ours, share / area), i, c);
+                const Quad fraction = Quad(energy.cells()[old]) / total * Quad(size) / Quad(side * side);
+                if (fraction > Quad(1e-4)) density.see(relative(ours, fraction / area), i, c);
             }
             begin += size;
         }

@@ -6,7 +6,7 @@
 #include "common/scene/check/validate.h"
 #include "tests/support/hard_case.h"
 #include "tests/support/material_scenes.h"
-#include "worker/integrators/path/branches.h"
+#include "worker/integrators/path/glass_splits.h"
 #include "worker/shading/fresnel.h"
 
 namespace treefarm {
@@ -158,7 +158,7 @@ TEST(Boundaries, EqualIndicesAreInvisible) {
 TEST(Boundaries, FaintWaysOutOfGlass) {
     for (int exponent = -149; exponent < 0; ++exponent) {
         const float p = std::ldexp(1.0f, exponent);
-        const float weight = p * (1.0f / Branches::chance(p));
+        const float weight = p * (1.0f / GlassSplits::chance(p));
         EXPECT_TRUE(std::isfinite(weight)) << p;
         EXPECT_LE(weight, p < 0.25f ? 0.25001f : 1.0f) << p;
     }

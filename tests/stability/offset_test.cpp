@@ -11,19 +11,19 @@ namespace treefarm {
 namespace {
 
 /// Where and how large: the same geometry must behave the same.
-struct Place {
+struct ScaleAndOffset {
     float scale;
     Vec3 offset;  ///< in units of `scale`
 };
 
-const Place kPlaces[] = {{1.0f, Vec3(0.0f)},
-                         {1e-4f, Vec3(0.0f)},
-                         {1e5f, Vec3(0.0f)},
-                         {1.0f, Vec3(1000.0f, -700.0f, 300.0f)},
-                         {1e-4f, Vec3(1000.0f, -700.0f, 300.0f)},
-                         {1e5f, Vec3(-300.0f, 1000.0f, 800.0f)}};
+const ScaleAndOffset kScalesAndOffsets[] = {{1.0f, Vec3(0.0f)},
+                                            {1e-4f, Vec3(0.0f)},
+                                            {1e5f, Vec3(0.0f)},
+                                            {1.0f, Vec3(1000.0f, -700.0f, 300.0f)},
+                                            {1e-4f, Vec3(1000.0f, -700.0f, 300.0f)},
+                                            {1e5f, Vec3(-300.0f, 1000.0f, 800.0f)}};
 
-class Offset : public testing::TestWithParam<Place> {
+class Offset : public testing::TestWithParam<ScaleAndOffset> {
   protected:
     Vec3 at(const Vec3& p) const { return (p + GetParam().offset) * GetParam().scale; }
     float length(float l) const { return l * GetParam().scale; }
@@ -273,7 +273,7 @@ TEST_P(Offset, ShadowSegmentsBetweenTwoSurfacesAreFree) {
     figure_of(40000);
 }
 
-INSTANTIATE_TEST_SUITE_P(Places, Offset, testing::ValuesIn(kPlaces));
+INSTANTIATE_TEST_SUITE_P(Places, Offset, testing::ValuesIn(kScalesAndOffsets));
 
 /// 13 | Concentric shells a hundred-thousandth of their radius apart
 /// Others: at planetary coordinates the offset was kilometres, past the next surface (huira #46).

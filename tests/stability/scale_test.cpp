@@ -15,16 +15,16 @@
 namespace treefarm {
 namespace {
 
-struct Place {
+struct ScaleAndOffset {
     float scale;
     Vec3 offset;  ///< in units of `scale`
 };
 
-const Place kPlaces[] = {{1e-4f, Vec3(0.0f)},
-                         {1e5f, Vec3(0.0f)},
-                         {1.0f, Vec3(1000.0f, -700.0f, 300.0f)},
-                         {1e-4f, Vec3(-300.0f, 1000.0f, 800.0f)},
-                         {1e5f, Vec3(1000.0f, 1000.0f, 1000.0f)}};
+const ScaleAndOffset kScalesAndOffsets[] = {{1e-4f, Vec3(0.0f)},
+                                            {1e5f, Vec3(0.0f)},
+                                            {1.0f, Vec3(1000.0f, -700.0f, 300.0f)},
+                                            {1e-4f, Vec3(-300.0f, 1000.0f, 800.0f)},
+                                            {1e5f, Vec3(1000.0f, 1000.0f, 1000.0f)}};
 
 std::vector<PixelEstimate> render(const Scene& scene, const Job& job, std::uint32_t spp, bool next_event) {
     const TraceScene trace(scene, job);
@@ -58,7 +58,7 @@ double mean(const std::vector<PixelEstimate>& pixels) {
     return sum / static_cast<double>(pixels.size());
 }
 
-class Scale : public testing::TestWithParam<Place> {};
+class Scale : public testing::TestWithParam<ScaleAndOffset> {};
 
 /// 12 | Leaks of a closed room at any scale and place
 /// Others: rays slipped through walls, or hit the wall that they started on (pbrt 6.8, GLSL-PathTracer #35).
@@ -67,16 +67,16 @@ class Scale : public testing::TestWithParam<Place> {};
 /// exact within 1e-5 at scales 1e-4 and 1e5, and within 2e-3 moved by 1000 sizes, where edges are known to 6e-5
 /// only.
 TEST_P(Scale, FurnaceDoesNotLeak) {
-    const Place& place = GetParam();
+    const ScaleAndOffset& moved = GetParam();
     Job job = unguided();
     job.integrator.max_depth = 20;
     double exact = 0;
     for (int k = 0; k < 20; ++k)
         exact += std::pow(0.8, k);
-    Scene scene = test::furnace(0.8f, 1.0f, place.scale, place.offset * place.scale);
+    Scene scene = test::furnace(0.8f, 1.0f, moved.scale, moved.offset * moved.scale);
     test::set_film(scene, 32, 32);
     // Moved by 1000 sizes, positions are exact to 6e-5 of the room only: of 20 bounces, some meet an edge that close.
-    const double tolerance = place.offset.length() > 1.0f ? 2e-3 : 1e-5;
+    const double tolerance = moved.offset.length() > 1.0f ? 2e-3 : 1e-5;
     const double error = std::abs(mean(render(scene, job, 64, false)) / exact - 1.0);
     EXPECT_LT(error, tolerance);
     test::figure("relative error of the mean, 1000 sizes away", error);
@@ -88,7 +88,7 @@ TEST_P(Scale, FurnaceDoesNotLeak) {
 /// Holds: at scales 1e-4 and 1e5 and moved by 1000 sizes, means agree within 1 %, all but 5 of 1024 pixels within 4
 /// standard errors.
 TEST_P(Scale, CornellBoxLooksTheSame) {
-    const Place& place = GetParam();
+    const ScaleAndOffset& moved = GetParam();
     Job job = unguided();
     job.integrator.max_depth = 6;
     const auto image = [&](float scale, const Vec3& offset) {
@@ -96,7 +96,7 @@ TEST_P(Scale, CornellBoxLooksTheSame) {
         test::set_film(scene, 32, 32);
         return render(scene, job, 64, true);
     };
-    const auto here = image(1.0f, Vec3(0.0f)), there = image(place.scale, place.offset * place.scale);
+    const auto here = image(1.0f, Vec3(0.0f)), there = image(moved.scale, moved.offset * moved.scale);
     EXPECT_NEAR(mean(there) / mean(here), 1.0, 0.01);
     int different = 0;
     for (std::size_t i = 0; i < here.size(); ++i) {
@@ -108,7 +108,7 @@ TEST_P(Scale, CornellBoxLooksTheSame) {
     test::figure("pixels beyond four standard errors, of 1024, 1000 sizes away", different);
 }
 
-INSTANTIATE_TEST_SUITE_P(Places, Scale, testing::ValuesIn(kPlaces));
+INSTANTIATE_TEST_SUITE_P(Places, Scale, testing::ValuesIn(kScalesAndOffsets));
 
 /// 12 | Scenes scaled by powers of two
 /// Others: fixed offsets and thresholds in scene units (Mitsuba 3 #219, #1871; GLSL-PathTracer #35; three-gpu
@@ -204,9 +204,9 @@ TEST(ScaleByTenThousand, LooksTheSameAndGuidingGains) {
 }
 
 /// A room of a lamp, a ball and a box, moved by its transformations.
-Scene room_at(const std::string& place) {
+Scene room_at(const std::string& translation) {
     const auto shape = [&](const std::string& type, const std::string& transform, const std::string& inside) {
-        return "<shape type=\"" + type + "\"><transform name=\"toWorld\">" + transform + place + "</transform>" +
+        return "<shape type=\"" + type + "\"><transform name=\"toWorld\">" + transform + translation + "</transform>" +
                inside + "</shape>\n";
     };
     const std::string white = "<bsdf type=\"twosided\"><bsdf type=\"diffuse\"/></bsdf>";
@@ -214,7 +214,7 @@ Scene room_at(const std::string& place) {
         "<scene version=\"0.6.0\"><sensor type=\"perspective\"><transform name=\"toWorld\"><lookat "
         "origin=\"0.1,0.2,2.9\" "
         "target=\"0,0,0\" up=\"0,1,0\"/>" +
-        place +
+        translation +
         "</transform><film type=\"hdrfilm\"><integer name=\"width\" value=\"16\"/><integer name=\"height\" "
         "value=\"16\"/></film></sensor>\n" +
         shape("cube", "<scale x=\"1\" y=\"1\" z=\"3\"/>", "<boolean name=\"flipNormals\" value=\"true\"/>" + white) +

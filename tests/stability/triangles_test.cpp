@@ -35,9 +35,9 @@ TEST(Triangles, ClosedMeshesAreNearlyWatertight) {
         add_shape(scene, mesh, kNone);
         const EmbreeScene geometry = geometry_of(std::move(scene));
         for (int i = 0; i < 400'000; ++i) {
-            const auto place = [&] { return Vec3(uniform(random), uniform(random), uniform(random)); };
-            const Vec3 from = place() * radius;
-            lost += !geometry.occluded({from, normalize(place())});
+            const auto random_point = [&] { return Vec3(uniform(random), uniform(random), uniform(random)); };
+            const Vec3 from = random_point() * radius;
+            lost += !geometry.occluded({from, normalize(random_point())});
             if (i % 100 != 0) continue;
             const Vec3& vertex = mesh.positions[mesh.indices[random() % mesh.indices.size()]];
             slipped += !geometry.occluded({from, normalize(vertex - from)});
@@ -64,10 +64,10 @@ TEST(Triangles, SliversAndWorse) {
     double worst = 0;
     for (const float scale : {1e-15f, 1e-6f, 1.0f, 1e6f, 1e15f})
         for (int i = 0; i < 400; ++i) {
-            const auto place = [&] { return Vec3(uniform(random), uniform(random), uniform(random)); };
-            const Vec3 a = place(), b = place();
+            const auto random_point = [&] { return Vec3(uniform(random), uniform(random), uniform(random)); };
+            const Vec3 a = random_point(), b = random_point();
             const float thin = std::pow(10.0f, -static_cast<float>(i % 13));
-            const Vec3 c = (a + b) * 0.5f + place() * thin;
+            const Vec3 c = (a + b) * 0.5f + random_point() * thin;
             Mesh mesh;
             mesh.positions = {a * scale, b * scale, c * scale};
             mesh.indices = {0, 1, 2};
@@ -77,7 +77,7 @@ TEST(Triangles, SliversAndWorse) {
             for (int j = 0; j < 10; ++j) {
                 const float u = 0.1f + 0.03f * static_cast<float>(j), v = 0.2f;
                 const Vec3 p = mesh.positions[0] * (1 - u - v) + mesh.positions[1] * u + mesh.positions[2] * v;
-                const Vec3 d = place();
+                const Vec3 d = random_point();
                 Hit hit;
                 if (!geometry.intersect({p - d * scale, d}, hit)) continue;
                 ++hits;

@@ -38,7 +38,7 @@ Vec3 direction_at(const EnvironmentEmitter& e, double u, double v) {
                      e.z_axis * static_cast<float>(z));
 }
 
-Vec2 place_of(const EnvironmentEmitter& e, const Vec3& d) {
+Vec2 uv_of(const EnvironmentEmitter& e, const Vec3& d) {
     const double x = double(dot(d, e.x_axis)), y = double(dot(d, e.y_axis)), z = double(dot(d, e.z_axis));
     const double turn = std::atan2(x, -z) / (2 * M_PI);
     return {static_cast<float>(turn < 0 ? turn + 1 : turn), static_cast<float>(std::atan2(std::hypot(x, z), y) / M_PI)};
@@ -57,18 +57,18 @@ void expect_agreement(const TextureImage& image, const std::string& what, bool r
     for (int i = 0; i < kColumns * kSub; ++i)
         for (int j = 0; j < kRows * kSub; ++j) {
             const double u = (i + 0.5) / (kColumns * kSub), v = (j + 0.5) / (kRows * kSub);
-            const double share = double(map.pdf(direction_at(emitter, u, v), parts.choice)) * 2 * M_PI * M_PI *
-                                 std::sin(M_PI * v) / (kColumns * kSub * kRows * kSub);
-            expected[static_cast<std::size_t>(j / kSub * kColumns + i / kSub)] += share * kSamples;
-            integral += share;
+            const double probability = double(map.pdf(direction_at(emitter, u, v), parts.choice)) * 2 * M_PI * M_PI *
+                                       std::sin(M_PI * v) / (kColumns * kSub * kRows * kSub);
+            expected[static_cast<std::size_t>(j / kSub * kColumns + i / kSub)] += probability * kSamples;
+            integral += probability;
         }
     EXPECT_NEAR(integral, 1.0, 2e-3) << what;
     for (std::uint32_t i = 0; i < kSamples; ++i) {
         const Vec3 d = parts.sample(map, draw({7, i, 0}, 1, Stream::light)).direction;
         ASSERT_NEAR(d.length(), 1.0f, 1e-5f);
-        const Vec2 place = place_of(emitter, d);
-        const int x = std::min(static_cast<int>(place.x * kColumns), kColumns - 1);
-        const int y = std::min(static_cast<int>(place.y * kRows), kRows - 1);
+        const Vec2 uv = uv_of(emitter, d);
+        const int x = std::min(static_cast<int>(uv.x * kColumns), kColumns - 1);
+        const int y = std::min(static_cast<int>(uv.y * kRows), kRows - 1);
         ++counts[static_cast<std::size_t>(y * kColumns + x)];
     }
     // Cells that samples hardly reach: rounding moves a few across their edges.
@@ -197,7 +197,7 @@ TEST(EnvironmentMap, BatchesAreTheirSamplesToTheBit) {
             EXPECT_EQ(batch[i].direction, alone[i].direction) << i << " of " << size;
             EXPECT_EQ(batch[i].sine, alone[i].sine);
             EXPECT_EQ(map.pdf(batch[i], parts.choice), map.pdf(alone[i], parts.choice));
-            EXPECT_EQ(map.radiance(batch.place(i)), map.radiance(alone[i].place));
+            EXPECT_EQ(map.radiance(batch.footprint(i)), map.radiance(alone[i].footprint));
         }
     }
 }

@@ -92,9 +92,9 @@ TEST(LightDistribution, TexturedRectangle) {
 }
 
 TEST(LightDistribution, ImageWithOneBrightTexel) {
-    const std::vector<std::pair<std::string, std::pair<int, int>>> places = {
+    const std::vector<std::pair<std::string, std::pair<int, int>>> texels = {
         {"amid", {5, 3}}, {"left of the seam", {15, 4}}, {"right of the seam", {0, 4}}};
-    for (const auto& [what, texel] : places)
+    for (const auto& [what, texel] : texels)
         for (const float background : {0.0f, 0.2f})
             expect_light_distribution(environment(16, 8, {texel}, background), Vec3(0.0f), what);
 }
@@ -116,28 +116,28 @@ TEST(LightBatch, IsItsSamplesToTheBit) {
     const TraceScene lights(scene, Job());
     const Emitters& emitters = lights.emitters();
     ASSERT_TRUE(emitters.draws_together());
-    LightShare learned{};
-    learned[0] = kLightShareOne / 2;
-    learned[1] = kLightShareOne / 8;
-    learned[static_cast<std::size_t>(emitters.clusters().count())] = 3 * kLightShareOne / 8;
+    LightProbabilities learned{};
+    learned[0] = kLightProbabilityOne / 2;
+    learned[1] = kLightProbabilityOne / 8;
+    learned[static_cast<std::size_t>(emitters.clusters().count())] = 3 * kLightProbabilityOne / 8;
     const Vec3 front = normalize(Vec3(1, 1, 1));
     int from_map = 0, on_lamp = 0, from_inside = 0, others = 0;
     LightBatch batch;
     for (std::uint32_t round = 0; round < 200; ++round) {
-        const LightShare* const share = round % 2 == 0 ? nullptr : &learned;
+        const LightProbabilities* const probabilities = round % 2 == 0 ? nullptr : &learned;
         const auto random = [&](std::uint32_t lane) { return draw({6, round, lane}, 1, Stream::light); };
-        const auto place = [&](std::uint32_t lane) { return Vec3(0.2f, 0.1f, 0.05f * static_cast<float>(lane) - 2); };
+        const auto point = [&](std::uint32_t lane) { return Vec3(0.2f, 0.1f, 0.05f * static_cast<float>(lane) - 2); };
         const auto skipped = [&](std::uint32_t lane) { return (lane + round) % 5 == 0; };
         batch.clear();
         for (std::uint32_t lane = 0; lane < kDrawBatch; ++lane)
-            if (!skipped(lane)) emitters.choose(batch, lane, place(lane), random(lane), share);
+            if (!skipped(lane)) emitters.choose(batch, lane, point(lane), random(lane), probabilities);
         emitters.draw(batch);
         for (std::uint32_t lane = 0; lane < kDrawBatch; ++lane) {
             if (skipped(lane)) continue;
             const Vec3* const seen_from = lane % 3 == 0 ? &front : nullptr;
-            DirectSample a = emitters.sample_direct(place(lane), batch, lane, random(lane), share, seen_from);
-            if (a.pdf > 0.0f) a.pdf = emitters.environment_pdf(batch, lane, a.pdf, share);
-            const DirectSample b = emitters.sample_direct(place(lane), random(lane), share, seen_from);
+            DirectSample a = emitters.sample_direct(point(lane), batch, lane, random(lane), probabilities, seen_from);
+            if (a.pdf > 0.0f) a.pdf = emitters.environment_pdf(batch, lane, a.pdf, probabilities);
+            const DirectSample b = emitters.sample_direct(point(lane), random(lane), probabilities, seen_from);
             ASSERT_EQ(a.pdf, b.pdf);
             ASSERT_EQ(a.from_environment, b.from_environment);
             ASSERT_EQ(a.delta, b.delta);
@@ -152,8 +152,8 @@ TEST(LightBatch, IsItsSamplesToTheBit) {
             const bool on_sphere = !a.from_environment && !a.delta && a.on_light.shape != 0;
             (a.from_environment ? from_map : !on_sphere ? others : a.on_light.shape == 1 ? on_lamp : from_inside) += 1;
             if (!a.from_environment) continue;
-            const Rgb at_place = emitters.environment(batch, lane, a.wi), along = emitters.environment(b.wi);
-            ASSERT_NEAR(at_place.x, along.x, 1e-3f * along.x + 1e-4f) << "the sample's place is its direction's";
+            const Rgb at_point = emitters.environment(batch, lane, a.wi), along = emitters.environment(b.wi);
+            ASSERT_NEAR(at_point.x, along.x, 1e-3f * along.x + 1e-4f) << "the sample's place is its direction's";
         }
     }
     EXPECT_GT(from_map, 1000);

@@ -38,7 +38,7 @@ struct Projection {
         scene.textures.push_back({BitmapTexture{0, false, Wrap::repeat, Wrap::repeat, {}}, "", {}});
     }
     /// Place on the plane z = 0 where this point of the picture falls.
-    Vec3 place(float u, float v) const {
+    Vec3 point(float u, float v) const {
         return {projector.position.x - kHeight * projector.half_width * (2 * u - 1),
                 projector.position.y + kHeight * projector.half_height * (2 * v - 1), 0.0f};
     }
@@ -49,12 +49,12 @@ TEST(Projector, ThrowsItsPicture) {
     const Projection thrown;
     for (const float v : {0.01f, 0.3f, 0.7f, 0.99f})
         for (const float u : {0.01f, 0.3f, 0.6f, 0.8f, 0.99f})
-            expect_irradiance(thrown.scene, thrown.place(u, v), kUp, 5.0 * Projection::texel(u, v) / 4.0,
+            expect_irradiance(thrown.scene, thrown.point(u, v), kUp, 5.0 * Projection::texel(u, v) / 4.0,
                               "place " + std::to_string(u) + ", " + std::to_string(v));
     for (const auto& [u, v] : {std::pair{-0.01f, 0.5f}, {1.01f, 0.5f}, {0.5f, -0.01f}, {0.5f, 1.01f}})
-        expect_irradiance(thrown.scene, thrown.place(u, v), kUp, 0.0, "beside the picture");
+        expect_irradiance(thrown.scene, thrown.point(u, v), kUp, 0.0, "beside the picture");
     // Behind it, where the picture would be if lines went on.
-    const Vec3 behind = thrown.projector.position * 2.0f - thrown.place(0.3f, 0.3f);
+    const Vec3 behind = thrown.projector.position * 2.0f - thrown.point(0.3f, 0.3f);
     expect_irradiance(thrown.scene, behind, Vec3(0, 0, -1), 0.0, "behind");
     // Without a texture, on a tilted surface at other distances: E cos / (z^2 cos_axis).
     ProjectorEmitter plain = thrown.projector;
@@ -76,7 +76,7 @@ TEST(Projector, IsChosenByWhatItThrows) {
     const TraceScene lights(thrown.scene, Job());
     // Means of cells of equal area, at distance 1: 4 * 0.6 * 0.3 m^2 under 5 times the mean of 1 to 8.
     const double watts = 4 * 0.6 * 0.3 * 5 * 4.5, other = 4 * M_PI * 2, expected = watts / (watts + other);
-    const Vec3 p = thrown.place(0.3f, 0.3f);
+    const Vec3 p = thrown.point(0.3f, 0.3f);
     constexpr std::uint32_t kSamples = 100000;
     double count = 0;
     for (std::uint32_t i = 0; i < kSamples; ++i) {

@@ -22,7 +22,7 @@ constexpr std::uint32_t kSamples = 400000;
 constexpr float kFraction = 0.4f;
 
 /// A diffuse surface under a tree that has learned some other light.
-struct Place {
+struct ShadedPoint {
     PlainDiffuse bsdf{Rgb(0.5f), false};
     Frame frame{normalize(Vec3(0.3f, -0.4f, 0.2f))};
     Vec3 wo{normalize(Vec3(0.1f, 0.5f, 0.9f))};
@@ -57,8 +57,8 @@ struct Place {
     }
 };
 
-const Place& place() {
-    static const Place p;
+const ShadedPoint& shaded_point() {
+    static const ShadedPoint p;
     return p;
 }
 
@@ -83,13 +83,13 @@ double light(const Vec3& d) {
 
 TEST(Resampling, EstimatesTheIntegralWithAnyNumberOfCandidates) {
     double exact = 0;
-    over_sphere([&](const Vec3& d, double area) { exact += average(place().at(d).f_cos) * light(d) * area; });
+    over_sphere([&](const Vec3& d, double area) { exact += average(shaded_point().at(d).f_cos) * light(d) * area; });
     for (const std::uint32_t count : {1u, 2u, 3u, 4u}) {
         double sum = 0, squares = 0;
         for (std::uint32_t i = 0; i < kSamples; ++i) {
             ScatterSample s;
             const double x =
-                place().draw_of(count, i, s) ? average(s.f_cos) * light(s.world) / double(s.effective_pdf) : 0.0;
+                shaded_point().draw_of(count, i, s) ? average(s.f_cos) * light(s.world) / double(s.effective_pdf) : 0.0;
             sum += x;
             squares += x * x;
         }
@@ -101,8 +101,8 @@ TEST(Resampling, EstimatesTheIntegralWithAnyNumberOfCandidates) {
 TEST(Resampling, OneCandidateIsTheSampleItself) {
     for (std::uint32_t i = 0; i < 1000; ++i) {
         ScatterSample s;
-        const ScatterSample one = place().draw_one(draw({3, i, 1}, 0, Stream::scatter));
-        const bool found = place().draw_of(1, i, s);
+        const ScatterSample one = shaded_point().draw_one(draw({3, i, 1}, 0, Stream::scatter));
+        const bool found = shaded_point().draw_of(1, i, s);
         EXPECT_EQ(found, one.pdf > 0.0f && !is_black(one.f_cos));
         if (!found) continue;
         EXPECT_EQ(s.world, one.world);
@@ -120,13 +120,13 @@ TEST(Resampling, TheBetterOfTwoFollowsItsDensity) {
     std::array<double, 64 * 48> histogram{};
     double of_nothing = 0;
     over_sphere([&](const Vec3& d, double area) {
-        const ScatterSample s = place().at(d);
+        const ScatterSample s = shaded_point().at(d);
         const double w = weight(s);
         const int k = w > 0 ? static_cast<int>(std::floor(64 * (std::log2(w) + 24))) : -1;
         (k >= 0 ? histogram.at(static_cast<std::size_t>(k)) : of_nothing) += double(s.pdf) * area;
     });
     const auto density = [&](const Vec3& d) {
-        const ScatterSample s = place().at(d);
+        const ScatterSample s = shaded_point().at(d);
         const double w = weight(s);
         if (!(w > 0)) return 0.0f;
         double taken = of_nothing;
@@ -137,7 +137,7 @@ TEST(Resampling, TheBetterOfTwoFollowsItsDensity) {
     };
     const auto sample = [&](std::uint32_t i, Vec3& d) {
         ScatterSample s;
-        const bool found = place().draw_of(2, i, s);
+        const bool found = shaded_point().draw_of(2, i, s);
         d = s.world;
         return found;
     };

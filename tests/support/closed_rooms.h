@@ -20,7 +20,7 @@ struct ClosedRoom {
 /// A box of unit size, turned by these angles about z and then x, its faces of squares x squares x 2 triangles.
 /// Corners that squares share are the same floats: they are computed by the same operations.
 inline Mesh turned_box(const Imath::V3d& at, double about_z, double about_x, int squares, bool inwards) {
-    const auto place = [&](Imath::V3d p) {
+    const auto placed = [&](Imath::V3d p) {
         p = {std::cos(about_z) * p.x - std::sin(about_z) * p.y, std::sin(about_z) * p.x + std::cos(about_z) * p.y, p.z};
         p = {p.x, std::cos(about_x) * p.y - std::sin(about_x) * p.z, std::sin(about_x) * p.y + std::cos(about_x) * p.z};
         return Vec3(p + at);
@@ -35,7 +35,7 @@ inline Mesh turned_box(const Imath::V3d& at, double about_z, double about_x, int
                     p[face / 2] = face % 2 ? 0.5 : -0.5;
                     p[(face / 2 + 1) % 3] = double(u) / squares - 0.5;
                     p[(face / 2 + 2) % 3] = double(v) / squares - 0.5;
-                    mesh.positions.push_back(place(p));
+                    mesh.positions.push_back(placed(p));
                 }
                 const bool turn = (face % 2 == 1) == inwards;
                 for (const std::uint32_t corner :

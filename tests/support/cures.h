@@ -25,7 +25,7 @@ bool is_mechanical(const std::string& cure);
 
 /// A refusal in the program's source.
 struct Refusal {
-    std::string place;               ///< file:line
+    std::string where;               ///< file:line
     std::vector<std::string> cures;  ///< the texts in quotes from which its cure is made
 };
 

@@ -42,7 +42,7 @@ LobeTest test_lobe(const std::function<bool(std::uint32_t, Vec3&)>& sample,
         counts[static_cast<std::size_t>(y * resolution + x)] += 1;
     }
     const int steps = resolution * sub;
-    const auto place = [&](int i, double width, double& jacobian) {
+    const auto coordinate = [&](int i, double width, double& jacobian) {
         const double u = 2 * (i + 0.5) / steps - 1, rest = 1 - std::abs(u);
         if (logarithmic) {
             const double x = width * std::expm1(std::abs(u) * length(width));
@@ -55,7 +55,8 @@ LobeTest test_lobe(const std::function<bool(std::uint32_t, Vec3&)>& sample,
     for (int iy = 0; iy < steps; ++iy)
         for (int ix = 0; ix < steps; ++ix) {
             double jx, jy;
-            const double x = place(ix, across_width, jx), y = place(iy, along_width, jy), length2 = 1 + x * x + y * y;
+            const double x = coordinate(ix, across_width, jx), y = coordinate(iy, along_width, jy),
+                         length2 = 1 + x * x + y * y;
             const double scale = 1 / std::sqrt(length2);
             const Vec3 local(static_cast<float>(x * scale), static_cast<float>(y * scale), static_cast<float>(scale));
             const double mass = density(normalize(frame.to_world(local))) * jx * jy * scale / length2;

@@ -97,7 +97,7 @@ EmbreeScene cloud() {
     return EmbreeScene(std::move(scene.shapes), "avx2", {opacity, nullptr});
 }
 
-/// The company that a shadow ray has must not decide what it meets.
+/// The other shadow rays of a packet must not decide what a ray hits.
 TEST(Batch, ShadowRaysTogetherAreThoseOneByOne) {
     const EmbreeScene geometry = cloud();
     std::mt19937 random(6);

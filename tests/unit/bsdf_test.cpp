@@ -247,7 +247,7 @@ TEST(Bsdf, LobesAreThoseThatThePlanExpects) {
         EXPECT_EQ(prepared.side(true) != nullptr, expected.transmits()) << subject.name;
         EXPECT_EQ(prepared.varies(), material_traits(scene, material).needs_surface_detail()) << subject.name;
         for (std::uint32_t i = 0; i < 500 && (lobes & kWideLobe); ++i) {
-            const Vec3 wi = square_to_cosine_hemisphere(uniform(i).place);
+            const Vec3 wi = square_to_cosine_hemisphere(uniform(i).point);
             EXPECT_FALSE(is_black(prepared.front().value(at_cosine(0.7f, 0.0f), wi).f_cos)) << subject.name;
         }
         bool below = false, delta = false, smooth = false;

@@ -146,7 +146,7 @@ TEST(Camera, OrthographicRaysAreParallel) {
 TEST(Camera, PixelsOfACropWindowAreThoseOfTheWholeFilm) {
     const Film whole = film(40, 30);
     Film part = film(16, 10);
-    part.place = {8, 5, 40, 30};
+    part.crop = {8, 5, 40, 30};
     const Camera view = test::look_at(Vec3(1, 2, 3), Vec3(4, 2, 7), Vec3(0, 1, 0), 0.5f);
     const CameraRays all(view, whole), some(view, part);
     for (int x = 0; x < 16; ++x)

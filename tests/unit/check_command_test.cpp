@@ -73,8 +73,8 @@ class CheckCommand : public test::MitsubaFixture {
             EXPECT_NE(at, findings.end()) << defect.kind << " in line " << line << " of\n" << found.output;
             if (at == findings.end()) continue;
             EXPECT_EQ((*at)["file"], path);
-            const std::string place = line > 0 ? path + ":" + std::to_string(line) + ":" : path + ": ";
-            EXPECT_NE(lines.output.find(place), std::string::npos) << lines.output;
+            const std::string where = line > 0 ? path + ":" + std::to_string(line) + ":" : path + ": ";
+            EXPECT_NE(lines.output.find(where), std::string::npos) << lines.output;
         }
         for (const json& f : findings) {
             const auto line = static_cast<std::size_t>(f["line"].get<int>());
@@ -200,12 +200,12 @@ class CheckCommand : public test::MitsubaFixture {
 
 /// A room that stands a thousand of its sizes from the middle of its scene, and the scene's own remedy.
 TEST_F(CheckCommand, SaysWhatAFarPlaceCosts) {
-    const std::string place = "<translate x=\"1000.3\" y=\"700.21\" z=\"400.12\"/></transform>";
+    const std::string translation = "<translate x=\"1000.3\" y=\"700.21\" z=\"400.12\"/></transform>";
     const std::string scene =
         "<sensor type=\"perspective\"><transform name=\"to_world\"><lookat origin=\"1000.3,700.21,400.32\" "
         "target=\"1000.6,700.41,400.12\" up=\"0,1,0\"/></transform></sensor>\n"
         "<shape type=\"cube\"><transform name=\"to_world\">" +
-        place + "<bsdf type=\"twosided\"><bsdf type=\"diffuse\"/></bsdf></shape>" +
+        translation + "<bsdf type=\"twosided\"><bsdf type=\"diffuse\"/></bsdf></shape>" +
         "<shape type=\"rectangle\"><transform name=\"to_world\"><scale value=\"3000\"/></transform></shape>"
         "<emitter type=\"constant\"/></scene>\n";
     const std::string robust = "<boolean name=\"embree_use_robust_intersections\" value=\"true\"/>";
@@ -235,13 +235,13 @@ TEST_F(CheckCommand, FindsDefectsOfSeveralFiles) {
                                        {mesh("index.obj"), "", "", ""}});
     const test::Ended found = run("--json '" + path + "'");
     EXPECT_EQ(found.code, 2);
-    std::string places;
+    std::string found_at;
     const json findings = json::parse(found.output).at("findings");
     for (const json& f : findings)
         if (f["severity"] == "error")
-            places += std::filesystem::path(f["file"].get<std::string>()).filename().string() + ":" +
-                      std::to_string(f["line"].get<int>()) + " ";
-    EXPECT_EQ(places, "nan.ply:11 nan.obj:4 planted.xml:4 index.obj:4 ") << found.output;
+            found_at += std::filesystem::path(f["file"].get<std::string>()).filename().string() + ":" +
+                        std::to_string(f["line"].get<int>()) + " ";
+    EXPECT_EQ(found_at, "nan.ply:11 nan.obj:4 planted.xml:4 index.obj:4 ") << found.output;
 }
 
 /// Findings on the whole scene have the scene's file for a place.
@@ -258,7 +258,7 @@ TEST_F(CheckCommand, FindsScaleAndPlace) {
     expect_found({whole("no shapes", "warning"), whole("no emitters", "warning")}, 5);
 }
 
-TEST_F(CheckCommand, SpotsThatMeetNothing) {
+TEST_F(CheckCommand, SpotsThatHitNothing) {
     expect_found({{rectangle("", 1), "", "", ""},
                   {"<emitter type=\"spot\"><transform name=\"toWorld\"><lookat origin=\"0,0,3\" target=\"0,0,9\" "
                    "up=\"0,1,0\"/></transform></emitter>",

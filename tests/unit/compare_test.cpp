@@ -80,8 +80,8 @@ TEST_F(Compare, TheReferencesOwnNoiseIsTakenFromItsSamples) {
     const std::string image = write("image.exr", 1.0f, 1, true), reference = write("reference.exr", 1.0f, 2, false);
     const auto exact = compare_json(image + " " + reference);
     EXPECT_NEAR(exact["z_tests"]["pixels"]["mean_z2"].get<double>(), 2.0, 0.1);
-    const auto told = compare_json(image + " " + reference + " --reference-spp 100");
-    EXPECT_NEAR(told["z_tests"]["pixels"]["mean_z2"].get<double>(), 1.0, 0.05);
+    const auto json = compare_json(image + " " + reference + " --reference-spp 100");
+    EXPECT_NEAR(json["z_tests"]["pixels"]["mean_z2"].get<double>(), 1.0, 0.05);
     const std::string known = write("known.exr", 1.0f, 2, true);
     const auto read = compare_json(image + " " + known);
     EXPECT_NEAR(read["z_tests"]["pixels"]["mean_z2"].get<double>(), 1.0, 0.05);

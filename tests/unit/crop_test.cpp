@@ -17,7 +17,7 @@ Scene small_box() {
 
 Scene cropped_box() {
     Scene scene = small_box();
-    scene.film.place = {9, 3, scene.film.width, scene.film.height};
+    scene.film.crop = {9, 3, scene.film.width, scene.film.height};
     scene.film.width = 11;
     scene.film.height = 7;
     return scene;

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "common/scene/lint/inspect.h"
+#include "common/scene/lint/lint.h"
 #include "common/scene/readers/load.h"
 #include "tests/support/support.h"
 #include "tests/support/test_scenes.h"

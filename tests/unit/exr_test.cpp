@@ -286,7 +286,7 @@ TEST(Exr, WindowsLieInTheirWhole) {
     const fs::path path = fresh("window.exr");
     Image image = sample_image();
     for (const PixelType type : {PixelType::float32, PixelType::half}) {
-        image.place = {7, 2, 40, 30};
+        image.crop = {7, 2, 40, 30};
         write_exr(path, image, {}, type);
         {
             const Imf::InputFile file(path.c_str());
@@ -294,15 +294,15 @@ TEST(Exr, WindowsLieInTheirWhole) {
             EXPECT_EQ(file.header().dataWindow(), Imath::Box2i({7, 2}, {11, 4}));
         }
         const Image read = read_exr(path).image;
-        EXPECT_EQ(read.place, image.place);
+        EXPECT_EQ(read.crop, image.crop);
         EXPECT_EQ(read.width, 5);
         if (type == PixelType::float32) {
             for (const char* name : {"R", "variance.R", "albedo.G"})
                 EXPECT_TRUE(std::ranges::equal(read.channel(*read.find(name)), image.channel(*image.find(name))));
         }
-        image.place = {};
+        image.crop = {};
         write_exr(path, image, {}, type);
-        EXPECT_FALSE(read_exr(path).image.place.is_window());
+        EXPECT_FALSE(read_exr(path).image.crop.is_window());
     }
 }
 

@@ -251,7 +251,7 @@ Scene varied_scene() {
 }
 
 /// Rays that are found together start anywhere and point anywhere, to vertices and edges, too.
-TEST(Geometry, WhatARayMeetsDoesNotDependOnItsCompany) {
+TEST(Geometry, WhatARayHitsDoesNotDependOnOtherRays) {
     for (const char* isa : {"sse2", "avx", "avx2"}) {
         const Scene scene = varied_scene();
         const std::vector<Vec3>& corners = std::get<Mesh>(scene.shapes[0].geometry).positions;
@@ -263,7 +263,7 @@ TEST(Geometry, WhatARayMeetsDoesNotDependOnItsCompany) {
         std::uint32_t met = 0;
         for (int round = 0; round < 2000; ++round) {
             std::array<Ray, 19> rays;
-            std::array<EmbreeScene::Meeting, 19> meetings;
+            std::array<EmbreeScene::EmbreeHit, 19> embree_hits;
             std::array<bool, 19> found;
             std::vector<EmbreeScene::Query> queries;
             for (std::size_t i = 0; i < rays.size(); ++i) {
@@ -273,18 +273,18 @@ TEST(Geometry, WhatARayMeetsDoesNotDependOnItsCompany) {
                                              : Vec3(normal(random), normal(random), normal(random));
                 rays[i] = {from, to - from};
                 if (i % 5 == 0) rays[i].length = 1.1f;
-                queries.push_back({&rays[i], &meetings[i], &found[i]});
+                queries.push_back({&rays[i], &embree_hits[i], &found[i]});
             }
-            geometry.meet(queries);
+            geometry.intersect(queries);
             for (std::size_t i = 0; i < rays.size(); ++i) {
-                EmbreeScene::Meeting alone;
+                EmbreeScene::EmbreeHit alone;
                 bool found_alone;
                 const EmbreeScene::Query query{&rays[i], &alone, &found_alone};
-                geometry.meet({&query, 1});
+                geometry.intersect({&query, 1});
                 ASSERT_EQ(found[i], found_alone) << isa;
                 if (!found[i]) continue;
                 ++met;
-                const EmbreeScene::Meeting& m = meetings[i];
+                const EmbreeScene::EmbreeHit& m = embree_hits[i];
                 ASSERT_EQ(std::tie(m.instance, m.id, m.primitive, m.u, m.v, m.outward),
                           std::tie(alone.instance, alone.id, alone.primitive, alone.u, alone.v, alone.outward))
                     << isa;

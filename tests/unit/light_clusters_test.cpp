@@ -11,13 +11,13 @@
 namespace treefarm {
 namespace {
 
-LightShare some_share() {
-    LightShare share{};
-    share[0] = kLightShareOne / 4;
-    share[1] = kLightShareOne / 2;
-    share[3] = kLightShareOne / 8;
-    share[4] = kLightShareOne / 8;
-    return share;
+LightProbabilities some_probabilities() {
+    LightProbabilities probabilities{};
+    probabilities[0] = kLightProbabilityOne / 4;
+    probabilities[1] = kLightProbabilityOne / 2;
+    probabilities[3] = kLightProbabilityOne / 8;
+    probabilities[4] = kLightProbabilityOne / 8;
+    return probabilities;
 }
 
 std::uint32_t bits(std::uint32_t i) {
@@ -51,14 +51,14 @@ TEST(LightClusters, ManyEntriesShareThem) {
 TEST(LightClusters, WithoutWeightThereIsNone) {
     const LightClusters clusters{DiscreteTable(std::vector<double>{0.0, 0.0})};
     EXPECT_EQ(clusters.count(), 0);
-    const LightShare share = some_share();
-    EXPECT_EQ(clusters.factor(&share, 1), 1.0f);
+    const LightProbabilities probabilities = some_probabilities();
+    EXPECT_EQ(clusters.factor(&probabilities, 1), 1.0f);
 }
 
 TEST(LightClusters, UntaughtTheChoiceIsThatByPower) {
     const DiscreteTable table(std::vector<double>{1.0, 2.0, 0.5, 3.0});
     const LightClusters clusters(table);
-    const LightShare untaught = {kLightShareOne};
+    const LightProbabilities untaught = {kLightProbabilityOne};
     for (std::uint32_t i = 0; i < 10000; ++i) {
         const LightClusters::Choice choice = clusters.pick(untaught, bits(i));
         ASSERT_EQ(choice.bits, bits(i));
@@ -75,26 +75,26 @@ TEST(LightClusters, EntriesAreChosenAsOftenAsTheirFactorsSay) {
     for (const std::size_t entries : {4u, 40u}) {
         const DiscreteTable table(std::span<const double>(weights).first(entries));
         const LightClusters clusters(table);
-        const LightShare share = some_share();
+        const LightProbabilities probabilities = some_probabilities();
         constexpr std::uint32_t kSamples = 200000;
         std::vector<double> counts(entries), expected(entries);
         for (std::uint32_t i = 0; i < kSamples; ++i) {
-            const LightClusters::Choice choice = clusters.pick(share, bits(i));
+            const LightClusters::Choice choice = clusters.pick(probabilities, bits(i));
             const std::uint32_t entry = table.pick(choice.bits);
             ASSERT_EQ(clusters.of_entry(entry), choice.cluster);
-            ASSERT_EQ(clusters.factor(&share, entry), choice.factor);
+            ASSERT_EQ(clusters.factor(&probabilities, entry), choice.factor);
             ++counts[entry];
         }
         double whole = 0;
         for (std::uint32_t e = 0; e < entries; ++e)
-            whole += expected[e] = kSamples * double(table.probability(e)) * double(clusters.factor(&share, e));
+            whole += expected[e] = kSamples * double(table.probability(e)) * double(clusters.factor(&probabilities, e));
         EXPECT_NEAR(whole, kSamples, 1e-3 * kSamples);
         EXPECT_GT(test::chi_square_test(counts, expected), 1e-4);
     }
 }
 
 /// Integrals of radiance over directions agree however emitters are chosen, and densities are those of the samples.
-TEST(LightClusters, EmittersByShare) {
+TEST(LightClusters, EmittersByProbability) {
     Scene scene;
     test::add_shape(scene, test::quad({-1, -1, 3}, {0, 2, 0}, {2, 0, 0}), kNone, Rgb(1.0f));
     test::add_shape(scene, Sphere{Vec3(3, 0, 0), 0.7f, false}, kNone, Rgb(2.0f));
@@ -104,8 +104,8 @@ TEST(LightClusters, EmittersByShare) {
     const Emitters emitters(scene.emitters, geometry, scene.bounds());
     ASSERT_EQ(emitters.clusters().count(), 4);
     const Vec3 p(0.1f, 0.2f, -0.3f);
-    const LightShare share = some_share();
-    const auto brought = [&](const LightShare* s) {
+    const LightProbabilities probabilities = some_probabilities();
+    const auto brought = [&](const LightProbabilities* s) {
         double sum = 0;
         constexpr std::uint32_t kSamples = 400000;
         for (std::uint32_t i = 0; i < kSamples; ++i) {
@@ -121,7 +121,7 @@ TEST(LightClusters, EmittersByShare) {
         return sum;
     };
     const double by_power = brought(nullptr);
-    EXPECT_NEAR(brought(&share), by_power, 0.01 * by_power);
+    EXPECT_NEAR(brought(&probabilities), by_power, 0.01 * by_power);
 }
 
 }  // namespace

@@ -64,17 +64,17 @@ std::vector<int> count(const EmbreeScene& geometry, int rays) {
 
 constexpr int kRays = 100000;
 
-void expect_share(int met, double share, const char* what) {
-    EXPECT_NEAR(met / double(kRays), share, 5 * std::sqrt(share * (1 - share) / kRays)) << what;
+void expect_fraction(int met, double fraction, const char* what) {
+    EXPECT_NEAR(met / double(kRays), fraction, 5 * std::sqrt(fraction * (1 - fraction) / kRays)) << what;
 }
 
 TEST(Masks, FractionsOfRaysPassEachLayer) {
     const Layers layers({layer(1), layer(2), layer(3)}, FloatInput(0.3f));
     const std::vector<int> met = count(layers.geometry, kRays);
-    expect_share(met[0], 0.3, "first");
-    expect_share(met[1], 0.3 * 0.7, "second");
-    expect_share(met[2], 0.3 * 0.49, "third");
-    expect_share(met[3], 0.343, "wall");
+    expect_fraction(met[0], 0.3, "first");
+    expect_fraction(met[1], 0.3 * 0.7, "second");
+    expect_fraction(met[2], 0.3 * 0.49, "third");
+    expect_fraction(met[3], 0.343, "wall");
 }
 
 TEST(Masks, BothSidesOfClosedShapesCount) {
@@ -82,10 +82,10 @@ TEST(Masks, BothSidesOfClosedShapesCount) {
                          Disk{Vec3(0, 0, 8), Vec3(1, 0, 0), Vec3(0, 1, 0)}},
                         FloatInput(0.3f));
     const std::vector<int> met = count(layers.geometry, kRays);
-    expect_share(met[0], 1 - 0.49, "sphere");
-    expect_share(met[1], 0.49 * (1 - 0.49), "cylinder");
-    expect_share(met[2], 0.49 * 0.49 * 0.3, "disk");
-    expect_share(met[3], 0.49 * 0.49 * 0.7, "wall");
+    expect_fraction(met[0], 1 - 0.49, "sphere");
+    expect_fraction(met[1], 0.49 * (1 - 0.49), "cylinder");
+    expect_fraction(met[2], 0.49 * 0.49 * 0.3, "disk");
+    expect_fraction(met[3], 0.49 * 0.49 * 0.7, "wall");
 }
 
 TEST(Masks, WorkUnderInstances) {
@@ -112,10 +112,10 @@ TEST(Masks, WorkUnderInstances) {
         else
             ++passed;
     }
-    expect_share(met[0], 0.3, "first layer");
-    expect_share(met[1], 0.7 * 0.51, "first sphere");
-    expect_share(met[2], 0.7 * 0.49 * 0.3, "second layer");
-    expect_share(passed, 0.343 * 0.343, "none");
+    expect_fraction(met[0], 0.3, "first layer");
+    expect_fraction(met[1], 0.7 * 0.51, "first sphere");
+    expect_fraction(met[2], 0.7 * 0.49 * 0.3, "second layer");
+    expect_fraction(passed, 0.343 * 0.343, "none");
 }
 
 TEST(Masks, CutOutsAreExact) {
@@ -141,10 +141,10 @@ TEST(Masks, CutOutsAreExact) {
 }
 
 TEST(Masks, OpacitiesBeyondTheirRangeAreBounded) {
-    for (const auto& [opacity, share] : {std::pair{0.0f, 0.0}, {-1.0f, 0.0}, {2.0f, 1.0}, {std::nanf(""), 1.0}}) {
+    for (const auto& [opacity, fraction] : {std::pair{0.0f, 0.0}, {-1.0f, 0.0}, {2.0f, 1.0}, {std::nanf(""), 1.0}}) {
         const Layers layers({layer(1), Sphere{Vec3(0, 0, 4), 1.5f, false}}, FloatInput(opacity));
-        EXPECT_EQ(count(layers.geometry, 1000)[0], int(1000 * share)) << opacity;
-        EXPECT_EQ(count(layers.geometry, 1000)[2], int(1000 - 1000 * share)) << opacity;
+        EXPECT_EQ(count(layers.geometry, 1000)[0], int(1000 * fraction)) << opacity;
+        EXPECT_EQ(count(layers.geometry, 1000)[2], int(1000 - 1000 * fraction)) << opacity;
     }
 }
 

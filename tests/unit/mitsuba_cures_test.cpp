@@ -259,14 +259,15 @@ TEST_F(MitsubaCures, AreAllTried) {
     for (const Fault& fault : faults())
         for (const char version : std::string(fault.versions))
             if (const auto error = refusal(document(fault.body, version))) tried += error->cure() + "\n";
-    const std::vector<Refusal> refusals = refusals_in(std::string(TREEFARM_SOURCE_DIR) + "/common/scene/readers/mitsuba");
+    const std::vector<Refusal> refusals =
+        refusals_in(std::string(TREEFARM_SOURCE_DIR) + "/common/scene/readers/mitsuba");
     EXPECT_GT(refusals.size(), 100u);
     std::size_t mechanical = 0;
     for (const Refusal& found : refusals)
         for (const std::string& cure : found.cures) {
             if (!is_mechanical(cure)) continue;
             ++mechanical;
-            EXPECT_NE(tried.find(cure), std::string::npos) << found.place << ": " << cure;
+            EXPECT_NE(tried.find(cure), std::string::npos) << found.where << ": " << cure;
         }
     EXPECT_GT(mechanical, 40u);
 }

@@ -210,21 +210,21 @@ TEST_F(MitsubaMaterials, BlendsAndMixtures) {
     const Scene mixed = scene(bsdf(
         "mixturebsdf", word("weights", "0.2, 0.3, 0.1") + bsdf("diffuse", rgb("reflectance", "0.1")) +
                            bsdf("diffuse", rgb("reflectance", "0.2")) + bsdf("diffuse", rgb("reflectance", "0.3"))));
-    std::map<float, float> shares;
-    const auto collect = [&](const auto& self, std::int32_t index, float share) -> void {
+    std::map<float, float> fractions;
+    const auto collect = [&](const auto& self, std::int32_t index, float fraction) -> void {
         const Material m = part(mixed, index);
         if (const auto* b = std::get_if<BlendMaterial>(&m.bsdf)) {
-            self(self, b->first, share * (1 - b->weight.value));
-            self(self, b->second, share * b->weight.value);
+            self(self, b->first, fraction * (1 - b->weight.value));
+            self(self, b->second, fraction * b->weight.value);
         } else {
-            shares[std::get<DiffuseMaterial>(m.bsdf).reflectance.value.x] += share;
+            fractions[std::get<DiffuseMaterial>(m.bsdf).reflectance.value.x] += fraction;
         }
     };
     collect(collect, mixed.shapes[0].material, 1.0f);
-    EXPECT_NEAR(shares[0.1f], 0.2f, 1e-6f);
-    EXPECT_NEAR(shares[0.2f], 0.3f, 1e-6f);
-    EXPECT_NEAR(shares[0.3f], 0.1f, 1e-6f);
-    EXPECT_NEAR(shares[0.0f], 0.4f, 1e-6f);
+    EXPECT_NEAR(fractions[0.1f], 0.2f, 1e-6f);
+    EXPECT_NEAR(fractions[0.2f], 0.3f, 1e-6f);
+    EXPECT_NEAR(fractions[0.3f], 0.1f, 1e-6f);
+    EXPECT_NEAR(fractions[0.0f], 0.4f, 1e-6f);
 
     const std::string bumped = bsdf("bumpmap", board("map") + bsdf("diffuse"));
     const Scene half = scene(bsdf("blendbsdf", bumped + bsdf("plastic")));

@@ -140,7 +140,7 @@ TEST_F(Films, CropWindows) {
     const Film cropped = film(size + window);
     EXPECT_EQ(cropped.width, 16);
     EXPECT_EQ(cropped.height, 10);
-    EXPECT_EQ(cropped.place, (ImagePlace{8, 5, 40, 30}));
+    EXPECT_EQ(cropped.crop, (CropWindow{8, 5, 40, 30}));
     const Film old = film(integers({{"width", 40},
                                     {"height", 30},
                                     {"cropOffsetX", 8},
@@ -148,11 +148,11 @@ TEST_F(Films, CropWindows) {
                                     {"cropWidth", 16},
                                     {"cropHeight", 10}}),
                           0, 0, "0.6.0");
-    EXPECT_EQ(old.place, cropped.place);
-    EXPECT_FALSE(film(size + integers({{"crop_width", 40}, {"crop_height", 30}})).place.is_window());
+    EXPECT_EQ(old.crop, cropped.crop);
+    EXPECT_FALSE(film(size + integers({{"crop_width", 40}, {"crop_height", 30}})).crop.is_window());
     // A size from outside is the whole film's: the window keeps its share.
     const Film halved = film(size + window, 20, 15);
-    EXPECT_EQ(halved.place, (ImagePlace{4, 2, 20, 15}));
+    EXPECT_EQ(halved.crop, (CropWindow{4, 2, 20, 15}));
     EXPECT_EQ(halved.width, 8);
     EXPECT_EQ(halved.height, 6) << "rows 2.5 to 7.5: every one that it touches";
     for (const std::string& bad :

@@ -15,7 +15,7 @@ Result sample_result() {
     result.update = {1, 2, 3};
     result.stats.paths = 24;
     result.stats.trace_seconds = 0.25;
-    result.stats.copy_rays = 7;
+    result.stats.split_path_rays = 7;
     result.stats.splitting = {1, 2, 3, std::uint64_t{1} << 63};
     result.stats.first_invalid.push_back({3, 1, 2, 5, {0, 1, 2}});
     for (std::uint16_t k = 0; k < 2; ++k) {
@@ -104,7 +104,7 @@ TEST(Protocol, FieldsArriveAsTheyWereSent) {
     EXPECT_EQ(got.incarnation, sent.incarnation);
     EXPECT_EQ(got.update, sent.update);
     EXPECT_EQ(got.stats.paths, 24u);
-    EXPECT_EQ(got.stats.copy_rays, 7u);
+    EXPECT_EQ(got.stats.split_path_rays, 7u);
     EXPECT_EQ(got.stats.splitting.split_mean, 1u);
     EXPECT_EQ(got.stats.splitting.unsplit_variance, std::uint64_t{1} << 63);
     ASSERT_EQ(got.stats.first_invalid.size(), 1u);

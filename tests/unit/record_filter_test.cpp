@@ -35,23 +35,23 @@ std::uint32_t code_of(std::uint32_t x, std::uint32_t y) {
     return spread_bits(x) | (spread_bits(y) << 1);
 }
 
-double share(const TreeSums& sums, std::uint32_t cell) {
+double fraction(const TreeSums& sums, std::uint32_t cell) {
     const double total =
         static_cast<double>(std::accumulate(sums.cells().begin(), sums.cells().end(), std::uint64_t{0}));
     return static_cast<double>(sums.cells()[cell]) / total;
 }
 
-TEST(BoxFilter, SharesByOverlap) {
+TEST(BoxFilter, SpreadsByOverlap) {
     const SdTree tree = even_tree(2);
     const std::uint32_t side = 1u << (kDirectionBits - 2);
     // A quarter of a cell right of the centre of cell (1, 2), a quarter above.
     const std::uint32_t x = side + side / 2 + side / 4, y = 2 * side + side / 4;
     const TreeSums sums = splat(tree, {{0, code_of(x, y), 12345, 1.0f}});
     const auto cell = [](std::uint32_t cx, std::uint32_t cy) { return spread_bits(cx) | (spread_bits(cy) << 1); };
-    EXPECT_NEAR(share(sums, cell(1, 2)), 0.75 * 0.75, 1e-3);
-    EXPECT_NEAR(share(sums, cell(2, 2)), 0.25 * 0.75, 1e-3);
-    EXPECT_NEAR(share(sums, cell(1, 1)), 0.75 * 0.25, 1e-3);
-    EXPECT_NEAR(share(sums, cell(2, 1)), 0.25 * 0.25, 1e-3);
+    EXPECT_NEAR(fraction(sums, cell(1, 2)), 0.75 * 0.75, 1e-3);
+    EXPECT_NEAR(fraction(sums, cell(2, 2)), 0.25 * 0.75, 1e-3);
+    EXPECT_NEAR(fraction(sums, cell(1, 1)), 0.75 * 0.25, 1e-3);
+    EXPECT_NEAR(fraction(sums, cell(2, 1)), 0.25 * 0.25, 1e-3);
 }
 
 TEST(BoxFilter, KeepsTheSumOnAnyTree) {
@@ -78,8 +78,8 @@ TEST(BoxFilter, BeyondAnEdgeGoesOnAcrossTheFold) {
     const TreeSums sums = splat(tree, {{0, code_of((1u << kDirectionBits) - 1, y), 99, 1.0f}});
     const std::uint32_t here = guide.cell(0, code_of((1u << kDirectionBits) - 1, y));
     const std::uint32_t across = guide.cell(0, code_of((1u << kDirectionBits) - 1, (1u << kDirectionBits) - 1 - y));
-    EXPECT_NEAR(share(sums, here), 0.5, 1e-2);
-    EXPECT_NEAR(share(sums, across), 0.5, 1e-2);
+    EXPECT_NEAR(fraction(sums, here), 0.5, 1e-2);
+    EXPECT_NEAR(fraction(sums, across), 0.5, 1e-2);
     // The two are neighbours on the sphere.
     const Vec3 a = square_to_direction({0.99999f, (static_cast<float>(y) + 0.5f) / 65536.0f});
     const Vec3 b = square_to_direction({0.99999f, 1.0f - (static_cast<float>(y) + 0.5f) / 65536.0f});

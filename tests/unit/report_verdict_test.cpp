@@ -10,7 +10,7 @@
 #include "report/figure_export.h"
 #include "report/figure_text.h"
 #include "report/gain.h"
-#include "report/processor_share.h"
+#include "report/processor_fraction.h"
 #include "report/run_results.h"
 #include "report/study_charts.h"
 #include "report/study_page.h"
@@ -25,7 +25,7 @@ const SceneResult kRoom{"room", "room.xml", "room.exr", 0.001, true},
 
 /// A cell of two passes: the error falls as the inverse square root of time, to `error` after `seconds`.
 CellResult cell(const std::string& scene, const std::string& method, std::size_t repetition, double error,
-                double share = 1, double rel_error = 0, double seconds = 4) {
+                double fraction = 1, double rel_error = 0, double seconds = 4) {
     CellResult made;
     made.scene = scene;
     made.method = method;
@@ -38,7 +38,7 @@ CellResult cell(const std::string& scene, const std::string& method, std::size_t
         row.spp_done = static_cast<int>(16 * part);
         row.threads = 2;
         row.run_seconds = part * seconds;
-        row.core_seconds = part * seconds * 2 * share;
+        row.core_seconds = part * seconds * 2 * fraction;
         row.phases = {{"collect", seconds * (made.passes.empty() ? 0.25 : 0.75)}};
         const double now = error / std::sqrt(part), rel = rel_error > 0 ? rel_error : now;
         row.measured = {{"rmse_over_mean", now}, {"rel_mse", rel * rel}, {"rel_mse_trimmed", rel * rel},
@@ -64,12 +64,12 @@ StudyResults study(std::vector<CellResult> cells, std::vector<SceneResult> scene
 
 /// Seeds whose errors scatter by a few per cent around those of each method.
 std::vector<CellResult> seeds(const std::string& scene, std::size_t count, double plain, double guided,
-                              double share = 1) {
+                              double fraction = 1) {
     std::vector<CellResult> cells;
     for (std::size_t k = 0; k < count; ++k) {
         const double scatter = 1 + 0.02 * static_cast<double>(k % 3);
-        cells.push_back(cell(scene, "plain", k, plain * scatter, share));
-        cells.push_back(cell(scene, "guided", k, guided / scatter, share));
+        cells.push_back(cell(scene, "plain", k, plain * scatter, fraction));
+        cells.push_back(cell(scene, "guided", k, guided / scatter, fraction));
     }
     return cells;
 }
@@ -150,7 +150,7 @@ TEST(Verdict, ABusyMachineIsTold) {
         cells.push_back(cell("room", "guided", k, 0.05, 0.5));
     }
     const StudyResults results = study(std::move(cells));
-    EXPECT_NEAR(processor_share(results.cells[1]), 0.5, 1e-9);
+    EXPECT_NEAR(processor_fraction(results.cells[1]), 0.5, 1e-9);
     expect_part(busy_warning(results), "in 3 of 6 renders workers had less than 80 %");
     expect_part(busy_warning(results), "least: 50 %, room, guided");
     EXPECT_EQ(&main_clock(results), &clocks()[1]);

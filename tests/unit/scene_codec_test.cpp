@@ -120,7 +120,7 @@ TEST(SceneCodec, EmittersCameraAndFilmRoundTrip) {
     EXPECT_EQ(back.film.filter, PixelFilter::gaussian);
     EXPECT_EQ(back.film.filter_b, 0.25f);
     EXPECT_EQ(back.film.filter_c, 0.75f);
-    EXPECT_EQ(back.film.place, (ImagePlace{7, 2, 65535, 9}));
+    EXPECT_EQ(back.film.crop, (CropWindow{7, 2, 65535, 9}));
 
     Scene constant;
     constant.emitters.push_back({ConstantEmitter{Rgb(4, 5, 6)}, {}});

@@ -82,11 +82,11 @@ TEST(Validate, EmptyScenesWarn) {
 
 TEST(Validate, RefusesWhatCannotBeRendered) {
     const float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
-    const auto refused = [](const std::string& place, auto change) {
+    const auto refused = [](const std::string& where, auto change) {
         Scene scene = triangle_scene();
         change(scene);
         const std::string message = message_of(scene);
-        EXPECT_EQ(message.substr(0, place.size()), place) << message;
+        EXPECT_EQ(message.substr(0, where.size()), where) << message;
         EXPECT_NE(message, "no error");
     };
     refused("s.xml:7:3: ", [](Scene& s) { mesh_of(s).indices[4] = 4; });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Both ways out of smooth glass where the camera sees it (worker/integrators/path/branches.h).
+// Both ways out of smooth glass where the camera sees it (worker/integrators/path/glass_splits.h).
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -78,7 +78,7 @@ TEST(SplitGlass, FollowsAFaintMirrorImageFourTimesAsOften) {
     EXPECT_LT(split.variance, 0.3 * tossed.variance);
 }
 
-TEST(SplitGlass, ADepthLimitOrAMirrorIsNoReasonToBranch) {
+TEST(SplitGlass, ADepthLimitOrAMirrorIsNoReasonToSplit) {
     Scene scene = pane(0.1f, 1.0f);
     Job job;
     job.guiding.type = GuidingType::none;
@@ -89,7 +89,7 @@ TEST(SplitGlass, ADepthLimitOrAMirrorIsNoReasonToBranch) {
 }
 
 TEST(SplitGlass, IsTheSameHoweverTheImageIsCut) {
-    // Batches mix paths with and without branches: a ball of glass before the sky.
+    // Batches mix paths that are split and others: a ball of glass before the sky.
     Scene scene;
     const std::int32_t glass = test::add_material(scene, DielectricMaterial{1.5f, Rgb(1.0f), Rgb(0.9f), {}});
     test::add_shape(scene, Sphere{Vec3(0.0f), 1.0f}, glass);
@@ -158,7 +158,7 @@ TEST(SplitGlass, NoPathIsLostOnAWayThatIsBlack) {
     }
 }
 
-TEST(PathRecorder, ABranchCarriesNothingForTheOtherWay) {
+TEST(PathRecorder, AGlassSplitCarriesNothingForTheOtherWay) {
     PathRecorder recorder;
     RecordLog log;
     log.begin(2);
@@ -167,7 +167,7 @@ TEST(PathRecorder, ABranchCarriesNothingForTheOtherWay) {
     recorder.add_vertex({0}, 11, 0.5f, Rgb(0.5f), {3}, 0);
     recorder.add_emission(Rgb(1.0f));
     EXPECT_EQ(recorder.commit(log), 1u);
-    recorder.begin_branch(Rgb(0.1f));
+    recorder.begin_other_way(Rgb(0.1f));
     recorder.add_reflected(recorder.vertex_count(), Rgb(100.0f));
     recorder.add_vertex({1}, 22, 4.0f, Rgb(0.25f), {4}, 0);
     recorder.add_emission(Rgb(8.0f));
@@ -196,9 +196,9 @@ Traced trace(const TraceScene& scene, const Job& job, const PassPlan& pass, cons
     return traced;
 }
 
-/// Paths take the places of others that have ended, branches walk when all the others are done, and there are more than
-/// fit into a group.
-TEST(PathKernel, APathDoesNotDependOnItsCompany) {
+/// Paths take the slots of others that have ended, other ways walk when all the others are done, and there are more
+/// than fit into a group.
+TEST(PathKernel, APathDoesNotDependOnOthers) {
     Scene scene = test::cornell_box(1.0f, Vec3(0.0f));
     const std::int32_t glass = test::add_material(scene, ThinDielectricMaterial{1.5f, Rgb(1.0f), Rgb(1.0f)});
     test::add_shape(scene, test::quad({0.1f, 0.2f, 0.1f}, {0.7f, 0, 0}, {0, 0.5f, 0.5f}), glass);

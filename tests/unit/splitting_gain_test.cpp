@@ -10,7 +10,7 @@
 #include "common/plan/budget.h"
 #include "common/plan/schedule.h"
 #include "tests/support/resolved.h"
-#include "worker/integrators/path/path_copies.h"
+#include "worker/integrators/path/split_paths.h"
 
 namespace treefarm {
 namespace {
@@ -23,7 +23,7 @@ TEST(SplittingGain, ComparesVarianceAndRays) {
     pixel.finish(stats.splitting);
     stats.rays = 700;
     stats.probe_rays = 200;
-    stats.copy_rays = 100;
+    stats.split_path_rays = 100;
     const SplittingGain gain = splitting_gain(stats);
     EXPECT_NEAR(gain.variance, 4, 1e-3);
     EXPECT_NEAR(gain.found, 1, 1e-3);

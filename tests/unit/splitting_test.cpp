@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Paths that go on as several (worker/integrators/path/path_copies.h).
+// Paths that go on as several (worker/integrators/path/split_paths.h).
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -12,8 +12,8 @@
 #include "tests/support/resolved.h"
 #include "tests/support/support.h"
 #include "tests/support/test_scenes.h"
-#include "worker/integrators/path/path_copies.h"
 #include "worker/integrators/path/path_roulette.h"
+#include "worker/integrators/path/split_paths.h"
 #include "worker/integrators/path/tile_renderer.h"
 #include "worker/integrators/subpath/roulette.h"
 
@@ -35,76 +35,76 @@ TEST(Splitting, IsByWhatAPathIsExpectedToCarry) {
 }
 
 /// Every path splits as often as it may: into `ways` each time.
-std::uint32_t most_copies(CopyBudget budget, std::uint32_t ways) {
+std::uint32_t most_split_paths(SplitBudget budget, std::uint32_t ways) {
     const std::uint32_t paths = budget.split(ways);
-    return paths == 1 ? 0 : paths - 1 + paths * most_copies(budget, ways);
+    return paths == 1 ? 0 : paths - 1 + paths * most_split_paths(budget, ways);
 }
 
 TEST(Splitting, LightIsTheRootOfSquaredRecords) {
-    EXPECT_EQ(light_exponent(6, GuidingTarget::radiance), 6);
-    EXPECT_EQ(light_exponent(-40, GuidingTarget::radiance), -40);
-    EXPECT_EQ(light_exponent(6, GuidingTarget::variance), 3);
-    EXPECT_EQ(light_exponent(-40, GuidingTarget::variance), -20);
+    EXPECT_EQ(radiance_exponent(6, GuidingTarget::radiance), 6);
+    EXPECT_EQ(radiance_exponent(-40, GuidingTarget::radiance), -40);
+    EXPECT_EQ(radiance_exponent(6, GuidingTarget::variance), 3);
+    EXPECT_EQ(radiance_exponent(-40, GuidingTarget::variance), -20);
 }
 
-TEST(Splitting, CopiesOfAPathAreBounded) {
-    EXPECT_EQ(CopyBudget{}.split(1), 1u);
+TEST(Splitting, SplitPathsAreBounded) {
+    EXPECT_EQ(SplitBudget{}.split(1), 1u);
     for (std::uint32_t ways = 2; ways <= 40; ++ways) {
-        const std::uint32_t copies = most_copies({}, ways);
-        EXPECT_GE(copies, std::min<std::uint32_t>(ways - 1, CopyBudget::kMost));
-        EXPECT_LE(copies, std::uint32_t{CopyBudget::kMost}) << ways;
+        const std::uint32_t split_paths = most_split_paths({}, ways);
+        EXPECT_GE(split_paths, std::min<std::uint32_t>(ways - 1, SplitBudget::kMost));
+        EXPECT_LE(split_paths, std::uint32_t{SplitBudget::kMost}) << ways;
     }
-    CopyBudget spent;
+    SplitBudget spent;
     spent.left = 0;
     EXPECT_EQ(spent.split(8), 1u);
 }
 
-PathCopy copy_of(std::uint16_t origin, std::uint8_t left_by, int depth) {
-    PathCopy copy{};
-    copy.origin = origin;
-    copy.copies.number = left_by;
-    copy.depth = depth;
-    return copy;
+SplitPath split_path_of(std::uint16_t origin, std::uint8_t left_by, int depth) {
+    SplitPath split{};
+    split.origin = origin;
+    split.split_budget.number = left_by;
+    split.depth = depth;
+    return split;
 }
 
-TEST(Splitting, CopiesAreNumberedWhateverTheirCompany) {
-    // Path 1 left two; then, with another path between, its copies 1 and 2 left some in the other order.
+TEST(Splitting, SplitPathsAreNumberedWhateverElseWalks) {
+    // Path 1 left two; then, with another path between, its split paths 1 and 2 left some in the other order.
     std::vector<std::uint8_t> numbers(3, 0);
-    PathCopies copies;
-    copies.leave(copy_of(1, 0, 3));
-    copies.leave(copy_of(0, 0, 2));
-    copies.leave(copy_of(1, 0, 5));
-    const auto first = copies.next(numbers);
+    SplitPaths split_paths;
+    split_paths.leave(split_path_of(1, 0, 3));
+    split_paths.leave(split_path_of(0, 0, 2));
+    split_paths.leave(split_path_of(1, 0, 5));
+    const auto first = split_paths.next(numbers);
     ASSERT_EQ(first.size(), 3u);
     EXPECT_EQ(first[0].origin, 0);
     EXPECT_EQ(first[1].depth, 3);
-    EXPECT_EQ(first[1].copies.number, 1);
+    EXPECT_EQ(first[1].split_budget.number, 1);
     EXPECT_EQ(first[2].depth, 5);
-    EXPECT_EQ(first[2].copies.number, 2);
-    EXPECT_TRUE(copies.empty());
+    EXPECT_EQ(first[2].split_budget.number, 2);
+    EXPECT_TRUE(split_paths.empty());
     std::map<int, int> alone;
-    for (const bool company : {false, true}) {
+    for (const bool among_others : {false, true}) {
         std::fill(numbers.begin(), numbers.end(), std::uint8_t{2});
-        if (company) copies.leave(copy_of(2, 1, 9));
-        if (company) copies.leave(copy_of(1, 2, 7));
-        copies.leave(copy_of(1, 1, 4));
-        if (company) copies.leave(copy_of(0, 1, 9));
-        copies.leave(copy_of(1, 1, 6));
-        if (!company) copies.leave(copy_of(1, 2, 7));
+        if (among_others) split_paths.leave(split_path_of(2, 1, 9));
+        if (among_others) split_paths.leave(split_path_of(1, 2, 7));
+        split_paths.leave(split_path_of(1, 1, 4));
+        if (among_others) split_paths.leave(split_path_of(0, 1, 9));
+        split_paths.leave(split_path_of(1, 1, 6));
+        if (!among_others) split_paths.leave(split_path_of(1, 2, 7));
         std::map<int, int> number_of;
-        for (const PathCopy& copy : copies.next(numbers))
-            if (copy.origin == 1) number_of[copy.depth] = copy.copies.number;
-        if (!company) alone = number_of;
+        for (const SplitPath& split : split_paths.next(numbers))
+            if (split.origin == 1) number_of[split.depth] = split.split_budget.number;
+        if (!among_others) alone = number_of;
         EXPECT_EQ(number_of, alone);
     }
     EXPECT_EQ(alone, (std::map<int, int>{{4, 3}, {6, 4}, {7, 5}}));
 }
 
-TEST(Splitting, RandomNumbersOfCopiesAreTheirOwn) {
-    PathCopy copy = copy_of(0, 1, 7);
-    EXPECT_EQ(copy.first_vertex(), (1u << 16) + 6);
-    copy.copies.number = CopyBudget::kMost;
-    EXPECT_LT(copy.first_vertex() + (1u << 16), 1u << 28) << "below those of the other way out of glass";
+TEST(Splitting, RandomNumbersOfSplitPathsAreTheirOwn) {
+    SplitPath split = split_path_of(0, 1, 7);
+    EXPECT_EQ(split.first_vertex(), (1u << 16) + 6);
+    split.split_budget.number = SplitBudget::kMost;
+    EXPECT_LT(split.first_vertex() + (1u << 16), 1u << 28) << "below those of the other way out of glass";
 }
 
 class SplittingInARoom : public ::testing::Test {
@@ -152,8 +152,8 @@ class SplittingInARoom : public ::testing::Test {
     PassPlan pass_;
 };
 
-/// Groups, batches of copies and their order differ; samples and what they teach do not.
-TEST_F(SplittingInARoom, DoesNotDependOnCompany) {
+/// Groups, batches of split paths and their order differ; samples and what they teach do not.
+TEST_F(SplittingInARoom, DoesNotDependOnOtherPaths) {
     const Rendered whole = render(job_, part(0, 0, 24, 16));
     Job alone = job_;
     alone.guiding.splitting = 1;
@@ -177,7 +177,7 @@ TEST_F(SplittingInARoom, DoesNotDependOnCompany) {
                 counts[k] += r.log.counts[k];
         }
     EXPECT_EQ(stats.rays, whole.stats.rays);
-    EXPECT_EQ(stats.copy_rays, whole.stats.copy_rays);
+    EXPECT_EQ(stats.split_path_rays, whole.stats.split_path_rays);
     EXPECT_EQ(stats.splitting.split_mean, whole.stats.splitting.split_mean);
     EXPECT_EQ(stats.splitting.unsplit_mean, whole.stats.splitting.unsplit_mean);
     EXPECT_EQ(stats.splitting.split_variance, whole.stats.splitting.split_variance);
@@ -197,7 +197,7 @@ TEST_F(SplittingInARoom, UnsplitSamplesAreThoseOfPathsThatAreNotSplit) {
     Job alone = job_;
     alone.guiding.splitting = 1;
     const Rendered unsplit = render(alone, part(0, 0, 24, 16));
-    EXPECT_EQ(unsplit.stats.copy_rays, 0u);
+    EXPECT_EQ(unsplit.stats.split_path_rays, 0u);
     EXPECT_EQ(splitting_gain(unsplit.stats).variance, 0) << "nothing to compare";
     double with = 0, without = 0;
     for (std::size_t p = 0; p < split.pixels.size(); ++p) {
@@ -225,7 +225,7 @@ TEST_F(SplittingInARoom, IsToldByDescribeSample) {
 
 /// In a furnace whose directions the BSDF alone draws every path carries exactly 1 + a + a^2 + ...: shares that did not
 /// sum to one would show in each sample, which z-tests of noisy rooms cannot tell.
-TEST(Splitting, SharesSumToOne) {
+TEST(Splitting, FractionsSumToOne) {
     Scene scene = test::furnace(0.5f, 1.0f, 2.0f, Vec3(0.0f));
     test::set_film(scene, 16, 16);
     Job job;
@@ -256,7 +256,7 @@ TEST(Splitting, SharesSumToOne) {
     const SplittingGain gain = splitting_gain(stats);
     EXPECT_NEAR(gain.found, 1, 1e-6) << "alone they carry the same";
     EXPECT_NEAR(gain.variance, 1, 1e-6) << "of pixels across regions, whose scales differ";
-    EXPECT_EQ(stats.rays - stats.copy_rays, 6 * stats.paths);
+    EXPECT_EQ(stats.rays - stats.split_path_rays, 6 * stats.paths);
     for (const PixelEstimate& pixel : pixels) {
         EXPECT_NEAR(pixel.whole().mean.x, 2 - std::pow(0.5, 5), 1e-5);
         EXPECT_NEAR(pixel.whole().sample_variance().x, 0, 1e-10);

@@ -63,14 +63,14 @@ TEST(Study, InterleavesMethods) {
                               "[scene.two]\nfile = \"cornell-box.xml\"\n[method.a]\n[method.b]\n[method.c]\n" + kRest);
     const std::vector<StudyCell> cells = study_cells(study);
     ASSERT_EQ(cells.size(), 18u);
-    std::map<std::size_t, std::set<std::size_t>> places;
+    std::map<std::size_t, std::set<std::size_t>> turns;
     for (std::size_t k = 0; k < cells.size(); ++k) {
         EXPECT_EQ(cells[k].scene, k / 9) << "a scene is done before the next begins";
         EXPECT_EQ(cells[k].repetition, k / 3 % 3) << "a repetition holds every method";
         EXPECT_EQ(cells[k].seed, cells[k].repetition + 1);
-        places[cells[k].method].insert(k % 3);
+        turns[cells[k].method].insert(k % 3);
     }
-    for (const auto& [method, at] : places)
+    for (const auto& [method, at] : turns)
         EXPECT_EQ(at.size(), 3u) << "method " << method << " stands at every place of a repetition";
 }
 

@@ -57,7 +57,7 @@ TEST(Usage, SecondsAreAboveZeroAndMayHaveAUnit) {
         EXPECT_EQ(test::run_treefarm("plan --no-probe " + box() + " --seconds " + text).code, 0) << text;
 }
 
-TEST(Usage, ErrorsAreSharesOrPercentages) {
+TEST(Usage, ErrorsAreFractionsOrPercentages) {
     expect_render_refuses("--error 0", {"--error: an error of 0 takes forever", "--error 0.05 or --error 5%"});
     expect_render_refuses("--error 5", {"\"5\" is 500 % of the mean", "for 5 % write --error 0.05 or --error 5%"});
     expect_render_refuses("--error 500%", {"is 500 % of the mean"});

@@ -49,12 +49,12 @@ struct OneView {
     }
 
     /// A pass in which `records` of the view, of `all`, fell into this bin. Whether the view is kept.
-    bool judge(int bin, std::uint32_t records, std::uint32_t all, bool last_lesson = false) {
+    bool judge(int bin, std::uint32_t records, std::uint32_t all, bool last_update = false) {
         TreeSums sums(tree.pass, SumsShape(1, tree.cell_count(), true, 1));
         sums.add_count(0, all);
         sums.add_count(1, records);
         sums.add_mixture(1, static_cast<std::uint8_t>(bin), std::uint64_t{records} << kMeanRecordBits);
-        const bool keep = learner.judge(tree, sums, last_lesson)[0].keep;
+        const bool keep = learner.judge(tree, sums, last_update)[0].keep;
         const ViewOrigin same{0, 0};
         learner.hand_down({&same, 1}, tree);
         return keep;
@@ -73,7 +73,7 @@ TEST(ViewMixture, AYoungViewLeavesItsRegionAsItIs) {
     EXPECT_NO_THROW(decode_tree(encode_tree(one.tree)));
 }
 
-TEST(ViewMixture, OfNoUseTwiceItIsReleasedAndAtOnceInTheLastLesson) {
+TEST(ViewMixture, OfNoUseTwiceItIsReleasedAndAtOnceInTheLastUpdate) {
     OneView useful, useless, last;
     EXPECT_TRUE(useful.judge(kViewBin, 10000, 20000));
     EXPECT_TRUE(useful.judge(kViewBin, 10000, 20000, true));

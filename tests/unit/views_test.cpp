@@ -63,9 +63,9 @@ TEST_F(ViewsTest, ViewsAreSampledByTheDensityOfTheirCells) {
         }
         EXPECT_NEAR(whole, 1.0, 1e-5);
         for (int i = 0; i < 20; ++i) {
-            const Guide::Place place = guide.sample_place(d, bits(), bits(), bits());
-            EXPECT_GT(place.pdf, 0.0f);
-            EXPECT_EQ(place.pdf, guide.pdf(d, place.code));
+            const Guide::SquareSample drawn = guide.sample_square(d, bits(), bits(), bits());
+            EXPECT_GT(drawn.pdf, 0.0f);
+            EXPECT_EQ(drawn.pdf, guide.pdf(d, drawn.code));
         }
     }
 }
@@ -77,8 +77,8 @@ TEST_F(ViewsTest, APickFindsTheCellThatHoldsItsProbability) {
         for (std::uint32_t c = tree.cell_begin[d]; c < tree.cell_begin[d + 1]; mass += tree.cell_mass[c++]) {
             if (tree.cell_mass[c] == 0) continue;
             for (const std::uint32_t at : {mass, mass + tree.cell_mass[c] - 1}) {
-                const Guide::Place place = guide.sample_place(d, at << (32 - kMassBits), bits(), bits());
-                ASSERT_EQ(guide.cell(d, place.code), c);
+                const Guide::SquareSample drawn = guide.sample_square(d, at << (32 - kMassBits), bits(), bits());
+                ASSERT_EQ(guide.cell(d, drawn.code), c);
             }
         }
         if (d >= tree.region_count()) largest = std::max(largest, tree.cell_begin[d + 1] - tree.cell_begin[d]);

@@ -122,8 +122,8 @@ TEST(ZTest, PixelsThatMissedRarePathsDoNotVouchForThemselves) {
         for (int s = 0; s < 32; ++s)
             hits += bright(engine);
         image.pixels[p] = Rgb(20.0f * static_cast<float>(hits) / 32.0f);
-        const float share = static_cast<float>(hits) / 32.0f;
-        variance.pixels[p] = Rgb(400.0f * share * (1.0f - share) / 31.0f);
+        const float fraction = static_cast<float>(hits) / 32.0f;
+        variance.pixels[p] = Rgb(400.0f * fraction * (1.0f - fraction) / 31.0f);
     }
     const RgbImage truth(64, 64, Rgb(1.0f));
     EXPECT_FALSE(pixel_z_test({image, truth, &variance}, {.pool_radius = 0}).pass);

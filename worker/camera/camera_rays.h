@@ -15,8 +15,8 @@ class CameraRays {
     CameraRays(const Camera& camera, const Film& film)
         : camera_(camera),
           filter_(film),
-          x0_(film.place.x),
-          y0_(film.place.y),
+          x0_(film.crop.x),
+          y0_(film.crop.y),
           width_(film.whole_width()),
           height_(film.whole_height()),
           has_lens_(camera.has_lens()),
@@ -72,8 +72,8 @@ class CameraRays {
         return generate(x, y, draw(path, 0, Stream::camera));
     }
 
-    Ray orthographic(const Imath::V3d& place) const {
-        return {Vec3(Imath::V3d(camera_.origin) + place), camera_.parallel};
+    Ray orthographic(const Imath::V3d& point) const {
+        return {Vec3(Imath::V3d(camera_.origin) + point), camera_.parallel};
     }
 
     [[gnu::noinline]] Ray orthographic(int x, int y, const PathKey& path) const {

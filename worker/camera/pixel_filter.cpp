@@ -10,7 +10,7 @@ namespace treefarm {
 namespace {
 
 /// exp(-x) for x >= 0 in plain double operations: the C library's exp may round differently on another machine.
-double exp_negative(double x) {
+double exp_of_minus(double x) {
     const double t = x / 1024.0;
     double term = 1.0, sum = 1.0;
     for (int i = 1; i <= 20; ++i) {
@@ -22,11 +22,11 @@ double exp_negative(double x) {
     return sum;
 }
 
-/// Integrals of the truncated Gaussian max(0, g(x) - g(radius)) over equal cells of [0, radius].
-std::vector<double> gaussian_masses(double radius, double stddev, std::uint32_t cells) {
+/// Integrals of the truncated Gaussian max(0, g(x) - g(radius)) over equal bins of [0, radius].
+std::vector<double> gaussian_masses(double radius, double stddev, std::uint32_t bins) {
     const double scale = 0.5 / (stddev * stddev);
-    const double at_radius = exp_negative(scale * radius * radius);
-    return cell_masses([&](double x) { return exp_negative(scale * x * x) - at_radius; }, radius, cells);
+    const double at_radius = exp_of_minus(scale * radius * radius);
+    return bin_masses([&](double x) { return exp_of_minus(scale * x * x) - at_radius; }, radius, bins);
 }
 
 /// Cumulative absolute masses, of 2^31.
@@ -44,22 +44,22 @@ std::vector<std::uint32_t> cumulative_table(const std::vector<double>& masses) {
 
 FilterSampler::FilterSampler(const Film& film) : filter_(film.filter), radius_(film.filter_radius) {
     if (filter_ == PixelFilter::gaussian)
-        cumulative_ = cumulative_table(gaussian_masses(radius_, film.filter_stddev, kCells));
+        cumulative_ = cumulative_table(gaussian_masses(radius_, film.filter_stddev, kBins));
     if (!film.is_signed()) return;
-    const std::vector<double> masses = lobe_masses(film, kCells);
+    const std::vector<double> masses = lobe_masses(film, kBins);
     cumulative_ = cumulative_table(masses);
     for (const double mass : masses)
         negative_.push_back(mass < 0);
     weight_ = static_cast<float>(excess_of(masses));
 }
 
-std::uint32_t FilterSampler::cell_of(std::uint32_t bits) const {
+std::uint32_t FilterSampler::bin_of(std::uint32_t bits) const {
     const auto above = std::upper_bound(cumulative_.begin() + 1, cumulative_.end() - 1, bits);
     return static_cast<std::uint32_t>(above - cumulative_.begin()) - 1;
 }
 
 float FilterSampler::weight(std::uint32_t random) const {
-    return !negative_.empty() && negative_[cell_of(random & 0x7fffffffu)] ? -weight_ : weight_;
+    return !negative_.empty() && negative_[bin_of(random & 0x7fffffffu)] ? -weight_ : weight_;
 }
 
 float FilterSampler::sample(std::uint32_t random) const {
@@ -72,10 +72,10 @@ float FilterSampler::sample(std::uint32_t random) const {
         const float rest = static_cast<float>(0x7fffffffu - bits) * 0x1p-31f;
         magnitude = radius_ * (1.0f - std::sqrt(rest));
     } else {
-        const std::uint32_t cell = cell_of(bits);
-        const float begin = static_cast<float>(cumulative_[cell]), end = static_cast<float>(cumulative_[cell + 1]);
+        const std::uint32_t bin = bin_of(bits);
+        const float begin = static_cast<float>(cumulative_[bin]), end = static_cast<float>(cumulative_[bin + 1]);
         const float within = end > begin ? (static_cast<float>(bits) - begin) / (end - begin) : 0.5f;
-        magnitude = radius_ / static_cast<float>(kCells) * (static_cast<float>(cell) + std::clamp(within, 0.0f, 1.0f));
+        magnitude = radius_ / static_cast<float>(kBins) * (static_cast<float>(bin) + std::clamp(within, 0.0f, 1.0f));
     }
     return negative ? -magnitude : magnitude;
 }

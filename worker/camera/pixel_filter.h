@@ -21,15 +21,15 @@ class FilterSampler {
     float weight(std::uint32_t random) const;
 
   private:
-    static constexpr std::uint32_t kCells = 512;
+    static constexpr std::uint32_t kBins = 512;
 
-    std::uint32_t cell_of(std::uint32_t bits) const;
+    std::uint32_t bin_of(std::uint32_t bits) const;
 
     PixelFilter filter_;
     float radius_;
     float weight_ = 1.0f;
-    std::vector<bool> negative_;  ///< where cells lie in negative lobes
-    /// Neither box nor tent: probability (times 2^31) of |x| below the left edge of each of kCells equal cells of [0,
+    std::vector<bool> negative_;  ///< where bins lie in negative lobes
+    /// Neither box nor tent: probability (times 2^31) of |x| below the left edge of each of kBins equal bins of [0,
     /// radius].
     std::vector<std::uint32_t> cumulative_;
 };

@@ -25,13 +25,13 @@ RTCIntersectContext incoherent_context() {
 
 }  // namespace
 
-void EmbreeScene::meet(std::span<const Query> queries) const {
+void EmbreeScene::intersect(std::span<const Query> queries) const {
     for (; queries.size() > kPacket; queries = queries.subspan(kPacket))
-        meet_packet(queries.first(kPacket));
-    if (!queries.empty()) meet_packet(queries);
+        intersect_packet(queries.first(kPacket));
+    if (!queries.empty()) intersect_packet(queries);
 }
 
-void EmbreeScene::meet_packet(std::span<const Query> queries) const {
+void EmbreeScene::intersect_packet(std::span<const Query> queries) const {
     RTCIntersectContext context = incoherent_context();
     alignas(32) std::array<int, kPacket> valid{};
     RTCRayHit8 packet;
@@ -59,14 +59,14 @@ void EmbreeScene::meet_packet(std::span<const Query> queries) const {
     for (std::size_t i = 0; i < queries.size(); ++i) {
         *queries[i].found = hit.geomID[i] != RTC_INVALID_GEOMETRY_ID;
         if (hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) continue;
-        *queries[i].meeting = {hit.instID[0][i], hit.geomID[i], hit.primID[i],
-                               hit.u[i],         hit.v[i],      {hit.Ng_x[i], hit.Ng_y[i], hit.Ng_z[i]}};
+        *queries[i].embree_hit = {hit.instID[0][i], hit.geomID[i], hit.primID[i],
+                                  hit.u[i],         hit.v[i],      {hit.Ng_x[i], hit.Ng_y[i], hit.Ng_z[i]}};
         if (hit.instID[0][i] == RTC_INVALID_GEOMETRY_ID)
             prefetch_line(surfaces_[hit.geomID[i]].indices + 3 * std::size_t(hit.primID[i]));
     }
 }
 
-void EmbreeScene::set_point(Hit& hit, const Meeting& m) const {
+void EmbreeScene::set_point(Hit& hit, const EmbreeHit& m) const {
     static_assert(kNoInstance == RTC_INVALID_GEOMETRY_ID);
     if (m.instance == kNoInstance)
         set_triangle_point(hit, m.id, m.primitive, m.u, m.v);
@@ -75,11 +75,11 @@ void EmbreeScene::set_point(Hit& hit, const Meeting& m) const {
 }
 
 bool EmbreeScene::intersect(const Ray& ray, Hit& hit) const {
-    Meeting meeting;
+    EmbreeHit embree_hit;
     bool found;
-    const Query query{&ray, &meeting, &found};
-    meet({&query, 1});
-    if (found) set_point(hit, meeting);
+    const Query query{&ray, &embree_hit, &found};
+    intersect({&query, 1});
+    if (found) set_point(hit, embree_hit);
     return found;
 }
 

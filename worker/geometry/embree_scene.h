@@ -43,7 +43,7 @@ class EmbreeScene {
     EmbreeScene& operator=(const EmbreeScene&) = delete;
 
     /// The first hit of a ray, as Embree tells it.
-    struct Meeting {
+    struct EmbreeHit {
         std::uint32_t instance, id, primitive;
         float u, v;
         Vec3 outward;
@@ -51,16 +51,16 @@ class EmbreeScene {
     /// A ray, and where to put whether it meets anything, and what first.
     struct Query {
         const Ray* ray;
-        Meeting* meeting;
+        EmbreeHit* embree_hit;
         bool* found;
     };
     /// The nearest surface along each ray. Rays go to Embree in packets, which spares calls, but as incoherent ones:
-    /// each finds its own way through the hierarchy, so that what it meets does not depend on its company.
-    void meet(std::span<const Query> queries) const;
-    /// The point that was met. Apart from meet(), so that of many points none waits for another's memory.
-    void set_point(Hit& hit, const Meeting& meeting) const;
+    /// each finds its own way through the hierarchy, so that what it hits does not depend on the others.
+    void intersect(std::span<const Query> queries) const;
+    /// The point that was met. Apart from intersect(), so that of many points none waits for another's memory.
+    void set_point(Hit& hit, const EmbreeHit& embree_hit) const;
     /// Fetches what set_point() reads.
-    void prefetch_point(const Meeting& m) const {
+    void prefetch_point(const EmbreeHit& m) const {
         if (m.instance != kNoInstance) return;  // rare, and another's
         const Surface& surface = surfaces_[m.id];
         const std::uint32_t* corner = surface.indices + 3 * std::size_t(m.primitive);
@@ -69,7 +69,7 @@ class EmbreeScene {
             if (surface.normals) prefetch_line(surface.normals + corner[i]);
         }
     }
-    /// The nearest surface along a ray, and the point there: meet() and set_point() in one.
+    /// The nearest surface along a ray, and the point there: intersect() and set_point() in one.
     bool intersect(const Ray& ray, Hit& hit) const;
     /// Whether anything lies on the segment or half line.
     bool occluded(const Ray& ray) const;
@@ -146,7 +146,7 @@ class EmbreeScene {
         std::vector<std::uint32_t> members;  ///< indices in Scene::shapes
     };
 
-    void meet_packet(std::span<const Query> queries) const;
+    void intersect_packet(std::span<const Query> queries) const;
     const Mask* find_mask(std::uint32_t shape) const;
     void make_masks(const ShapeMasks& masks);
     std::unique_ptr<RTCSceneTy, ReleaseScene> make_scene() const;

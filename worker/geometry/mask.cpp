@@ -33,7 +33,7 @@ void filter(const RTCFilterFunctionNArguments* args) {
         if (args->valid[i] == 0) continue;
         const RTCRay ray = rtcGetRayFromRayN(args->ray, args->N, i);
         const RTCHit hit = rtcGetHitFromHitN(args->hit, args->N, i);
-        if (!mask.meets(&ray, &hit)) args->valid[i] = 0;
+        if (!mask.accepts(&ray, &hit)) args->valid[i] = 0;
     }
 }
 
@@ -46,7 +46,7 @@ float Mask::opacity_at(std::uint32_t primitive, float b1, float b2, const Vec3& 
     return value > 0.0f ? value : 0.0f;
 }
 
-bool Mask::meets(const void* ray, const void* hit) const {
+bool Mask::accepts(const void* ray, const void* hit) const {
     const RTCHit& h = *static_cast<const RTCHit*>(hit);
     const float value = opacity_at(h.primID, h.u, h.v, {h.Ng_x, h.Ng_y, h.Ng_z});
     if (value >= 1.0f) return true;

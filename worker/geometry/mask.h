@@ -26,7 +26,7 @@ struct Mask {
 
     /// Whether the ray meets the shape there. `ray` and `hit` as Embree has them: RTCRay and RTCHit; `b1` and `b2` are
     /// taken from the hit, `outward` is its Ng.
-    bool meets(const void* ray, const void* hit) const;
+    bool accepts(const void* ray, const void* hit) const;
 };
 
 /// Makes Embree ask the mask about every hit with a mesh. The mask must outlive the geometry.

@@ -8,7 +8,7 @@
 
 #include "common/base/float_traps.h"
 #include "worker/geometry/mask.h"
-#include "worker/geometry/meetings.h"
+#include "worker/geometry/raw_hits.h"
 
 namespace treefarm {
 namespace {
@@ -66,7 +66,7 @@ void bounds(const RTCBoundsFunctionArguments* args) {
     find_bounds(geometry_of<Geometry, kMasked>(args->geometryUserPtr), *args->bounds_o);
 }
 
-RTCHit to_hit(const Meeting& m, std::uint32_t shape, std::uint32_t primitive, std::uint32_t instance) {
+RTCHit to_hit(const RawHit& m, std::uint32_t shape, std::uint32_t primitive, std::uint32_t instance) {
     RTCHit hit;
     hit.Ng_x = static_cast<float>(m.ng.x);
     hit.Ng_y = static_cast<float>(m.ng.y);
@@ -82,10 +82,10 @@ RTCHit to_hit(const Meeting& m, std::uint32_t shape, std::uint32_t primitive, st
 template <class Geometry, bool kMasked, class Args>
 bool find(const Args& args, const RTCRay& ray, RTCHit& hit, double& t) {
     const TrapFloats ours;
-    return meet(geometry_of<Geometry, kMasked>(args.geometryUserPtr), ray, [&](const Meeting& m) {
+    return intersect(geometry_of<Geometry, kMasked>(args.geometryUserPtr), ray, [&](const RawHit& m) {
         hit = to_hit(m, args.geomID, args.primID, args.context->instID[0]);
         t = m.t;
-        if constexpr (kMasked) return static_cast<const Mask*>(args.geometryUserPtr)->meets(&ray, &hit);
+        if constexpr (kMasked) return static_cast<const Mask*>(args.geometryUserPtr)->accepts(&ray, &hit);
         return true;
     });
 }

@@ -102,12 +102,12 @@ void Emitters::select(std::vector<double> power) {
     clusters_ = LightClusters(selection_);
 }
 
-EnvironmentMap::PartChoice Emitters::part_choice(const LightShare* share) const {
-    if (!share) return map_parts_;
+EnvironmentMap::PartChoice Emitters::part_choice(const LightProbabilities* probabilities) const {
+    if (!probabilities) return map_parts_;
     EnvironmentMap::PartChoice choice = map_parts_;
     for (int part = 0; part < map_->part_count(); ++part)
         choice[static_cast<std::size_t>(part)] *=
-            clusters_.factor(share, constant_entry_ + 1 + static_cast<std::uint32_t>(part));
+            clusters_.factor(probabilities, constant_entry_ + 1 + static_cast<std::uint32_t>(part));
     return choice;
 }
 
@@ -119,23 +119,23 @@ static void add_choice(DirectSample& sample, const LightClusters::Choice& choice
 }
 
 inline DirectSample Emitters::sample(const ChosenEmitter& chosen, const Vec3& p, const Draw& random,
-                                     const LightShare* share, const Vec3* front) const {
+                                     const LightProbabilities* probabilities, const Vec3* front) const {
     const bool plain = chosen.entry < area_lights_.size() && area_lights_[chosen.entry].plain;
     DirectSample sample = plain ? area_lights_[chosen.entry].sample_mesh(scene_, p, random, front)
-                                : sample_other(chosen.entry, p, random, share, front);
+                                : sample_other(chosen.entry, p, random, probabilities, front);
     add_choice(sample, chosen.cluster);
     return sample;
 }
 
-DirectSample Emitters::sample_direct(const Vec3& p, const Draw& random, const LightShare* share,
+DirectSample Emitters::sample_direct(const Vec3& p, const Draw& random, const LightProbabilities* probabilities,
                                      const Vec3* front) const {
     if (selection_.empty()) return {};
-    return sample(choose(random, share), p, random, share, front);
+    return sample(choose(random, probabilities), p, random, probabilities, front);
 }
 
 void Emitters::choose(LightBatch& batch, std::uint32_t lane, const Vec3& p, const Draw& random,
-                      const LightShare* share) const {
-    const ChosenEmitter chosen = batch.chosen[lane] = choose(random, share);
+                      const LightProbabilities* probabilities) const {
+    const ChosenEmitter chosen = batch.chosen[lane] = choose(random, probabilities);
     std::uint32_t number = LightBatch::kAlone;
     if (is_map(chosen.entry)) {
         number = batch.map.add(part_of(chosen.entry), random);
@@ -154,10 +154,10 @@ void Emitters::draw(LightBatch& batch) const {
 }
 
 DirectSample Emitters::sample_direct(const Vec3& p, const LightBatch& batch, std::uint32_t lane, const Draw& random,
-                                     const LightShare* share, const Vec3* front) const {
+                                     const LightProbabilities* probabilities, const Vec3* front) const {
     const ChosenEmitter& chosen = batch.chosen[lane];
     const std::uint32_t number = batch.number[lane];
-    if (number == LightBatch::kAlone) return sample(chosen, p, random, share, front);
+    if (number == LightBatch::kAlone) return sample(chosen, p, random, probabilities, front);
     const bool map = is_map(chosen.entry), by_cone = !map && batch.by_cone[lane];
     DirectSample sample = map ? towards_infinity(batch.map.direction(number), front)
                               : area_lights_[chosen.entry].on_sphere(
@@ -166,17 +166,19 @@ DirectSample Emitters::sample_direct(const Vec3& p, const LightBatch& batch, std
     return sample;
 }
 
-float Emitters::environment_pdf(const LightBatch& batch, std::uint32_t lane, float pdf, const LightShare* share) const {
-    return is_map(batch.chosen[lane].entry) ? map_pdf(batch.map[batch.number[lane]], share) : pdf;
+float Emitters::environment_pdf(const LightBatch& batch, std::uint32_t lane, float pdf,
+                                const LightProbabilities* probabilities) const {
+    return is_map(batch.chosen[lane].entry) ? map_pdf(batch.map[batch.number[lane]], probabilities) : pdf;
 }
 
 Rgb Emitters::environment(const LightBatch& batch, std::uint32_t lane, const Vec3& direction) const {
-    return is_map(batch.chosen[lane].entry) ? constant_.radiance + map_->radiance(batch.map.place(batch.number[lane]))
-                                            : environment(direction);
+    return is_map(batch.chosen[lane].entry)
+               ? constant_.radiance + map_->radiance(batch.map.footprint(batch.number[lane]))
+               : environment(direction);
 }
 
 void Emitters::prefetch_environment(const LightBatch& batch, std::uint32_t lane) const {
-    if (is_map(batch.chosen[lane].entry)) map_->prefetch(batch.map.place(batch.number[lane]));
+    if (is_map(batch.chosen[lane].entry)) map_->prefetch(batch.map.footprint(batch.number[lane]));
 }
 
 DirectSample Emitters::sample_delta(const Vec3& p, const Draw& random) const {
@@ -185,36 +187,37 @@ DirectSample Emitters::sample_delta(const Vec3& p, const Draw& random) const {
     return delta_lights_[chosen].sample(p, delta_alone_.probability(chosen));
 }
 
-DirectSample Emitters::sample_other(std::uint32_t entry, const Vec3& p, const Draw& random, const LightShare* share,
-                                    const Vec3* front) const {
-    if (entry >= area_lights_.size()) return sample_without_area(entry, p, random, share, front);
+DirectSample Emitters::sample_other(std::uint32_t entry, const Vec3& p, const Draw& random,
+                                    const LightProbabilities* probabilities, const Vec3* front) const {
+    if (entry >= area_lights_.size()) return sample_without_area(entry, p, random, probabilities, front);
     return area_lights_[entry].sample(scene_, p, random, front);
 }
 
 DirectSample Emitters::sample_without_area(std::uint32_t entry, const Vec3& p, const Draw& random,
-                                           const LightShare* share, const Vec3* front) const {
+                                           const LightProbabilities* probabilities, const Vec3* front) const {
     const std::size_t index = entry - area_lights_.size();
     if (index < delta_lights_.size()) return delta_lights_[index].sample(p, delta_selection_[index]);
     DirectSample sample;
     if (is_map(entry)) {
         const EnvironmentSample drawn = map_->sample(part_of(entry), random);
         sample = towards_infinity(drawn.direction, front);
-        if (sample.pdf > 0.0f) sample.pdf = map_pdf(drawn, share);
+        if (sample.pdf > 0.0f) sample.pdf = map_pdf(drawn, probabilities);
         return sample;
     }
     sample = towards_infinity(constant_.sample(random), front);
-    if (sample.pdf > 0.0f) sample.pdf = pdf_environment(sample.wi, share);
+    if (sample.pdf > 0.0f) sample.pdf = pdf_environment(sample.wi, probabilities);
     return sample;
 }
 
-float Emitters::map_pdf(const EnvironmentSample& drawn, const LightShare* share) const {
-    return constant_pdf(share) + map_->pdf(drawn, part_choice(share));
+float Emitters::map_pdf(const EnvironmentSample& drawn, const LightProbabilities* probabilities) const {
+    return constant_pdf(probabilities) + map_->pdf(drawn, part_choice(probabilities));
 }
 
-float Emitters::pdf_direct(const Vec3& p, const Vec3& wi, const Hit& hit, const LightShare* share) const {
+float Emitters::pdf_direct(const Vec3& p, const Vec3& wi, const Hit& hit,
+                           const LightProbabilities* probabilities) const {
     const std::int32_t index = light_of_shape_[hit.shape];
     if (index == kNone) return 0.0f;
-    const float factor = clusters_.factor(share, static_cast<std::uint32_t>(index));
+    const float factor = clusters_.factor(probabilities, static_cast<std::uint32_t>(index));
     return area_lights_[static_cast<std::size_t>(index)].pdf(p, wi, hit, factor);
 }
 

@@ -39,7 +39,7 @@ class Emitters {
     /// environment() is to be asked once it is known to be seen. `share`: how clusters of emitters are chosen; nullptr:
     /// all by power. `front`: normal of a surface at p that reflects only; what is behind it, or turns its back on p,
     /// may be no sample then, where that is found out before it costs much. nullptr: every sample has its density.
-    DirectSample sample_direct(const Vec3& p, const Draw& random, const LightShare* share = nullptr,
+    DirectSample sample_direct(const Vec3& p, const Draw& random, const LightProbabilities* probabilities = nullptr,
                                const Vec3* front = nullptr) const;
 
     /// Whether there is a gain in drawing many together.
@@ -48,16 +48,17 @@ class Emitters {
     // that do, each from the place, with the numbers and the share of its choice. A density from the environment map is
     // still to be asked for, as radiance is: 1 stands for it.
     void choose(LightBatch& batch, std::uint32_t lane, const Vec3& p, const Draw& random,
-                const LightShare* share) const;
+                const LightProbabilities* probabilities) const;
     void draw(LightBatch& batch) const;
     DirectSample sample_direct(const Vec3& p, const LightBatch& batch, std::uint32_t lane, const Draw& random,
-                               const LightShare* share, const Vec3* front) const;
+                               const LightProbabilities* probabilities, const Vec3* front) const;
     /// Whether some may be of an environment map.
     bool has_map() const { return static_cast<bool>(map_); }
     /// Radiance from infinity against a direction of such a sample.
     Rgb environment(const LightBatch& batch, std::uint32_t lane, const Vec3& direction) const;
     /// Density of such a sample, for which sample_direct() gave `pdf`.
-    float environment_pdf(const LightBatch& batch, std::uint32_t lane, float pdf, const LightShare* share) const;
+    float environment_pdf(const LightBatch& batch, std::uint32_t lane, float pdf,
+                          const LightProbabilities* probabilities) const;
     /// Fetches what both read.
     void prefetch_environment(const LightBatch& batch, std::uint32_t lane) const;
     /// Clusters that next event can learn to choose among.
@@ -69,7 +70,8 @@ class Emitters {
     DirectSample sample_delta(const Vec3& p, const Draw& random) const;
 
     /// Density per steradian with which sample_direct(p) finds `hit` along the unit direction wi; 0 if it never does.
-    float pdf_direct(const Vec3& p, const Vec3& wi, const Hit& hit, const LightShare* share = nullptr) const;
+    float pdf_direct(const Vec3& p, const Vec3& wi, const Hit& hit,
+                     const LightProbabilities* probabilities = nullptr) const;
 
     /// Whether emitted() may be other than black on a shape.
     bool emits(std::uint32_t shape) const { return light_of_shape_[shape] != kNone; }
@@ -90,8 +92,9 @@ class Emitters {
     }
 
     /// Density of sample_direct() for directions in which nothing is hit.
-    float pdf_environment(const Vec3& direction, const LightShare* share = nullptr) const {
-        return map_ ? constant_pdf(share) + map_->pdf(direction, part_choice(share)) : constant_pdf(share);
+    float pdf_environment(const Vec3& direction, const LightProbabilities* probabilities = nullptr) const {
+        return map_ ? constant_pdf(probabilities) + map_->pdf(direction, part_choice(probabilities))
+                    : constant_pdf(probabilities);
     }
 
   private:
@@ -100,23 +103,23 @@ class Emitters {
     void add_environment(const ConstantEmitter& emitter);
     void add_environment(const EnvironmentEmitter& emitter);
     void select(std::vector<double> power);
-    float constant_pdf(const LightShare* share) const {
-        return constant_pdf_ * clusters_.factor(share, constant_entry_);
+    float constant_pdf(const LightProbabilities* probabilities) const {
+        return constant_pdf_ * clusters_.factor(probabilities, constant_entry_);
     }
-    EnvironmentMap::PartChoice part_choice(const LightShare* share) const;
+    EnvironmentMap::PartChoice part_choice(const LightProbabilities* probabilities) const;
     /// Kept out of line, so that plain meshes pay nothing for the other kinds.
     [[gnu::noinline]] DirectSample sample_other(std::uint32_t entry, const Vec3& p, const Draw& random,
-                                                const LightShare* share, const Vec3* front) const;
-    DirectSample sample_without_area(std::uint32_t entry, const Vec3& p, const Draw& random, const LightShare* share,
-                                     const Vec3* front) const;
-    float map_pdf(const EnvironmentSample& drawn, const LightShare* share) const;
-    ChosenEmitter choose(const Draw& random, const LightShare* share) const {
+                                                const LightProbabilities* probabilities, const Vec3* front) const;
+    DirectSample sample_without_area(std::uint32_t entry, const Vec3& p, const Draw& random,
+                                     const LightProbabilities* probabilities, const Vec3* front) const;
+    float map_pdf(const EnvironmentSample& drawn, const LightProbabilities* probabilities) const;
+    ChosenEmitter choose(const Draw& random, const LightProbabilities* probabilities) const {
         const auto cluster =
-            share ? clusters_.pick(*share, random[0]) : LightClusters::Choice{0, random[0], 1.0f, 1.0f};
+            probabilities ? clusters_.pick(*probabilities, random[0]) : LightClusters::Choice{0, random[0], 1.0f, 1.0f};
         return {selection_.pick(cluster.bits), cluster};
     }
-    DirectSample sample(const ChosenEmitter& chosen, const Vec3& p, const Draw& random, const LightShare* share,
-                        const Vec3* front) const;
+    DirectSample sample(const ChosenEmitter& chosen, const Vec3& p, const Draw& random,
+                        const LightProbabilities* probabilities, const Vec3* front) const;
     /// Whether an entry of the table is a part of the environment map.
     bool is_map(std::uint32_t entry) const { return entry > constant_entry_; }
     /// That of the table's entry, if it is a sphere.

@@ -12,7 +12,7 @@ namespace treefarm {
 
 /// A place of an image between four texel centres: the texels' columns and rows, and how far it lies from the first
 /// ones.
-struct TexelPlace {
+struct TexelFootprint {
     int x0, x1, y0, y1;
     float fx, fy;
 };
@@ -20,7 +20,7 @@ struct TexelPlace {
 /// A direction that was drawn from an environment map.
 struct EnvironmentSample {
     Vec3 direction;  ///< unit
-    TexelPlace place;
+    TexelFootprint footprint;
     float sine;  ///< of the angle from the pole
 };
 
@@ -41,9 +41,9 @@ class EnvironmentBatch {
         return count_++;
     }
 
-    EnvironmentSample operator[](std::uint32_t i) const { return {direction(i), place(i), sine_[i]}; }
+    EnvironmentSample operator[](std::uint32_t i) const { return {direction(i), footprint(i), sine_[i]}; }
     Vec3 direction(std::uint32_t i) const { return {dx_[i], dy_[i], dz_[i]}; }
-    TexelPlace place(std::uint32_t i) const { return {x0_[i], x1_[i], y0_[i], y1_[i], fx_[i], fy_[i]}; }
+    TexelFootprint footprint(std::uint32_t i) const { return {x0_[i], x1_[i], y0_[i], y1_[i], fx_[i], fy_[i]}; }
 
   private:
     friend class EnvironmentMap;
@@ -56,7 +56,7 @@ class EnvironmentBatch {
     // Vector code goes on beyond the last.
     Lanes<std::uint32_t> tent_bits_{};
     Lanes<std::int32_t> row_{}, column_{};
-    Lanes<std::uint32_t> low_, high_;  ///< columns between which the guide has it
+    Lanes<std::uint32_t> low_, high_;  ///< columns between which the look-up table has it
     Lanes<float> dx_, dy_, dz_, fx_, fy_, sine_;
     Lanes<std::int32_t> x0_, x1_, y0_, y1_;
 };

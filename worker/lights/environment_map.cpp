@@ -17,7 +17,7 @@ constexpr std::uint32_t kTotal = std::uint32_t(1) << 31;
 /// Shares of 2^31 in proportion to weights, at least 1 for each weight above 0: writes where each share begins, and the
 /// end.
 /// Returns false if all weights are 0.
-bool share(const std::vector<double>& weights, std::uint32_t* begin) {
+bool apportion(const std::vector<double>& weights, std::uint32_t* begin) {
     double total = 0;
     std::uint32_t positive = 0;
     for (const double w : weights) {
@@ -49,20 +49,20 @@ std::size_t pick(const std::uint32_t* begin, std::size_t count, std::uint32_t bi
     return static_cast<std::size_t>(at - begin);
 }
 
-/// Writes to 2^guide_bits + 1 entries which shares own the bits that are whole multiples of 2^(32 - guide_bits).
-void fill_guide(const std::uint32_t* begin, std::size_t count, int guide_bits, std::uint32_t* guide) {
-    const std::size_t entries = std::size_t{1} << guide_bits;
+/// Writes to 2^lookup_bits + 1 entries which shares own the bits that are whole multiples of 2^(32 - lookup_bits).
+void fill_lookup(const std::uint32_t* begin, std::size_t count, int lookup_bits, std::uint32_t* lookup) {
+    const std::size_t entries = std::size_t{1} << lookup_bits;
     for (std::size_t k = 0; k < entries; ++k)
-        guide[k] = static_cast<std::uint32_t>(pick(begin, count, static_cast<std::uint32_t>((k << 32) / entries)));
-    guide[entries] = static_cast<std::uint32_t>(count - 1);
+        lookup[k] = static_cast<std::uint32_t>(pick(begin, count, static_cast<std::uint32_t>((k << 32) / entries)));
+    lookup[entries] = static_cast<std::uint32_t>(count - 1);
 }
 
-/// Entry of such a guide from which to search for these bits; the next one ends the search.
-const std::uint32_t* look_up(const std::uint32_t* guide, int guide_bits, std::uint32_t bits) {
-    return guide + (std::uint64_t{bits} >> (32 - guide_bits));
+/// Entry of such a look-up table from which to search for these bits; the next one ends the search.
+const std::uint32_t* look_up(const std::uint32_t* lookup, int lookup_bits, std::uint32_t bits) {
+    return lookup + (std::uint64_t{bits} >> (32 - lookup_bits));
 }
 
-/// pick() between the shares that two entries of a guide name.
+/// pick() between the shares that two entries of a look-up table name.
 int pick_between(const std::uint32_t* begin, std::uint32_t low, std::uint32_t high, std::uint32_t bits) {
     return static_cast<int>(low + pick(begin + low, high - low + 1, bits));
 }
@@ -87,8 +87,8 @@ EnvironmentMap::EnvironmentMap(const EnvironmentEmitter& emitter, const TextureI
              emitter.z_axis},
       scale_(emitter.scale),
       columns_(static_cast<std::size_t>(image.height) * (static_cast<std::size_t>(image.width) + 1)),
-      guide_bits_(std::max(0, static_cast<int>(std::bit_width(static_cast<unsigned>(image.width))) - 2)),
-      guide_(static_cast<std::size_t>(image.height) * ((std::size_t{1} << guide_bits_) + 1)) {
+      lookup_bits_(std::max(0, static_cast<int>(std::bit_width(static_cast<unsigned>(image.width))) - 2)),
+      lookup_(static_cast<std::size_t>(image.height) * ((std::size_t{1} << lookup_bits_) + 1)) {
     frame_.half_turn = static_cast<float>(frame_.height - 1) + 2.0f * frame_.margin;
     // d(u) d(v) = d(solid angle) / (2 pi^2 sin(theta)).
     density_scale_ =
@@ -114,8 +114,8 @@ EnvironmentMap::EnvironmentMap(const EnvironmentEmitter& emitter, const TextureI
         }
         if (on_pole(y)) row_weights[row] *= 0.5;
         std::uint32_t* const begin = &columns_[row * (width + 1)];
-        share(weights, begin);
-        fill_guide(begin, width, guide_bits_, &guide_[row * ((std::size_t{1} << guide_bits_) + 1)]);
+        apportion(weights, begin);
+        fill_lookup(begin, width, lookup_bits_, &lookup_[row * ((std::size_t{1} << lookup_bits_) + 1)]);
     }
     clean_ = all_clean;
     mean_ = double(scale_) * sum / (sines * static_cast<double>(frame_.width));
@@ -127,7 +127,7 @@ EnvironmentMap::EnvironmentMap(const EnvironmentEmitter& emitter, const TextureI
 
 void EnvironmentMap::add_part(const EnvironmentPart& texels, double whole, const std::vector<double>& row_weights) {
     const auto rows = static_cast<std::size_t>(texels.y1 - texels.y0);
-    Part part{texels, 0, std::vector<std::uint32_t>(rows + 1), std::vector<std::uint32_t>((1u << kRowGuideBits) + 1),
+    Part part{texels, 0, std::vector<std::uint32_t>(rows + 1), std::vector<std::uint32_t>((1u << kRowLookupBits) + 1),
               std::vector<Part::Row>(rows)};
     std::vector<double> weights(rows);
     double sum = 0;
@@ -137,8 +137,8 @@ void EnvironmentMap::add_part(const EnvironmentPart& texels, double whole, const
         const double columns = double(part.rows[row].end - part.rows[row].begin) / double(kTotal);
         sum += weights[row] = row_weights[static_cast<std::size_t>(y)] * columns;
     }
-    share(weights, part.row_begin.data());
-    fill_guide(part.row_begin.data(), rows, kRowGuideBits, part.row_guide.data());
+    apportion(weights, part.row_begin.data());
+    fill_lookup(part.row_begin.data(), rows, kRowLookupBits, part.row_lookup.data());
     for (std::size_t row = 0; row < rows; ++row) {
         if (!(weights[row] > 0)) continue;
         const int y = texels.y0 + static_cast<int>(row);
@@ -158,10 +158,10 @@ Rgb EnvironmentMap::clean_texel(int x, int y) const {
     return c;
 }
 
-inline EnvironmentMap::Place EnvironmentMap::Frame::place(float u, float v) const {
+inline EnvironmentMap::Footprint EnvironmentMap::Frame::footprint(float u, float v) const {
     const float left = std::floor(u), top = std::floor(v);
     const int x = static_cast<int>(left), y = static_cast<int>(top);
-    Place p;
+    Footprint p;
     p.fx = u - left;
     p.fy = v - top;
     p.x0 = x < 0 ? x + width : x >= width ? x - width : x;
@@ -179,30 +179,30 @@ inline EnvironmentMap::Sample EnvironmentMap::Frame::locate(int x, int y, std::u
     const SinCos polar = sincos_turn(0.5f * from_pole / half_turn);
     const SinCos azimuth = sincos_turn(select(turn < 0.0f, turn + 1.0f, turn));
     const Vec3 direction = x_axis * (polar.sin * azimuth.sin) + y_axis * polar.cos - z_axis * (polar.sin * azimuth.cos);
-    return {direction * (1.0f / std::sqrt(dot(direction, direction))), place(u, from_pole - margin),
+    return {direction * (1.0f / std::sqrt(dot(direction, direction))), footprint(u, from_pole - margin),
             std::abs(polar.sin)};
 }
 
-EnvironmentMap::Place EnvironmentMap::place(const Vec3& d, float& sine) const {
+EnvironmentMap::Footprint EnvironmentMap::footprint(const Vec3& d, float& sine) const {
     const float x = dot(d, frame_.x_axis), y = dot(d, frame_.y_axis), z = dot(d, frame_.z_axis);
     sine = std::sqrt(x * x + z * z);
     // The angle from the pole by both its sine and cosine: no digits are lost near the poles.
-    return frame_.place(azimuth_turn(-z, x) * static_cast<float>(frame_.width) - 0.5f,
-                        2.0f * azimuth_turn(y, sine) * frame_.half_turn - frame_.margin);
+    return frame_.footprint(azimuth_turn(-z, x) * static_cast<float>(frame_.width) - 0.5f,
+                            2.0f * azimuth_turn(y, sine) * frame_.half_turn - frame_.margin);
 }
 
 Rgb EnvironmentMap::radiance(const Vec3& direction) const {
     float sine;
-    return radiance(place(direction, sine));
+    return radiance(footprint(direction, sine));
 }
 
-Rgb EnvironmentMap::radiance(const Place& p) const {
+Rgb EnvironmentMap::radiance(const Footprint& p) const {
     const Rgb upper = clean_texel(p.x0, p.y0) * (1.0f - p.fx) + clean_texel(p.x1, p.y0) * p.fx;
     const Rgb lower = clean_texel(p.x0, p.y1) * (1.0f - p.fx) + clean_texel(p.x1, p.y1) * p.fx;
     return (upper * (1.0f - p.fy) + lower * p.fy) * scale_;
 }
 
-void EnvironmentMap::prefetch(const Place& p) const {
+void EnvironmentMap::prefetch(const Footprint& p) const {
     prefetch_texel(*image_, p.x0, p.y0);
     prefetch_texel(*image_, p.x0, p.y1);
     prefetch_line(columns(p.y0) + p.x0);
@@ -220,7 +220,7 @@ float EnvironmentMap::density(int part, int x, int y) const {
     return of.rows[static_cast<std::size_t>(y - of.texels.y0)].density * static_cast<float>(begin[1] - begin[0]);
 }
 
-float EnvironmentMap::pdf(const Place& p, float sine, const PartChoice& choice) const {
+float EnvironmentMap::pdf(const Footprint& p, float sine, const PartChoice& choice) const {
     // Nearly always all four texels are of one part.
     const int first = part_of(p.x0, p.y0);
     const bool one_part = parts_[static_cast<std::size_t>(first)].texels.holds(p.x1, p.y1);
@@ -237,12 +237,12 @@ float EnvironmentMap::pdf(const Place& p, float sine, const PartChoice& choice) 
 float EnvironmentMap::pdf(const Vec3& direction, const PartChoice& choice) const {
     if (black()) return 0.0f;
     float sine;
-    const Place p = place(direction, sine);
+    const Footprint p = footprint(direction, sine);
     return pdf(p, sine, choice);
 }
 
 int EnvironmentMap::pick_row(const Part& part, std::uint32_t bits) const {
-    const std::uint32_t* const between = look_up(part.row_guide.data(), kRowGuideBits, bits);
+    const std::uint32_t* const between = look_up(part.row_lookup.data(), kRowLookupBits, bits);
     return part.texels.y0 + pick_between(part.row_begin.data(), between[0], between[1], bits);
 }
 
@@ -252,16 +252,16 @@ std::uint32_t EnvironmentMap::bits_in_part(const Part& part, int y, std::uint32_
     return static_cast<std::uint32_t>(2 * std::uint64_t{row.begin} + (std::uint64_t{bits} * width >> 32));
 }
 
-const std::uint32_t* EnvironmentMap::guide(int y, std::uint32_t bits) const {
-    const std::size_t entries = (std::size_t{1} << guide_bits_) + 1;
-    return look_up(&guide_[static_cast<std::size_t>(y) * entries], guide_bits_, bits);
+const std::uint32_t* EnvironmentMap::lookup(int y, std::uint32_t bits) const {
+    const std::size_t entries = (std::size_t{1} << lookup_bits_) + 1;
+    return look_up(&lookup_[static_cast<std::size_t>(y) * entries], lookup_bits_, bits);
 }
 
 EnvironmentMap::Sample EnvironmentMap::sample(int chosen, const Draw& random) const {
     const Part& part = parts_[static_cast<std::size_t>(chosen)];
     const int y = pick_row(part, random[1]);
     const std::uint32_t bits = bits_in_part(part, y, random[2]);
-    const std::uint32_t* const between = guide(y, bits);
+    const std::uint32_t* const between = lookup(y, bits);
     return frame_.locate(pick_between(columns(y), between[0], between[1], bits), y, random[3]);
 }
 
@@ -270,10 +270,10 @@ void EnvironmentMap::sample(EnvironmentBatch& b) const {
         const Part& part = parts_[static_cast<std::size_t>(b.part_[i])];
         b.row_[i] = pick_row(part, b.row_bits_[i]);
         b.column_bits_[i] = bits_in_part(part, b.row_[i], b.column_bits_[i]);
-        prefetch_line(guide(b.row_[i], b.column_bits_[i]));
+        prefetch_line(lookup(b.row_[i], b.column_bits_[i]));
     }
     for (std::uint32_t i = 0; i < b.count_; ++i) {
-        const std::uint32_t* const between = guide(b.row_[i], b.column_bits_[i]);
+        const std::uint32_t* const between = lookup(b.row_[i], b.column_bits_[i]);
         b.low_[i] = between[0];
         b.high_[i] = between[1];
         prefetch_line(columns(b.row_[i]) + (between[0] + between[1]) / 2);
@@ -286,12 +286,12 @@ void EnvironmentMap::sample(EnvironmentBatch& b) const {
         b.dx_[i] = s.direction.x;
         b.dy_[i] = s.direction.y;
         b.dz_[i] = s.direction.z;
-        b.x0_[i] = s.place.x0;
-        b.x1_[i] = s.place.x1;
-        b.y0_[i] = s.place.y0;
-        b.y1_[i] = s.place.y1;
-        b.fx_[i] = s.place.fx;
-        b.fy_[i] = s.place.fy;
+        b.x0_[i] = s.footprint.x0;
+        b.x1_[i] = s.footprint.x1;
+        b.y0_[i] = s.footprint.y0;
+        b.y1_[i] = s.footprint.y1;
+        b.fx_[i] = s.footprint.fx;
+        b.fy_[i] = s.footprint.fy;
         b.sine_[i] = s.sine;
     }
 }

@@ -24,14 +24,14 @@ namespace treefarm {
 /// The image is cut into a few rectangles ("parts") of little power, little size or both, so that next event can learn
 /// which of them a place sees: a sun is one of its own.
 ///
-/// Tables are searched from guide entries, so that a column costs one line of cache however long the row is. Memory:
+/// Tables are searched from look-up entries, so that a column costs one line of cache however long the row is. Memory:
 /// 6 bytes for each texel besides the image itself, 0.8 MB for 512 x 256, 201 MB for 8192 x 4096.
 class EnvironmentMap {
   public:
     /// Texels that are negative or not finite count as black. `image` must outlive it; `emitter.scale` is at least 0.
     EnvironmentMap(const EnvironmentEmitter& emitter, const TextureImage& image);
 
-    using Place = TexelPlace;
+    using Footprint = TexelFootprint;
     using Sample = EnvironmentSample;
 
     static constexpr int kMostParts = 8;
@@ -43,13 +43,15 @@ class EnvironmentMap {
     double part_weight(int part) const { return parts_[static_cast<std::size_t>(part)].weight; }
 
     Rgb radiance(const Vec3& direction) const;
-    Rgb radiance(const Place& place) const;
-    /// Fetches what radiance() and pdf() of a place read.
-    void prefetch(const Place& place) const;
+    Rgb radiance(const Footprint& footprint) const;
+    /// Fetches what radiance() and pdf() of a footprint read.
+    void prefetch(const Footprint& footprint) const;
     /// Density of sample() in parts that are chosen like this, per steradian.
     float pdf(const Vec3& direction, const PartChoice& choice) const;
-    float pdf(const Sample& sample, const PartChoice& choice) const { return pdf(sample.place, sample.sine, choice); }
-    /// Draws from a part that was chosen: random[1] picks the row, [2] the column, [3] the place. Not from one without
+    float pdf(const Sample& sample, const PartChoice& choice) const {
+        return pdf(sample.footprint, sample.sine, choice);
+    }
+    /// Draws from a part that was chosen: random[1] picks the row, [2] the column, [3] the point. Not from one without
     /// weight.
     Sample sample(int part, const Draw& random) const;
     /// Samples for all that a batch was asked for.
@@ -68,16 +70,16 @@ class EnvironmentMap {
             float density;
         };
         EnvironmentPart texels;
-        double weight;                         ///< share of the image's power
-        std::vector<std::uint32_t> row_begin;  ///< begin of each row's share of 2^31, and their end
-        std::vector<std::uint32_t> row_guide;  ///< entry k: the row that owns k 2^-kRowGuideBits
+        double weight;                          ///< share of the image's power
+        std::vector<std::uint32_t> row_begin;   ///< begin of each row's share of 2^31, and their end
+        std::vector<std::uint32_t> row_lookup;  ///< entry k: the row that owns k 2^-kRowLookupBits
         std::vector<Row> rows;
     };
-    static constexpr int kRowGuideBits = 8;
+    static constexpr int kRowLookupBits = 8;
 
-    /// Place of a direction on the map; `sine` becomes that of its angle from the pole.
-    Place place(const Vec3& direction, float& sine) const;
-    float pdf(const Place& place, float sine, const PartChoice& choice) const;
+    /// Texels about a direction, and their weights; `sine` becomes that of its angle from the pole.
+    Footprint footprint(const Vec3& direction, float& sine) const;
+    float pdf(const Footprint& footprint, float sine, const PartChoice& choice) const;
     Rgb clean_texel(int x, int y) const;
     bool on_pole(int y) const { return frame_.margin == 0.0f && (y == 0 || y == frame_.height - 1); }
     void add_part(const EnvironmentPart& part, double whole, const std::vector<double>& row_weights);
@@ -88,7 +90,7 @@ class EnvironmentMap {
         return &columns_[static_cast<std::size_t>(y) * (static_cast<std::size_t>(frame_.width) + 1)];
     }
     std::uint32_t column_begin(int x, int y) const { return columns(y)[x]; }
-    const std::uint32_t* guide(int y, std::uint32_t bits) const;
+    const std::uint32_t* lookup(int y, std::uint32_t bits) const;
     int pick_row(const Part& part, std::uint32_t bits) const;
     /// Bits that pick a column of the row among those of the part.
     std::uint32_t bits_in_part(const Part& part, int y, std::uint32_t bits) const;
@@ -102,7 +104,7 @@ class EnvironmentMap {
         Vec3 x_axis, y_axis, z_axis;
 
         /// In texels from the centre of the first one; u at most one and a half outside [0, width).
-        Place place(float u, float v) const;
+        Footprint footprint(float u, float v) const;
         /// Where a direction goes whose texel is this one, by the bits of its tents.
         Sample locate(int x, int y, std::uint32_t tent_bits) const;
     };
@@ -113,8 +115,8 @@ class EnvironmentMap {
     std::vector<Part> parts_;
     float density_scale_;                 ///< from a texel's probability to a density times sin(theta)
     std::vector<std::uint32_t> columns_;  ///< per row: begin of each texel's share of 2^31 within it, and their end
-    int guide_bits_;                      ///< a row has 2^guide_bits_ guide entries, and one more
-    std::vector<std::uint32_t> guide_;    ///< entry k of a row: the column that owns k 2^-guide_bits_
+    int lookup_bits_;                     ///< a row has 2^lookup_bits_ look-up entries, and one more
+    std::vector<std::uint32_t> lookup_;   ///< entry k of a row: the column that owns k 2^-lookup_bits_
 };
 
 }  // namespace treefarm

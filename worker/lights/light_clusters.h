@@ -12,7 +12,7 @@
 namespace treefarm {
 
 /// Emitters in up to kLightClusters clusters: runs of the table by which they are chosen by power. A region's
-/// LightShare says how often next event takes each cluster; within one, emitters are chosen by power as ever.
+/// LightProbabilities say how often next event takes each cluster; within one, emitters are chosen by power as ever.
 /// Everything is whole multiples of 2^-32, so that what pick() does and what factor() says agree.
 class LightClusters {
   public:
@@ -54,18 +54,18 @@ class LightClusters {
     };
 
     /// Chooses a cluster by 32 random bits. There must be one.
-    Choice pick(const LightShare& share, std::uint32_t bits) const {
+    Choice pick(const LightProbabilities& probabilities, std::uint32_t bits) const {
         // All that lie before, without a branch that nothing predicts.
         std::uint64_t end = 0, begin = 0, begin_by_power = 0;
         int c = 0;
         for (int i = 0; i + 1 < count_; ++i) {
-            end += width(share, i);
+            end += width(probabilities, i);
             const bool before = end <= bits;
             begin = before ? end : begin;
             begin_by_power += before ? width_[static_cast<std::size_t>(i)] : 0;
             c += before;
         }
-        const std::uint64_t w = std::max<std::uint64_t>(width(share, c), 1);
+        const std::uint64_t w = std::max<std::uint64_t>(width(probabilities, c), 1);
         const std::uint64_t by_power = width_[static_cast<std::size_t>(c)];
         // What rounding leaves over at the end belongs to the last cluster.
         const std::uint64_t within = std::min<std::uint64_t>(bits - begin, w - 1);
@@ -75,19 +75,19 @@ class LightClusters {
     }
 
     /// Probability of an entry of the table, over that by power. `share`: nullptr, by power.
-    float factor(const LightShare* share, std::uint32_t entry) const {
-        if (!share || count_ == 0) return 1.0f;
+    float factor(const LightProbabilities* probabilities, std::uint32_t entry) const {
+        if (!probabilities || count_ == 0) return 1.0f;
         const std::uint8_t cluster = cluster_of_entry_[entry];
-        return static_cast<float>(static_cast<double>(width(*share, cluster)) * per_width_[cluster]);
+        return static_cast<float>(static_cast<double>(width(*probabilities, cluster)) * per_width_[cluster]);
     }
 
   private:
     static constexpr std::uint64_t kWhole = std::uint64_t{1} << 32;
 
     /// Probability of a cluster, out of 2^32.
-    std::uint64_t width(const LightShare& share, int cluster) const {
-        return ((share[0] * width_[static_cast<std::size_t>(cluster)]) >> 15) +
-               (std::uint64_t{share[static_cast<std::size_t>(cluster) + 1]} << 17);
+    std::uint64_t width(const LightProbabilities& probabilities, int cluster) const {
+        return ((probabilities[0] * width_[static_cast<std::size_t>(cluster)]) >> 15) +
+               (std::uint64_t{probabilities[static_cast<std::size_t>(cluster) + 1]} << 17);
     }
 
     /// value * to / from, below `to`; all below 2^33.

@@ -22,8 +22,8 @@ struct BlendBsdf {
 };
 
 /// The BSDF of such a material at one place of a surface (bsdf_builder.h).
-template <class Place>
-typename Place::Result make_bsdf(const BlendMaterial& m, const Place& at) {
+template <class Context>
+typename Context::Result make_bsdf(const BlendMaterial& m, const Context& at) {
     const float weight = at.fraction(m.weight);
     return {BlendBsdf{weight, at.part(m.first), at.part(m.second)}};
 }

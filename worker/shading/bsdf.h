@@ -91,14 +91,15 @@ inline BsdfValue BlendBsdf::value(const Vec3& wo, const Vec3& wi) const {
 
 inline BsdfSample BlendBsdf::sample(const Vec3& wo, const BsdfRandom& random) const {
     const bool takes_second = !(random.lobe < 1.0f - weight);
-    const float share = takes_second ? weight : 1.0f - weight;
+    const float probability = takes_second ? weight : 1.0f - weight;
     // What is left of the number chooses among the lobes of the part; rounding may bring it to 1.
-    const float rest = std::min((takes_second ? random.lobe - (1.0f - weight) : random.lobe) / share, 0x1.fffffep-1f);
-    BsdfSample s = (takes_second ? second : first)->sample(wo, {rest, random.place});
+    const float rest =
+        std::min((takes_second ? random.lobe - (1.0f - weight) : random.lobe) / probability, 0x1.fffffep-1f);
+    BsdfSample s = (takes_second ? second : first)->sample(wo, {rest, random.point});
     if (!(s.pdf > 0.0f)) return s;
     if (s.delta) {
-        s.pdf *= share;
-        s.f_cos *= share;
+        s.pdf *= probability;
+        s.f_cos *= probability;
     } else {
         const BsdfValue v = value(wo, s.wi);
         s.pdf = v.pdf;

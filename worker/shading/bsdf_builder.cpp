@@ -64,62 +64,62 @@ float largest_factor(const Material& material) {
 }  // namespace
 
 BsdfBuilder::BsdfBuilder(const Scene& scene, const TextureSet& textures)
-    : materials_(scene.materials), textures_(&textures), notes_(scene.materials.size()) {
+    : materials_(scene.materials), textures_(&textures), facts_(scene.materials.size()) {
     const std::vector<bool> used = used_materials(scene);
     for (std::size_t i = 0; i < materials_.size(); ++i)
-        if (used[i]) note(i);
+        if (used[i]) find_facts(i);
 }
 
-void BsdfBuilder::note(std::size_t index) {
+void BsdfBuilder::find_facts(std::size_t index) {
     const Material& material = materials_[index];
     const MaterialTraits traits = own_traits(material);
-    Notes notes;
-    notes.varies = traits.needs_surface_detail();
-    notes.anisotropic = traits.anisotropic;
-    notes.tangents = traits.anisotropic || material.detail.any();
-    notes.texture = first_texture_of(material);
-    notes.transmits = traits.lobes.transmits();
-    notes.principled = std::holds_alternative<PrincipledMaterial>(material.bsdf) ||
+    MaterialFacts facts;
+    facts.varies = traits.needs_surface_detail();
+    facts.anisotropic = traits.anisotropic;
+    facts.tangents = traits.anisotropic || material.detail.any();
+    facts.texture = first_texture_of(material);
+    facts.transmits = traits.lobes.transmits();
+    facts.principled = std::holds_alternative<PrincipledMaterial>(material.bsdf) ||
                                std::holds_alternative<PrincipledThinMaterial>(material.bsdf)
                            ? 1
                            : 0;
     // Its own node, and one for each frame of its own.
-    notes.nodes = 1 + (material.detail.any() ? 1 : 0) + (traits.anisotropic ? 1 : 0);
+    facts.nodes = 1 + (material.detail.any() ? 1 : 0) + (traits.anisotropic ? 1 : 0);
     // Parts stand below what they are part of: theirs are known.
     for_each_part(material, [&](const std::int32_t& part) {
-        const Notes& of_part = notes_[static_cast<std::size_t>(part)];
-        notes.varies |= of_part.varies;
-        notes.tangents |= of_part.tangents;
+        const MaterialFacts& of_part = facts_[static_cast<std::size_t>(part)];
+        facts.varies |= of_part.varies;
+        facts.tangents |= of_part.tangents;
         if (&part == &material.back) {  // in place of the front
-            notes.nodes = std::max(notes.nodes, of_part.nodes);
-            notes.principled = std::max(notes.principled, of_part.principled);
+            facts.nodes = std::max(facts.nodes, of_part.nodes);
+            facts.principled = std::max(facts.principled, of_part.principled);
             return;
         }
-        if (notes.texture == kNone) notes.texture = of_part.texture;
-        notes.transmits |= of_part.transmits;
-        notes.nodes += of_part.nodes;
-        notes.principled += of_part.principled;
+        if (facts.texture == kNone) facts.texture = of_part.texture;
+        facts.transmits |= of_part.transmits;
+        facts.nodes += of_part.nodes;
+        facts.principled += of_part.principled;
     });
-    if (notes.nodes > kMaxNodes)
+    if (facts.nodes > kMaxNodes)
         throw RunError(material.where.text() + ": material \"" + material.name + "\" is made of more than " +
                        std::to_string(kMaxNodes) + " parts, too many for every hit; blend fewer materials");
     if (const auto* plastic = std::get_if<PlasticMaterial>(&material.bsdf))
-        note_coat(plastic->roughness, plastic->eta, notes);
+        find_coat(plastic->roughness, plastic->eta, facts);
     if (const auto* coating = std::get_if<CoatingMaterial>(&material.bsdf))
-        note_coat(coating->roughness, coating->eta, notes);
-    notes_[index] = notes;
+        find_coat(coating->roughness, coating->eta, facts);
+    facts_[index] = facts;
 }
 
-void BsdfBuilder::note_coat(const Roughness& r, float eta, Notes& notes) {
+void BsdfBuilder::find_coat(const Roughness& r, float eta, MaterialFacts& facts) {
     const bool ggx = r.distribution == Microfacets::ggx;
     if (r.smooth()) {
         const float inverse = 1.0f / (eta * eta);
-        notes.smooth_escapes = smooth_diffuse_transmittance(eta) * inverse;
+        facts.smooth_escapes = smooth_diffuse_transmittance(eta) * inverse;
     } else if (r.alpha_u.varies()) {
-        notes.coats = &varying_coats_.try_emplace({ggx, eta}, ggx, eta).first->second;
+        facts.coats = &varying_coats_.try_emplace({ggx, eta}, ggx, eta).first->second;
     } else {
         const Microfacet facets = this->facets(r, {});
-        notes.coat = &coats_.try_emplace({ggx, facets.alpha_u, eta}, facets, eta).first->second;
+        facts.coat = &coats_.try_emplace({ggx, facets.alpha_u, eta}, facets, eta).first->second;
     }
 }
 
@@ -136,7 +136,7 @@ const Bsdf* BsdfBuilder::at(std::int32_t material, bool back, const ShadingPoint
 template <class Nodes>
 const Bsdf* BsdfBuilder::side(std::int32_t index, bool back, const ShadingPoint& point, Nodes& nodes) const {
     const Material& material = materials_[static_cast<std::size_t>(index)];
-    if (!back || notes_[static_cast<std::size_t>(index)].transmits) return described(index, back, point, nodes);
+    if (!back || facts_[static_cast<std::size_t>(index)].transmits) return described(index, back, point, nodes);
     if (material.twosided)
         return material.back == kNone ? described(index, false, point, nodes)
                                       : side(material.back, false, point, nodes);
@@ -171,18 +171,18 @@ const Bsdf* BsdfBuilder::described(std::int32_t index, bool back, const ShadingP
         inside = seen_in(frame, inside);
     };
     if (material.detail.any()) orient(tilted_normal(material.detail, point), material.detail.shadowed);
-    if (notes_[static_cast<std::size_t>(index)].anisotropic) orient(Vec3(0.0f, 0.0f, 1.0f), false);
+    if (facts_[static_cast<std::size_t>(index)].anisotropic) orient(Vec3(0.0f, 0.0f, 1.0f), false);
     *slot = leaf(index, back, inside, nodes);
     return &outer;
 }
 
-/// What make_bsdf() of a kind is told of a place.
+/// What make_bsdf() of a kind is told of a point of a surface.
 template <class Nodes>
-struct BsdfBuilder::Place {
+struct BsdfBuilder::Context {
     using Result = Bsdf;
 
     const BsdfBuilder& builder;
-    const Notes& notes;
+    const MaterialFacts& facts;
     const bool back;
     const ShadingPoint& point;
     Nodes& nodes;
@@ -195,11 +195,11 @@ struct BsdfBuilder::Place {
     Microfacet facets(const Roughness& roughness) const { return builder.facets(roughness, point); }
     const Bsdf* part(std::int32_t material) const { return builder.side(material, back, point, nodes); }
     const PrincipledInputs* keep(const PrincipledInputs& inputs) const { return &(nodes.add_principled() = inputs); }
-    float smooth_escapes() const { return notes.smooth_escapes; }
+    float smooth_escapes() const { return facts.smooth_escapes; }
     const RoughTransmittance* coat(const Microfacet& rough) const {
-        if (!notes.coats) return notes.coat;
+        if (!facts.coats) return facts.coat;
         RoughTransmittance& mixed = nodes.add_coat();
-        mixed = notes.coats->at(rough.alpha_u);
+        mixed = facts.coats->at(rough.alpha_u);
         return &mixed;
     }
 };
@@ -207,9 +207,9 @@ struct BsdfBuilder::Place {
 template <class Nodes>
 Bsdf BsdfBuilder::leaf(std::int32_t index, bool back, const ShadingPoint& point, Nodes& nodes) const {
     const Material& described = materials_[static_cast<std::size_t>(index)];
-    const Place<Nodes> place{
-        *this, notes_[static_cast<std::size_t>(index)], back, point, nodes, largest_factor(described)};
-    return std::visit([&](const auto& material) { return make_bsdf(material, place); }, described.bsdf);
+    const Context<Nodes> context{
+        *this, facts_[static_cast<std::size_t>(index)], back, point, nodes, largest_factor(described)};
+    return std::visit([&](const auto& material) { return make_bsdf(material, context); }, described.bsdf);
 }
 
 Rgb BsdfBuilder::color(const ColorInput& input, const ShadingPoint& point, float most) const {

@@ -39,8 +39,8 @@ class BsdfScratch {
 };
 
 /// Turns descriptions into BSDFs: once for those that are the same everywhere, at every hit for the others. What a kind
-/// of material becomes, make_bsdf() in its own header says: it is given a place that looks up its inputs
-/// (BsdfBuilder::Place) and returns what scatters there.
+/// of material becomes, make_bsdf() in its own header says: it is given a context that looks up its inputs
+/// (BsdfBuilder::Context) and returns what scatters there.
 class BsdfBuilder {
   public:
     /// Takes what it needs of the scene's materials that shapes use. `textures` must outlive the builder. Throws
@@ -57,25 +57,25 @@ class BsdfBuilder {
     const Bsdf* at(std::int32_t material, bool back, const ShadingPoint& point, BsdfScratch& scratch) const;
 
     /// Whether it must be built at every hit: textures, tilted normals, tangents.
-    bool varies(std::int32_t material) const { return notes_[static_cast<std::size_t>(material)].varies; }
+    bool varies(std::int32_t material) const { return facts_[static_cast<std::size_t>(material)].varies; }
     /// Whether at() needs more of the point than texture coordinates and wo.
-    bool needs_tangents(std::int32_t material) const { return notes_[static_cast<std::size_t>(material)].tangents; }
+    bool needs_tangents(std::int32_t material) const { return facts_[static_cast<std::size_t>(material)].tangents; }
     /// The image that at() is likely to look up first: an index in TextureSet::textures(), or kNone.
     std::int32_t first_texture(std::int32_t material) const {
-        return notes_[static_cast<std::size_t>(material)].texture;
+        return facts_[static_cast<std::size_t>(material)].texture;
     }
     /// Principled materials that at() looks up for it.
     std::size_t principled(std::int32_t material) const {
-        return notes_[static_cast<std::size_t>(material)].principled;
+        return facts_[static_cast<std::size_t>(material)].principled;
     }
     /// Nodes that at() needs for it.
-    std::size_t nodes(std::int32_t material) const { return notes_[static_cast<std::size_t>(material)].nodes; }
+    std::size_t nodes(std::int32_t material) const { return facts_[static_cast<std::size_t>(material)].nodes; }
 
     static constexpr std::size_t kMaxNodes = 256;
 
   private:
     /// What is known of a material before any point of it.
-    struct Notes {
+    struct MaterialFacts {
         bool varies = false;
         bool anisotropic = false;  ///< itself, not what it is made of
         bool tangents = false;     ///< it, or what it is made of, has a frame of its own
@@ -87,11 +87,11 @@ class BsdfBuilder {
         float smooth_escapes = 1;                    ///< smooth plastic: see coated_base
     };
 
-    void note(std::size_t material);
-    void note_coat(const Roughness& roughness, float eta, Notes& notes);
+    void find_facts(std::size_t material);
+    void find_coat(const Roughness& roughness, float eta, MaterialFacts& facts);
 
     template <class Nodes>
-    struct Place;
+    struct Context;
 
     template <class Nodes>
     const Bsdf* side(std::int32_t material, bool back, const ShadingPoint& point, Nodes& nodes) const;
@@ -106,7 +106,7 @@ class BsdfBuilder {
 
     std::vector<Material> materials_;
     const TextureSet* textures_;
-    std::vector<Notes> notes_;
+    std::vector<MaterialFacts> facts_;
     std::map<std::tuple<bool, float, float>, RoughTransmittance> coats_;
     std::map<std::tuple<bool, float>, RoughTransmittances> varying_coats_;
     std::deque<Bsdf> constants_;

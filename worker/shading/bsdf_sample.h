@@ -24,13 +24,13 @@ struct BsdfSample {
 
 /// What sample() consumes: uniform numbers in [0, 1).
 struct BsdfRandom {
-    float lobe = 0;  ///< which lobe
-    Vec2 place{0.0f};
-    Vec3 cosine{0.0f};  ///< the place, warped to a cosine-distributed direction: what most BSDFs make of it
+    float lobe = 0;     ///< which lobe
+    Vec2 point{0.0f};   ///< of the unit square
+    Vec3 cosine{0.0f};  ///< the point, warped to a cosine-distributed direction: what most BSDFs make of it
 
-    BsdfRandom(float lobe, const Vec2& place) : BsdfRandom(lobe, place, square_to_cosine_hemisphere(place)) {}
+    BsdfRandom(float lobe, const Vec2& point) : BsdfRandom(lobe, point, square_to_cosine_hemisphere(point)) {}
     /// Where the warp is done for many paths together.
-    BsdfRandom(float lobe, const Vec2& place, const Vec3& cosine) : lobe(lobe), place(place), cosine(cosine) {}
+    BsdfRandom(float lobe, const Vec2& point, const Vec3& cosine) : lobe(lobe), point(point), cosine(cosine) {}
 };
 
 /// Which kinds of lobes a BSDF has, as bits.

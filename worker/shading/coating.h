@@ -63,7 +63,7 @@ struct CoatingBsdf {
         const float reflected = reflectance(wo), mirror = coat_probability(reflected, specular_weight);
         if (random.lobe < mirror) return {{-wo.x, -wo.y, wo.z}, mirror, specular * reflected, true};
         const float rest = std::min((random.lobe - mirror) / (1.0f - mirror), 0x1.fffffep-1f);
-        BsdfSample s = layer.sample(wo, {rest, random.place, random.cosine});
+        BsdfSample s = layer.sample(wo, {rest, random.point, random.cosine});
         if (!(s.pdf > 0.0f)) return {};
         if (s.delta) {
             s.f_cos *= (1.0f - reflected) * (1.0f - reflectance(s.wi));
@@ -109,11 +109,11 @@ struct RoughCoatingBsdf {
         const float out = passes->at(wo.z), coat = coat_probability(1.0f - out, specular_weight);
         Vec3 wi;
         if (random.lobe < coat) {
-            wi = reflected(wo, facets().sample_visible(wo, random.place));
+            wi = reflected(wo, facets().sample_visible(wo, random.point));
             if (!(wi.z > 0.0f)) return {};
         } else {
             const float rest = std::min((random.lobe - coat) / (1.0f - coat), 0x1.fffffep-1f);
-            BsdfSample s = layer.sample(wo, {rest, random.place, random.cosine});
+            BsdfSample s = layer.sample(wo, {rest, random.point, random.cosine});
             if (!(s.pdf > 0.0f)) return {};
             if (s.delta) {
                 s.f_cos *= out * passes->at(std::min(1.0f, std::abs(s.wi.z)));
@@ -131,8 +131,8 @@ struct RoughCoatingBsdf {
 };
 
 /// The BSDF of such a material at one place of a surface (bsdf_builder.h).
-template <class Place>
-typename Place::Result make_bsdf(const CoatingMaterial& m, const Place& at) {
+template <class Context>
+typename Context::Result make_bsdf(const CoatingMaterial& m, const Context& at) {
     const Rgb absorption = at.amount(m.absorption), specular = at.color(m.specular_reflectance);
     const LayeredBsdf layer{m.eta, absorption, at.part(m.coated)};
     // What comes back from beneath has gone through the coat twice.

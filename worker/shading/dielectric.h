@@ -31,10 +31,10 @@ struct DielectricBsdf {
         const DielectricFresnel f = fresnel_dielectric(wo.z, eta);
         const float mirror = mirror_probability(f.reflectance, reflectance, transmittance);
         if (random.lobe < mirror) return {{-wo.x, -wo.y, wo.z}, mirror, reflectance * f.reflectance, true};
-        const float share = 1.0f - f.reflectance, inverse = 1.0f / eta;
+        const float fraction = 1.0f - f.reflectance, inverse = 1.0f / eta;
         return {{-wo.x * inverse, -wo.y * inverse, -f.cos_transmitted},
                 1.0f - mirror,
-                transmittance * (share * inverse * inverse),
+                transmittance * (fraction * inverse * inverse),
                 true};
     }
 };

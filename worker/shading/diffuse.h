@@ -26,8 +26,8 @@ struct DiffuseBsdf {
 };
 
 /// The BSDF of such a material at one place of a surface (bsdf_builder.h).
-template <class Place>
-typename Place::Result make_bsdf(const DiffuseMaterial& m, const Place& at) {
+template <class Context>
+typename Context::Result make_bsdf(const DiffuseMaterial& m, const Context& at) {
     const Rgb albedo = at.color(m.reflectance);
     if (is_black(albedo)) return {};
     return {DiffuseBsdf{albedo}};

@@ -17,8 +17,8 @@ struct NullBsdf {
 };
 
 /// The BSDF of such a material at one place of a surface (bsdf_builder.h).
-template <class Place>
-typename Place::Result make_bsdf(const NullMaterial&, const Place&) {
+template <class Context>
+typename Context::Result make_bsdf(const NullMaterial&, const Context&) {
     return {NullBsdf{}};
 }
 

@@ -34,9 +34,9 @@ struct PhongBsdf {
         Vec3 wi = random.cosine;
         if (random.lobe < specular_probability) {
             // cos = (1 - u)^(1 / (n + 1)).
-            const float t = minus_log_one_minus(std::min(random.place.x, 1.0f - 0x1p-24f)) / (exponent + 1.0f);
+            const float t = minus_log_one_minus(std::min(random.point.x, 1.0f - 0x1p-24f)) / (exponent + 1.0f);
             const float cosine = exp_negative(t), sine = std::sqrt(one_minus_exp_negative(2.0f * t));
-            const SinCos phi = sincos_turn(random.place.y);
+            const SinCos phi = sincos_turn(random.point.y);
             wi = Frame(mirrored(wo)).to_world({sine * phi.cos, sine * phi.sin, cosine});
         }
         const BsdfValue v = value(wo, wi);
@@ -48,8 +48,8 @@ struct PhongBsdf {
 };
 
 /// The BSDF of such a material at one place of a surface (bsdf_builder.h).
-template <class Place>
-typename Place::Result make_bsdf(const PhongMaterial& m, const Place& at) {
+template <class Context>
+typename Context::Result make_bsdf(const PhongMaterial& m, const Context& at) {
     const Rgb diffuse = at.color(m.diffuse_reflectance), specular = at.color(m.specular_reflectance);
     const float base = luminance(diffuse), lobe = luminance(specular);
     if (!(base + lobe > 0.0f)) return {};

@@ -100,15 +100,15 @@ struct PrincipledBsdf {
         if (random.lobe < p.diffuse) {
             wi = random.cosine;
         } else if (random.lobe < p.diffuse + p.coat) {
-            wi = reflected(wo, in->coat.sample(random.place));
+            wi = reflected(wo, in->coat.sample(random.point));
             if (!(wi.z > 0.0f)) return {};
         } else {
-            const Vec3 m = in->facets.sample_visible(wo, random.place);
+            const Vec3 m = in->facets.sample_visible(wo, random.point);
             const float cos_o = dot(wo, m);
             if (!(cos_o > 0.0f)) return {};
             const DielectricFresnel f = fresnel_dielectric(std::min(1.0f, cos_o), in->eta);
             const float rest = (random.lobe - p.diffuse - p.coat) / p.specular;
-            const bool reflects = rest < reflected_share(f.reflectance);
+            const bool reflects = rest < reflected_probability(f.reflectance);
             wi = reflects ? reflected(wo, m) : refract(wo, m, cos_o, f.cos_transmitted, in->eta);
             if (reflects != (wi.z > 0.0f)) return {};
         }
@@ -128,7 +128,7 @@ struct PrincipledBsdf {
     }
 
     /// Share of the specular lobe's samples that are reflected, at a facet of this reflectance.
-    float reflected_share(float reflectance) const {
+    float reflected_probability(float reflectance) const {
         return inside ? reflectance : 1.0f - in->refracting() * (1.0f - reflectance);
     }
 
@@ -147,7 +147,7 @@ struct PrincipledBsdf {
         const RoughReflection r = rough_reflection(in->facets, wo, wi);
         const DielectricFresnel exact = fresnel_dielectric(r.cos_o, in->eta);
         BsdfValue result{specular_colour(r.cos_o, exact) * r.f_cos,
-                         p.specular * reflected_share(exact.reflectance) * r.pdf};
+                         p.specular * reflected_probability(exact.reflectance) * r.pdf};
         if (inside) return result;
         result.f_cos += in->base_value(wo, wi, r.cos_o, in->diffuse(), 1.0f - in->metallic) * wi.z;
         result.pdf += p.diffuse * cosine_hemisphere_pdf(wi.z);
@@ -166,8 +166,8 @@ struct PrincipledBsdf {
 };
 
 /// The BSDF of such a material at one place of a surface (bsdf_builder.h).
-template <class Place>
-typename Place::Result make_bsdf(const PrincipledMaterial& m, const Place& at) {
+template <class Context>
+typename Context::Result make_bsdf(const PrincipledMaterial& m, const Context& at) {
     PrincipledInputs in;
     in.base = at.color(m.base_color);
     in.roughness = at.fraction(m.roughness);

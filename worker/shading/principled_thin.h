@@ -31,7 +31,7 @@ struct PrincipledThinBsdf {
         bool passes = false;
         if (random.lobe < in->spec_trans) {
             passes = random.lobe >= facets;
-            const Vec3 m = (passes ? through : in->facets).sample_visible(wo, random.place);
+            const Vec3 m = (passes ? through : in->facets).sample_visible(wo, random.point);
             wi = reflected(wo, m);
             if (!(wi.z > 0.0f) || (passes && !seen_from_behind(wi, m))) return {};
         } else {
@@ -81,8 +81,8 @@ struct PrincipledThinBsdf {
 };
 
 /// The BSDF of such a material at one place of a surface (bsdf_builder.h).
-template <class Place>
-typename Place::Result make_bsdf(const PrincipledThinMaterial& m, const Place& at) {
+template <class Context>
+typename Context::Result make_bsdf(const PrincipledThinMaterial& m, const Context& at) {
     PrincipledInputs in;
     in.base = at.color(m.base_color);
     in.roughness = at.fraction(m.roughness);

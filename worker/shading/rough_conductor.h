@@ -22,15 +22,15 @@ struct RoughConductorBsdf {
     }
 
     BsdfSample sample(const Vec3& wo, const BsdfRandom& random) const {
-        const Vec3 wi = reflected(wo, facets.sample_visible(wo, random.place));
+        const Vec3 wi = reflected(wo, facets.sample_visible(wo, random.point));
         const BsdfValue v = value(wo, wi);
         return {wi, v.pdf, v.f_cos, false};
     }
 };
 
 /// The BSDF of such a material at one place of a surface (bsdf_builder.h).
-template <class Place>
-typename Place::Result make_bsdf(const ConductorMaterial& m, const Place& at) {
+template <class Context>
+typename Context::Result make_bsdf(const ConductorMaterial& m, const Context& at) {
     const Rgb reflectance = at.color(m.specular_reflectance);
     if (m.roughness.smooth()) return {ConductorBsdf{m.eta, m.k, reflectance}};
     return {RoughConductorBsdf{m.eta, m.k, reflectance, at.facets(m.roughness)}};

@@ -29,7 +29,7 @@ struct RoughDielectricBsdf {
     }
 
     [[gnu::noinline]] BsdfSample sample(const Vec3& wo, const BsdfRandom& random) const {
-        const Vec3 m = facets.sample_visible(wo, random.place);
+        const Vec3 m = facets.sample_visible(wo, random.point);
         const float cos_o = dot(wo, m);
         if (!(cos_o > 0.0f)) return {};
         const DielectricFresnel f = fresnel_dielectric(std::min(1.0f, cos_o), eta);
@@ -63,8 +63,8 @@ inline bool refracts(float eta) {
 }
 
 /// The BSDF of such a material at one place of a surface (bsdf_builder.h).
-template <class Place>
-typename Place::Result make_bsdf(const DielectricMaterial& m, const Place& at) {
+template <class Context>
+typename Context::Result make_bsdf(const DielectricMaterial& m, const Context& at) {
     const Rgb reflectance = at.color(m.specular_reflectance), transmittance = at.color(m.specular_transmittance);
     if (!refracts(m.eta)) return {NullBsdf{transmittance}};
     const float eta = at.back ? 1.0f / m.eta : m.eta;

@@ -69,8 +69,8 @@ struct RoughDiffuseBsdf {
 };
 
 /// The BSDF of such a material at one place of a surface (bsdf_builder.h).
-template <class Place>
-typename Place::Result make_bsdf(const RoughDiffuseMaterial& m, const Place& at) {
+template <class Context>
+typename Context::Result make_bsdf(const RoughDiffuseMaterial& m, const Context& at) {
     const Rgb albedo = at.color(m.reflectance);
     if (is_black(albedo)) return {};
     // Slopes of facets to angles: a fit of Mitsuba's authors, good up to 0.5.

@@ -32,15 +32,15 @@ struct RoughPlasticBsdf {
 
     BsdfSample sample(const Vec3& wo, const BsdfRandom& random) const {
         const bool coat_chosen = random.lobe < coated.probability(1.0f - coat->at(wo.z));
-        const Vec3 wi = coat_chosen ? reflected(wo, facets.sample_visible(wo, random.place)) : random.cosine;
+        const Vec3 wi = coat_chosen ? reflected(wo, facets.sample_visible(wo, random.point)) : random.cosine;
         const BsdfValue v = value(wo, wi);
         return {wi, v.pdf, v.f_cos, false};
     }
 };
 
 /// The BSDF of such a material at one place of a surface (bsdf_builder.h).
-template <class Place>
-typename Place::Result make_bsdf(const PlasticMaterial& m, const Place& at) {
+template <class Context>
+typename Context::Result make_bsdf(const PlasticMaterial& m, const Context& at) {
     const Rgb diffuse = at.color(m.diffuse_reflectance), specular = at.color(m.specular_reflectance);
     const float coat = luminance(specular), base = luminance(diffuse);
     if (!(coat + base > 0.0f)) return {};

@@ -48,7 +48,7 @@ float transmitted(const Microfacet& facets, float eta, const Vec3& wo) {
 /// A facet's normal, and the share of the surface under facets like it.
 struct Facet {
     Vec3 normal;
-    float share;
+    float fraction;
 };
 
 /// Facets of half a turn, by midpoints in slope and azimuth: the other half mirrors them. Unlike visible normals they
@@ -61,16 +61,16 @@ std::vector<Facet> representative_facets(const Microfacet& facets) {
         const float u = (static_cast<float>(i) + 0.5f) / kSlopes;
         // Slopes over alpha: GGX's at equal shares, Beckmann's, whose tail is short, at equal distances.
         const float slope = facets.ggx ? std::sqrt(u / (1.0f - u)) : 4.0f * u;
-        const float share = facets.ggx ? 1.0f : slope * exp_negative(slope * slope);
+        const float fraction = facets.ggx ? 1.0f : slope * exp_negative(slope * slope);
         for (int j = 0; j < kAzimuths; ++j) {
             const SinCos turn = sincos_turn(0.5f * (static_cast<float>(j) + 0.5f) / kAzimuths);
             const float tilt = slope * facets.alpha_u;
-            result.push_back({normalize(Vec3(tilt * turn.cos, tilt * turn.sin, 1.0f)), share});
-            total += share;
+            result.push_back({normalize(Vec3(tilt * turn.cos, tilt * turn.sin, 1.0f)), fraction});
+            total += fraction;
         }
     }
     for (Facet& facet : result)
-        facet.share /= total;
+        facet.fraction /= total;
     return result;
 }
 
@@ -82,16 +82,16 @@ float diffuse_reflected_once(const Microfacet& facets, float eta) {
     double sum = 0;
     for (int i = 1; i < kCosines; ++i) {
         const Vec3 wo = at_cosine(static_cast<float>(i) / (kCosines - 1));
-        float reflected_share = 0.0f;
-        for (const auto& [m, share] : normals) {
+        float reflected_fraction = 0.0f;
+        for (const auto& [m, fraction] : normals) {
             const float cos_o = std::min(1.0f, dot(wo, m));
             if (!(cos_o > 0.0f)) continue;
             const Vec3 wi = reflected(wo, m);
             if (wi.z > 0.0f)
-                reflected_share +=
-                    share * cos_o / m.z * fresnel_dielectric(cos_o, eta).reflectance * facets.masking(wi);
+                reflected_fraction +=
+                    fraction * cos_o / m.z * fresnel_dielectric(cos_o, eta).reflectance * facets.masking(wi);
         }
-        sum += 2.0 * double(wo.z) * double(reflected_share / facets.projected_area(wo));
+        sum += 2.0 * double(wo.z) * double(reflected_fraction / facets.projected_area(wo));
     }
     return static_cast<float>(sum / kCosines);
 }
@@ -131,9 +131,9 @@ RoughTransmittances::RoughTransmittances(bool ggx, float eta) {
 }
 
 RoughTransmittance RoughTransmittances::at(float alpha) const {
-    const float place = std::sqrt(std::clamp(alpha, 0.0f, 1.0f)) * kIntervals;
-    const auto i = static_cast<std::size_t>(std::min(static_cast<int>(place), kIntervals - 1));
-    return RoughTransmittance::between(tables_[i], tables_[i + 1], place - static_cast<float>(i));
+    const float position = std::sqrt(std::clamp(alpha, 0.0f, 1.0f)) * kIntervals;
+    const auto i = static_cast<std::size_t>(std::min(static_cast<int>(position), kIntervals - 1));
+    return RoughTransmittance::between(tables_[i], tables_[i + 1], position - static_cast<float>(i));
 }
 
 float smooth_diffuse_transmittance(float eta) {

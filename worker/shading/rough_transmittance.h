@@ -19,9 +19,9 @@ class RoughTransmittance {
 
     /// Share at a cosine in [0, 1]. Inlined by order: the compiler's own choice hangs on how many ask.
     [[gnu::always_inline]] float at(float cos) const {
-        const float place = std::sqrt(cos) * kIntervals;
-        const auto i = std::min(static_cast<std::size_t>(place), kIntervals - 1);
-        return values_[i] + (values_[i + 1] - values_[i]) * (place - static_cast<float>(i));
+        const float position = std::sqrt(cos) * kIntervals;
+        const auto i = std::min(static_cast<std::size_t>(position), kIntervals - 1);
+        return values_[i] + (values_[i + 1] - values_[i]) * (position - static_cast<float>(i));
     }
     /// Share of diffuse light from the far side that does not come back: all that is not let through does, or what the
     /// facets reflect once (PlasticMaterial::single_return).

@@ -28,8 +28,8 @@ struct ThinDielectricBsdf {
 };
 
 /// The BSDF of such a material at one place of a surface (bsdf_builder.h).
-template <class Place>
-typename Place::Result make_bsdf(const ThinDielectricMaterial& m, const Place& at) {
+template <class Context>
+typename Context::Result make_bsdf(const ThinDielectricMaterial& m, const Context& at) {
     return {ThinDielectricBsdf{m.eta, at.color(m.specular_reflectance), at.color(m.specular_transmittance)}};
 }
 

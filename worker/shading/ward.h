@@ -20,8 +20,8 @@ struct WardBsdf {
 
     BsdfValue value(const Vec3& wo, const Vec3& wi) const {
         if (!(wi.z > 0.0f)) return {};
-        const float share = 1.0f - specular_probability;
-        BsdfValue result{diffuse * (wi.z * kInvPi), share * cosine_hemisphere_pdf(wi.z)};
+        const float diffuse_probability = 1.0f - specular_probability;
+        BsdfValue result{diffuse * (wi.z * kInvPi), diffuse_probability * cosine_hemisphere_pdf(wi.z)};
         const float h_z = wo.z + wi.z, u = (wo.x + wi.x) / h_z, v = (wo.y + wi.y) / h_z;
         const float slope_u = u / alpha_u, slope_v = v / alpha_v;
         const float gauss = exp_negative(slope_u * slope_u + slope_v * slope_v) * kInvPi / (alpha_u * alpha_v);
@@ -35,8 +35,8 @@ struct WardBsdf {
     BsdfSample sample(const Vec3& wo, const BsdfRandom& random) const {
         Vec3 wi = random.cosine;
         if (random.lobe < specular_probability) {
-            const float r = std::sqrt(minus_log_one_minus(std::min(random.place.x, 1.0f - 0x1p-24f)));
-            const SinCos phi = sincos_turn(random.place.y);
+            const float r = std::sqrt(minus_log_one_minus(std::min(random.point.x, 1.0f - 0x1p-24f)));
+            const SinCos phi = sincos_turn(random.point.y);
             wi = reflected(wo, normalize(Vec3(alpha_u * r * phi.cos, alpha_v * r * phi.sin, 1.0f)));
         }
         const BsdfValue v = value(wo, wi);
@@ -60,8 +60,8 @@ struct WardBsdf {
 };
 
 /// The BSDF of such a material at one place of a surface (bsdf_builder.h).
-template <class Place>
-typename Place::Result make_bsdf(const WardMaterial& m, const Place& at) {
+template <class Context>
+typename Context::Result make_bsdf(const WardMaterial& m, const Context& at) {
     const Rgb diffuse = at.color(m.diffuse_reflectance), specular = at.color(m.specular_reflectance);
     const float base = luminance(diffuse), lobe = luminance(specular);
     if (!(base + lobe > 0.0f)) return {};

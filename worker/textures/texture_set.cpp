@@ -47,22 +47,22 @@ Rgb wrapped_texel(const TextureImage& image, const BitmapTexture& bitmap, int x,
     return texel(image, x, y);
 }
 
-/// Place of texture coordinates, in texels from the upper left corner.
-Vec2 texel_place(const TextureImage& image, const BitmapTexture& bitmap, const Vec2& at) {
+/// Position of texture coordinates, in texels from the upper left corner.
+Vec2 texel_position(const TextureImage& image, const BitmapTexture& bitmap, const Vec2& at) {
     const Vec2 uv = transformed(bitmap.uv, at);
     // Whole units are taken off first where they make no difference, so that large coordinates keep their fraction.
-    const auto place = [](float x, int size, Wrap wrap) {
+    const auto position = [](float x, int size, Wrap wrap) {
         x = bounded(x);
         if (wrap == Wrap::repeat) x -= std::floor(x);
         const float scaled = x * static_cast<float>(size);
         return scaled > -0x1p30f && scaled < 0x1p30f ? scaled : (scaled > 0.0f ? 0x1p30f : -0x1p30f);
     };
-    return {place(uv.x, image.width, bitmap.wrap_u), place(uv.y, image.height, bitmap.wrap_v)};
+    return {position(uv.x, image.width, bitmap.wrap_u), position(uv.y, image.height, bitmap.wrap_v)};
 }
 
 Rgb look_up(const TextureImage& image, const BitmapTexture& bitmap, const Vec2& at) {
-    const Vec2 place = texel_place(image, bitmap, at);
-    const float x = place.x, y = place.y;
+    const Vec2 position = texel_position(image, bitmap, at);
+    const float x = position.x, y = position.y;
     if (!bitmap.bilinear)
         return wrapped_texel(image, bitmap, static_cast<int>(std::floor(x)), static_cast<int>(std::floor(y)));
     const float left = std::floor(x - 0.5f), top = std::floor(y - 0.5f);
@@ -125,8 +125,8 @@ void TextureSet::prefetch(std::int32_t texture, const Vec2& uv) const {
     const auto* bitmap = std::get_if<BitmapTexture>(&textures_[static_cast<std::size_t>(texture)].kind);
     if (!bitmap) return;
     const TextureImage& image = images_[static_cast<std::size_t>(bitmap->image)];
-    const Vec2 place = texel_place(image, *bitmap, uv);
-    const int x = static_cast<int>(std::floor(place.x)), y = static_cast<int>(std::floor(place.y - 0.5f));
+    const Vec2 position = texel_position(image, *bitmap, uv);
+    const int x = static_cast<int>(std::floor(position.x)), y = static_cast<int>(std::floor(position.y - 0.5f));
     if (x < 0 || x >= image.width) return;  // beyond the edges: rare
     for (const int row : {y, y + 1})
         if (row >= 0 && row < image.height) prefetch_texel(image, x, row);

@@ -43,15 +43,15 @@ struct TextObserver : NoObserver {
     void roulette(float survival, bool survives) {
         text << "  roulette survival " << survival << (survives ? "" : ", lost") << '\n';
     }
-    void branch(const Ray& ray, const Rgb& throughput) {
+    void other_way(const Ray& ray, const Rgb& throughput) {
         text << "the other way at depth 1: (delta) along " << ray.direction << " throughput " << throughput << '\n';
     }
     void split(std::uint32_t paths, const Rgb& throughput) {
         text << "  goes on as " << paths << ", throughput of each " << throughput << '\n';
     }
-    void copy(const PathCopy& copy) {
-        text << "copy " << int{copy.copies.number} << " from depth " << copy.depth << " throughput " << copy.throughput
-             << '\n';
+    void split_path(const SplitPath& path) {
+        text << "copy " << int{path.split_budget.number} << " from depth " << path.depth << " throughput "
+             << path.throughput << '\n';
     }
     void end(const char* why) { text << "  end: " << why << '\n'; }
 };

@@ -53,20 +53,21 @@ class Scatterer {
 };
 
 /// Emission that a ray from the place meets first, as next event and as scattering would see it.
-struct Met {
+struct EmitterHit {
     Rgb emitted{0.0f};
     float light_pdf = 0;  ///< of next event
 };
 
-Met meet_emitter(const TraceScene& scene, const Vec3& from, const Ray& ray, const LightShare* share) {
+EmitterHit intersect_emitter(const TraceScene& scene, const Vec3& from, const Ray& ray,
+                             const LightProbabilities* probabilities) {
     const Emitters& emitters = scene.emitters();
     Hit hit;
     if (!scene.geometry().intersect(ray, hit)) {
         if (!emitters.shines_from_infinity()) return {};
-        return {emitters.environment(ray.direction), emitters.pdf_environment(ray.direction, share)};
+        return {emitters.environment(ray.direction), emitters.pdf_environment(ray.direction, probabilities)};
     }
     if (!emitters.emits(hit.shape)) return {};
-    return {emitters.emitted(hit, -ray.direction), emitters.pdf_direct(from, ray.direction, hit, share)};
+    return {emitters.emitted(hit, -ray.direction), emitters.pdf_direct(from, ray.direction, hit, probabilities)};
 }
 
 /// The job of the paths that start at the place: their first edge is the second of a path from the camera, and what it
@@ -129,10 +130,11 @@ class PlaceTracer {
         sums.sampled += static_cast<double>(pdf);
         if (!scattering.reflects) return;
         const Ray ray{offset_origin(place_.hit, d), d};
-        const Met met = meet_emitter(scene_, place_.hit.p, ray, guide_.light_share(facts_.guidance.region));
-        if (!is_black(met.emitted)) {
-            const double weight = double(mis_weight(mis_, pdf, met.light_pdf));
-            count(scattering.f_cos, met.emitted, 1.0, weight, sums);
+        const EmitterHit emitter =
+            intersect_emitter(scene_, place_.hit.p, ray, guide_.light_probabilities(facts_.guidance.region));
+        if (!is_black(emitter.emitted)) {
+            const double weight = double(mis_weight(mis_, pdf, emitter.light_pdf));
+            count(scattering.f_cos, emitter.emitted, 1.0, weight, sums);
         }
         waiting_[kernel_.count()] = scattering.f_cos;
         kernel_.add(key, ray);

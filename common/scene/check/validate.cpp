@@ -17,7 +17,7 @@ void check_film(const Film& film) {
     if (!std::isfinite(film.filter_b) || !std::isfinite(film.filter_c))
         throw InputError(Location{}, "the pixel filter's B and C are not finite",
                          "give numbers, 1/3 and 1/3 for instance");
-    if (!film.is_placed_well())
+    if (!film.is_crop_valid())
         throw InputError(Location{}, "the crop window is not on the film", "check the film's size and crop");
 }
 

@@ -14,12 +14,12 @@ constexpr std::size_t kControlPoints = 6, kTurbidities = 10, kColumns = 10, kEle
 
 /// Where a number lies among the nodes 0, 1... `count` - 1: the node before it, and how far it is to the next one, from
 /// 0 to 1.
-struct Place {
+struct GridPosition {
     std::size_t node;
     double fraction;
 };
 
-Place place_among(std::size_t count, double at) {
+GridPosition position_among(std::size_t count, double at) {
     const double inside = std::clamp(at, 0.0, static_cast<double>(count - 1));
     const std::size_t node = std::min(static_cast<std::size_t>(inside), count - 2);
     return {node, inside - static_cast<double>(node)};
@@ -41,13 +41,14 @@ std::array<double, kControlPoints> bezier_weights(double t) {
 /// A channel's columns: linear in turbidity and albedo, a curve over the cube root of the elevation.
 std::array<double, kColumns> interpolate(const HosekWilkieTable& table, double turbidity, double albedo,
                                          double sun_elevation) {
-    const Place place = place_among(kTurbidities, turbidity - 1.0);
+    const GridPosition at_turbidity = position_among(kTurbidities, turbidity - 1.0);
     const auto curve = bezier_weights(std::cbrt(std::clamp(sun_elevation / (M_PI / 2.0), 0.0, 1.0)));
     std::array<double, kColumns> columns{};
     for (const std::size_t ground : {0u, 1u})
         for (const std::size_t step : {0u, 1u}) {
-            const double weight = (ground ? albedo : 1.0 - albedo) * (step ? place.fraction : 1.0 - place.fraction);
-            const std::size_t first = (ground * kTurbidities + place.node + step) * kControlPoints;
+            const double weight =
+                (ground ? albedo : 1.0 - albedo) * (step ? at_turbidity.fraction : 1.0 - at_turbidity.fraction);
+            const std::size_t first = (ground * kTurbidities + at_turbidity.node + step) * kControlPoints;
             for (std::size_t point = 0; point < kControlPoints; ++point)
                 for (std::size_t column = 0; column < kColumns; ++column)
                     columns[column] += weight * curve[point] * table[first + point][column];
@@ -77,8 +78,8 @@ Rgb64 HosekWilkieSky::radiance(double zenith, double from_sun) const {
 }
 
 Rgb64 hosek_wilkie_sun(double turbidity, double sun_elevation) {
-    const Place row = place_among(kTurbidities, turbidity - 1.0);
-    const Place column = place_among(kElevations, (sun_elevation * 180.0 / M_PI - 2.0) / 3.0);
+    const GridPosition row = position_among(kTurbidities, turbidity - 1.0);
+    const GridPosition column = position_among(kElevations, (sun_elevation * 180.0 / M_PI - 2.0) / 3.0);
     Rgb64 rgb;
     for (int c = 0; c < 3; ++c) {
         const auto along = [&](std::size_t r) {

@@ -15,7 +15,7 @@ struct Ray {
     double nearest = std::numeric_limits<double>::infinity();
     bool behind = false;  ///< of what is nearest
 
-    bool meet(double t, const V3d& normal) {
+    bool take_if_nearer(double t, const V3d& normal) {
         if (!(t > 0 && t < nearest)) return false;
         nearest = t;
         behind = direction.dot(normal) > 0;
@@ -38,8 +38,8 @@ bool misses(const Ray& ray, const Box3& box) {
     return enter > leave * (1 + 1e-9);
 }
 
-bool meets(Ray& ray, const Mesh& mesh) {
-    bool met = false;
+bool intersect(Ray& ray, const Mesh& mesh) {
+    bool is_hit = false;
     for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
         const std::uint32_t* corner = &mesh.indices[3 * t];
         const V3d a(mesh.positions[corner[0]]), ab = V3d(mesh.positions[corner[1]]) - a,
@@ -52,53 +52,55 @@ bool meets(Ray& ray, const Mesh& mesh) {
         if (u < 0 || v < 0 || u + v > 1) continue;
         V3d normal = ab.cross(ac);
         if (!mesh.normals.empty() && normal.dot(V3d(mesh.normals[corner[0]])) < 0) normal = -normal;
-        met |= ray.meet(ac.dot(q) / determinant, normal);
+        is_hit |= ray.take_if_nearer(ac.dot(q) / determinant, normal);
     }
-    return met;
+    return is_hit;
 }
 
 /// Roots of a t^2 + 2 b t + c.
-bool meets_round(Ray& ray, double a, double b, double c, auto normal_at) {
+bool intersect_round(Ray& ray, double a, double b, double c, auto normal_at) {
     const double discriminant = b * b - a * c;
     if (!(discriminant >= 0) || a == 0) return false;
     const double root = std::sqrt(discriminant);
-    bool met = false;
+    bool is_hit = false;
     for (const double t : {(-b - root) / a, (-b + root) / a})
-        if (const std::optional<V3d> normal = normal_at(ray.origin + ray.direction * t)) met |= ray.meet(t, *normal);
-    return met;
+        if (const std::optional<V3d> normal = normal_at(ray.origin + ray.direction * t))
+            is_hit |= ray.take_if_nearer(t, *normal);
+    return is_hit;
 }
 
-bool meets(Ray& ray, const Sphere& sphere) {
+bool intersect(Ray& ray, const Sphere& sphere) {
     const V3d from = ray.origin - V3d(sphere.center);
     const double radius = double(sphere.radius);
-    return meets_round(ray, ray.direction.dot(ray.direction), ray.direction.dot(from), from.dot(from) - radius * radius,
-                       [&](const V3d& p) -> std::optional<V3d> {
-                           return (p - V3d(sphere.center)) * (sphere.flip_normals ? -1.0 : 1.0);
-                       });
+    return intersect_round(ray, ray.direction.dot(ray.direction), ray.direction.dot(from),
+                           from.dot(from) - radius * radius, [&](const V3d& p) -> std::optional<V3d> {
+                               return (p - V3d(sphere.center)) * (sphere.flip_normals ? -1.0 : 1.0);
+                           });
 }
 
-bool meets(Ray& ray, const Cylinder& cylinder) {
+bool intersect(Ray& ray, const Cylinder& cylinder) {
     const V3d p0(cylinder.p0), along = V3d(cylinder.p1) - p0, axis = along.normalized(), from = ray.origin - p0;
     const V3d d = ray.direction - axis * ray.direction.dot(axis), f = from - axis * from.dot(axis);
     const double radius = double(cylinder.radius);
-    return meets_round(ray, d.dot(d), d.dot(f), f.dot(f) - radius * radius, [&](const V3d& p) -> std::optional<V3d> {
-        const double height = (p - p0).dot(axis);
-        if (height < 0 || height > along.length()) return std::nullopt;
-        return (p - p0 - axis * height) * (cylinder.flip_normals ? -1.0 : 1.0);
-    });
+    return intersect_round(ray, d.dot(d), d.dot(f), f.dot(f) - radius * radius,
+                           [&](const V3d& p) -> std::optional<V3d> {
+                               const double height = (p - p0).dot(axis);
+                               if (height < 0 || height > along.length()) return std::nullopt;
+                               return (p - p0 - axis * height) * (cylinder.flip_normals ? -1.0 : 1.0);
+                           });
 }
 
-bool meets(Ray& ray, const Disk& disk) {
+bool intersect(Ray& ray, const Disk& disk) {
     const V3d u(disk.half_u), v(disk.half_v), normal = u.cross(v);
     const double slope = ray.direction.dot(normal);
     if (slope == 0) return false;
     const double t = (V3d(disk.center) - ray.origin).dot(normal) / slope;
     const V3d p = ray.origin + ray.direction * t - V3d(disk.center);
     const double a = p.cross(v).dot(normal) / normal.dot(normal), b = u.cross(p).dot(normal) / normal.dot(normal);
-    return a * a + b * b <= 1 && ray.meet(t, normal);
+    return a * a + b * b <= 1 && ray.take_if_nearer(t, normal);
 }
 
-bool meets(Ray&, const Instance&) {
+bool intersect(Ray&, const Instance&) {
     return false;
 }
 
@@ -117,7 +119,8 @@ std::optional<FirstHit> FirstHitSearch::find(const V3d& origin, const V3d& direc
     std::optional<FirstHit> hit;
     const auto try_shape = [&](Ray& in_its_space, std::size_t i) {
         if (boxes_[i].isEmpty() || misses(in_its_space, boxes_[i])) return;
-        if (std::visit([&](const auto& geometry) { return meets(in_its_space, geometry); }, scene_.shapes[i].geometry))
+        if (std::visit([&](const auto& geometry) { return intersect(in_its_space, geometry); },
+                       scene_.shapes[i].geometry))
             hit = FirstHit{in_its_space.nearest, i, in_its_space.behind};
     };
     for (std::size_t i = 0; i < scene_.shapes.size(); ++i) {

@@ -38,18 +38,18 @@ double lobe_value(const Film& film, double x) {
     return x < double(film.filter_radius) ? sinc(x) * sinc(x / double(film.filter_radius)) : 0.0;
 }
 
-std::vector<double> cell_masses(const std::function<double(double)>& value, double radius, std::uint32_t cells) {
-    const double width = radius / cells;
-    std::vector<double> masses(cells);
-    for (std::uint32_t i = 0; i < cells; ++i) {  // Simpson's rule
+std::vector<double> bin_masses(const std::function<double(double)>& value, double radius, std::uint32_t bins) {
+    const double width = radius / bins;
+    std::vector<double> masses(bins);
+    for (std::uint32_t i = 0; i < bins; ++i) {  // Simpson's rule
         const double x = i * width;
         masses[i] = (value(x) + 4.0 * value(x + 0.5 * width) + value(x + width)) * (width / 6.0);
     }
     return masses;
 }
 
-std::vector<double> lobe_masses(const Film& film, std::uint32_t cells) {
-    return cell_masses([&](double x) { return lobe_value(film, x); }, double(film.filter_radius), cells);
+std::vector<double> lobe_masses(const Film& film, std::uint32_t bins) {
+    return bin_masses([&](double x) { return lobe_value(film, x); }, double(film.filter_radius), bins);
 }
 
 double excess_of(const std::vector<double>& masses) {

@@ -14,11 +14,11 @@ namespace treefarm {
 /// The filter's value at a distance of `x` pixels: of a film that is_signed().
 double lobe_value(const Film& film, double x);
 
-/// Integrals of a function over equal cells of [0, radius], by Simpson's rule.
-std::vector<double> cell_masses(const std::function<double(double)>& value, double radius, std::uint32_t cells);
+/// Integrals of a function over equal bins of [0, radius], by Simpson's rule.
+std::vector<double> bin_masses(const std::function<double(double)>& value, double radius, std::uint32_t bins);
 
-/// Integrals of the film's filter over equal cells of [0, radius].
-std::vector<double> lobe_masses(const Film& film, std::uint32_t cells);
+/// Integrals of the film's filter over equal bins of [0, radius].
+std::vector<double> lobe_masses(const Film& film, std::uint32_t bins);
 
 /// By how much the absolute values of the masses exceed their sum: what a sample of either sign weighs.
 double excess_of(const std::vector<double>& masses);

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "common/image/image_place.h"
+#include "common/image/crop_window.h"
 #include "common/scene/model/emitter.h"
 #include "common/scene/model/material.h"
 #include "common/scene/model/shape.h"
@@ -43,27 +43,27 @@ struct Film {
     float filter_radius = 0.5f;              ///< pixels; box: half its width
     float filter_stddev = 0.5f;              ///< pixels; gaussian only
     float filter_b = 0.0f, filter_c = 0.5f;  ///< cubic only: B and C of Mitchell and Netravali (1988)
-    ImagePlace place{};                      ///< of a crop window
+    CropWindow crop{};                       ///< of a crop window
 
     std::size_t pixel_count() const { return static_cast<std::size_t>(width) * static_cast<std::size_t>(height); }
-    int whole_width() const { return place.is_window() ? place.whole_width : width; }
-    int whole_height() const { return place.is_window() ? place.whole_height : height; }
+    int whole_width() const { return crop.is_window() ? crop.whole_width : width; }
+    int whole_height() const { return crop.is_window() ? crop.whole_height : height; }
     /// Number on the whole film, row by row, of a pixel of the window.
     std::uint32_t key_of(int x, int y) const {
-        return static_cast<std::uint32_t>((y + std::int64_t{place.y}) * whole_width() + x + place.x);
+        return static_cast<std::uint32_t>((y + std::int64_t{crop.y}) * whole_width() + x + crop.x);
     }
     /// Place among the pixels that are rendered of the one with that number on the whole film.
     std::uint32_t index_of(std::uint32_t key) const {
-        if (!place.is_window()) return key;
-        const auto whole = static_cast<std::uint32_t>(place.whole_width);
-        return (key / whole - static_cast<std::uint32_t>(place.y)) * static_cast<std::uint32_t>(width) + key % whole -
-               static_cast<std::uint32_t>(place.x);
+        if (!crop.is_window()) return key;
+        const auto whole = static_cast<std::uint32_t>(crop.whole_width);
+        return (key / whole - static_cast<std::uint32_t>(crop.y)) * static_cast<std::uint32_t>(width) + key % whole -
+               static_cast<std::uint32_t>(crop.x);
     }
     /// The window lies on a film of 1 to 65535 pixels a side.
-    bool is_placed_well() const {
-        return !place.is_window() ||
-               (place.x >= 0 && place.y >= 0 && place.whole_width <= 65535 && place.whole_height <= 65535 &&
-                place.x <= place.whole_width - width && place.y <= place.whole_height - height);
+    bool is_crop_valid() const {
+        return !crop.is_window() ||
+               (crop.x >= 0 && crop.y >= 0 && crop.whole_width <= 65535 && crop.whole_height <= 65535 &&
+                crop.x <= crop.whole_width - width && crop.y <= crop.whole_height - height);
     }
     /// The filter has negative lobes: samples weigh 1 or -1 times a factor, and pixels may be negative.
     bool is_signed() const { return filter == PixelFilter::cubic || filter == PixelFilter::lanczos; }

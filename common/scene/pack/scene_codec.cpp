@@ -34,7 +34,7 @@ void put_film(ByteWriter& out, const Film& film) {
     out.put(film.filter_stddev);
     out.put(film.filter_b);
     out.put(film.filter_c);
-    for (const int number : {film.place.x, film.place.y, film.place.whole_width, film.place.whole_height})
+    for (const int number : {film.crop.x, film.crop.y, film.crop.whole_width, film.crop.whole_height})
         out.put<std::int32_t>(number);
 }
 
@@ -54,9 +54,9 @@ Film get_film(ByteReader& in) {
     film.filter_c = in.get<float>();
     if (!std::isfinite(film.filter_b) || !std::isfinite(film.filter_c))
         throw FormatError("scene: the pixel filter's B and C are not finite");
-    for (int* number : {&film.place.x, &film.place.y, &film.place.whole_width, &film.place.whole_height})
+    for (int* number : {&film.crop.x, &film.crop.y, &film.crop.whole_width, &film.crop.whole_height})
         *number = in.get<std::int32_t>();
-    if (!film.is_placed_well()) throw FormatError("scene: a crop window that is not on its film");
+    if (!film.is_crop_valid()) throw FormatError("scene: a crop window that is not on its film");
     return film;
 }
 

@@ -25,17 +25,17 @@ class DirectionChoice {
         const auto lanes = static_cast<std::uint32_t>(alive.size());
         draw_batch(seed, keys, lanes, 0, Stream::scatter, draws_);
         cosine_hemisphere_batch(draws_, lanes, cosines_);
-        seats_ = 0;
+        slots_ = 0;
         if (candidates_ == 1) return;
         for (std::uint32_t lane = 0; lane < lanes; ++lane) {
-            seat_[lane] = static_cast<std::uint8_t>(seats_);
+            slot_[lane] = static_cast<std::uint8_t>(slots_);
             if (paths[alive[lane]].depth > candidate_depth_) continue;
-            seat_keys_.pixel[seats_] = keys.pixel[lane];
-            seat_keys_.sample[seats_] = keys.sample[lane];
-            seat_keys_.vertex[seats_++] = keys.vertex[lane] * Candidates::kMost;
+            slot_keys_.pixel[slots_] = keys.pixel[lane];
+            slot_keys_.sample[slots_] = keys.sample[lane];
+            slot_keys_.vertex[slots_++] = keys.vertex[lane] * Candidates::kMost;
         }
         seed_ = seed;
-        if (several()) draw_batch(seed, seat_keys_, seats_, 0, Stream::candidate, picks_);
+        if (several()) draw_batch(seed, slot_keys_, slots_, 0, Stream::candidate, picks_);
     }
 
     // What sampling will read is fetched ahead, each time by what the last has brought.
@@ -64,7 +64,7 @@ class DirectionChoice {
     /// Draws a path's direction, or the first of several; false if there is none.
     bool draw(Path& path) {
         if (chooses(path)) {
-            offered_[seat(path)].candidates.clear();
+            offered_[slot(path)].candidates.clear();
             draw_offer(path, 0, batch_, draws_, cosines_, path.lane);
             return true;
         }
@@ -82,18 +82,18 @@ class DirectionChoice {
             if (chooses(paths[index])) choosers[count++] = index;
         complete_offers(paths, {choosers.data(), count}, batch_);
         for (std::uint32_t candidate = 1; candidate < candidates_; ++candidate) {
-            draw_batch(seed_, seat_keys_, seats_, candidate, Stream::candidate, more_draws_);
-            cosine_hemisphere_batch(more_draws_, seats_, more_cosines_);
+            draw_batch(seed_, slot_keys_, slots_, candidate, Stream::candidate, more_draws_);
+            cosine_hemisphere_batch(more_draws_, slots_, more_cosines_);
             more_.clear();
             for (std::uint32_t i = 0; i < count; ++i)
-                draw_offer(paths[choosers[i]], candidate, more_, more_draws_, more_cosines_, seat(paths[choosers[i]]));
+                draw_offer(paths[choosers[i]], candidate, more_, more_draws_, more_cosines_, slot(paths[choosers[i]]));
             more_.convert(guide_);
             complete_offers(paths, {choosers.data(), count}, more_);
         }
         for (std::uint32_t i = 0; i < count; ++i) {
             Path& path = paths[choosers[i]];
-            const float pick = to_unit(picks_.word[0][seat(path)]);
-            if (offered_[seat(path)].candidates.take(candidates_, pick, path.scatter)) continue;
+            const float pick = to_unit(picks_.word[0][slot(path)]);
+            if (offered_[slot(path)].candidates.take(candidates_, pick, path.scatter)) continue;
             path.scatter.pdf = 0.0f;
             path.scatter.delta = false;
         }
@@ -106,7 +106,7 @@ class DirectionChoice {
     using Batch = ScatterBatch<kGuided, kCoded, kViews>;
 
     /// Whether any path of this step may choose among several.
-    bool several() const { return seats_ != 0; }
+    bool several() const { return slots_ != 0; }
 
     /// The candidates among which a path chooses.
     struct Offered {
@@ -118,12 +118,12 @@ class DirectionChoice {
     bool chooses(const Path& path) const {
         return kGuided && several() && path.depth <= candidate_depth_ && !path.probe && !path.surface->has_delta();
     }
-    std::uint32_t seat(const Path& path) const { return seat_[path.lane]; }
+    std::uint32_t slot(const Path& path) const { return slot_[path.lane]; }
 
     /// Draws a candidate from its own part of the techniques' probabilities: a mixture over the candidates like any.
     void draw_offer(const Path& path, std::uint32_t candidate, Batch& batch, const DrawBatch& draws,
                     const VectorBatch& cosines, std::uint32_t lane) {
-        Offered& offered = offered_[seat(path)];
+        Offered& offered = offered_[slot(path)];
         const float technique =
             (static_cast<float>(candidate) + to_unit(draws.word[0][lane])) / static_cast<float>(candidates_);
         offered.drawn = batch.draw(*path.surface, guide_, path.guidance, technique, draws[lane], cosines[lane],
@@ -133,7 +133,7 @@ class DirectionChoice {
     void complete_offers(std::span<const Path> paths, std::span<const std::uint8_t> choosers, const Batch& batch) {
         for (const std::uint8_t index : choosers) {
             const Path& path = paths[index];
-            Offered& offered = offered_[seat(path)];
+            Offered& offered = offered_[slot(path)];
             if (!offered.drawn) continue;
             batch.complete(*path.surface, guide_, path.guidance, offered.candidates.next());
             offered.candidates.offer();
@@ -147,11 +147,11 @@ class DirectionChoice {
     VectorBatch cosines_;
     Batch batch_;
 
-    // Of the paths that may choose among several: each has a seat.
-    std::uint32_t seats_ = 0;
-    std::array<std::uint8_t, kDrawBatch> seat_;  ///< by lane
+    // Of the paths that may choose among several: each has a slot.
+    std::uint32_t slots_ = 0;
+    std::array<std::uint8_t, kDrawBatch> slot_;  ///< by lane
     std::uint64_t seed_ = 0;
-    KeyBatch seat_keys_;
+    KeyBatch slot_keys_;
     DrawBatch picks_, more_draws_;
     VectorBatch more_cosines_;
     Batch more_;

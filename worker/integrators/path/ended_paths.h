@@ -18,16 +18,16 @@ class EndedPaths {
         enough_ = kEnough;
     }
 
-    void add(std::uint8_t place) { places_[count_++] = place; }
+    void add(std::uint8_t slot) { slots_[count_++] = slot; }
 
     /// Where enough have ended, or no path is left among the first `alive` of `walking`: follow(places) sets up others
     /// in the first of these places and returns how many, which are added. Returns how many walk now.
     template <class Follow>
     std::uint32_t replace(std::uint32_t alive, std::array<std::uint8_t, kDrawBatch>& walking, Follow& follow) {
         if (alive != 0 && count_ < enough_) return alive;
-        const std::uint32_t others = follow(std::span<const std::uint8_t>(places_.data(), count_));
+        const std::uint32_t others = follow(std::span<const std::uint8_t>(slots_.data(), count_));
         if (others < count_) enough_ = kDrawBatch + 1;  // no more are to come
-        std::copy_n(places_.begin(), others, walking.begin() + alive);
+        std::copy_n(slots_.begin(), others, walking.begin() + alive);
         count_ = 0;
         return alive + others;
     }
@@ -36,7 +36,7 @@ class EndedPaths {
     /// Ended paths that are worth setting up others. With 8 and 16 a ray took as long.
     static constexpr std::uint32_t kEnough = kDrawBatch / 4;
 
-    std::array<std::uint8_t, kDrawBatch> places_;
+    std::array<std::uint8_t, kDrawBatch> slots_;
     std::uint32_t count_ = 0, enough_ = kEnough;
 };
 

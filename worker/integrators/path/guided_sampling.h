@@ -137,11 +137,11 @@ class ScatterBatch {
   public:
     void clear() {
         codes_.clear();
-        place_count_ = 0;
+        square_count_ = 0;
     }
 
     /// `technique`, uniform in [0, 1), chooses BSDF or guide, random[1] the BSDF's lobe or the guide's cell, [2] and
-    /// [3] the place; `cosine` is that place warped to the cosine hemisphere. False if there is no direction.
+    /// [3] the point; `cosine` is that point warped to the cosine hemisphere. False if there is no direction.
     template <class Surface>
     bool draw(const Surface& surface, const Guide& guide, const Guidance& guidance, float technique, const Draw& random,
               const Vec3& cosine, ScatterSample& s) {
@@ -150,20 +150,20 @@ class ScatterBatch {
         s.guide_pdf = s.view_pdf = 0.0f;
         if (kGuided && s.guided) {
             s.by_view = kViews && technique < guidance.bsdf_fraction + guidance.view_fraction;
-            const Guide::Place place = guide.sample_place(kViews && s.by_view ? guidance.view : guidance.region,
-                                                          random[1], random[2], random[3]);
-            s.code = place.code;
-            (kViews && s.by_view ? s.view_pdf : s.guide_pdf) = place.pdf;
+            const Guide::SquareSample drawn = guide.sample_square(kViews && s.by_view ? guidance.view : guidance.region,
+                                                                  random[1], random[2], random[3]);
+            s.code = drawn.code;
+            (kViews && s.by_view ? s.view_pdf : s.guide_pdf) = drawn.pdf;
             s.delta = false;
-            s.conversion = place_count_;
-            places_x_[place_count_] = place.at.x;
-            places_y_[place_count_] = place.at.y;
-            if constexpr (kViews) others_[place_count_] = {s.by_view ? guidance.region : guidance.view, place.code};
-            ++place_count_;
+            s.conversion = square_count_;
+            square_x_[square_count_] = drawn.at.x;
+            square_y_[square_count_] = drawn.at.y;
+            if constexpr (kViews) others_[square_count_] = {s.by_view ? guidance.region : guidance.view, drawn.code};
+            ++square_count_;
             return true;
         }
-        const Vec2 place(to_unit(random[2]), to_unit(random[3]));
-        const BsdfSample b = surface.bsdf().sample(surface.wo(), {to_unit(random[1]), place, cosine});
+        const Vec2 point(to_unit(random[2]), to_unit(random[3]));
+        const BsdfSample b = surface.bsdf().sample(surface.wo(), {to_unit(random[1]), point, cosine});
         if (!(b.pdf > 0.0f)) return false;
         s.local = b.wi;
         s.world = surface.frame().to_world(b.wi);
@@ -174,13 +174,13 @@ class ScatterBatch {
         return true;
     }
 
-    /// Codes of the BSDFs' directions, directions of the guide's places.
+    /// Codes of the BSDFs' directions, directions of the guide's points.
     void convert(const Guide& guide) {
         if constexpr (kCoded) codes_.convert();
         if constexpr (kGuided) {
             codes_.prefetch(guide);
             each_other([&](std::uint32_t other, std::uint32_t code) { guide.prefetch_pdf(other, code); });
-            square_to_direction_batch(places_x_, places_y_, place_count_, directions_);
+            square_to_direction_batch(square_x_, square_y_, square_count_, directions_);
             codes_.prefetch_cells(guide);
             each_other([&](std::uint32_t other, std::uint32_t code) { guide.prefetch_pdf_cell(other, code); });
         }
@@ -218,11 +218,11 @@ class ScatterBatch {
         return mixed_pdf(guidance, s.bsdf_pdf, s.guide_pdf, s.view_pdf);
     }
 
-    /// Calls visit(distribution, code) for what guides beside those that the guide's places were drawn from.
+    /// Calls visit(distribution, code) for what guides beside those that the guide's points were drawn from.
     template <class Visit>
     void each_other(Visit visit) const {
         if constexpr (kViews)
-            for (std::uint32_t i = 0; i < place_count_; ++i)
+            for (std::uint32_t i = 0; i < square_count_; ++i)
                 if (others_[i].distribution != Guide::kNoView) visit(others_[i].distribution, others_[i].code);
     }
 
@@ -231,9 +231,9 @@ class ScatterBatch {
     };
 
     CodeBatch<kViews> codes_;
-    std::uint32_t place_count_ = 0;
+    std::uint32_t square_count_ = 0;
     std::array<Other, kViews ? kDrawBatch : 0> others_;
-    alignas(64) std::array<float, kDrawBatch> places_x_, places_y_;
+    alignas(64) std::array<float, kDrawBatch> square_x_, square_y_;
     VectorBatch directions_;
 };
 

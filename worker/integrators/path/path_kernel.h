@@ -11,7 +11,7 @@ namespace treefarm {
 /// The camera paths of a group, traced: which paths walk when, and what their samples come to. One kernel per thread.
 ///
 /// The other ways of paths that were split at glass wait until the camera paths of the whole group are done, and so do
-/// the copies that paths leave where they are split: they are few, and walk together; then their own copies do.
+/// the paths that they leave where they are split: they are few, and walk together; then those that these leave do.
 template <class Surface, bool kGuided, bool kRecord, class Observer = NoObserver>
 class PathKernel {
     using Walk = PathWalk<Surface, kGuided, kRecord, Observer>;
@@ -26,7 +26,7 @@ class PathKernel {
                RecordLog* log = nullptr)
         : stats_(stats), log_(log), walk_(scene, guide, settings, stats) {
         assert(log || !kRecord);
-        std::iota(places_.begin(), places_.end(), std::uint8_t{0});
+        std::iota(slots_.begin(), slots_.end(), std::uint8_t{0});
     }
 
     void clear() { count_ = 0; }
@@ -48,9 +48,9 @@ class PathKernel {
         }
         walk_camera_paths();
         if constexpr (Surface::kTransmits)
-            if (walk_.branches().size() != 0) walk_branches();
+            if (walk_.glass_splits().size() != 0) walk_other_ways();
         if constexpr (kGuided)
-            if (!walk_.copies().empty()) walk_copies();
+            if (!walk_.split_paths().empty()) walk_split_paths();
     }
 
     /// Radiance along the camera ray of the path added as number `path`.
@@ -65,7 +65,7 @@ class PathKernel {
   private:
     using Path = typename Walk::Path;
 
-    static constexpr std::uint32_t kBranchVertices = 1u << 28;
+    static constexpr std::uint32_t kOtherWayVertices = 1u << 28;
 
     /// Whether a path that ends makes room for the next. Guided ones were slower so: there the next batch waits for the
     /// last path (docs/design/speed.md, "How paths walk").
@@ -74,33 +74,33 @@ class PathKernel {
     /// How many walk together: guided ones without next event are slower by whole batches.
     std::uint32_t batch() const { return kGuided && !walk_.settings().next_event ? kBatch / 2 : kBatch; }
 
-    /// State from which splitting goes on at the branch of a camera path.
-    struct Legacy {
-        CopyBudget copies;
+    /// State from which splitting goes on at the other way of a camera path.
+    struct SplittingState {
+        SplitBudget split_budget;
         int first_exponent;
     };
     static constexpr bool kInherits = kGuided && Surface::kTransmits;
     static constexpr bool kCompares = kGuided && kRecord;
 
-    /// Walks `count` paths, as many at a time as a batch holds: begin(number, place) sets one up, and end(number, path)
+    /// Walks `count` paths, as many at a time as a batch holds: begin(number, slot) sets one up, and end(number, path)
     /// is told what came of it.
     template <class Begin, class End>
     void walk(std::uint32_t count, Begin begin, End end) {
-        std::array<std::uint32_t, kBatch> numbers;  // by place
+        std::array<std::uint32_t, kBatch> numbers;  // by slot
         std::uint32_t begun = 0;
-        const auto fill = [&](std::span<const std::uint8_t> places) {
-            const std::uint32_t others = std::min(count - begun, static_cast<std::uint32_t>(places.size()));
-            for (const std::uint8_t place : places.first(others)) {
-                numbers[place] = begun;
-                begin(begun++, place);
+        const auto fill = [&](std::span<const std::uint8_t> slots) {
+            const std::uint32_t others = std::min(count - begun, static_cast<std::uint32_t>(slots.size()));
+            for (const std::uint8_t slot : slots.first(others)) {
+                numbers[slot] = begun;
+                begin(begun++, slot);
             }
             return others;
         };
         while (begun < count) {
-            const std::uint32_t first = fill(std::span(places_).first(batch()));
-            walk_.walk(std::span(places_).first(first), [&](std::span<const std::uint8_t> ended) {
-                for (const std::uint8_t place : ended)
-                    end(numbers[place], walk_[place]);
+            const std::uint32_t first = fill(std::span(slots_).first(batch()));
+            walk_.walk(std::span(slots_).first(first), [&](std::span<const std::uint8_t> ended) {
+                for (const std::uint8_t slot : ended)
+                    end(numbers[slot], walk_[slot]);
                 commit(ended);
                 return kRefills ? fill(ended) : 0;
             });
@@ -110,13 +110,13 @@ class PathKernel {
     void walk_camera_paths() {
         walk(
             count_,
-            [&](std::uint32_t number, std::uint8_t place) {
-                Path& path = walk_[place];
+            [&](std::uint32_t number, std::uint8_t slot) {
+                Path& path = walk_[slot];
                 path.begin(keys_[number], rays_[number]);
                 path.origin = static_cast<std::uint16_t>(number);
                 path.probe = kGuided && walk_.settings().is_probe(path.key.pixel);
                 stats_.probe_paths += path.probe;
-                if constexpr (kRecord) walk_.recorder(place).begin_path();
+                if constexpr (kRecord) walk_.recorder(slot).begin_path();
                 walk_.observer().camera(path.ray);
             },
             [&](std::uint32_t number, const Path& path) {
@@ -125,29 +125,29 @@ class PathKernel {
                     unsplit_[number] = path.unsplit.of(luminance(path.radiance));
                     first_exponents_[number] = path.first_exponent;
                 }
-                if constexpr (kInherits) legacies_[number] = {path.copies, path.first_exponent};
+                if constexpr (kInherits) splitting_states_[number] = {path.split_budget, path.first_exponent};
             });
     }
 
     /// The other ways of paths that were split at their first surface.
-    [[gnu::noinline]] void walk_branches() {
-        const Branches& branches = walk_.branches();
+    [[gnu::noinline]] void walk_other_ways() {
+        const GlassSplits& glass_splits = walk_.glass_splits();
         walk(
-            branches.size(),
-            [&](std::uint32_t number, std::uint8_t place) {
-                const Branches::Branch& branch = branches[number];
-                Path& path = walk_[place];
-                path.begin(keys_[branch.origin], branch.ray);
-                path.origin = branch.origin;
+            glass_splits.size(),
+            [&](std::uint32_t number, std::uint8_t slot) {
+                const GlassSplits::OtherWay& way = glass_splits[number];
+                Path& path = walk_[slot];
+                path.begin(keys_[way.origin], way.ray);
+                path.origin = way.origin;
                 path.probe = kGuided && walk_.settings().is_probe(path.key.pixel);
                 if constexpr (kInherits) {
-                    path.copies = legacies_[branch.origin].copies;
-                    path.first_exponent = legacies_[branch.origin].first_exponent;
+                    path.split_budget = splitting_states_[way.origin].split_budget;
+                    path.first_exponent = splitting_states_[way.origin].first_exponent;
                 }
-                path.radiance = radiance_[branch.origin];
-                path.resume(branch.ray, branch.weight, branch.spread, kBranchVertices + 1);
-                if constexpr (kRecord) walk_.recorder(place).begin_branch(branch.weight);
-                walk_.observer().branch(branch.ray, branch.weight);
+                path.radiance = radiance_[way.origin];
+                path.resume(way.ray, way.weight, way.spread, kOtherWayVertices + 1);
+                if constexpr (kRecord) walk_.recorder(slot).begin_other_way(way.weight);
+                walk_.observer().other_way(way.ray, way.weight);
             },
             [&](std::uint32_t, const Path& path) {
                 Rgb& radiance = radiance_[path.origin];
@@ -155,38 +155,38 @@ class PathKernel {
                     unsplit_[path.origin] += path.unsplit.of(luminance(path.radiance)) - luminance(radiance);
                 radiance = path.radiance;
             });
-        walk_.branches().clear();
+        walk_.glass_splits().clear();
     }
 
-    [[gnu::noinline]] void walk_copies() {
+    [[gnu::noinline]] void walk_split_paths() {
         numbers_.fill(0);
-        while (!walk_.copies().empty()) {
-            const std::span<const PathCopy> copies = walk_.copies().next(numbers_);
-            of_copies_.resize(copies.size());
+        while (!walk_.split_paths().empty()) {
+            const std::span<const SplitPath> split_paths = walk_.split_paths().next(numbers_);
+            split_radiance_.resize(split_paths.size());
             walk(
-                static_cast<std::uint32_t>(copies.size()),
-                [&](std::uint32_t number, std::uint8_t place) {
-                    walk_[place].begin(keys_[copies[number].origin], copies[number]);
-                    if constexpr (kRecord) walk_.recorder(place).begin_path();
-                    walk_.observer().copy(copies[number]);
+                static_cast<std::uint32_t>(split_paths.size()),
+                [&](std::uint32_t number, std::uint8_t slot) {
+                    walk_[slot].begin(keys_[split_paths[number].origin], split_paths[number]);
+                    if constexpr (kRecord) walk_.recorder(slot).begin_path();
+                    walk_.observer().split_path(split_paths[number]);
                 },
                 [&](std::uint32_t number, const Path& path) {
-                    of_copies_[number] = path.radiance;
-                    stats_.copy_rays += static_cast<std::uint32_t>(path.depth - copies[number].depth);
+                    split_radiance_[number] = path.radiance;
+                    stats_.split_path_rays += static_cast<std::uint32_t>(path.depth - split_paths[number].depth);
                 });
-            // In their own order: the one in which they ended depends on their company.
-            for (std::size_t i = 0; i < copies.size(); ++i)
-                radiance_[copies[i].origin] += of_copies_[i];
+            // In their own order: the one in which they ended depends on what else walked.
+            for (std::size_t i = 0; i < split_paths.size(); ++i)
+                radiance_[split_paths[i].origin] += split_radiance_[i];
         }
     }
 
-    /// Hands over what the paths in these places learned. What carried no radiance but nonsense teaches nothing.
-    void commit([[maybe_unused]] std::span<const std::uint8_t> places) {
+    /// Hands over what the paths in these slots learned. What carried no radiance but nonsense teaches nothing.
+    void commit([[maybe_unused]] std::span<const std::uint8_t> slots) {
         if constexpr (kRecord) {
             walk_.clock().start();
-            for (const std::uint8_t place : places)
-                if (!walk_[place].probe && is_radiance(walk_[place].radiance))
-                    stats_.records += walk_.recorder(place).commit(*log_);
+            for (const std::uint8_t slot : slots)
+                if (!walk_[slot].probe && is_radiance(walk_[slot].radiance))
+                    stats_.records += walk_.recorder(slot).commit(*log_);
             walk_.clock().lap(TracePhase::record);
         }
     }
@@ -195,15 +195,15 @@ class PathKernel {
     RecordLog* log_;
     Walk walk_;
     std::uint32_t count_ = 0;
-    std::array<std::uint8_t, kBatch> places_;
+    std::array<std::uint8_t, kBatch> slots_;
     std::array<PathKey, kGroup> keys_;
     std::array<Ray, kGroup> rays_;
     std::array<Rgb, kGroup> radiance_;
-    std::array<Legacy, kInherits ? kGroup : 0> legacies_;
+    std::array<SplittingState, kInherits ? kGroup : 0> splitting_states_;
     std::array<float, kCompares ? kGroup : 0> unsplit_;
     std::array<int, kCompares ? kGroup : 0> first_exponents_;
-    std::array<std::uint8_t, kGroup> numbers_;  ///< of copies so far
-    std::vector<Rgb> of_copies_;                ///< radiance of each
+    std::array<std::uint8_t, kGroup> numbers_;  ///< of split paths so far
+    std::vector<Rgb> split_radiance_;           ///< radiance of each
 };
 
 }  // namespace treefarm

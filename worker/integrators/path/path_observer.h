@@ -2,8 +2,8 @@
 #pragma once
 
 #include "worker/integrators/path/guided_sampling.h"
-#include "worker/integrators/path/path_copies.h"
 #include "worker/integrators/path/pending_light.h"
+#include "worker/integrators/path/split_paths.h"
 
 namespace treefarm {
 
@@ -17,9 +17,9 @@ struct NoObserver {
     void scatter(const ScatterSample&, const Rgb&) {}
     void next_event(const PendingLight&, float, float, const Rgb&) {}
     void roulette(float, bool) {}
-    void branch(const Ray&, const Rgb&) {}
+    void other_way(const Ray&, const Rgb&) {}
     void split(std::uint32_t, const Rgb&) {}
-    void copy(const PathCopy&) {}
+    void split_path(const SplitPath&) {}
     void end(const char*) {}
 };
 

@@ -33,7 +33,7 @@ class PathRecorder {
     }
 
     /// Begins the other way out of a path's first surface, by a delta lobe of this weight.
-    void begin_branch(const Rgb& weight) {
+    void begin_other_way(const Rgb& weight) {
         begin_path();
         add_delta_vertex(weight, {}, 0);
     }
@@ -93,13 +93,13 @@ class PathRecorder {
             carried = v.emission + (v.reflected + carried) * (1.0f / v.survival);
             const Rgb arriving = carried;
             carried *= v.weight;
-            const Lesson lesson{v.code, v.pdf, average(arriving), finite(average(carried)), v.bins};
+            const DirectionSample direction{v.code, v.pdf, average(arriving), finite(average(carried)), v.bins};
             if (v.target.empty()) continue;
             recorded += v.pdf > 0.0f;
-            end = teach(v.rounding, v.target, lesson, log, end);
+            end = teach(v.rounding, v.target, direction, log, end);
         }
         for (const LightSample& s : light_samples_)
-            end = teach(s.rounding, s.target, s.lesson, log, end);
+            end = teach(s.rounding, s.target, s.direction, log, end);
         log.records.insert(log.records.end(), log.drafts.data(), end);
         log.records.insert(log.records.end(), choices_.begin(), choices_.end());
         log.caps.outside_positions += outside_;
@@ -115,7 +115,7 @@ class PathRecorder {
         MixtureBins bins;
     };
     /// Radiance that a direction carried.
-    struct Lesson {
+    struct DirectionSample {
         std::uint32_t code;
         float pdf;        ///< 0: of a delta lobe beside others, which teaches how often to sample the BSDF
         float radiance;   ///< that arrived
@@ -126,12 +126,13 @@ class PathRecorder {
     struct LightSample {
         RecordTarget target;
         std::uint32_t rounding;
-        Lesson lesson;
+        DirectionSample direction;
     };
 
-    /// Writes the records of a lesson. As published a view alone learns, and the radiance; otherwise the region learns
-    /// that as it would without, and the view what is reflected. Records are written at `end`; returns the new one.
-    Record* teach(std::uint32_t rounding, const RecordTarget& target, const Lesson& l, RecordLog& log,
+    /// Writes the records of a sampled direction. As published a view alone learns, and the radiance; otherwise the
+    /// region learns that as it would without, and the view what is reflected. Records are written at `end`; returns
+    /// the new one.
+    Record* teach(std::uint32_t rounding, const RecordTarget& target, const DirectionSample& l, RecordLog& log,
                   Record* end) const {
         const bool smooth = l.pdf > 0.0f;
         const float value = smooth ? target_value(l.radiance, l.pdf) : 0.0f;

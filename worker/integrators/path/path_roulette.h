@@ -9,7 +9,7 @@
 namespace treefarm {
 
 /// Exponent of the power of two of a region's light, by that of its records: those are of L / p, or of L^2 / p.
-inline int light_exponent(int record_exponent, GuidingTarget target) {
+inline int radiance_exponent(int record_exponent, GuidingTarget target) {
     return target == GuidingTarget::variance ? record_exponent / 2 : record_exponent;
 }
 
@@ -18,7 +18,7 @@ template <class Surface>
 float brightness(const PathState<Surface>& path, const Guide& guide, const PathSettings& settings) {
     if (!settings.roulette.needs_brightness()) return 1.0f;
     const int exponent = guide.quantum_exponent(path.guidance.region) - path.first_exponent;
-    return power_of_two(std::clamp(light_exponent(exponent, settings.target), -60, 60));
+    return power_of_two(std::clamp(radiance_exponent(exponent, settings.target), -60, 60));
 }
 
 /// Number of paths as which a path goes on from where it has arrived.

@@ -18,7 +18,7 @@ struct PathSettings {
     MisHeuristic mis;
     bool strict_normals;
     bool hide_emitters;
-    bool split_glass;           ///< branches.h
+    bool split_glass;           ///< glass_splits.h
     bool record_light_samples;  ///< kick-start: what next event finds teaches the tree, too
     bool profile;
     bool textured;             ///< surfaces have something to look up

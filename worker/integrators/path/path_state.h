@@ -6,7 +6,7 @@
 
 #include "worker/geometry/embree_scene.h"
 #include "worker/integrators/path/guided_sampling.h"
-#include "worker/integrators/path/path_copies.h"
+#include "worker/integrators/path/split_paths.h"
 
 namespace treefarm {
 
@@ -14,29 +14,29 @@ namespace treefarm {
 template <class Surface>
 struct PathState {
     PathKey key;
-    std::uint32_t vertex;  ///< by which random numbers are keyed; copies and branches have numbers of their own
+    std::uint32_t vertex;  ///< by which random numbers are keyed; split paths and other ways have numbers of their own
     int depth;             ///< edges so far
     Ray ray;
     Rgb radiance, throughput;
-    float scatter_pdf;  ///< infinite after a delta lobe: next event cannot have found what it meets
+    float scatter_pdf;  ///< infinite after a delta lobe: next event cannot have found what it hits
     float spread;       ///< product of eta^2: what refraction took from the throughput and gives back later
     Vec3 scatter_point;
-    const LightShare* scatter_lights;  ///< how next event chose an emitter there
-    bool probe;                        ///< unguided in a pass that probes whether guiding pays
-    int first_exponent;                ///< of the quanta where the camera's ray arrived: how bright it is there
-    std::uint16_t origin;              ///< the group's camera path that it is part of
-    CopyBudget copies;
+    const LightProbabilities* scatter_lights;  ///< how next event chose an emitter there
+    bool probe;                                ///< unguided in a pass that probes whether guiding pays
+    int first_exponent;                        ///< of the quanta where the camera's ray arrived: how bright it is there
+    std::uint16_t origin;                      ///< the group's camera path that it is part of
+    SplitBudget split_budget;
     Unsplit unsplit;
-    bool copied;  ///< has just left another: its ray has arrived, and what it met is accounted for
+    bool was_split_off;  ///< has just left another: its ray has arrived, and what it met is accounted for
 
     // Where the ray has arrived; left over from before where it met nothing.
     bool found;
-    EmbreeScene::Meeting meeting;
+    EmbreeScene::EmbreeHit embree_hit;
     Hit hit;
     Guidance guidance;            ///< where the tree is used
     std::uint32_t outgoing_code;  ///< of the direction that light leaves in; where the tree has views
     std::optional<Surface> surface;
-    std::uint8_t lane;  ///< its place in what the batch has drawn
+    std::uint8_t lane;  ///< its slot in what the batch has drawn
     ScatterSample scatter;
     Rgb weight;  ///< f |cos| over the density of the sampled direction
 
@@ -44,9 +44,9 @@ struct PathState {
         key = path;
         vertex = 0;
         depth = 0;
-        copies = {};
+        split_budget = {};
         unsplit = {};
-        copied = false;
+        was_split_off = false;
         first_exponent = 0;
         ray = from_camera;
         radiance = scatter_point = Rgb(0.0f);
@@ -67,23 +67,25 @@ struct PathState {
         spread = eta2;
     }
 
-    /// A copy of this path, to go on from where its ray has arrived.
-    PathCopy copy() const { return {origin, copies, depth, ray, meeting, throughput, spread, first_exponent}; }
+    /// One of the paths that this path goes on as, from where its ray has arrived.
+    SplitPath split_off() const {
+        return {origin, split_budget, depth, ray, embree_hit, throughput, spread, first_exponent};
+    }
 
-    /// Goes on as a copy of the path of this key; it adds to a radiance of its own.
-    void begin(const PathKey& path, const PathCopy& copy) {
-        begin(path, copy.ray);
-        vertex = copy.first_vertex();
-        depth = copy.depth - 1;
-        throughput = copy.throughput;
-        spread = copy.spread;
-        first_exponent = copy.first_exponent;
-        origin = copy.origin;
-        copies = copy.copies;
-        copied = true;
+    /// Goes on as one that the path of this key was split into; it adds to a radiance of its own.
+    void begin(const PathKey& path, const SplitPath& split) {
+        begin(path, split.ray);
+        vertex = split.first_vertex();
+        depth = split.depth - 1;
+        throughput = split.throughput;
+        spread = split.spread;
+        first_exponent = split.first_exponent;
+        origin = split.origin;
+        split_budget = split.split_budget;
+        was_split_off = true;
         probe = false;
         found = true;
-        meeting = copy.meeting;
+        embree_hit = split.embree_hit;
     }
 };
 

@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "common/film/trace_stats.h"
-#include "worker/integrators/path/branches.h"
 #include "worker/integrators/path/direction_choice.h"
 #include "worker/integrators/path/emission.h"
 #include "worker/integrators/path/emitter_choice.h"
 #include "worker/integrators/path/ended_paths.h"
+#include "worker/integrators/path/glass_splits.h"
 #include "worker/integrators/path/path_observer.h"
 #include "worker/integrators/path/path_roulette.h"
 #include "worker/integrators/path/phase_clock.h"
@@ -25,7 +25,7 @@ namespace treefarm {
 /// program). Depth counts path edges: a surface seen by the camera has depth 1. `Surface` is one of surface.h.
 ///
 /// Paths walk in step, up to kBatch of them: what one waits for (memory, square roots) another works through, and the
-/// shadow rays of a step are traced together. A path's result does not depend on its company.
+/// shadow rays of a step are traced together. A path's result does not depend on what walks beside it.
 template <class Surface, bool kGuided, bool kRecord, class Observer = NoObserver>
 class PathWalk {
   public:
@@ -50,22 +50,22 @@ class PathWalk {
     PathWalk& operator=(const PathWalk&) = delete;
 
     /// The places of a batch: whoever sets one up says so to walk().
-    Path& operator[](std::uint32_t place) { return paths_[place]; }
-    PathRecorder& recorder(std::uint32_t place) { return recorders_[place]; }
+    Path& operator[](std::uint32_t slot) { return paths_[slot]; }
+    PathRecorder& recorder(std::uint32_t slot) { return recorders_[slot]; }
 
     /// Traces the paths in these places, at most kBatch, to their ends. `follow(places)` is told where some have ended,
     /// and sets up others in the first of these places; it returns how many.
     template <class Follow>
-    void walk(std::span<const std::uint8_t> places, Follow follow) {
-        std::copy(places.begin(), places.end(), alive_.begin());
+    void walk(std::span<const std::uint8_t> slots, Follow follow) {
+        std::copy(slots.begin(), slots.end(), alive_.begin());
         ended_.clear();
-        for (auto alive = static_cast<std::uint32_t>(places.size()); alive != 0;)
+        for (auto alive = static_cast<std::uint32_t>(slots.size()); alive != 0;)
             alive = ended_.replace(step(alive), alive_, follow);
     }
 
-    /// Other ways out of glass, and copies, that the paths left; whoever follows them takes them away.
-    Branches& branches() { return branches_; }
-    PathCopies& copies() { return copies_; }
+    /// Other ways out of glass, and split paths, that the paths left; whoever follows them takes them away.
+    GlassSplits& glass_splits() { return glass_; }
+    SplitPaths& split_paths() { return split_paths_; }
 
     const PathSettings& settings() const { return settings_; }
     Observer& observer() { return observer_; }
@@ -86,18 +86,18 @@ class PathWalk {
             path.lane = static_cast<std::uint8_t>(lane);
             ++path.vertex;
             ++path.depth;
-            if (kGuided && path.copied) continue;
+            if (kGuided && path.was_split_off) continue;
             ++stats_.rays;
             if constexpr (kGuided) stats_.probe_rays += path.probe;
             observer_.ray(path.ray);
-            queries[count++] = {&path.ray, &path.meeting, &path.found};
+            queries[count++] = {&path.ray, &path.embree_hit, &path.found};
         }
-        scene_.geometry().meet({queries.data(), count});
+        scene_.geometry().intersect({queries.data(), count});
         clock_.lap(TracePhase::intersect);
         if constexpr (Surface::kGeneral)  // others are of small scenes mostly
-            arrivals(alive, [&](std::uint32_t, Path& path) { scene_.geometry().prefetch_point(path.meeting); });
+            arrivals(alive, [&](std::uint32_t, Path& path) { scene_.geometry().prefetch_point(path.embree_hit); });
         draw_numbers(alive);
-        arrivals(alive, [&](std::uint32_t, Path& path) { scene_.geometry().set_point(path.hit, path.meeting); });
+        arrivals(alive, [&](std::uint32_t, Path& path) { scene_.geometry().set_point(path.hit, path.embree_hit); });
         if (settings_.textured)
             arrivals(alive, [&](std::uint32_t, Path& path) { Surface::prefetch(scene_, path.hit); });
         clock_.lap(TracePhase::surface);
@@ -158,11 +158,11 @@ class PathWalk {
     }
 
     void find_regions(std::uint32_t alive) {
-        VectorBatch places;
+        VectorBatch points;
         std::array<std::uint32_t, kBatch> regions;
         std::uint32_t count = 0;
-        arrivals(alive, [&](std::uint32_t, Path& path) { places.set(count++, path.hit.p); });
-        guide_.regions(places, count, regions);
+        arrivals(alive, [&](std::uint32_t, Path& path) { points.set(count++, path.hit.p); });
+        guide_.regions(points, count, regions);
         count = 0;
         arrivals(alive, [&](std::uint32_t lane, Path& path) {
             const std::uint32_t region = path.guidance.region = regions[count++];
@@ -219,12 +219,12 @@ class PathWalk {
 
     /// The path goes on as several; it is one of them.
     [[gnu::noinline]] void split(Path& path, std::uint32_t paths) {
-        paths = path.copies.split(paths);
+        paths = path.split_budget.split(paths);
         path.unsplit.split(paths, luminance(path.radiance));
         path.throughput *= 1.0f / static_cast<float>(paths);
         observer_.split(paths, path.throughput);
         for (std::uint32_t i = 1; i < paths; ++i)
-            copies_.leave(path.copy());
+            split_paths_.leave(path.split_off());
     }
 
     /// Visit of the surface where a path's ray has arrived. False if the path ends.
@@ -233,8 +233,8 @@ class PathWalk {
         const Hit& hit = path.hit;
         const Ray& ray = path.ray;
         observer_.arrive(path.depth, path.found ? &hit : nullptr);
-        if (kGuided && path.copied) [[unlikely]]
-            path.copied = false;
+        if (kGuided && path.was_split_off) [[unlikely]]
+            path.was_split_off = false;
         else if (!arrive(path, kRecord ? &recorders_[index] : nullptr))
             return false;
         else
@@ -261,7 +261,7 @@ class PathWalk {
         const Surface& surface = *path.surface;
         const ScatterSample& s = path.scatter;
         if constexpr (Surface::kTransmits)
-            if (s.delta && path.depth == 1 && settings_.split_glass) branches_.split(path, settings_.strict_normals);
+            if (s.delta && path.depth == 1 && settings_.split_glass) glass_.split(path, settings_.strict_normals);
         if (!(s.pdf > 0.0f) || is_black(s.f_cos)) return end("no direction");
         if (settings_.strict_normals && dot(surface.ng(), s.world) * s.local.z <= 0.0f) return end("normals disagree");
         path.weight = s.f_cos * (1.0f / s.effective_pdf);
@@ -269,7 +269,7 @@ class PathWalk {
         observer_.scatter(s, path.throughput);
         path.scatter_pdf = s.pdf;
         path.scatter_point = path.hit.p;
-        path.scatter_lights = light_share(path);
+        path.scatter_lights = light_probabilities(path);
         // One question for what is rare: the same bits say that a lobe may be delta, or refract.
         const bool rare = Surface::kGeneral && surface.delta_or_transmitting();
         if constexpr (Surface::kTransmits)
@@ -294,7 +294,7 @@ class PathWalk {
             const Path& path = paths_[alive_[i]];
             if (!path.surface->smooth()) continue;
             smooth[count++] = alive_[i];
-            emitters_.choose(path.lane, path.hit.p, light_share(path));
+            emitters_.choose(path.lane, path.hit.p, light_probabilities(path));
         }
         emitters_.draw();
         for (std::uint32_t i = 0; i < count; ++i)
@@ -302,18 +302,18 @@ class PathWalk {
     }
 
     /// How next event chooses an emitter where the path is: nullptr, by power.
-    const LightShare* light_share(const Path& path) const {
-        return !kConverts || (kGuided && path.probe) ? nullptr : guide_.light_share(path.guidance.region);
+    const LightProbabilities* light_probabilities(const Path& path) const {
+        return !kConverts || (kGuided && path.probe) ? nullptr : guide_.light_probabilities(path.guidance.region);
     }
 
     /// Samples an emitter; whether it is seen is asked for all paths of a step together.
     void next_event(std::uint8_t index) {
         const Path& path = paths_[index];
         const Surface& surface = *path.surface;
-        const LightShare* const share = settings_.delta_alone ? nullptr : light_share(path);
+        const LightProbabilities* const probabilities = settings_.delta_alone ? nullptr : light_probabilities(path);
         const Vec3 front = surface.front();
         const DirectSample light =
-            emitters_.sample(path.hit.p, path.lane, share, surface.transmits() ? nullptr : &front);
+            emitters_.sample(path.hit.p, path.lane, probabilities, surface.transmits() ? nullptr : &front);
         if (!(light.pdf > 0.0f) || light.black()) return;
         BsdfValue bsdf;
         if (surface.evaluate_late()) {
@@ -325,7 +325,7 @@ class PathWalk {
         if (settings_.strict_normals && dot(surface.ng(), light.wi) * dot(surface.frame().n, light.wi) <= 0.0f) return;
         ++stats_.shadow_rays;
         const std::uint32_t vertex = kRecord ? recorders_[index].vertex_count() : 0;
-        pending_.add(path.hit, light, {index, vertex, share != nullptr, path.guidance, path.throughput}, bsdf);
+        pending_.add(path.hit, light, {index, vertex, probabilities != nullptr, path.guidance, path.throughput}, bsdf);
     }
 
     static BsdfValue bsdf_value(const Surface& surface, const Vec3& wi) {
@@ -355,7 +355,7 @@ class PathWalk {
         if constexpr (kGuided) light_codes_.prefetch(guide_);
         emitters_.shine_from_infinity(
             pending_, {seen.data(), count}, [&](const PendingLight& light) { return paths_[light.from.path].lane; },
-            [&](const PendingLight& light) { return light_share(paths_[light.from.path]); });
+            [&](const PendingLight& light) { return light_probabilities(paths_[light.from.path]); });
         if constexpr (kGuided) light_codes_.prefetch_cells(guide_);
         for (std::uint32_t i = 0; i < count; ++i)
             add_light(pending_[seen[i]], light_codes_[i]);
@@ -384,8 +384,8 @@ class PathWalk {
     std::array<Path, kBatch> paths_;
     std::array<std::uint8_t, kBatch> alive_;
     EndedPaths ended_;
-    Branches branches_;
-    PathCopies copies_;
+    GlassSplits glass_;
+    SplitPaths split_paths_;
     DrawBatch roulette_draws_;
     EmitterChoice emitters_;
     DirectionChoice<Surface, kGuided, kConverts, kViews> directions_;

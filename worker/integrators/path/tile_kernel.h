@@ -93,7 +93,7 @@ void render_with(const TileJob& tile) {
             blocks.back().add(key(end).sample, is_signed ? radiance * scene.camera().weight(key(end)) : radiance);
             if (kGuided && kRecord && settings.compare_splitting && !settings.is_probe(key(end).pixel)) {
                 const int record = kernel.first_exponent(i) + kMeanRecordBits;
-                const double scale = std::ldexp(1.0, -light_exponent(record, settings.target));
+                const double scale = std::ldexp(1.0, -radiance_exponent(record, settings.target));
                 pairs.add(scale * luminance(radiance), scale * kernel.unsplit(i));
             }
             if (end.advance()) {

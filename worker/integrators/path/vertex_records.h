@@ -51,14 +51,14 @@ class DirectionRecords {
     /// Finds where the stochastic spatial filter puts the records, delta lobes' left out.
     template <class Surface>
     void find_regions(std::span<const PathState<Surface>> paths, std::span<const std::uint8_t> alive) {
-        VectorBatch places;
+        VectorBatch points;
         std::uint32_t count = 0;
         for (const std::uint8_t index : alive) {
             const PathState<Surface>& path = paths[index];
             if (path.scatter.delta) continue;
-            places.set(count++, guide_.jittered(path.hit.p, path.guidance.region, draws_[path.lane]));
+            points.set(count++, guide_.jittered(path.hit.p, path.guidance.region, draws_[path.lane]));
         }
-        guide_.regions(places, count, regions_);
+        guide_.regions(points, count, regions_);
     }
 
     const Guide& guide_;

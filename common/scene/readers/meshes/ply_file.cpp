@@ -18,15 +18,15 @@ enum class Role : std::uint8_t { x, y, z, nx, ny, nz, u, v, none };
 /// A group of properties counts only if all of it is there.
 std::vector<Role> roles_of(const Element& vertex) {
     std::vector<Role> roles(vertex.properties.size(), Role::none);
-    const auto place = [&](std::string_view name) {
+    const auto index_of = [&](std::string_view name) {
         const Property* property = vertex.find({name});
         return property && !property->is_list ? property - vertex.properties.data() : std::ptrdiff_t{-1};
     };
     const auto assign = [&](std::initializer_list<std::string_view> names, Role first) {
         for (const std::string_view name : names)
-            if (place(name) < 0) return false;
+            if (index_of(name) < 0) return false;
         for (const std::string_view name : names) {
-            roles[static_cast<std::size_t>(place(name))] = first;
+            roles[static_cast<std::size_t>(index_of(name))] = first;
             first = static_cast<Role>(static_cast<int>(first) + 1);
         }
         return true;

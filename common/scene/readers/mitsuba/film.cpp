@@ -123,7 +123,7 @@ void read_size(Properties& properties, const FilmSize& wanted, Film& film) {
     film.width = x.end - x.begin;
     film.height = y.end - y.begin;
     if (film.width < whole_width || film.height < whole_height)
-        film.place = {x.begin, y.begin, whole_width, whole_height};
+        film.crop = {x.begin, y.begin, whole_width, whole_height};
 }
 
 }  // namespace

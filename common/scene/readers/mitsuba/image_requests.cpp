@@ -123,17 +123,17 @@ TextureImage make_image(const StoredImage& file, const Decoding& decoding, const
 
 std::int32_t ImageRequests::add(const std::filesystem::path& path, const Decoding& decoding, const Location& where,
                                 Scene& scene) {
-    const auto [place, is_new] =
+    const auto [entry, is_new] =
         known_.emplace(std::pair(path.lexically_normal(), decoding), static_cast<std::int32_t>(scene.images.size()));
-    if (!is_new) return place->second;
+    if (!is_new) return entry->second;
     std::error_code error;
     if (!std::filesystem::is_regular_file(path, error))
         throw InputError(where, "there is no image file " + path_in_quotes(path.string()), "check the path");
-    requests_.push_back({path, decoding, where, place->second});
+    requests_.push_back({path, decoding, where, entry->second});
     TextureImage image;
     image.name = path.string();
     scene.images.push_back(std::move(image));
-    return place->second;
+    return entry->second;
 }
 
 double ImageRequests::aspect(std::int32_t image) const {

@@ -328,8 +328,8 @@ Material MaterialReader::convert_mixture(Properties& properties) {
     }
     for (std::size_t i = parts.size() - 1; i-- > 0;) {
         Material part = convert(*parts[i].object);
-        const double share = rest + weights[i] > 0.0 ? rest / (rest + weights[i]) : 0.0;
-        mixed = blend(static_cast<float>(share), std::move(part), std::move(mixed), properties);
+        const double fraction = rest + weights[i] > 0.0 ? rest / (rest + weights[i]) : 0.0;
+        mixed = blend(static_cast<float>(fraction), std::move(part), std::move(mixed), properties);
         rest += weights[i];
     }
     return mixed;

@@ -67,8 +67,8 @@ class CornerMerger {
             const ObjFile::Corner key = {position_of_[corner.position],
                                          corner.uv == missing ? missing : uv_of_[corner.uv],
                                          with_normals_ ? corner.normal : missing, separate_groups_ ? corner.group : 0};
-            const auto [place, is_new] = vertices.emplace(key, static_cast<std::uint32_t>(mesh.positions.size()));
-            mesh.indices.push_back(place->second);
+            const auto [entry, is_new] = vertices.emplace(key, static_cast<std::uint32_t>(mesh.positions.size()));
+            mesh.indices.push_back(entry->second);
             if (!is_new) continue;
             mesh.positions.push_back(obj_.positions[key.position]);
             mesh.uvs.push_back(key.uv == missing ? Vec2(0.0f) : obj_.uvs[key.uv]);

@@ -86,10 +86,10 @@ void Properties::add_value(const XmlElement& element) {
         throw InputError(element.where, "a <spectrum> without a value or a file",
                          "give value=\"...\" with one number or pairs \"wavelength:value\", or filename=\"...\"");
     const std::string& name = element.require("name");
-    const auto [place, is_new] = values_.emplace(snake_case(name), Value{&element});
+    const auto [entry, is_new] = values_.emplace(snake_case(name), Value{&element});
     if (is_new) return;
     repeated(element.where, in_quotes(name) + " of " + title() + " is given twice", "remove one of them");
-    place->second = Value{&element};
+    entry->second = Value{&element};
 }
 
 void Properties::repeated(const Location& where, const std::string& what, const char* cure) {

@@ -172,10 +172,10 @@ void SceneDocument::find_files(XmlElement& element, const FileSearch& files) con
 void SceneDocument::collect_ids(const XmlElement& element) {
     if (is_object_tag(element.tag))
         if (const std::string* id = element.find("id")) {
-            const auto [place, is_new] = objects_.emplace(*id, &element);
+            const auto [entry, is_new] = objects_.emplace(*id, &element);
             if (!is_new)
                 throw InputError(element.where,
-                                 "the id " + in_quotes(*id) + " is taken since " + place->second->where.text(),
+                                 "the id " + in_quotes(*id) + " is taken since " + entry->second->where.text(),
                                  "rename one of them");
         }
     for (const XmlElement& child : element.children)

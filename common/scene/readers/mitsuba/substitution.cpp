@@ -35,8 +35,8 @@ Parameters::Parameters(const std::map<std::string, std::string>& defines) {
 
 void Parameters::add_default(const std::string& name, const std::string& value, const Location& where) {
     if (name.empty()) throw InputError(where, "<default> has an empty name", "give it a name");
-    const auto [place, is_new] = parameters_.emplace(name, Parameter{value, true});
-    place->second.used = true;
+    const auto [entry, is_new] = parameters_.emplace(name, Parameter{value, true});
+    entry->second.used = true;
 }
 
 std::string Parameters::substitute(const std::string& text, const Location& where) {

@@ -140,16 +140,16 @@ class SurfaceReader {
     Bsdf principled() {
         PrincipledMaterial principled;
         principled.base_color = reflectance("base_color", 0.5f);
-        principled.roughness = share("roughness", 0.5f);
-        principled.anisotropic = share("anisotropic", 0.0f);
-        principled.metallic = share("metallic", 0.0f);
-        principled.spec_trans = share("spec_trans", 0.0f);
-        principled.spec_tint = share("spec_tint", 0.0f);
-        principled.sheen = share("sheen", 0.0f);
-        principled.sheen_tint = share("sheen_tint", 0.0f);
-        principled.flatness = share("flatness", 0.0f);
-        principled.clearcoat = share("clearcoat", 0.0f);
-        principled.clearcoat_gloss = share("clearcoat_gloss", 0.0f);
+        principled.roughness = number("roughness", 0.5f);
+        principled.anisotropic = number("anisotropic", 0.0f);
+        principled.metallic = number("metallic", 0.0f);
+        principled.spec_trans = number("spec_trans", 0.0f);
+        principled.spec_tint = number("spec_tint", 0.0f);
+        principled.sheen = number("sheen", 0.0f);
+        principled.sheen_tint = number("sheen_tint", 0.0f);
+        principled.flatness = number("flatness", 0.0f);
+        principled.clearcoat = number("clearcoat", 0.0f);
+        principled.clearcoat_gloss = number("clearcoat_gloss", 0.0f);
         principled.eta = principled_eta(principled.transmits());
         // How directions are drawn does not change the image.
         properties_.ignore(
@@ -160,15 +160,15 @@ class SurfaceReader {
     Bsdf principled_thin() {
         PrincipledThinMaterial thin;
         thin.base_color = reflectance("base_color", 0.5f);
-        thin.roughness = share("roughness", 0.5f);
-        thin.anisotropic = share("anisotropic", 0.0f);
-        thin.spec_trans = share("spec_trans", 0.0f);
-        thin.spec_tint = share("spec_tint", 0.0f);
-        thin.sheen = share("sheen", 0.0f);
-        thin.sheen_tint = share("sheen_tint", 0.0f);
-        thin.flatness = share("flatness", 0.0f);
-        thin.diff_trans = share("diff_trans", 0.0f);
-        thin.eta = share("eta", 1.5f);
+        thin.roughness = number("roughness", 0.5f);
+        thin.anisotropic = number("anisotropic", 0.0f);
+        thin.spec_trans = number("spec_trans", 0.0f);
+        thin.spec_tint = number("spec_tint", 0.0f);
+        thin.sheen = number("sheen", 0.0f);
+        thin.sheen_tint = number("sheen_tint", 0.0f);
+        thin.flatness = number("flatness", 0.0f);
+        thin.diff_trans = number("diff_trans", 0.0f);
+        thin.eta = number("eta", 1.5f);
         // How directions are drawn does not change the image.
         properties_.ignore({"specular_reflectance_sampling_rate", "specular_transmittance_sampling_rate",
                             "diffuse_reflectance_sampling_rate", "diffuse_transmittance_sampling_rate"});
@@ -191,7 +191,7 @@ class SurfaceReader {
         return 2.0f / (1.0f - std::sqrt(0.08f * bounded)) - 1.0f;
     }
 
-    FloatInput share(const char* name, float otherwise) { return textures_.number(properties_, name, otherwise); }
+    FloatInput number(const char* name, float otherwise) { return textures_.number(properties_, name, otherwise); }
 
     ColorInput reflectance(const char* name, float otherwise) {
         return textures_.color(properties_, name, Rgb(otherwise), ColorUse::reflectance);

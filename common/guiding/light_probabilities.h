@@ -12,7 +12,7 @@
 namespace treefarm {
 
 /// The light share of an untaught region: next event chooses among the scene's emitters by power alone.
-inline constexpr LightShare kChoiceByPower = {kLightShareOne};
+inline constexpr LightProbabilities kChoiceByPower = {kLightProbabilityOne};
 
 /// The coordinator's memory of what next event found in each region, from pass to pass (docs/design/guiding.md,
 /// "Choosing emitters").
@@ -23,7 +23,7 @@ inline constexpr LightShare kChoiceByPower = {kLightShareOne};
 /// its root.
 class LightLearner {
   public:
-    /// Sets next.light_share from what the pass over `tree` recorded. `origins` as in MixtureLearner.
+    /// Sets next.light_probabilities from what the pass over `tree` recorded. `origins` as in MixtureLearner.
     void learn(const SdTree& tree, const TreeSums& sums, std::span<const RegionOrigin> origins, SdTree& next);
 
   private:
@@ -35,6 +35,7 @@ class LightLearner {
 };
 
 /// The share of a region that recorded `vertices` with these second moments, if its parent's share is `prior`.
-LightShare learned_share(std::span<const double, kLightClusters> moments, double vertices, const LightShare& prior);
+LightProbabilities learned_probabilities(std::span<const double, kLightClusters> moments, double vertices,
+                                         const LightProbabilities& prior);
 
 }  // namespace treefarm

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "common/scene/lint/inspect.h"
+#include "common/scene/lint/lint.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 
 namespace treefarm {
-namespace inspection {
+namespace linting {
 
 std::string named(const std::string& kind, const std::string& name) {
     return name.empty() ? "the " + kind : kind + " \"" + name + "\"";
@@ -41,7 +41,7 @@ constexpr double kFarSizes = 64.0;
 /// A shape that the camera stands at, however far from the origin it is, counted from where a render moves the scene:
 /// the positions on it are blurred, and rays that start in a corner may do so behind the other wall. Measured in rooms
 /// of one size at 1,000 and 10,000 of it, 2^-25 of the diffuse rays leave per size.
-void inspect_room(const Scene& scene, const Imath::V3d& origin, std::vector<Finding>& findings) {
+void lint_room(const Scene& scene, const Imath::V3d& origin, std::vector<Finding>& findings) {
     const Imath::V3d camera(scene.camera.origin);
     const Shape* worst = nullptr;
     double sizes = kFarSizes, farthest = 0;
@@ -72,7 +72,7 @@ void inspect_room(const Scene& scene, const Imath::V3d& origin, std::vector<Find
 }  // namespace
 
 /// Floats have 24 bits: what lies so many sizes away keeps that many digits fewer.
-void inspect_scale(const Scene& scene, std::vector<Finding>& findings) {
+void lint_scale(const Scene& scene, std::vector<Finding>& findings) {
     const auto add = [&](Finding::Severity severity, const char* kind, const std::string& what,
                          const std::string& cure) {
         findings.push_back({severity, kind, {}, what, cure});
@@ -92,7 +92,7 @@ void inspect_scale(const Scene& scene, std::vector<Finding>& findings) {
                 " of its sizes away from the origin: coordinates that its mesh files hold there are blurred by " +
                 short_number(middle.length() * 0x1p-24) + " units",
             "a render moves it to the origin; so should its files");
-    inspect_room(scene, middle.length() > kFarSizes * extent ? middle : Imath::V3d(0.0), findings);
+    lint_room(scene, middle.length() > kFarSizes * extent ? middle : Imath::V3d(0.0), findings);
     if (extent < 1e-3 || extent > 1e6)
         add(note, "scale", "the scene is " + short_number(extent) + " units large",
             "choose units in which rooms are 1 to 1000");
@@ -114,7 +114,7 @@ void inspect_scale(const Scene& scene, std::vector<Finding>& findings) {
     }
 }
 
-}  // namespace inspection
+}  // namespace linting
 
 const char* name_of(Finding::Severity severity) {
     switch (severity) {
@@ -129,17 +129,18 @@ const char* name_of(Finding::Severity severity) {
 }
 
 std::string Finding::text() const {
-    const std::string place = where.text();
-    return (place.empty() ? "" : place + ": ") + name_of(severity) + ": " + what + (cure.empty() ? "" : "; " + cure);
+    const std::string location = where.text();
+    return (location.empty() ? "" : location + ": ") + name_of(severity) + ": " + what +
+           (cure.empty() ? "" : "; " + cure);
 }
 
-std::vector<Finding> inspect(const Scene& scene) {
+std::vector<Finding> lint(const Scene& scene) {
     std::vector<Finding> findings;
-    inspection::inspect_shapes(scene, findings);
-    inspection::inspect_materials(scene, findings);
-    inspection::inspect_emitters(scene, findings);
-    inspection::inspect_darkness(scene, findings);
-    inspection::inspect_scale(scene, findings);
+    linting::lint_shapes(scene, findings);
+    linting::lint_materials(scene, findings);
+    linting::lint_emitters(scene, findings);
+    linting::lint_darkness(scene, findings);
+    linting::lint_scale(scene, findings);
     return findings;
 }
 

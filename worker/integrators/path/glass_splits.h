@@ -11,15 +11,15 @@
 namespace treefarm {
 
 /// Smooth glass sends a ray two ways. Where the camera sees it, a path need not toss: it takes the likelier way, and
-/// the other one, of probability p, becomes a branch with probability min(1, 4 p), weighed accordingly, which adds to
+/// the other one, of probability p, is followed, too, with probability min(1, 4 p), weighed accordingly, which adds to
 /// the same sample. So what is seen through glass is not made noisy by what it mirrors, a mirror image is a quarter as
 /// noisy or less, and a faint one does not cost a whole path.
-class Branches {
+class GlassSplits {
   public:
-    Branches() { branches_.reserve(kDrawBatch); }
+    GlassSplits() { ways_.reserve(kDrawBatch); }
 
-    std::uint32_t size() const { return static_cast<std::uint32_t>(branches_.size()); }
-    void clear() { branches_.clear(); }
+    std::uint32_t size() const { return static_cast<std::uint32_t>(ways_.size()); }
+    void clear() { ways_.clear(); }
 
     /// Chance with which a way of this probability is followed, never so small that its weight overflows, or that 24
     /// random bits do not tell.
@@ -28,7 +28,7 @@ class Branches {
     }
 
     /// Splits a path at the first surface, which has drawn path.scatter: if the other of two ways is open, the path
-    /// takes the likelier with certainty, and the lesser may become a branch.
+    /// takes the likelier with certainty, and the lesser may be followed, too.
     template <class Surface>
     void split(PathState<Surface>& path, bool strict_normals) {
         const Surface& surface = *path.surface;
@@ -43,24 +43,24 @@ class Branches {
         path.scatter.effective_pdf = 1.0f;
         lesser.effective_pdf = chance(lesser.pdf);
         if (is_black(lesser.f_cos) || (strict_normals && dot(surface.ng(), lesser.world) * lesser.local.z <= 0.0f) ||
-            !(to_unit(draw(path.key, path.vertex, Stream::branch)[0]) < lesser.effective_pdf))
+            !(to_unit(draw(path.key, path.vertex, Stream::glass_split)[0]) < lesser.effective_pdf))
             return;
-        branches_.push_back({path.origin,
-                             {offset_origin(path.hit, lesser.world), lesser.world},
-                             lesser.f_cos * (1.0f / lesser.effective_pdf),
-                             lesser.local.z < 0.0f ? surface.eta2() : 1.0f});
+        ways_.push_back({path.origin,
+                         {offset_origin(path.hit, lesser.world), lesser.world},
+                         lesser.f_cos * (1.0f / lesser.effective_pdf),
+                         lesser.local.z < 0.0f ? surface.eta2() : 1.0f});
     }
 
-    struct Branch {
+    struct OtherWay {
         std::uint16_t origin;  ///< the camera path that it is part of
         Ray ray;
         Rgb weight;    ///< f |cos| over the probability of being followed
         float spread;  ///< eta^2 where it is refracted
     };
-    const Branch& operator[](std::uint32_t i) const { return branches_[i]; }
+    const OtherWay& operator[](std::uint32_t i) const { return ways_[i]; }
 
   private:
-    std::vector<Branch> branches_;  ///< at most one of each camera path
+    std::vector<OtherWay> ways_;  ///< at most one of each camera path
 };
 
 }  // namespace treefarm

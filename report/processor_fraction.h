@@ -8,13 +8,13 @@
 namespace treefarm {
 
 /// Below this the workers' seconds are not their own.
-inline constexpr double kLeastProcessorShare = 0.8;
+inline constexpr double kLeastProcessorFraction = 0.8;
 
 /// The part of their processors that a cell's workers had while they traced: core-seconds over seconds x threads. NaN
 /// where it is not known.
-double processor_share(const CellResult& cell);
+double processor_fraction(const CellResult& cell);
 
-/// True where some cell's workers had less than kLeastProcessorShare.
+/// True where some cell's workers had less than kLeastProcessorFraction.
 bool was_busy(const StudyResults& results);
 
 /// Warning about times that were taken beside a busy processor; "" where none were.

@@ -4,9 +4,9 @@
 #include <bit>
 #include <unordered_map>
 
-#include "common/scene/lint/inspect.h"
+#include "common/scene/lint/lint.h"
 
-namespace treefarm::inspection {
+namespace treefarm::linting {
 namespace {
 
 using enum Finding::Severity;
@@ -43,9 +43,9 @@ Corners corners_of(const Mesh& mesh, std::size_t triangle) {
     return corners;
 }
 
-class MeshInspection {
+class MeshLint {
   public:
-    MeshInspection(const Shape& shape, const Mesh& mesh, std::vector<Finding>& findings)
+    MeshLint(const Shape& shape, const Mesh& mesh, std::vector<Finding>& findings)
         : shape_(shape), mesh_(mesh), findings_(findings) {}
 
     /// Inspects the mesh; false if its triangles cannot be looked at.
@@ -178,13 +178,13 @@ class Duplicates {
 
 }  // namespace
 
-void inspect_shapes(const Scene& scene, std::vector<Finding>& findings) {
+void lint_shapes(const Scene& scene, std::vector<Finding>& findings) {
     Duplicates duplicates(scene);
     for (std::size_t i = 0; i < scene.shapes.size(); ++i) {
         const Shape& shape = scene.shapes[i];
         const auto* mesh = std::get_if<Mesh>(&shape.geometry);
-        if (mesh && MeshInspection(shape, *mesh, findings).run()) duplicates.look(i, *mesh, findings);
+        if (mesh && MeshLint(shape, *mesh, findings).run()) duplicates.look(i, *mesh, findings);
     }
 }
 
-}  // namespace treefarm::inspection
+}  // namespace treefarm::linting

@@ -8,11 +8,11 @@
 namespace treefarm {
 
 /// Rays against analytic shapes, solved in double: a float quadratic loses the sphere that is small and far away, or
-/// whose surface the ray starts on. Each meet() offers what the ray meets in (tnear, tfar], nearest first, to
-/// `accept(meeting)` until it returns true; false if it never does.
+/// whose surface the ray starts on. Each intersect() offers what the ray meets in (tnear, tfar], nearest first, to
+/// `accept(hit)` until it returns true; false if it never does.
 
 /// Where a ray meets a shape.
-struct Meeting {
+struct RawHit {
     double t = 0;         ///< in units of the ray's direction
     Imath::V3d ng;        ///< outwards; unit for spheres and cylinders
     double u = 0, v = 0;  ///< disk: place along its half axes; cylinder: u along its axis, 0 to 1
@@ -35,7 +35,7 @@ inline bool in_range(double t, const RTCRay& ray) {
 }  // namespace detail
 
 template <class Accept>
-bool meet(const Sphere& sphere, const RTCRay& ray, const Accept& accept) {
+bool intersect(const Sphere& sphere, const RTCRay& ray, const Accept& accept) {
     const Imath::V3d o = detail::origin(ray) - Imath::V3d(sphere.center), d = detail::direction(ray);
     const double radius = double(sphere.radius), dd = d.dot(d);
     if (!(dd > 0)) return false;
@@ -46,12 +46,12 @@ bool meet(const Sphere& sphere, const RTCRay& ray, const Accept& accept) {
     if (!(discriminant >= 0)) return false;
     const double half_chord = std::sqrt(discriminant / dd);
     for (const double t : {middle - half_chord, middle + half_chord})
-        if (detail::in_range(t, ray) && accept(Meeting{t, (o + d * t) / radius})) return true;
+        if (detail::in_range(t, ray) && accept(RawHit{t, (o + d * t) / radius})) return true;
     return false;
 }
 
 template <class Accept>
-bool meet(const Disk& disk, const RTCRay& ray, const Accept& accept) {
+bool intersect(const Disk& disk, const RTCRay& ray, const Accept& accept) {
     const Imath::V3d o = Imath::V3d(disk.center) - detail::origin(ray), d = detail::direction(ray);
     const Imath::V3d half_u(disk.half_u), half_v(disk.half_v);
     const Imath::V3d n = half_u.cross(half_v);
@@ -62,11 +62,11 @@ bool meet(const Disk& disk, const RTCRay& ray, const Accept& accept) {
     const Imath::V3d q = d * t - o;
     const double a = q.dot(half_v.cross(n)) / nn, b = q.dot(n.cross(half_u)) / nn;
     if (!(a * a + b * b <= 1)) return false;
-    return accept(Meeting{t, n, a, b});
+    return accept(RawHit{t, n, a, b});
 }
 
 template <class Accept>
-bool meet(const Cylinder& cylinder, const RTCRay& ray, const Accept& accept) {
+bool intersect(const Cylinder& cylinder, const RTCRay& ray, const Accept& accept) {
     const Imath::V3d o = detail::origin(ray) - Imath::V3d(cylinder.p0), d = detail::direction(ray);
     const Imath::V3d axis = Imath::V3d(cylinder.p1) - Imath::V3d(cylinder.p0);
     const double radius = double(cylinder.radius), length2 = axis.dot(axis);
@@ -83,7 +83,7 @@ bool meet(const Cylinder& cylinder, const RTCRay& ray, const Accept& accept) {
     for (const double t : {middle - half_chord, middle + half_chord}) {
         if (!detail::in_range(t, ray)) continue;
         const double along = (o + d * t).dot(axis) / length2;
-        if (along >= 0 && along <= 1 && accept(Meeting{t, (o2 + d2 * t) / radius, along})) return true;
+        if (along >= 0 && along <= 1 && accept(RawHit{t, (o2 + d2 * t) / radius, along})) return true;
     }
     return false;
 }

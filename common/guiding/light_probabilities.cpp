@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "common/guiding/light_share.h"
+#include "common/guiding/light_probabilities.h"
 
 #include <cmath>
 
@@ -9,22 +9,23 @@
 namespace treefarm {
 namespace {
 
-/// Whole numbers in proportion to `parts`, whose sum is 1, that sum to kLightShareOne: what rounding leaves goes to the
-/// choice by power.
-LightShare rounded(const std::array<double, kLightClusters + 1>& parts) {
-    LightShare share{};
-    std::uint32_t rest = kLightShareOne;
-    for (std::size_t i = 1; i < share.size(); ++i) {
-        share[i] = static_cast<std::uint16_t>(parts[i] * kLightShareOne);
-        rest -= share[i];
+/// Whole numbers in proportion to `parts`, whose sum is 1, that sum to kLightProbabilityOne: what rounding leaves goes
+/// to the choice by power.
+LightProbabilities rounded(const std::array<double, kLightClusters + 1>& parts) {
+    LightProbabilities probabilities{};
+    std::uint32_t rest = kLightProbabilityOne;
+    for (std::size_t i = 1; i < probabilities.size(); ++i) {
+        probabilities[i] = static_cast<std::uint16_t>(parts[i] * kLightProbabilityOne);
+        rest -= probabilities[i];
     }
-    share[0] = static_cast<std::uint16_t>(rest);
-    return share;
+    probabilities[0] = static_cast<std::uint16_t>(rest);
+    return probabilities;
 }
 
 }  // namespace
 
-LightShare learned_share(std::span<const double, kLightClusters> moments, double vertices, const LightShare& prior) {
+LightProbabilities learned_probabilities(std::span<const double, kLightClusters> moments, double vertices,
+                                         const LightProbabilities& prior) {
     double total = 0;
     for (const double m : moments)
         total += std::sqrt(m);
@@ -33,31 +34,31 @@ LightShare learned_share(std::span<const double, kLightClusters> moments, double
     std::array<double, kLightClusters + 1> parts{};
     for (std::size_t c = 0; c < kLightClusters; ++c)
         parts[c + 1] = trust * (1 - kPolicy.learning.lights_by_power) * std::sqrt(moments[c]) / total +
-                       (1 - trust) * double(prior[c + 1]) / kLightShareOne;
+                       (1 - trust) * double(prior[c + 1]) / kLightProbabilityOne;
     return rounded(parts);
 }
 
 void LightLearner::learn(const SdTree& tree, const TreeSums& sums, std::span<const RegionOrigin> origins,
                          SdTree& next) {
     const std::uint32_t regions = tree.region_count();
-    if (!sums.shape().with_lights || sums.shape().regions != regions || tree.light_share.size() != regions)
+    if (!sums.shape().with_lights || sums.shape().regions != regions || tree.light_probabilities.size() != regions)
         throw RunError("the sums to learn the choice of emitters from belong to another tree");
     evidence_.resize(regions);
-    std::vector<LightShare> learned(regions);
+    std::vector<LightProbabilities> learned(regions);
     for (std::uint32_t r = 0; r < regions; ++r) {
         Evidence& evidence = evidence_[r];
         const auto fresh = sums.lights(r);
         for (std::size_t c = 0; c < kLightClusters; ++c)
-            evidence.moments[c] = 0.5 * evidence.moments[c] +
-                                  std::ldexp(static_cast<double>(fresh[c]), light_exponent(tree.quantum_exponent[r]));
+            evidence.moments[c] = 0.5 * evidence.moments[c] + std::ldexp(static_cast<double>(fresh[c]),
+                                                                         light_sum_exponent(tree.quantum_exponent[r]));
         evidence.vertices = 0.5 * evidence.vertices + static_cast<double>(sums.counts()[r]);
-        learned[r] = learned_share(evidence.moments, evidence.vertices, tree.light_share[r]);
+        learned[r] = learned_probabilities(evidence.moments, evidence.vertices, tree.light_probabilities[r]);
     }
     std::vector<Evidence> inherited;
     inherited.reserve(origins.size());
-    next.light_share.clear();
+    next.light_probabilities.clear();
     for (const RegionOrigin& origin : origins) {
-        next.light_share.push_back(learned[origin.region]);
+        next.light_probabilities.push_back(learned[origin.region]);
         inherited.push_back(evidence_[origin.region]);
         for (double& m : inherited.back().moments)
             m = std::ldexp(m, -origin.halvings);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // How next event learns to choose emitters: sums, what is made of them, and what is sent.
-#include "common/guiding/light_share.h"
+#include "common/guiding/light_probabilities.h"
 
 #include <gtest/gtest.h>
 
@@ -16,58 +16,59 @@ namespace {
 
 using Moments = std::array<double, kLightClusters>;
 
-double part(const LightShare& share, int cluster) {
-    return share[static_cast<std::size_t>(cluster) + 1] / double(kLightShareOne);
+double part(const LightProbabilities& probabilities, int cluster) {
+    return probabilities[static_cast<std::size_t>(cluster) + 1] / double(kLightProbabilityOne);
 }
 
-int sum(const LightShare& share) {
-    return std::accumulate(share.begin(), share.end(), 0);
+int sum(const LightProbabilities& probabilities) {
+    return std::accumulate(probabilities.begin(), probabilities.end(), 0);
 }
 
-TEST(LightShare, IsProportionalToTheRootOfTheSecondMoments) {
+TEST(LightProbabilities, IsProportionalToTheRootOfTheSecondMoments) {
     Moments moments{};
     moments[1] = 4.0;
     moments[3] = 36.0;
-    const LightShare share = learned_share(moments, 1e9, kChoiceByPower);
-    EXPECT_EQ(sum(share), kLightShareOne);
-    EXPECT_NEAR(part(share, 3) / part(share, 1), 3.0, 0.01);
-    EXPECT_NEAR(part(share, 1) + part(share, 3), 0.8, 0.001) << "a fifth stays with the choice by power";
-    EXPECT_EQ(part(share, 0), 0.0);
+    const LightProbabilities probabilities = learned_probabilities(moments, 1e9, kChoiceByPower);
+    EXPECT_EQ(sum(probabilities), kLightProbabilityOne);
+    EXPECT_NEAR(part(probabilities, 3) / part(probabilities, 1), 3.0, 0.01);
+    EXPECT_NEAR(part(probabilities, 1) + part(probabilities, 3), 0.8, 0.001)
+        << "a fifth stays with the choice by power";
+    EXPECT_EQ(part(probabilities, 0), 0.0);
 }
 
-TEST(LightShare, AYoungRegionKeepsItsParents) {
-    LightShare parent{};
-    parent[0] = kLightShareOne / 4;
-    parent[3] = 3 * (kLightShareOne / 4);
+TEST(LightProbabilities, AYoungRegionKeepsItsParents) {
+    LightProbabilities parent{};
+    parent[0] = kLightProbabilityOne / 4;
+    parent[3] = 3 * (kLightProbabilityOne / 4);
     Moments moments{};
     moments[0] = 1.0;
-    EXPECT_EQ(learned_share(moments, 0, parent), parent);
-    EXPECT_EQ(learned_share(Moments{}, 1e6, parent), parent) << "nothing was found";
-    const LightShare half = learned_share(moments, 128, parent);
-    EXPECT_EQ(sum(half), kLightShareOne);
+    EXPECT_EQ(learned_probabilities(moments, 0, parent), parent);
+    EXPECT_EQ(learned_probabilities(Moments{}, 1e6, parent), parent) << "nothing was found";
+    const LightProbabilities half = learned_probabilities(moments, 128, parent);
+    EXPECT_EQ(sum(half), kLightProbabilityOne);
     EXPECT_NEAR(part(half, 2), 0.375, 0.001);
     EXPECT_NEAR(part(half, 0), 0.4, 0.001);
 }
 
-TEST(LightShare, AnyMomentsMakeAShare) {
+TEST(LightProbabilities, AnyMomentsMakeProbabilities) {
     for (const double scale : {0.0, 1e-300, 1e-30, 1.0, 1e30, 1e300, 1e308})
         for (const double vertices : {0.0, 0.5, 1.0, 1e12}) {
             Moments moments{};
             for (std::size_t c = 0; c < moments.size(); ++c)
                 moments[c] = scale * double(c % 4);
-            EXPECT_EQ(sum(learned_share(moments, vertices, kChoiceByPower)), kLightShareOne) << scale;
+            EXPECT_EQ(sum(learned_probabilities(moments, vertices, kChoiceByPower)), kLightProbabilityOne) << scale;
         }
 }
 
 /// An emitter's samples add as much on average, however often it is chosen.
-TEST(LightShare, TheSumsExpectationDoesNotDependOnTheChoice) {
+TEST(LightProbabilities, TheSumsExpectationDoesNotDependOnTheChoice) {
     const int exponent = quantum_exponent_for(1.0f);
     const auto sum_of = [&](double chosen) {
         const float brought = static_cast<float>(0.3 / chosen);
         return 10000 * chosen * double(light_record(0, exponent, 2, static_cast<float>(chosen), brought).reflected);
     };
     EXPECT_NEAR(sum_of(0.01) / sum_of(1.0), 1.0, 1e-5);
-    EXPECT_NEAR(std::ldexp(sum_of(0.25), light_exponent(exponent)) / (10000 * 0.09), 1.0, 1e-5);
+    EXPECT_NEAR(std::ldexp(sum_of(0.25), light_sum_exponent(exponent)) / (10000 * 0.09), 1.0, 1e-5);
 }
 
 class LightLearning : public ::testing::Test {
@@ -107,10 +108,10 @@ class LightLearning : public ::testing::Test {
 TEST_F(LightLearning, PartsInheritAndLearnOn) {
     const SdTree next = learned();
     ASSERT_EQ(next.region_count(), 2u);
-    ASSERT_EQ(next.light_share.size(), 2u);
-    EXPECT_EQ(next.light_share[0], next.light_share[1]);
-    EXPECT_NEAR(part(next.light_share[0], 12) / part(next.light_share[0], 3), 4.0, 0.01);
-    EXPECT_EQ(part(next.light_share[0], 0), 0.0) << "it brought nothing";
+    ASSERT_EQ(next.light_probabilities.size(), 2u);
+    EXPECT_EQ(next.light_probabilities[0], next.light_probabilities[1]);
+    EXPECT_NEAR(part(next.light_probabilities[0], 12) / part(next.light_probabilities[0], 3), 4.0, 0.01);
+    EXPECT_EQ(part(next.light_probabilities[0], 0), 0.0) << "it brought nothing";
 }
 
 TEST_F(LightLearning, SumsOfPartsAreTheSumOfTheWhole) {
@@ -135,15 +136,15 @@ TEST_F(LightLearning, SumsOfAnotherTreeAreRefused) {
     EXPECT_THROW(LightLearner().learn(root(), TreeSums(0, 1, next.cell_count(), true), {}, next), RunError);
 }
 
-TEST_F(LightLearning, TheCodecKeepsSharesAndRefusesBrokenOnes) {
+TEST_F(LightLearning, TheCodecKeepsProbabilitiesAndRefusesBrokenOnes) {
     const SdTree tree = learned();
-    EXPECT_EQ(decode_tree(encode_tree(tree)).light_share, tree.light_share);
-    EXPECT_TRUE(decode_tree(encode_tree(initial_tree(Box3(Vec3(0.0f), Vec3(1.0f)), 1.0f))).light_share.empty());
+    EXPECT_EQ(decode_tree(encode_tree(tree)).light_probabilities, tree.light_probabilities);
+    EXPECT_TRUE(decode_tree(encode_tree(initial_tree(Box3(Vec3(0.0f), Vec3(1.0f)), 1.0f))).light_probabilities.empty());
     SdTree broken = tree;
-    ++broken.light_share[1][4];
+    ++broken.light_probabilities[1][4];
     EXPECT_THROW(decode_tree(encode_tree(broken)), FormatError);
     broken = tree;
-    broken.light_share.pop_back();
+    broken.light_probabilities.pop_back();
     EXPECT_THROW(decode_tree(encode_tree(broken)), FormatError);
 }
 

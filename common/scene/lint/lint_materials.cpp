@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 
-#include "common/scene/lint/inspect.h"
+#include "common/scene/lint/lint.h"
 
-namespace treefarm::inspection {
+namespace treefarm::linting {
 namespace {
 
 using enum Finding::Severity;
@@ -25,9 +25,9 @@ float largest_of(const Scene& scene, std::int32_t texture) {
     return most;
 }
 
-class MaterialInspection {
+class MaterialLint {
   public:
-    MaterialInspection(const Scene& scene, const Material& material, std::vector<Finding>& findings)
+    MaterialLint(const Scene& scene, const Material& material, std::vector<Finding>& findings)
         : scene_(scene), material_(material), findings_(findings) {}
 
     void run() {
@@ -138,9 +138,9 @@ class MaterialInspection {
 
 }  // namespace
 
-void inspect_materials(const Scene& scene, std::vector<Finding>& findings) {
+void lint_materials(const Scene& scene, std::vector<Finding>& findings) {
     for (const Material& material : scene.materials)
-        MaterialInspection(scene, material, findings).run();
+        MaterialLint(scene, material, findings).run();
     for (const TextureImage& image : scene.images) {
         const auto bad = std::count_if(image.floats.begin(), image.floats.end(),
                                        [](float v) { return !std::isfinite(v) || v < 0.0f; });
@@ -151,4 +151,4 @@ void inspect_materials(const Scene& scene, std::vector<Finding>& findings) {
     }
 }
 
-}  // namespace treefarm::inspection
+}  // namespace treefarm::linting

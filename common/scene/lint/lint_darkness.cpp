@@ -4,11 +4,11 @@
 #include <cmath>
 
 #include "common/scene/lint/first_hit.h"
-#include "common/scene/lint/inspect.h"
+#include "common/scene/lint/lint.h"
 #include "common/scene/model/material_traits.h"
 #include "common/scene/uses/emitter_uses.h"
 
-namespace treefarm::inspection {
+namespace treefarm::linting {
 namespace {
 
 using enum Finding::Severity;
@@ -48,7 +48,7 @@ V3d direction_of_cone(const LightCone& cone, double u, double v) {
 }
 
 /// A place on a surface with its normal; of meshes any triangle.
-std::optional<std::pair<V3d, V3d>> place_on(const Shape& shape, int i, double u, double v) {
+std::optional<std::pair<V3d, V3d>> point_on(const Shape& shape, int i, double u, double v) {
     if (const auto* mesh = std::get_if<Mesh>(&shape.geometry)) {
         if (mesh->triangle_count() == 0) return std::nullopt;
         const std::uint32_t* corner = &mesh->indices[3 * (static_cast<std::size_t>(i) * 7919 % mesh->triangle_count())];
@@ -78,7 +78,7 @@ std::optional<std::pair<V3d, V3d>> place_on(const Shape& shape, int i, double u,
 }
 
 /// Counts of what some rays met.
-struct Meetings {
+struct HitCounts {
     int rays = 0, hits = 0;
     int behind = 0;  ///< backs that reflect nothing
     int glass = 0;   ///< smooth, transmitting surfaces
@@ -97,12 +97,12 @@ class Darkness {
 
     void look() {
         const bool surrounded = scene_.environment() != kNone;
-        std::vector<Meetings> lights;
+        std::vector<HitCounts> lights;
         for (const Emitter& emitter : scene_.emitters)
             lights.push_back(from_emitter(emitter));
         for (std::size_t i = 0; i < lights.size(); ++i)
             judge_emitter(scene_.emitters[i], lights[i]);
-        const Meetings seen = from_camera();
+        const HitCounts seen = from_camera();
         if (seen.hits < seen.rays && surrounded) return;
         if (seen.hits == 0)
             return add(warning, "nothing in view", {}, "no ray of the camera meets anything",
@@ -113,7 +113,7 @@ class Darkness {
                        "the camera sees only backs of one-sided surfaces, as of " + named("shape", first.name) +
                            ", which reflect nothing",
                        "turn their normals round, or put their BSDF into <bsdf type=\"twosided\">");
-        const auto reaches = [&](const Meetings& light) { return light.inside > 0 || light.rays == 0; };
+        const auto reaches = [&](const HitCounts& light) { return light.inside > 0 || light.rays == 0; };
         if (seen.all(seen.inside) && seen.one_shape && seen.hits == seen.rays && !surrounded &&
             std::none_of(lights.begin(), lights.end(), reaches))
             add(warning, "camera inside", first.where,
@@ -132,71 +132,72 @@ class Darkness {
         return shape.material == kNone ? MaterialTraits{} : material_traits(scene_, shape.material);
     }
 
-    void cast(const V3d& origin, const V3d& direction, Meetings& met) const {
+    void cast(const V3d& origin, const V3d& direction, HitCounts& counts) const {
         const auto hit = search_.find(origin, direction);
-        ++met.rays;
+        ++counts.rays;
         if (!hit) return;
         const Shape& shape = scene_.shapes[hit->shape];
         const MaterialTraits t = traits(shape);
-        met.one_shape = met.one_shape && (met.hits == 0 || met.shape == hit->shape);
-        met.shape = hit->shape;
-        ++met.hits;
+        counts.one_shape = counts.one_shape && (counts.hits == 0 || counts.shape == hit->shape);
+        counts.shape = hit->shape;
+        ++counts.hits;
         const bool is_open = t.masked || t.lobes.transmits();
-        met.inside += hit->behind && !is_open ? 1 : 0;
-        met.behind += hit->behind && !is_open && !t.twosided ? 1 : 0;
-        met.glass += t.lobes.delta_transmission && !t.lobes.glossy_transmission && !t.lobes.null && !t.masked ? 1 : 0;
-        met.close += !is_open && hit->distance < kClose * double((box_.max - box_.min).length()) ? 1 : 0;
+        counts.inside += hit->behind && !is_open ? 1 : 0;
+        counts.behind += hit->behind && !is_open && !t.twosided ? 1 : 0;
+        counts.glass +=
+            t.lobes.delta_transmission && !t.lobes.glossy_transmission && !t.lobes.null && !t.masked ? 1 : 0;
+        counts.close += !is_open && hit->distance < kClose * double((box_.max - box_.min).length()) ? 1 : 0;
     }
 
-    Meetings from_camera() const {
-        Meetings met;
+    HitCounts from_camera() const {
+        HitCounts counts;
         const Camera& camera = scene_.camera;
         const Film& film = scene_.film;
         for (int row = 0; row < kRows; ++row)
             for (int column = 0; column < kColumns; ++column) {
-                const double x = (film.place.x + (column + 0.5) / kColumns * film.width) / film.whole_width();
-                const double y = (film.place.y + (row + 0.5) / kRows * film.height) / film.whole_height();
-                const V3d place = V3d(camera.corner) + V3d(camera.across) * x + V3d(camera.down) * y;
+                const double x = (film.crop.x + (column + 0.5) / kColumns * film.width) / film.whole_width();
+                const double y = (film.crop.y + (row + 0.5) / kRows * film.height) / film.whole_height();
+                const V3d point = V3d(camera.corner) + V3d(camera.across) * x + V3d(camera.down) * y;
                 if (camera.is_orthographic())
-                    cast(V3d(camera.origin) + place, V3d(camera.parallel), met);
+                    cast(V3d(camera.origin) + point, V3d(camera.parallel), counts);
                 else
-                    cast(V3d(camera.origin), place.normalized(), met);
+                    cast(V3d(camera.origin), point.normalized(), counts);
             }
-        return met;
+        return counts;
     }
 
     /// What rays from an emitter meet; nothing for emitters that surround the scene.
-    Meetings from_emitter(const Emitter& emitter) const {
-        Meetings met;
+    HitCounts from_emitter(const Emitter& emitter) const {
+        HitCounts counts;
         const std::int32_t shape = shape_of(emitter);
         const std::optional<LightCone> cone = cone_of(emitter);
         for (int i = 0; i < kLightRays; ++i) {
             const auto [u, v] = point_of_square(i);
             const auto [s, t] = point_of_square(i + 1000);
             if (shape != kNone) {
-                const auto place = place_on(scene_.shapes[static_cast<std::size_t>(shape)], i, u, v);
-                if (!place) continue;
-                const double step = 1e-6 * (place->first.length() + double((box_.max - box_.min).length()));
-                cast(place->first + place->second * step, direction_of_hemisphere(place->second, s, t), met);
+                const auto point = point_on(scene_.shapes[static_cast<std::size_t>(shape)], i, u, v);
+                if (!point) continue;
+                const double step = 1e-6 * (point->first.length() + double((box_.max - box_.min).length()));
+                cast(point->first + point->second * step, direction_of_hemisphere(point->second, s, t), counts);
             } else if (cone) {
-                cast(V3d(cone->apex), direction_of_cone(*cone, u, v), met);
+                cast(V3d(cone->apex), direction_of_cone(*cone, u, v), counts);
             }
         }
-        return met;
+        return counts;
     }
 
-    void judge_emitter(const Emitter& emitter, const Meetings& met) {
-        if (met.hits == 0) return;
-        const std::string first = named("shape", scene_.shapes[met.shape].name);
-        if (met.all(met.behind))
+    void judge_emitter(const Emitter& emitter, const HitCounts& counts) {
+        if (counts.hits == 0) return;
+        const std::string first = named("shape", scene_.shapes[counts.shape].name);
+        if (counts.all(counts.behind))
             return add(warning, "lights backs only", emitter.where,
                        "all light of this emitter meets backs of one-sided surfaces, as of " + first +
                            ", which reflect nothing",
                        "turn their normals round, or put their BSDF into <bsdf type=\"twosided\">");
-        if (met.all(met.close))
+        if (counts.all(counts.close))
             return add(warning, "covered emitter", emitter.where,
                        "all light of this emitter meets " + first + " right before it", "turn or move it");
-        if (met.hits == met.rays && met.all(met.glass)) {
+        if (counts.hits == counts.rays && counts.all(counts.glass)) {
             if (emitter.type() != LightType::area)
                 add(warning, "light behind glass", emitter.where,
                     "all light of this emitter meets smooth glass, which a light without extent cannot be found "
@@ -245,11 +246,11 @@ bool can_be_looked_at(const Scene& scene) {
 
 }  // namespace
 
-void inspect_darkness(const Scene& scene, std::vector<Finding>& findings) {
+void lint_darkness(const Scene& scene, std::vector<Finding>& findings) {
     if (can_be_looked_at(scene)) Darkness(scene, findings).look();
 }
 
-}  // namespace treefarm::inspection
+}  // namespace treefarm::linting
 
 namespace treefarm {
 
@@ -257,7 +258,7 @@ std::vector<Finding> dark_causes(const Scene& scene) {
     std::vector<Finding> findings;
     if (scene.emitters.empty())
         findings.push_back({Finding::Severity::warning, "no emitters", {}, "the scene has no emitters", "add one"});
-    inspection::inspect_darkness(scene, findings);
+    linting::lint_darkness(scene, findings);
     return findings;
 }
 

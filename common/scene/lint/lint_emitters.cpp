@@ -2,10 +2,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/scene/lint/inspect.h"
+#include "common/scene/lint/lint.h"
 #include "common/scene/uses/emitter_uses.h"
 
-namespace treefarm::inspection {
+namespace treefarm::linting {
 namespace {
 
 using enum Finding::Severity;
@@ -74,7 +74,7 @@ bool reaches_anything(const Scene& scene, const Shape& own, const std::vector<Fr
 }
 
 /// Whether light within a cone may meet something: spheres around the boxes of meshes tell, all else counts as met.
-bool meets_anything(const Scene& scene, const LightCone& cone) {
+bool may_hit_anything(const Scene& scene, const LightCone& cone) {
     if (!(cone.half_angle < kPi)) return true;
     return std::any_of(scene.shapes.begin(), scene.shapes.end(), [&](const Shape& shape) {
         if (!std::holds_alternative<Mesh>(shape.geometry)) return true;
@@ -88,15 +88,15 @@ bool meets_anything(const Scene& scene, const LightCone& cone) {
     });
 }
 
-class EmitterInspection : public IgnoreFields {
+class EmitterLint : public IgnoreFields {
   public:
-    EmitterInspection(const Scene& scene, const Emitter& emitter, std::vector<Finding>& findings)
+    EmitterLint(const Scene& scene, const Emitter& emitter, std::vector<Finding>& findings)
         : scene_(scene), emitter_(emitter), findings_(findings) {}
 
     void run() {
         visit_fields(emitter_.kind, *this);
         const auto cone = cone_of(emitter_);
-        if (cone && !scene_.shapes.empty() && !meets_anything(scene_, *cone))
+        if (cone && !scene_.shapes.empty() && !may_hit_anything(scene_, *cone))
             add(warning, "unreachable emitter",
                 std::string("the ") + emitter_.traits().effect + "'s cone meets nothing of the scene", "turn it");
     }
@@ -142,9 +142,9 @@ class EmitterInspection : public IgnoreFields {
 
 }  // namespace
 
-void inspect_emitters(const Scene& scene, std::vector<Finding>& findings) {
+void lint_emitters(const Scene& scene, std::vector<Finding>& findings) {
     for (const Emitter& emitter : scene.emitters)
-        EmitterInspection(scene, emitter, findings).run();
+        EmitterLint(scene, emitter, findings).run();
 }
 
-}  // namespace treefarm::inspection
+}  // namespace treefarm::linting
