@@ -12,8 +12,8 @@
 #include "common/plan/learning.h"
 #include "common/scene/pack/scene_codec.h"
 #include "coordinator/pass_loop.h"
-#include "worker/tools/describe_sample.h"
 #include "worker/integrators/registry.h"
+#include "worker/tools/describe_sample.h"
 #include "worker/worker_loop.h"
 
 namespace treefarm {

@@ -2,6 +2,7 @@
 #include "report/statistics.h"
 
 #include <algorithm>
+#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <limits>
 
@@ -13,11 +14,7 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 /// 97.5 % quantile of Student's t with `freedom` degrees of freedom.
 double t_quantile(std::size_t freedom) {
-    constexpr double table[] = {12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262, 2.228,
-                                2.201,  2.179, 2.160, 2.145, 2.131, 2.120, 2.110, 2.101, 2.093, 2.086};
-    if (freedom <= std::size(table)) return table[freedom - 1];
-    const double n = static_cast<double>(freedom), z = 1.959964;  // first terms of the expansion in 1 / n
-    return z + (z * z * z + z) / (4 * n) + (5 * std::pow(z, 5) + 16 * z * z * z + 3 * z) / (96 * n * n);
+    return boost::math::quantile(boost::math::students_t(static_cast<double>(freedom)), 0.975);
 }
 
 double log_interpolate(const CurvePoint& a, const CurvePoint& b, double fraction) {

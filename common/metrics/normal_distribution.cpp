@@ -2,6 +2,7 @@
 #include "common/metrics/normal_distribution.h"
 
 #include <algorithm>
+#include <boost/math/distributions/normal.hpp>
 #include <cmath>
 
 namespace treefarm {
@@ -15,12 +16,7 @@ double sidak_level(double significance, std::uint64_t tests) {
 }
 
 double critical_z(double level) {
-    double low = 0.0, high = 40.0;  // p(40) is below the smallest double
-    for (int i = 0; i < 80; ++i) {
-        const double middle = 0.5 * (low + high);
-        (two_sided_p(middle) > level ? low : high) = middle;
-    }
-    return high;
+    return boost::math::quantile(boost::math::complement(boost::math::normal(), 0.5 * level));
 }
 
 }  // namespace treefarm

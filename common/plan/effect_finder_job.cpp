@@ -92,8 +92,9 @@ void EffectFinder::add_shapes() {
     };
     finders_["lens"] = [this] {
         if (!scene_.camera.has_lens())
-            return effect_off(scene_.camera.is_orthographic() ? "the camera is orthographic"
-                                                              : "the camera is a pinhole");
+            return effect_off(scene_.camera.panoramic           ? "the camera is panoramic"
+                              : scene_.camera.is_orthographic() ? "the camera is orthographic"
+                                                                : "the camera is a pinhole");
         return effect_on("the camera has a lens");
     };
     finders_["pixel_filter"] = [this] {

@@ -2,41 +2,16 @@
 #include "tests/support/chi_square.h"
 
 #include <algorithm>
+#include <boost/math/special_functions/gamma.hpp>
 #include <cmath>
 #include <numeric>
 
 #include "common/math/direction_map.h"
 
 namespace treefarm::test {
-namespace {
-
-/// Regularised upper incomplete gamma function Q(a, x): the series below a + 1, Lentz's continued fraction above
-/// (Abramowitz and Stegun 6.5.29 and 6.5.31).
-double gamma_q(double a, double x) {
-    if (!(x > 0)) return 1.0;
-    const double front = std::exp(a * std::log(x) - x - std::lgamma(a));
-    if (x < a + 1) {
-        double term = 1 / a, sum = term;
-        for (int n = 1; n < 10000 && term > sum * 1e-16; ++n)
-            sum += term *= x / (a + n);
-        return std::clamp(1 - front * sum, 0.0, 1.0);
-    }
-    double b = x + 1 - a, c = 1e300, d = 1 / b, fraction = d;
-    for (int n = 1; n < 10000; ++n) {
-        const double an = -n * (n - a);
-        b += 2;
-        d = 1 / (an * d + b);
-        c = b + an / c;
-        fraction *= d * c;
-        if (std::abs(d * c - 1) < 1e-16) break;
-    }
-    return std::clamp(front * fraction, 0.0, 1.0);
-}
-
-}  // namespace
 
 double chi_square_p_value(double statistic, double freedom) {
-    return gamma_q(0.5 * freedom, 0.5 * statistic);
+    return boost::math::gamma_q(0.5 * freedom, 0.5 * std::max(statistic, 0.0));
 }
 
 double normal_p_value(double z) {

@@ -94,6 +94,7 @@ inline Scene every_kind_scene() {
          {"b.xml", 8, 8}}};
     scene.camera = {Vec3(1, 2, 3), Vec3(4, 5, 6), Vec3(7, 8, 9), Vec3(10, 11, 12), Vec3(13, 14, 15), Vec3(16, 17, 18)};
     scene.camera.parallel = Vec3(0, 0, 1);
+    scene.camera.panoramic = true;
     scene.film = {200, 1, PixelFilter::gaussian, 2.0f, 0.5f, 0.25f, 0.75f, {7, 2, 65535, 9}};
     return scene;
 }

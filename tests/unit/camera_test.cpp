@@ -143,6 +143,31 @@ TEST(Camera, OrthographicRaysAreParallel) {
         }
 }
 
+/// Pixels of a panorama see solid angles by their latitude; all of them together see everything once.
+TEST(Camera, APanoramaSeesEveryDirection) {
+    Camera all;
+    all.origin = Vec3(3, 2, 1);
+    all.across = Vec3(1, 0, 0);
+    all.down = Vec3(0, 1, 0);
+    all.corner = Vec3(0, 0, 1);
+    all.panoramic = true;
+    const int width = 64, height = 32;
+    const CameraRays camera(all, film(width, height));
+    const auto degrees = [](const Vec3& a, const Vec3& b) { return std::acos(std::min(1.0f, a.dot(b))) * 180 / M_PI; };
+    for (int x = 0; x < width; ++x)
+        for (int y = 0; y < height; ++y) {
+            const Ray ray = camera.generate(x, y, kCentre);
+            EXPECT_EQ(ray.origin, all.origin);
+            EXPECT_NEAR(ray.direction.length(), 1.0f, 1e-6f);
+            EXPECT_NEAR(std::acos(ray.direction.y), M_PI * (y + 0.5) / height, 1e-5);
+            const Ray beside = camera.generate((x + 1) % width, y, kCentre);
+            EXPECT_LE(degrees(ray.direction, beside.direction), 360.0 / width + 1e-3);
+            const PathKey path{1, 2, 3};
+            EXPECT_EQ(camera.generate(x, y, path).direction,
+                      camera.generate(x, y, draw(path, 0, Stream::camera)).direction);
+        }
+}
+
 TEST(Camera, PixelsOfACropWindowAreThoseOfTheWholeFilm) {
     const Film whole = film(40, 30);
     Film part = film(16, 10);

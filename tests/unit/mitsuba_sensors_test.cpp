@@ -116,6 +116,23 @@ TEST_F(MitsubaSensors, OrthographicOnesScale) {
     EXPECT_FALSE(load("<sensor type=\"perspective\"/>").scene.camera.is_orthographic());
 }
 
+TEST_F(MitsubaSensors, SphericalOnesSeeAllDirections) {
+    const auto panorama = [&](const std::string& transform) {
+        return load("<sensor type=\"spherical\"><transform name=\"toWorld\">" + transform + "</transform></sensor>")
+            .scene.camera;
+    };
+    const Camera camera = panorama("<lookat origin=\"1,2,3\" target=\"1,2,9\" up=\"0,1,0\"/>");
+    EXPECT_TRUE(camera.panoramic);
+    expect_near(camera.origin, Vec3(1, 2, 3));
+    // Longitude as Mitsuba 0.6 has it: the middle of the film is what the camera looks at, its edges are behind.
+    expect_near(camera.panorama_direction(0.5f, 0.5f), Vec3(0, 0, 1));
+    expect_near(camera.panorama_direction(0.0f, 0.5f), Vec3(0, 0, -1));
+    expect_near(camera.panorama_direction(0.25f, 0.5f), Vec3(1, 0, 0));
+    expect_near(camera.panorama_direction(0.3f, 0.0f), Vec3(0, 1, 0));
+    expect_near(camera.panorama_direction(0.3f, 1.0f), Vec3(0, -1, 0));
+    EXPECT_THROW(panorama("<scale value=\"2\"/>"), InputError);
+}
+
 class Films : public MitsubaFixture {
   protected:
     static std::string integers(const std::vector<std::pair<std::string, int>>& values) {

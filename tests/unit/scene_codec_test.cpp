@@ -115,6 +115,7 @@ TEST(SceneCodec, EmittersCameraAndFilmRoundTrip) {
     EXPECT_EQ(back.camera.down, Vec3(10, 11, 12));
     EXPECT_EQ(back.camera.lens_v, Vec3(16, 17, 18));
     EXPECT_EQ(back.camera.parallel, Vec3(0, 0, 1));
+    EXPECT_TRUE(back.camera.panoramic);
     EXPECT_EQ(back.film.width, 200);
     EXPECT_EQ(back.film.whole_width(), 65535);
     EXPECT_EQ(back.film.filter, PixelFilter::gaussian);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cmath>
+
 #include "common/base/random.h"
 #include "common/math/warp.h"
 #include "common/scene/model/scene.h"
@@ -20,22 +22,23 @@ class CameraRays {
           width_(film.whole_width()),
           height_(film.whole_height()),
           has_lens_(camera.has_lens()),
-          is_orthographic_(camera.is_orthographic()) {}
+          is_perspective_(!camera.is_orthographic() && !camera.panoramic) {}
 
     /// The ray of pixel (x, y) of the window, y down, of a path.
     Ray generate(int x, int y, const PathKey& path) const {
         // The lens draws for itself, out of line: a pinhole then pays neither for its numbers nor for its registers.
         if (has_lens_) [[unlikely]]
             return through_lens(x, y, path);
-        if (is_orthographic_) [[unlikely]]
-            return orthographic(x, y, path);
+        if (!is_perspective_) [[unlikely]]
+            return elsewhere(x, y, path);
         return pinhole(through_pixel(x, y, draw(path, 0, Stream::camera)));
     }
 
     /// A camera ray from random numbers: [0] and [1] place it on the filter, [2] and [3] on the lens.
     Ray generate(int x, int y, const Draw& random) const {
+        if (camera_.panoramic) return panoramic(x, y, random);
         const Imath::V3d focus = through_pixel(x, y, random);
-        if (is_orthographic_) return orthographic(focus);
+        if (camera_.is_orthographic()) return orthographic(focus);
         return has_lens_ ? through_lens(focus, random) : pinhole(focus);
     }
 
@@ -48,11 +51,19 @@ class CameraRays {
     bool has_lens() const { return has_lens_; }
 
   private:
+    struct FilmPoint {
+        double x, y;  ///< [0, 1] on the whole film, and beyond by the filter's reach
+    };
+
+    FilmPoint film_point(int x, int y, const Draw& random) const {
+        return {(x + x0_ + 0.5 + double(filter_.sample(random[0]))) / width_,
+                (y + y0_ + 0.5 + double(filter_.sample(random[1]))) / height_};
+    }
+
     /// Vector from the camera to the plane of focus. In double, since a long lens far away has neighbouring pixels
     /// closer together than floats near the film's corner.
     Imath::V3d through_pixel(int x, int y, const Draw& random) const {
-        const double sx = (x + x0_ + 0.5 + double(filter_.sample(random[0]))) / width_;
-        const double sy = (y + y0_ + 0.5 + double(filter_.sample(random[1]))) / height_;
+        const auto [sx, sy] = film_point(x, y, random);
         return Imath::V3d(camera_.corner) + sx * Imath::V3d(camera_.across) + sy * Imath::V3d(camera_.down);
     }
 
@@ -76,14 +87,26 @@ class CameraRays {
         return {Vec3(Imath::V3d(camera_.origin) + point), camera_.parallel};
     }
 
-    [[gnu::noinline]] Ray orthographic(int x, int y, const PathKey& path) const {
+    Ray panoramic(int x, int y, const Draw& random) const {
+        auto [u, v] = film_point(x, y, random);
+        // The filter reaches over the film's edge: there a panorama goes on beyond the pole, or at the other side.
+        if (v < 0.0 || v > 1.0) {
+            v = v < 0.0 ? -v : 2.0 - v;
+            u += 0.5;
+        }
+        u -= std::floor(u);
+        return {camera_.origin, camera_.panorama_direction(static_cast<float>(u), static_cast<float>(v))};
+    }
+
+    /// Ray of a camera without perspective.
+    [[gnu::noinline]] Ray elsewhere(int x, int y, const PathKey& path) const {
         return generate(x, y, draw(path, 0, Stream::camera));
     }
 
     Camera camera_;
     FilterSampler filter_;
     int x0_, y0_, width_, height_;  ///< of the window; of the whole film
-    bool has_lens_, is_orthographic_;
+    bool has_lens_, is_perspective_;
 };
 
 }  // namespace treefarm

@@ -158,7 +158,11 @@ class Darkness {
                 const double x = (film.crop.x + (column + 0.5) / kColumns * film.width) / film.whole_width();
                 const double y = (film.crop.y + (row + 0.5) / kRows * film.height) / film.whole_height();
                 const V3d point = V3d(camera.corner) + V3d(camera.across) * x + V3d(camera.down) * y;
-                if (camera.is_orthographic())
+                if (camera.panoramic)
+                    cast(V3d(camera.origin),
+                         V3d(camera.panorama_direction(static_cast<float>(x), static_cast<float>(y))).normalized(),
+                         counts);
+                else if (camera.is_orthographic())
                     cast(V3d(camera.origin) + point, V3d(camera.parallel), counts);
                 else
                     cast(V3d(camera.origin), point.normalized(), counts);

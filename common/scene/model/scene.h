@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "common/image/crop_window.h"
+#include "common/math/elementary.h"
 #include "common/scene/model/emitter.h"
 #include "common/scene/model/material.h"
 #include "common/scene/model/shape.h"
@@ -25,6 +26,15 @@ struct Camera {
     Vec3 down{0.0f};                  ///< from the upper to the lower edge
     Vec3 lens_u{0.0f}, lens_v{0.0f};  ///< half axes of the lens, in scene units; zero: a pinhole
     Vec3 parallel{0.0f};              ///< orthographic: the direction of all rays, of length 1; zero: perspective
+    /// Sees all directions, by longitude across and latitude down: `across`, `down` and `corner` then are orthogonal
+    /// and of length 1, to the left, upwards and forwards.
+    bool panoramic = false;
+
+    /// Direction of length 1 of a panorama's point (u, v) in [0, 1]^2 of the film, v downwards.
+    Vec3 panorama_direction(float u, float v) const {
+        const SinCos longitude = sincos_turn(u), latitude = sincos_turn(0.5f * v);
+        return across * (longitude.sin * latitude.sin) + down * latitude.cos - corner * (longitude.cos * latitude.sin);
+    }
 
     bool is_orthographic() const { return parallel != Vec3(0.0f); }
     bool has_lens() const { return lens_u != Vec3(0.0f) || lens_v != Vec3(0.0f); }

@@ -16,13 +16,14 @@ namespace {
 using namespace packed;
 
 constexpr std::uint32_t kMagic = 0x43534654;  // "TFSC"
-constexpr std::uint32_t kVersion = 6;
+constexpr std::uint32_t kVersion = 7;
 
 Camera get_camera(ByteReader& in) {
     Camera camera;
     for (Vec3* v : {&camera.origin, &camera.corner, &camera.across, &camera.down, &camera.lens_u, &camera.lens_v,
                     &camera.parallel})
         *v = get_vector<Vec3>(in);
+    camera.panoramic = get_flag(in, "panoramic camera");
     return camera;
 }
 
@@ -104,6 +105,7 @@ Bytes encode_scene(const Scene& scene) {
     for (const Vec3& v :
          {camera.origin, camera.corner, camera.across, camera.down, camera.lens_u, camera.lens_v, camera.parallel})
         put_vector(out, v);
+    out.put<std::uint8_t>(camera.panoramic);
     put_film(out, scene.film);
     return out.take();
 }

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "common/scene/readers/mitsuba/colors.h"
 #include "common/scene/readers/mitsuba/diagnostics.h"
 #include "common/scene/readers/mitsuba/scene_document.h"
-#include "common/scene/readers/mitsuba/colors.h"
 #include "common/scene/readers/mitsuba/transforms.h"
 
 namespace treefarm::mitsuba {

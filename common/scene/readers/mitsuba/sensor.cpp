@@ -12,7 +12,7 @@
 namespace treefarm::mitsuba {
 namespace {
 
-constexpr std::string_view kSensors[] = {"perspective", "thinlens", "orthographic"};
+constexpr std::string_view kSensors[] = {"perspective", "thinlens", "orthographic", "spherical"};
 
 double radians(double degrees) {
     return degrees * M_PI / 180.0;
@@ -82,6 +82,22 @@ Camera read_orthographic(Properties& properties, double aspect) {
     return orthographic_camera(to_world, aspect);
 }
 
+/// A panorama of all directions: longitude across, from behind over the left to the front in the middle, and latitude
+/// down (Mitsuba 0.6's `spherical`).
+Camera read_spherical(Properties& properties) {
+    const Matrix to_world = properties.transform("to_world");
+    if (std::abs(uniform_scale(to_world, 1e-3) - 1.0) > 1e-3)
+        throw InputError(properties.where("to_world"), "the camera's transformation contains a scale or shear",
+                         "remove it: only rotations, mirrors and translations can move a camera");
+    Camera camera;
+    camera.origin = transform_point(to_world, Vec3(0.0f));
+    camera.across = transform_vector(to_world, Vec3(1.0f, 0.0f, 0.0f)).normalized();
+    camera.down = transform_vector(to_world, Vec3(0.0f, 1.0f, 0.0f)).normalized();
+    camera.corner = transform_vector(to_world, Vec3(0.0f, 0.0f, 1.0f)).normalized();
+    camera.panoramic = true;
+    return camera;
+}
+
 Camera read_perspective(Properties& properties, const std::string& type, double aspect, Diagnostics& diagnostics) {
     const Matrix to_world = properties.transform("to_world");
     if (std::abs(uniform_scale(to_world, 1e-3) - 1.0) > 1e-3)
@@ -121,7 +137,7 @@ void read_sensor(const XmlElement& sensor, const FilmSize& wanted, Scene& scene,
     const std::string type = properties.type();
     if (std::find(std::begin(kSensors), std::end(kSensors), type) == std::end(kSensors)) {
         diagnostics.unsupported(sensor.where, "the sensor " + in_quotes(type) + " is not available in this version",
-                                did_you_mean(type, kSensors, "use perspective, thinlens or orthographic"),
+                                did_you_mean(type, kSensors, "use perspective, thinlens, orthographic or spherical"),
                                 "it is read as perspective");
         // What others have in addition.
         properties.ignore({"aperture_radius", "kc", "scale", "srf"});
@@ -135,6 +151,7 @@ void read_sensor(const XmlElement& sensor, const FilmSize& wanted, Scene& scene,
 
     const double aspect = static_cast<double>(scene.film.whole_width()) / scene.film.whole_height();
     scene.camera = type == "orthographic" ? read_orthographic(properties, aspect)
+                   : type == "spherical"  ? read_spherical(properties)
                                           : read_perspective(properties, type, aspect, diagnostics);
     // A pinhole has no focus, and rays need no clipping planes: what stands before the near one is seen.
     properties.ignore({"near_clip", "far_clip", "focus_distance"});
