@@ -20,10 +20,12 @@ Moments read_moments(std::uint32_t n, const double* in) {
 
 void write_unit_result(ByteWriter& writer, const UnitResult& result) {
     const std::vector<PixelEstimate>& pixels = result.pixels;
-    if (pixels.size() != result.unit.pixel_count() || pixels.empty())
+    if (!pixels.empty() && pixels.size() != result.unit.pixel_count())
         throw RunError("a work unit was finished with the wrong number of pixels");
-    const std::uint32_t n[2] = {pixels[0].half[0].n, pixels[0].half[1].n};
     write_unit(writer, result.unit);
+    if (result.unit.kind != UnitKind::tile) return;
+    const PixelEstimate first = pixels.empty() ? PixelEstimate() : pixels.front();
+    const std::uint32_t n[2] = {first.half[0].n, first.half[1].n};
     writer.put(n[0]);
     writer.put(n[1]);
     std::vector<double> values(pixels.size() * 12);
@@ -40,12 +42,13 @@ void write_unit_result(ByteWriter& writer, const UnitResult& result) {
 UnitResult read_unit_result(ByteReader& reader, std::uint32_t pass) {
     UnitResult result;
     result.unit = read_unit(reader, pass);
+    if (result.unit.kind != UnitKind::tile) return result;
     const auto n0 = reader.get<std::uint32_t>();
     const auto n1 = reader.get<std::uint32_t>();
     const std::vector<double> values = reader.get_array<double>();
-    if (values.size() != std::size_t{12} * result.unit.pixel_count())
+    if (!values.empty() && values.size() != std::size_t{12} * result.unit.pixel_count())
         throw FormatError("a work unit with the wrong number of pixels");
-    result.pixels.reserve(result.unit.pixel_count());
+    result.pixels.reserve(values.size() / 12);
     for (std::size_t at = 0; at < values.size(); at += 12)
         result.pixels.push_back({{read_moments(n0, &values[at]), read_moments(n1, &values[at + 6])}});
     return result;
@@ -102,27 +105,48 @@ TraceStats read_stats(ByteReader& reader) {
 /// Bytes of a result, or a little more.
 std::size_t size_bound(const Result& result) {
     constexpr std::size_t kMostVarint = 10, kMostStats = 512;
-    std::size_t bytes = kMostStats + kInvalidSampleBytes * result.stats.first_invalid.size() + result.update.size();
+    std::size_t bytes = kMostStats + kInvalidSampleBytes * result.stats.first_invalid.size() + result.update.size() +
+                        result.splats.size();
     for (const UnitResult& unit : result.units)
-        bytes += kUnitBytes + 2 * sizeof(std::uint32_t) + kMostVarint + kPixelBytes * unit.pixels.size();
+        bytes += kMostUnitBytes + 2 * sizeof(std::uint32_t) + kMostVarint + kPixelBytes * unit.pixels.size();
     return bytes;
 }
 
 }  // namespace
 
 void write_unit(ByteWriter& writer, const WorkUnit& unit) {
-    for (const std::uint16_t edge : {unit.x0, unit.y0, unit.x1, unit.y1})
-        writer.put(edge);
-    writer.put(unit.chunk);
+    writer.put(static_cast<std::uint8_t>(unit.kind));
+    switch (unit.kind) {
+        case UnitKind::tile:
+            for (const std::uint16_t edge : {unit.x0, unit.y0, unit.x1, unit.y1})
+                writer.put(edge);
+            writer.put(unit.chunk);
+            return;
+        case UnitKind::light_paths:
+            writer.put(unit.first);
+            writer.put(unit.count);
+            return;
+        case UnitKind::chains:
+            writer.put(static_cast<std::uint32_t>(unit.first));
+            writer.put(unit.count);
+            return;
+    }
 }
 
 WorkUnit read_unit(ByteReader& reader, std::uint32_t pass) {
-    WorkUnit unit;
-    unit.pass = pass;
-    for (std::uint16_t* edge : {&unit.x0, &unit.y0, &unit.x1, &unit.y1})
-        *edge = reader.get<std::uint16_t>();
-    unit.chunk = reader.get<std::uint32_t>();
-    if (unit.x0 >= unit.x1 || unit.y0 >= unit.y1) throw FormatError("an empty work unit");
+    const auto kind = reader.get<std::uint8_t>();
+    if (kind >= kUnitKinds) throw FormatError("a work unit of unknown kind");
+    WorkUnit unit{.pass = pass, .kind = static_cast<UnitKind>(kind)};
+    if (unit.kind == UnitKind::tile) {
+        for (std::uint16_t* edge : {&unit.x0, &unit.y0, &unit.x1, &unit.y1})
+            *edge = reader.get<std::uint16_t>();
+        unit.chunk = reader.get<std::uint32_t>();
+        if (unit.x0 >= unit.x1 || unit.y0 >= unit.y1) throw FormatError("an empty work unit");
+        return unit;
+    }
+    unit.first = unit.kind == UnitKind::light_paths ? reader.get<std::uint64_t>() : reader.get<std::uint32_t>();
+    unit.count = reader.get<std::uint32_t>();
+    if (unit.count == 0 || unit.first + unit.count < unit.first) throw FormatError("an empty work unit");
     return unit;
 }
 
@@ -135,6 +159,7 @@ void write_result(ByteWriter& writer, const Result& result) {
     for (const UnitResult& unit : result.units)
         write_unit_result(writer, unit);
     writer.put_array(std::span(result.update));
+    writer.put_array(std::span(result.splats));
 }
 
 Result read_result(ByteReader& reader) {
@@ -142,11 +167,12 @@ Result read_result(ByteReader& reader) {
     result.incarnation = reader.get<std::uint64_t>();
     result.pass = reader.get<std::uint32_t>();
     result.stats = read_stats(reader);
-    const std::size_t count = reader.get_count(kUnitBytes + kPixelBytes);
+    const std::size_t count = reader.get_count(kLeastUnitBytes);
     result.units.reserve(count);
     for (std::size_t i = 0; i < count; ++i)
         result.units.push_back(read_unit_result(reader, result.pass));
     result.update = reader.get_array<std::uint8_t>();
+    result.splats = reader.get_array<std::uint8_t>();
     return result;
 }
 

@@ -44,8 +44,7 @@ LocalRender render_locally(const Scene& scene, const Job& asked) {
         TraceStats stats;
         RecordLog log;
         std::vector<PixelEstimate> pixels;
-        for (const WorkUnit& unit :
-             cut_pass(pass.index, pass.chunks, scene.film.width, scene.film.height, job.farm.tile_size)) {
+        for (const WorkUnit& unit : cut_pass(pass, scene.film.width, scene.film.height, job.farm.tile_size)) {
             render_unit(trace, job, pass, guide, unit, pixels, log, stats);
             film.add(unit, pixels);
             if (pass.record) accumulator.commit(log.records, log.counts, log.caps);

@@ -23,9 +23,21 @@ const Integrator& integrator_of(const Job& job) {
 /// Units come in messages, and a message may say anything.
 void check_unit(const WorkUnit& unit, const PassPlan& pass, const TraceScene& scene) {
     const Film& film = scene.film();
-    if (unit.x0 >= unit.x1 || unit.y0 >= unit.y1 || unit.x1 > film.width || unit.y1 > film.height ||
-        unit.chunk >= pass.chunks)
-        throw RunError("a work unit that does not fit the film");
+    const auto within = [&](std::uint64_t count) { return unit.first <= count && unit.count <= count - unit.first; };
+    bool fits = false;
+    switch (unit.kind) {
+        case UnitKind::tile:
+            fits = pass.units.tiles && unit.x0 < unit.x1 && unit.y0 < unit.y1 && unit.x1 <= film.width &&
+                   unit.y1 <= film.height && unit.chunk < pass.chunks;
+            break;
+        case UnitKind::light_paths:
+            fits = within(std::uint64_t{pass.units.light_paths} * film.pixel_count());
+            break;
+        case UnitKind::chains:
+            fits = within(pass.units.chains);
+            break;
+    }
+    if (!fits) throw RunError("a work unit that does not fit the film");
 }
 
 }  // namespace
