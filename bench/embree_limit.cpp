@@ -138,7 +138,7 @@ class Limit {
     void render(PassPlan pass, const Resolved& job, const Guide& guide, TraceStats& stats, Learn learn) {
         pass.kernel = kernel_of(job, pass, {guide.trained(), guide.view_count() > 0});
         const Film& film = scene_.film();
-        for (const WorkUnit& unit : cut_pass(pass.index, 1, film.width, film.height, job.farm.tile_size)) {
+        for (const WorkUnit& unit : cut_pass(pass, film.width, film.height, job.farm.tile_size)) {
             render_unit(scene_, job, pass, guide, unit, pixels_, log_, stats);
             if (pass.record) learn(log_);
         }

@@ -25,18 +25,29 @@ bool is_duration(double seconds) {
 Collector::Collector(const PassPlan& plan, const SdTree& tree, int width, int height, bool signed_pixels,
                      const AovLayout& aovs)
     : plan_(plan),
+      width_(width),
+      height_(height),
       signed_pixels_(signed_pixels),
-      film_(width, height, plan.chunks),
+      film_(plan.layers.estimates ? width : 0, plan.layers.estimates ? height : 0, plan.chunks),
       aovs_(aovs, width, height, plan.chunks),
+      splats_(plan.layers.splats),
       sums_(plan.record ? TreeSums(plan.index, sums_shape(plan, tree)) : TreeSums()) {}
 
-void Collector::check_pixels(const UnitResult& result) const {
+std::uint32_t Collector::unit_samples(const WorkUnit& unit) const {
     const std::uint64_t per_unit = std::uint64_t{kBlockSamples} * plan_.blocks_per_unit;
-    const std::uint64_t begin = per_unit * result.unit.chunk;
-    const std::uint64_t count = begin < plan_.spp ? std::min<std::uint64_t>(per_unit, plan_.spp - begin) : 0;
-    const std::uint64_t even = (count + 1 - (plan_.first_sample + begin) % 2) / 2;
+    const std::uint64_t begin = per_unit * unit.chunk;
+    return begin < plan_.spp ? static_cast<std::uint32_t>(std::min<std::uint64_t>(per_unit, plan_.spp - begin)) : 0;
+}
+
+void Collector::check_pixels(const UnitResult& result) const {
+    const bool estimated = plan_.layers.estimates && result.unit.kind == UnitKind::tile;
+    if (result.pixels.empty() == estimated)
+        throw FormatError("a work unit without its pixels, or with some of its own");
+    if (!estimated) return;
+    const std::uint64_t begin = std::uint64_t{kBlockSamples} * plan_.blocks_per_unit * result.unit.chunk;
+    const HalfCounts counts = half_counts(plan_.first_sample + begin, unit_samples(result.unit));
     const PixelEstimate& first = result.pixels.front();  // the codec gives all pixels of a unit the same counts
-    if (first.half[0].n != even || std::uint64_t{first.half[0].n} + first.half[1].n != count)
+    if (first.half[0].n != counts[0] || first.half[1].n != counts[1])
         throw FormatError("a work unit with the wrong number of samples per pixel");
     const auto possible = [](const Rgb64& v) { return is_amount(v.x) && is_amount(v.y) && is_amount(v.z); };
     for (const PixelEstimate& pixel : result.pixels)
@@ -52,7 +63,7 @@ void Collector::check_stats(const Result& result) const {
     const TraceStats& s = result.stats;
     std::uint64_t paths = 0;
     for (const UnitResult& unit : result.units)
-        paths += (std::uint64_t{unit.pixels.front().half[0].n} + unit.pixels.front().half[1].n) * unit.pixels.size();
+        paths += weight(unit.unit) * (unit.unit.kind == UnitKind::tile ? unit_samples(unit.unit) : 1);
     if (s.paths != paths || s.nonzero_paths > paths || s.invalid_samples > paths ||
         s.probe_paths > (plan_.probe ? paths : 0))
         throw FormatError("counts of paths that do not fit the work units");
@@ -61,19 +72,25 @@ void Collector::check_stats(const Result& result) const {
         throw FormatError("seconds that no clock shows");
     if (s.first_invalid.size() > TraceStats::kMaxReported) throw FormatError("more invalid samples than are reported");
     for (const InvalidSample& sample : s.first_invalid)
-        if (sample.pass != plan_.index || sample.x >= film_.width() || sample.y >= film_.height() ||
-            sample.sample >= plan_.spp)
+        if (sample.pass != plan_.index || sample.x >= width_ || sample.y >= height_ || sample.sample >= plan_.spp)
             throw FormatError("an invalid sample outside the film");
+}
+
+void Collector::check_splats(const Result& result) const {
+    if (result.splats.empty()) return;
+    if (plan_.layers.splats.pixels == 0) throw FormatError("splats of a pass that has none");
+    splats_.check(result.splats);
 }
 
 bool Collector::take(int worker, Result result, Ledger& ledger) {
     std::vector<WorkUnit> units;
     for (const UnitResult& unit : result.units) {
         check_pixels(unit);
-        aovs_.check(unit.unit, unit.aovs);
+        if (unit.unit.kind == UnitKind::tile) aovs_.check(unit.unit, unit.aovs);
         units.push_back(unit.unit);
     }
     check_stats(result);
+    check_splats(result);
     if (result.pass != plan_.index || !ledger.holds(worker, units)) return false;
     // merge_encoded checks everything before it adds anything: a result counts whole or not at all.
     Timer timer;
@@ -82,15 +99,28 @@ bool Collector::take(int worker, Result result, Ledger& ledger) {
     timer.restart();
     ledger.accept(worker, units);
     update_bytes_ += result.update.size();
+    splat_bytes_ += result.splats.size();
     WorkerContribution& contribution = contributions_[worker];
     for (const UnitResult& unit : result.units) {
-        film_.add(unit.unit, unit.pixels);
-        aovs_.add(unit.unit, unit.aovs);
-        contribution.pixels += unit.unit.pixel_count();
+        if (!unit.pixels.empty()) {
+            film_.add(unit.unit, unit.pixels);
+            aovs_.add(unit.unit, unit.aovs);
+        }
+        contribution.work += weight(unit.unit);
     }
+    if (!result.splats.empty()) splats_.merge_encoded(result.splats);
     contribution.stats.add(result.stats);
     film_seconds_ += timer.seconds();
     return true;
+}
+
+std::span<const PixelEstimate> Collector::pixels_so_far() const {
+    if (plan_.layers.splats.pixels > 0) return {};
+    return film_.pixels();
+}
+
+std::vector<PixelEstimate> Collector::take_pixels() {
+    return develop(film_.take_pixels(), splats_, plan_.splatting_paths());
 }
 
 TraceStats Collector::totals() const {

@@ -7,6 +7,7 @@
 
 #include "common/film/aov_film.h"
 #include "common/film/pass_film.h"
+#include "common/film/splat_film.h"
 #include "common/guiding/sd_tree.h"
 #include "common/guiding/tree_update.h"
 #include "common/protocol/messages.h"
@@ -17,10 +18,10 @@ namespace treefarm {
 /// One worker's contribution to a pass.
 struct WorkerContribution {
     TraceStats stats;
-    std::uint64_t pixels = 0;  ///< pixel-chunks accepted
+    std::uint64_t work = 0;  ///< sum of the weights of the units accepted
 };
 
-/// Gathers the results of one pass: film, tree sums and figures, each unit exactly once.
+/// Gathers the results of one pass: the layers of its film, tree sums and figures, each unit exactly once.
 class Collector {
   public:
     /// `signed_pixels`: of a filter with negative lobes, so that means may be negative.
@@ -31,13 +32,16 @@ class Collector {
     /// false is returned. Throws FormatError if the content does not fit the pass (nothing was accepted then).
     bool take(int worker, Result result, Ledger& ledger);
 
-    const PassFilm& film() const { return film_; }
-    std::vector<PixelEstimate> take_pixels() { return film_.take_pixels(); }  ///< once, of a complete film
+    /// Pixels for a look at the pass while it goes on; none where they are but a layer of it.
+    std::span<const PixelEstimate> pixels_so_far() const;
+    std::vector<PixelEstimate> take_pixels();  ///< once, of a complete pass: all layers together
+    const SplatSums& splats() const { return splats_; }
     AovPixels take_aovs() { return aovs_.take(); }                            ///< as take_pixels()
     const TreeSums& sums() const { return sums_; }
     TraceStats totals() const;
     const std::map<int, WorkerContribution>& contributions() const { return contributions_; }
     std::uint64_t update_bytes() const { return update_bytes_; }
+    std::uint64_t splat_bytes() const { return splat_bytes_; }
     std::uint64_t touched_cells() const { return touched_cells_; }
     double merge_seconds() const { return merge_seconds_; }  ///< adding tree updates
     double film_seconds() const { return film_seconds_; }    ///< adding pixels
@@ -46,14 +50,19 @@ class Collector {
     // Throw FormatError where a result cannot be: what is merged cannot be taken out again.
     void check_pixels(const UnitResult& result) const;
     void check_stats(const Result& result) const;
+    void check_splats(const Result& result) const;
+    std::uint32_t unit_samples(const WorkUnit& unit) const;  ///< of a pixel in a tile
 
     PassPlan plan_;
+    int width_, height_;
     bool signed_pixels_;
     PassFilm film_;
     AovFilm aovs_;
+    SplatSums splats_;
     TreeSums sums_;
     std::map<int, WorkerContribution> contributions_;
     std::uint64_t update_bytes_ = 0;   ///< of all encoded tree updates
+    std::uint64_t splat_bytes_ = 0;    ///< of all encoded splats
     std::uint64_t touched_cells_ = 0;  ///< of all of them, a cell once per update that touches it
     double merge_seconds_ = 0, film_seconds_ = 0;
 };

@@ -56,7 +56,7 @@ class Farm {
     /// worker is left, and none has come back within FarmLimits::grace.
     void step();
 
-    bool pass_complete() const { return collector_ && collector_->film().complete(); }
+    bool pass_complete() const { return ledger_ && ledger_->complete(); }
     const Collector& collector() const { return *collector_; }
     std::vector<PixelEstimate> take_pixels() { return collector_->take_pixels(); }  ///< of the complete pass, once
     AovPixels take_aovs() { return collector_->take_aovs(); }                       ///< of it, once

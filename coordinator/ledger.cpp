@@ -7,36 +7,43 @@ namespace treefarm {
 
 namespace {
 
-/// A piece of fewer camera paths, 2 ms or so, costs more in messages than it saves in waiting.
+/// A piece of fewer paths, 2 ms or so, costs more in messages than it saves in waiting.
 constexpr std::uint32_t kLeastPaths = 2048;
 /// Pixels that a piece has at least, however many samples they have.
 constexpr std::uint32_t kLeastPixels = 16;
 
 }  // namespace
 
-Ledger::Ledger(const PassPlan& plan, int width, int height, int tile_size)
-    : least_pixels_(std::max(kLeastPixels, kLeastPaths / plan.unit_spp())),
-      total_(static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height) * plan.chunks) {
-    const std::vector<WorkUnit> units = cut_pass(plan.index, plan.chunks, width, height, tile_size);
+Ledger::Ledger(const PassPlan& plan, int width, int height, int tile_size) : unit_spp_(plan.unit_spp()) {
+    const std::vector<WorkUnit> units = cut_pass(plan, width, height, tile_size);
     waiting_.assign(units.begin(), units.end());
+    for (const WorkUnit& unit : units)
+        total_ += weight(unit);
 }
 
-void Ledger::quarter_front() {
-    const WorkUnit unit = waiting_.front();
-    if (unit.pixel_count() < 4 * least_pixels_ || unit.x1 - unit.x0 < 2 || unit.y1 - unit.y0 < 2) return;
+std::uint64_t Ledger::least_weight(UnitKind kind) const {
+    switch (kind) {
+        case UnitKind::tile:
+            return std::max(kLeastPixels, kLeastPaths / unit_spp_);
+        case UnitKind::light_paths:
+            return kLeastPaths;
+        case UnitKind::chains:
+            return 1;
+    }
+    return 1;
+}
+
+void Ledger::halve_front() {
+    const std::vector<WorkUnit> pieces = halve(waiting_.front());
+    if (weight(waiting_.front()) < pieces.size() * least_weight(waiting_.front().kind)) return;
     waiting_.pop_front();
-    const auto xm = static_cast<std::uint16_t>((unit.x0 + unit.x1) / 2);
-    const auto ym = static_cast<std::uint16_t>((unit.y0 + unit.y1) / 2);
-    waiting_.push_front({unit.pass, xm, ym, unit.x1, unit.y1, unit.chunk});
-    waiting_.push_front({unit.pass, unit.x0, ym, xm, unit.y1, unit.chunk});
-    waiting_.push_front({unit.pass, xm, unit.y0, unit.x1, ym, unit.chunk});
-    waiting_.push_front({unit.pass, unit.x0, unit.y0, xm, ym, unit.chunk});
+    waiting_.insert(waiting_.begin(), pieces.begin(), pieces.end());
 }
 
 std::vector<WorkUnit> Ledger::issue(int worker, std::size_t count, std::size_t shrink_below) {
     std::vector<WorkUnit> units;
     while (units.size() < count && !waiting_.empty()) {
-        if (waiting_.size() < shrink_below) quarter_front();
+        if (waiting_.size() < shrink_below) halve_front();
         units.push_back(waiting_.front());
         holder_[waiting_.front()] = worker;
         waiting_.pop_front();
@@ -59,7 +66,7 @@ bool Ledger::accept(int worker, std::span<const WorkUnit> units) {
     if (!holds(worker, units)) return false;
     for (const WorkUnit& unit : units) {
         holder_.erase(unit);
-        done_ += unit.pixel_count();
+        done_ += weight(unit);
     }
     return true;
 }

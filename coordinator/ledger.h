@@ -16,11 +16,11 @@ namespace treefarm {
 /// exactly once. Pure bookkeeping: no clock, no messages.
 class Ledger {
   public:
-    /// Tiles of `tile_size` pixels, row by row; all chunks of a tile follow each other.
+    /// The units of a pass, tiles of `tile_size` pixels.
     Ledger(const PassPlan& plan, int width, int height, int tile_size);
 
-    /// Takes up to `count` units for a worker. While fewer than `shrink_below` units are left, each is issued as four
-    /// quarters: towards the end of a pass smaller pieces leave fewer workers waiting for the last one. No piece is so
+    /// Takes up to `count` units for a worker. While fewer than `shrink_below` units are left, each is issued in pieces
+    /// (halve): towards the end of a pass smaller ones leave fewer workers waiting for the last one. No piece is so
     /// small that to ask for it takes longer than to trace it.
     std::vector<WorkUnit> issue(int worker, std::size_t count, std::size_t shrink_below);
 
@@ -37,14 +37,15 @@ class Ledger {
     std::size_t waiting() const { return waiting_.size(); }
     std::size_t outstanding() const { return holder_.size(); }
     std::size_t outstanding(int worker) const;
-    /// Pixels times chunks: all, and those done.
+    /// Sum of the units' weights: of all, and of those done.
     std::uint64_t total() const { return total_; }
     std::uint64_t done() const { return done_; }
 
   private:
-    void quarter_front();
+    void halve_front();
+    std::uint64_t least_weight(UnitKind kind) const;  ///< of a piece
 
-    const std::uint32_t least_pixels_;  ///< of a piece
+    const std::uint32_t unit_spp_;  ///< samples of a pixel in a tile
     std::deque<WorkUnit> waiting_;
     std::map<WorkUnit, int> holder_;  ///< units that were issued, with the worker that has them
     std::uint64_t total_ = 0;

@@ -6,6 +6,7 @@
 
 #include "common/base/hash.h"
 #include "common/config/aov_list.h"
+#include "common/film/fold_passes.h"
 #include "common/film/guiding_probe.h"
 #include "common/guiding/tree_learner.h"
 #include "common/plan/kernel.h"
@@ -111,10 +112,11 @@ class PassLoop {
     }
 
     void combine(PassReport& report) {
+        Timer timer;
+        if (const std::optional<std::size_t> first = fold_passes(finished_)) set_aside_.follow_fold(*first);
         // The last pass's own figures, and those of the image, while others are being made.
         std::future<PassVariance> variance =
             std::async(std::launch::async, [&] { return pass_variance(finished_.back().pixels); });
-        Timer timer;
         remember_noise(finished_, job_.guiding.combination, guided());
         coming_.image = std::make_shared<CombinedImage>(combine_passes(finished_, job_.guiding.combination, guided()));
         report.seconds.film = timer.seconds();
@@ -245,7 +247,7 @@ class PassLoop {
     const PassHooks& hooks_;
     TreeLearner learner_;
     RenderResult result_;
-    std::vector<PassResult> finished_;
+    std::vector<PassResult> finished_;  ///< folded
     AovSums aovs_;
     GuidingProbe probe_;
     ProbesSetAside set_aside_;

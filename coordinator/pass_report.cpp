@@ -185,6 +185,9 @@ void fill_from_collector(PassReport& report, const Collector& collector) {
     report.update_bytes = collector.update_bytes();
     report.touched_cells = collector.touched_cells();
     report.caps = collector.sums().caps();
+    report.splat_caps = collector.splats().caps();
+    report.splat_bytes = collector.splat_bytes();
+    report.saturated_splats = collector.splats().saturated();
     PassSeconds& s = report.seconds;
     s.merge = collector.merge_seconds();
     s.film += collector.film_seconds();

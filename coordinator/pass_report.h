@@ -78,6 +78,8 @@ struct PassReport {
     TreeFigures tree;                 ///< that guided the pass
     std::uint64_t update_bytes = 0, touched_cells = 0;
     UpdateCaps caps;
+    SplatCaps splat_caps;
+    std::uint64_t splat_bytes = 0, saturated_splats = 0;
     RefineReport refine;  ///< of the tree that this pass taught
 
     double nonzero_share() const;

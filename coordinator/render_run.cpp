@@ -107,7 +107,7 @@ class RenderRun {
             pass_count_ = progress.pass_count;
             progress_.update(progress);
             directory_.write_status(progress, elapsed);
-            directory_.write_preview(farm_.collector().film().pixels(), film.width, film.height, elapsed);
+            directory_.write_preview(farm_.collector().pixels_so_far(), film.width, film.height, elapsed);
             tell_news();
         };
         hooks.on_result = [this](const RenderResult& so_far) { directory_.write_image(so_far); };
@@ -156,6 +156,9 @@ class RenderRun {
         if (pass.caps.capped_records > 0 || pass.caps.saturated_cells > 0 || pass.caps.outside_positions > 0)
             log_->warn("pass {}: {} records capped, {} cells saturated, {} positions outside the tree", pass.plan.index,
                        pass.caps.capped_records, pass.caps.saturated_cells, pass.caps.outside_positions);
+        if (pass.splat_caps != SplatCaps{} || pass.saturated_splats > 0)
+            log_->warn("pass {}: {} capped splats, {} saturated sums of splats, {} splats that are no radiance",
+                       pass.plan.index, pass.splat_caps.capped, pass.saturated_splats, pass.splat_caps.rejected);
     }
 
     /// Says, once, what in the scene makes an image black.

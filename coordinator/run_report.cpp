@@ -68,6 +68,7 @@ Json pass_json(const PassReport& r) {
             {"tree_bytes", r.tree.bytes},
             {"tree_memory", r.tree.memory},
             {"update_bytes", r.update_bytes},
+            {"splat_bytes", r.splat_bytes},
             {"trace_seconds",
              {{"min", r.seconds.trace.min},
               {"mean", r.seconds.trace.mean},

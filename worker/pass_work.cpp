@@ -18,11 +18,20 @@ void PassWork::deliver(const WorkUnit& unit, UnitOutput& output) {
         accumulator_->commit(output.log.records, output.log.counts, output.log.caps);
         output.stats.splat_seconds += thread_cpu_seconds() - start;
     }
+    if (!output.splats.empty()) add_splats(output.splats);
     const std::scoped_lock lock(units_lock_);
     bundle_bytes_ += (output.pixels.size() + output.aovs.direct.size()) * sizeof(PixelEstimate) +
                      output.aovs.values.size() * sizeof(double);
     units_.push_back({unit, std::exchange(output.pixels, {}), std::exchange(output.aovs, {})});
     stats_.add(output.stats);
+}
+
+void PassWork::add_splats(SplatLog& log) {
+    const auto entries = log.summed();
+    const std::scoped_lock lock(splats_lock_);
+    if (splats_.shape() != plan_.layers.splats) splats_ = SplatSums(plan_.layers.splats);
+    splats_.add(entries, log.caps());
+    splatted_ = true;
 }
 
 std::optional<Result> PassWork::close() {
@@ -36,6 +45,10 @@ std::optional<Result> PassWork::close() {
         bundle_bytes_ = 0;
         result.stats = std::exchange(stats_, {});
         if (accumulator_) sums = accumulator_->take();
+        if (std::exchange(splatted_, false)) {
+            result.splats = splats_.encode();
+            splats_.clear();
+        }
     }
     if (!sums) return result;
     result.update = sums->encode();

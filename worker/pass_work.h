@@ -8,6 +8,7 @@
 #include <shared_mutex>
 #include <vector>
 
+#include "common/film/splat_film.h"
 #include "common/guiding/splat.h"
 #include "common/protocol/messages.h"
 #include "worker/integrators/unit_output.h"
@@ -15,7 +16,7 @@
 namespace treefarm {
 
 /// A worker's state for one pass: the plan, the guide, and the bundle of finished units with exactly what these units
-/// taught the tree. Tracing threads deliver while the communication thread closes bundles.
+/// taught the tree and splatted. Tracing threads deliver while the communication thread closes bundles.
 class PassWork {
   public:
     PassWork(const PassPlan& plan, const SdTree& tree, DirectionalFilter filter);
@@ -35,6 +36,8 @@ class PassWork {
     std::size_t bundle_bytes() const { return bundle_bytes_; }
 
   private:
+    void add_splats(SplatLog& log);
+
     const PassPlan plan_;
     const Guide guide_;
     std::shared_mutex bundle_;  ///< shared: adding to the open bundle; exclusive: closing it
@@ -43,6 +46,9 @@ class PassWork {
     std::atomic<std::size_t> bundle_bytes_{0};
     TraceStats stats_;
     std::optional<Accumulator> accumulator_;  ///< of passes that record
+    std::mutex splats_lock_;
+    SplatSums splats_;  ///< made when the first unit splats
+    bool splatted_ = false;
 };
 
 }  // namespace treefarm

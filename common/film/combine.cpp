@@ -109,8 +109,12 @@ void normalise(std::vector<double>& weights) {
 
 std::vector<double> fixed_weights(std::span<const PassResult> passes, bool guided) {
     std::vector<double> weights;
-    for (const PassResult& pass : passes)
-        weights.push_back(fixed_weight(pass.spp, pass.spp_before, guided));
+    for (const PassResult& pass : passes) {
+        double weight = 0;
+        for (const PassPart& part : pass.parts)
+            weight += fixed_weight(part.spp, part.spp_before, guided);
+        weights.push_back(pass.parts.empty() ? fixed_weight(pass.spp, pass.spp_before, guided) : weight);
+    }
     normalise(weights);
     return weights;
 }
@@ -282,6 +286,17 @@ CombinedImage combine_whole(std::span<const PassResult> passes, const std::vecto
     return image;
 }
 
+/// Weights of the passes as they were rendered: those of a merged one by their samples.
+std::vector<double> weights_of_parts(std::span<const PassResult> passes, const std::vector<double>& weights) {
+    std::vector<double> of_parts;
+    for (std::size_t k = 0; k < passes.size(); ++k) {
+        if (passes[k].parts.empty()) of_parts.push_back(weights[k]);
+        for (const PassPart& part : passes[k].parts)
+            of_parts.push_back(weights[k] * part.spp / passes[k].spp);
+    }
+    return of_parts;
+}
+
 }  // namespace
 
 double fixed_weight(std::uint32_t spp, std::uint32_t spp_before, bool guided) {
@@ -302,7 +317,7 @@ CombinedImage combine_passes(std::span<const PassResult> passes, Combination met
         guided = false;
     }
     const std::uint32_t longest = longest_pass(passes).spp;
-    if (longest < 2) return combine_whole(passes, fixed_weights(passes, guided));
+    if (longest < 2) return combine_whole(passes, fixed_weights(passes, guided));  // none of which is merged
 
     // Set weights apply to all samples of a pass alike. Variances cross over: what half A reports weighs half B, so
     // that a weight never depends on the samples that it multiplies.
@@ -319,6 +334,7 @@ CombinedImage combine_passes(std::span<const PassResult> passes, Combination met
         image.half[1] = std::move(halves.half[1]);
     }
     image.longest_pass = longest;
+    image.weight = weights_of_parts(passes, image.weight);
     return image;
 }
 

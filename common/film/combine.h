@@ -24,7 +24,12 @@ struct SampleNoise {
     std::array<HalfNoise, 2> half;
 };
 
-/// One finished pass.
+/// Length of one of several passes that were merged.
+struct PassPart {
+    std::uint32_t spp = 0, spp_before = 0;
+};
+
+/// One finished pass, or several neighbours as one (fold_passes.h).
 struct PassResult {
     std::uint32_t spp = 0;              ///< n_k
     std::uint32_t spp_before = 0;       ///< N_k: what had been rendered when the pass began
@@ -33,6 +38,7 @@ struct PassResult {
     bool new_technique = false;         ///< next event began or ended with it
     bool guided = true;                 ///< false where guiding has been given up
     SampleNoise noise{};                ///< of the passes from this one on that are alike (remember_noise)
+    std::vector<PassPart> parts{};      ///< passes that were merged into this one; none: it is one
 };
 
 /// The image so far, with its own error.
@@ -41,7 +47,7 @@ struct CombinedImage {
     std::vector<Rgb64> variance;     ///< estimated variance of `mean`, per pixel and channel
     std::uint32_t longest_pass = 0;  ///< samples per pixel: variances are known from two on
     std::vector<Rgb64> half[2];      ///< two independent halves; their average is `mean` where both exist
-    std::vector<double> weight;      ///< of each pass, sums to 1 (halves averaged)
+    std::vector<double> weight;      ///< of each pass, merged ones too, sums to 1 (halves averaged)
 };
 
 /// Combines the passes with one scalar weight each (docs/design/error.md, "combining passes"). `guided` says whether

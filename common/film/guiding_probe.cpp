@@ -84,9 +84,16 @@ void ProbesSetAside::take_out(std::span<PixelEstimate> pixels, std::uint32_t pas
         if (probe.holds(static_cast<std::uint32_t>(p))) probes_.push_back({index, p, std::exchange(pixels[p], {})});
 }
 
+void ProbesSetAside::follow_fold(std::size_t first) {
+    for (Probe& probe : probes_)
+        if (probe.index > first) --probe.index;
+}
+
 void ProbesSetAside::put_back(std::span<PassResult> passes) {
-    for (const Probe& probe : std::exchange(probes_, {}))
-        passes[probe.index].pixels[probe.pixel] = probe.estimate;
+    for (const Probe& probe : std::exchange(probes_, {})) {
+        PixelEstimate& pixel = passes[probe.index].pixels[probe.pixel];  // empty, but for passes that were merged
+        pixel = PixelEstimate::merge(pixel, probe.estimate);
+    }
     for (PassResult& pass : passes)
         pass.noise = {};
 }

@@ -34,6 +34,8 @@ class ProbesSetAside {
     /// Takes the unguided pixels out of a probe pass, the one that will be number `index` among the passes of the
     /// image.
     void take_out(std::span<PixelEstimate> pixels, std::uint32_t pass, std::size_t index);
+    /// Follows passes whose neighbours `first` and first + 1 have become one (fold_passes.h).
+    void follow_fold(std::size_t first);
     /// Gives the pixels back to their passes, once.
     void put_back(std::span<PassResult> passes);
 

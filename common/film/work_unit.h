@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <algorithm>
 #include <compare>
 #include <cstdint>
 #include <vector>
@@ -9,32 +8,47 @@
 namespace treefarm {
 
 /// A film atom is (pass, pixel, aligned block of at most kBlockSamples samples): Welford in sample order inside a
-/// block, blocks of a pixel reduced along a fixed binary tree. So a work unit may be any set of atoms, and any cut of
+/// block, blocks of a pixel reduced along a fixed binary tree. So a tile may be any set of atoms, and any cut of
 /// the image gives the same bits (docs/design/guiding.md, "film atoms").
 inline constexpr std::uint32_t kBlockSamples = 64;
 
-/// A rectangle of pixels, some aligned blocks of samples, one pass.
+/// Light paths of a range, before ranges shrink towards the end of a pass.
+inline constexpr std::uint32_t kRangePaths = 1u << 14;
+
+/// What a work unit is a part of. On the wire: append only.
+enum class UnitKind : std::uint8_t {
+    tile,         ///< a rectangle of pixels, some aligned blocks of samples
+    light_paths,  ///< light paths of a pass: what they bring is summed exactly, so any cut gives the same bits
+    chains,       ///< Markov chains of a pass, each of which is done by one worker
+};
+inline constexpr std::uint8_t kUnitKinds = 3;
+
+/// A piece of a pass.
 struct WorkUnit {
     std::uint32_t pass = 0;
-    std::uint16_t x0 = 0, y0 = 0, x1 = 0, y1 = 0;  ///< pixels [x0, x1) x [y0, y1)
-    std::uint32_t chunk = 0;                       ///< which aligned run of PassPlan::blocks_per_unit blocks
+    std::uint16_t x0 = 0, y0 = 0, x1 = 0, y1 = 0;  ///< of a tile: pixels [x0, x1) x [y0, y1)
+    std::uint32_t chunk = 0;                       ///< of a tile: which aligned run of PassPlan::blocks_per_unit blocks
+    UnitKind kind = UnitKind::tile;
+    std::uint64_t first = 0;  ///< of a range: [first, first + count)
+    std::uint32_t count = 0;
 
+    /// Pixels of a tile; ranges have none of their own.
     std::uint32_t pixel_count() const {
         return static_cast<std::uint32_t>(x1 - x0) * static_cast<std::uint32_t>(y1 - y0);
     }
     auto operator<=>(const WorkUnit&) const = default;
 };
 
-/// Everything of a pass of `chunks` runs of blocks: square tiles row by row, all runs of one before the next.
-inline std::vector<WorkUnit> cut_pass(std::uint32_t pass, std::uint32_t chunks, int width, int height, int tile_size) {
-    std::vector<WorkUnit> units;
-    for (int y = 0; y < height; y += tile_size)
-        for (int x = 0; x < width; x += tile_size)
-            for (std::uint32_t chunk = 0; chunk < chunks; ++chunk)
-                units.push_back({pass, static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y),
-                                 static_cast<std::uint16_t>(std::min(x + tile_size, width)),
-                                 static_cast<std::uint16_t>(std::min(y + tile_size, height)), chunk});
-    return units;
-}
+/// Amount of work: pixels of a tile, paths or chains of a range.
+std::uint64_t weight(const WorkUnit& unit);
+
+/// A unit in smaller pieces that cover it: a tile in quarters, a range in two. One piece where it cannot be cut.
+std::vector<WorkUnit> halve(const WorkUnit& unit);
+
+/// Tiles of a pass of `chunks` runs of blocks: squares row by row, all runs of one before the next.
+std::vector<WorkUnit> cut_tiles(std::uint32_t pass, std::uint32_t chunks, int width, int height, int tile_size);
+
+/// Ranges of at most `most` that cover [0, count).
+std::vector<WorkUnit> cut_range(std::uint32_t pass, UnitKind kind, std::uint64_t count, std::uint32_t most);
 
 }  // namespace treefarm

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "common/config/aov_list.h"
+#include "common/film/fold_passes.h"
 #include "common/film/pixel_estimate.h"
 #include "common/guiding/tree_update.h"
 #include "common/plan/kernel.h"
@@ -65,6 +66,21 @@ std::uint64_t emitters_bytes(const Scene& scene) {
     for (const Emitter& emitter : scene.emitters)
         bytes += kEmitterBytes + emitter_table_bytes(scene, emitter);
     return bytes;
+}
+
+/// Images of finished passes that the coordinator keeps.
+std::uint64_t kept_passes(const Resolved& job) {
+    if (job.budget.strict) return 1;  // each replaces the one before
+    if (has_open_budget(job)) return kMostPassImages;
+    return std::min(plan_passes(job).size(), kMostPassImages);
+}
+
+std::string passes_text(const Resolved& job) {
+    const std::string kept = count_text(kept_passes(job), "passes");
+    if (job.budget.strict) return "the last pass";
+    if (has_open_budget(job)) return "at most " + kept;
+    const std::size_t passes = plan_passes(job).size();
+    return passes > kMostPassImages ? count_text(passes, "passes merged into ") + kept : kept;
 }
 
 }  // namespace
@@ -136,7 +152,6 @@ TreeSize expected_tree(const Scene& scene, const Resolved& job) {
 
 MemoryPlan expected_memory(const Scene& scene, const Resolved& job) {
     const std::uint64_t pixels = scene.film.pixel_count(), triangles = scene.triangle_count();
-    const std::uint64_t passes = plan_passes(job).size();
     std::uint64_t objects = 0;
     for (const Shape& shape : scene.shapes)
         objects += std::holds_alternative<Mesh>(shape.geometry) ? 0 : 1;
@@ -159,8 +174,9 @@ MemoryPlan expected_memory(const Scene& scene, const Resolved& job) {
     plan.coordinator.push_back({"scene", 2 * scene_bytes, "as values and packed for workers"});
     // Passes, the one in hand, the image; that of the pass before while it is written, its 12 channels and their file.
     plan.coordinator.push_back(
-        {"film", pixels * ((passes + 1) * sizeof(PixelEstimate) + 2 * 4 * sizeof(Rgb64) + 2 * 12 * sizeof(float)),
-         count_text(pixels, "pixels, ") + count_text(passes, "passes")});
+        {"film",
+         pixels * ((kept_passes(job) + 1) * sizeof(PixelEstimate) + 2 * 4 * sizeof(Rgb64) + 2 * 12 * sizeof(float)),
+         count_text(pixels, "pixels, ") + passes_text(job)});
     if (const AovLayout aovs(aov_requests(job)); !job.output.aovs.empty()) {
         std::size_t channels = 0;
         for (const AovRequest& request : aov_requests(job))

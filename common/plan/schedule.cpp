@@ -23,6 +23,17 @@ void cut_into_units(PassPlan& pass, int tile_size) {
 
 }  // namespace
 
+std::vector<WorkUnit> cut_pass(const PassPlan& pass, int width, int height, int tile_size) {
+    std::vector<WorkUnit> units;
+    if (pass.units.tiles) units = cut_tiles(pass.index, pass.chunks, width, height, tile_size);
+    const std::uint64_t pixels = static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
+    for (const auto& ranges :
+         {cut_range(pass.index, UnitKind::light_paths, pixels * pass.units.light_paths, kRangePaths),
+          cut_range(pass.index, UnitKind::chains, pass.units.chains, 1)})
+        units.insert(units.end(), ranges.begin(), ranges.end());
+    return units;
+}
+
 void set_next_event(PassPlan& pass, const Resolved& job, bool next_event) {
     pass.next_event = next_event;
     pass.record_weight = next_event && job.integrator.next_event == NextEvent::kickstart ? 0.5 : 1.0;

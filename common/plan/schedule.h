@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "common/film/develop.h"
 #include "common/film/guiding_probe.h"
 #include "common/film/splitting_gain.h"
 #include "common/film/work_unit.h"
@@ -12,6 +13,24 @@
 #include "common/plan/resolve.h"
 
 namespace treefarm {
+
+/// Units that a pass is cut into.
+struct PassUnits {
+    bool tiles = true;
+    std::uint32_t light_paths = 0;       ///< per pixel, in ranges; path i has pixel i mod pixels as its key
+    std::uint32_t first_light_path = 0;  ///< per pixel, done before the pass
+    std::uint32_t chains = 0;            ///< in ranges
+
+    bool operator==(const PassUnits&) const = default;
+};
+
+/// Layers of a pass's image.
+struct PassLayers {
+    bool estimates = true;  ///< tiles bring an estimate of each of their pixels
+    SplatShape splats{};    ///< units may bring something to any pixel
+
+    bool operator==(const PassLayers&) const = default;
+};
 
 /// One pass: what it renders and how it teaches.
 struct PassPlan {
@@ -31,8 +50,9 @@ struct PassPlan {
     /// Samples of a pixel in a work unit, the last chunk's apart.
     std::uint32_t unit_spp() const { return std::min(spp, blocks_per_unit * kBlockSamples); }
 
-    /// Camera paths of a unit of a whole tile.
+    /// Paths of a whole unit: a tile, or a range where there are no tiles.
     std::uint64_t unit_paths(int tile_size) const {
+        if (!units.tiles) return kRangePaths;
         const auto edge = static_cast<std::uint64_t>(tile_size);
         return edge * edge * unit_spp();
     }
@@ -45,9 +65,20 @@ struct PassPlan {
     }
 
     KernelChoice kernel{};  ///< what traces it
+    PassUnits units{};
+    PassLayers layers{};
+
+    /// Paths per pixel that splat: light paths, where there are any, or the samples of tiles.
+    HalfCounts splatting_paths() const {
+        return units.light_paths > 0 ? half_counts(units.first_light_path, units.light_paths)
+                                     : half_counts(first_sample, spp);
+    }
 
     bool operator==(const PassPlan&) const = default;
 };
+
+/// Work units of a pass, in the order in which they are issued: tiles row by row, then ranges.
+std::vector<WorkUnit> cut_pass(const PassPlan& pass, int width, int height, int tile_size);
 
 /// A pass as the job makes it at this place of the schedule. `last`: no pass comes after it that could learn from it.
 PassPlan make_pass(const Resolved& job, std::uint32_t index, std::uint32_t first_sample, std::uint32_t spp, bool last);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/protocol/messages.h"
 
+#include <cstdlib>
+
 #include "common/protocol/archive.h"
 #include "common/protocol/result_codec.h"
 
@@ -32,7 +34,8 @@ template <class Archive>
 void serialize(Archive& a, PassPlan& m) {
     a(m.index, m.spp, m.first_sample, m.next_event, m.guided, m.probe, m.split, m.record, m.record_weight,
       m.learn_mixture, m.blocks_per_unit, m.chunks, m.kernel.plain_diffuse, m.kernel.guided, m.kernel.record,
-      m.kernel.views);
+      m.kernel.views, m.units.tiles, m.units.light_paths, m.units.first_light_path, m.units.chains, m.layers.estimates,
+      m.layers.splats.pixels, m.layers.splats.exponent);
 }
 
 template <class Archive>
@@ -108,6 +111,9 @@ void check(const PassBegin& m) {
     if (plan.spp == 0 || !std::has_single_bit(plan.blocks_per_unit) ||
         plan.chunks != (plan.spp + unit_spp - 1) / unit_spp || !(plan.record_weight >= 0 && plan.record_weight <= 1))
         throw FormatError("an absurd pass");
+    const bool tiles_where_estimated = plan.units.tiles || !plan.layers.estimates;
+    if (!tiles_where_estimated || std::abs(plan.layers.splats.exponent) > kMostSplatExponent)
+        throw FormatError("a pass whose layers do not fit its units");
 }
 
 template <class M>
@@ -157,7 +163,7 @@ M read_body(ByteReader& reader) {
             throw FormatError("a chunk beyond the end of its blob");
     } else if constexpr (std::is_same_v<M, Work>) {
         message.pass = reader.get<std::uint32_t>();
-        const std::size_t count = reader.get_count(kUnitBytes);
+        const std::size_t count = reader.get_count(kLeastUnitBytes);
         message.units.reserve(count);
         for (std::size_t i = 0; i < count; ++i)
             message.units.push_back(read_unit(reader, message.pass));

@@ -116,7 +116,7 @@ struct Work {
     bool operator==(const Work&) const = default;
 };
 
-/// A finished unit: the estimates of its pixels, row by row.
+/// A finished unit: the estimates of its pixels, row by row, if it has any.
 struct UnitResult {
     WorkUnit unit;
     std::vector<PixelEstimate> pixels;
@@ -130,6 +130,7 @@ struct Result {
     std::uint32_t pass = 0;
     std::vector<UnitResult> units;
     Bytes update;  ///< TreeSums::encode(); empty when the pass records nothing
+    Bytes splats;  ///< SplatSums::encode() of exactly these units; empty where the pass has none
     TraceStats stats;
 };
 

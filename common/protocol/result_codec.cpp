@@ -31,7 +31,7 @@ void write_pixels(ByteWriter& writer, const std::vector<PixelEstimate>& pixels, 
     writer.put_array(std::span<const double>(values));
 }
 
-/// `count`: of pixels; or there are none.
+/// Estimates of `count` pixels.
 std::vector<PixelEstimate> read_pixels(ByteReader& reader, std::size_t count, std::uint32_t n0, std::uint32_t n1) {
     const std::vector<double> values = reader.get_array<double>();
     if (values.size() != std::size_t{12} * count) throw FormatError("a work unit with the wrong number of pixels");
@@ -44,28 +44,39 @@ std::vector<PixelEstimate> read_pixels(ByteReader& reader, std::size_t count, st
 
 void write_unit_result(ByteWriter& writer, const UnitResult& result) {
     const std::vector<PixelEstimate>& pixels = result.pixels;
-    if (pixels.size() != result.unit.pixel_count() || pixels.empty())
+    if (!pixels.empty() && pixels.size() != result.unit.pixel_count())
         throw RunError("a work unit was finished with the wrong number of pixels");
-    const std::uint32_t n[2] = {pixels[0].half[0].n, pixels[0].half[1].n};
     write_unit(writer, result.unit);
+    if (result.unit.kind != UnitKind::tile) return;
+    const PixelEstimate first = pixels.empty() ? PixelEstimate() : pixels.front();
+    const std::uint32_t n[2] = {first.half[0].n, first.half[1].n};
     writer.put(n[0]);
     writer.put(n[1]);
+    writer.put<std::uint8_t>(pixels.empty() ? 0 : 1);
+    if (pixels.empty()) return;
     write_pixels(writer, pixels, n);
     writer.put_array(std::span<const double>(result.aovs.values));
     writer.put<std::uint8_t>(result.aovs.direct.empty() ? 0 : 1);
     if (!result.aovs.direct.empty()) write_pixels(writer, result.aovs.direct, n);
 }
 
+/// Whether something follows.
+bool read_presence(ByteReader& reader) {
+    const auto present = reader.get<std::uint8_t>();
+    if (present > 1) throw FormatError("a part of a work unit that is neither there nor absent");
+    return present == 1;
+}
+
 UnitResult read_unit_result(ByteReader& reader, std::uint32_t pass) {
     UnitResult result;
     result.unit = read_unit(reader, pass);
+    if (result.unit.kind != UnitKind::tile) return result;
     const auto n0 = reader.get<std::uint32_t>();
     const auto n1 = reader.get<std::uint32_t>();
+    if (!read_presence(reader)) return result;
     result.pixels = read_pixels(reader, result.unit.pixel_count(), n0, n1);
     result.aovs.values = reader.get_array<double>();
-    const auto direct = reader.get<std::uint8_t>();
-    if (direct > 1) throw FormatError("a work unit whose direct light is neither there nor absent");
-    if (direct == 1) result.aovs.direct = read_pixels(reader, result.unit.pixel_count(), n0, n1);
+    if (read_presence(reader)) result.aovs.direct = read_pixels(reader, result.unit.pixel_count(), n0, n1);
     return result;
 }
 
@@ -120,9 +131,10 @@ TraceStats read_stats(ByteReader& reader) {
 /// Bytes of a result, or a little more.
 std::size_t size_bound(const Result& result) {
     constexpr std::size_t kMostVarint = 10, kMostStats = 512;
-    std::size_t bytes = kMostStats + kInvalidSampleBytes * result.stats.first_invalid.size() + result.update.size();
+    std::size_t bytes = kMostStats + kInvalidSampleBytes * result.stats.first_invalid.size() + result.update.size() +
+                        result.splats.size();
     for (const UnitResult& unit : result.units)
-        bytes += kUnitBytes + 2 * sizeof(std::uint32_t) + 1 + 3 * kMostVarint +
+        bytes += kMostUnitBytes + 2 * sizeof(std::uint32_t) + 2 + 3 * kMostVarint +
                  kPixelBytes * (unit.pixels.size() + unit.aovs.direct.size()) +
                  sizeof(double) * unit.aovs.values.size();
     return bytes;
@@ -131,18 +143,38 @@ std::size_t size_bound(const Result& result) {
 }  // namespace
 
 void write_unit(ByteWriter& writer, const WorkUnit& unit) {
-    for (const std::uint16_t edge : {unit.x0, unit.y0, unit.x1, unit.y1})
-        writer.put(edge);
-    writer.put(unit.chunk);
+    writer.put(static_cast<std::uint8_t>(unit.kind));
+    switch (unit.kind) {
+        case UnitKind::tile:
+            for (const std::uint16_t edge : {unit.x0, unit.y0, unit.x1, unit.y1})
+                writer.put(edge);
+            writer.put(unit.chunk);
+            return;
+        case UnitKind::light_paths:
+            writer.put(unit.first);
+            writer.put(unit.count);
+            return;
+        case UnitKind::chains:
+            writer.put(static_cast<std::uint32_t>(unit.first));
+            writer.put(unit.count);
+            return;
+    }
 }
 
 WorkUnit read_unit(ByteReader& reader, std::uint32_t pass) {
-    WorkUnit unit;
-    unit.pass = pass;
-    for (std::uint16_t* edge : {&unit.x0, &unit.y0, &unit.x1, &unit.y1})
-        *edge = reader.get<std::uint16_t>();
-    unit.chunk = reader.get<std::uint32_t>();
-    if (unit.x0 >= unit.x1 || unit.y0 >= unit.y1) throw FormatError("an empty work unit");
+    const auto kind = reader.get<std::uint8_t>();
+    if (kind >= kUnitKinds) throw FormatError("a work unit of unknown kind");
+    WorkUnit unit{.pass = pass, .kind = static_cast<UnitKind>(kind)};
+    if (unit.kind == UnitKind::tile) {
+        for (std::uint16_t* edge : {&unit.x0, &unit.y0, &unit.x1, &unit.y1})
+            *edge = reader.get<std::uint16_t>();
+        unit.chunk = reader.get<std::uint32_t>();
+        if (unit.x0 >= unit.x1 || unit.y0 >= unit.y1) throw FormatError("an empty work unit");
+        return unit;
+    }
+    unit.first = unit.kind == UnitKind::light_paths ? reader.get<std::uint64_t>() : reader.get<std::uint32_t>();
+    unit.count = reader.get<std::uint32_t>();
+    if (unit.count == 0 || unit.first + unit.count < unit.first) throw FormatError("an empty work unit");
     return unit;
 }
 
@@ -155,6 +187,7 @@ void write_result(ByteWriter& writer, const Result& result) {
     for (const UnitResult& unit : result.units)
         write_unit_result(writer, unit);
     writer.put_array(std::span(result.update));
+    writer.put_array(std::span(result.splats));
 }
 
 Result read_result(ByteReader& reader) {
@@ -162,11 +195,12 @@ Result read_result(ByteReader& reader) {
     result.incarnation = reader.get<std::uint64_t>();
     result.pass = reader.get<std::uint32_t>();
     result.stats = read_stats(reader);
-    const std::size_t count = reader.get_count(kUnitBytes + kPixelBytes);
+    const std::size_t count = reader.get_count(kLeastUnitBytes);
     result.units.reserve(count);
     for (std::size_t i = 0; i < count; ++i)
         result.units.push_back(read_unit_result(reader, result.pass));
     result.update = reader.get_array<std::uint8_t>();
+    result.splats = reader.get_array<std::uint8_t>();
     return result;
 }
 

@@ -160,7 +160,13 @@ class FarmTest : public ::testing::Test {
         try {
             farm.gather([] { return false; });
             const SdTree tree = initial_tree(Box3(Vec3(0.0f), Vec3(1.0f)), 1.0f);
-            result = run_passes(farm, job_, passes_of(job_), tree, kWidth, kHeight, {});
+            const PassChooser chosen = passes_of(job_);
+            const PassChooser passes = [&](const RenderState& state) {
+                NextPass next = chosen(state);
+                if (next.pass && change_pass_) change_pass_(*next.pass);
+                return next;
+            };
+            result = run_passes(farm, job_, passes, tree, kWidth, kHeight, {});
         } catch (...) {
             if (!stay_) leave(farm.lost_peers(), limits);
             throw;
@@ -210,6 +216,7 @@ class FarmTest : public ::testing::Test {
     }
 
     Resolved job_ = resolve(test_job(), SceneFacts{});
+    std::function<void(PassPlan&)> change_pass_;  ///< of each pass that the job asks for
     JobTurn turn_;
     bool stay_ = false;  ///< workers, for another render()
     std::vector<std::unique_ptr<Channel>> channels_;

@@ -28,7 +28,11 @@ Job fuzz_job() {
 }
 
 PassPlan pass_plan(std::uint32_t index) {
-    return {.index = index, .spp = 2, .first_sample = 2 * index, .record = true};
+    PassPlan plan{.index = index, .spp = 2, .first_sample = 2 * index, .record = true};
+    if (index == 0) return plan;
+    plan.units.light_paths = 2;
+    plan.layers.splats = {kSize * kSize, -8};
+    return plan;
 }
 
 /// Peers 1 to 3 put in what the script says; peer 4 answers as a worker does, at once.

@@ -37,6 +37,12 @@ WorkUnit any_unit(Script& script, const Known& known) {
         const auto count = static_cast<std::uint32_t>(known.units.size());
         return known.units[script.below(count)];
     }
+    if (script.one_in(4)) {
+        WorkUnit range{.pass = known.pass, .kind = script.one_in(2) ? UnitKind::light_paths : UnitKind::chains};
+        range.first = static_cast<std::uint32_t>(likely<std::uint64_t>(script, script.below(8)));
+        range.count = 1 + script.below(8);
+        return range;
+    }
     WorkUnit unit{known.pass, 0, 0, 1, 1, 0};
     unit.x0 = static_cast<std::uint16_t>(likely<std::uint64_t>(script, script.below(8)));
     unit.y0 = static_cast<std::uint16_t>(likely<std::uint64_t>(script, script.below(8)));
@@ -54,6 +60,19 @@ double any_value(Script& script) {
     return kValues[script.below(std::size(kValues))];
 }
 
+/// Splats of the pass's film, of which some bytes may be wrong.
+Bytes any_splats(Script& script, const Known& known) {
+    SplatSums sums(SplatShape{static_cast<std::uint32_t>(known.width * known.height), -8});
+    SplatLog log;
+    log.begin(sums.shape());
+    for (std::uint32_t count = script.below(4); count > 0; --count)
+        log.add(script.below(8) % sums.shape().pixels, script.byte(), Rgb(1.0f), {});
+    sums.add(log.summed(), log.caps());
+    Bytes bytes = sums.encode();
+    if (script.one_in(2)) bytes[script.byte() % bytes.size()] = script.byte();
+    return bytes;
+}
+
 Result any_result(Script& script, const Known& known) {
     Result result;
     result.incarnation = likely(script, known.incarnation);
@@ -66,11 +85,12 @@ Result any_result(Script& script, const Known& known) {
         Moments half[2];
         for (int h = 0; h < 2; ++h)
             half[h] = {n[h], Rgb64(any_value(script), any_value(script), 0), Rgb64(any_value(script), 0, 0)};
-        unit.pixels.assign(unit.unit.pixel_count(), PixelEstimate{{half[0], half[1]}});
+        if (!script.one_in(6)) unit.pixels.assign(unit.unit.pixel_count(), PixelEstimate{{half[0], half[1]}});
         result.units.push_back(std::move(unit));
     }
     for (std::uint32_t length = script.below(40); length > 0; --length)
         result.update.push_back(script.byte());
+    if (script.one_in(2)) result.splats = any_splats(script, known);
     TraceStats& s = result.stats;
     for (std::uint64_t* counter : {&s.nonzero_paths, &s.rays, &s.records, &s.probe_paths, &s.invalid_samples})
         *counter = script.number();
@@ -104,6 +124,8 @@ PassBegin any_pass(Script& script, const Known& known) {
     begin.plan.record = script.one_in(2);
     begin.plan.guided = script.one_in(2);
     begin.plan.learn_mixture = script.one_in(2);
+    begin.plan.units.light_paths = script.one_in(3) ? script.below(4) : 0;
+    if (script.one_in(3)) begin.plan.layers.splats = {static_cast<std::uint32_t>(known.width * known.height), -8};
     begin.tree_bytes = likely(script, known.tree_bytes);
     begin.tree_hash = likely(script, known.tree_hash);
     return begin;

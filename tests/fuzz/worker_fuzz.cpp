@@ -103,7 +103,10 @@ RenderUnit make_renderer(std::span<const std::uint8_t> scene, const Job& job) {
     if (!std::equal(scene.begin(), scene.end(), kScene.begin(), kScene.end())) throw RunError("wrong scene");
     return [render = test::fake_renderer(job.sampler.seed, kSize)](const PassPlan& pass, const Guide& guide,
                                                                    const WorkUnit& unit, auto&... out) {
-        if (unit.x1 > kSize || unit.y1 > kSize) throw RunError("a work unit that does not fit the film");
+        const std::uint64_t paths = std::uint64_t{pass.units.light_paths} * pass.layers.splats.pixels;
+        if (unit.x1 > kSize || unit.y1 > kSize || unit.kind == UnitKind::chains ||
+            (unit.kind == UnitKind::light_paths && (unit.first >= paths || unit.count > paths - unit.first)))
+            throw RunError("a work unit that does not fit the film");
         render(pass, guide, unit, out...);
     };
 }

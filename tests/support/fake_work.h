@@ -10,11 +10,38 @@
 
 namespace treefarm::test {
 
-/// A renderer without a scene, on a film of so many columns: radiance and records come straight from the keyed
-/// generator.
+/// The image that the fake renderer's splats make up.
+inline Rgb splatted_radiance(std::uint32_t pixel) {
+    return {0.25f + 0.25f * static_cast<float>(pixel % 5), 1.0f, 0.125f * static_cast<float>(pixel % 3)};
+}
+
+/// Splats of a path: two vertices, each of which brings its half of the image to some pixel, three times out of five.
+inline void fake_splats(SplatLog& splats, const PathKey& key, std::uint32_t pixels) {
+    for (std::uint32_t vertex = 0; vertex < 2; ++vertex) {
+        const Draw d = draw(key, vertex, Stream::light);
+        if (to_unit(d[0]) >= 0.6f) continue;
+        const auto pixel = static_cast<std::uint32_t>(std::uint64_t{d[1]} * pixels >> 32);
+        const float value = 2 * to_unit(d[2]) * 0.5f / 0.6f;
+        splats.add(pixel, key.sample, splatted_radiance(pixel) * value, draw(key, vertex, Stream::light_record));
+    }
+}
+
+inline void fake_light_paths(std::uint64_t seed, const PassPlan& pass, const WorkUnit& unit, UnitOutput& output) {
+    const std::uint32_t pixels = pass.layers.splats.pixels;
+    for (std::uint64_t i = unit.first; i < unit.first + unit.count; ++i) {
+        ++output.stats.paths;
+        const auto sample = pass.units.first_light_path + static_cast<std::uint32_t>(i / pixels);
+        fake_splats(output.splats, {seed, static_cast<std::uint32_t>(i % pixels), sample}, pixels);
+    }
+}
+
+/// A renderer without a scene, on a film of so many columns: radiance, records and splats come straight from the keyed
+/// generator. Samples of tiles splat where a pass has splats, but no light paths.
 inline RenderUnit fake_renderer(std::uint64_t seed, std::uint32_t width) {
     return [seed, width](const PassPlan& pass, const Guide& guide, const WorkUnit& unit, UnitOutput& output) {
-        auto& [pixels, log, stats, aovs] = output;
+        if (unit.kind == UnitKind::light_paths) return fake_light_paths(seed, pass, unit, output);
+        auto& [pixels, log, stats, aovs, splats] = output;
+        const bool splatting = pass.layers.splats.pixels > 0 && pass.units.light_paths == 0;
         const std::uint32_t run = kBlockSamples * pass.blocks_per_unit;
         const std::uint32_t first = run * unit.chunk, last = std::min(first + run, pass.spp);
         for (std::uint32_t y = unit.y0; y < unit.y1; ++y)
@@ -26,6 +53,7 @@ inline RenderUnit fake_renderer(std::uint64_t seed, std::uint32_t width) {
                     const Draw d = draw(key, 0, Stream::scatter);
                     const float value = to_unit(d[0]);
                     blocks.back().add(key.sample, Rgb(value, value * value, 1.0f));
+                    if (splatting) fake_splats(splats, key, pass.layers.splats.pixels);
                     ++stats.paths;
                     stats.rays += 2;
                     if (!pass.record) continue;
@@ -34,7 +62,7 @@ inline RenderUnit fake_renderer(std::uint64_t seed, std::uint32_t width) {
                     ++stats.records;
                     if (value > 0.5f) log.records.push_back({region, d[3] & d[1], d[2], value});
                 }
-                pixels.push_back(reduce_blocks(blocks));
+                if (pass.layers.estimates) pixels.push_back(reduce_blocks(blocks));
             }
     };
 }
@@ -46,7 +74,7 @@ inline Result fake_result(const PassPlan& plan, std::span<const std::uint8_t> tr
     const RenderUnit render = fake_renderer(0, width);
     for (const WorkUnit& unit : units) {
         UnitOutput output;
-        output.begin(work.guide().distribution_count());
+        output.begin(work.guide().distribution_count(), plan.layers.splats);
         render(plan, work.guide(), unit, output);
         work.deliver(unit, output);
     }

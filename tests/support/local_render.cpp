@@ -43,9 +43,8 @@ LocalRender render_locally(const Scene& scene, const Job& asked) {
         PassFilm film(scene.film.width, scene.film.height, pass.chunks);
         TraceStats stats;
         UnitOutput output;
-        for (const WorkUnit& unit :
-             cut_pass(pass.index, pass.chunks, scene.film.width, scene.film.height, job.farm.tile_size)) {
-            output.begin(pass.record ? guide.distribution_count() : 0);
+        for (const WorkUnit& unit : cut_pass(pass, scene.film.width, scene.film.height, job.farm.tile_size)) {
+            output.begin(pass.record ? guide.distribution_count() : 0, pass.layers.splats);
             render_unit(pass, guide, unit, output);
             film.add(unit, output.pixels);
             stats.add(output.stats);

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <set>
 
 namespace treefarm {
@@ -66,6 +67,69 @@ TEST(Ledger, PiecesOfFewPathsAreNotCut) {
             least = std::min(least, unit.pixel_count());
         EXPECT_EQ(least, smallest) << spp << " spp";
     }
+}
+
+PassPlan light_plan(std::uint32_t paths) {
+    PassPlan plan{.index = 4, .spp = 1};
+    plan.units = {.tiles = false, .light_paths = paths};
+    plan.layers = {.estimates = false, .splats = {101 * 37, 0}};
+    return plan;
+}
+
+TEST(Ledger, RangesCoverEveryPathOnceAndShrink) {
+    constexpr std::uint64_t kPaths = 101 * 37 * 50;
+    Ledger ledger(light_plan(50), 101, 37, 32);
+    EXPECT_EQ(ledger.total(), kPaths);
+    std::uint64_t next = 0;
+    std::uint32_t most = 0, least = kRangePaths;
+    while (ledger.waiting() > 0)
+        for (const WorkUnit& unit : ledger.issue(1, 1, 6)) {
+            EXPECT_EQ(unit.kind, UnitKind::light_paths);
+            EXPECT_EQ(unit.first, next);
+            next += unit.count;
+            most = std::max(most, unit.count);
+            least = std::min(least, unit.count);
+            EXPECT_TRUE(ledger.accept(1, std::vector{unit}));
+            EXPECT_EQ(ledger.done(), next);
+        }
+    EXPECT_EQ(next, kPaths);
+    EXPECT_TRUE(ledger.complete());
+    EXPECT_EQ(most, kRangePaths);
+    EXPECT_LT(least, kRangePaths / 2);
+    EXPECT_GE(least, 2048u / 2) << "but for the rest at the end, which nobody cut";
+}
+
+TEST(Ledger, APassMayHaveUnitsOfSeveralKinds) {
+    PassPlan plan = light_plan(2);
+    plan.units.tiles = plan.layers.estimates = true;
+    plan.units.chains = 3;
+    Ledger ledger(plan, 101, 37, 32);
+    EXPECT_EQ(ledger.total(), 3u * 101 * 37 + 3);
+    const std::vector<WorkUnit> units = ledger.issue(1, 1000, 0);
+    EXPECT_EQ(units.front().kind, UnitKind::tile);
+    EXPECT_EQ(units.back(), (WorkUnit{.pass = 4, .kind = UnitKind::chains, .first = 2, .count = 1}));
+    const auto range =
+        std::find_if(units.begin(), units.end(), [](const WorkUnit& u) { return u.kind == UnitKind::light_paths; });
+    EXPECT_EQ(ledger.reclaim(1), units.size());
+    EXPECT_EQ(ledger.issue(2, 1000, 0).size(), units.size());
+    EXPECT_FALSE(ledger.holds(1, std::vector{*range})) << "it was taken from worker 1";
+    EXPECT_TRUE(ledger.accept(2, units));
+    EXPECT_TRUE(ledger.complete());
+}
+
+TEST(WorkUnit, PiecesCoverTheWhole) {
+    const WorkUnit range{.kind = UnitKind::light_paths, .first = 5, .count = 7};
+    const auto halves = halve(range);
+    ASSERT_EQ(halves.size(), 2u);
+    EXPECT_EQ(halves[0].first, 5u);
+    EXPECT_EQ(halves[1].first, 5u + halves[0].count);
+    EXPECT_EQ(halves[0].count + halves[1].count, 7u);
+    const WorkUnit chain{.kind = UnitKind::chains, .first = 5, .count = 1};
+    EXPECT_EQ(halve(chain), std::vector{chain});
+    std::uint64_t pixels = 0;
+    for (const WorkUnit& piece : halve({0, 1, 1, 8, 4, 2}))
+        pixels += weight(piece);
+    EXPECT_EQ(pixels, weight({0, 1, 1, 8, 4, 2}));
 }
 
 TEST(Ledger, AcceptsOnlyWhatTheWorkerHasAndOnlyOnce) {

@@ -36,5 +36,30 @@ TEST(PassWork, ABundleHoldsWhatItsOwnUnitsTaught) {
     EXPECT_GT(first.size(), 5000u);
 }
 
+/// Splats travel with the units that made them, and take nothing where there are none.
+TEST(PassWork, ABundleHoldsTheSplatsOfItsOwnUnits) {
+    const SdTree tree = test::random_tree(3, 2000, 200, 1);
+    PassPlan plan{.index = tree.pass, .spp = 1};
+    plan.units = {.tiles = false, .light_paths = 1};
+    plan.layers = {.estimates = false, .splats = {50, -4}};
+    PassWork work(plan, tree, DirectionalFilter::box);
+    SplatSums all(plan.layers.splats), bundles(plan.layers.splats);
+    UnitOutput output;
+    for (std::uint32_t unit = 0; unit < 20; ++unit) {
+        output.begin(work.guide().distribution_count(), plan.layers.splats);
+        for (std::uint32_t k = 0; k < (unit < 15 ? unit : 0); ++k)
+            output.splats.add((unit * 7 + k) % 50, k, Rgb(static_cast<float>(k)), {1, 2, 3, 4});
+        all.add(output.splats.summed(), output.splats.caps());
+        work.deliver({.pass = plan.index, .kind = UnitKind::light_paths, .first = unit, .count = 1}, output);
+        if (unit % 4 != 3) continue;
+        const std::optional<Result> result = work.close();
+        ASSERT_TRUE(result.has_value());
+        EXPECT_EQ(result->units.size(), 4u);
+        EXPECT_EQ(result->splats.empty(), unit > 15);
+        if (!result->splats.empty()) bundles.merge_encoded(result->splats);
+    }
+    EXPECT_EQ(bundles, all);
+}
+
 }  // namespace
 }  // namespace treefarm

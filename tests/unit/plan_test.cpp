@@ -249,6 +249,29 @@ TEST(Plan, MemoryFollowsTheFormulas) {
     EXPECT_FALSE(expected_tree(scene, resolve(given, scene)).with_mixture);
 }
 
+/// Images of passes were all kept: 200 of 3840 x 2160 pixels were 186 GB.
+TEST(Plan, TheFilmDoesNotGrowWithThePasses) {
+    Scene scene = full_scene();
+    scene.film.width = 3840;
+    scene.film.height = 2160;
+    const std::uint64_t pixels = scene.film.pixel_count();
+    const auto film = [&](const Job& job) { return expected_memory(scene, resolve(job, scene)).coordinator[1]; };
+    Job job;
+    job.guiding.spp_unit = 1;
+    job.budget.spp = (1u << 8) - 1;
+    const std::uint64_t of_eight = pixels * (9 * 112 + 2 * 96 + 2 * 48);
+    EXPECT_EQ(plan_passes(resolve(job, scene)).size(), 8u);
+    EXPECT_EQ(film(job).bytes, of_eight);
+    EXPECT_NE(film(job).formula.find(", 8 passes"), std::string::npos);
+    job.budget.spp = (1u << 20) - 1;
+    EXPECT_EQ(film(job).bytes, of_eight);
+    EXPECT_NE(film(job).formula.find("20 passes merged into 8"), std::string::npos) << film(job).formula;
+    job.budget.seconds = 3600;  // nobody knows how many
+    EXPECT_EQ(film(job).bytes, of_eight);
+    job.budget.strict = true;
+    EXPECT_EQ(film(job).bytes, of_eight - 7 * 112 * pixels);
+}
+
 TEST(Plan, CellsFollowUseWhereViewsAndMixturesAreLearned) {
     const auto least_use = [](Job job) { return refine_settings(test::resolved(job), {}, {}).least_use; };
     Job job;

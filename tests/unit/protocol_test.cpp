@@ -31,6 +31,10 @@ Result sample_result() {
         if (k == 1) unit.aovs.direct.assign(unit.pixels.rbegin(), unit.pixels.rend());
         result.units.push_back(unit);
     }
+    result.units.push_back({{.pass = 3, .x1 = 2, .y1 = 2}, {}});  // a tile that only splats
+    result.units.push_back({{.pass = 3, .kind = UnitKind::light_paths, .first = 1ull << 40, .count = 5}, {}});
+    result.units.push_back({{.pass = 3, .kind = UnitKind::chains, .first = 7, .count = 1}, {}});
+    result.splats = {4, 5};
     return result;
 }
 
@@ -45,7 +49,9 @@ PassBegin sample_pass() {
                   .learn_mixture = true,
                   .blocks_per_unit = 2,
                   .chunks = 4,
-                  .kernel = {.guided = true, .views = true}};
+                  .kernel = {.guided = true, .views = true},
+                  .units = {.light_paths = 4, .first_light_path = 8, .chains = 3},
+                  .layers = {.splats = {1200, -7}}};
     begin.tree_bytes = 1234;
     begin.tree_hash = 99;
     return begin;
@@ -59,7 +65,11 @@ std::vector<Message> samples() {
             Resend{Blob::scene, 1, 0, 42},
             sample_pass(),
             Want{1, 2, 30},
-            Work{2, {{2, 0, 0, 8, 8, 0}, {2, 8, 0, 16, 8, 1}}},
+            Work{2,
+                 {{2, 0, 0, 8, 8, 0},
+                  {2, 8, 0, 16, 8, 1},
+                  {.pass = 2, .kind = UnitKind::light_paths, .first = 1ull << 33, .count = 9},
+                  {.pass = 2, .kind = UnitKind::chains, .first = 3, .count = 2}}},
             sample_result(),
             Heartbeat{1, 2, 3},
             Failure{1, "no memory"},
@@ -97,6 +107,7 @@ TEST(Protocol, FieldsArriveAsTheyWereSent) {
     EXPECT_EQ(begin.plan.chunks, 4u);
     EXPECT_TRUE(begin.plan.next_event);
     EXPECT_FALSE(begin.plan.record);
+    EXPECT_EQ(begin.plan, sample_pass().plan);
     EXPECT_EQ(begin.tree_hash, 99u);
     const auto work = std::get<Work>(samples()[7]);
     EXPECT_EQ(std::get<Work>(decode(encode(work))), work);
@@ -111,8 +122,12 @@ TEST(Protocol, FieldsArriveAsTheyWereSent) {
     EXPECT_EQ(got.stats.splitting.unsplit_variance, std::uint64_t{1} << 63);
     ASSERT_EQ(got.stats.first_invalid.size(), 1u);
     EXPECT_EQ(got.stats.first_invalid[0].sample, 5u);
-    ASSERT_EQ(got.units.size(), 2u);
-    EXPECT_EQ(got.units[1].unit, sent.units[1].unit);
+    EXPECT_EQ(got.splats, sent.splats);
+    ASSERT_EQ(got.units.size(), 5u);
+    for (std::size_t k = 0; k < got.units.size(); ++k) {
+        EXPECT_EQ(got.units[k].unit, sent.units[k].unit);
+        EXPECT_EQ(got.units[k].pixels.size(), sent.units[k].pixels.size());
+    }
     for (std::size_t p = 0; p < 6; ++p)
         for (int half = 0; half < 2; ++half) {
             EXPECT_EQ(got.units[1].aovs.direct[p].half[half].n, sent.units[1].aovs.direct[p].half[half].n);
@@ -178,6 +193,25 @@ TEST(Protocol, WrongContentUnderARightChecksumNeverCrashes) {
                          FormatError)
                 << "kind " << message.index() + 1 << " cut at " << length;
     }
+}
+
+TEST(Protocol, UnitsThatCannotBeAreRefused) {
+    const auto refused = [](const WorkUnit& unit) {
+        const Bytes bytes = encode(Work{0, {unit}});
+        EXPECT_THROW(decode(bytes), FormatError);
+    };
+    refused({0, 3, 0, 3, 1, 0});
+    refused({.kind = UnitKind::light_paths, .first = 3, .count = 0});
+    refused({.kind = UnitKind::light_paths, .first = ~std::uint64_t{0}, .count = 2});
+    refused({.kind = UnitKind::chains, .first = 3, .count = 0});
+    refused({.kind = static_cast<UnitKind>(kUnitKinds), .count = 1});
+    PassBegin begin = sample_pass();
+    begin.plan.units.tiles = false;  // of what are there estimates then?
+    EXPECT_THROW(decode(encode(begin)), FormatError);
+    begin.plan.layers.estimates = false;
+    EXPECT_NO_THROW(decode(encode(begin)));
+    begin.plan.layers.splats.exponent = 300;
+    EXPECT_THROW(decode(encode(begin)), FormatError);
 }
 
 TEST(Protocol, AbsurdCountsAreRefusedBeforeAllocation) {

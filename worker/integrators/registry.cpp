@@ -27,9 +27,21 @@ constexpr Integrator kIntegrators[] = {
 /// Units come in messages, and a message may say anything.
 void check_unit(const WorkUnit& unit, const PassPlan& pass, const TraceScene& scene) {
     const Film& film = scene.film();
-    if (unit.x0 >= unit.x1 || unit.y0 >= unit.y1 || unit.x1 > film.width || unit.y1 > film.height ||
-        unit.chunk >= pass.chunks)
-        throw RunError("a work unit that does not fit the film");
+    const auto within = [&](std::uint64_t count) { return unit.first <= count && unit.count <= count - unit.first; };
+    bool fits = false;
+    switch (unit.kind) {
+        case UnitKind::tile:
+            fits = pass.units.tiles && unit.x0 < unit.x1 && unit.y0 < unit.y1 && unit.x1 <= film.width &&
+                   unit.y1 <= film.height && unit.chunk < pass.chunks;
+            break;
+        case UnitKind::light_paths:
+            fits = within(std::uint64_t{pass.units.light_paths} * film.pixel_count());
+            break;
+        case UnitKind::chains:
+            fits = within(pass.units.chains);
+            break;
+    }
+    if (!fits) throw RunError("a work unit that does not fit the film");
 }
 
 /// Renders units as an integrator does that knows nothing of AOVs, and fills these, too.
@@ -48,6 +60,7 @@ RenderUnit with_aovs(const Integrator& integrator, const std::shared_ptr<const T
          direct = layout.direct() ? integrator.prepare(scene, direct_job) : RenderUnit()](
             const PassPlan& pass, const Guide& guide, const WorkUnit& unit, UnitOutput& output) {
             render(pass, guide, unit, output);
+            if (unit.kind != UnitKind::tile) return;
             const double start = thread_cpu_seconds();
             first_hit.render(pass, unit, output.aovs);
             if (direct) {
