@@ -7,7 +7,7 @@ namespace treefarm::test {
 namespace {
 
 void splat(PassPlan& pass) {
-    pass.layers.splats = {kWidth * kHeight, -8};
+    pass.layers.splats = {kWidth * kHeight, splat_exponent(0.8)};
 }
 
 void only_light_paths(PassPlan& pass) {
@@ -83,11 +83,17 @@ TEST_F(SplatFarmTest, AKilledWorkersSplatsAreMadeAgainAndNoneCountsTwice) {
     faulty_.clear();
     make_workers(3);
     settings_[0].silence_seconds = 1.0;
-    std::atomic<int> results = 0;
     std::atomic<bool> cut = false;
-    renderers_[1] = renderers_[2] = make_patient(cut);
+    // After the first pass, to which all contribute, the others wait until it is gone.
+    renderers_[1] = renderers_[2] = [&](std::span<const std::uint8_t>, const Job& job) -> RenderUnit {
+        return [&, render = fake_renderer(job)](const PassPlan& pass, auto&... args) {
+            for (int k = 0; k < 20'000 && !cut && pass.index > 0; ++k)
+                std::this_thread::sleep_for(std::chrono::milliseconds(1));
+            render(pass, args...);
+        };
+    };
     faulty_[0]->outgoing = [&](Bytes& bytes) {
-        if (is<Result>(bytes) && ++results > 2) cut = faulty_[0]->cut = true;
+        if (is<Result>(bytes) && std::get<Result>(decode(bytes)).pass > 0) cut = faulty_[0]->cut = true;
         return true;
     };
     EXPECT_EQ(render({.gather = 20, .lost = 0.3, .dismiss = 0.5}).image_hash, undisturbed);
@@ -106,7 +112,7 @@ TEST_F(SplatFarmTest, SplatsThatLieAreRefused) {
     faulty_[0]->outgoing = [&](Bytes& bytes) {
         if (!is<Result>(bytes) || sent.exchange(true)) return true;
         auto result = std::get<Result>(decode(bytes));
-        SplatSums other(SplatShape{kWidth * kHeight + 1, -8});  // a film with one pixel more
+        SplatSums other(SplatShape{kWidth * kHeight + 1, splat_exponent(0.8)});  // a film with one pixel more
         result.splats = other.encode();
         bytes = encode(result);
         return true;

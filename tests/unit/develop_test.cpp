@@ -18,7 +18,7 @@ constexpr std::uint32_t kWidth = 16, kPixels = kWidth * kWidth;
 PassPlan light_pass(std::uint32_t paths) {
     PassPlan plan{.index = 0, .spp = paths};
     plan.units = {.tiles = false, .light_paths = paths};
-    plan.layers = {.estimates = false, .splats = {kPixels, -12}};
+    plan.layers = {.estimates = false, .splats = {kPixels, splat_exponent(0.8)}};
     return plan;
 }
 

@@ -66,6 +66,20 @@ TEST(Splats, AnyCutAndAnyOrderGiveTheSameBits) {
     }
 }
 
+TEST(Splats, ALogHasOneEntryForEachHalfOfAPixelInOrder) {
+    SplatLog log;
+    log.begin(kShape);
+    for (const Splat& s : random_splats(150'000, 4))
+        log.add(s.pixel, s.sample, s.value, s.bits);
+    const auto entries = log.summed();
+    EXPECT_EQ(entries.size(), 2u * kShape.pixels);
+    for (std::size_t k = 0; k < entries.size(); ++k)
+        EXPECT_EQ(entries[k].slot, k);
+    log.begin(kShape);
+    EXPECT_TRUE(log.empty());
+    EXPECT_TRUE(log.summed().empty());
+}
+
 TEST(Splats, RoundingIsUnbiased) {
     SplatLog log;
     log.begin({1, 0});
