@@ -36,7 +36,7 @@ class Collector {
     std::span<const PixelEstimate> pixels_so_far() const;
     std::vector<PixelEstimate> take_pixels();  ///< once, of a complete pass: all layers together
     const SplatSums& splats() const { return splats_; }
-    AovPixels take_aovs() { return aovs_.take(); }                            ///< as take_pixels()
+    AovPixels take_aovs() { return aovs_.take(); }  ///< as take_pixels()
     const TreeSums& sums() const { return sums_; }
     TraceStats totals() const;
     const std::map<int, WorkerContribution>& contributions() const { return contributions_; }

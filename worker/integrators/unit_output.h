@@ -17,7 +17,7 @@ struct UnitOutput {
     std::vector<PixelEstimate> pixels;  ///< of a tile, row by row
     RecordLog log;                      ///< what the unit teaches the guide
     TraceStats stats;
-    AovPixels aovs;  ///< beside what the integrator makes (first_hit/)
+    AovPixels aovs;   ///< beside what the integrator makes (first_hit/)
     SplatLog splats;  ///< what the unit brings to pixels anywhere
 
     /// Empties it for the next unit; `distributions`: of the guide, `shape`: of the pass's splats.
