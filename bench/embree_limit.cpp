@@ -2,7 +2,7 @@
 // How close whole renders come to Embree: paths of a scene are traced by the renderer, then exactly their rays by a
 // bare loop over Embree, in turns, on one thread. What the renderer does besides is given per vertex. There are two
 // bare loops: one asks for rays one by one, as Embree's examples do ("bare"), the other for packets of nearest hits and
-// streams of shadow rays, as the renderer does ("best bare").
+// many shadow rays together, as the renderer does ("best bare").
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
