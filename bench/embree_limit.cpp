@@ -2,9 +2,7 @@
 // How close whole renders come to Embree: paths of a scene are traced by the renderer, then exactly their rays by a
 // bare loop over Embree, in turns, on one thread. What the renderer does besides is given per vertex. There are two
 // bare loops: one asks for rays one by one, as Embree's examples do ("bare"), the other for packets of nearest hits and
-// streams of shadow rays, as the renderer does ("best bare").
-#include <embree3/rtcore.h>
-
+// many shadow rays together, as the renderer does ("best bare").
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
@@ -19,6 +17,7 @@
 #include "common/plan/kernel.h"
 #include "common/plan/learning.h"
 #include "common/scene/readers/load.h"
+#include "worker/geometry/embree_api.h"
 #include "worker/integrators/path/path_kernel.h"
 #include "worker/integrators/path/tile_renderer.h"
 
@@ -196,19 +195,17 @@ class Limit {
     }
 
     void trace_bare(const Mode& mode) const {
-        RTCIntersectContext context;
-        rtcInitIntersectContext(&context);
-        context.flags = RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+        EmbreeRays rays;
         for (const Ray& ray : mode.rays) {
             RTCRayHit query;
             query.ray = by_fields(ray);
             query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
             query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-            rtcIntersect1(scene_.geometry().handle(), &context, &query);
+            rays.intersect(scene_.geometry().handle(), query);
         }
         for (const Ray& ray : mode.shadow_rays) {
             RTCRay query = by_fields(ray);
-            rtcOccluded1(scene_.geometry().handle(), &context, &query);
+            rays.occluded(scene_.geometry().handle(), query);
         }
     }
 

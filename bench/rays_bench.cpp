@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // The bare Embree loop over the rays that paths of the same scene send: what trace_bench is to be measured against.
 #include <benchmark/benchmark.h>
-#include <embree3/rtcore.h>
 
 #include "common/math/frame.h"
 #include "common/math/warp.h"
 #include "tests/support/test_scenes.h"
+#include "worker/geometry/embree_api.h"
 #include "worker/scene/trace_scene.h"
 
 namespace treefarm {
@@ -61,15 +61,13 @@ void count_rays(benchmark::State& state, std::size_t rays) {
 void closest_hit(benchmark::State& state) {
     const TraceScene scene = make_scene();
     const std::vector<Segment> segments = collect(scene, false);
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    context.flags = RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+    EmbreeRays rays;
     for (auto _ : state)
         for (const Segment& s : segments) {
             RTCRayHit query;
             query.ray = to_embree(s);
             query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-            rtcIntersect1(scene.geometry().handle(), &context, &query);
+            rays.intersect(scene.geometry().handle(), query);
             benchmark::DoNotOptimize(query.ray.tfar);
         }
     count_rays(state, segments.size());
@@ -104,13 +102,11 @@ void closest_hit_watertight(benchmark::State& state) {
 void any_hit(benchmark::State& state) {
     const TraceScene scene = make_scene();
     const std::vector<Segment> segments = collect(scene, true);
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    context.flags = RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+    EmbreeRays rays;
     for (auto _ : state)
         for (const Segment& s : segments) {
             RTCRay query = to_embree(s);
-            rtcOccluded1(scene.geometry().handle(), &context, &query);
+            rays.occluded(scene.geometry().handle(), query);
             benchmark::DoNotOptimize(query.tfar);
         }
     count_rays(state, segments.size());

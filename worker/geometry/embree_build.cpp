@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <embree3/rtcore.h>
-
 #include "common/base/error.h"
 #include "common/base/float_traps.h"
+#include "worker/geometry/embree_api.h"
 #include "worker/geometry/embree_scene.h"
 #include "worker/geometry/primitive_points.h"
 #include "worker/geometry/user_geometry.h"

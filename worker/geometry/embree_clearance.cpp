@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // How far rays keep from walls, so that no rounding takes them through.
-#include <embree3/rtcore.h>
-
 #include <algorithm>
 #include <cmath>
 
 #include "common/base/float_traps.h"
+#include "worker/geometry/embree_api.h"
 #include "worker/geometry/embree_scene.h"
 #include "worker/geometry/primitive_reach.h"
 

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <embree3/rtcore_ray.h>
-
 #include <cstring>
 
+#include "worker/geometry/embree_api.h"
 #include "worker/geometry/ray.h"
 
 namespace treefarm {

@@ -1,29 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "worker/geometry/embree_scene.h"
 
-#include <embree3/rtcore.h>
-
 #include <algorithm>
 #include <array>
 #include <cassert>
 #include <cmath>
 
 #include "common/base/float_traps.h"
+#include "worker/geometry/embree_api.h"
 #include "worker/geometry/embree_ray.h"
 #include "worker/geometry/primitive_points.h"
 #include "worker/geometry/user_geometry.h"
 
 namespace treefarm {
-namespace {
-
-RTCIntersectContext incoherent_context() {
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    context.flags = RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
-    return context;
-}
-
-}  // namespace
 
 void EmbreeScene::intersect(std::span<const Query> queries) const {
     for (; queries.size() > kPacket; queries = queries.subspan(kPacket))
@@ -32,7 +21,7 @@ void EmbreeScene::intersect(std::span<const Query> queries) const {
 }
 
 void EmbreeScene::intersect_packet(std::span<const Query> queries) const {
-    RTCIntersectContext context = incoherent_context();
+    EmbreeRays rays;
     alignas(32) std::array<int, kPacket> valid{};
     RTCRayHit8 packet;
     std::fill_n(packet.ray.tnear, kPacket, 0.0f);
@@ -53,7 +42,7 @@ void EmbreeScene::intersect_packet(std::span<const Query> queries) const {
     }
     {
         const LetFloatsBe embree;
-        rtcIntersect8(valid.data(), scene_.get(), &context, &packet);
+        rays.intersect(scene_.get(), valid.data(), packet);
     }
     const RTCHit8& hit = packet.hit;
     for (std::size_t i = 0; i < queries.size(); ++i) {
@@ -84,21 +73,19 @@ bool EmbreeScene::intersect(const Ray& ray, Hit& hit) const {
 }
 
 bool EmbreeScene::occluded(const Ray& ray) const {
-    RTCIntersectContext context = incoherent_context();
     RTCRay query = to_embree(ray);
     const LetFloatsBe embree;
-    rtcOccluded1(scene_.get(), &context, &query);
+    EmbreeRays().occluded(scene_.get(), query);
     return query.tfar < 0.0f;
 }
 
 void EmbreeScene::occluded(std::span<const Ray> rays, bool* hidden) const {
     assert(rays.size() <= kMostTogether);
-    RTCIntersectContext context = incoherent_context();
     std::array<RTCRay, kMostTogether> queries;
     for (std::size_t i = 0; i < rays.size(); ++i)
         queries[i] = to_embree(rays[i]);
     const LetFloatsBe embree;
-    rtcOccluded1M(scene_.get(), &context, queries.data(), static_cast<unsigned>(rays.size()), sizeof(RTCRay));
+    EmbreeRays().occluded(scene_.get(), {queries.data(), rays.size()});
     for (std::size_t i = 0; i < rays.size(); ++i)
         hidden[i] = queries[i].tfar == -std::numeric_limits<float>::infinity();
 }

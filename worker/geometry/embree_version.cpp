@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "worker/geometry/embree_version.h"
 
-#include <embree3/rtcore.h>
-
 #include <memory>
 
 #include "common/base/float_traps.h"
+#include "worker/geometry/embree_api.h"
 
 namespace treefarm {
 

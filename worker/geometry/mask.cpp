@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "worker/geometry/mask.h"
 
-#include <embree3/rtcore.h>
-
 #include <bit>
 
 #include "common/base/hash.h"
 #include "common/base/random.h"
+#include "worker/geometry/embree_api.h"
 #include "worker/geometry/surface_detail.h"
 
 namespace treefarm {

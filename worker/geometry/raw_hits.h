@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <embree3/rtcore_ray.h>
-
 #include "common/scene/model/shape.h"
+#include "worker/geometry/embree_api.h"
 
 namespace treefarm {
 

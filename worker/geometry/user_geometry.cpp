@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "worker/geometry/user_geometry.h"
 
-#include <embree3/rtcore.h>
-
 #include <cmath>
 #include <limits>
 
 #include "common/base/float_traps.h"
+#include "worker/geometry/embree_api.h"
 #include "worker/geometry/mask.h"
 #include "worker/geometry/raw_hits.h"
 
@@ -75,7 +74,7 @@ RTCHit to_hit(const RawHit& m, std::uint32_t shape, std::uint32_t primitive, std
     hit.v = static_cast<float>(m.v);
     hit.primID = primitive;
     hit.geomID = shape;
-    hit.instID[0] = instance == RTC_INVALID_GEOMETRY_ID ? kWorldUserShape : instance;
+    set_instance(hit, instance == RTC_INVALID_GEOMETRY_ID ? kWorldUserShape : instance);
     return hit;
 }
 
