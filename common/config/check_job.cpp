@@ -2,6 +2,7 @@
 #include "common/config/check_job.h"
 
 #include "common/base/error.h"
+#include "common/config/aov_list.h"
 #include "common/config/estimators.h"
 
 namespace treefarm {
@@ -25,6 +26,12 @@ void check_job(const Job& job) {
                 Location{"guiding.type", 0, 0}, "nothing guides the estimator \"" + job.integrator.type + "\"",
                 std::string("set guiding.type = \"none\", or integrator.type = \"") + estimators()[0].type + "\"");
     }
+    if (const Estimator* estimator = find_estimator(job.integrator.type); estimator && !estimator->sees_light)
+        for (const AovRequest& request : aov_requests(job))
+            if (request.aov == Aov::direct || request.aov == Aov::indirect)
+                throw InputError(Location{"output.aovs", 0, 0},
+                                 "the estimator \"" + job.integrator.type + "\" sees no light, direct or indirect",
+                                 "leave \"" + aov_text(request) + "\" out of output.aovs");
     if (job.guiding.splitting > 1 && job.guiding.roulette == GuidingRoulette::constant)
         throw InputError(Location{"guiding.splitting", 0, 0},
                          "where roulette is constant nobody knows what a path is expected to carry, so none is split",

@@ -8,6 +8,8 @@
 
 #include "common/base/error.h"
 #include "common/config/aov_list.h"
+#include "common/config/check_job.h"
+#include "common/config/estimators.h"
 #include "common/config/job_reader.h"
 #include "common/film/aov_film.h"
 #include "common/plan/memory.h"
@@ -104,7 +106,7 @@ TEST(AovFilm, IsTheSameForAnyOrderAndCut) {
     for (const std::uint32_t per_unit : {1u, 4u, 16u})
         for (const int step : {2, 3, 7}) {
             const std::uint32_t chunks = (kBlocks + per_unit - 1) / per_unit;
-            std::vector<WorkUnit> units = cut_pass(0, chunks, kWidth, kHeight, step);
+            std::vector<WorkUnit> units = cut_tiles(0, chunks, kWidth, kHeight, step);
             std::shuffle(units.begin(), units.end(), random);
             AovFilm film(layout, kWidth, kHeight, chunks);
             for (const WorkUnit& unit : units) {
@@ -180,6 +182,19 @@ TEST(AovSums, MeansAreOfAllPassesAndNumbersOfTheFirst) {
     EXPECT_EQ(values("direct.G"), (std::vector<float>{2.5f, 0.0f}));
     EXPECT_EQ(values("indirect.B"), (std::vector<float>{1.5f, 0.25f}));
     EXPECT_EQ(values("spp.Y"), (std::vector<float>{8.0f, 6.0f}));
+}
+
+TEST(AovJob, WhoSeesNoLightHasNoDirectLight) {
+    Job job;
+    job.output.aovs = "albedo,sun:direct";
+    for (const Estimator& estimator : estimators()) {
+        job.integrator.type = estimator.type;
+        if (estimator.sees_light) {
+            EXPECT_NO_THROW(check_job(job)) << estimator.type;
+        } else {
+            EXPECT_THROW(check_job(job), InputError) << estimator.type;
+        }
+    }
 }
 
 TEST(AovPlan, MemoryIsNamedWhereLayersAreOn) {

@@ -326,10 +326,11 @@ TEST(Exr, StoresChannelsInTheirOwnTypes) {
                 EXPECT_EQ(back.types[there], types[c]) << image.channel_names[c];
                 for (std::size_t p = 0; p < image.pixel_count(); ++p) {
                     const float sent = image.channel(c)[p], got = back.image.channel(there)[p];
-                    if (types[c] == PixelType::half)
+                    if (types[c] == PixelType::half) {
                         EXPECT_NEAR(got, sent, 0x1p-11f * sent);
-                    else
+                    } else {
                         EXPECT_EQ(got, sent);
+                    }
                 }
             }
             const Imf::InputFile file(path.c_str());

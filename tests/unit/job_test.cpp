@@ -82,7 +82,8 @@ TEST(Job, WrittenJobReadsBackTheSame) {
     job.budget = {1u << 30, 12.5, 0.03, 1u << 20, true};
     job.sampler.seed = 123456789012345678u;
     job.farm = {17, true, 0.1, 2.25, "sse4.2", true};
-    job.output = {"runs/x", "y.exr"};
+    job.output.directory = "runs/x";
+    job.output.file = "y.exr";
     const std::string text = write_job(job);
     const Job back = job_of(text);
     EXPECT_EQ(write_job(back), text);
