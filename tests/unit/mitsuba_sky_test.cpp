@@ -22,17 +22,17 @@ class MitsubaSky : public MitsubaFixture {
 
 TEST_F(MitsubaSky, TheSunStandsWhereItShould) {
     // On the equator at an equinox the sun culminates at the zenith; in Tokyo it stands in the south at noon.
-    mitsuba::Observation equator;
+    Observation equator;
     equator.year = 2010, equator.month = 3, equator.day = 20;
     equator.latitude = equator.longitude = equator.timezone = 0.0;
     equator.hour = 12.0, equator.minute = 7.5;  // the equation of time is -7.5 minutes
-    EXPECT_LT(mitsuba::sun_position(equator).zenith, 0.5 * M_PI / 180);
-    mitsuba::Observation tokyo;
+    EXPECT_LT(sun_position(equator).zenith, 0.5 * M_PI / 180);
+    Observation tokyo;
     tokyo.hour = 11.0, tokyo.minute = 46.0;
-    EXPECT_NEAR(std::abs(mitsuba::sun_position(tokyo).azimuth), M_PI, 2 * M_PI / 180);
-    EXPECT_NEAR(mitsuba::sun_position(tokyo).zenith, (35.69 - 22.2) * M_PI / 180, 0.2 * M_PI / 180);
+    EXPECT_NEAR(std::abs(sun_position(tokyo).azimuth), M_PI, 2 * M_PI / 180);
+    EXPECT_NEAR(sun_position(tokyo).zenith, (35.69 - 22.2) * M_PI / 180, 0.2 * M_PI / 180);
     tokyo.hour = 8.0;
-    EXPECT_GT(std::sin(mitsuba::sun_position(tokyo).azimuth), 0.5) << "in the morning it stands in the east";
+    EXPECT_GT(std::sin(sun_position(tokyo).azimuth), 0.5) << "in the morning it stands in the east";
 }
 
 /// Irradiance of an environment on a plane that faces each of its pixels: the sum of radiance times solid angle.
