@@ -79,7 +79,7 @@ Result any_result(Script& script, const Known& known) {
     result.pass = likely(script, known.pass);
     const std::uint32_t count = script.below(4);
     for (std::uint32_t u = 0; u < count; ++u) {
-        UnitResult unit{any_unit(script, known), {}};
+        UnitResult unit{any_unit(script, known), {}, {}};
         unit.unit.pass = result.pass;
         const std::uint32_t n[2] = {likely(script, 1u), likely(script, 1u)};
         Moments half[2];

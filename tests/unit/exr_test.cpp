@@ -335,7 +335,9 @@ TEST(Exr, StoresChannelsInTheirOwnTypes) {
             }
             const Imf::InputFile file(path.c_str());
             EXPECT_EQ(file.header().hasTileDescription(), tiles > 0);
-            if (std::string(name) == "auto") EXPECT_EQ(file.header().compression(), Imf::ZIP_COMPRESSION);
+            if (std::string(name) == "auto") {
+                EXPECT_EQ(file.header().compression(), Imf::ZIP_COMPRESSION);
+            }
         }
     EXPECT_FALSE(find_compression("dwaa")) << "loses";
 }

@@ -31,9 +31,9 @@ Result sample_result() {
         if (k == 1) unit.aovs.direct.assign(unit.pixels.rbegin(), unit.pixels.rend());
         result.units.push_back(unit);
     }
-    result.units.push_back({{.pass = 3, .x1 = 2, .y1 = 2}, {}});  // a tile that only splats
-    result.units.push_back({{.pass = 3, .kind = UnitKind::light_paths, .first = 1ull << 40, .count = 5}, {}});
-    result.units.push_back({{.pass = 3, .kind = UnitKind::chains, .first = 7, .count = 1}, {}});
+    result.units.push_back({{.pass = 3, .x1 = 2, .y1 = 2}, {}, {}});  // a tile that only splats
+    result.units.push_back({{.pass = 3, .kind = UnitKind::light_paths, .first = 1ull << 40, .count = 5}, {}, {}});
+    result.units.push_back({{.pass = 3, .kind = UnitKind::chains, .first = 7, .count = 1}, {}, {}});
     result.splats = {4, 5};
     return result;
 }
