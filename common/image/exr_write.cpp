@@ -102,7 +102,8 @@ Imf::PixelType stored_as(PixelType type) {
     return type == PixelType::half ? Imf::HALF : type == PixelType::uint32 ? Imf::UINT : Imf::FLOAT;
 }
 
-/// Of 512 x 512 pixels of twelve channels of noise ZIP saves 9 % in 0.16 s, RLE 6 % in 0.03 s.
+/// OpenEXR's name of a compression. What is best by itself depends on the channels: floats with noise hardly shrink, by
+/// ZIP little more than by RLE, in five times the time.
 Imf::Compression packed_by(ExrCompression compression, const std::vector<PixelType>& types) {
     switch (compression) {
         case ExrCompression::none:

@@ -48,12 +48,11 @@ void write_unit_result(ByteWriter& writer, const UnitResult& result) {
         throw RunError("a work unit was finished with the wrong number of pixels");
     write_unit(writer, result.unit);
     if (result.unit.kind != UnitKind::tile) return;
-    const PixelEstimate first = pixels.empty() ? PixelEstimate() : pixels.front();
-    const std::uint32_t n[2] = {first.half[0].n, first.half[1].n};
-    writer.put(n[0]);
-    writer.put(n[1]);
     writer.put<std::uint8_t>(pixels.empty() ? 0 : 1);
     if (pixels.empty()) return;
+    const std::uint32_t n[2] = {pixels[0].half[0].n, pixels[0].half[1].n};
+    writer.put(n[0]);
+    writer.put(n[1]);
     write_pixels(writer, pixels, n);
     writer.put_array(std::span<const double>(result.aovs.values));
     writer.put<std::uint8_t>(result.aovs.direct.empty() ? 0 : 1);
@@ -71,9 +70,9 @@ UnitResult read_unit_result(ByteReader& reader, std::uint32_t pass) {
     UnitResult result;
     result.unit = read_unit(reader, pass);
     if (result.unit.kind != UnitKind::tile) return result;
+    if (!read_presence(reader)) return result;
     const auto n0 = reader.get<std::uint32_t>();
     const auto n1 = reader.get<std::uint32_t>();
-    if (!read_presence(reader)) return result;
     result.pixels = read_pixels(reader, result.unit.pixel_count(), n0, n1);
     result.aovs.values = reader.get_array<double>();
     if (read_presence(reader)) result.aovs.direct = read_pixels(reader, result.unit.pixel_count(), n0, n1);

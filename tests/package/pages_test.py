@@ -45,7 +45,8 @@ def runnable(name, rest, work):
     words = {"SCENE.xml": BOX, "scene.xml": BOX, "RUN_DIR": f"{work}/first", "run": f"{work}/first",
              "box.exr": f"{work}/box.exr", "reference.exr": f"{work}/reference.exr",
              "[PATTERN]": "guiding", "STUDY.toml": "configs/studies/demo.toml",
-             "flip.png": f"{work}/flip.png", "difference.png": f"{work}/difference.png"}
+             "image.exr": f"{work}/first/image.exr", "picture.png": f"{work}/picture.png",
+             "normal.png": f"{work}/normal.png", "flip.png": f"{work}/flip.png", "difference.png": f"{work}/difference.png"}
     arguments = [words.get(word, word) for word in shlex.split(rest)]
     if name == "render":
         arguments = value_replaced(value_replaced(arguments, "--spp", "4"), "--run-dir", f"{work}/again")
@@ -77,7 +78,7 @@ def main(program):
     with tempfile.TemporaryDirectory() as work:
         # spp: two passes of a tree, so that there is one to inspect
         for run_dir, output, seed in (("first", "box", 1), ("second", "reference", 2)):
-            first = [program, "render", BOX, "--quiet", *SMALL, "--spp", "8", "--set", f"sampler.seed={seed}", "--run-dir",
+            first = [program, "render", BOX, "--quiet", *SMALL, "--spp", "8", "--set", f"sampler.seed={seed}", "--set", "output.aovs=normal", "--run-dir",
                      f"{work}/{run_dir}", "-o", f"{work}/{output}.exr"]
             if not run(first, "before all pages"):
                 sys.exit(1)

@@ -327,7 +327,8 @@ TEST(Exr, StoresChannelsInTheirOwnTypes) {
                 for (std::size_t p = 0; p < image.pixel_count(); ++p) {
                     const float sent = image.channel(c)[p], got = back.image.channel(there)[p];
                     if (types[c] == PixelType::half) {
-                        EXPECT_NEAR(got, sent, 0x1p-11f * sent);
+                        const float largest = 65504.0f;
+                        EXPECT_NEAR(got, std::min(sent, largest), 0x1p-11f * sent);
                     } else {
                         EXPECT_EQ(got, sent);
                     }

@@ -102,6 +102,7 @@ std::vector<Fault> faults() {
         // integrators
         {"<integrator type=\"foo\"/>"},
         {"<integrator type=\"pth\"/>"},
+        {"<integrator type=\"aov\">\n" + value("string", "aovs", "a:foo") + "\n</integrator>", "3"},
         {guided(value("string", "nee", "foo"))},
         {guided(value("string", "bsdfSamplingFractionLoss", "foo"))},
         {guided(value("float", "budget", "-1"))},
