@@ -154,12 +154,12 @@ std::vector<double> inverse_variance_weights(std::span<const PassResult> passes,
     std::size_t first = 0, level_begin = 0;
     for (const Group& group : groups) {
         const std::size_t end = first + group.passes.size();
-        const std::optional<double>& variance = group.noise.half[half].variance;
+        const std::optional<double>& variance = group.noise.half[std::size_t(half)].variance;
         const std::uint32_t spp = spp_of(group.passes);
         apart = apart || group.passes.front().new_technique;
         const bool known = variance && spp >= kPolicy.schedule.least_weighed_spp;
         if (known || young_count)
-            std::ranges::copy(group.noise.half[1 - half].samples, samples.begin() + std::ptrdiff_t(first));
+            std::ranges::copy(group.noise.half[std::size_t(1 - half)].samples, samples.begin() + std::ptrdiff_t(first));
         if (known) {
             if (!(*variance > 0)) return fixed_weights(passes, guided);  // a tree without noise: nothing to weigh by
             add_level(levels, {level_begin, end, double(spp), *variance, apart});

@@ -25,10 +25,10 @@ std::ostream& operator<<(std::ostream& out, const Hashes& h) {
 
 /// `options` begin with the scene. `learns`: the render is to have a tree.
 Hashes render_scene(const std::vector<std::string>& launcher, const std::vector<std::string>& options,
-                    bool learns = true) {
+                    bool learns = true, const char* aovs = kAovs) {
     const auto folder = fresh_folder("same");
     Program program(launcher + std::vector<std::string>{TREEFARM_PROGRAM, "render"} + options +
-                    std::vector<std::string>{"--set", std::string("output.aovs=") + kAovs, "--set",
+                    std::vector<std::string>{"--set", std::string("output.aovs=") + aovs, "--set",
                                              "farm.update_seconds=0.05", "--run-dir", folder.string()});
     const Ending ending = program.wait(240);
     EXPECT_EQ(ending.code, 0) << ending.output;
@@ -122,12 +122,13 @@ TEST(SameBits, Ranks3OverTcp) {
 TEST(SameBits, Estimators) {
     for (const Estimator& estimator : estimators()) {
         if (estimator.guides) continue;
+        const char* const aovs = estimator.sees_light ? kAovs : "albedo,normal,position,shape,alpha,spp";
         const auto render = [&](const std::vector<std::string>& launcher, const char* threads, const char* tile) {
             return render_scene(launcher,
                                 {own_scene("glossy-room.xml"), "--set", "image.width=72", "--set", "image.height=60",
                                  "--spp", "12", "--threads", threads, "--set", std::string("farm.tile_size=") + tile,
                                  "--set", std::string("integrator.type=") + estimator.type},
-                                false);
+                                false, aovs);
         };
         const Hashes alone = render({}, "1", "32");
         EXPECT_FALSE(alone.image.empty());

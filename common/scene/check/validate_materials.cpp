@@ -12,8 +12,7 @@ class MaterialCheck {
   public:
     MaterialCheck(Scene& scene, std::size_t index, const std::vector<ValueRange>& textures,
                   const std::vector<bool>& transmits, std::vector<Warning>& warnings)
-        : scene_(scene),
-          index_(index),
+        : index_(index),
           material_(scene.materials[index]),
           textures_(textures),
           transmits_(transmits),
@@ -181,7 +180,6 @@ class MaterialCheck {
         if (!is_finite(detail.normal_scale)) refuse("the factor of the normal map is not finite", "give numbers");
     }
 
-    const Scene& scene_;
     std::size_t index_;
     Material& material_;
     const std::vector<ValueRange>& textures_;

@@ -55,7 +55,7 @@ std::string snake_case(const std::string& camel_case) {
 }
 
 Properties::Properties(const XmlElement& object, const SceneDocument& document, Diagnostics& diagnostics)
-    : object_(object), document_(document), diagnostics_(diagnostics) {
+    : object_(object), diagnostics_(diagnostics) {
     object.allow_attributes(object.tag == "scene" ? std::initializer_list<std::string_view>{"version", "id", "type"}
                                                   : std::initializer_list<std::string_view>{"type", "id", "name"});
     for (const XmlElement& element : object.children) {

@@ -97,7 +97,6 @@ class Properties {
     void repeated(const Location& where, const std::string& what, const char* cure);
 
     const XmlElement& object_;
-    const SceneDocument& document_;
     Diagnostics& diagnostics_;
     std::map<std::string, Value> values_;
     std::vector<Entry> children_;
