@@ -98,9 +98,9 @@ void read_aovs(IntegratorSettings& settings) {
         const std::string variable(trim(std::string_view(entry).substr(colon + 1)));
         const std::string aov = aov_named(variable);
         if (aov.empty())
-            settings.diagnostics().unsupported(where, "the AOV " + in_quotes(variable) + " is not available",
-                                               "use albedo, depth, position, uv, sh_normal, geo_normal or shape_index",
-                                               "it is left out");
+            settings.diagnostics().unsupported(
+                where, "the AOV " + in_quotes(variable) + " is not available",
+                "name one of albedo, depth, position, uv, sh_normal, geo_normal, shape_index", "it is left out");
         else
             wanted += (wanted.empty() ? "" : ",") + std::string(trim(entry.substr(0, colon))) + ":" + aov;
     }
