@@ -100,7 +100,7 @@ TEST(Combine, SamplesOfOneTreeWeighTheSame) {
 TEST(Combine, RememberedNoiseGivesTheSameImage) {
     std::vector<PassResult> kept;
     for (std::uint32_t k = 0; k < 4; ++k) {
-        kept.push_back(make_pass(8 << k, 8 * ((1u << k) - 1), 1.0f, 2.0f / static_cast<float>(1 + k), 200, k));
+        kept.push_back(make_pass(8u << k, 8 * ((1u << k) - 1), 1.0f, 2.0f / static_cast<float>(1 + k), 200, k));
         kept.back().same_tree = k == 3;  // joins passes whose noise is known already
         remember_noise(kept, Combination::inverse_variance, true);
         std::vector<PassResult> forgotten = kept;
