@@ -5,7 +5,8 @@
 #include <array>
 #include <cmath>
 
-#include "worker/scene/surface.h"
+#include "worker/integrators/sample_loop.h"
+#include "worker/integrators/subpath/surface_light.h"
 
 namespace treefarm {
 
@@ -110,7 +111,7 @@ class Follower {
             const Surface surface(scene_, hit, -ray.direction, scratch_);
             if (!seen && !is_nothing(surface)) {
                 seen = true;
-                take_if_nearer(hit, ray, from, first, row);
+                take(hit, ray, from, first, row);
             }
             if (!beyond && seen) return;
             if (!surface.has_delta() || surface.smooth() || surface.black()) {
@@ -118,9 +119,7 @@ class Follower {
                 row.add(Aov::normal, towards(hit.ns, ray));
                 return;
             }
-            const Draw random = draw(key, vertex, Stream::scatter);
-            const BsdfSample s =
-                surface.bsdf().sample(surface.wo(), {to_unit(random[1]), {to_unit(random[2]), to_unit(random[3])}});
+            const BsdfSample s = sample_bsdf(surface, draw(key, vertex, Stream::scatter));
             if (!(s.pdf > 0.0f)) return;
             const Vec3 direction = surface.frame().to_world(s.wi);
             ray = {offset_origin(hit, direction), direction};
@@ -133,7 +132,7 @@ class Follower {
     }
 
     /// The first surface of the camera ray.
-    void take_if_nearer(const Hit& hit, const Ray& ray, const Vec3& from, bool first, Row& row) {
+    void take(const Hit& hit, const Ray& ray, const Vec3& from, bool first, Row& row) {
         row.add(Aov::alpha, 1.0f);
         row.add(Aov::geometric_normal, towards(hit.ng, ray));
         row.add(Aov::depth, axis_ == Vec3(0.0f) ? (hit.p - eye_).length() : dot(hit.p - eye_, axis_));
@@ -169,32 +168,24 @@ FirstHitRenderer::FirstHitRenderer(std::shared_ptr<const TraceScene> scene, cons
 
 template <class Surface>
 void FirstHitRenderer::render_unit(const PassPlan& pass, const WorkUnit& unit, AovPixels& output) const {
-    const std::uint32_t begin = unit.chunk * pass.blocks_per_unit * kBlockSamples;
-    const std::uint32_t end = std::min(begin + pass.blocks_per_unit * kBlockSamples, pass.spp);
     const std::size_t row = layout_.size();
     Follower<Surface> follower(*scene_, layout_, eye_, axis_);
     std::vector<double> blocks;
-    for (int y = unit.y0; y < unit.y1; ++y)
-        for (int x = unit.x0; x < unit.x1; ++x) {
-            blocks.clear();
-            for (std::uint32_t sample = begin; sample < end; ++sample) {
-                if (sample % kBlockSamples == 0) blocks.resize(blocks.size() + row);
-                const PathKey key{seed_, scene_->film().key_of(x, y), pass.first_sample + sample};
-                follower.follow(key, scene_->camera().generate(x, y, key), sample == 0, &blocks[blocks.size() - row]);
-            }
-            reduce_aov_blocks(layout_, blocks);
-            blocks.resize(row);
-            output.values.insert(output.values.end(), blocks.begin(), blocks.end());
-        }
+    for (UnitCursor at(pass, unit); !at.done();) {
+        if (at.sample % kBlockSamples == 0) blocks.resize(blocks.size() + row);
+        const PathKey key{seed_, scene_->film().key_of(at.x, at.y), pass.first_sample + at.sample};
+        follower.follow(key, scene_->camera().generate(at.x, at.y, key), at.sample == 0, &blocks[blocks.size() - row]);
+        if (!at.advance()) continue;
+        reduce_aov_blocks(layout_, blocks);
+        output.values.insert(output.values.end(), blocks.begin(), blocks.begin() + static_cast<std::ptrdiff_t>(row));
+        blocks.clear();
+    }
 }
 
 void FirstHitRenderer::render(const PassPlan& pass, const WorkUnit& unit, AovPixels& output) const {
     if (layout_.size() == 0) return;
     output.values.reserve(layout_.size() * std::size_t{unit.pixel_count()});
-    if (scene_->plainly_diffuse())
-        render_unit<DiffuseSurface>(pass, unit, output);
-    else
-        render_unit<GeneralSurface>(pass, unit, output);
+    with_surface(*scene_, [&]<class Surface>() { render_unit<Surface>(pass, unit, output); });
 }
 
 }  // namespace treefarm
