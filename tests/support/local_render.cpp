@@ -30,7 +30,7 @@ LocalRender render_locally(const Scene& scene, const Job& asked) {
     const RenderUnit render_unit = integrator_of(job).prepare(std::make_shared<const TraceScene>(scene, job), job);
     run.tree = first_tree(job, guiding_bounds(scene), 1.0f);
     TreeLearner learner;
-    RenderState state;
+    RenderHistory state;
     GuidingProbe probe;
     ProbesSetAside set_aside;
     std::optional<PassPlan> before;
@@ -70,6 +70,7 @@ LocalRender render_locally(const Scene& scene, const Job& asked) {
         facts.record = pass.record;
         facts.next_event = pass.next_event;
         state.passes.push_back(facts);
+        state.budget = next.memory;
         state.seconds += seconds;
         state.error = estimate_error(run.image, job.sampler.seed);
         run.states.push_back(state);
