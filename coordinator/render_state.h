@@ -17,7 +17,7 @@ namespace treefarm {
 
 /// A render between two passes, as a value: whatever decides a later bit, and the reports of the passes so far. Nothing
 /// else outlives a pass, so who has it can go on, here or elsewhere, as if nothing had happened
-/// (docs/design/architecture.md, "the render is a value").
+/// (docs/design/checkpoint.md).
 struct RenderState {
     RenderHistory history;
     std::vector<PassResult> films;  ///< that make the image, folded

@@ -160,7 +160,7 @@ class FarmTest : public ::testing::Test {
         try {
             farm.gather([] { return false; });
             RenderState begin = first_state(job_, initial_tree(Box3(Vec3(0.0f), Vec3(1.0f)), 1.0f), kWidth * kHeight);
-            if (resumed_) begin = std::move(*resumed_);
+            if (auto resumed = std::exchange(resumed_, std::nullopt)) begin = std::move(*resumed);
             std::vector<PassPlan> begun;
             for (const PassReport& report : begin.reports)
                 begun.push_back(report.plan);
