@@ -272,6 +272,16 @@ TEST(Plan, TheFilmDoesNotGrowWithThePasses) {
     EXPECT_EQ(film(job).bytes, of_eight - 7 * 112 * pixels);
 }
 
+TEST(RefineSettings, ATreeIsTheLastWhereItsPassSaysSo) {
+    PassPlan coming;
+    coming.record = true;
+    EXPECT_FALSE(refine_settings(test::resolved(Job()), {}, coming).last_update);
+    coming.last_tree = true;
+    EXPECT_TRUE(refine_settings(test::resolved(Job()), {}, coming).last_update) << "also where it teaches again";
+    EXPECT_TRUE(make_pass(test::resolved(Job()), 3, 7, 8, true).last_tree);
+    EXPECT_FALSE(make_pass(test::resolved(Job()), 3, 7, 8, false).last_tree);
+}
+
 TEST(Plan, CellsFollowUseWhereViewsAndMixturesAreLearned) {
     const auto least_use = [](Job job) { return refine_settings(test::resolved(job), {}, {}).least_use; };
     Job job;

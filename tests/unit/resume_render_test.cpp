@@ -46,7 +46,7 @@ class Stopped {
 
     RenderState begin() const { return first_state(job_, first_tree(job_, scene_), scene_.film.pixel_count()); }
 
-    /// Goes on with `state` by these passes; stops once so many are done, if so many come, and writes what it has then.
+    /// Goes on with `state` by these passes, writing what it has after each; stops once so many are done.
     RenderResult render(RenderState state, const PassChooser& choose, std::size_t stop_after = ~std::size_t{0}) const {
         auto channels = make_in_process_channels(2);
         std::thread worker([&] {
@@ -56,15 +56,16 @@ class Stopped {
         Farm farm(*channels[0], job_, encode_scene(scene_), kFingerprint, quiet_log());
         farm.gather([] { return false; });
         std::size_t done = state.reports.size();
+        CheckpointOrigin origin;
+        origin.pixels = scene_.film.pixel_count();
+        origin.resolved = write_resolved(job_);
+        CheckpointStore store(folder_);
         PassHooks hooks;
-        hooks.on_state = [&](RenderState& now) { done = now.reports.size(); };
-        hooks.interrupted = [&] { return done >= stop_after; };
-        hooks.on_last_state = [&](RenderState& last) {
-            CheckpointOrigin origin;
-            origin.pixels = scene_.film.pixel_count();
-            origin.resolved = write_resolved(job_);
-            CheckpointStore(folder_).prepare(origin, last)();
+        hooks.on_state = [&](RenderState& now) {
+            done = now.reports.size();
+            store.prepare(origin, now)();
         };
+        hooks.interrupted = [&] { return done >= stop_after; };
         RenderResult result =
             run_passes(farm, job_, choose, std::move(state), scene_.film.width, scene_.film.height, hooks);
         dismiss_workers(*channels[0], {}, 20.0);
@@ -154,8 +155,9 @@ TEST(ResumedRender, LayersGoOn) {
 }
 
 TEST(ResumedRender, FoldedPassesGoOn) {
-    const Job job = job_of(GuidingType::ppg, NextEvent::always, 1023);
-    Stopped render("white-furnace.xml", job, "folded");
+    Job job = job_of(GuidingType::ppg, NextEvent::always, 1023);
+    job.guiding.combination = Combination::fixed;
+    Stopped render("cornell-box.xml", job, "folded");
     const RenderResult truth = render.render(render.begin(), render.passes(render.begin()));
     ASSERT_GT(truth.passes.size(), 8u);
     render.render(render.begin(), render.passes(render.begin()), 9);
