@@ -12,8 +12,8 @@
 #include "common/base/error.h"
 #include "common/base/timer.h"
 #include "common/config/job_reader.h"
-#include "common/guiding/splat.h"
-#include "common/guiding/tree_learner.h"
+#include "common/guiding/sd_tree/tree_learner.h"
+#include "common/guiding/statistics/cell_accumulator.h"
 #include "common/plan/kernel.h"
 #include "common/plan/learning.h"
 #include "common/scene/readers/load.h"
@@ -67,7 +67,7 @@ class Limit {
           guide_(train()),
           untrained_(first_) {}
 
-    const Guide& guide() const { return guide_; }
+    const SdTreeSampler& guide() const { return guide_; }
 
     void collect(Mode& mode) const {
         if (scene_.plainly_diffuse())
@@ -85,7 +85,7 @@ class Limit {
             work();
             return thread_cpu_seconds() - start;
         };
-        Accumulator sums(9, guide(mode), job_.guiding.directional_filter, true);
+        CellAccumulator sums(9, guide(mode), job_.guiding.directional_filter, true);
         double splat = 0;
         mode.log_records = 0;
         const auto learn = [&](RecordLog& log) {
@@ -117,7 +117,7 @@ class Limit {
         return resolve(job, facts_);
     }
 
-    const Guide& guide(const Mode& mode) const { return mode.guided ? guide_ : untrained_; }
+    const SdTreeSampler& guide(const Mode& mode) const { return mode.guided ? guide_ : untrained_; }
 
     PassPlan pass(const Mode& mode) const {
         PassPlan pass;
@@ -134,7 +134,7 @@ class Limit {
 
     /// Unit by unit, as workers do; `learn` gets what each recorded.
     template <class Learn>
-    void render(PassPlan pass, const Resolved& job, const Guide& guide, TraceStats& stats, Learn learn) {
+    void render(PassPlan pass, const Resolved& job, const SdTreeSampler& guide, TraceStats& stats, Learn learn) {
         pass.kernel = kernel_of(job, pass, {guide.trained(), guide.view_count() > 0});
         const Film& film = scene_.film();
         for (const WorkUnit& unit : cut_pass(pass, film.width, film.height, job.farm.tile_size)) {
@@ -153,8 +153,8 @@ class Limit {
             plan.record = true;
             plan.chunks = 1;
             plan.blocks_per_unit = 1u << 20;
-            const Guide guide(tree);
-            Accumulator sums(plan.index, guide, job_.guiding.directional_filter, plan.learn_mixture);
+            const SdTreeSampler guide(tree);
+            CellAccumulator sums(plan.index, guide, job_.guiding.directional_filter, plan.learn_mixture);
             TraceStats stats;
             render(plan, resolved_, guide, stats,
                    [&](RecordLog& log) { sums.commit(log.records, log.counts, log.caps); });
@@ -239,7 +239,7 @@ class Limit {
     std::uint32_t spp_;
     std::vector<PixelEstimate> pixels_;
     RecordLog log_;
-    Guide guide_, untrained_;
+    SdTreeSampler guide_, untrained_;
 };
 
 double median(std::vector<double> values) {

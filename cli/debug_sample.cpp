@@ -94,7 +94,8 @@ int debug_sample(const RenderRequest& request, const SampleName& name) {
     PassPlan pass = plans[name.pass];
     pass.kernel = kernel_of(request.plan.job, pass, facts_of(tree));
     const TraceScene scene(request.scene, request.job);
-    const std::string text = describe_sample(scene, request.plan.job, pass, Guide(tree), name.x, name.y, name.sample);
+    const std::string text =
+        describe_sample(scene, request.plan.job, pass, SdTreeSampler(tree), name.x, name.y, name.sample);
     std::fputs(text.c_str(), stdout);
     return 0;
 }

@@ -53,7 +53,7 @@ MapReport write_map(const std::string& kind, Plane map, double white, const std:
     return report;
 }
 
-std::vector<MapReport> write_maps(const TraceScene& scene, const SdTree& tree, const Guide& guide,
+std::vector<MapReport> write_maps(const TraceScene& scene, const SdTree& tree, const SdTreeSampler& guide,
                                   const std::filesystem::path& folder) {
     FilmMaps maps = film_maps(scene, tree, guide);
     float most = 1.0f;
@@ -79,7 +79,7 @@ std::filesystem::path picture_folder(const InspectOptions& options) {
 }
 
 void look(const InspectOptions& options, const InspectedRun& run, InspectReport& report) {
-    const Guide guide(run.tree);
+    const SdTreeSampler guide(run.tree);
     const TraceScene scene(run.request.scene, run.request.job);
     std::vector<NamedPlace> places;  // all of them are understood before any is traced
     for (const std::string& pixel : options.pixels)

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "common/config/parse_text.h"
-#include "common/guiding/tree_statistics.h"
+#include "common/guiding/sd_tree/tree_statistics.h"
 #include "common/image/png.h"
 #include "common/metrics/false_colour.h"
 
@@ -111,7 +111,7 @@ std::vector<Panel> panels_of(const std::string& title, std::vector<float> learne
 
 }  // namespace
 
-NamedPlace pixel_place(const std::string& text, const TraceScene& scene, const Guide& guide) {
+NamedPlace pixel_place(const std::string& text, const TraceScene& scene, const SdTreeSampler& guide) {
     const Location where{"--pixel " + text, 0, 0};
     const std::vector<double> at = numbers_in(text);
     const int width = scene.film().width, height = scene.film().height;
@@ -132,7 +132,7 @@ NamedPlace pixel_place(const std::string& text, const TraceScene& scene, const G
     return {"pixel-" + std::to_string(x) + "-" + std::to_string(y), "pixel " + text, *place};
 }
 
-NamedPlace point_place(const std::string& text, const Guide& guide) {
+NamedPlace point_place(const std::string& text, const SdTreeSampler& guide) {
     const Location where{"--point " + text, 0, 0};
     const std::size_t colon = text.find(':');
     const std::vector<double> at = numbers_in(text.substr(0, colon));
@@ -158,8 +158,8 @@ NamedPlace point_place(const std::string& text, const Guide& guide) {
     return named;
 }
 
-PlaceReport look_at_place(const NamedPlace& named, const InspectedRun& run, const TraceScene& scene, const Guide& guide,
-                          const BruteForce& settings, const std::filesystem::path& folder) {
+PlaceReport look_at_place(const NamedPlace& named, const InspectedRun& run, const TraceScene& scene,
+                          const SdTreeSampler& guide, const BruteForce& settings, const std::filesystem::path& folder) {
     PlaceReport report{named.text, named.place.hit.p, place_facts(scene, guide, named.place), 0.0, {}};
     const Guidance& guidance = report.facts.guidance;
     const PlaceTruth truth = trace_place(scene, run.request.plan.job, guide, named.place, settings);

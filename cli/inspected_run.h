@@ -6,7 +6,7 @@
 #include <string>
 
 #include "cli/render.h"
-#include "common/guiding/sd_tree.h"
+#include "common/guiding/sd_tree/sd_tree.h"
 
 namespace treefarm {
 

@@ -37,7 +37,7 @@ void PassWork::add_splats(SplatLog& log) {
 std::optional<Result> PassWork::close() {
     Result result;
     result.pass = plan_.index;
-    std::optional<TreeSums> sums;
+    std::optional<CellSums> sums;
     {
         const std::unique_lock bundle(bundle_);
         if (units_.empty()) return std::nullopt;

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "common/film/splat_film.h"
-#include "common/guiding/splat.h"
+#include "common/guiding/statistics/cell_accumulator.h"
 #include "common/protocol/messages.h"
 #include "worker/integrators/unit_output.h"
 
@@ -22,7 +22,7 @@ class PassWork {
     PassWork(const PassPlan& plan, const SdTree& tree, DirectionalFilter filter);
 
     const PassPlan& plan() const { return plan_; }
-    const Guide& guide() const { return guide_; }
+    const SdTreeSampler& guide() const { return guide_; }
 
     /// Adds a finished unit and its records to the open bundle. Thread-safe; `output` gives up its pixels and AOVs, and
     /// its records are reordered.
@@ -39,13 +39,13 @@ class PassWork {
     void add_splats(SplatLog& log);
 
     const PassPlan plan_;
-    const Guide guide_;
+    const SdTreeSampler guide_;
     std::shared_mutex bundle_;  ///< shared: adding to the open bundle; exclusive: closing it
     std::mutex units_lock_;
     std::vector<UnitResult> units_;
     std::atomic<std::size_t> bundle_bytes_{0};
     TraceStats stats_;
-    std::optional<Accumulator> accumulator_;  ///< of passes that record
+    std::optional<CellAccumulator<SdTreeSampler>> accumulator_;  ///< of passes that record
     std::mutex splats_lock_;
     SplatSums splats_;  ///< made when the first unit splats
     bool splatted_ = false;

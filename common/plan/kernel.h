@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "common/guiding/sd_tree.h"
+#include "common/guiding/sd_tree/sd_tree.h"
 #include "common/plan/schedule.h"
 
 namespace treefarm {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "common/guiding/refine.h"
-#include "common/guiding/sd_tree.h"
+#include "common/guiding/sd_tree/refine.h"
+#include "common/guiding/sd_tree/sd_tree.h"
 #include "common/plan/schedule.h"
 
 namespace treefarm {

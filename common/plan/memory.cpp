@@ -8,7 +8,7 @@
 #include "common/config/aov_list.h"
 #include "common/film/fold_passes.h"
 #include "common/film/pixel_estimate.h"
-#include "common/guiding/tree_update.h"
+#include "common/guiding/statistics/cell_sums.h"
 #include "common/plan/kernel.h"
 #include "common/plan/learning.h"
 #include "common/plan/schedule.h"

@@ -72,18 +72,18 @@ const SdTree& trained_tree() {
 }
 
 /// A trained tree; its cells are no finer than the grid on which the tests integrate.
-const Guide& trained_guide() {
-    static const Guide guide(trained_tree());
+const SdTreeSampler& trained_guide() {
+    static const SdTreeSampler guide(trained_tree());
     return guide;
 }
 
 TEST(GuideDistribution, SamplesFollowTheDensity) {
-    const Guide& guide = trained_guide();
+    const SdTreeSampler& guide = trained_guide();
     ASSERT_GT(guide.region_count(), 8u);
     for (const std::uint32_t region : {0u, guide.region_count() / 2, guide.region_count() - 1}) {
         const auto sample = [&](std::uint32_t i, Vec3& d) {
             const Draw r = draw({8, i, 0}, 0, Stream::scatter);
-            const Guide::Sample s = guide.sample(region, r[1], r[2], r[3]);
+            const SdTreeSampler::Sample s = guide.sample(region, r[1], r[2], r[3]);
             d = s.direction;
             return s.pdf > 0.0f;
         };
@@ -113,9 +113,9 @@ class TestSurface {
 /// Directions as a batch of paths draws them at one surface; f_cos black: none.
 class MixtureSamples {
   public:
-    MixtureSamples(const TestSurface& surface, const Guide& guide, std::uint32_t region, float fraction)
-        : MixtureSamples(surface, guide, Guidance{region, Guide::kNoView, fraction, 0.0f}) {}
-    MixtureSamples(const TestSurface& surface, const Guide& guide, const Guidance& guidance)
+    MixtureSamples(const TestSurface& surface, const SdTreeSampler& guide, std::uint32_t region, float fraction)
+        : MixtureSamples(surface, guide, Guidance{region, SdTreeSampler::kNoView, fraction, 0.0f}) {}
+    MixtureSamples(const TestSurface& surface, const SdTreeSampler& guide, const Guidance& guidance)
         : surface_(surface), guide_(guide), guidance_(guidance) {}
 
     /// The sample of a number. Samples of numbers that follow each other come from one batch.
@@ -156,7 +156,7 @@ class MixtureSamples {
     }
 
     const TestSurface& surface_;
-    const Guide& guide_;
+    const SdTreeSampler& guide_;
     Guidance guidance_;
     std::uint32_t batch_ = ~0u;
     std::array<ScatterSample, kDrawBatch> samples_;
@@ -165,7 +165,7 @@ class MixtureSamples {
 TEST(GuideDistribution, MixtureFollowsItsDensity) {
     const TestSurface surface(grey(0.5f, false), {0.3f, -0.4f, 0.2f}, {0.1f, 0.5f, 0.9f});
     for (const float fraction : {0.1f, 0.5f, 1.0f}) {
-        const Guide& guide = trained_guide();
+        const SdTreeSampler& guide = trained_guide();
         MixtureSamples samples(surface, guide, guide.region_count() / 3, fraction);
         const auto sample = [&](std::uint32_t i, Vec3& d) {
             const ScatterSample& s = samples[i];
@@ -185,10 +185,10 @@ TEST(GuideDistribution, MixtureFollowsItsDensity) {
 }
 
 TEST(GuideDistribution, MixtureWithAViewFollowsItsDensity) {
-    static const Guide guide(test::random_view_tree(5, 60000, 1500, 4000, 2));
+    static const SdTreeSampler guide(test::random_view_tree(5, 60000, 1500, 4000, 2));
     const TestSurface surface(grey(0.5f, false), {0.3f, -0.4f, 0.2f}, {0.1f, 0.5f, 0.9f});
     std::uint32_t region = guide.region_count() / 2;
-    while (guide.view(region, 0) == Guide::kNoView)
+    while (guide.view(region, 0) == SdTreeSampler::kNoView)
         ++region;
     for (const Guidance& guidance : {Guidance{region, guide.view(region, 77), 0.2f, 0.5f},
                                      Guidance{region, guide.view(region, 0xc0000000u), 0.05f, 0.95f},
@@ -213,7 +213,7 @@ TEST(GuideDistribution, MixtureWithAViewFollowsItsDensity) {
 }
 
 TEST(GuideDistribution, SampleAndDensityOfTheMixtureAgree) {
-    const Guide& guide = trained_guide();
+    const SdTreeSampler& guide = trained_guide();
     const TestSurface surface(grey(0.5f, true), {-0.3f, 0.4f, -0.8f}, {0.1f, 0.5f, -0.9f});
     MixtureSamples samples(surface, guide, 1, 0.5f);
     int at_borders = 0;

@@ -26,7 +26,7 @@ struct ShadedPoint {
     PlainDiffuse bsdf{Rgb(0.5f), false};
     Frame frame{normalize(Vec3(0.3f, -0.4f, 0.2f))};
     Vec3 wo{normalize(Vec3(0.1f, 0.5f, 0.9f))};
-    Guide guide{test::random_tree(5, 60000, 1500, 2)};
+    SdTreeSampler guide{test::random_tree(5, 60000, 1500, 2)};
     std::uint32_t region = guide.region_count() / 3;
 
     /// All that sampling knows of a direction.

@@ -5,8 +5,8 @@
 
 #include "common/film/guiding_probe.h"
 #include "common/film/pass_film.h"
-#include "common/guiding/splat.h"
-#include "common/guiding/tree_learner.h"
+#include "common/guiding/sd_tree/tree_learner.h"
+#include "common/guiding/statistics/cell_accumulator.h"
 #include "common/plan/kernel.h"
 #include "common/plan/learning.h"
 #include "worker/integrators/registry.h"
@@ -38,8 +38,8 @@ LocalRender render_locally(const Scene& scene, const Job& asked) {
         PassPlan pass = *next.pass;
         pass.kernel = kernel_of(job, pass, facts_of(run.tree));
         run.tree.pass = pass.index;
-        const Guide guide(run.tree);
-        Accumulator accumulator(pass.index, guide, job.guiding.directional_filter, pass.learn_mixture);
+        const SdTreeSampler guide(run.tree);
+        CellAccumulator accumulator(pass.index, guide, job.guiding.directional_filter, pass.learn_mixture);
         PassFilm film(scene.film.width, scene.film.height, pass.chunks);
         TraceStats stats;
         UnitOutput output;

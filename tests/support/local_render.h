@@ -6,7 +6,7 @@
 
 #include "common/film/combine.h"
 #include "common/film/trace_stats.h"
-#include "common/guiding/refine.h"
+#include "common/guiding/sd_tree/refine.h"
 #include "common/plan/budget.h"
 #include "common/scene/model/scene.h"
 

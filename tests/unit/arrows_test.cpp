@@ -188,7 +188,7 @@ TEST(Arrows, TheRulesCatchWhatTheyForbid) {
         const char *file, *include;
     } forbidden[] = {
         {"common/base/hash.cpp", "#include \"common/math/vec.h\""},
-        {"common/film/pass_film.h", "#include \"common/guiding/guide.h\""},
+        {"common/film/pass_film.h", "#include \"common/guiding/sd_tree/sd_tree_sampler.h\""},
         {"common/metrics/z_test.h", "#include \"common/config/job.h\""},
         {"common/plan/schedule.cpp", "#include \"common/comm/channel.h\""},
         {"coordinator/pass_loop.cpp", "#include \"worker/worker.h\""},

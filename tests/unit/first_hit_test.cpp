@@ -52,7 +52,7 @@ Rendered render(const Scene& scene, const std::string& aovs, std::uint32_t spp =
     const Resolved resolved = resolve(job, scene);
     const RenderUnit renderer = make_renderer(encode_scene(scene), resolved);
     const SdTree tree = first_tree(resolved, scene.bounds(), 1.0f);
-    const Guide guide(tree);
+    const SdTreeSampler guide(tree);
     PassPlan pass = one_pass(spp);
     pass.next_event = job.integrator.next_event == NextEvent::always;
     pass.kernel = kernel_of(resolved, pass, facts_of(tree));
@@ -263,7 +263,7 @@ TEST(DirectLight, IsPartOfEachGuidedSample) {
     job.output.aovs = "direct";
     const Resolved resolved = resolve(job, scene);
     const RenderUnit renderer = make_renderer(encode_scene(scene), resolved);
-    const Guide guide(learned.tree);
+    const SdTreeSampler guide(learned.tree);
     for (const bool next_event : {true, false}) {
         PassPlan pass = one_pass(8);
         pass.index = 3;

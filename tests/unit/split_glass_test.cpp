@@ -103,7 +103,7 @@ TEST(SplitGlass, IsTheSameHoweverTheImageIsCut) {
     pass.next_event = pass.record = true;
     pass.blocks_per_unit = 64;
     const TraceScene trace(scene, job);
-    const Guide guide(initial_tree(scene.bounds(), 1.0f));
+    const SdTreeSampler guide(initial_tree(scene.bounds(), 1.0f));
     const auto render = [&](const WorkUnit& unit, RecordLog& log) {
         std::vector<PixelEstimate> pixels;
         TraceStats stats;
@@ -185,7 +185,8 @@ struct Traced {
     RecordFacts records;
 };
 
-Traced trace(const TraceScene& scene, const Job& job, const PassPlan& pass, const Guide& guide, const WorkUnit& unit) {
+Traced trace(const TraceScene& scene, const Job& job, const PassPlan& pass, const SdTreeSampler& guide,
+             const WorkUnit& unit) {
     Traced traced;
     RecordLog log;
     log.begin(guide.distribution_count());
@@ -209,7 +210,7 @@ TEST(PathKernel, APathDoesNotDependOnOthers) {
     pass.spp = 8;
     pass.next_event = true;
     pass.blocks_per_unit = 64;
-    const Guide guide(initial_tree(scene.bounds(), 1.0f));
+    const SdTreeSampler guide(initial_tree(scene.bounds(), 1.0f));
     const TraceScene prepared(scene, job);
     for (const bool record : {false, true}) {
         pass.record = record;

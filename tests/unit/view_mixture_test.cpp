@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a view adds to the mixture of its region, and when it is released.
-#include "common/guiding/view_mixture.h"
+#include "common/guiding/sd_tree/view_mixture.h"
 
 #include <gtest/gtest.h>
 
@@ -50,7 +50,7 @@ struct OneView {
 
     /// A pass in which `records` of the view, of `all`, fell into this bin. Whether the view is kept.
     bool judge(int bin, std::uint32_t records, std::uint32_t all, bool last_update = false) {
-        TreeSums sums(tree.pass, SumsShape(1, tree.cell_count(), true, 1));
+        CellSums sums(tree.pass, SumsShape(1, tree.cell_count(), true, 1));
         sums.add_count(0, all);
         sums.add_count(1, records);
         sums.add_mixture(1, static_cast<std::uint8_t>(bin), std::uint64_t{records} << kMeanRecordBits);

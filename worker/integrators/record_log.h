@@ -4,28 +4,28 @@
 #include <cstdint>
 #include <vector>
 
-#include "common/guiding/guide.h"
-#include "common/guiding/tree_update.h"
+#include "common/guiding/sd_tree/sd_tree_sampler.h"
+#include "common/guiding/statistics/cell_sums.h"
 
 namespace treefarm {
 
 /// Which distributions learn from a vertex.
 struct RecordTarget {
-    std::uint32_t region = Guide::kNoView;  ///< kNoView: none learns
-    std::uint32_t view = Guide::kNoView;    ///< the distribution of the view, where there is one
+    std::uint32_t region = SdTreeSampler::kNoView;  ///< kNoView: none learns
+    std::uint32_t view = SdTreeSampler::kNoView;    ///< the distribution of the view, where there is one
 
-    bool empty() const { return region == Guide::kNoView; }
-    bool has_view() const { return view != Guide::kNoView; }
+    bool empty() const { return region == SdTreeSampler::kNoView; }
+    bool has_view() const { return view != SdTreeSampler::kNoView; }
 };
 
 /// Where a record goes that the stochastic spatial filter has moved to `region`. One for a view goes to that of the
 /// same direction there, if there is one.
 template <bool kViews>
-RecordTarget moved(const Guide& guide, std::uint32_t region, std::uint32_t outgoing_code, RecordTarget target) {
+RecordTarget moved(const SdTreeSampler& guide, std::uint32_t region, std::uint32_t outgoing_code, RecordTarget target) {
     target.region = region;
     if (kViews && target.has_view()) {
         const std::uint32_t view = guide.view(target.region, outgoing_code);
-        if (view != Guide::kNoView) target.view = view;
+        if (view != SdTreeSampler::kNoView) target.view = view;
     }
     return target;
 }

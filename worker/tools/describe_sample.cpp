@@ -57,8 +57,8 @@ struct TextObserver : NoObserver {
 };
 
 template <class Surface, bool kGuided>
-std::string described(const TraceScene& scene, const Resolved& job, const PassPlan& pass, const Guide& guide, int x,
-                      int y, const PathKey& path) {
+std::string described(const TraceScene& scene, const Resolved& job, const PassPlan& pass, const SdTreeSampler& guide,
+                      int x, int y, const PathKey& path) {
     TraceStats stats;
     PathKernel<Surface, kGuided, false, TextObserver> kernel(scene, guide, PathSettings(scene, job, pass, guide),
                                                              stats);
@@ -74,8 +74,8 @@ std::string described(const TraceScene& scene, const Resolved& job, const PassPl
 
 }  // namespace
 
-std::string describe_sample(const TraceScene& scene, const Resolved& job, const PassPlan& pass, const Guide& guide,
-                            int x, int y, std::uint32_t sample) {
+std::string describe_sample(const TraceScene& scene, const Resolved& job, const PassPlan& pass,
+                            const SdTreeSampler& guide, int x, int y, std::uint32_t sample) {
     const PathKey path{job.sampler.seed, scene.film().key_of(x, y), pass.first_sample + sample};
     const KernelChoice& kernel = pass.kernel;
     if (kernel.plain_diffuse)

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "common/base/hash.h"
-#include "common/guiding/tree_statistics.h"
+#include "common/guiding/sd_tree/tree_statistics.h"
 
 namespace treefarm {
 
@@ -14,7 +14,7 @@ Rgb hashed_colour(std::uint32_t number) {
     return {channel(0), channel(20), channel(40)};
 }
 
-FilmMaps film_maps(const TraceScene& scene, const SdTree& tree, const Guide& guide) {
+FilmMaps film_maps(const TraceScene& scene, const SdTree& tree, const SdTreeSampler& guide) {
     const int width = scene.film().width, height = scene.film().height;
     const std::vector<double> cells = cells_by_region(tree);
     FilmMaps maps{RgbImage(width, height), Plane(width, height), Plane(width, height), Plane(width, height)};

@@ -18,6 +18,6 @@ struct FilmMaps {
 /// A colour that tells numbers apart. Linear.
 Rgb hashed_colour(std::uint32_t number);
 
-FilmMaps film_maps(const TraceScene& scene, const SdTree& tree, const Guide& guide);
+FilmMaps film_maps(const TraceScene& scene, const SdTree& tree, const SdTreeSampler& guide);
 
 }  // namespace treefarm

@@ -88,7 +88,7 @@ struct Square {
 template <class Surface>
 class PlaceTracer {
   public:
-    PlaceTracer(const TraceScene& scene, const Resolved& job, const Guide& guide, const InspectedPlace& place,
+    PlaceTracer(const TraceScene& scene, const Resolved& job, const SdTreeSampler& guide, const InspectedPlace& place,
                 const BruteForce& settings)
         : scene_(scene),
           guide_(guide),
@@ -157,7 +157,7 @@ class PlaceTracer {
     }
 
     const TraceScene& scene_;
-    const Guide& guide_;
+    const SdTreeSampler& guide_;
     const InspectedPlace& place_;
     const BruteForce& settings_;
     const PlaceFacts facts_;
@@ -171,8 +171,8 @@ class PlaceTracer {
 };
 
 template <class Surface>
-PlaceTruth trace_with(const TraceScene& scene, const Resolved& job, const Guide& guide, const InspectedPlace& place,
-                      const BruteForce& settings) {
+PlaceTruth trace_with(const TraceScene& scene, const Resolved& job, const SdTreeSampler& guide,
+                      const InspectedPlace& place, const BruteForce& settings) {
     const std::uint32_t side = 1u << settings.bits;
     std::vector<Square> squares(std::size_t{side} * side);
     std::atomic<std::uint32_t> next_row = 0;
@@ -222,13 +222,13 @@ std::optional<InspectedPlace> seen_place(const TraceScene& scene, int x, int y) 
     return place;
 }
 
-PlaceFacts place_facts(const TraceScene& scene, const Guide& guide, const InspectedPlace& place) {
+PlaceFacts place_facts(const TraceScene& scene, const SdTreeSampler& guide, const InspectedPlace& place) {
     PlaceFacts facts;
     facts.inside = guide.contains(place.hit.p);
     if (place.surface && scene.plainly_diffuse()) add_surface_facts<DiffuseSurface>(scene, place, facts);
     if (place.surface && !scene.plainly_diffuse()) add_surface_facts<GeneralSurface>(scene, place, facts);
     Guidance& guidance = facts.guidance;
-    guidance = {guide.region(place.hit.p), Guide::kNoView, 1.0f, 0.0f};
+    guidance = {guide.region(place.hit.p), SdTreeSampler::kNoView, 1.0f, 0.0f};
     if (facts.smooth) guidance.bsdf_fraction = guide.bsdf_fraction(guidance.region);
     std::uint32_t outgoing_code = 0;
     find_view<true>(guide, place.surface && facts.smooth && facts.view_dependent, place.outgoing, outgoing_code,
@@ -236,8 +236,8 @@ PlaceFacts place_facts(const TraceScene& scene, const Guide& guide, const Inspec
     return facts;
 }
 
-PlaceTruth trace_place(const TraceScene& scene, const Resolved& job, const Guide& guide, const InspectedPlace& place,
-                       const BruteForce& settings) {
+PlaceTruth trace_place(const TraceScene& scene, const Resolved& job, const SdTreeSampler& guide,
+                       const InspectedPlace& place, const BruteForce& settings) {
     return scene.plainly_diffuse() ? trace_with<DiffuseSurface>(scene, job, guide, place, settings)
                                    : trace_with<GeneralSurface>(scene, job, guide, place, settings);
 }

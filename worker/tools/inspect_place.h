@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "common/guiding/guide.h"
+#include "common/guiding/sd_tree/sd_tree_sampler.h"
 #include "common/plan/resolve.h"
 #include "worker/integrators/path/guided_sampling.h"
 #include "worker/scene/trace_scene.h"
@@ -32,7 +32,7 @@ struct PlaceFacts {
 /// The place that the centre of a pixel sees (through the centre of a lens); nothing if it sees no surface.
 std::optional<InspectedPlace> seen_place(const TraceScene& scene, int x, int y);
 
-PlaceFacts place_facts(const TraceScene& scene, const Guide& guide, const InspectedPlace& place);
+PlaceFacts place_facts(const TraceScene& scene, const SdTreeSampler& guide, const InspectedPlace& place);
 
 /// How the truth is found: by path tracing from the place, with next event, without guides.
 struct BruteForce {
@@ -54,7 +54,7 @@ struct PlaceTruth {
 };
 
 /// Traces what a place scatters and receives. Pure but for its time: the same numbers for any number of threads.
-PlaceTruth trace_place(const TraceScene& scene, const Resolved& job, const Guide& guide, const InspectedPlace& place,
-                       const BruteForce& settings);
+PlaceTruth trace_place(const TraceScene& scene, const Resolved& job, const SdTreeSampler& guide,
+                       const InspectedPlace& place, const BruteForce& settings);
 
 }  // namespace treefarm

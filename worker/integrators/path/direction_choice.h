@@ -16,7 +16,7 @@ class DirectionChoice {
   public:
     using Path = PathState<Surface>;
 
-    DirectionChoice(const Guide& guide, const PathSettings& settings)
+    DirectionChoice(const SdTreeSampler& guide, const PathSettings& settings)
         : guide_(guide), candidates_(kGuided ? settings.candidates : 1), candidate_depth_(settings.candidate_depth) {}
 
     /// The random numbers of a step for `paths`, whose Path::lane say which are theirs.
@@ -140,7 +140,7 @@ class DirectionChoice {
         }
     }
 
-    const Guide& guide_;
+    const SdTreeSampler& guide_;
     const std::uint32_t candidates_;
     const int candidate_depth_;
     DrawBatch draws_;

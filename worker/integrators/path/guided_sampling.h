@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 
-#include "common/guiding/guide.h"
+#include "common/guiding/sd_tree/sd_tree_sampler.h"
 #include "common/math/warp_batch.h"
 #include "worker/shading/bsdf_sample.h"
 
@@ -13,11 +13,11 @@ namespace treefarm {
 /// The guide at a place.
 struct Guidance {
     std::uint32_t region;  ///< of the tree
-    std::uint32_t view;    ///< the distribution of the view there, or Guide::kNoView
+    std::uint32_t view;    ///< the distribution of the view there, or SdTreeSampler::kNoView
     float bsdf_fraction;   ///< probability of sampling the BSDF
     float view_fraction;   ///< probability of sampling the view; the rest goes to the region's own distribution
 
-    bool has_view() const { return view != Guide::kNoView; }
+    bool has_view() const { return view != SdTreeSampler::kNoView; }
     void sample_bsdf_alone() {
         bsdf_fraction = 1.0f;
         view_fraction = 0.0f;
@@ -62,7 +62,7 @@ inline float without_view(const Guidance& guidance, float bsdf_pdf, float guide_
 
 /// The density of whatever guides, for a direction that was not drawn from it.
 template <bool kViews>
-float mixed_pdf_at(const Guide& guide, const Guidance& guidance, float bsdf_pdf, std::uint32_t code) {
+float mixed_pdf_at(const SdTreeSampler& guide, const Guidance& guidance, float bsdf_pdf, std::uint32_t code) {
     const float guide_pdf = guide.pdf(guidance.region, code);
     if (kViews && guidance.has_view()) return mixed_pdf(guidance, bsdf_pdf, guide_pdf, guide.pdf(guidance.view, code));
     return mixed_pdf(guidance.bsdf_fraction, bsdf_pdf, guide_pdf);
@@ -71,9 +71,9 @@ float mixed_pdf_at(const Guide& guide, const Guidance& guidance, float bsdf_pdf,
 /// Completes what is known of the region by its view of the direction that light leaves in, if the surface depends on
 /// it and there is one. Without kGuided the fractions stay. `outgoing_code` is set where the surface depends on it.
 template <bool kGuided>
-void find_view(const Guide& guide, bool view_dependent, const Vec3& outgoing, std::uint32_t& outgoing_code,
+void find_view(const SdTreeSampler& guide, bool view_dependent, const Vec3& outgoing, std::uint32_t& outgoing_code,
                Guidance& guidance) {
-    guidance.view = Guide::kNoView;
+    guidance.view = SdTreeSampler::kNoView;
     guidance.view_fraction = 0.0f;
     if (!view_dependent) return;
     outgoing_code = direction_to_code(outgoing);
@@ -102,18 +102,18 @@ class CodeBatch {
     void convert() { direction_to_code_batch(directions_, count_, codes_); }
 
     /// Fetches what the tree's densities of these directions will read first.
-    void prefetch(const Guide& guide) const {
+    void prefetch(const SdTreeSampler& guide) const {
         for (std::uint32_t i = 0; i < count_; ++i) {
             guide.prefetch_pdf(regions_[i], codes_[i]);
-            if (kViews && views_[i] != Guide::kNoView) guide.prefetch_pdf(views_[i], codes_[i]);
+            if (kViews && views_[i] != SdTreeSampler::kNoView) guide.prefetch_pdf(views_[i], codes_[i]);
         }
     }
 
     /// Fetches what the densities will read next, by what prefetch() has brought.
-    void prefetch_cells(const Guide& guide) const {
+    void prefetch_cells(const SdTreeSampler& guide) const {
         for (std::uint32_t i = 0; i < count_; ++i) {
             guide.prefetch_pdf_cell(regions_[i], codes_[i]);
-            if (kViews && views_[i] != Guide::kNoView) guide.prefetch_pdf_cell(views_[i], codes_[i]);
+            if (kViews && views_[i] != SdTreeSampler::kNoView) guide.prefetch_pdf_cell(views_[i], codes_[i]);
         }
     }
 
@@ -143,15 +143,15 @@ class ScatterBatch {
     /// `technique`, uniform in [0, 1), chooses BSDF or guide, random[1] the BSDF's lobe or the guide's cell, [2] and
     /// [3] the point; `cosine` is that point warped to the cosine hemisphere. False if there is no direction.
     template <class Surface>
-    bool draw(const Surface& surface, const Guide& guide, const Guidance& guidance, float technique, const Draw& random,
-              const Vec3& cosine, ScatterSample& s) {
+    bool draw(const Surface& surface, const SdTreeSampler& guide, const Guidance& guidance, float technique,
+              const Draw& random, const Vec3& cosine, ScatterSample& s) {
         s.guided = kGuided && !(technique < guidance.bsdf_fraction);
         s.by_view = false;
         s.guide_pdf = s.view_pdf = 0.0f;
         if (kGuided && s.guided) {
             s.by_view = kViews && technique < guidance.bsdf_fraction + guidance.view_fraction;
-            const Guide::SquareSample drawn = guide.sample_square(kViews && s.by_view ? guidance.view : guidance.region,
-                                                                  random[1], random[2], random[3]);
+            const SdTreeSampler::SquareSample drawn = guide.sample_square(
+                kViews && s.by_view ? guidance.view : guidance.region, random[1], random[2], random[3]);
             s.code = drawn.code;
             (kViews && s.by_view ? s.view_pdf : s.guide_pdf) = drawn.pdf;
             s.delta = false;
@@ -175,7 +175,7 @@ class ScatterBatch {
     }
 
     /// Codes of the BSDFs' directions, directions of the guide's points.
-    void convert(const Guide& guide) {
+    void convert(const SdTreeSampler& guide) {
         if constexpr (kCoded) codes_.convert();
         if constexpr (kGuided) {
             codes_.prefetch(guide);
@@ -188,7 +188,8 @@ class ScatterBatch {
 
     /// Value and density of what was drawn; pdf or f_cos may be 0.
     template <class Surface>
-    void complete(const Surface& surface, const Guide& guide, const Guidance& guidance, ScatterSample& s) const {
+    void complete(const Surface& surface, const SdTreeSampler& guide, const Guidance& guidance,
+                  ScatterSample& s) const {
         if (kGuided && s.guided) {
             s.world = directions_[s.conversion];
             s.local = surface.frame().to_local(s.world);
@@ -213,7 +214,7 @@ class ScatterBatch {
     }
 
   private:
-    static float viewed_pdf(const Guide& guide, const Guidance& guidance, ScatterSample& s) {
+    static float viewed_pdf(const SdTreeSampler& guide, const Guidance& guidance, ScatterSample& s) {
         if (!s.guided || !s.by_view) s.view_pdf = guide.pdf(guidance.view, s.code);
         return mixed_pdf(guidance, s.bsdf_pdf, s.guide_pdf, s.view_pdf);
     }
@@ -223,7 +224,7 @@ class ScatterBatch {
     void each_other(Visit visit) const {
         if constexpr (kViews)
             for (std::uint32_t i = 0; i < square_count_; ++i)
-                if (others_[i].distribution != Guide::kNoView) visit(others_[i].distribution, others_[i].code);
+                if (others_[i].distribution != SdTreeSampler::kNoView) visit(others_[i].distribution, others_[i].code);
     }
 
     struct Other {

@@ -8,7 +8,7 @@
 namespace treefarm {
 
 RenderUnit prepare_path(std::shared_ptr<const TraceScene> scene, const Resolved& job) {
-    return [scene = std::move(scene), job](const PassPlan& pass, const Guide& guide, const WorkUnit& unit,
+    return [scene = std::move(scene), job](const PassPlan& pass, const SdTreeSampler& guide, const WorkUnit& unit,
                                            UnitOutput& output) {
         if (!fits(pass, scene->plainly_diffuse(), {guide.trained(), guide.view_count() > 0}))
             throw RunError("a pass whose kernel does not fit the scene and the tree");

@@ -22,7 +22,7 @@ class PathKernel {
     static constexpr std::uint32_t kGroup = 8 * kBatch;
 
     /// `log` is where records go.
-    PathKernel(const TraceScene& scene, const Guide& guide, const PathSettings& settings, TraceStats& stats,
+    PathKernel(const TraceScene& scene, const SdTreeSampler& guide, const PathSettings& settings, TraceStats& stats,
                RecordLog* log = nullptr)
         : stats_(stats), log_(log), walk_(scene, guide, settings, stats) {
         assert(log || !kRecord);

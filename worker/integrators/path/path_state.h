@@ -54,7 +54,7 @@ struct PathState {
         scatter_pdf = 0.0f;
         scatter_lights = nullptr;
         spread = 1.0f;
-        guidance = {0, Guide::kNoView, 1.0f, 0.0f};
+        guidance = {0, SdTreeSampler::kNoView, 1.0f, 0.0f};
     }
 
     /// Goes on from a delta lobe at the first surface, to add more to the same radiance.

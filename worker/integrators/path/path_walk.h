@@ -32,7 +32,7 @@ class PathWalk {
     static constexpr std::uint32_t kBatch = kDrawBatch;
     using Path = PathState<Surface>;
 
-    PathWalk(const TraceScene& scene, const Guide& guide, const PathSettings& settings, TraceStats& stats)
+    PathWalk(const TraceScene& scene, const SdTreeSampler& guide, const PathSettings& settings, TraceStats& stats)
         : scene_(scene),
           guide_(guide),
           settings_(settings),
@@ -376,7 +376,7 @@ class PathWalk {
     }
 
     const TraceScene& scene_;
-    const Guide& guide_;
+    const SdTreeSampler& guide_;
     const PathSettings settings_;
     TraceStats& stats_;
     PhaseClock clock_;

@@ -42,7 +42,7 @@ struct PendingLight {
     }
 
     /// Record from which the choice of emitters learns, of a sample that brought `reflected`.
-    Record record(const Guide& guide, float reflected) const {
+    Record record(const SdTreeSampler& guide, float reflected) const {
         const std::uint32_t region = from.guidance.region;
         return light_record(region, guide.quantum_exponent(region), cluster, cluster_probability, reflected);
     }

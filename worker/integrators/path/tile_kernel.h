@@ -18,7 +18,7 @@ struct TileJob {
     const TraceScene& scene;
     const Resolved& job;
     const PassPlan& pass;
-    const Guide& guide;
+    const SdTreeSampler& guide;
     const WorkUnit& unit;
     std::vector<PixelEstimate>& pixels;
     RecordLog& log;

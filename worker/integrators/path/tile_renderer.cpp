@@ -23,7 +23,7 @@ std::vector<KernelChoice> compiled_kernels() {
     return choices;
 }
 
-void render_unit(const TraceScene& scene, const Resolved& job, const PassPlan& pass, const Guide& guide,
+void render_unit(const TraceScene& scene, const Resolved& job, const PassPlan& pass, const SdTreeSampler& guide,
                  const WorkUnit& unit, std::vector<PixelEstimate>& pixels, RecordLog& log, TraceStats& stats) {
     const double start = thread_cpu_seconds();
     pixels.clear();

@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "common/guiding/mixture.h"
+#include "common/guiding/regions/mixture.h"
 #include "worker/integrators/path/path_recorder.h"
 #include "worker/integrators/path/path_settings.h"
 #include "worker/integrators/path/path_state.h"
@@ -15,7 +15,7 @@ namespace treefarm {
 template <bool kViews>
 class DirectionRecords {
   public:
-    DirectionRecords(const Guide& guide, const PathSettings& settings)
+    DirectionRecords(const SdTreeSampler& guide, const PathSettings& settings)
         : guide_(guide), jitters_(settings.jitter_records) {}
 
     /// The random numbers of a step; PathState::lane says which are a path's.
@@ -61,7 +61,7 @@ class DirectionRecords {
         guide_.regions(points, count, regions_);
     }
 
-    const Guide& guide_;
+    const SdTreeSampler& guide_;
     const bool jitters_;
     DrawBatch draws_;
     std::array<std::uint32_t, kDrawBatch> regions_;
@@ -70,7 +70,7 @@ class DirectionRecords {
 /// Notes what next event found at a vertex: `reflected` of it, at `weight` against scattering.
 template <bool kViews, class Surface>
 void record_light(const PendingLight& light, const Rgb& reflected, float weight, std::uint32_t code,
-                  const PathState<Surface>& path, const Guide& guide, const PathSettings& settings,
+                  const PathState<Surface>& path, const SdTreeSampler& guide, const PathSettings& settings,
                   PathRecorder& recorder) {
     recorder.add_reflected(light.from.vertex, reflected);
     if (light.from.learned_choice) recorder.add_choice(light.record(guide, average(reflected)));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "common/guiding/refine_views.h"
+#include "common/guiding/sd_tree/refine_views.h"
 
 #include <algorithm>
 
@@ -8,7 +8,7 @@ namespace {
 
 class ViewRefiner {
   public:
-    ViewRefiner(const SdTree& tree, const TreeSums& sums, const RefineSettings& settings,
+    ViewRefiner(const SdTree& tree, const CellSums& sums, const RefineSettings& settings,
                 std::span<const ViewAdvice> advice, SdTree& refined, RefineReport& report)
         : old_(tree),
           sums_(sums),
@@ -206,7 +206,7 @@ class ViewRefiner {
     }
 
     const SdTree& old_;
-    const TreeSums& sums_;
+    const CellSums& sums_;
     const RefineSettings& settings_;
     std::span<const ViewAdvice> advice_;
     SdTree& result_;
@@ -220,7 +220,7 @@ class ViewRefiner {
 
 }  // namespace
 
-void refine_views(const SdTree& tree, const TreeSums& sums, const RefineSettings& settings,
+void refine_views(const SdTree& tree, const CellSums& sums, const RefineSettings& settings,
                   std::span<const ViewAdvice> advice, SdTree& refined, RefineReport& report) {
     ViewRefiner(tree, sums, settings, advice, refined, report).run();
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "common/guiding/mixture.h"
+#include "common/guiding/regions/mixture.h"
 
 #include <cmath>
 
@@ -35,11 +35,10 @@ double best_bsdf_fraction(const MixtureHistogram& histogram, double prior, doubl
     return 0.5 * (low + high);
 }
 
-void MixtureLearner::learn(const SdTree& tree, const TreeSums& sums, std::span<const RegionOrigin> origins,
-                           SdTree& next) {
-    const std::size_t regions = tree.region_count();
-    if (sums.shape() !=
-        SumsShape(tree.region_count(), tree.cell_count(), true, tree.view_count(), !tree.light_probabilities.empty()))
+void MixtureLearner::learn(const RegionModel& tree, const CellSums& sums, std::span<const RegionOrigin> origins,
+                           RegionModel& next) {
+    const std::size_t regions = tree.leaf_count();
+    if (!sums.shape().with_mixture || sums.shape().regions != regions)
         throw RunError("the sums to learn the mixture from belong to another tree");
     histograms_.resize(regions);
     std::vector<float> fraction(regions);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "common/guiding/refine_directions.h"
+#include "common/guiding/sd_tree/refine_directions.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "common/guiding/sd_tree.h"
+#include "common/guiding/sd_tree/sd_tree.h"
 
 namespace treefarm {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "common/guiding/box_filter.h"
+#include "common/guiding/statistics/box_filter.h"
 
 #include "common/math/direction_map.h"
 

@@ -9,17 +9,17 @@
 #include "common/base/large_table.h"
 #include "common/base/prefetch.h"
 #include "common/base/random.h"
-#include "common/guiding/sd_tree.h"
+#include "common/guiding/regions/region_sampler.h"
+#include "common/guiding/sd_tree/sd_tree.h"
 #include "common/math/direction_map.h"
-#include "common/math/vector_batch.h"
 
 namespace treefarm {
 
-/// The tree in the form that workers sample from: 8-way spatial treelets and, per region, a flat cumulative table with
-/// look-up entries (bench/guide_bench.cpp shows why). Immutable; one per process, shared by its threads.
-class Guide {
+/// The tree in the form that workers sample from: regions and, of each, a flat cumulative table with look-up entries
+/// (bench/guide_bench.cpp shows why). Immutable; one per process, shared by its threads.
+class SdTreeSampler : public RegionSampler {
   public:
-    explicit Guide(const SdTree& tree);
+    explicit SdTreeSampler(const SdTree& tree);
 
     /// A sampled point of the direction square (direction_map.h), with the density of exactly the cell it was drawn
     /// from.
@@ -36,47 +36,12 @@ class Guide {
         float pdf;           ///< per steradian, > 0
     };
 
-    /// False in the first pass: nothing was learned yet, sample the BSDF alone.
-    bool trained() const { return trained_; }
-    std::uint32_t distribution_count() const { return static_cast<std::uint32_t>(quantum_exponent_.size()); }
-    std::uint32_t region_count() const { return static_cast<std::uint32_t>(region_depth_.size()); }
     std::uint32_t view_count() const { return distribution_count() - region_count(); }
     std::uint32_t cell_count() const {
         return static_cast<std::uint32_t>(cells_.size()) - kFewCells - distribution_count();
     }
-    std::int16_t quantum_exponent(std::uint32_t distribution) const { return quantum_exponent_[distribution]; }
-    /// Probability of sampling the BSDF rather than a tree where `distribution` is the finest that there is.
-    float bsdf_fraction(std::uint32_t distribution) const { return bsdf_fraction_[distribution]; }
     /// Probability of sampling the view that is this distribution.
     float view_fraction(std::uint32_t distribution) const { return view_fraction_[distribution - region_count()]; }
-
-    /// Whether next event learns how to choose emitters.
-    bool learns_lights() const { return !light_probabilities_.empty(); }
-    /// How next event chooses emitters in a region: nullptr, by power.
-    const LightProbabilities* light_probabilities(std::uint32_t region) const {
-        return light_probabilities_.empty() ? nullptr : &light_probabilities_[region];
-    }
-
-    /// The region of a point. Points outside the cube belong to the nearest region (the caller may count them with
-    /// contains()).
-    std::uint32_t region(const Vec3& position) const;
-    /// The regions of the first `count` points, in step: what one waits for (memory, how deep the tree is there)
-    /// another works through.
-    void regions(const VectorBatch& positions, std::uint32_t count, std::array<std::uint32_t, kDrawBatch>& found) const;
-    bool contains(const Vec3& position) const {
-        // Points of the outermost surfaces may lie a rounding error outside.
-        const float low = -1e-4f * extent_, high = extent_ - low;
-        const Vec3 q = position - origin_;
-        return q.x >= low && q.y >= low && q.z >= low && q.x <= high && q.y <= high && q.z <= high;
-    }
-
-    /// A point of `region` moved by up to half the region's size along each axis: where the stochastic spatial filter
-    /// of the authors' improved program looks for a record's region. Three uniform 32-bit numbers.
-    Vec3 jittered(const Vec3& position, std::uint32_t region, const Draw& random) const {
-        const Vec3& size = region_size_[region_depth_[region]];
-        return {position.x + size.x * (to_unit(random[0]) - 0.5f), position.y + size.y * (to_unit(random[1]) - 0.5f),
-                position.z + size.z * (to_unit(random[2]) - 0.5f)};
-    }
 
     /// The distribution (region_count() or more) of light leaving `region` in the direction with this code, or kNoView
     /// where the region has no T2.
@@ -148,10 +113,7 @@ class Guide {
     using LookupTable = std::array<std::uint32_t, (1u << bits) + 1>;
     static constexpr int kRegionBits = 6;
     static constexpr int kViewBits = 4;  ///< views are many and small
-    static constexpr std::uint32_t kLeafFlag = 0x80000000u;
 
-    std::uint32_t build_treelet(const SdTree& tree, std::uint32_t node, int depth);
-    void build_top();
     static float density(const Cell* cell);
     template <int bits>
     void fill_lookups(LookupTable<bits>& by_mass, LookupTable<bits>& by_code, std::size_t first) const;
@@ -194,12 +156,6 @@ class Guide {
     void add_distribution(const SdTree& tree, std::uint32_t distribution);
     void add_views(const SdTree& tree);
 
-    bool trained_ = false;
-    Vec3 origin_{0.0f};
-    float inverse_extent_ = 1.0f;
-    float extent_ = 1.0f;
-    std::vector<std::array<std::uint32_t, 8>> treelets_;
-    std::vector<std::uint32_t> top_;  ///< the entries that kTopBits treelets lead to, or the leaf before
     LargeTable<Cell> cells_;  ///< each distribution's, then one at which the next would begin: cell c of distribution
                               ///< d is c + d; kFewCells more at the end
     LargeTable<LookupTable<kRegionBits>> region_mass_, region_code_;
@@ -210,11 +166,6 @@ class Guide {
     std::vector<Views> views_;               ///< per region; empty if none has any
     std::vector<std::uint32_t> view_begin_;  ///< per view: the first Z-order code of where its light leaves to
     std::vector<float> view_fraction_;
-    std::vector<std::int16_t> quantum_exponent_;
-    std::vector<float> bsdf_fraction_;
-    std::vector<LightProbabilities> light_probabilities_;
-    std::vector<std::uint8_t> region_depth_;                ///< halvings from the cube to the region
-    std::array<Vec3, kMaxSpatialDepth + 1> region_size_{};  ///< per depth, in scene units
 };
 
 }  // namespace treefarm

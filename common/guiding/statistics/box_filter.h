@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "common/base/random.h"
-#include "common/guiding/tree_update.h"
+#include "common/guiding/statistics/cell_sums.h"
 
 namespace treefarm {
 

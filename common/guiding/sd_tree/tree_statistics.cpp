@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "common/guiding/tree_statistics.h"
+#include "common/guiding/sd_tree/tree_statistics.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "common/guiding/guide.h"
+#include "common/guiding/sd_tree/sd_tree_sampler.h"
 #include "common/math/direction_map.h"
 
 namespace treefarm {
@@ -119,7 +119,7 @@ TreeStatistics tree_statistics(const SdTree& tree, std::uint64_t encoded_bytes) 
     s.regions_mixture = mixtures_of(tree, 0, regions);
     s.views_mixture = mixtures_of(tree, regions, all);
     s.encoded_bytes = encoded_bytes;
-    s.memory_bytes = Guide(tree).bytes();
+    s.memory_bytes = SdTreeSampler(tree).bytes();
     return s;
 }
 

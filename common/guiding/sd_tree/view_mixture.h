@@ -4,9 +4,9 @@
 #include <span>
 #include <vector>
 
-#include "common/guiding/mixture.h"
-#include "common/guiding/refine.h"
-#include "common/guiding/tree_update.h"
+#include "common/guiding/regions/mixture.h"
+#include "common/guiding/sd_tree/refine.h"
+#include "common/guiding/statistics/cell_sums.h"
 
 namespace treefarm {
 
@@ -25,7 +25,7 @@ class ViewLearner {
   public:
     /// Adds what the pass over `tree` recorded; returns advice about its views, for refine(). A T2 gets a second
     /// chance, but for the `last_update`.
-    std::vector<ViewAdvice> judge(const SdTree& tree, const TreeSums& sums, bool last_update);
+    std::vector<ViewAdvice> judge(const SdTree& tree, const CellSums& sums, bool last_update);
     /// Sets the fractions of the refined tree's views. `origins` as in RefineReport.
     void hand_down(std::span<const ViewOrigin> origins, SdTree& next);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "common/guiding/tree_update.h"
+#include "common/guiding/statistics/cell_sums.h"
 
 #include <algorithm>
 
@@ -52,7 +52,7 @@ void UpdateCaps::add(const UpdateCaps& other) {
     outside_positions += other.outside_positions;
 }
 
-TreeSums::TreeSums(std::uint32_t pass, const SumsShape& shape)
+CellSums::CellSums(std::uint32_t pass, const SumsShape& shape)
     : pass_(pass),
       shape_(shape),
       cells_(shape.cells),
@@ -60,11 +60,11 @@ TreeSums::TreeSums(std::uint32_t pass, const SumsShape& shape)
       mixture_(shape.mixture_begin(shape.regions + shape.views)),
       lights_(shape.light_sums()) {}
 
-bool TreeSums::add_light(std::uint32_t region, int cluster, std::uint64_t quanta) {
+bool CellSums::add_light(std::uint32_t region, int cluster, std::uint64_t quanta) {
     return add_saturating(lights_[std::size_t{region} * kLightClusters + static_cast<std::size_t>(cluster)], quanta);
 }
 
-void TreeSums::add(const TreeSums& other) {
+void CellSums::add(const CellSums& other) {
     if (other.pass_ != pass_ || other.shape_ != shape_) throw RunError("sums of different trees cannot be added");
     for (std::size_t c = 0; c < cells_.size(); ++c)
         if (!add_quanta(static_cast<std::uint32_t>(c), other.cells_[c])) ++caps_.saturated_cells;
@@ -77,7 +77,7 @@ void TreeSums::add(const TreeSums& other) {
     caps_.add(other.caps_);
 }
 
-void TreeSums::clear() {
+void CellSums::clear() {
     std::fill(cells_.begin(), cells_.end(), 0);
     std::fill(counts_.begin(), counts_.end(), 0);
     std::fill(mixture_.begin(), mixture_.end(), 0);
@@ -85,7 +85,7 @@ void TreeSums::clear() {
     caps_ = {};
 }
 
-Bytes TreeSums::encode() const {
+Bytes CellSums::encode() const {
     ByteWriter out;
     out.put_varint(pass_);
     out.put_varint(cells_.size());
@@ -102,7 +102,7 @@ Bytes TreeSums::encode() const {
     return out.take();
 }
 
-std::uint64_t TreeSums::merge_encoded(std::span<const std::uint8_t> update) {
+std::uint64_t CellSums::merge_encoded(std::span<const std::uint8_t> update) {
     // Two readings: the first only checks, so that a bad message changes nothing.
     const auto read = [&](auto&& on_count, auto&& on_cell, auto&& on_mixture, auto&& on_light) {
         ByteReader in(update);

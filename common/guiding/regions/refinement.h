@@ -3,15 +3,13 @@
 
 #include <cstdint>
 #include <limits>
-#include <span>
 #include <vector>
 
-#include "common/guiding/sd_tree.h"
 #include "common/guiding/settings.h"
-#include "common/guiding/tree_update.h"
 
 namespace treefarm {
 
+/// How a guide learns between passes; each takes of it what it has.
 struct RefineSettings {
     double spatial_threshold =
         0;  ///< records (weighted) above which a region splits: c sqrt(n_k / 4), n_k spp of the coming pass
@@ -28,12 +26,6 @@ struct RefineSettings {
     double least_view_cells = 0;                                  ///< unless they are fewer than this
 };
 
-/// Advice for refine() about a view, besides its sums.
-struct ViewAdvice {
-    double gain = 0;    ///< what it is good for: the more, the sooner it is kept and split
-    bool keep = false;  ///< a T2 of which no view is worth keeping is released
-};
-
 /// Where a region of the refined tree comes from: the region of the old tree, halved so many times.
 struct RegionOrigin {
     std::uint32_t region = 0;
@@ -46,6 +38,7 @@ struct ViewOrigin {
     int halvings = 0;
 };
 
+/// What became of it, for the report and for what is learned per region.
 struct RefineReport {
     std::uint64_t spatial_depth_capped = 0;      ///< regions that would have split beyond kMaxSpatialDepth
     std::uint64_t directional_depth_capped = 0;  ///< cells that would have split beyond kMaxDirectionDepth
@@ -57,13 +50,5 @@ struct RefineReport {
     std::vector<RegionOrigin> origins;     ///< per region of the refined tree
     std::vector<ViewOrigin> view_origins;  ///< per view of the refined tree
 };
-
-/// The next tree: spatial splits by record count, directional splits and prunings by energy, densities re-expressed on
-/// the new topology (a split cell gives a quarter to each child, pruned cells are summed). Pure and deterministic.
-/// Source: Mueller et al. 2017, section 3.3, with the thresholds as their program has them; views as in Cavus 2020,
-/// 2.5.5.2: a T2 goes to all parts of a split region, and away where nothing was recorded. `advice` per view of `tree`;
-/// without it all are kept.
-SdTree refine(const SdTree& tree, const TreeSums& sums, const RefineSettings& settings, RefineReport& report,
-              std::span<const ViewAdvice> advice = {});
 
 }  // namespace treefarm

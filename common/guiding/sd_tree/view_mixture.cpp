@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "common/guiding/view_mixture.h"
+#include "common/guiding/sd_tree/view_mixture.h"
 
 #include <algorithm>
 #include <cmath>
@@ -28,7 +28,7 @@ double view_gain(const MixtureHistogram& histogram, double others) {
     return sum / whole;
 }
 
-std::vector<ViewAdvice> ViewLearner::judge(const SdTree& tree, const TreeSums& sums, bool last_update) {
+std::vector<ViewAdvice> ViewLearner::judge(const SdTree& tree, const CellSums& sums, bool last_update) {
     const std::uint32_t regions = tree.region_count(), views = tree.view_count();
     if (sums.shape() != SumsShape(regions, tree.cell_count(), true, views, !tree.light_probabilities.empty()))
         throw RunError("the sums to learn the mixture from belong to another tree");

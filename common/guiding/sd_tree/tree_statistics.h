@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "common/guiding/sd_tree.h"
+#include "common/guiding/sd_tree/sd_tree.h"
 
 namespace treefarm {
 

@@ -10,7 +10,7 @@
 #include "common/base/bytes.h"
 #include "common/base/large_table.h"
 #include "common/base/prefetch.h"
-#include "common/guiding/sd_tree.h"
+#include "common/guiding/regions/region_model.h"
 #include "common/math/elementary.h"
 
 namespace treefarm {
@@ -49,7 +49,7 @@ struct UpdateCaps {
     bool operator==(const UpdateCaps&) const = default;
 };
 
-/// Shape of a TreeSums: how much there are sums for, and of which kinds.
+/// Shape of a CellSums: how much there are sums for, and of which kinds.
 struct SumsShape {
     std::uint32_t regions = 0;
     std::uint32_t views = 0;
@@ -69,13 +69,13 @@ struct SumsShape {
     }
 };
 
-/// Dense sums over the cells and distributions of one tree, exact integers: adding is order-free and split == whole.
-class TreeSums {
+/// Dense sums over the cells and distributions of one model, exact integers: adding is order-free and split == whole.
+class CellSums {
   public:
-    TreeSums() = default;
-    TreeSums(std::uint32_t pass, const SumsShape& shape);
-    TreeSums(std::uint32_t pass, std::uint32_t regions, std::uint32_t cells, bool with_mixture = false)
-        : TreeSums(pass, SumsShape(regions, cells, with_mixture)) {}
+    CellSums() = default;
+    CellSums(std::uint32_t pass, const SumsShape& shape);
+    CellSums(std::uint32_t pass, std::uint32_t regions, std::uint32_t cells, bool with_mixture = false)
+        : CellSums(pass, SumsShape(regions, cells, with_mixture)) {}
 
     std::uint32_t pass() const { return pass_; }
     const LargeTable<std::uint64_t>& cells() const { return cells_; }
@@ -106,7 +106,7 @@ class TreeSums {
         return add_saturating(mixture_[shape_.mixture_begin(distribution) + bin], quanta);
     }
     void add_caps(const UpdateCaps& caps) { caps_.add(caps); }
-    void add(const TreeSums& other);
+    void add(const CellSums& other);
     void clear();
 
     /// Sparse form: only cells and counts that are not zero (docs/design/protocol.md, "tree update").
@@ -115,7 +115,7 @@ class TreeSums {
     /// otherwise. Returns the number of touched cells.
     std::uint64_t merge_encoded(std::span<const std::uint8_t> update);
 
-    bool operator==(const TreeSums&) const = default;
+    bool operator==(const CellSums&) const = default;
 
   private:
     /// False where the sum would pass 2^64 - 1 and stays there.

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "common/guiding/refine.h"
+#include "common/guiding/sd_tree/refine.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <mutex>
 #include <numeric>
 
 #include "common/base/parallel.h"
-#include "common/guiding/refine_directions.h"
-#include "common/guiding/refine_views.h"
+#include "common/guiding/sd_tree/refine_directions.h"
+#include "common/guiding/sd_tree/refine_views.h"
 
 namespace treefarm {
 namespace {
@@ -29,7 +28,7 @@ std::uint32_t cell_divisor(const SdTree& tree, std::uint32_t distribution, const
 
 class TreeRefiner {
   public:
-    TreeRefiner(const SdTree& tree, const TreeSums& sums, const RefineSettings& settings, RefineReport& report)
+    TreeRefiner(const SdTree& tree, const CellSums& sums, const RefineSettings& settings, RefineReport& report)
         : old_(tree), sums_(sums), settings_(settings), report_(report) {}
 
     SdTree run() {
@@ -109,7 +108,7 @@ class TreeRefiner {
     }
 
     const SdTree& old_;
-    const TreeSums& sums_;
+    const CellSums& sums_;
     const RefineSettings& settings_;
     RefineReport& report_;
     std::vector<RefinedDistribution> refined_;  ///< per region of the old tree
@@ -120,7 +119,7 @@ class TreeRefiner {
 
 }  // namespace
 
-RefinedDistribution refine_distribution(const SdTree& tree, const TreeSums& sums, std::uint32_t distribution,
+RefinedDistribution refine_distribution(const SdTree& tree, const CellSums& sums, std::uint32_t distribution,
                                         const RefineSettings& settings, RefineReport& report) {
     const std::uint32_t begin = tree.cell_begin[distribution], count = tree.cell_begin[distribution + 1] - begin;
     const std::span<const std::uint8_t> depths(&tree.cell_depth[begin], count);
@@ -137,12 +136,7 @@ RefinedDistribution refine_distribution(const SdTree& tree, const TreeSums& sums
     RefinedDistribution refined{refine_directions(depths, energies, divisor), tree.quantum_exponent[distribution]};
     report.directional_depth_capped += refined.directions.depth_capped;
     report.directional_depth = std::max(report.directional_depth, refined.directions.max_depth);
-    const std::uint64_t records = sums.counts()[distribution];
-    if (total > 0 && records > 0) {
-        const double mean_record = std::ldexp(total / static_cast<double>(records), refined.quantum_exponent);
-        constexpr double kMost = std::numeric_limits<float>::max();
-        refined.quantum_exponent = quantum_exponent_for(static_cast<float>(std::min(mean_record, kMost)));
-    }
+    refined.quantum_exponent = learned_exponent(total, sums.counts()[distribution], refined.quantum_exponent);
     return refined;
 }
 
@@ -155,7 +149,7 @@ void add_distribution(SdTree& tree, const RefinedDistribution& distribution, flo
     tree.bsdf_fraction.push_back(bsdf_fraction);
 }
 
-SdTree refine(const SdTree& tree, const TreeSums& sums, const RefineSettings& settings, RefineReport& report,
+SdTree refine(const SdTree& tree, const CellSums& sums, const RefineSettings& settings, RefineReport& report,
               std::span<const ViewAdvice> advice) {
     if (sums.cells().size() != tree.cell_count() || sums.counts().size() != tree.distribution_count() ||
         (!advice.empty() && advice.size() != tree.view_count()))

@@ -6,8 +6,9 @@
 #include <span>
 #include <vector>
 
-#include "common/guiding/refine.h"
-#include "common/guiding/tree_update.h"
+#include "common/guiding/regions/refinement.h"
+#include "common/guiding/regions/region_model.h"
+#include "common/guiding/statistics/cell_sums.h"
 #include "common/plan/policy.h"
 
 namespace treefarm {
@@ -44,7 +45,7 @@ class MixtureLearner {
   public:
     /// Sets next.bsdf_fraction from what the pass over `tree` recorded. `origins` says which region of `tree` each of
     /// `next` came from. Older passes count half as much with each pass; a split region's parts share its histogram.
-    void learn(const SdTree& tree, const TreeSums& sums, std::span<const RegionOrigin> origins, SdTree& next);
+    void learn(const RegionModel& tree, const CellSums& sums, std::span<const RegionOrigin> origins, RegionModel& next);
 
   private:
     std::vector<MixtureHistogram> histograms_;  ///< per region of the coming tree, in radiance, not in quanta

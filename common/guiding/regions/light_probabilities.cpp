@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "common/guiding/light_probabilities.h"
+#include "common/guiding/regions/light_probabilities.h"
 
 #include <cmath>
 
@@ -38,9 +38,9 @@ LightProbabilities learned_probabilities(std::span<const double, kLightClusters>
     return rounded(parts);
 }
 
-void LightLearner::learn(const SdTree& tree, const TreeSums& sums, std::span<const RegionOrigin> origins,
-                         SdTree& next) {
-    const std::uint32_t regions = tree.region_count();
+void LightLearner::learn(const RegionModel& tree, const CellSums& sums, std::span<const RegionOrigin> origins,
+                         RegionModel& next) {
+    const std::uint32_t regions = tree.leaf_count();
     if (!sums.shape().with_lights || sums.shape().regions != regions || tree.light_probabilities.size() != regions)
         throw RunError("the sums to learn the choice of emitters from belong to another tree");
     evidence_.resize(regions);

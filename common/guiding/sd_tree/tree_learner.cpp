@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "common/guiding/tree_learner.h"
+#include "common/guiding/sd_tree/tree_learner.h"
 
 namespace treefarm {
 
-SdTree TreeLearner::learn(const SdTree& tree, const TreeSums& sums, const RefineSettings& settings, bool learn_mixture,
+SdTree TreeLearner::learn(const SdTree& tree, const CellSums& sums, const RefineSettings& settings, bool learn_mixture,
                           RefineReport& report) {
     std::vector<ViewAdvice> advice;
     const bool learn_views = learn_mixture && tree.view_count() != 0;

@@ -3,8 +3,8 @@
 
 #include <span>
 
-#include "common/guiding/refine.h"
-#include "common/guiding/refine_directions.h"
+#include "common/guiding/sd_tree/refine.h"
+#include "common/guiding/sd_tree/refine_directions.h"
 
 namespace treefarm {
 
@@ -15,7 +15,7 @@ struct RefinedDistribution {
 };
 
 /// A distribution of the old tree by what was recorded in it; what was capped is added to the report.
-RefinedDistribution refine_distribution(const SdTree& tree, const TreeSums& sums, std::uint32_t distribution,
+RefinedDistribution refine_distribution(const SdTree& tree, const CellSums& sums, std::uint32_t distribution,
                                         const RefineSettings& settings, RefineReport& report);
 
 /// Appends a distribution to a tree that is being built.
@@ -25,7 +25,7 @@ void add_distribution(SdTree& tree, const RefinedDistribution& distribution, flo
 /// nothing of) is released. One with more than RefineSettings::view_set_threshold records is cut where its regions are
 /// cut, as often as a region would be; a view with more than view_threshold splits into four, once. Where there would
 /// be more cells than RefineSettings::view_cells allows, what has the largest gain for its cells is chosen.
-void refine_views(const SdTree& tree, const TreeSums& sums, const RefineSettings& settings,
+void refine_views(const SdTree& tree, const CellSums& sums, const RefineSettings& settings,
                   std::span<const ViewAdvice> advice, SdTree& refined, RefineReport& report);
 
 }  // namespace treefarm

@@ -6,8 +6,9 @@
 #include <span>
 #include <vector>
 
-#include "common/guiding/refine.h"
-#include "common/guiding/tree_update.h"
+#include "common/guiding/regions/refinement.h"
+#include "common/guiding/regions/region_model.h"
+#include "common/guiding/statistics/cell_sums.h"
 
 namespace treefarm {
 
@@ -24,7 +25,7 @@ inline constexpr LightProbabilities kChoiceByPower = {kLightProbabilityOne};
 class LightLearner {
   public:
     /// Sets next.light_probabilities from what the pass over `tree` recorded. `origins` as in MixtureLearner.
-    void learn(const SdTree& tree, const TreeSums& sums, std::span<const RegionOrigin> origins, SdTree& next);
+    void learn(const RegionModel& tree, const CellSums& sums, std::span<const RegionOrigin> origins, RegionModel& next);
 
   private:
     struct Evidence {

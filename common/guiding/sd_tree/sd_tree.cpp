@@ -1,31 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "common/guiding/sd_tree.h"
-
-#include <algorithm>
-#include <cmath>
+#include "common/guiding/sd_tree/sd_tree.h"
 
 #include "common/plan/policy.h"
 
 namespace treefarm {
-namespace {
-
-int exponent_of(float value) {
-    int exponent = 0;
-    std::frexp(value, &exponent);
-    return exponent;
-}
-
-}  // namespace
 
 SdTree initial_tree(const Box3& bounds, const InitialTree& settings) {
     SdTree tree;
-    if (!bounds.isEmpty()) {
-        tree.origin = bounds.min;
-        const Vec3 size = bounds.max - bounds.min;
-        tree.extent = std::max(size.x, std::max(size.y, size.z));
-    }
-    // A scene without extent (no shape, or a point) still needs a cube to look things up in.
-    if (!(tree.extent > 0.0f)) tree.extent = 1.0f;
+    set_cube(tree, bounds);
     tree.nodes.push_back({{0, 0}});
     const std::uint32_t cells = 1u << (2 * kPolicy.learning.initial_depth);
     tree.cell_begin = {0};
@@ -46,11 +28,6 @@ SdTree initial_tree(const Box3& bounds, const InitialTree& settings) {
     }
     if (settings.with_lights) tree.light_probabilities = {{kLightProbabilityOne}};
     return tree;
-}
-
-std::int16_t quantum_exponent_for(float mean_record) {
-    if (!(mean_record > 0.0f) || !std::isfinite(mean_record)) mean_record = 1.0f;
-    return static_cast<std::int16_t>(exponent_of(mean_record) - kMeanRecordBits);
 }
 
 }  // namespace treefarm
