@@ -95,7 +95,7 @@ int debug_sample(const RenderRequest& request, const SampleName& name) {
     pass.kernel = kernel_of(request.plan.job, pass, facts_of(tree));
     const TraceScene scene(request.scene, request.job);
     const std::string text =
-        describe_sample(scene, request.plan.job, pass, SdTreeSampler(tree), name.x, name.y, name.sample);
+        describe_sample(scene, request.plan.job, pass, AnySampler(AnyModel(tree)), name.x, name.y, name.sample);
     std::fputs(text.c_str(), stdout);
     return 0;
 }

@@ -8,7 +8,7 @@
 #include "common/film/aov_film.h"
 #include "common/film/pass_film.h"
 #include "common/film/splat_film.h"
-#include "common/guiding/sd_tree/sd_tree.h"
+#include "common/guiding/any_guide.h"
 #include "common/guiding/statistics/cell_sums.h"
 #include "common/protocol/messages.h"
 #include "coordinator/ledger.h"
@@ -25,7 +25,7 @@ struct WorkerContribution {
 class Collector {
   public:
     /// `signed_pixels`: of a filter with negative lobes, so that means may be negative.
-    Collector(const PassPlan& plan, const SdTree& tree, int width, int height, bool signed_pixels,
+    Collector(const PassPlan& plan, const AnyModel& model, int width, int height, bool signed_pixels,
               const AovLayout& aovs = {});
 
     /// Merges a worker's result if the ledger says that the worker has all of its units; otherwise nothing changes and

@@ -7,7 +7,7 @@
 
 namespace treefarm {
 
-PassWork::PassWork(const PassPlan& plan, const SdTree& tree, DirectionalFilter filter) : plan_(plan), guide_(tree) {
+PassWork::PassWork(const PassPlan& plan, const AnyModel& model, DirectionalFilter filter) : plan_(plan), guide_(model) {
     if (plan_.record) accumulator_.emplace(plan_.index, guide_, filter, plan_.learn_mixture);
 }
 

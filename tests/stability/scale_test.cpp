@@ -137,9 +137,9 @@ TEST(ScaleByTwo, PowersOfTwoAreTheSameBits) {
                         ASSERT_EQ(here.image.mean[i], there.image.mean[i]) << factor << " " << i << " " << int(guiding);
                         ASSERT_EQ(here.image.variance[i], there.image.variance[i]) << factor << " " << i;
                     }
-                    EXPECT_EQ(there.tree.cell_mass, here.tree.cell_mass);
-                    EXPECT_EQ(there.tree.cell_depth, here.tree.cell_depth);
-                    EXPECT_EQ(there.tree.extent, here.tree.extent * factor);
+                    EXPECT_EQ(there.tree().cell_mass, here.tree().cell_mass);
+                    EXPECT_EQ(there.tree().cell_depth, here.tree().cell_depth);
+                    EXPECT_EQ(there.tree().extent, here.tree().extent * factor);
                 }
             }
     }

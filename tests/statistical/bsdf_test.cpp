@@ -5,7 +5,7 @@
 #include "common/math/frame.h"
 #include "tests/support/chi_square.h"
 #include "tests/support/random_tree.h"
-#include "worker/integrators/path/guided_sampling.h"
+#include "worker/guides/sd_tree_walk.h"
 #include "worker/shading/plain_diffuse.h"
 
 namespace treefarm {
@@ -114,12 +114,12 @@ class TestSurface {
 class MixtureSamples {
   public:
     MixtureSamples(const TestSurface& surface, const SdTreeSampler& guide, std::uint32_t region, float fraction)
-        : MixtureSamples(surface, guide, Guidance{region, SdTreeSampler::kNoView, fraction, 0.0f}) {}
-    MixtureSamples(const TestSurface& surface, const SdTreeSampler& guide, const Guidance& guidance)
+        : MixtureSamples(surface, guide, SdTreeGuidance{region, SdTreeSampler::kNoView, fraction, 0.0f}) {}
+    MixtureSamples(const TestSurface& surface, const SdTreeSampler& guide, const SdTreeGuidance& guidance)
         : surface_(surface), guide_(guide), guidance_(guidance) {}
 
     /// The sample of a number. Samples of numbers that follow each other come from one batch.
-    const ScatterSample& operator[](std::uint32_t i) {
+    const SdTreeScatter& operator[](std::uint32_t i) {
         if (i / kDrawBatch != batch_) fill(i / kDrawBatch);
         return samples_[i % kDrawBatch];
     }
@@ -142,7 +142,7 @@ class MixtureSamples {
         VectorBatch cosines;
         draw_batch(8, keys, kDrawBatch, 0, Stream::scatter, draws);
         cosine_hemisphere_batch(draws, kDrawBatch, cosines);
-        ScatterBatch<true, true, true> scatter;
+        SdTreeScatterBatch<true, true, true> scatter;
         scatter.clear();
         std::array<bool, kDrawBatch> drawn;
         for (std::uint32_t k = 0; k < kDrawBatch; ++k)
@@ -157,9 +157,9 @@ class MixtureSamples {
 
     const TestSurface& surface_;
     const SdTreeSampler& guide_;
-    Guidance guidance_;
+    SdTreeGuidance guidance_;
     std::uint32_t batch_ = ~0u;
-    std::array<ScatterSample, kDrawBatch> samples_;
+    std::array<SdTreeScatter, kDrawBatch> samples_;
 };
 
 TEST(GuideDistribution, MixtureFollowsItsDensity) {
@@ -168,7 +168,7 @@ TEST(GuideDistribution, MixtureFollowsItsDensity) {
         const SdTreeSampler& guide = trained_guide();
         MixtureSamples samples(surface, guide, guide.region_count() / 3, fraction);
         const auto sample = [&](std::uint32_t i, Vec3& d) {
-            const ScatterSample& s = samples[i];
+            const SdTreeScatter& s = samples[i];
             d = s.world;
             return !is_black(s.f_cos);
         };
@@ -190,12 +190,12 @@ TEST(GuideDistribution, MixtureWithAViewFollowsItsDensity) {
     std::uint32_t region = guide.region_count() / 2;
     while (guide.view(region, 0) == SdTreeSampler::kNoView)
         ++region;
-    for (const Guidance& guidance : {Guidance{region, guide.view(region, 77), 0.2f, 0.5f},
-                                     Guidance{region, guide.view(region, 0xc0000000u), 0.05f, 0.95f},
-                                     Guidance{region, guide.view(region, 0x80000000u), 0.5f, 0.0f}}) {
+    for (const SdTreeGuidance& guidance : {SdTreeGuidance{region, guide.view(region, 77), 0.2f, 0.5f},
+                                           SdTreeGuidance{region, guide.view(region, 0xc0000000u), 0.05f, 0.95f},
+                                           SdTreeGuidance{region, guide.view(region, 0x80000000u), 0.5f, 0.0f}}) {
         MixtureSamples samples(surface, guide, guidance);
         const auto sample = [&](std::uint32_t i, Vec3& d) {
-            const ScatterSample& s = samples[i];
+            const SdTreeScatter& s = samples[i];
             d = s.world;
             if (is_black(s.f_cos)) return false;
             EXPECT_EQ(s.pdf, samples.pdf(surface.bsdf().value(surface.wo(), s.local).pdf, s.code));
@@ -218,7 +218,7 @@ TEST(GuideDistribution, SampleAndDensityOfTheMixtureAgree) {
     MixtureSamples samples(surface, guide, 1, 0.5f);
     int at_borders = 0;
     for (std::uint32_t i = 0; i < 100000; ++i) {
-        const ScatterSample& s = samples[i];
+        const SdTreeScatter& s = samples[i];
         if (is_black(s.f_cos)) continue;
         ASSERT_EQ(s.pdf, samples.pdf(surface.bsdf().value(surface.wo(), s.local).pdf, s.code));
         at_borders += s.code != direction_to_code(s.world);

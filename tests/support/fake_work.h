@@ -38,7 +38,7 @@ inline void fake_light_paths(std::uint64_t seed, const PassPlan& pass, const Wor
 /// A renderer without a scene, on a film of so many columns: radiance, records and splats come straight from the keyed
 /// generator. Samples of tiles splat where a pass has splats, but no light paths.
 inline RenderUnit fake_renderer(std::uint64_t seed, std::uint32_t width) {
-    return [seed, width](const PassPlan& pass, const SdTreeSampler& guide, const WorkUnit& unit, UnitOutput& output) {
+    return [seed, width](const PassPlan& pass, const AnySampler& guide, const WorkUnit& unit, UnitOutput& output) {
         if (unit.kind == UnitKind::light_paths) return fake_light_paths(seed, pass, unit, output);
         auto& [pixels, log, stats, aovs, splats] = output;
         const bool splatting = pass.layers.splats.pixels > 0 && pass.units.light_paths == 0;

@@ -10,7 +10,7 @@
 
 namespace treefarm::test {
 
-std::vector<Record> random_records(const SdTreeSampler& guide, std::size_t count, unsigned seed) {
+std::vector<Record> random_records(const RegionSampler& guide, std::size_t count, unsigned seed) {
     std::mt19937 engine(seed);
     std::uniform_real_distribution<float> uniform(0.0f, 1.0f);
     std::vector<Record> records(count);

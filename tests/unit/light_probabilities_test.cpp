@@ -74,7 +74,7 @@ TEST(LightProbabilities, TheSumsExpectationDoesNotDependOnTheChoice) {
 class LightLearning : public ::testing::Test {
   protected:
     static SdTree root() {
-        InitialTree settings;
+        FirstModel settings;
         settings.with_lights = true;
         return initial_tree(Box3(Vec3(0.0f), Vec3(1.0f)), settings);
     }

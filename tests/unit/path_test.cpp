@@ -5,6 +5,7 @@
 
 #include "tests/support/resolved.h"
 #include "tests/support/test_scenes.h"
+#include "worker/guides/walks.h"
 #include "worker/integrators/path/path_kernel.h"
 #include "worker/integrators/path/path_recorder.h"
 #include "worker/integrators/path/tile_renderer.h"
@@ -91,7 +92,7 @@ TEST(Roulette, Rules) {
 }
 
 TEST(PathRecorder, CarriesRadianceBackwards) {
-    PathRecorder recorder;
+    PathRecorder<SdTreeWalk<true>> recorder;
     RecordLog log;
     log.begin(3);
     recorder.begin_path();
@@ -114,7 +115,7 @@ TEST(PathRecorder, CarriesRadianceBackwards) {
 
 /// A region learns its mixture from its view-dependent vertices, too, in a bin of its own.
 TEST(PathRecorder, RegionAndViewLearnTheirOwnMixtures) {
-    PathRecorder recorder;
+    PathRecorder<SdTreeWalk<true>> recorder;
     RecordLog log;
     log.begin(2);
     recorder.begin_path();
@@ -134,7 +135,7 @@ TEST(PathRecorder, RegionAndViewLearnTheirOwnMixtures) {
 }
 
 TEST(PathRecorder, CountsVerticesWithoutRadiance) {
-    PathRecorder recorder;
+    PathRecorder<SdTreeWalk<true>> recorder;
     RecordLog log;
     log.begin(1);
     recorder.begin_path();

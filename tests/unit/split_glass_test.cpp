@@ -9,6 +9,7 @@
 #include "tests/support/local_render.h"
 #include "tests/support/material_scenes.h"
 #include "tests/support/resolved.h"
+#include "worker/guides/walks.h"
 #include "worker/integrators/path/path_recorder.h"
 #include "worker/integrators/path/tile_renderer.h"
 #include "worker/shading/fresnel.h"
@@ -159,7 +160,7 @@ TEST(SplitGlass, NoPathIsLostOnAWayThatIsBlack) {
 }
 
 TEST(PathRecorder, AGlassSplitCarriesNothingForTheOtherWay) {
-    PathRecorder recorder;
+    PathRecorder<SdTreeWalk<true>> recorder;
     RecordLog log;
     log.begin(2);
     recorder.begin_path();

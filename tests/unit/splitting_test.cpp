@@ -116,7 +116,7 @@ class SplittingInARoom : public ::testing::Test {
         job_.budget.spp = 31;
         job_.guiding.spatial_threshold = 200;
         job_.guiding.splitting = 32;
-        tree_ = test::render_locally(scene_, job_).tree;
+        tree_ = test::render_locally(scene_, job_).tree();
         pass_.spp = 96;
         pass_.blocks_per_unit = 64;
         pass_.next_event = true;
@@ -235,7 +235,7 @@ TEST(Splitting, FractionsSumToOne) {
     job.guiding.splitting = 8;
     job.guiding.spatial_threshold = 50;
     job.budget.spp = 31;
-    SdTree tree = test::render_locally(scene, job).tree;
+    SdTree tree = test::render_locally(scene, job).tree();
     ASSERT_GT(tree.region_count(), 4u);
     for (std::uint32_t r = 0; r < tree.region_count(); ++r) {
         tree.bsdf_fraction[r] = 1.0f;

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "worker/integrators/path/guided_sampling.h"
+#include "worker/guides/sd_tree_walk.h"
 
 namespace treefarm {
 namespace {
@@ -91,7 +91,7 @@ TEST(ViewMixture, OfUseToFewIsReleasedToo) {
 
 TEST(ViewMixture, TakesItsPartOfWhatRegionAndBsdfShare) {
     const float region_fraction = 0.6f;
-    const Guidance guidance{0, 1, region_fraction * (1 - 0.25f), 0.25f};
+    const SdTreeGuidance guidance{0, 1, region_fraction * (1 - 0.25f), 0.25f};
     EXPECT_NEAR(without_view(guidance, 2.0f, 3.0f), mixed_pdf(region_fraction, 2.0f, 3.0f), 1e-6f);
     EXPECT_NEAR(mixed_pdf(guidance, 2.0f, 3.0f, 7.0f), 0.25f * 7 + 0.75f * mixed_pdf(region_fraction, 2.0f, 3.0f),
                 1e-6f);

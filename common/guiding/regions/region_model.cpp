@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
+
+#include "common/guiding/regions/first_model.h"
 
 namespace treefarm {
 namespace {
@@ -36,6 +39,20 @@ std::int16_t learned_exponent(double total, std::uint64_t records, std::int16_t 
     const double mean_record = std::ldexp(total / static_cast<double>(records), exponent);
     constexpr double kMost = std::numeric_limits<float>::max();
     return quantum_exponent_for(static_cast<float>(std::min(mean_record, kMost)));
+}
+
+int spatial_depth(const RegionModel& model) {
+    int deepest = 0;
+    std::vector<std::pair<std::uint32_t, int>> open = {{0, 0}};
+    while (!open.empty()) {
+        const auto [node, depth] = open.back();
+        open.pop_back();
+        deepest = std::max(deepest, depth);
+        if (model.nodes[node].is_leaf()) continue;
+        for (const std::uint32_t child : model.nodes[node].child)
+            open.emplace_back(child, depth + 1);
+    }
+    return deepest;
 }
 
 }  // namespace treefarm

@@ -5,7 +5,7 @@
 
 namespace treefarm {
 
-SdTree initial_tree(const Box3& bounds, const InitialTree& settings) {
+SdTree initial_tree(const Box3& bounds, const FirstModel& settings) {
     SdTree tree;
     set_cube(tree, bounds);
     tree.nodes.push_back({{0, 0}});

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "common/guiding/regions/first_model.h"
 #include "common/guiding/regions/region_model.h"
 
 namespace treefarm {
@@ -43,21 +44,13 @@ struct SdTree : RegionModel {
 inline constexpr int kMaxDirectionDepth = 16;  ///< cells of 4^-16 of the sphere
 inline constexpr int kMaxViewDepth = 8;        ///< views of 4^-8 of the sphere
 
-/// The tree before any pass: one region, directions in 4^4 equal cells, records in units that suit `radiance_scale`
-/// (a typical emitted radiance), the BSDF sampled with probability `bsdf_fraction`. `with_views`: and a T2 of one view,
-/// sampled with the probability `view_fraction`; 0: it is learned.
-struct InitialTree {
-    float radiance_scale = 1.0f;
-    float bsdf_fraction = 0.5f;
-    bool with_views = false;
-    float view_fraction = 0.0f;
-    bool with_lights = false;  ///< next event learns how to choose emitters
-};
-SdTree initial_tree(const Box3& bounds, const InitialTree& settings);
+/// The tree before any pass: one region, directions in 4^4 equal cells.
+SdTree initial_tree(const Box3& bounds, const FirstModel& settings);
 inline SdTree initial_tree(const Box3& bounds, float radiance_scale, float bsdf_fraction = 0.5f) {
     return initial_tree(bounds, {radiance_scale, bsdf_fraction});
 }
 
+inline constexpr std::uint32_t kTreeMagic = 0x52544654;  ///< "TFTR"
 /// Codec of the broadcast form. decode_tree checks every structural rule and throws FormatError.
 Bytes encode_tree(const SdTree& tree);
 SdTree decode_tree(std::span<const std::uint8_t> bytes);

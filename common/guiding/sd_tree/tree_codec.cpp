@@ -4,7 +4,6 @@
 namespace treefarm {
 namespace {
 
-constexpr std::uint32_t kMagic = 0x52544654;  // "TFTR"
 constexpr std::uint8_t kVersion = 4;
 
 /// Cuts the list of view depths into T2s: one is complete when its views cover the square.
@@ -75,11 +74,11 @@ Bytes encode_tree(const SdTree& tree) {
     out.put_array(std::span<const std::uint8_t>(tree.cell_depth));
     for (const std::uint32_t mass : tree.cell_mass)
         out.put_varint(mass);
-    return pack_model(kMagic, kVersion, out.take());
+    return pack_model(kTreeMagic, kVersion, out.take());
 }
 
 SdTree decode_tree(std::span<const std::uint8_t> bytes) {
-    const Bytes raw = unpack_model(kMagic, kVersion, bytes);
+    const Bytes raw = unpack_model(kTreeMagic, kVersion, bytes);
     ByteReader in(raw);
     SdTree tree;
     const std::uint32_t regions = read_regions(in, tree);

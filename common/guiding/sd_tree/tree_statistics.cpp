@@ -4,37 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/guiding/sd_tree/sd_tree_sampler.h"
 #include "common/math/direction_map.h"
 
 namespace treefarm {
 namespace {
-
-void count(DepthCounts& counts, std::size_t depth) {
-    if (counts.size() <= depth) counts.resize(depth + 1, 0);
-    ++counts[depth];
-}
-
-DepthCounts region_depths(const SdTree& tree) {
-    DepthCounts counts;
-    struct At {
-        std::uint32_t node;
-        std::size_t depth;
-    };
-    std::vector<At> stack{{0, 0}};
-    while (!stack.empty()) {
-        const At at = stack.back();
-        stack.pop_back();
-        const SdTree::Node& node = tree.nodes[at.node];
-        if (node.is_leaf()) {
-            count(counts, at.depth);
-            continue;
-        }
-        stack.push_back({node.child[1], at.depth + 1});
-        stack.push_back({node.child[0], at.depth + 1});
-    }
-    return counts;
-}
 
 /// Number, depths and spread of the cells of some distributions.
 struct Cells {
@@ -50,7 +23,7 @@ Cells cells_of(const SdTree& tree, std::uint32_t first, std::uint32_t last) {
         counts.push_back(tree.cell_begin[d + 1] - tree.cell_begin[d]);
     cells.count = tree.cell_begin[last] - tree.cell_begin[first];
     for (std::uint32_t c = tree.cell_begin[first]; c < tree.cell_begin[last]; ++c)
-        count(cells.depth, tree.cell_depth[c]);
+        count_depth(cells.depth, tree.cell_depth[c]);
     cells.spread = quantiles_of(std::move(counts));
     return cells;
 }
@@ -70,41 +43,15 @@ MixtureQuantiles mixtures_of(const SdTree& tree, std::uint32_t first, std::uint3
 
 }  // namespace
 
-Quantiles quantiles_of(std::vector<double> values) {
-    Quantiles spread;
-    spread.count = values.size();
-    if (values.empty()) return spread;
-    std::sort(values.begin(), values.end());
-    double sum = 0;
-    for (const double value : values)
-        sum += value;
-    const auto quantile = [&](double fraction) {
-        const double rank = std::ceil(fraction * static_cast<double>(values.size()));
-        return values[static_cast<std::size_t>(std::max(rank, 1.0)) - 1];
-    };
-    spread.mean = sum / static_cast<double>(values.size());
-    spread.least = values.front();
-    spread.tenth = quantile(0.1);
-    spread.median = quantile(0.5);
-    spread.nine_tenths = quantile(0.9);
-    spread.most = values.back();
-    return spread;
-}
-
-TreeStatistics tree_statistics(const SdTree& tree, std::uint64_t encoded_bytes) {
+TreeStatistics tree_statistics(const SdTree& tree) {
     const std::uint32_t regions = tree.region_count(), all = tree.distribution_count();
-    TreeStatistics s;
-    s.pass = tree.pass;
-    s.trained = tree.trained;
-    s.nodes = static_cast<std::uint32_t>(tree.nodes.size());
-    s.regions = regions;
+    TreeStatistics s = region_statistics(tree);
     s.t2s = tree.view_set_count();
     s.views = tree.view_count();
     s.regions_with_t2 = static_cast<std::uint32_t>(
         std::count_if(tree.view_set.begin(), tree.view_set.end(), [](auto set) { return set != SdTree::kNoViews; }));
-    s.region_depth = region_depths(tree);
     for (const std::uint8_t depth : tree.view_depth)
-        count(s.view_depth, depth);
+        count_depth(s.view_depth, depth);
     Cells of_regions = cells_of(tree, 0, regions), of_views = cells_of(tree, regions, all);
     s.region_cells = of_regions.count;
     s.view_cells = of_views.count;
@@ -118,8 +65,6 @@ TreeStatistics tree_statistics(const SdTree& tree, std::uint64_t encoded_bytes) 
     s.views_per_t2 = quantiles_of(std::move(views));
     s.regions_mixture = mixtures_of(tree, 0, regions);
     s.views_mixture = mixtures_of(tree, regions, all);
-    s.encoded_bytes = encoded_bytes;
-    s.memory_bytes = SdTreeSampler(tree).bytes();
     return s;
 }
 

@@ -77,7 +77,7 @@ class DirectLight {
 }  // namespace
 
 RenderUnit prepare_direct(std::shared_ptr<const TraceScene> scene, const Resolved& job) {
-    return [scene = std::move(scene), job](const PassPlan& pass, const SdTreeSampler&, const WorkUnit& unit,
+    return [scene = std::move(scene), job](const PassPlan& pass, const AnySampler&, const WorkUnit& unit,
                                            UnitOutput& output) {
         with_surface(*scene, [&]<class Surface>() {
             DirectLight<Surface> light(*scene, job.integrator, output.stats);

@@ -6,7 +6,7 @@
 namespace treefarm {
 
 RenderUnit prepare_normals(std::shared_ptr<const TraceScene> scene, const Resolved& job) {
-    return [scene = std::move(scene), job](const PassPlan& pass, const SdTreeSampler&, const WorkUnit& unit,
+    return [scene = std::move(scene), job](const PassPlan& pass, const AnySampler&, const WorkUnit& unit,
                                            UnitOutput& output) {
         render_samples(*scene, job, pass, unit, output, [&](const PathKey&, const Ray& ray) {
             Hit hit;

@@ -149,7 +149,7 @@ class PathTracer {
 }  // namespace
 
 RenderUnit prepare_reference(std::shared_ptr<const TraceScene> scene, const Resolved& job) {
-    return [scene = std::move(scene), job](const PassPlan& pass, const SdTreeSampler&, const WorkUnit& unit,
+    return [scene = std::move(scene), job](const PassPlan& pass, const AnySampler&, const WorkUnit& unit,
                                            UnitOutput& output) {
         with_surface(*scene, [&]<class Surface>() {
             PathTracer<Surface> tracer(*scene, Rules(*scene, job.integrator, pass), output.stats);

@@ -4,14 +4,16 @@
 #include <algorithm>
 #include <array>
 
+#include "common/guiding/regions/mixture.h"
 #include "common/guiding/sd_tree/sd_tree_sampler.h"
 #include "common/math/warp_batch.h"
-#include "worker/shading/bsdf_sample.h"
+#include "worker/integrators/path/scatter_sample.h"
+#include "worker/integrators/record_log.h"
 
 namespace treefarm {
 
-/// The guide at a place.
-struct Guidance {
+/// The SD-tree at a place.
+struct SdTreeGuidance {
     std::uint32_t region;  ///< of the tree
     std::uint32_t view;    ///< the distribution of the view there, or SdTreeSampler::kNoView
     float bsdf_fraction;   ///< probability of sampling the BSDF
@@ -24,45 +26,29 @@ struct Guidance {
     }
 };
 
-/// A sampled direction at a surface.
-struct ScatterSample {
-    Vec3 local;  ///< in the shading frame
-    Vec3 world;
-    Rgb f_cos;                 ///< f |cos|
-    float pdf;                 ///< per steradian, of the whole mixture; delta: the probability of the lobe
-    float effective_pdf;       ///< pdf, or what stands for it where one of several was taken (candidates.h)
-    float bsdf_pdf;            ///< of the BSDF alone
-    float guide_pdf;           ///< of the region's distribution alone, where it guides
-    float view_pdf;            ///< of the view's alone, where it guides
+/// A sampled direction, and how the tree knows it.
+struct SdTreeScatter : ScatterSample {
+    float view_pdf;            ///< of the view's distribution alone, where it guides
     std::uint32_t code;        ///< Z-order code of the direction, where the tree is used
     std::uint32_t conversion;  ///< its number in the batch's conversions
-    bool guided;               ///< drawn from the tree
     bool by_view;              ///< drawn from the view
-    bool delta;                ///< of a lobe without density, which the guide cannot find
 };
 
-/// Density of a mixture that samples the BSDF with the probability `bsdf_fraction`, the guide otherwise. The guide
-/// stands in for smooth lobes only: the delta lobes of a BSDF that has both are sampled by the BSDF, at bsdf_fraction
-/// times their probability (Mueller et al. 2017, as their program does it).
-inline float mixed_pdf(float bsdf_fraction, float bsdf_pdf, float guide_pdf) {
-    return bsdf_fraction * bsdf_pdf + (1.0f - bsdf_fraction) * guide_pdf;
-}
-
 /// Density of a mixture that samples the BSDF, the region's distribution or the view's, each with its probability.
-inline float mixed_pdf(const Guidance& guidance, float bsdf_pdf, float guide_pdf, float view_pdf) {
+inline float mixed_pdf(const SdTreeGuidance& guidance, float bsdf_pdf, float guide_pdf, float view_pdf) {
     const float trees = (1.0f - guidance.bsdf_fraction - guidance.view_fraction) * guide_pdf;
     return guidance.bsdf_fraction * bsdf_pdf + (trees + guidance.view_fraction * view_pdf);
 }
 
 /// Density that the mixture of BSDF and region would have without the view.
-inline float without_view(const Guidance& guidance, float bsdf_pdf, float guide_pdf) {
+inline float without_view(const SdTreeGuidance& guidance, float bsdf_pdf, float guide_pdf) {
     const float others = 1.0f - guidance.view_fraction;
     return (guidance.bsdf_fraction * bsdf_pdf + (others - guidance.bsdf_fraction) * guide_pdf) / others;
 }
 
 /// The density of whatever guides, for a direction that was not drawn from it.
 template <bool kViews>
-float mixed_pdf_at(const SdTreeSampler& guide, const Guidance& guidance, float bsdf_pdf, std::uint32_t code) {
+float mixed_pdf_at(const SdTreeSampler& guide, const SdTreeGuidance& guidance, float bsdf_pdf, std::uint32_t code) {
     const float guide_pdf = guide.pdf(guidance.region, code);
     if (kViews && guidance.has_view()) return mixed_pdf(guidance, bsdf_pdf, guide_pdf, guide.pdf(guidance.view, code));
     return mixed_pdf(guidance.bsdf_fraction, bsdf_pdf, guide_pdf);
@@ -72,7 +58,7 @@ float mixed_pdf_at(const SdTreeSampler& guide, const Guidance& guidance, float b
 /// it and there is one. Without kGuided the fractions stay. `outgoing_code` is set where the surface depends on it.
 template <bool kGuided>
 void find_view(const SdTreeSampler& guide, bool view_dependent, const Vec3& outgoing, std::uint32_t& outgoing_code,
-               Guidance& guidance) {
+               SdTreeGuidance& guidance) {
     guidance.view = SdTreeSampler::kNoView;
     guidance.view_fraction = 0.0f;
     if (!view_dependent) return;
@@ -87,12 +73,12 @@ void find_view(const SdTreeSampler& guide, bool view_dependent, const Vec3& outg
 
 /// Directions whose codes are wanted, converted together by vector code.
 template <bool kViews>
-class CodeBatch {
+class SdTreeCodeBatch {
   public:
     void clear() { count_ = 0; }
 
     /// Returns the direction's number.
-    std::uint32_t add(const Vec3& direction, const Guidance& guidance) {
+    std::uint32_t add(const Vec3& direction, const SdTreeGuidance& guidance) {
         directions_.set(count_, direction);
         regions_[count_] = guidance.region;
         if constexpr (kViews) views_[count_] = guidance.view;
@@ -110,7 +96,7 @@ class CodeBatch {
     }
 
     /// Fetches what the densities will read next, by what prefetch() has brought.
-    void prefetch_cells(const SdTreeSampler& guide) const {
+    void prefetch_more(const SdTreeSampler& guide) const {
         for (std::uint32_t i = 0; i < count_; ++i) {
             guide.prefetch_pdf_cell(regions_[i], codes_[i]);
             if (kViews && views_[i] != SdTreeSampler::kNoView) guide.prefetch_pdf_cell(views_[i], codes_[i]);
@@ -133,7 +119,7 @@ class CodeBatch {
 /// very cell it was drawn from. `kCoded` fills codes also where nothing guides, `kViews` allows for views. A surface
 /// has bsdf(), frame() and wo().
 template <bool kGuided, bool kCoded, bool kViews = false>
-class ScatterBatch {
+class SdTreeScatterBatch {
   public:
     void clear() {
         codes_.clear();
@@ -143,8 +129,8 @@ class ScatterBatch {
     /// `technique`, uniform in [0, 1), chooses BSDF or guide, random[1] the BSDF's lobe or the guide's cell, [2] and
     /// [3] the point; `cosine` is that point warped to the cosine hemisphere. False if there is no direction.
     template <class Surface>
-    bool draw(const Surface& surface, const SdTreeSampler& guide, const Guidance& guidance, float technique,
-              const Draw& random, const Vec3& cosine, ScatterSample& s) {
+    bool draw(const Surface& surface, const SdTreeSampler& guide, const SdTreeGuidance& guidance, float technique,
+              const Draw& random, const Vec3& cosine, SdTreeScatter& s) {
         s.guided = kGuided && !(technique < guidance.bsdf_fraction);
         s.by_view = false;
         s.guide_pdf = s.view_pdf = 0.0f;
@@ -162,15 +148,8 @@ class ScatterBatch {
             ++square_count_;
             return true;
         }
-        const Vec2 point(to_unit(random[2]), to_unit(random[3]));
-        const BsdfSample b = surface.bsdf().sample(surface.wo(), {to_unit(random[1]), point, cosine});
-        if (!(b.pdf > 0.0f)) return false;
-        s.local = b.wi;
-        s.world = surface.frame().to_world(b.wi);
-        s.f_cos = b.f_cos;
-        s.bsdf_pdf = b.pdf;
-        s.delta = b.delta;
-        if (kCoded && !b.delta) s.conversion = codes_.add(s.world, guidance);
+        if (!draw_from_bsdf(surface, random, cosine, s)) return false;
+        if (kCoded && !s.delta) s.conversion = codes_.add(s.world, guidance);
         return true;
     }
 
@@ -181,15 +160,15 @@ class ScatterBatch {
             codes_.prefetch(guide);
             each_other([&](std::uint32_t other, std::uint32_t code) { guide.prefetch_pdf(other, code); });
             square_to_direction_batch(square_x_, square_y_, square_count_, directions_);
-            codes_.prefetch_cells(guide);
+            codes_.prefetch_more(guide);
             each_other([&](std::uint32_t other, std::uint32_t code) { guide.prefetch_pdf_cell(other, code); });
         }
     }
 
     /// Value and density of what was drawn; pdf or f_cos may be 0.
     template <class Surface>
-    void complete(const Surface& surface, const SdTreeSampler& guide, const Guidance& guidance,
-                  ScatterSample& s) const {
+    void complete(const Surface& surface, const SdTreeSampler& guide, const SdTreeGuidance& guidance,
+                  SdTreeScatter& s) const {
         if (kGuided && s.guided) {
             s.world = directions_[s.conversion];
             s.local = surface.frame().to_local(s.world);
@@ -214,7 +193,7 @@ class ScatterBatch {
     }
 
   private:
-    static float viewed_pdf(const SdTreeSampler& guide, const Guidance& guidance, ScatterSample& s) {
+    static float viewed_pdf(const SdTreeSampler& guide, const SdTreeGuidance& guidance, SdTreeScatter& s) {
         if (!s.guided || !s.by_view) s.view_pdf = guide.pdf(guidance.view, s.code);
         return mixed_pdf(guidance, s.bsdf_pdf, s.guide_pdf, s.view_pdf);
     }
@@ -231,11 +210,121 @@ class ScatterBatch {
         std::uint32_t distribution, code;
     };
 
-    CodeBatch<kViews> codes_;
+    SdTreeCodeBatch<kViews> codes_;
     std::uint32_t square_count_ = 0;
     std::array<Other, kViews ? kDrawBatch : 0> others_;
     alignas(64) std::array<float, kDrawBatch> square_x_, square_y_;
     VectorBatch directions_;
+};
+
+/// Which distributions learn from a vertex.
+struct SdTreeTarget {
+    std::uint32_t region = SdTreeSampler::kNoView;  ///< kNoView: none learns
+    std::uint32_t view = SdTreeSampler::kNoView;    ///< the distribution of the view, where there is one
+
+    bool empty() const { return region == SdTreeSampler::kNoView; }
+    bool has_view() const { return view != SdTreeSampler::kNoView; }
+};
+
+/// Bins of a direction in the histograms that learn mixtures (mixture.h, view_mixture.h).
+struct SdTreeBins {
+    std::uint8_t region = 0, view = 0;
+};
+
+/// The SD-tree as the path walk uses it (worker/integrators/path/guide_walk.h); with its views or without.
+template <bool kViews>
+struct SdTreeWalk {
+    using Sampler = SdTreeSampler;
+    using Guidance = SdTreeGuidance;
+    using Scatter = SdTreeScatter;
+    using Direction = std::uint32_t;
+    using Target = SdTreeTarget;
+    using Bins = SdTreeBins;
+    /// Z-order code of the direction that light leaves in, where the surface depends on it.
+    using Outgoing = std::uint32_t;
+    template <bool kGuided, bool kConverts>
+    using ScatterBatch = SdTreeScatterBatch<kGuided, kConverts, kViews>;
+    using LightBatch = SdTreeCodeBatch<kViews>;
+
+    static constexpr bool kLocal = kViews;
+    static constexpr std::uint32_t kRecordsPerVertex = 2;
+    static constexpr Bins kDeltaBins = {kMixtureBins - 1, kMixtureBins - 1};
+
+    static Guidance unguided() { return {0, SdTreeSampler::kNoView, 1.0f, 0.0f}; }
+
+    template <bool kGuided, class Surface>
+    static void localise(const Sampler& guide, const Surface& surface, const Vec3& outgoing, Outgoing& code,
+                         Guidance& guidance) {
+        if constexpr (Surface::kGeneral) find_view<kGuided>(guide, surface.view_dependent(), outgoing, code, guidance);
+    }
+
+    // What sampling will read is fetched ahead, each time by what the last has brought.
+    static void prefetch(const Sampler& guide, std::uint32_t region, std::uint32_t pick) {
+        guide.prefetch(region, pick);
+        if constexpr (kViews) guide.prefetch_views(region);
+    }
+    static void prefetch_more(const Sampler& guide, std::uint32_t region, std::uint32_t pick) {
+        guide.prefetch_cell(region, pick);
+    }
+    static void prefetch_local(const Sampler& guide, const Guidance& guidance, std::uint32_t pick) {
+        if (guidance.has_view()) guide.prefetch(guidance.view, pick);
+    }
+    static void prefetch_local_more(const Sampler& guide, const Guidance& guidance, std::uint32_t pick) {
+        if (guidance.has_view()) guide.prefetch_cell(guidance.view, pick);
+    }
+
+    static float pdf(const Sampler& guide, const Guidance& guidance, float bsdf_pdf, Direction code) {
+        return mixed_pdf_at<kViews>(guide, guidance, bsdf_pdf, code);
+    }
+
+    static Target target(const Guidance& guidance) { return {guidance.region, guidance.view}; }
+
+    /// One for a view goes to that of the same direction there, if there is one.
+    static Target moved(const Sampler& guide, std::uint32_t region, Outgoing outgoing_code, Target target) {
+        target.region = region;
+        if (kViews && target.has_view()) {
+            const std::uint32_t view = guide.view(target.region, outgoing_code);
+            if (view != SdTreeSampler::kNoView) target.view = view;
+        }
+        return target;
+    }
+
+    static Direction direction(const Scatter& s) { return s.code; }
+    /// Of a point of the direction square.
+    static Direction direction_at(const Vec2& square) { return square_to_code(square); }
+
+    static Bins bins(const Guidance& guidance, const Scatter& s) {
+        Bins bins{mixture_bin(s.bsdf_pdf, s.guide_pdf)};
+        if (kViews && guidance.has_view())
+            bins.view = mixture_bin(without_view(guidance, s.bsdf_pdf, s.guide_pdf), s.view_pdf);
+        return bins;
+    }
+
+    /// As published a view alone learns, and the radiance; otherwise the region learns that as it would without, and
+    /// the view what is reflected.
+    template <class Taught>
+    static Record* teach(const RecordRules& rules, std::uint32_t rounding, const Target& target, const Taught& l,
+                         RecordLog& log, Record* end) {
+        const bool smooth = l.pdf > 0.0f;
+        const float value = smooth ? rules.target_value(l.radiance, l.pdf) : 0.0f;
+        const float mixture = l.of_mixture ? l.reflected : 0.0f;
+        if (!target.has_view()) {
+            log.counts[target.region] += smooth;
+            return append_record({target.region, l.direction, rounding, value, mixture, l.bins.region}, end);
+        }
+        const bool product = rules.view_records == ViewRecords::product;
+        if (product) {
+            log.counts[target.region] += smooth;
+            end = append_record({target.region, l.direction, rounding, value, mixture, l.bins.region}, end);
+        }
+        log.counts[target.view] += smooth;
+        const float of_view = product && smooth ? rules.target_value(l.reflected * l.pdf, l.pdf) : value;
+        return append_record({target.view, l.direction, scrambled(rounding, kOfView), of_view, mixture, l.bins.view},
+                             end);
+    }
+
+  private:
+    static constexpr std::uint32_t kOfView = 9;  ///< salt: a view's record is rounded apart from its region's
 };
 
 }  // namespace treefarm

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "worker/guides/sd_tree_walk.h"
+#include "worker/integrators/path/guide_walk.h"
+
+namespace treefarm {
+
+/// How the path walk uses a guide with all that it has, by the type of its sampler.
+template <class Sampler>
+struct WalkOfSampler;
+template <>
+struct WalkOfSampler<SdTreeSampler> {
+    using type = SdTreeWalk<true>;
+};
+template <class Sampler>
+using WalkOf = typename WalkOfSampler<Sampler>::type;
+
+}  // namespace treefarm
