@@ -17,6 +17,7 @@
 #include "cli/option_values.h"
 #include "cli/plan.h"
 #include "cli/render.h"
+#include "cli/resume.h"
 #include "cli/study.h"
 #include "cli/this_build.h"
 #include "cli/usage.h"
@@ -55,6 +56,7 @@ int run(int argc, char** argv) {
     app.set_version_flag("--version", [] { return "treefarm " + this_build().text(); });
     app.require_subcommand(1);
     add_render_command(app, launch, joined(argc, argv), exit_code);
+    add_resume_command(app, launch, joined(argc, argv), exit_code);
     add_plan_command(app, launch, exit_code);
     add_check_command(app, launch, exit_code);
     add_compare_command(app, launch, exit_code);

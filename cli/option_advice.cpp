@@ -20,8 +20,7 @@ struct Foreign {
 const std::vector<Foreign>& foreign_options() {
     static const std::vector<Foreign> table = {
         {{"--resume", "--continue", "--restart", "--checkpoint"},
-         "a render cannot be gone on from in this version, but one that was interrupted keeps its finished passes; "
-         "treefarm study goes on where it was"},
+         "treefarm resume RUN_DIR goes on with a render; treefarm study goes on where it was"},
         {{"--denoise", "--denoiser", "--denoising", "--oidn"},
          "there is no denoiser in this version; image.exr holds what one needs of noise (variance.*, halfA.*, "
          "halfB.*)"},

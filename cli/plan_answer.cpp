@@ -60,14 +60,14 @@ double rounded(double count) {
     return std::round(count / unit) * unit;
 }
 
-Expectation expected_of(const Resolved& job, const RenderState& state, RenderEnd end) {
+Expectation expected_of(const Resolved& job, const RenderHistory& state, RenderEnd end) {
     if (end == RenderEnd::error) return expect_error(state, job, job.budget.error);
     if (end == RenderEnd::seconds) return expect_after_seconds(state, job, job.budget.seconds);
     return expect_after_spp(state, job, most_spp(job));
 }
 
 /// The budget that ends the render, with what it comes to then.
-void find_end(const Resolved& job, const RenderState& state, PlanAnswer& answer) {
+void find_end(const Resolved& job, const RenderHistory& state, PlanAnswer& answer) {
     const bool by_error = job.budget.error > 0, by_seconds = job.budget.seconds > 0;
     answer.end = by_error ? RenderEnd::error : by_seconds ? RenderEnd::seconds : RenderEnd::spp;
     answer.expected = expected_of(job, state, answer.end);

@@ -18,7 +18,7 @@ constexpr std::uint32_t kLeastSpp = 31;
 constexpr double kPatienceSeconds = 30;
 
 /// Whether the probe should end here rather than with another pass.
-bool is_enough(const RenderState& state, const PassPlan& next, double limit) {
+bool is_enough(const RenderHistory& state, const PassPlan& next, double limit) {
     if (state.passes.empty()) return false;
     const PassFacts& last = state.passes.back();
     const double coming = state.seconds + last.overhead_seconds + last.collect_seconds / last.spp * next.spp;
@@ -39,7 +39,7 @@ Probe run_probe(const RenderRequest& request, double seconds, unsigned threads) 
         farm.gather(interrupted);
         farm.allow_negative(film.is_signed());
         const PassChooser own = passes_of(request.plan.job);
-        const PassChooser first = [&](const RenderState& state) {
+        const PassChooser first = [&](const RenderHistory& state) {
             probe.state = state;
             NextPass next = own(state);
             probe.complete = !next.pass;

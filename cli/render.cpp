@@ -23,25 +23,6 @@ int exit_code_of(const RenderOutcome& outcome) {
     }
 }
 
-int render(const LaunchEnvironment& launch, const RenderOptions& options) {
-    if (is_separate_world(launch)) return 2;
-    RenderRequest request;
-    FarmTask task;
-    const Voice voice = make_voice(launch, options.farm);
-    task.prepare = [&] {
-        const ReadingNotice notice(voice.console, std::filesystem::path(options.input).stem().string());
-        request = read_request(options);
-        warn_if_crowded(options.farm.threads, request.warnings);
-        request.console = voice.console;
-        request.loudness = voice.loudness;
-    };
-    task.coordinate = [&](Channel& channel, const std::function<bool()>& interrupted) -> CoordinatorEnd {
-        const RenderOutcome outcome = run_render(channel, request, interrupted);
-        return {exit_code_of(outcome), outcome.lost_peers};
-    };
-    return run_on_farm(launch, options.farm, voice, task);
-}
-
 /// A sample is traced in one process.
 int debug(const LaunchEnvironment& launch, const RenderOptions& options) {
     if (launch.rank != 0) return 0;
@@ -51,6 +32,26 @@ int debug(const LaunchEnvironment& launch, const RenderOptions& options) {
 }
 
 }  // namespace
+
+int render_on_farm(const LaunchEnvironment& launch, const FarmOptions& farm, const std::string& name,
+                   const std::function<RenderRequest()>& read) {
+    if (is_separate_world(launch)) return 2;
+    RenderRequest request;
+    FarmTask task;
+    const Voice voice = make_voice(launch, farm);
+    task.prepare = [&] {
+        const ReadingNotice notice(voice.console, name);
+        request = read();
+        warn_if_crowded(farm.threads, request.warnings);
+        request.console = voice.console;
+        request.loudness = voice.loudness;
+    };
+    task.coordinate = [&](Channel& channel, const std::function<bool()>& interrupted) -> CoordinatorEnd {
+        const RenderOutcome outcome = run_render(channel, request, interrupted);
+        return {exit_code_of(outcome), outcome.lost_peers};
+    };
+    return run_on_farm(launch, farm, voice, task);
+}
 
 void add_render_command(CLI::App& app, const LaunchEnvironment& launch, const std::string& command_line,
                         int& exit_code) {
@@ -77,7 +78,10 @@ void add_render_command(CLI::App& app, const LaunchEnvironment& launch, const st
                     "pass,x,y,sample: trace this sample and tell its story");
     command->footer(std::string(kDefaultsText) + "\n" + kExitCodesText);
     command->callback([options, launch, &exit_code] {
-        exit_code = options->debug_sample.empty() ? render(launch, *options) : debug(launch, *options);
+        const auto read = [&] { return read_request(*options); };
+        exit_code = options->debug_sample.empty()
+                        ? render_on_farm(launch, options->farm, std::filesystem::path(options->input).stem(), read)
+                        : debug(launch, *options);
     });
 }
 

@@ -39,6 +39,11 @@ struct RenderOptions {
 void add_render_command(CLI::App& app, const LaunchEnvironment& launch, const std::string& command_line,
                         int& exit_code);
 
+/// Renders what `read` gives on all processes of the job, whatever its part in it; `name` is for the time in which it
+/// is read. Returns the exit code.
+int render_on_farm(const LaunchEnvironment& launch, const FarmOptions& farm, const std::string& name,
+                   const std::function<RenderRequest()>& read);
+
 /// Reads job and scene. The job's layers, each over the one before: defaults, the scene file's integrator and sampler,
 /// the job file, the command line. Throws InputError.
 RenderRequest read_request(const RenderOptions& options);

@@ -12,6 +12,7 @@
 #include "common/scene/model/scene.h"
 #include "coordinator/farm.h"
 #include "coordinator/pass_report.h"
+#include "coordinator/render_state.h"
 
 namespace treefarm {
 
@@ -41,26 +42,29 @@ struct PassHooks {
     std::function<void(const RenderResult&)> on_result;        ///< called after on_pass, with all there is so far
     std::function<void(const RenderResult&)> on_interruption;  ///< at once: what takes time comes later
     std::function<void(RenderResult)> on_failure;              ///< the finished passes, before the error leaves
+    /// Called last after each pass, with all that a render needs that goes on from here.
+    std::function<void(RenderState&)> on_state;
+    std::function<void(RenderState&)> on_last_state;  ///< once at the end, if any pass was finished
 };
 
-/// Result of a render; after an interruption of the passes that were whole by then, possibly none.
-struct RenderResult {
-    /// Never null; empty if no pass was finished. Each pass makes a new one, so who keeps one needs no copy.
-    std::shared_ptr<const CombinedImage> image = std::make_shared<CombinedImage>();
-    /// The image's other layers, as the job asks for. Never null; each pass makes new ones, too.
-    std::shared_ptr<const std::vector<AovChannel>> aovs = std::make_shared<std::vector<AovChannel>>();
+/// Result of a render; after an interruption of the passes that were whole by then, possibly none. The image is empty
+/// if no pass was finished; each pass makes a new one, so who keeps one needs no copy.
+struct RenderResult : DevelopedState {
     int width = 0, height = 0;
     std::uint32_t spp = 0;
     bool interrupted = false;
     std::vector<PassReport> passes;
-    SdTree tree;                   ///< that guides the pass after the last finished one, or guided the last of all
-    std::uint64_t image_hash = 0;  ///< of the combined means
-    std::uint64_t aov_hash = 0;    ///< of the other layers
-    std::uint64_t tree_hash = 0;   ///< of the encoded tree that guided the last pass
+    SdTree tree;  ///< that guides the pass after the last finished one, or guided the last of all; set at
+                  ///< the end
+    std::uint64_t tree_hash = 0;  ///< of the encoded tree that guided the last pass
 };
 
-/// Renders the passes that `choose` says, one after the other: broadcast the tree, hand out the work, collect film and
-/// sums, refine.
+/// Renders the passes that `choose` says, one after the other, from `state` on: broadcast the tree, hand out the work,
+/// collect film and sums, refine. A state of finished passes goes on where it was.
+RenderResult run_passes(Farm& farm, const Resolved& job, const PassChooser& choose, RenderState state, int width,
+                        int height, const PassHooks& hooks);
+
+/// As above, from the first tree on.
 RenderResult run_passes(Farm& farm, const Resolved& job, const PassChooser& choose, SdTree tree, int width, int height,
                         const PassHooks& hooks);
 

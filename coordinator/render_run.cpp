@@ -23,6 +23,11 @@ bool checks_memory(const RenderRequest& request) {
     return request.job.farm.memory_check && request.turn.number <= 1;
 }
 
+FolderUse folder_use(const RenderRequest& request) {
+    if (request.resumed) return FolderUse::resume;
+    return request.overwrite ? FolderUse::replace : FolderUse::fresh;
+}
+
 /// A render that has found no light in so many passes says so before it ends.
 constexpr std::uint32_t kPassesInTheDark = 3;
 
@@ -34,8 +39,8 @@ class RenderRun {
           scene_(encode_scene(request.scene)),
           directory_(request.job,
                      {request.command, hash_bytes(scene_), request.fingerprint, request.plan.approximations,
-                      request.scene.film.crop},
-                     request.plan, {request.overwrite, interrupted}),
+                      request.scene.film.crop, request.schedule},
+                     request.plan, {folder_use(request), interrupted, request.resumed.get()}),
           log_(make_log("treefarm", directory_.log_file(), request.console, request.loudness)),
           progress_(request.console, request.job.budget, request.status_frame),
           farm_(channel, request.plan.job, std::move(scene_), request.fingerprint.hash(), log_, {}, request.turn) {}
@@ -89,11 +94,14 @@ class RenderRun {
     }
 
     void render() {
-        const std::vector<PassPlan>& replayed = request_.schedule;
-        const PassChooser passes = replayed.empty() ? passes_of(job()) : listed_passes(replayed);
+        const PassChooser passes = passes_of(request_);
         const Film& film = request_.scene.film;
-        log_->info("rendering {}, {}, {}; results in {}", scene_name(), size_text(film), budget_text(passes({})),
-                   directory_.path().string());
+        RenderState state = take_state();
+        log_->info("{} {}, {}, {}; results in {}", request_.resumed ? "going on with" : "rendering", scene_name(),
+                   size_text(film), budget_text(passes(state.history)), directory_.path().string());
+        if (request_.resumed)
+            log_->info("{} passes with {} spp are done, {} of rendering", state.reports.size(), state.spp(),
+                       duration_text(state.history.seconds));
         log_->debug("{} triangles", request_.scene.triangle_count());
         farm_.gather(interrupted_);
         farm_.allow_negative(film.is_signed());
@@ -114,13 +122,23 @@ class RenderRun {
         hooks.on_interruption = [this](const RenderResult& finished) {
             directory_.write_interruption(finished, &farm_, clock_.seconds());
         };
+        if (request_.checkpoints) {
+            hooks.on_state = [this](RenderState& now) { directory_.offer_checkpoint(now, clock_.seconds()); };
+            hooks.on_last_state = [this](RenderState& last) { directory_.take_last_state(last); };
+        }
         hooks.on_failure = [this](RenderResult finished) { result_ = std::move(finished); };
         hooks.on_pass = [this](const PassReport& pass, const CombinedImage& image) {
             tell(pass);
             if (pass.plan.index >= kPassesInTheDark) tell_if_black(image, pass.spp_done);
             if (request_.on_pass) request_.on_pass(pass, image);
         };
-        result_ = run_passes(farm_, job(), passes, first_tree(job(), request_.scene), film.width, film.height, hooks);
+        result_ = run_passes(farm_, job(), passes, std::move(state), film.width, film.height, hooks);
+    }
+
+    /// What the render begins with, or goes on from.
+    RenderState take_state() const {
+        if (request_.resumed) return std::move(request_.resumed->state);
+        return first_state(job(), first_tree(job(), request_.scene), request_.scene.film.pixel_count());
     }
 
     const Resolved& job() const { return request_.plan.job; }
@@ -240,6 +258,15 @@ class RenderRun {
 };
 
 }  // namespace
+
+PassChooser passes_of(const RenderRequest& request) {
+    if (!request.schedule.empty()) return listed_passes(request.schedule);
+    std::vector<PassPlan> begun;
+    if (request.resumed)
+        for (const PassReport& report : request.resumed->state.reports)
+            begun.push_back(report.plan);
+    return passes_of(request.plan.job, begun);
+}
 
 RenderOutcome run_render(Channel& channel, const RenderRequest& request, const std::function<bool()>& interrupted) {
     // Before any file is touched: what this process alone takes. With the workers', once they have said what they have.

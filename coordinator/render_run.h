@@ -29,6 +29,8 @@ struct RenderRequest {
                                 ///< appended
     Fingerprint fingerprint;    ///< of this process
     bool overwrite = false;     ///< an earlier run in the folder may be replaced
+    bool checkpoints = true;    ///< the render can be gone on with; false: it is one of many that are short
+    std::shared_ptr<LoadedCheckpoint> resumed;  ///< what the render goes on from; its state is taken
     ConsolePtr console = std::make_shared<Console>(TerminalKind{}, false);
     Loudness loudness = Loudness::normal;  ///< of the log on the console
     StatusFrame status_frame;              ///< how the console says how far it is; empty: as render_status does
@@ -36,6 +38,9 @@ struct RenderRequest {
     /// Called after each pass, with the image so far; what it takes counts as the render's time. May be empty.
     std::function<void(const PassReport&, const CombinedImage&)> on_pass;
 };
+
+/// The passes that it asks for.
+PassChooser passes_of(const RenderRequest& request);
 
 struct RenderOutcome {
     RunState state = RunState::failed;

@@ -9,11 +9,10 @@
 #include <utility>
 
 #include "common/base/hash.h"
-#include "common/config/job_reader.h"
 #include "common/config/parse_text.h"
 #include "common/image/png.h"
 #include "common/plan/plan_text.h"
-#include "common/plan/policy_table.h"
+#include "common/plan/resolved_file.h"
 #include "common/plan/schedule_file.h"
 #include "common/protocol/fingerprint.h"
 #include "coordinator/folder_content.h"
@@ -33,6 +32,9 @@ constexpr double kPreviewInterval = 200.0;
 constexpr double kPreviewSecondsPerPixel = 4e-8;
 /// Tables and images of short passes share a writing.
 constexpr Pace kPassPace{0.0, 3.0};
+/// What checkpoints may take: of this process's time a hundredth, of the disk's a tenth.
+constexpr double kCheckpointInterval = 100.0;
+constexpr Pace kCheckpointPace{0.0, 10.0};
 /// How long the end tries to write what it could not, and then what says so.
 constexpr double kResultPatience = 4.0, kSummaryPatience = 1.0;
 
@@ -66,19 +68,6 @@ bool has_preview(std::size_t pixels) {
     return pixels <= kMostPixels;
 }
 
-/// Where it was written is no part of a job that somebody repeats; what was written is.
-std::string job_without_output(Job job) {
-    job.output.directory.clear();
-    job.output.file.clear();
-    return write_job(job);
-}
-
-std::string resolved_text(const Resolved& job) {
-    return "# The job as it was used: what job.toml leaves to the program has its value here, and so have the tuned\n"
-           "# constants. treefarm render resolved.toml repeats the experiment, or says why this build cannot.\n" +
-           job_without_output(job) + "\n" + write_policy();
-}
-
 std::vector<std::uint8_t> encode_image(const fs::path& path, const CombinedImage& image,
                                        std::span<const AovChannel> aovs, int width, int height, const CropWindow& crop,
                                        const Attributes& attributes, const Job::Output& output) {
@@ -94,11 +83,17 @@ RunDirectory::RunDirectory(const Job& job, RunFacts facts, const EffectPlan& pla
     : job_(checked(job)),
       job_toml_(job_without_output(job)),
       facts_(std::move(facts)),
-      resolved_toml_(resolved_text(plan.job)),
-      folder_(job, options.overwrite, options.interrupted),
+      resolved_toml_(write_resolved(plan.job)),
+      folder_(job, options.use, options.interrupted),
       plan_text_(plan_text(plan, job.scene.file)),
       plan_json_(plan_json(plan, job.scene.file)),
       passes_csv_(pass_csv_header() + "\n") {
+    if (job.farm.checkpoint_seconds > 0) checkpoints_.emplace(path(), options.resumed);
+    if (options.resumed) {
+        for (const PassReport& report : options.resumed->state.reports)
+            note_pass(report);
+        checkpoint_passes_ = written_passes_ = options.resumed->state.reports.size();
+    }
     try {
         write_text("status.json", status_json(RunState::running, 0, 0.0), Outlives::process);
         write_text("job.toml", job_toml_, Outlives::power);
@@ -158,11 +153,56 @@ void RunDirectory::write_preview(std::span<const PixelEstimate> film, int width,
     next_preview_ = elapsed_seconds + std::max(1.0, kPreviewInterval * cost);
 }
 
-void RunDirectory::add_pass(const PassReport& report) {
+void RunDirectory::note_pass(const PassReport& report) {
     passes_csv_ += pass_csv_line(report) + "\n";
     passes_.push_back(report.plan);
+}
+
+void RunDirectory::add_pass(const PassReport& report) {
+    note_pass(report);
     put_text("passes.csv", passes_csv_, kPassPace);
     put_text("schedule.toml", write_schedule(passes_), kPassPace);
+}
+
+void RunDirectory::offer_checkpoint(RenderState& state, double elapsed_seconds) {
+    if (checkpoints_ && elapsed_seconds >= next_checkpoint_)
+        writer_.put("checkpoint", prepare_checkpoint(state, elapsed_seconds), kCheckpointPace);
+}
+
+void RunDirectory::take_last_state(RenderState& state) {
+    if (checkpoints_ && state.reports.size() > checkpoint_passes_) prepare_checkpoint(state, 0.0);
+}
+
+std::function<void()> RunDirectory::prepare_checkpoint(RenderState& state, double elapsed_seconds) {
+    const Timer timer;
+    const CheckpointOrigin origin{facts_.fingerprint.hash(),
+                                  facts_.fingerprint.text(),
+                                  facts_.scene_hash,
+                                  resolved_toml_,
+                                  job_.output.file.empty() ? "" : fs::absolute(job_.output.file).string(),
+                                  facts_.schedule,
+                                  state.films.front().pixels.size()};
+    checkpoint_passes_ = state.reports.size();
+    last_checkpoint_ = [this, write = checkpoints_->prepare(origin, state), passes = checkpoint_passes_] {
+        write();
+        written_passes_ = passes;
+    };
+    next_checkpoint_ = elapsed_seconds + std::max(job_.farm.checkpoint_seconds, kCheckpointInterval * timer.seconds());
+    return last_checkpoint_;
+}
+
+/// The last checkpoint, unless it is there or nobody wants it. Whether it can be written decides nothing: the image is
+/// there. Returns what went wrong.
+std::string RunDirectory::finish_checkpoint(const RunEnd& end) {
+    if (!checkpoints_) return "";
+    if (end.state == RunState::done && !job_.output.keep_checkpoint) {
+        checkpoints_->remove();
+        return "";
+    }
+    if (!last_checkpoint_ || written_passes_ >= checkpoint_passes_) return "";
+    std::vector<LastFile> file = {{(path() / kCheckpointFolder).string(), last_checkpoint_}};
+    const std::vector<std::string> failures = write_last_files(file, kSummaryPatience);
+    return failures.empty() ? "" : "no checkpoint of the last pass: " + failures.front();
 }
 
 /// image.exr's header.
@@ -296,6 +336,7 @@ std::vector<std::string> RunDirectory::finish(const RenderResult& result, const 
     std::vector<LastFile> files = last_files(result, outlives, end);
     if (hurry && (image_is_on_disk(result) || (!files.empty() && try_to_write(files.front()))))
         write_interruption(result, farm, end.elapsed_seconds);
+    const std::string no_checkpoint = hurry ? finish_checkpoint(end) : "";
     std::vector<std::string> failures = write_last_files(files, kResultPatience);
     for (const std::string& failure : failures)
         end.error += (end.error.empty() ? "" : "; ") + failure;
@@ -305,6 +346,7 @@ std::vector<std::string> RunDirectory::finish(const RenderResult& result, const 
         end.state = RunState::failed;
         failures.push_back(failure);
     }
+    if (const std::string why = hurry ? no_checkpoint : finish_checkpoint(end); !why.empty()) failures.push_back(why);
     if (hurry) {
         for (const std::string_view name : run_file_names())
             make_durable(path() / name);

@@ -6,6 +6,7 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -14,6 +15,7 @@
 #include "common/image/atomic_file.h"
 #include "common/image/exr.h"
 #include "common/plan/effects.h"
+#include "coordinator/checkpoint/checkpoint_store.h"
 #include "coordinator/file_writer.h"
 #include "coordinator/last_files.h"
 #include "coordinator/pass_loop.h"
@@ -24,14 +26,15 @@ namespace treefarm {
 
 /// How a run directory comes about.
 struct RunDirectoryOptions {
-    bool overwrite = false;             ///< an earlier run there may be put aside
-    std::function<bool()> interrupted;  ///< ends the wait for a folder that is in use; may be empty
+    FolderUse use = FolderUse::fresh;
+    std::function<bool()> interrupted;          ///< ends the wait for a folder that is in use; may be empty
+    const LoadedCheckpoint* resumed = nullptr;  ///< what the run goes on from
 };
 
 /// The folder of one run: job.toml, plan.txt, plan.json, log.txt, status.json, passes.csv, schedule.toml, image.exr,
-/// preview.png, tree.bin, summary.json. Every file is replaced as a whole or appended to by lines, so that a reader
-/// never sees half of one. While it renders all are written beside it, and none that cannot be written ends it; a
-/// folder that vanished is made again.
+/// preview.png, tree.bin, summary.json, checkpoint/. Every file is replaced as a whole or appended to by lines, so that
+/// a reader never sees half of one. While it renders all are written beside it, and none that cannot be written ends
+/// it; a folder that vanished is made again.
 class RunDirectory {
   public:
     /// Makes the folder and writes what is known before the render. Throws InputError where that cannot be.
@@ -49,6 +52,10 @@ class RunDirectory {
     void add_pass(const PassReport& report);
     /// image.exr of the passes so far.
     void write_image(const RenderResult& result);
+    /// A checkpoint, where one is due; called after each pass.
+    void offer_checkpoint(RenderState& state, double elapsed_seconds);
+    /// The state that the run ends in, for a checkpoint that finish() writes.
+    void take_last_state(RenderState& state);
     /// News of what went wrong with files since the last call, for a person.
     std::vector<std::string> take_news() { return writer_.take_news(); }
 
@@ -68,6 +75,9 @@ class RunDirectory {
     void give_back();
 
   private:
+    void note_pass(const PassReport& report);
+    std::function<void()> prepare_checkpoint(RenderState& state, double elapsed_seconds);
+    std::string finish_checkpoint(const RunEnd& end);
     void write_bytes(const std::string& name, std::span<const std::uint8_t> bytes, Outlives outlives) const;
     void write_text(const std::string& name, const std::string& text, Outlives outlives) const;
     void put_text(const std::string& name, std::string text, Pace pace);
@@ -90,6 +100,11 @@ class RunDirectory {
     std::shared_ptr<const CombinedImage> newest_ = std::make_shared<CombinedImage>();  ///< for previews
     std::uint32_t newest_spp_ = 0;
     std::atomic<double> preview_seconds_ = 0;  ///< of a core, that the last one took the writer
+    std::optional<CheckpointStore> checkpoints_;
+    std::function<void()> last_checkpoint_;        ///< that was prepared
+    std::size_t checkpoint_passes_ = 0;            ///< of it
+    std::atomic<std::size_t> written_passes_ = 0;  ///< of the last that is on disk
+    double next_checkpoint_ = 0;                   ///< not before, in elapsed seconds
     mutable std::mutex on_disk_mutex_;
     std::weak_ptr<const CombinedImage> on_disk_;  ///< whose image.exr is whole
     FileWriter writer_;                           ///< last: it ends first

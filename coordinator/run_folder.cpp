@@ -56,23 +56,24 @@ fs::path make_folder(const Job& job) {
 std::vector<std::string> moved_names() {
     std::vector<std::string> names(run_file_names().begin(), run_file_names().end());
     names.emplace_back("inspect");
+    names.emplace_back("checkpoint");
     return names;
 }
 
 }  // namespace
 
-RunFolder::RunFolder(const Job& job, bool overwrite, const std::function<bool()>& interrupted)
-    : path_(make_folder(job)), lock_(path_, kPatience, interrupted) {
-    check(overwrite);
+RunFolder::RunFolder(const Job& job, FolderUse use, const std::function<bool()>& interrupted)
+    : use_(use), path_(make_folder(job)), lock_(path_, kPatience, interrupted) {
+    check();
     try {
         remove_leftovers();
-        if (folder_content(path_) == FolderContent::render) put_aside();
+        if (use_ != FolderUse::resume && folder_content(path_) == FolderContent::render) put_aside();
     } catch (const fs::filesystem_error& error) {
         refuse(path_, std::string("cannot be the run directory: ") + error.what(), "name another with --run-dir");
     }
 }
 
-void RunFolder::check(bool overwrite) const {
+void RunFolder::check() const {
     if (lock_.refused()) {
         const std::string who = writer_words(path_);
         refuse(path_, "another render or study is at work in this folder" + (who.empty() ? "" : " (" + who + ")"),
@@ -82,9 +83,10 @@ void RunFolder::check(bool overwrite) const {
         case FolderContent::nothing:
             return;
         case FolderContent::render:
-            if (!overwrite)
+            if (use_ == FolderUse::fresh)
                 refuse(path_, "holds a render (" + render_words(path_) + ")",
-                       "replace it with --overwrite, or name another folder with --run-dir");
+                       "go on with it by treefarm resume, replace it with --overwrite, or name another folder with "
+                       "--run-dir");
             return;
         case FolderContent::study:
             refuse(path_, "holds a study, which a render does not replace", "name another folder with --run-dir");
@@ -113,6 +115,7 @@ void RunFolder::put_aside() {
 }
 
 void RunFolder::give_back() const {
+    if (use_ == FolderUse::resume) return;
     std::error_code ignored;
     for (const std::string& name : moved_names()) {
         fs::remove(path_ / name, ignored);

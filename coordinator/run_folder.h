@@ -10,16 +10,23 @@
 
 namespace treefarm {
 
+/// Whose folder a run takes.
+enum class FolderUse {
+    fresh,    ///< an empty or a new one
+    replace,  ///< an earlier run in it may be put aside
+    resume,   ///< that of the run which goes on
+};
+
 /// The folder of a run as its own: made, locked, and without the files of an earlier run, which lie in previous/ (or
 /// previous-2, ...) until the new one is done. Not to be moved.
 class RunFolder {
   public:
-    /// runs/<scene>-<time> if the job names none. `overwrite`: an earlier run may be put aside. Throws InputError where
-    /// the folder is in use, cannot be made, or holds what must not be replaced.
-    RunFolder(const Job& job, bool overwrite, const std::function<bool()>& interrupted);
+    /// runs/<scene>-<time> if the job names none. Throws InputError where the folder is in use, cannot be made, or
+    /// holds what must not be replaced.
+    RunFolder(const Job& job, FolderUse use, const std::function<bool()>& interrupted);
 
     const std::filesystem::path& path() const { return path_; }
-    /// Removes the files of this run, and puts back those that it put aside.
+    /// Removes the files of this run, unless it went on with them, and puts back those that it put aside.
     void give_back() const;
     /// An earlier run lies aside.
     bool has_previous() const;
@@ -27,10 +34,11 @@ class RunFolder {
     void remove_previous() const;
 
   private:
-    void check(bool overwrite) const;
+    void check() const;
     void remove_leftovers() const;
     void put_aside();
 
+    const FolderUse use_;
     std::filesystem::path path_, aside_;
     FolderLock lock_;
 };

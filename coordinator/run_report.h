@@ -23,7 +23,8 @@ struct RunFacts {
     std::uint64_t scene_hash = 0;
     Fingerprint fingerprint;
     std::vector<Approximation> approximations;
-    CropWindow crop{};  ///< of a crop window's image
+    CropWindow crop{};                 ///< of a crop window's image
+    std::vector<PassPlan> schedule{};  ///< --schedule: these passes; empty: the job's own
 };
 
 /// How a run came out.

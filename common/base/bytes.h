@@ -49,6 +49,9 @@ class ByteWriter {
         if (!values.empty()) std::memcpy(bytes_.data() + at, values.data(), values.size_bytes());
     }
 
+    /// The bytes alone, without their count.
+    void put_bytes(std::span<const std::uint8_t> bytes) { bytes_.insert(bytes_.end(), bytes.begin(), bytes.end()); }
+
     void put_string(const std::string& text) { put_array(std::span<const char>(text.data(), text.size())); }
 
     /// Room for so many more bytes: those written before need not be copied as the whole grows.
@@ -108,6 +111,13 @@ class ByteReader {
     std::string get_string() {
         const std::vector<char> text = get_array<char>();
         return std::string(text.begin(), text.end());
+    }
+
+    /// So many of the bytes that remain.
+    std::span<const std::uint8_t> get_bytes(std::size_t count) {
+        require(count);
+        at_ += count;
+        return bytes_.subspan(at_ - count, count);
     }
 
     std::span<const std::uint8_t> get_rest() {

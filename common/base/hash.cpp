@@ -17,4 +17,13 @@ std::string hash_text(std::uint64_t hash) {
     return text;
 }
 
+Hash128 hash128_bytes(std::span<const std::uint8_t> bytes) {
+    const XXH128_hash_t hash = XXH3_128bits(bytes.data(), bytes.size());
+    return {hash.low64, hash.high64};
+}
+
+std::string hash_text(const Hash128& hash) {
+    return hash_text(hash.high) + hash_text(hash.low);
+}
+
 }  // namespace treefarm

@@ -13,6 +13,16 @@ std::uint64_t hash_bytes(std::span<const std::uint8_t> bytes);
 /// 16 hexadecimal digits.
 std::string hash_text(std::uint64_t hash);
 
+/// XXH3 with 128 bits, where bytes are known by their hash alone.
+struct Hash128 {
+    std::uint64_t low = 0, high = 0;
+    bool operator==(const Hash128&) const = default;
+};
+Hash128 hash128_bytes(std::span<const std::uint8_t> bytes);
+
+/// 32 hexadecimal digits.
+std::string hash_text(const Hash128& hash);
+
 /// Mixes 64 bits to 64 well-spread bits (the finaliser of MurmurHash3).
 inline std::uint64_t mix_bits(std::uint64_t v) {
     v ^= v >> 33;

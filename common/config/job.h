@@ -128,6 +128,7 @@ struct Job {
         bool profile = false;            ///< time the parts of tracing
         double heartbeat_seconds = 1.0;  ///< how often each side says that it lives
         double update_seconds = 1.5;     ///< how often a worker sends what it has finished
+        double checkpoint_seconds = 5;   ///< least time from checkpoint to checkpoint; 0: none
         std::string isa =
             "avx2";           ///< Embree's instruction set, the same on every worker: sse2, sse4.2, avx, avx2, avx512
         bool robust = false;  ///< rays neither slip through shared edges nor start behind corners
@@ -141,6 +142,7 @@ struct Job {
         bool half = false;                 ///< EXR stores colours as 16-bit floats
         std::string compression = "auto";  ///< of EXR: auto, none, rle, zips, zip, piz
         int tiles = 0;                     ///< edge of the EXR file's tiles, pixels; 0: scan lines
+        bool keep_checkpoint = true;       ///< of a render that is done
     } output;
 };
 

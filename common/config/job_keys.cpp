@@ -314,6 +314,11 @@ std::vector<JobKey> make_job_keys() {
     add(number_key(
         "farm.update_seconds", "0.001 to 3600", "how often a worker sends what it has finished",
         [](auto& j) -> auto& { return j.farm.update_seconds; }, seconds));
+    add(number_key(
+        "farm.checkpoint_seconds", "0 to 86400",
+        "least seconds from one checkpoint to the next, after whole passes; 0: none is written, and the render cannot "
+        "be gone on with",
+        [](auto& j) -> auto& { return j.farm.checkpoint_seconds; }, [](double v) { return v >= 0 && v <= 86400; }));
     const std::vector<std::pair<std::string, std::string>> isas{
         {"sse2", "sse2"}, {"sse4.2", "sse4.2"}, {"avx", "avx"}, {"avx2", "avx2"}, {"avx512", "avx512"}};
     add(word_key(
@@ -347,6 +352,9 @@ std::vector<JobKey> make_job_keys() {
     add(integer_key(
         "output.tiles", "0, or 16 to 4096", "edge of the tiles in image.exr, pixels; 0: scan lines",
         [](auto& j) -> auto& { return j.output.tiles; }, 16, 4096, 0));
+    add(boolean_key(
+        "output.keep_checkpoint", "keep the checkpoint of a render that is done, so that resume can add samples to it",
+        [](auto& j) -> auto& { return j.output.keep_checkpoint; }));
     return keys;
 }
 
@@ -361,13 +369,6 @@ const JobKey* find_job_key(const std::string& name) {
     for (const JobKey& key : job_keys())
         if (key.name == name) return &key;
     return nullptr;
-}
-
-std::span<const std::pair<std::string, std::string>> unavailable_job_keys() {
-    static const std::vector<std::pair<std::string, std::string>> keys = {
-        {"farm.checkpoint_seconds", "remove it"},
-    };
-    return keys;
 }
 
 std::string job_key_documentation() {

@@ -49,9 +49,6 @@ std::span<const JobKey> job_keys();
 /// The key of this name, or nullptr.
 const JobKey* find_job_key(const std::string& name);
 
-/// Keys that are planned but not there yet: name and what to do.
-std::span<const std::pair<std::string, std::string>> unavailable_job_keys();
-
 /// Values for $name in the scene stand below this: "scene.defines.name".
 inline constexpr char kDefinesPrefix[] = "scene.defines.";
 

@@ -19,8 +19,6 @@ bool is_section(const std::string& name) {
 }
 
 [[noreturn]] void refuse_key(const std::string& name, const Location& where) {
-    for (const auto& [key, cure] : unavailable_job_keys())
-        if (key == name) throw InputError(where, name + " is not available in this version", cure);
     for (const auto& [effect, cure] : effects_without_switch())
         if (name == kEffectsPrefix + effect) throw InputError(where, name + " cannot be switched off by a key", cure);
     std::vector<std::string> names;

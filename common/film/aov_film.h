@@ -59,6 +59,7 @@ struct AovChannel {
 /// The AOVs of all passes so far.
 class AovSums {
   public:
+    AovSums() : AovSums({}, 0) {}
     AovSums(std::span<const AovRequest> requests, std::size_t pixel_count);
 
     /// Adds a pass of `spp` samples per pixel; in the order of the passes, since sums round.
@@ -67,6 +68,17 @@ class AovSums {
     std::vector<AovChannel> channels(const CombinedImage& image, std::span<const PassResult> passes) const;
 
     bool requested() const { return !requests_.empty(); }
+    /// Whether the sums are of the pixels and AovRequests that they were made for: those that were read may not be.
+    bool fits() const {
+        return values_.size() == layout_.size() * pixel_count_ &&
+               direct_.size() == (layout_.direct() ? pixel_count_ : 0);
+    }
+
+    /// Lists what it remembers, for a checkpoint.
+    template <class Archive>
+    void serialize(Archive& archive) {
+        archive(spp_, values_, direct_);
+    }
 
   private:
     void develop(Aov aov, std::uint32_t component, const CombinedImage& image, std::span<const PassResult> passes,

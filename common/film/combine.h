@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "common/film/combination.h"
@@ -39,6 +40,7 @@ struct PassResult {
     bool guided = true;                 ///< false where guiding has been given up
     SampleNoise noise{};                ///< of the passes from this one on that are alike (remember_noise)
     std::vector<PassPart> parts{};      ///< passes that were merged into this one; none: it is one
+    std::string stored{};               ///< file of a checkpoint that holds these pixels; "": none
 };
 
 /// The image so far, with its own error.
@@ -56,7 +58,8 @@ struct CombinedImage {
 CombinedImage combine_passes(std::span<const PassResult> passes, Combination method, bool guided);
 
 /// Measures the noise of passes where combine_passes() would, if it is not known yet, and keeps it with them. Called
-/// after each pass, it would otherwise measure all of them again. Whoever changes a pass forgets its noise.
+/// after each pass, it would otherwise measure all of them again. Whoever changes a pass forgets its noise, and the file
+/// that holds it.
 void remember_noise(std::span<PassResult> passes, Combination method, bool guided);
 
 /// Weight of a pass that is set before it begins (`fixed`): spp sqrt(spp_before); without guiding, spp. Not normalised.

@@ -31,6 +31,7 @@ void merge_into(PassResult& first, PassResult second) {
     first.parts = std::move(parts);
     first.spp += second.spp;
     first.guided = second.guided;
+    first.stored.clear();
     in_parts(first.pixels.size(), kLeastPart, [&](std::size_t begin, std::size_t end) {
         for (std::size_t p = begin; p < end; ++p)
             first.pixels[p] = PixelEstimate::merge(first.pixels[p], second.pixels[p]);

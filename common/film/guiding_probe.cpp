@@ -89,9 +89,16 @@ void ProbesSetAside::follow_fold(std::size_t first) {
         if (probe.index > first) --probe.index;
 }
 
+bool ProbesSetAside::fits(std::size_t passes, std::size_t pixels) const {
+    return std::all_of(probes_.begin(), probes_.end(),
+                       [&](const Probe& probe) { return probe.index < passes && probe.pixel < pixels; });
+}
+
 void ProbesSetAside::put_back(std::span<PassResult> passes) {
     for (const Probe& probe : std::exchange(probes_, {})) {
-        PixelEstimate& pixel = passes[probe.index].pixels[probe.pixel];  // empty, but for passes that were merged
+        PassResult& pass = passes[probe.index];
+        PixelEstimate& pixel = pass.pixels[probe.pixel];  // empty, but for passes that were merged
+        pass.stored.clear();
         pixel = PixelEstimate::merge(pixel, probe.estimate);
     }
     for (PassResult& pass : passes)

@@ -38,11 +38,24 @@ class ProbesSetAside {
     void follow_fold(std::size_t first);
     /// Gives the pixels back to their passes, once.
     void put_back(std::span<PassResult> passes);
+    /// Whether all are pixels of an image of so many passes and pixels.
+    bool fits(std::size_t passes, std::size_t pixels) const;
+
+    /// Lists what it remembers, for a checkpoint.
+    template <class Archive>
+    void serialize(Archive& archive) {
+        archive(probes_);
+    }
 
   private:
     struct Probe {
         std::size_t index, pixel;
         PixelEstimate estimate;
+
+        template <class Archive>
+        void serialize(Archive& archive) {
+            archive(index, pixel, estimate);
+        }
     };
     std::vector<Probe> probes_;
 };
@@ -69,10 +82,21 @@ class GuidingProbe {
     GuidingGain gain(std::span<const PixelEstimate> pixels, const TraceStats& stats, std::uint32_t pass,
                      std::span<const Rgb64> image, std::size_t width) const;
 
+    /// Lists what it remembers, for a checkpoint.
+    template <class Archive>
+    void serialize(Archive& archive) {
+        archive(unguided_, paths_, rays_);
+    }
+
   private:
     struct Unguided {
         std::uint32_t pixel, samples;
         double variance, mean;  ///< of one sample, luminance
+
+        template <class Archive>
+        void serialize(Archive& archive) {
+            archive(pixel, samples, variance, mean);
+        }
     };
     std::vector<Unguided> unguided_;
     std::uint64_t paths_ = 0, rays_ = 0;

@@ -14,12 +14,20 @@ constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 
 class OpenBudget {
   public:
-    explicit OpenBudget(const Resolved& job) : job_(job) {}
+    OpenBudget(const Resolved& job, const RenderHistory& state) : job_(job), memory_(state.budget) {
+        if (!state.passes.empty()) outlook_.emplace(state);
+    }
 
-    NextPass next(const RenderState& state) {
+    NextPass next(const RenderHistory& state) {
+        NextPass next = choose(state);
+        next.memory = memory_;
+        return next;
+    }
+
+  private:
+    NextPass choose(const RenderHistory& state) {
         if (state.passes.empty()) return {first_pass(), 0, 0};
-        if (ending_ && job_.budget.strict) return {};
-        outlook_.emplace(state);
+        if (memory_.ending && job_.budget.strict) return {};
         const auto index = static_cast<std::uint32_t>(state.passes.size());
         const std::uint32_t done = state.spp();
         const double others = std::min(by_error(state), static_cast<double>(job_.budget.max_spp) - done);
@@ -27,20 +35,19 @@ class OpenBudget {
         if (wanted < least_spp()) return {};
         const double doubled = std::ldexp(job_.guiding.spp_unit, static_cast<int>(index));
         const auto total = static_cast<std::uint32_t>(done + wanted);
-        if (!ending_ && !probed_ && wanted >= kPolicy.schedule.teaching_share * doubled)
+        if (!memory_.ending && !memory_.probed && wanted >= kPolicy.schedule.teaching_share * doubled)
             return {make_pass(job_, index, done, static_cast<std::uint32_t>(doubled), false), total, 0};
         if (needs_probe(state)) {
-            probed_ = true;
+            memory_.probed = true;
             const auto spp = static_cast<std::uint32_t>(std::max(1.0, kPolicy.budget.probe * by_time(state, 1.0)));
             return {make_pass(job_, index, done, spp, true), total, 0};
         }
         const double hedged = std::min(others, by_time(state, hedge(state)));
-        ending_ = true;
+        memory_.ending = true;
         const auto spp = static_cast<std::uint32_t>(std::max(hedged, least_spp()));
         return {make_pass(job_, index, done, spp, true), total, 0};
     }
 
-  private:
     PassPlan first_pass() const {
         const auto unit = static_cast<std::uint32_t>(job_.guiding.spp_unit);
         return make_pass(job_, 0, 0, std::min(unit, job_.budget.max_spp), unit >= job_.budget.max_spp);
@@ -66,20 +73,20 @@ class OpenBudget {
     }
 
     /// The clock ends a strict render whose last tree nobody has tried yet, and there is time to try it.
-    bool needs_probe(const RenderState& state) const {
+    bool needs_probe(const RenderHistory& state) const {
         const double left = job_.budget.seconds - state.seconds;
-        return job_.budget.strict && job_.budget.seconds > 0 && !probed_ && outlook_->learning() &&
+        return job_.budget.strict && job_.budget.seconds > 0 && !memory_.probed && outlook_->learning() &&
                seconds_of_pass(1) < 2 * kPolicy.budget.probe * left;
     }
 
-    double hedge(const RenderState& state) const {
+    double hedge(const RenderHistory& state) const {
         const double uncertain = (1 - kPolicy.budget.hedge) * (job_.budget.seconds - state.seconds);
         const double worthwhile = std::max(0.5 * tolerance(), seconds_of_pass(2 * least_spp()));
         return job_.budget.strict || uncertain < worthwhile ? 1.0 : kPolicy.budget.hedge;
     }
 
     /// Samples that a pass can have which takes this share of the time left.
-    double by_time(const RenderState& state, double fraction) const {
+    double by_time(const RenderHistory& state, double fraction) const {
         if (job_.budget.seconds == 0) return kUnlimited;
         const double left = job_.budget.seconds - state.seconds;
         if (left < 0.25 * tolerance()) return 0;
@@ -91,7 +98,7 @@ class OpenBudget {
     }
 
     /// Samples that are still needed for the target.
-    double by_error(const RenderState& state) const {
+    double by_error(const RenderHistory& state) const {
         const double target = job_.budget.error;
         const ErrorEstimate& error = state.error;
         const std::uint32_t done = state.spp();
@@ -106,15 +113,15 @@ class OpenBudget {
         return job_.budget.strict ? needed : std::max({needed, least_spp(), kPolicy.budget.least_share * done});
     }
 
-    const Resolved job_;
-    std::optional<Outlook> outlook_;  ///< of the state that next() was given
-    bool probed_ = false, ending_ = false;
+    const Resolved& job_;
+    BudgetMemory memory_;
+    std::optional<Outlook> outlook_;
 };
 
 }  // namespace
 
 PassChooser listed_passes(std::vector<PassPlan> passes) {
-    return [passes = std::move(passes)](const RenderState& state) -> NextPass {
+    return [passes = std::move(passes)](const RenderHistory& state) -> NextPass {
         const std::size_t next = state.passes.size();
         if (next >= passes.size()) return {};
         return {passes[next], passes.back().first_sample + passes.back().spp, passes.size()};
@@ -122,7 +129,7 @@ PassChooser listed_passes(std::vector<PassPlan> passes) {
 }
 
 PassChooser open_passes(const Resolved& job) {
-    return [budget = OpenBudget(job)](const RenderState& state) mutable { return budget.next(state); };
+    return [job](const RenderHistory& state) { return OpenBudget(job, state).next(state); };
 }
 
 PassResult finished_pass(const PassPlan& plan, const PassPlan* before, std::vector<PixelEstimate> pixels) {
@@ -138,9 +145,9 @@ void show(PassResult pass, const Resolved& job, std::vector<PassResult>& shown) 
     shown.push_back(std::move(pass));
 }
 
-PassChooser passes_of(const Resolved& job) {
-    PassChooser chooser = has_open_budget(job) ? open_passes(job) : listed_passes(plan_passes(job));
-    return [chooser = std::move(chooser), job](const RenderState& state) {
+PassChooser passes_of(const Resolved& job, std::span<const PassPlan> begun) {
+    PassChooser chooser = has_open_budget(job) ? open_passes(job) : listed_passes(continued_passes(job, begun));
+    return [chooser = std::move(chooser), job](const RenderHistory& state) {
         NextPass next = chooser(state);
         if (next.pass) {
             set_guiding(*next.pass, job, state.guiding);
@@ -148,6 +155,27 @@ PassChooser passes_of(const Resolved& job) {
         }
         return next;
     };
+}
+
+std::vector<PassPlan> continued_passes(const Resolved& job, std::span<const PassPlan> begun) {
+    std::vector<PassPlan> passes = plan_passes(job);
+    const auto alike = [](const PassPlan& done, const PassPlan& plan) {
+        // A verdict on guiding ends the teaching of passes that were planned to.
+        return plan.spp == done.spp && (plan.record == done.record || !done.guided);
+    };
+    if (begun.size() <= passes.size() && std::equal(begun.begin(), begun.end(), passes.begin(), alike)) return passes;
+    const auto unit = static_cast<std::uint32_t>(job.guiding.spp_unit);
+    std::uint32_t done = begun.back().first_sample + begun.back().spp;
+    passes.assign(begun.begin(), begun.end());
+    if (done >= job.budget.spp) return passes;
+    for (std::uint32_t remaining = (job.budget.spp - done + unit - 1) / unit; remaining > 0;) {
+        const auto index = static_cast<std::uint32_t>(passes.size());
+        const std::uint32_t units = next_units(index, remaining);
+        remaining -= units;
+        passes.push_back(make_pass(job, index, done, units * unit, remaining == 0));
+        done += units * unit;
+    }
+    return passes;
 }
 
 bool misses_target(const Job& job, const ErrorEstimate& error) {

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "common/film/combine.h"
@@ -16,10 +17,11 @@ struct NextPass {
     std::optional<PassPlan> pass;  ///< none: the render is done
     std::uint32_t spp_total = 0;   ///< expected when all is done; 0: not known yet
     std::size_t pass_count = 0;    ///< 0: not known yet
+    BudgetMemory memory{};         ///< for RenderHistory::budget, once the pass is finished
 };
 
-/// Chooses the next pass; asked before each, once. The only place where clock and estimated error have a say.
-using PassChooser = std::function<NextPass(const RenderState&)>;
+/// Chooses the next pass. Pure. The only place where clock and estimated error have a say.
+using PassChooser = std::function<NextPass(const RenderHistory&)>;
 
 /// The passes of a list, one after the other.
 PassChooser listed_passes(std::vector<PassPlan> passes);
@@ -28,8 +30,12 @@ PassChooser listed_passes(std::vector<PassPlan> passes);
 /// as many smaller ones as make up for what the forecast missed (none where the image is its last pass alone).
 PassChooser open_passes(const Resolved& job);
 
-/// The passes that the job itself asks for.
-PassChooser passes_of(const Resolved& job);
+/// The passes that the job itself asks for; after those that were `begun`, as continued_passes() has it.
+PassChooser passes_of(const Resolved& job, std::span<const PassPlan> begun = {});
+
+/// All passes of a render of budget.spp that has finished those of `begun` so far: plan_passes(), if these begin it;
+/// otherwise passes go on doubling from there by the same two rules (docs/use/resume.md). Pure.
+std::vector<PassPlan> continued_passes(const Resolved& job, std::span<const PassPlan> begun);
 
 /// A finished pass; `before`: the one before it, or nullptr.
 PassResult finished_pass(const PassPlan& plan, const PassPlan* before, std::vector<PixelEstimate> pixels);

@@ -33,7 +33,7 @@ Expected around(double value, double low, double high) {
     return {value, value * low, value * high};
 }
 
-Doubt doubt_of(const RenderState& state, double spp) {
+Doubt doubt_of(const RenderHistory& state, double spp) {
     const ErrorEstimate& error = state.error;
     const double doublings = std::max(0.0, std::log2(spp / std::max(1u, state.spp())));
     const double spread = (1 + kSpread) * (1 + kSpreadPerDoubling * doublings);
@@ -56,14 +56,14 @@ Doubt doubt_of(const RenderState& state, double spp) {
 }
 
 /// Why nothing can be said; "" if something can.
-std::string why_unknown(const RenderState& state) {
+std::string why_unknown(const RenderHistory& state) {
     if (!state.error.known) return "the probe has too few samples to tell its error";
     if (!(state.error.mean > 0)) return "no light was found in the probe: check the scene's emitters and camera";
     return "";
 }
 
 /// A render without noise, or one whose end the probe reached.
-Expectation measured(const RenderState& state) {
+Expectation measured(const RenderHistory& state) {
     Expectation all;
     all.known = all.reached = true;
     const double spp = state.spp();
@@ -73,12 +73,12 @@ Expectation measured(const RenderState& state) {
     return all;
 }
 
-ErrorForecast ahead(const RenderState& state, const Resolved& job, double error) {
+ErrorForecast ahead(const RenderHistory& state, const Resolved& job, double error) {
     return forecast_error(state, job, error);
 }
 
 /// The error at which `figure` of the forecast comes to `wanted`: it grows as the error falls.
-double error_where(const RenderState& state, const Resolved& job, double wanted,
+double error_where(const RenderHistory& state, const Resolved& job, double wanted,
                    const std::function<double(const ErrorForecast&)>& figure) {
     constexpr double kLeast = 1e-4;
     constexpr int kSteps = 40;
@@ -90,7 +90,7 @@ double error_where(const RenderState& state, const Resolved& job, double wanted,
     return std::sqrt(low * high);
 }
 
-Expectation expectation_at(const RenderState& state, const Resolved& job, double error) {
+Expectation expectation_at(const RenderHistory& state, const Resolved& job, double error) {
     const ErrorForecast forecast = ahead(state, job, error);
     Expectation all;
     if (!std::isfinite(forecast.spp) || !std::isfinite(forecast.seconds)) {
@@ -109,14 +109,14 @@ Expectation expectation_at(const RenderState& state, const Resolved& job, double
 
 }  // namespace
 
-Expectation expect_error(const RenderState& state, const Resolved& job, double relative_error) {
+Expectation expect_error(const RenderHistory& state, const Resolved& job, double relative_error) {
     Expectation all;
     if (all.unknown = why_unknown(state); !all.unknown.empty()) return all;
     if (!(state.error.rmse > 0) || state.error.relative() <= relative_error) return measured(state);
     return expectation_at(state, job, relative_error);
 }
 
-Expectation expect_after_seconds(const RenderState& state, const Resolved& job, double seconds) {
+Expectation expect_after_seconds(const RenderHistory& state, const Resolved& job, double seconds) {
     Expectation all;
     if (all.unknown = why_unknown(state); !all.unknown.empty()) return all;
     if (!(state.error.rmse > 0) || state.seconds >= seconds) return measured(state);
@@ -131,7 +131,7 @@ Expectation expect_after_seconds(const RenderState& state, const Resolved& job, 
     return all;
 }
 
-Expectation expect_after_spp(const RenderState& state, const Resolved& job, double spp) {
+Expectation expect_after_spp(const RenderHistory& state, const Resolved& job, double spp) {
     Expectation all;
     if (all.unknown = why_unknown(state); !all.unknown.empty()) return all;
     if (!(state.error.rmse > 0) || state.spp() >= spp) return measured(state);

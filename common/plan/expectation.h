@@ -23,12 +23,12 @@ struct Expectation {
 };
 
 /// Expectation of a render that goes on until the error is `relative_error`.
-Expectation expect_error(const RenderState& state, const Resolved& job, double relative_error);
+Expectation expect_error(const RenderHistory& state, const Resolved& job, double relative_error);
 
 /// Expectation of a render after so many seconds.
-Expectation expect_after_seconds(const RenderState& state, const Resolved& job, double seconds);
+Expectation expect_after_seconds(const RenderHistory& state, const Resolved& job, double seconds);
 
 /// Expectation of a render after so many samples per pixel.
-Expectation expect_after_spp(const RenderState& state, const Resolved& job, double spp);
+Expectation expect_after_spp(const RenderHistory& state, const Resolved& job, double spp);
 
 }  // namespace treefarm

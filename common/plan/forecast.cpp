@@ -26,11 +26,11 @@ bool weighs_by_variance(const Resolved& job) {
 }
 
 /// Samples that a pass of the last tree adds to.
-double spp_shown(const RenderState& state, const Resolved& job) {
+double spp_shown(const RenderHistory& state, const Resolved& job) {
     return job.budget.strict || state.passes.back().record ? 0.0 : state.spp_of_last_tree();
 }
 
-double sum_of_fixed_weights(const RenderState& state, bool guided) {
+double sum_of_fixed_weights(const RenderHistory& state, bool guided) {
     double sum = 0;
     for (const PassFacts& pass : state.passes)
         sum += fixed_weight(pass.spp, pass.spp_before, guided);
@@ -47,7 +47,7 @@ double solve_fixed(double sum, double mse, double weight, double variance, doubl
 }
 
 /// The mean squared error after one more pass of so many samples: what spp_to_reach() inverts.
-double mse_after(const RenderState& state, const Resolved& job, double spp, double variance) {
+double mse_after(const RenderHistory& state, const Resolved& job, double spp, double variance) {
     const double now = state.error.mse();
     if (shows_last_tree_only(job)) return variance / (spp_shown(state, job) + spp);
     if (weighs_by_variance(job)) return 1 / (1 / now + spp / variance);
@@ -58,7 +58,7 @@ double mse_after(const RenderState& state, const Resolved& job, double spp, doub
 }
 
 /// The render as it will be after one more pass that teaches.
-void add_teaching_pass(RenderState& state, const Resolved& job, std::uint32_t spp, double variance) {
+void add_teaching_pass(RenderHistory& state, const Resolved& job, std::uint32_t spp, double variance) {
     const double mse = mse_after(state, job, spp, variance);
     PassFacts pass;
     pass.spp = spp;
@@ -68,7 +68,7 @@ void add_teaching_pass(RenderState& state, const Resolved& job, std::uint32_t sp
     state.error.rmse = std::sqrt(mse);
 }
 
-Trust trust_in(const RenderState& state, const Outlook& outlook) {
+Trust trust_in(const RenderHistory& state, const Outlook& outlook) {
     const ErrorEstimate& error = state.error;
     if (!error.has_interval || error.high - error.low > 2 * kPolicy.forecast.noisy * error.rmse) return Trust::noisy;
     const bool settled = outlook.recent_progress() >= kPolicy.forecast.learned;
@@ -89,7 +89,7 @@ double ending_variance(const Outlook& outlook, const Resolved& job, int trees) {
     return outlook.variance_after(job.budget.strict ? std::max(trees - 1, 0) : trees);
 }
 
-double spp_to_reach(const RenderState& state, const Resolved& job, double mse, double variance) {
+double spp_to_reach(const RenderHistory& state, const Resolved& job, double mse, double variance) {
     const double now = state.error.mse();
     if (shows_last_tree_only(job)) {
         if (!(mse > 0)) return variance > 0 ? kUnknown : 0.0;
@@ -104,7 +104,7 @@ double spp_to_reach(const RenderState& state, const Resolved& job, double mse, d
     return solve_fixed(sum_of_fixed_weights(state, true), now, fixed_weight(1, done, true), variance, mse);
 }
 
-ErrorForecast forecast_error(const RenderState& state, const Resolved& job, double relative_error) {
+ErrorForecast forecast_error(const RenderHistory& state, const Resolved& job, double relative_error) {
     ErrorForecast forecast{relative_error, kUnknown, kUnknown, Trust::none};
     if (!state.error.known || state.passes.empty()) return forecast;
     const double rmse = relative_error * state.error.mean, mse = rmse * rmse;
@@ -117,7 +117,7 @@ ErrorForecast forecast_error(const RenderState& state, const Resolved& job, doub
     forecast.trust = trust_in(state, outlook);
     const double margin = relative_error == job.budget.error ? ending_margin(job) : 1.0;
 
-    RenderState future = state;
+    RenderHistory future = state;
     double seconds = 0;
     for (int trees = outlook.learning() ? 1 : 0;; ++trees) {
         const double variance =

@@ -11,7 +11,7 @@ bool shows_last_tree_only(const Resolved& job);
 
 /// Samples per pixel that one further pass needs until the image's mean squared error is `mse`, if one of its samples
 /// has this variance (docs/design/error.md, "error"). 0: it is there already. Infinite: not known yet.
-double spp_to_reach(const RenderState& state, const Resolved& job, double mse, double variance);
+double spp_to_reach(const RenderHistory& state, const Resolved& job, double mse, double variance);
 
 /// How passes that end a render for budget.error are chosen: so much beyond the samples that the error needs, so that
 /// few of them suffice; ...
@@ -37,6 +37,6 @@ struct ErrorForecast {
 };
 
 /// The render goes on as budget.error has it: passes double while they teach, then one that teaches nothing.
-ErrorForecast forecast_error(const RenderState& state, const Resolved& job, double relative_error);
+ErrorForecast forecast_error(const RenderHistory& state, const Resolved& job, double relative_error);
 
 }  // namespace treefarm

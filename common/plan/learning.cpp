@@ -47,7 +47,7 @@ RefineSettings refine_settings(const Resolved& job, const PassPlan& pass, const 
     settings.record_weight = pass.record_weight;
     settings.target = job.guiding.target;
     settings.view_threshold = split_growth(job, coming) * job.guiding.view_threshold;
-    settings.last_update = !coming.record;
+    settings.last_update = coming.last_tree;
     settings.views_record_alone = job.guiding.view_records == ViewRecords::radiance;
     if (job.cells_follow_use) settings.least_use = kPolicy.learning.least_use;
     if (job.guiding.view_records == ViewRecords::product) {

@@ -25,7 +25,7 @@ struct TreeFacts {
     double core_per_spp() const { return trace_core_seconds / spp; }
 };
 
-std::vector<TreeFacts> trees_of(const RenderState& state) {
+std::vector<TreeFacts> trees_of(const RenderHistory& state) {
     std::vector<TreeFacts> trees;
     bool fresh = true;
     for (const PassFacts& pass : state.passes) {
@@ -49,7 +49,7 @@ std::vector<TreeFacts> trees_of(const RenderState& state) {
 
 }  // namespace
 
-std::uint32_t RenderState::spp_of_last_tree() const {
+std::uint32_t RenderHistory::spp_of_last_tree() const {
     std::uint32_t spp = 0;
     for (auto pass = passes.rbegin(); pass != passes.rend(); ++pass) {
         if (pass != passes.rbegin() && pass->record) break;
@@ -58,12 +58,12 @@ std::uint32_t RenderState::spp_of_last_tree() const {
     return spp;
 }
 
-Outlook::Outlook(const RenderState& state) : learning_(state.passes.back().record) {
+Outlook::Outlook(const RenderHistory& state) : learning_(state.passes.back().record) {
     look_at_variance(state);
     look_at_cost(state);
 }
 
-void Outlook::look_at_variance(const RenderState& state) {
+void Outlook::look_at_variance(const RenderHistory& state) {
     struct Level {
         double weight, variance;
         int trees;
@@ -110,7 +110,7 @@ void Outlook::look_at_variance(const RenderState& state) {
         if ((back += level->trees) >= 3) recent_progress_ = quiet_ ? 1.0 : variance_ / level->variance;
 }
 
-void Outlook::look_at_cost(const RenderState& state) {
+void Outlook::look_at_cost(const RenderHistory& state) {
     // What a core-second takes of the clock is a matter of the machine and its neighbours: the mean over all passes, of
     // which the last ones are the longest.
     double clock = 0, core = 0, spp = 0;

@@ -23,13 +23,22 @@ struct PassFacts {
     bool next_event = false;
 };
 
-/// A render between two passes.
-struct RenderState {
+/// What the choice of passes for an open budget remembers (budget.h).
+struct BudgetMemory {
+    bool probed = false;  ///< a short pass has tried the last tree
+    bool ending = false;  ///< a pass was meant to be the last
+
+    bool operator==(const BudgetMemory&) const = default;
+};
+
+/// A render between two passes: all that decides which comes next.
+struct RenderHistory {
     std::vector<PassFacts> passes;  ///< the finished ones
     double seconds = 0;             ///< spent since the first worker asked for work
     ErrorEstimate error;            ///< of the image so far
     Guiding guiding = Guiding::open;
     bool splitting = true;  ///< may pay
+    BudgetMemory budget;    ///< with the last finished pass: NextPass::memory of it
 
     std::uint32_t spp() const { return passes.empty() ? 0 : passes.back().spp_before + passes.back().spp; }
     /// Samples per pixel of the passes that had the last one's tree.
@@ -41,7 +50,7 @@ struct RenderState {
 /// 3/4, the change of cost to the power 0.35. Needs a finished pass.
 class Outlook {
   public:
-    explicit Outlook(const RenderState& state);
+    explicit Outlook(const RenderHistory& state);
 
     /// Whether any pass tells the variance of its samples.
     bool knows_variance() const { return variance_ > 0 || quiet_; }
@@ -63,8 +72,8 @@ class Outlook {
     double overhead_seconds() const { return overhead_; }
 
   private:
-    void look_at_variance(const RenderState& state);
-    void look_at_cost(const RenderState& state);
+    void look_at_variance(const RenderHistory& state);
+    void look_at_cost(const RenderHistory& state);
 
     bool learning_ = false;
     bool quiet_ = false;  ///< passes with a variance of zero

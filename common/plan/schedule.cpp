@@ -41,6 +41,7 @@ void set_next_event(PassPlan& pass, const Resolved& job, bool next_event) {
 
 void set_record(PassPlan& pass, const Resolved& job, bool record) {
     pass.record = record;
+    pass.last_tree = !record;
     pass.learn_mixture = record && pass.index > 0 && job.guiding.learn_bsdf_fraction;
 }
 
@@ -92,6 +93,11 @@ PassPlan make_pass(const Resolved& job, std::uint32_t index, std::uint32_t first
     return pass;
 }
 
+std::uint32_t next_units(std::uint32_t index, std::uint32_t remaining) {
+    const std::uint32_t doubled = std::min(remaining, std::uint32_t{1} << std::min(index, 31u));
+    return remaining - doubled < 2 * doubled ? remaining : doubled;  // the last pass takes at least half of everything
+}
+
 std::vector<PassPlan> plan_passes(const Resolved& job) {
     const auto unit = static_cast<std::uint32_t>(job.guiding.spp_unit);
     const std::uint32_t spp =
@@ -100,8 +106,7 @@ std::vector<PassPlan> plan_passes(const Resolved& job) {
     std::vector<PassPlan> passes;
     std::uint32_t done = 0;
     for (std::uint32_t index = 0; remaining > 0; ++index) {
-        std::uint32_t units = std::min(remaining, std::uint32_t{1} << std::min(index, 31u));
-        if (remaining - units < 2 * units) units = remaining;  // the last pass takes at least half of everything
+        const std::uint32_t units = next_units(index, remaining);
         remaining -= units;
         passes.push_back(make_pass(job, index, done, units * unit, remaining == 0));
         done += units * unit;

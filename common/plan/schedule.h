@@ -44,6 +44,7 @@ struct PassPlan {
     bool record = false;                ///< teach the tree (the last pass does not)
     double record_weight = 1.0;         ///< 0.5 in kick-start passes
     bool learn_mixture = false;         ///< teach how often to sample the BSDF (needs a tree that guides)
+    bool last_tree = false;             ///< its tree was refined as the last one: only a resumed render learns more
     std::uint32_t blocks_per_unit = 1;  ///< power of two: sample blocks (of 64) in a work unit
     std::uint32_t chunks = 1;           ///< work units along the samples of a pixel
 
@@ -114,6 +115,9 @@ bool splitting_may_pay(const PassPlan& pass, const SplittingGain& gain);
 /// passes are chosen one by one as the render goes (budget.h), a guess to plan by: those of budget.spp, at least 64.
 /// Pure.
 std::vector<PassPlan> plan_passes(const Resolved& job);
+
+/// Length of pass number `index` where so much remains, both in guiding.spp_unit.
+std::uint32_t next_units(std::uint32_t index, std::uint32_t remaining);
 
 /// Whether clock or estimated error choose the passes.
 bool has_open_budget(const Resolved& job);

@@ -16,8 +16,9 @@ constexpr std::int64_t kMostSpp = std::int64_t{1} << 30;
 constexpr std::size_t kMostPasses = 10000;
 
 /// Keys that one [[pass]] may hold.
-constexpr std::string_view kKeys[] = {"spp", "next_event", "record", "guided", "probe", "split"};
-constexpr const char* kKeyAdvice = "a pass has spp, next_event and record, and may have guided, probe and split";
+constexpr std::string_view kKeys[] = {"spp", "next_event", "record", "guided", "probe", "split", "last_tree"};
+constexpr const char* kKeyAdvice =
+    "a pass has spp, next_event and record, and may have guided, probe, split and last_tree";
 
 class ScheduleReader {
   public:
@@ -69,6 +70,7 @@ class ScheduleReader {
         plan.guided = job_.guides && (!pass->contains("guided") || flag(*pass, "guided"));
         plan.probe = pass->contains("probe") && flag(*pass, "probe");
         plan.split = !pass->contains("split") || flag(*pass, "split");
+        if (pass->contains("last_tree")) plan.last_tree = flag(*pass, "last_tree");
         done_ += *samples;
         passes_.push_back(plan);
     }
@@ -106,7 +108,8 @@ std::string write_schedule(std::span<const PassPlan> passes) {
     for (const PassPlan& pass : passes)
         text += "\n[[pass]]\nspp = " + std::to_string(pass.spp) + "\nnext_event = " + word(pass.next_event) +
                 "\nrecord = " + word(pass.record) + (pass.guided ? "" : "\nguided = false") +
-                (pass.probe ? "\nprobe = true" : "") + (pass.split ? "" : "\nsplit = false") + "\n";
+                (pass.probe ? "\nprobe = true" : "") + (pass.split ? "" : "\nsplit = false") +
+                (pass.last_tree != pass.record ? "" : std::string("\nlast_tree = ") + word(pass.last_tree)) + "\n";
     return text;
 }
 

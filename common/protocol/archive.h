@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cereal/cereal.hpp>
 #include <cereal/types/string.hpp>
 #include <cereal/types/vector.hpp>
@@ -50,6 +51,12 @@ inline void CEREAL_LOAD_FUNCTION_NAME(ReadArchive& archive, bool& value) {
     value = byte == 1;
 }
 
+/// Names are for formats that people read.
+template <class Archive, class T>
+void CEREAL_SERIALIZE_FUNCTION_NAME(Archive& archive, cereal::NameValuePair<T>& pair) {
+    archive(pair.value);
+}
+
 template <class T>
 void CEREAL_SAVE_FUNCTION_NAME(WriteArchive& archive, const cereal::SizeTag<T>& tag) {
     archive.writer().put_varint(static_cast<std::uint64_t>(tag.size));
@@ -63,16 +70,13 @@ void CEREAL_LOAD_FUNCTION_NAME(ReadArchive& archive, cereal::SizeTag<T>& tag) {
 
 template <class T>
 void CEREAL_SAVE_FUNCTION_NAME(WriteArchive& archive, const cereal::BinaryData<T>& data) {
-    const auto* bytes = static_cast<const std::uint8_t*>(data.data);
-    for (std::uint64_t i = 0; i < data.size; ++i)
-        archive.writer().put(bytes[i]);
+    archive.writer().put_bytes({static_cast<const std::uint8_t*>(data.data), static_cast<std::size_t>(data.size)});
 }
 
 template <class T>
 void CEREAL_LOAD_FUNCTION_NAME(ReadArchive& archive, cereal::BinaryData<T>& data) {
-    auto* bytes = static_cast<std::uint8_t*>(data.data);
-    for (std::uint64_t i = 0; i < data.size; ++i)
-        bytes[i] = archive.reader().get<std::uint8_t>();
+    const auto bytes = archive.reader().get_bytes(static_cast<std::size_t>(data.size));
+    std::copy(bytes.begin(), bytes.end(), static_cast<std::uint8_t*>(data.data));
 }
 
 }  // namespace treefarm

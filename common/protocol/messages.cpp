@@ -4,6 +4,7 @@
 #include <cstdlib>
 
 #include "common/protocol/archive.h"
+#include "common/protocol/plan_fields.h"
 #include "common/protocol/result_codec.h"
 
 namespace treefarm {
@@ -28,14 +29,6 @@ void serialize(Archive& a, Refuse& m) {
 template <class Archive>
 void serialize(Archive& a, Resend& m) {
     a(m.blob, m.job, m.epoch, m.offset);
-}
-
-template <class Archive>
-void serialize(Archive& a, PassPlan& m) {
-    a(m.index, m.spp, m.first_sample, m.next_event, m.guided, m.probe, m.split, m.record, m.record_weight,
-      m.learn_mixture, m.blocks_per_unit, m.chunks, m.kernel.plain_diffuse, m.kernel.guided, m.kernel.record,
-      m.kernel.views, m.units.tiles, m.units.light_paths, m.units.first_light_path, m.units.chains, m.layers.estimates,
-      m.layers.splats.pixels, m.layers.splats.exponent);
 }
 
 template <class Archive>

@@ -199,6 +199,7 @@ class StudyRun {
         request.loudness = context_.loudness == Loudness::verbose ? Loudness::verbose : Loudness::quiet;
         ++turn_.number;
         request.turn = turn_;
+        request.checkpoints = false;
         const RenderOutcome outcome = run_render(channel_, request, interrupted_);
         turn_.absent = outcome.lost_peers;
         if (outcome.state == RunState::interrupted) throw Interrupted();

@@ -159,14 +159,18 @@ class FarmTest : public ::testing::Test {
         RenderResult result;
         try {
             farm.gather([] { return false; });
-            const SdTree tree = initial_tree(Box3(Vec3(0.0f), Vec3(1.0f)), 1.0f);
-            const PassChooser chosen = passes_of(job_);
-            const PassChooser passes = [&](const RenderState& state) {
+            RenderState begin = first_state(job_, initial_tree(Box3(Vec3(0.0f), Vec3(1.0f)), 1.0f), kWidth * kHeight);
+            if (resumed_) begin = std::move(*resumed_);
+            std::vector<PassPlan> begun;
+            for (const PassReport& report : begin.reports)
+                begun.push_back(report.plan);
+            const PassChooser chosen = passes_of(job_, begun);
+            const PassChooser passes = [&](const RenderHistory& state) {
                 NextPass next = chosen(state);
                 if (next.pass && change_pass_) change_pass_(*next.pass);
                 return next;
             };
-            result = run_passes(farm, job_, passes, tree, kWidth, kHeight, {});
+            result = run_passes(farm, job_, passes, std::move(begin), kWidth, kHeight, hooks_);
         } catch (...) {
             if (!stay_) leave(farm.lost_peers(), limits);
             throw;
@@ -217,6 +221,8 @@ class FarmTest : public ::testing::Test {
 
     Resolved job_ = resolve(test_job(), SceneFacts{});
     std::function<void(PassPlan&)> change_pass_;  ///< of each pass that the job asks for
+    PassHooks hooks_;
+    std::optional<RenderState> resumed_;  ///< taken: what the render goes on from
     JobTurn turn_;
     bool stay_ = false;  ///< workers, for another render()
     std::vector<std::unique_ptr<Channel>> channels_;

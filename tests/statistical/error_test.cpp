@@ -37,7 +37,7 @@ Scene small_scene(int size) {
 /// The part of a run that is kept.
 struct SmallRender {
     CombinedImage image;
-    std::vector<RenderState> states;
+    std::vector<RenderHistory> states;
     double true_mse = 0;
 };
 
@@ -98,7 +98,7 @@ void expect_honest(const std::vector<SmallRender>& runs) {
 void expect_forecast(const std::vector<SmallRender>& runs, const std::function<Job(std::uint64_t)>& job) {
     double forecast = 0, taken = 0;
     for (const SmallRender& run : runs) {
-        const RenderState& before = run.states[run.states.size() - 2];
+        const RenderHistory& before = run.states[run.states.size() - 2];
         forecast +=
             spp_to_reach(before, test::resolved(job(0)), run.states.back().error.mse(), Outlook(before).variance());
         taken += run.states.back().passes.back().spp;

@@ -28,7 +28,7 @@ LocalRender render_locally(const Scene& scene, const Job& asked) {
     const RenderUnit render_unit = integrator_of(job).prepare(std::make_shared<const TraceScene>(scene, job), job);
     run.model = first_model(job, guiding_bounds(scene), 1.0f);
     AnyLearner learner;
-    RenderState state;
+    RenderHistory state;
     GuidingProbe probe;
     ProbesSetAside set_aside;
     std::optional<PassPlan> before;
@@ -68,6 +68,7 @@ LocalRender render_locally(const Scene& scene, const Job& asked) {
         facts.record = pass.record;
         facts.next_event = pass.next_event;
         state.passes.push_back(facts);
+        state.budget = next.memory;
         state.seconds += seconds;
         state.error = estimate_error(run.image, job.sampler.seed);
         run.states.push_back(state);

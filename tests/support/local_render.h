@@ -15,7 +15,7 @@ namespace treefarm::test {
 /// All passes of a job in this thread, without a farm: what the farm must reproduce bit by bit.
 struct LocalRender {
     std::vector<PassResult> passes;
-    std::vector<RenderState> states;  ///< after each pass; a sample takes a millisecond on this clock
+    std::vector<RenderHistory> states;  ///< after each pass; a sample takes a millisecond on this clock
     std::vector<TraceStats> stats;
     std::vector<double> guiding_gains;  ///< of probe passes
     CombinedImage image;

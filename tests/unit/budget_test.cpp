@@ -46,7 +46,7 @@ PassFacts facts_of(const PassPlan& pass, const World& world, std::uint32_t trees
 
 struct Simulated {
     std::vector<PassPlan> passes;
-    RenderState state;
+    RenderHistory state;
     std::vector<ErrorForecast> forecasts;  ///< of budget.error, after each pass
 };
 
@@ -55,10 +55,12 @@ Simulated simulate(const Job& job, const World& world) {
     const PassChooser choose = passes_of(test::resolved(job));
     double precision = 0;
     std::uint32_t trees = 0;
-    while (const auto pass = choose(run.state).pass) {
+    for (NextPass next = choose(run.state); next.pass; next = choose(run.state)) {
+        const PassPlan* const pass = &*next.pass;
+        run.state.budget = next.memory;
         EXPECT_LT(run.passes.size(), 100u) << "the budget does not end";
         if (run.passes.size() >= 100) break;
-        RenderState& state = run.state;
+        RenderHistory& state = run.state;
         const double speed = state.seconds >= world.slow_from ? world.slow : 1.0;
         const bool same_tree = !state.passes.empty() && !state.passes.back().record;
         trees += !state.passes.empty() && !same_tree;

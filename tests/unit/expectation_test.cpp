@@ -13,8 +13,8 @@ namespace {
 constexpr double kVariance = 4, kMean = 0.5, kSecondsPerSpp = 0.01;
 
 /// Passes of 1, 2, 4... spp without guiding, of a scene whose samples all have the same variance.
-RenderState plain_state(std::uint32_t passes) {
-    RenderState state;
+RenderHistory plain_state(std::uint32_t passes) {
+    RenderHistory state;
     for (std::uint32_t k = 0; k < passes; ++k) {
         PassFacts facts;
         facts.spp = 1u << k;
@@ -69,23 +69,23 @@ TEST(Expectation, OfTimeAndSamplesIsTheErrorThen) {
 }
 
 TEST(Expectation, WhatTheProbeReachedIsMeasured) {
-    const RenderState state = plain_state(5);
+    const RenderHistory state = plain_state(5);
     for (const Expectation& all : {expect_error(state, test::resolved(plain_job()), 1.0),
                                    expect_after_seconds(state, test::resolved(plain_job()), 0.01),
                                    expect_after_spp(state, test::resolved(plain_job()), 1)}) {
         EXPECT_TRUE(all.known && all.reached);
         EXPECT_EQ(all.spp.value, 31);
     }
-    RenderState quiet = state;
+    RenderHistory quiet = state;
     quiet.error.rmse = quiet.error.low = quiet.error.high = 0;
     EXPECT_TRUE(expect_error(quiet, test::resolved(plain_job()), 0.05).reached) << "no noise";
 }
 
 TEST(Expectation, IsNotKnownWithoutLightOrSamples) {
-    RenderState dark = plain_state(5);
+    RenderHistory dark = plain_state(5);
     dark.error.rmse = dark.error.low = dark.error.high = dark.error.mean = 0;
     EXPECT_NE(expect_error(dark, test::resolved(plain_job()), 0.05).unknown.find("no light"), std::string::npos);
-    RenderState short_one = plain_state(1);
+    RenderHistory short_one = plain_state(1);
     short_one.error.known = false;
     for (const Expectation& all : {expect_error(short_one, test::resolved(plain_job()), 0.05),
                                    expect_after_seconds(short_one, test::resolved(plain_job()), 60),

@@ -30,7 +30,7 @@ struct Learning {
 };
 
 /// Adds a pass to an inverse-variance render: two threads, adding records takes 20 %, a fixed 0.02 s.
-void render_pass(RenderState& state, const Learning& world, int tree, std::uint32_t spp, bool record) {
+void render_pass(RenderHistory& state, const Learning& world, int tree, std::uint32_t spp, bool record) {
     PassFacts pass;
     pass.spp = spp;
     pass.spp_before = state.spp();
@@ -53,15 +53,15 @@ void render_pass(RenderState& state, const Learning& world, int tree, std::uint3
     state.error.mean = 2;
 }
 
-RenderState rendered(const Learning& world, int passes) {
-    RenderState state;
+RenderHistory rendered(const Learning& world, int passes) {
+    RenderHistory state;
     for (int k = 0; k < passes; ++k)
         render_pass(state, world, k, 1u << k, true);
     return state;
 }
 
 /// Seconds that it takes to come down to half the error, passes doubling while they teach.
-double seconds_to_half(RenderState state, const Learning& world) {
+double seconds_to_half(RenderHistory state, const Learning& world) {
     const double target = 0.25 * state.error.mse(), began = state.seconds;
     for (;;) {
         const int tree = static_cast<int>(state.passes.size());
@@ -72,7 +72,7 @@ double seconds_to_half(RenderState state, const Learning& world) {
     }
 }
 
-ErrorForecast halving(const RenderState& state, const Job& job = {}) {
+ErrorForecast halving(const RenderHistory& state, const Job& job = {}) {
     return forecast_error(state, test::resolved(job), 0.5 * state.error.relative());
 }
 
@@ -81,7 +81,7 @@ TEST(Forecast, SeesThatTreesStillLearn) {
         for (const double growth : {0.8, 1.0, 1.25}) {
             const Learning world{.progress = progress, .growth = growth};
             for (const int passes : {4, 5, 7}) {
-                const RenderState state = rendered(world, passes);
+                const RenderHistory state = rendered(world, passes);
                 const ErrorForecast forecast = halving(state);
                 EXPECT_EQ(forecast.trust, Trust::firm);
                 EXPECT_NEAR(forecast.seconds / seconds_to_half(state, world), 1.0, 0.05)
@@ -92,7 +92,7 @@ TEST(Forecast, SeesThatTreesStillLearn) {
 
 TEST(Forecast, IsABoundWhileLittleIsLearned) {
     const Learning world{.progress = 0.2, .growth = 1.0};
-    const RenderState state = rendered(world, 4);
+    const RenderHistory state = rendered(world, 4);
     const ErrorForecast forecast = halving(state);
     EXPECT_EQ(forecast.trust, Trust::learning);
     EXPECT_GE(forecast.seconds, seconds_to_half(state, world));
@@ -105,7 +105,7 @@ TEST(Forecast, ASingleTreeTellsNothingOfTheNext) {
 }
 
 TEST(Forecast, IsNotTrustedWhereTheErrorIsNot) {
-    RenderState state = rendered({.progress = 1.0, .growth = 1.0}, 5);
+    RenderHistory state = rendered({.progress = 1.0, .growth = 1.0}, 5);
     state.error.high = 1.5 * state.error.rmse;
     EXPECT_EQ(halving(state).trust, Trust::noisy);
     state.error.has_interval = false;
@@ -113,7 +113,7 @@ TEST(Forecast, IsNotTrustedWhereTheErrorIsNot) {
 }
 
 TEST(Forecast, IsRoughWhereItIsFarAhead) {
-    const RenderState state = rendered({.progress = 1.0, .growth = 1.0}, 5);
+    const RenderHistory state = rendered({.progress = 1.0, .growth = 1.0}, 5);
     EXPECT_EQ(forecast_error(state, test::resolved({}), 0.3 * state.error.relative()).trust, Trust::firm);
     EXPECT_EQ(forecast_error(state, test::resolved({}), 0.2 * state.error.relative()).trust, Trust::noisy);
 }
@@ -134,7 +134,7 @@ TEST(Forecast, IsUnknownWhereNextEventIsAboutToEnd) {
 
 TEST(Forecast, OfADoneRenderGoesOnWithItsTree) {
     const Learning world{.progress = 0.5};
-    RenderState state = rendered(world, 5);
+    RenderHistory state = rendered(world, 5);
     render_pass(state, world, 5, 64, false);
     const ErrorForecast forecast = halving(state);
     EXPECT_EQ(forecast.trust, Trust::firm) << "nothing is learned any more";
@@ -143,7 +143,7 @@ TEST(Forecast, OfADoneRenderGoesOnWithItsTree) {
 }
 
 TEST(Forecast, OfTheErrorAskedForKnowsThatRendersEndALittleBeyondIt) {
-    const RenderState state = rendered({.progress = 1.0, .growth = 1.0}, 6);
+    const RenderHistory state = rendered({.progress = 1.0, .growth = 1.0}, 6);
     Job job;
     job.budget.error = 0.9 * state.error.relative();
     EXPECT_NEAR(forecast_error(state, test::resolved(job), job.budget.error).spp /
@@ -152,7 +152,7 @@ TEST(Forecast, OfTheErrorAskedForKnowsThatRendersEndALittleBeyondIt) {
 }
 
 TEST(Forecast, IsNothingWhereTheErrorIsReached) {
-    const RenderState state = rendered({}, 5);
+    const RenderHistory state = rendered({}, 5);
     EXPECT_EQ(forecast_error(state, test::resolved({}), 2 * state.error.relative()).seconds, 0);
 }
 
@@ -160,7 +160,7 @@ TEST(Forecast, OfTheLastTreeKeepsWhatItHas) {
     const Learning world{.progress = 1, .growth = 1};
     Job job;
     job.guiding.combination = Combination::last;
-    RenderState state = rendered(world, 5);
+    RenderHistory state = rendered(world, 5);
     render_pass(state, world, 5, 30, false);
     render_pass(state, world, 5, 10, false);
     state.error.rmse = std::sqrt(8.0 / 40);
@@ -170,7 +170,7 @@ TEST(Forecast, OfTheLastTreeKeepsWhatItHas) {
 }
 
 TEST(Outlook, ATreeThatBringsNothingAfterOneThatBroughtMuchIsNotBelieved) {
-    RenderState state = rendered({.progress = 1, .growth = 1}, 6);
+    RenderHistory state = rendered({.progress = 1, .growth = 1}, 6);
     state.passes[5].mse_of_sample = state.passes[4].mse_of_sample = 3;
     state.passes[3].mse_of_sample = 6;
     EXPECT_EQ(Outlook(state).recent_progress(), 0.5);
@@ -180,7 +180,7 @@ TEST(Outlook, ATreeThatBringsNothingAfterOneThatBroughtMuchIsNotBelieved) {
 }
 
 TEST(Outlook, NoiseInMeasuredVariancesIsNoProgress) {
-    RenderState state = rendered({.progress = 1, .growth = 1}, 6);
+    RenderHistory state = rendered({.progress = 1, .growth = 1}, 6);
     state.passes[4].mse_of_sample = 4;
     state.passes[5].mse_of_sample = 6;  // more than with the tree before: they are alike
     const Outlook outlook(state);
@@ -192,7 +192,7 @@ TEST(Outlook, NoiseInMeasuredVariancesIsNoProgress) {
 }
 
 TEST(Outlook, RareSamplesInAPassAreNoNews) {
-    RenderState state = rendered({.progress = 1, .growth = 1}, 6);
+    RenderHistory state = rendered({.progress = 1, .growth = 1}, 6);
     for (PassFacts& pass : state.passes)
         pass.stuv_trimmed = 0.5 * pass.mse_of_sample;
     state.passes[3].mse_of_sample *= 3;  // a pass that found some
@@ -205,7 +205,7 @@ TEST(Outlook, RareSamplesInAPassAreNoNews) {
 }
 
 TEST(Outlook, TheClockIsTheMeanOfAllPasses) {
-    RenderState state = rendered({.progress = 1, .growth = 1}, 7);
+    RenderHistory state = rendered({.progress = 1, .growth = 1}, 7);
     state.passes.back().collect_seconds *= 2;  // a neighbour came, for 64 of 127 spp
     EXPECT_NEAR(Outlook(state).seconds_per_spp(0, false), 0.01 * (63 + 2 * 64) / 127, 1e-9);
     render_pass(state, {.growth = 1}, 7, 2, false);
@@ -219,7 +219,7 @@ TEST(Outlook, RecordingIsSeenApart) {
 }
 
 /// The error that a render is in after one more pass, weighed as combine_passes does.
-double error_after(const RenderState& state, const Job& job, double spp, double variance) {
+double error_after(const RenderHistory& state, const Job& job, double spp, double variance) {
     const double now = state.error.mse();
     if (job.budget.strict) return std::sqrt(variance / spp);
     if (job.guiding.combination == Combination::inverse_variance && job.guiding.type != GuidingType::none)
@@ -233,7 +233,7 @@ double error_after(const RenderState& state, const Job& job, double spp, double 
 }
 
 TEST(SppToReach, LeadsToTheErrorAskedFor) {
-    RenderState state = rendered({}, 5);
+    RenderHistory state = rendered({}, 5);
     for (const bool strict : {false, true})
         for (const GuidingType type : {GuidingType::none, GuidingType::ppg})
             for (const Combination combination : {Combination::fixed, Combination::inverse_variance}) {

@@ -244,7 +244,7 @@ TEST(Job, WrongTypesAndRanges) {
 }
 
 TEST(Job, WhatIsNotAvailableSaysSoAndNamesACure) {
-    for (const char* line : {"guiding.spatial_filter = \"box\"", "farm.checkpoint_seconds = 60"}) {
+    for (const char* line : {"guiding.spatial_filter = \"box\""}) {
         const std::string message = message_of(line);
         EXPECT_NE(message.find("is not available in this version; "), std::string::npos) << line << " -> " << message;
         EXPECT_NE(message.find("job.toml:1:"), std::string::npos) << message;

@@ -123,7 +123,7 @@ TEST(SplittingGain, WhatTheJobAsksForIsDone) {
     EXPECT_TRUE(pass.split);
     job.guiding.splitting = 0;
     job.budget.spp = 31;
-    RenderState state;
+    RenderHistory state;
     state.splitting = false;
     EXPECT_FALSE(passes_of(test::resolved(job))(state).pass->split);
 }

@@ -27,10 +27,21 @@ class LightLearner {
     /// Sets next.light_probabilities from what the pass over `tree` recorded. `origins` as in MixtureLearner.
     void learn(const RegionModel& tree, const CellSums& sums, std::span<const RegionOrigin> origins, RegionModel& next);
 
+    /// Lists what it remembers, for a checkpoint.
+    template <class Archive>
+    void serialize(Archive& archive) {
+        archive(evidence_);
+    }
+
   private:
     struct Evidence {
         std::array<double, kLightClusters> moments{};  ///< in radiance squared, not in quanta
         double vertices = 0;                           ///< that were recorded
+
+        template <class Archive>
+        void serialize(Archive& archive) {
+            archive(moments, vertices);
+        }
     };
     std::vector<Evidence> evidence_;  ///< per region of the coming tree
 };

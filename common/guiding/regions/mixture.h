@@ -47,6 +47,12 @@ class MixtureLearner {
     /// `next` came from. Older passes count half as much with each pass; a split region's parts share its histogram.
     void learn(const RegionModel& tree, const CellSums& sums, std::span<const RegionOrigin> origins, RegionModel& next);
 
+    /// Lists what it remembers, for a checkpoint.
+    template <class Archive>
+    void serialize(Archive& archive) {
+        archive(histograms_);
+    }
+
   private:
     std::vector<MixtureHistogram> histograms_;  ///< per region of the coming tree, in radiance, not in quanta
 };

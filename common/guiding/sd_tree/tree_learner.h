@@ -16,6 +16,12 @@ class TreeLearner {
     SdTree learn(const SdTree& tree, const CellSums& sums, const RefineSettings& settings, bool learn_mixture,
                  RefineReport& report);
 
+    /// Lists what it remembers, for a checkpoint.
+    template <class Archive>
+    void serialize(Archive& archive) {
+        archive(lights_, mixture_, views_);
+    }
+
   private:
     LightLearner lights_;
     MixtureLearner mixture_;

@@ -29,11 +29,22 @@ class ViewLearner {
     /// Sets the fractions of the refined tree's views. `origins` as in RefineReport.
     void hand_down(std::span<const ViewOrigin> origins, SdTree& next);
 
+    /// Lists what it remembers, for a checkpoint.
+    template <class Archive>
+    void serialize(Archive& archive) {
+        archive(views_);
+    }
+
   private:
     struct Evidence {
         MixtureHistogram histogram{};  ///< in what it records, not in quanta
         int idle_passes = 0;           ///< in which T2 was hardly worth sampling
         double others = 1.0;           ///< the part of q
+
+        template <class Archive>
+        void serialize(Archive& archive) {
+            archive(histogram, idle_passes, others);
+        }
     };
     std::vector<Evidence> views_;  ///< of the coming tree
 };

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/resume.h"
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <memory>
+#include <utility>
+
+#include "cli/option_values.h"
+#include "cli/render.h"
+#include "common/base/hash.h"
+#include "common/plan/resolved_file.h"
+#include "common/scene/pack/scene_codec.h"
+
+namespace treefarm {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void refuse(const fs::path& where, const std::string& what, const std::string& cure) {
+    throw InputError(Location{where.string(), 0, 0}, what, cure);
+}
+
+void check_directory(const fs::path& run) {
+    if (!fs::is_directory(run) || !fs::exists(run / "job.toml"))
+        refuse(run, "is no run directory", "name the folder that a render wrote its files to");
+    if (!fs::exists(run / kCheckpointFolder))
+        refuse(run, "holds no checkpoint: no pass was finished, or none was to be kept",
+               "render again: treefarm render " + (run / "job.toml").string());
+}
+
+/// Refuses what would not go on to the same bits.
+void check_origin(const fs::path& run, const CheckpointOrigin& origin, const RenderRequest& request) {
+    const std::string again = "treefarm render " + (run / "job.toml").string();
+    if (origin.fingerprint != request.fingerprint.hash())
+        refuse(run,
+               "was rendered by another build (" + origin.build + "; this is " + request.fingerprint.text() +
+                   "): its bits could not go on",
+               "use that program, or: " + again + " --schedule " + (run / "schedule.toml").string());
+    const std::string changed =
+        first_difference(read_resolved(origin.resolved, (run / "resolved.toml").string()), request.plan.job);
+    if (!changed.empty())
+        refuse(run / "job.toml", "is not the job of the render: " + changed,
+               "only farm.*, output.* and the budget may change; for the new job: " + again);
+    if (origin.scene_hash != hash_bytes(encode_scene(request.scene)))
+        refuse(request.job.scene.file, "the scene has changed since " + run.string() + " began",
+               "resume needs the old files; for the new scene: " + again);
+}
+
+/// A new budget starts its own reckoning of how to end.
+void set_budget(RenderRequest& request, LoadedCheckpoint& loaded, bool has_budget) {
+    if (has_budget)
+        loaded.state.history.budget.ending = false;
+    else
+        request.schedule = loaded.origin.schedule;
+}
+
+}  // namespace
+
+RenderRequest read_resumed(const ResumeOptions& options) {
+    const fs::path run(options.run);
+    check_directory(run);
+    RenderOptions as_render;
+    as_render.input = (run / "job.toml").string();
+    as_render.run_directory = options.run;
+    as_render.output = options.output;
+    as_render.spp = options.spp;
+    as_render.seconds = options.seconds;
+    as_render.error = options.error;
+    as_render.set = options.set;
+    as_render.command = options.command;
+    RenderRequest request = read_request(as_render);
+    request.resumed = std::make_shared<LoadedCheckpoint>(
+        load_checkpoint(run, [&](const CheckpointOrigin& origin) { check_origin(run, origin, request); }));
+    LoadedCheckpoint& loaded = *request.resumed;
+    if (request.job.output.file.empty()) request.job.output.file = loaded.origin.output_file;
+    for (const std::string& warning : loaded.warnings)
+        request.warnings.push_back(warning);
+    set_budget(request, loaded, options.has_budget());
+    if (!passes_of(request)(loaded.state.history).pass)
+        refuse(run, "is done (" + std::to_string(loaded.state.spp()) + " spp)",
+               "add samples with --spp N above that, or --seconds or --error beyond what it has");
+    return request;
+}
+
+void add_resume_command(CLI::App& app, const LaunchEnvironment& launch, const std::string& command_line,
+                        int& exit_code) {
+    const auto options = std::make_shared<ResumeOptions>();
+    options->command = command_line;
+    CLI::App* command =
+        app.add_subcommand("resume", "Goes on with a render that was broken off, or adds samples to it");
+    command->add_option("run", options->run, "its run directory")->required();
+    add_text_option(*command, "-o,--output", options->output,
+                    "also write the image here (default: where the render would have)");
+    add_samples_option(*command, options->spp, "samples per pixel in all, those that are done included");
+    add_seconds_option(*command, "--seconds", options->seconds, "seconds of rendering in all, those before included");
+    add_error_option(*command, options->error, "stop at this RMSE / mean luminance: 0.05, or 5%");
+    add_texts_option(*command, "--set", options->set, "key=value: a key of the job that its bits do not depend on");
+    add_farm_options(*command, options->farm);
+    command->footer(
+        std::string("Job, scene and build have to be those of the render; processes, threads and budget are "
+                    "free.\n") +
+        kExitCodesText);
+    command->callback([options, launch, &exit_code] {
+        exit_code = render_on_farm(launch, options->farm, fs::path(options->run).filename(),
+                                   [&] { return read_resumed(*options); });
+    });
+}
+
+}  // namespace treefarm

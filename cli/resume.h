@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/on_farm.h"
+#include "coordinator/render_run.h"
+
+namespace CLI {
+class App;
+}
+
+namespace treefarm {
+
+/// treefarm resume RUN_DIR
+struct ResumeOptions {
+    std::string run;                   ///< the run directory
+    std::string output;                ///< -o
+    std::optional<std::uint32_t> spp;  ///< --spp: in all, what is done included
+    std::optional<double> seconds;     ///< --seconds: in all lives of the render
+    std::optional<double> error;       ///< --error
+    std::vector<std::string> set;      ///< --set key=value
+    FarmOptions farm;
+    std::string command;  ///< as it was typed
+
+    bool has_budget() const { return spp || seconds || error; }
+};
+
+/// Registers the subcommand; as add_render_command().
+void add_resume_command(CLI::App& app, const LaunchEnvironment& launch, const std::string& command_line,
+                        int& exit_code);
+
+/// Reads a run directory's job, its scene and its newest usable checkpoint. Throws InputError where the render cannot
+/// go on from there to the same bits; nothing has been written then.
+RenderRequest read_resumed(const ResumeOptions& options);
+
+}  // namespace treefarm

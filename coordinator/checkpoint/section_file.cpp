@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "coordinator/checkpoint/section_file.h"
+
+#include <string>
+
+#include "common/base/hash.h"
+
+namespace treefarm {
+
+namespace {
+
+constexpr std::uint32_t kMagic = section_tag("TFCP"), kEnd = section_tag("END!");
+/// magic, format, generation; tag, version, length; tag, sections, length of all; a check sum.
+constexpr std::size_t kFileHead = 16, kSectionHead = 16, kEndHead = 16, kCheck = 16;
+
+void put_check(ByteWriter& out, const Hash128& hash) {
+    out.put(hash.low);
+    out.put(hash.high);
+}
+
+Hash128 get_check(ByteReader& in) {
+    const auto low = in.get<std::uint64_t>();
+    return {low, in.get<std::uint64_t>()};
+}
+
+std::string tag_text(std::uint32_t tag) {
+    std::string text;
+    for (int i = 0; i < 4; ++i) {
+        const char letter = static_cast<char>(tag >> 8 * i);
+        text += letter > ' ' && letter <= '~' ? letter : '?';
+    }
+    return text;
+}
+
+}  // namespace
+
+const Section& SectionFile::at(std::uint32_t tag, std::uint32_t version) const {
+    for (const Section& section : sections) {
+        if (section.tag != tag) continue;
+        if (section.version != version)
+            throw FormatError("its part " + tag_text(tag) + " has version " + std::to_string(section.version) +
+                              ", this program reads " + std::to_string(version));
+        return section;
+    }
+    throw FormatError("its part " + tag_text(tag) + " is missing");
+}
+
+Bytes encode_sections(const SectionFile& file) {
+    ByteWriter out, checks;
+    out.put(kMagic);
+    out.put(kSectionFileFormat);
+    out.put(file.generation);
+    for (const Section& section : file.sections) {
+        ByteWriter part;
+        part.reserve(kSectionHead + section.bytes.size() + kCheck);
+        part.put(section.tag);
+        part.put(section.version);
+        part.put(static_cast<std::uint64_t>(section.bytes.size()));
+        part.put_bytes(section.bytes);
+        const Bytes bytes = part.take();
+        const Hash128 check = hash128_bytes(bytes);
+        out.put_bytes(bytes);
+        put_check(out, check);
+        put_check(checks, check);
+    }
+    checks.put(file.generation);
+    out.put(kEnd);
+    out.put(static_cast<std::uint32_t>(file.sections.size()));
+    out.put(static_cast<std::uint64_t>(out.size() + sizeof(std::uint64_t) + kCheck));
+    put_check(out, hash128_bytes(checks.take()));
+    return out.take();
+}
+
+SectionFile decode_sections(std::span<const std::uint8_t> bytes) {
+    ByteReader in(bytes);
+    if (bytes.size() < kFileHead || in.get<std::uint32_t>() != kMagic) throw FormatError("is no checkpoint");
+    if (const auto format = in.get<std::uint32_t>(); format != kSectionFileFormat)
+        throw FormatError("has format " + std::to_string(format) + ", this program reads " +
+                          std::to_string(kSectionFileFormat));
+    SectionFile file;
+    file.generation = in.get<std::uint64_t>();
+    ByteWriter checks;
+    for (;;) {
+        const std::size_t begin = bytes.size() - in.remaining();
+        if (in.remaining() < kSectionHead + kCheck)
+            throw FormatError("is cut off after " + std::to_string(bytes.size()) + " bytes");
+        const auto tag = in.get<std::uint32_t>();
+        if (tag == kEnd) break;
+        Section section{tag, in.get<std::uint32_t>(), {}};
+        const auto length = in.get<std::uint64_t>();
+        if (length > in.remaining() || in.remaining() - length < kCheck)
+            throw FormatError("is cut off at " + std::to_string(bytes.size()) + " of " +
+                              std::to_string(begin + kSectionHead + length) + " bytes or more");
+        const auto content = in.get_bytes(static_cast<std::size_t>(length));
+        const Hash128 check = get_check(in);
+        if (check != hash128_bytes(bytes.subspan(begin, kSectionHead + content.size())))
+            throw FormatError("is damaged in its part " + tag_text(tag));
+        section.bytes.assign(content.begin(), content.end());
+        put_check(checks, check);
+        file.sections.push_back(std::move(section));
+    }
+    checks.put(file.generation);
+    if (in.get<std::uint32_t>() != file.sections.size() || in.get<std::uint64_t>() != bytes.size() ||
+        get_check(in) != hash128_bytes(checks.take()))
+        throw FormatError("is damaged at its end");
+    in.expect_end();
+    return file;
+}
+
+}  // namespace treefarm

@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "coordinator/checkpoint/state_codec.h"
+
+#include <cereal/types/array.hpp>
+#include <cereal/types/common.hpp>
+#include <cereal/types/map.hpp>
+#include <cereal/types/optional.hpp>
+#include <utility>
+
+#include "common/protocol/archive.h"
+#include "common/protocol/plan_fields.h"
+
+namespace treefarm {
+
+// The fields of what a state consists of. A change of any of them raises the version of its section.
+
+template <class Archive>
+void serialize(Archive& a, Rgb64& v) {
+    a(v.x, v.y, v.z);
+}
+
+template <class Archive>
+void serialize(Archive& a, Moments& m) {
+    a(m.n, m.mean, m.m2);
+}
+
+template <class Archive>
+void serialize(Archive& a, PixelEstimate& p) {
+    a(p.half[0], p.half[1]);
+}
+
+template <class Archive>
+void serialize(Archive& a, ErrorEstimate& e) {
+    a(e.known, e.has_interval, e.rmse, e.low, e.high, e.mean);
+}
+
+template <class Archive>
+void serialize(Archive& a, BudgetMemory& m) {
+    a(m.probed, m.ending);
+}
+
+template <class Archive>
+void serialize(Archive& a, PassFacts& f) {
+    a(f.spp, f.spp_before, f.mse_of_sample, f.stuv_trimmed, f.collect_seconds, f.overhead_seconds, f.trace_core_seconds,
+      f.record_core_seconds, f.record, f.next_event);
+}
+
+template <class Archive>
+void serialize(Archive& a, RenderHistory& h) {
+    a(h.passes, h.seconds, h.error, h.guiding, h.splitting, h.budget);
+}
+
+template <class Archive>
+void serialize(Archive& a, HalfNoise& n) {
+    a(n.variance, n.samples);
+}
+
+template <class Archive>
+void serialize(Archive& a, SampleNoise& n) {
+    a(n.passes, n.half);
+}
+
+template <class Archive>
+void serialize(Archive& a, PassPart& p) {
+    a(p.spp, p.spp_before);
+}
+
+/// But for the pixels.
+template <class Archive>
+void serialize(Archive& a, PassResult& p) {
+    a(p.spp, p.spp_before, p.same_tree, p.new_technique, p.guided, p.noise, p.parts, p.stored);
+}
+
+template <class Archive>
+void serialize(Archive& a, Spread& s) {
+    a(s.min, s.mean, s.max, s.max_worker);
+}
+
+template <class Archive>
+void serialize(Archive& a, PassSeconds& s) {
+    a(s.all, s.broadcast, s.collect, s.merge, s.refine, s.film, s.error, s.trace, s.splat, s.worker, s.idle);
+}
+
+template <class Archive>
+void serialize(Archive& a, SplittingSums& s) {
+    a(s.split_mean, s.unsplit_mean, s.split_variance, s.unsplit_variance);
+}
+
+template <class Archive>
+void serialize(Archive& a, InvalidSample& s) {
+    a(s.pass, s.x, s.y, s.sample, s.rgb[0], s.rgb[1], s.rgb[2]);
+}
+
+template <class Archive>
+void serialize(Archive& a, TraceStats& s) {
+    a(s.paths, s.nonzero_paths, s.rays, s.shadow_rays, s.vertices, s.records, s.probe_paths, s.probe_rays,
+      s.split_path_rays, s.invalid_samples, s.splitting, s.first_invalid, s.trace_seconds, s.splat_seconds,
+      s.phase_seconds);
+}
+
+template <class Archive>
+void serialize(Archive& a, PassVariance& v) {
+    a(v.stuv, v.stuv_trimmed, v.mse_of_sample, v.stuv_ppg);
+}
+
+template <class Archive>
+void serialize(Archive& a, GuidingGain& g) {
+    a(g.all, g.bulk, g.coverage);
+}
+
+template <class Archive>
+void serialize(Archive& a, SplittingGain& g) {
+    a(g.variance, g.rays, g.found);
+}
+
+template <class Archive>
+void serialize(Archive& a, ErrorForecast& f) {
+    a(f.relative_error, f.spp, f.seconds, f.trust);
+}
+
+template <class Archive>
+void serialize(Archive& a, TreeFigures& f) {
+    a(f.nodes, f.regions, f.views, f.cells, f.spatial_depth, f.directional_depth, f.bytes, f.memory);
+}
+
+template <class Archive>
+void serialize(Archive& a, UpdateCaps& c) {
+    a(c.capped_records, c.saturated_cells, c.outside_positions);
+}
+
+template <class Archive>
+void serialize(Archive& a, SplatCaps& c) {
+    a(c.capped, c.rejected);
+}
+
+/// But for the origins, which nobody asks for any more.
+template <class Archive>
+void serialize(Archive& a, RefineReport& r) {
+    a(r.spatial_depth_capped, r.directional_depth_capped, r.memory_capped, r.spatial_depth, r.directional_depth,
+      r.mean_cells, r.views_capped);
+}
+
+template <class Archive>
+void serialize(Archive& a, PassReport& r) {
+    a(r.plan, r.spp_done, r.workers, r.threads, r.seconds, r.stats, r.variance, r.error, r.guiding_gain, r.guiding,
+      r.splitting_gain, r.splitting, r.run_seconds, r.halving, r.target, r.tree, r.update_bytes, r.touched_cells,
+      r.caps, r.splat_caps, r.splat_bytes, r.saturated_splats, r.refine);
+}
+
+template <class Archive>
+void serialize(Archive& a, CheckpointOrigin& o) {
+    a(o.fingerprint, o.build, o.scene_hash, o.resolved, o.output_file, o.schedule, o.pixels);
+}
+
+namespace {
+
+constexpr std::uint32_t kOrigin = section_tag("IDNT"), kHistory = section_tag("FACT"), kFilms = section_tag("FILM"),
+                        kProbes = section_tag("PROB"), kAovs = section_tag("AOVS"), kModel = section_tag("MODL"),
+                        kLearner = section_tag("LERN"), kReports = section_tag("RPRT");
+
+template <class... T>
+Section section(std::uint32_t tag, const T&... values) {
+    ByteWriter writer;
+    WriteArchive archive(writer);
+    archive(values...);
+    return {tag, 1, writer.take()};
+}
+
+template <class... T>
+void read(const SectionFile& file, std::uint32_t tag, T&... values) {
+    ByteReader reader(file.at(tag).bytes);
+    ReadArchive archive(reader);
+    archive(values...);
+    reader.expect_end();
+}
+
+void require(bool condition, const char* what) {
+    if (!condition) throw FormatError(what);
+}
+
+bool is_film_name(const std::string& name) {
+    return name.size() == 41 && name.starts_with("film-") && name.ends_with(".tff") &&
+           name.find_first_not_of("0123456789abcdef", 5) == 37;
+}
+
+}  // namespace
+
+std::vector<Section> encode_state(const CheckpointOrigin& origin, const RenderState& state) {
+    return {
+        section(kOrigin, origin),         section(kHistory, state.history),
+        section(kFilms, state.films),     section(kProbes, state.probe, state.set_aside),
+        section(kAovs, state.aovs),       section(kModel, encode_tree(state.tree), state.last_tree, state.tree_hash),
+        section(kLearner, state.learner), section(kReports, state.reports)};
+}
+
+CheckpointOrigin decode_origin(const SectionFile& file) {
+    CheckpointOrigin origin;
+    read(file, kOrigin, origin);
+    return origin;
+}
+
+RenderState decode_state(const SectionFile& file, std::size_t pixels, std::span<const AovRequest> aovs) {
+    RenderState state;
+    state.aovs = AovSums(aovs, pixels);
+    read(file, kHistory, state.history);
+    read(file, kFilms, state.films);
+    read(file, kProbes, state.probe, state.set_aside);
+    read(file, kAovs, state.aovs);
+    Bytes tree;
+    read(file, kModel, tree, state.last_tree, state.tree_hash);
+    state.tree = decode_tree(tree);
+    read(file, kLearner, state.learner);
+    read(file, kReports, state.reports);
+    require(state.history.guiding <= Guiding::loses, "an unknown verdict on guiding");
+    require(!state.reports.empty() && state.reports.size() == state.history.passes.size(),
+            "not a report for each pass");
+    require(!state.films.empty(), "no film");
+    for (const PassResult& film : state.films)
+        require(is_film_name(film.stored), "a film without a file");
+    for (const PassReport& report : state.reports)
+        require(report.guiding <= Guiding::loses && report.halving.trust <= Trust::firm &&
+                    report.target.trust <= Trust::firm && report.plan.spp > 0,
+                "a report that no pass makes");
+    require(state.aovs.fits(), "AOVs of another image");
+    require(state.set_aside.fits(state.films.size(), pixels), "probes of another image");
+    return state;
+}
+
+Bytes encode_pixels(std::span<const PixelEstimate> pixels) {
+    ByteWriter writer;
+    writer.reserve(pixels.size() * kStoredPixelBytes);
+    WriteArchive archive(writer);
+    for (const PixelEstimate& pixel : pixels)
+        archive(pixel);
+    return writer.take();
+}
+
+std::vector<PixelEstimate> decode_pixels(std::span<const std::uint8_t> bytes, std::size_t count) {
+    ByteReader reader(bytes);
+    ReadArchive archive(reader);
+    std::vector<PixelEstimate> pixels(count);
+    for (PixelEstimate& pixel : pixels)
+        archive(pixel);
+    reader.expect_end();
+    return pixels;
+}
+
+}  // namespace treefarm

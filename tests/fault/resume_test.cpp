@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+// A render that goes on from any of its states, written and read, is the render that never stopped.
+#include <filesystem>
+
+#include "common/plan/resolved_file.h"
+#include "coordinator/checkpoint/checkpoint_store.h"
+#include "tests/fault/farm_fixture.h"
+
+namespace treefarm::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Resume : public FarmTest {
+  protected:
+    fs::path folder_ =
+        fs::path(::testing::TempDir()) / "resume" / ::testing::UnitTest::GetInstance()->current_test_info()->name();
+
+    void SetUp() override {
+        fs::remove_all(folder_);
+        fs::create_directories(folder_);
+    }
+
+    /// Ends the render after so many passes, and writes the state.
+    void stop_after(std::size_t passes) {
+        std::size_t done = 0;
+        hooks_.on_state = [&](RenderState& state) { done = state.reports.size(); };
+        hooks_.interrupted = [&] { return done == passes; };
+        hooks_.on_last_state = [&](RenderState& state) { write(state); };
+        EXPECT_TRUE(render().interrupted);
+        hooks_ = {};
+        faulty_.clear();
+    }
+
+    void write(RenderState& state, const LoadedCheckpoint* loaded = nullptr) {
+        CheckpointOrigin origin;
+        origin.pixels = kWidth * kHeight;
+        origin.resolved = write_resolved(job_);
+        CheckpointStore(folder_, loaded).prepare(origin, state)();
+    }
+
+    LoadedCheckpoint load() {
+        return load_checkpoint(folder_, [](const CheckpointOrigin&) {});
+    }
+
+    /// All passes of a render once more, by a schedule.
+    RenderResult replay(const RenderResult& render) {
+        std::vector<PassPlan> passes;
+        for (const PassReport& report : render.passes)
+            passes.push_back(report.plan);
+        faulty_.clear();
+        make_workers(1);
+        start_worker(0);
+        Farm farm(*channels_[0], job_, kScene, kFingerprint, quiet_log());
+        farm.gather([] { return false; });
+        const SdTree tree = initial_tree(Box3(Vec3(0.0f), Vec3(1.0f)), 1.0f);
+        RenderResult result = run_passes(farm, job_, listed_passes(passes), tree, kWidth, kHeight, {});
+        leave({}, {.dismiss = 20});
+        return result;
+    }
+
+    RenderResult go_on(int workers, std::uint32_t threads) {
+        make_workers(workers);
+        for (WorkerSettings& settings : settings_)
+            settings.threads = threads;
+        resumed_ = load().state;
+        return render();
+    }
+};
+
+TEST_F(Resume, AfterAnyPassOnAnyFarmTheBitsAreThoseOfARenderThatNeverStopped) {
+    const std::size_t passes = truth().passes.size();
+    ASSERT_GE(passes, 4u);
+    for (std::size_t k = 1; k < passes; ++k) {
+        make_workers(2);
+        stop_after(k);
+        EXPECT_EQ(load().state.reports.size(), k);
+        job_.farm.tile_size = k % 2 == 0 ? 32 : 5;
+        expect_truth(go_on(1 + static_cast<int>(k) % 5, 1 + static_cast<std::uint32_t>(k % 3)));
+        faulty_.clear();
+        job_.farm.tile_size = 8;
+    }
+}
+
+TEST_F(Resume, ManyTimesInARow) {
+    make_workers(2);
+    stop_after(1);
+    for (std::size_t k = 2; k < truth().passes.size(); ++k) {
+        resumed_ = load().state;
+        make_workers(3);
+        stop_after(k);
+    }
+    expect_truth(go_on(2, 2));
+}
+
+TEST_F(Resume, AStateIsTheSameAfterItWasWrittenAndRead) {
+    make_workers(2);
+    stop_after(3);
+    LoadedCheckpoint once = load();
+    const std::vector<Section> first = encode_state(once.origin, once.state);
+    write(once.state, &once);
+    const LoadedCheckpoint twice = load();
+    EXPECT_EQ(twice.generation, once.generation + 1);
+    EXPECT_EQ(encode_state(twice.origin, twice.state), first);
+    for (std::size_t k = 0; k < once.state.films.size(); ++k)
+        EXPECT_EQ(encode_pixels(twice.state.films[k].pixels), encode_pixels(once.state.films[k].pixels));
+}
+
+TEST_F(Resume, TheTimeOfEarlierLivesCounts) {
+    make_workers(2);
+    stop_after(2);
+    const double before = load().state.history.seconds;
+    EXPECT_GT(before, 0);
+    RenderState state = load().state;
+    state.history.seconds = 1000;
+    write(state);
+    const RenderResult result = go_on(2, 1);
+    EXPECT_GT(result.passes.back().run_seconds, 1000);
+    EXPECT_LT(result.passes.back().run_seconds, 1000 + 60);
+}
+
+TEST_F(Resume, OneThatIsDoneGoesOnToMoreSamplesAsItsScheduleDoes) {
+    make_workers(2);
+    hooks_.on_last_state = [&](RenderState& state) { write(state); };
+    expect_truth(render());
+    hooks_ = {};
+    faulty_.clear();
+    job_.budget.spp = 500;
+    const RenderResult more = go_on(3, 1);
+    EXPECT_EQ(more.spp, 500u);
+    const RenderResult replayed = replay(more);
+    EXPECT_EQ(hash_text(replayed.image_hash), hash_text(more.image_hash));
+    EXPECT_EQ(hash_text(replayed.tree_hash), hash_text(more.tree_hash));
+}
+
+TEST_F(Resume, StoppedBeforeItsLastPassAndGivenMoreItIsWhatItsScheduleSays) {
+    make_workers(2);
+    stop_after(truth().passes.size() - 1);  // the tree was refined as the last one
+    ASSERT_TRUE(load().state.last_tree.value());
+    job_.budget.spp = 700;
+    const RenderResult more = go_on(2, 2);
+    EXPECT_EQ(more.spp, 700u);
+    EXPECT_TRUE(more.passes[truth().passes.size() - 1].plan.last_tree);
+    EXPECT_TRUE(more.passes[truth().passes.size() - 1].plan.record) << "there is more to come";
+}
+
+}  // namespace
+}  // namespace treefarm::test

@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: Apache-2.0
+// treefarm resume: whatever broke a render off, and wherever it goes on, its bits are those of one that never stopped.
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <chrono>
+#include <fstream>
+#include <random>
+#include <sstream>
+#include <thread>
+
+#include "tests/mpi/program.h"
+#include "tests/support/support.h"
+
+namespace treefarm::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kSoon = 120;
+
+const std::vector<std::string> kFast = {
+    "--threads", "1", "--set", "farm.checkpoint_seconds=0.001", "--set", "farm.heartbeat_seconds=0.2"};
+
+std::vector<std::string> render(const fs::path& folder, const std::vector<std::string>& options = {"--spp", "255"}) {
+    return std::vector<std::string>{TREEFARM_PROGRAM, "render",       own_scene("cornell-box.xml"), "-D", "size=48",
+                                    "--run-dir",      folder.string()} +
+           kFast + options;
+}
+
+std::vector<std::string> resume(const fs::path& folder, const std::vector<std::string>& options = {}) {
+    return std::vector<std::string>{TREEFARM_PROGRAM, "resume", folder.string()} + options;
+}
+
+std::vector<std::string> launcher(int ranks) {
+    return ranks > 1 ? mpirun(ranks) : std::vector<std::string>();
+}
+
+struct Hashes {
+    std::string image, tree;
+    bool operator==(const Hashes&) const = default;
+};
+
+std::ostream& operator<<(std::ostream& out, const Hashes& h) {
+    return out << "image " << h.image << " tree " << h.tree;
+}
+
+Hashes hashes(const fs::path& folder) {
+    const nlohmann::json summary = read_summary(folder);
+    EXPECT_EQ(summary["state"], "done");
+    return {summary["image_hash"], summary["tree_hash"]};
+}
+
+const Hashes& never_stopped() {
+    static const Hashes truth = [] {
+        const fs::path folder = fresh_folder("whole");
+        const Ending ending = Program(render(folder)).wait(kSoon);
+        EXPECT_EQ(ending.code, 0) << ending.output;
+        return hashes(folder);
+    }();
+    return truth;
+}
+
+bool has_checkpoint(const fs::path& folder) {
+    return fs::exists(folder / "checkpoint" / "a.tfc") || fs::exists(folder / "checkpoint" / "b.tfc");
+}
+
+/// Starts a render on so many ranks, and kills all of it with SIGKILL once it has a checkpoint and some time has
+/// passed.
+void kill_after(const std::vector<std::string>& command, int ranks, const fs::path& folder, double seconds) {
+    Program program(launcher(ranks) + command);
+    EXPECT_TRUE(program.wait_until([&] { return has_checkpoint(folder); }, kSoon));
+    std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
+    if (ranks > 1)
+        for (int rank = 0; rank < ranks; ++rank)
+            if (const pid_t pid = program.rank(rank); pid > 0) kill(pid, SIGKILL);
+    program.signal(SIGKILL);
+    program.wait(kSoon);
+}
+
+int resumed(int ranks, const fs::path& folder, const std::vector<std::string>& options = {}) {
+    const Ending ending = Program(launcher(ranks) + resume(folder, options)).wait(kSoon);
+    EXPECT_FALSE(ending.timed_out) << ending.output;
+    if (ending.code != 0) std::cout << ending.output;
+    return ending.code;
+}
+
+/// The message of a resume that is refused; the folder is as it was.
+std::string refusal(const fs::path& folder, const std::vector<std::string>& options = {}) {
+    const auto before = fs::last_write_time(folder / "job.toml");
+    const Ending ending = Program(resume(folder, options)).wait(kSoon);
+    EXPECT_EQ(ending.code, 2) << ending.output;
+    EXPECT_EQ(fs::last_write_time(folder / "job.toml"), before);
+    return ending.output;
+}
+
+/// A render that was broken off.
+fs::path broken_off(const std::vector<std::string>& options = {"--spp", "255"}) {
+    const fs::path folder = fresh_folder("run");
+    kill_after(render(folder, options), 1, folder, 0.0);
+    return folder;
+}
+
+TEST(Resume, AKilledProgramGoesOnUnderAnyNumberOfRanks) {
+    std::mt19937 random(1);
+    int k = 0;
+    for (const auto& [before, after] : {std::pair(1, 3), std::pair(3, 1), std::pair(2, 5), std::pair(1, 1)}) {
+        const fs::path folder = fresh_folder("run");
+        kill_after(render(folder), before, folder, 0.05 * static_cast<double>(random() % 8));
+        if (fs::exists(folder / "summary.json")) continue;  // it was done before
+        EXPECT_EQ(resumed(after, folder, {"--threads", std::to_string(1 + k++ % 3)}), 0);
+        EXPECT_EQ(hashes(folder), never_stopped()) << before << " ranks, then " << after;
+        EXPECT_EQ(passes_done(folder), 8) << "passes.csv has no hole";
+    }
+}
+
+TEST(Resume, AnInterruptedProgramGoesOn) {
+    const fs::path folder = fresh_folder("run");
+    Program program(render(folder));
+    ASSERT_TRUE(program.wait_until([&] { return passes_done(folder) >= 5; }, kSoon));
+    program.signal(SIGINT);
+    EXPECT_EQ(program.wait(kSoon).code, 3);
+    EXPECT_EQ(resumed(2, folder), 0);
+    EXPECT_EQ(hashes(folder), never_stopped());
+}
+
+TEST(Resume, AGrownBudgetAndATimedOneAreWhatTheirScheduleReplays) {
+    for (const auto& [first, more] :
+         {std::pair<std::vector<std::string>, std::vector<std::string>>{{"--spp", "63"}, {"--spp", "200"}},
+          {{"--seconds", "1"}, {"--seconds", "2"}},
+          {{"--error", "40%"}, {"--error", "30%"}}}) {
+        const fs::path folder = fresh_folder("run");
+        ASSERT_EQ(Program(render(folder, first)).wait(kSoon).code, 0);
+        const int spp = read_summary(folder)["spp"];
+        ASSERT_EQ(resumed(2, folder, more), 0);
+        EXPECT_GT(read_summary(folder)["spp"], spp);
+        const fs::path again = fresh_folder("again");
+        const Ending replay = Program({TREEFARM_PROGRAM, "render", (folder / "job.toml").string(), "--schedule",
+                                       (folder / "schedule.toml").string(), "--run-dir", again.string()})
+                                  .wait(kSoon);
+        ASSERT_EQ(replay.code, 0) << replay.output;
+        EXPECT_EQ(hashes(again), hashes(folder)) << more[0];
+    }
+}
+
+TEST(Resume, TheSecondsOfAllLivesCount) {
+    const fs::path folder = fresh_folder("run");
+    const auto begin = std::chrono::steady_clock::now();
+    kill_after(render(folder, {"--seconds", "4"}), 1, folder, 1.5);
+    const std::chrono::duration<double> before = std::chrono::steady_clock::now() - begin;
+    ASSERT_EQ(resumed(1, folder), 0);
+    const double all = read_summary(folder)["passes"].back()["run_seconds"];
+    EXPECT_GT(all, 2.0) << "with the first life's";
+    EXPECT_LT(all, 4.0 + 3.0 + before.count());
+}
+
+TEST(Resume, WhereTheNewestIsDamagedTheOneBeforeIsUsed) {
+    const fs::path folder = fresh_folder("run");
+    Program program(render(folder));
+    ASSERT_TRUE(program.wait_until(
+        [&] { return fs::exists(folder / "checkpoint/a.tfc") && fs::exists(folder / "checkpoint/b.tfc"); }, kSoon));
+    program.signal(SIGKILL);
+    program.wait(kSoon);
+    const bool a_is_newer =
+        fs::last_write_time(folder / "checkpoint/a.tfc") > fs::last_write_time(folder / "checkpoint/b.tfc");
+    const fs::path newest = folder / (a_is_newer ? "checkpoint/a.tfc" : "checkpoint/b.tfc");
+    fs::resize_file(newest, fs::file_size(newest) / 2);
+    const Ending ending = Program(resume(folder)).wait(kSoon);
+    EXPECT_EQ(ending.code, 0) << ending.output;
+    EXPECT_NE(ending.output.find(newest.filename().string() + " is cut off at "), std::string::npos) << ending.output;
+    EXPECT_EQ(hashes(folder), never_stopped());
+}
+
+TEST(Resume, OnlyItsOwnRenderGoesOn) {
+    const fs::path folder = broken_off();
+    EXPECT_NE(refusal(folder, {"--set", "guiding.type=none"})
+                  .find("is not the job of the render: guiding.type was \"view\", is \"none\"; only farm.*"),
+              std::string::npos);
+    EXPECT_NE(refusal(folder, {"--set", "sampler.seed=3"}).find("sampler.seed was \"0\", is \"3\""), std::string::npos);
+    EXPECT_NE(refusal(folder, {"--set", "farm.isa=sse2"}).find("farm.isa was"), std::string::npos);
+    EXPECT_EQ(resumed(1, folder, {"--set", "farm.tile_size=7", "--set", "output.half=true"}), 0);
+    EXPECT_EQ(hashes(folder), never_stopped());
+    EXPECT_NE(refusal(folder).find("is done (255 spp); add samples with --spp N above that"), std::string::npos);
+    EXPECT_NE(refusal(folder, {"--spp", "100"}).find("is done (255 spp)"), std::string::npos);
+}
+
+TEST(Resume, ASceneThatHasChangedIsRefused) {
+    const fs::path scene = fresh_folder("scene") / "box.xml";
+    fs::copy_file(own_scene("cornell-box.xml"), scene);
+    const fs::path folder = fresh_folder("run");
+    std::vector<std::string> command = render(folder);
+    command[2] = scene.string();
+    kill_after(command, 1, folder, 0.0);
+    std::string text = (std::stringstream() << std::ifstream(scene).rdbuf()).str();
+    const std::size_t at = text.find("0.");
+    text[at + 2] = text[at + 2] == '9' ? '8' : '9';
+    std::ofstream(scene) << text;
+    EXPECT_NE(refusal(folder).find("the scene has changed since"), std::string::npos);
+}
+
+TEST(Resume, WhatIsNoRunDirectorySaysSo) {
+    const fs::path folder = fresh_folder("run");
+    const Ending ending = Program(resume(folder)).wait(kSoon);
+    EXPECT_EQ(ending.code, 2);
+    EXPECT_NE(ending.output.find("is no run directory"), std::string::npos) << ending.output;
+    ASSERT_EQ(Program(render(folder, {"--spp", "4", "--set", "output.keep_checkpoint=false"})).wait(kSoon).code, 0);
+    EXPECT_FALSE(fs::exists(folder / "checkpoint"));
+    EXPECT_NE(refusal(folder).find("holds no checkpoint"), std::string::npos);
+}
+
+TEST(Resume, TheImageGoesWhereTheRenderWouldHavePutIt) {
+    const fs::path image = fresh_folder("out") / "box.exr";
+    const fs::path folder = broken_off({"--spp", "255", "-o", image.string()});
+    EXPECT_FALSE(fs::exists(image));
+    EXPECT_EQ(resumed(1, folder), 0);
+    EXPECT_TRUE(fs::exists(image));
+}
+
+}  // namespace
+}  // namespace treefarm::test
