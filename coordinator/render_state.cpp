@@ -48,7 +48,7 @@ void judge_splitting(RenderState& state, const Resolved& job, PassReport& report
 
 }  // namespace
 
-RenderState first_state(const Resolved& job, SdTree tree, std::size_t pixels) {
+RenderState first_state(const Resolved& job, AnyModel tree, std::size_t pixels) {
     RenderState state;
     state.aovs = AovSums(aov_requests(job), pixels);
     state.tree = std::move(tree);

@@ -157,4 +157,14 @@ AnyModel AnyLearner::learn(const AnyModel& model, const CellSums& sums, const Re
     });
 }
 
+void AnyLearner::forget(std::uint8_t kind) {
+    int index = 0;
+    const bool found = Guides::find([&]<class G>() {
+        if (index++ != kind) return false;
+        learner_.template emplace<typename G::Learner>();
+        return true;
+    });
+    if (!found) throw FormatError("the memory of an unknown guide");
+}
+
 }  // namespace treefarm

@@ -138,7 +138,19 @@ class AnyLearner {
     AnyModel learn(const AnyModel& model, const CellSums& sums, const RefineSettings& settings, bool learn_mixture,
                    RefineReport& report);
 
+    /// Lists what it remembers, for a checkpoint.
+    template <class Archive>
+    void serialize(Archive& archive) {
+        auto kind = static_cast<std::uint8_t>(learner_.index());
+        archive(kind);
+        if (kind != learner_.index()) forget(kind);
+        std::visit([&](auto& learner) { archive(learner); }, learner_);
+    }
+
   private:
+    /// Begins anew as the learner of a guide; FormatError if there is no such guide.
+    void forget(std::uint8_t kind);
+
     Guides::Learners learner_;
 };
 

@@ -34,11 +34,14 @@ concept Guide = std::derived_from<typename G::Model, RegionModel> &&
     { model == model } -> std::convertible_to<bool>;
     requires std::constructible_from<typename G::Sampler, const typename G::Model&>;
 } && requires(const typename G::Sampler& sampler) {
+    /// A direction drawn in a region, by three uniform numbers.
+    { sampler.sample(0u, Draw()).pdf } -> std::convertible_to<float>;
     /// Density per steradian in a region of the direction with this code, and bytes, for reports.
     { sampler.pdf(0u, 0u) } -> std::same_as<float>;
     { sampler.bytes() } -> std::same_as<std::size_t>;
 };
 
+/// Guides, and for each of their parts a type that holds any of them.
 template <Guide... G>
 struct GuideList {
     static constexpr int kKernels = (... + G::kKernels);

@@ -35,10 +35,6 @@ AnyModel first_model(const Resolved& job, const Scene& scene) {
     return first_model(job, bounds, scene.radiance_scale());
 }
 
-SdTree first_tree(const Resolved& job, const Scene& scene) {
-    return *first_model(job, scene).get_if<SdTree>();
-}
-
 RefineSettings refine_settings(const Resolved& job, const PassPlan& pass, const PassPlan& coming) {
     RefineSettings settings;
     settings.spatial_threshold = spatial_split_threshold(job, coming);

@@ -14,7 +14,6 @@ GuideKind guide_kind(const Resolved& job);
 AnyModel first_model(const Resolved& job, const Box3& bounds, float radiance_scale);
 /// The first model, over all that the scene's camera can see.
 AnyModel first_model(const Resolved& job, const Scene& scene);
-SdTree first_tree(const Resolved& job, const Scene& scene);
 
 /// How the job refines the tree after `pass` for the `coming` one.
 RefineSettings refine_settings(const Resolved& job, const PassPlan& pass, const PassPlan& coming);

@@ -32,7 +32,7 @@ struct TreeSize {
     bool with_mixture = false;  ///< histograms from which the fractions of BSDF and tree are learned
     std::uint64_t views = 0;    ///< of T2; their cells are among `cells`
     bool with_lights = false;   ///< next event learns how to choose emitters
-    SamplerCost cost = SdTreeGuide::kCost;
+    SamplerCost cost = {};      ///< of the form that workers sample from
 
     std::uint64_t guide_bytes() const;  ///< the form that workers sample from
     std::uint64_t sum_bytes() const;    ///< the plain form and the sums of what is recorded

@@ -10,6 +10,7 @@
 #include "common/config/estimators.h"
 #include "common/plan/effects.h"
 #include "common/plan/plan_text.h"
+#include "tests/support/guide_types.h"
 #include "tests/support/local_render.h"
 #include "tests/support/test_scenes.h"
 #include "worker/integrators/registry.h"
@@ -112,6 +113,29 @@ TEST(Estimators, TheCoordinatorNamesNone) {
         EXPECT_EQ(text.find("integrator.type"), std::string::npos) << entry.path();
     }
     EXPECT_GT(files, 20u);
+}
+
+/// Nor does it name a guide, its kind, cells or codes; integrators do not either.
+TEST(Guides, CoordinatorAndIntegratorsNameNone) {
+    const std::filesystem::path root(TREEFARM_SOURCE_DIR);
+    std::vector<std::string> names = {"SdTree", "sd_tree", "GuideKind::", "GuidingType::"};
+    for (const std::string& type : test::guide_types())
+        if (type != "auto") names.push_back('"' + type + '"');
+    const std::vector<std::string> parts = {"code_", "_code", ".code", "CodeBatch", "has_view", "cell("};
+    std::size_t files = 0;
+    for (const std::string room : {"coordinator", "worker/integrators"})
+        for (const auto& entry : std::filesystem::recursive_directory_iterator(root / room)) {
+            if (entry.path().extension() != ".h" && entry.path().extension() != ".cpp") continue;
+            ++files;
+            std::ifstream file(entry.path());
+            const std::string text{std::istreambuf_iterator<char>(file), {}};
+            for (const std::string& name : names)
+                EXPECT_EQ(text.find(name), std::string::npos) << entry.path() << " names " << name;
+            if (room != "worker/integrators") continue;
+            for (const std::string& part : parts)
+                EXPECT_EQ(text.find(part), std::string::npos) << entry.path() << " names a guide's " << part;
+        }
+    EXPECT_GT(files, 60u);
 }
 
 /// E = I cos / d^2 on the floor, of which it reflects albedo / pi.

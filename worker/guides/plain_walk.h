@@ -112,13 +112,13 @@ struct PlainWalk {
     static Bins bins(const Guidance&, const Scatter& s) { return mixture_bin(s.bsdf_pdf, s.guide_pdf); }
 
     template <class Taught>
-    static Record* teach(const RecordRules& rules, std::uint32_t rounding, const Target& target, const Taught& l,
-                         RecordLog& log, Record* end) {
+    [[gnu::always_inline]] static Record* teach(const RecordRules& rules, std::uint32_t rounding, const Target& target,
+                                                const Taught& l, RecordLog& log, Record* end) {
         const bool smooth = l.pdf > 0.0f;
         const float value = smooth ? rules.target_value(l.radiance, l.pdf) : 0.0f;
         log.counts[target.region] += smooth;
-        return append_record(
-            {target.region, l.direction, rounding, value, l.of_mixture ? l.reflected : 0.0f, l.bins}, end);
+        return append_record({target.region, l.direction, rounding, value, l.of_mixture ? l.reflected : 0.0f, l.bins},
+                             end);
     }
 };
 

@@ -303,8 +303,8 @@ struct SdTreeWalk {
     /// As published a view alone learns, and the radiance; otherwise the region learns that as it would without, and
     /// the view what is reflected.
     template <class Taught>
-    static Record* teach(const RecordRules& rules, std::uint32_t rounding, const Target& target, const Taught& l,
-                         RecordLog& log, Record* end) {
+    [[gnu::always_inline]] static Record* teach(const RecordRules& rules, std::uint32_t rounding, const Target& target,
+                                                const Taught& l, RecordLog& log, Record* end) {
         const bool smooth = l.pdf > 0.0f;
         const float value = smooth ? rules.target_value(l.radiance, l.pdf) : 0.0f;
         const float mixture = l.of_mixture ? l.reflected : 0.0f;

@@ -69,6 +69,9 @@ class SdTreeSampler : public RegionSampler {
         const SquareSample drawn = sample_square(distribution, pick, u0, u1);
         return {square_to_direction(drawn.at), drawn.code, drawn.pdf};
     }
+    Sample sample(std::uint32_t distribution, const Draw& random) const {
+        return sample(distribution, random[1], random[2], random[3]);
+    }
     /// Draws a point as sample() does, without its direction, which is quicker found for many points together.
     SquareSample sample_square(std::uint32_t distribution, std::uint32_t pick, std::uint32_t u0,
                                std::uint32_t u1) const;

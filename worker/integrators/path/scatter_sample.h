@@ -29,7 +29,8 @@ inline float mixed_pdf(float bsdf_fraction, float bsdf_pdf, float guide_pdf) {
 /// Draws a direction from the BSDF: random[1] is for its lobe, [2] and [3] are the point; `cosine` is that point warped
 /// to the cosine hemisphere. False if there is no direction.
 template <class Surface>
-bool draw_from_bsdf(const Surface& surface, const Draw& random, const Vec3& cosine, ScatterSample& s) {
+[[gnu::always_inline]] inline bool draw_from_bsdf(const Surface& surface, const Draw& random, const Vec3& cosine,
+                                                  ScatterSample& s) {
     const Vec2 point(to_unit(random[2]), to_unit(random[3]));
     const BsdfSample b = surface.bsdf().sample(surface.wo(), {to_unit(random[1]), point, cosine});
     if (!(b.pdf > 0.0f)) return false;
