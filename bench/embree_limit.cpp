@@ -12,12 +12,12 @@
 #include "common/base/error.h"
 #include "common/base/timer.h"
 #include "common/config/job_reader.h"
-#include "common/guiding/splat.h"
-#include "common/guiding/tree_learner.h"
+#include "common/guiding/any_guide.h"
 #include "common/plan/kernel.h"
 #include "common/plan/learning.h"
 #include "common/scene/readers/load.h"
 #include "worker/geometry/embree_api.h"
+#include "worker/guides/walks.h"
 #include "worker/integrators/path/path_kernel.h"
 #include "worker/integrators/path/tile_renderer.h"
 
@@ -61,21 +61,22 @@ class Limit {
           bounds_(loaded.scene.bounds()),
           facts_(facts_of(loaded.scene)),
           resolved_(resolve(job_, facts_)),
-          first_(first_tree(resolved_, bounds_, loaded.scene.radiance_scale())),
+          first_(first_model(resolved_, bounds_, loaded.scene.radiance_scale())),
           scene_(std::move(loaded.scene), job_),
           spp_(options.spp),
           guide_(train()),
           untrained_(first_) {}
 
-    const Guide& guide() const { return guide_; }
+    const AnySampler& guide() const { return guide_; }
 
     void collect(Mode& mode) const {
         if (scene_.plainly_diffuse())
-            mode.guided ? collect_with<DiffuseSurface, true>(mode) : collect_with<DiffuseSurface, false>(mode);
+            mode.guided ? collect_with<SdTreeWalk<false>, DiffuseSurface, true>(mode)
+                        : collect_with<NoGuide, DiffuseSurface, false>(mode);
         else
-            guide(mode).view_count() != 0 && mode.guided ? collect_with<ViewedSurface, true>(mode)
-            : mode.guided                                ? collect_with<GeneralSurface, true>(mode)
-                                                         : collect_with<GeneralSurface, false>(mode);
+            facts_of(guide(mode)).has_views&& mode.guided ? collect_with<SdTreeWalk<true>, GeneralSurface, true>(mode)
+            : mode.guided                                 ? collect_with<SdTreeWalk<false>, GeneralSurface, true>(mode)
+                                                          : collect_with<NoGuide, GeneralSurface, false>(mode);
     }
 
     void measure(Mode& mode) {
@@ -85,7 +86,7 @@ class Limit {
             work();
             return thread_cpu_seconds() - start;
         };
-        Accumulator sums(9, guide(mode), job_.guiding.directional_filter, true);
+        AnyAccumulator sums(9, guide(mode), job_.guiding.directional_filter, true);
         double splat = 0;
         mode.log_records = 0;
         const auto learn = [&](RecordLog& log) {
@@ -117,7 +118,7 @@ class Limit {
         return resolve(job, facts_);
     }
 
-    const Guide& guide(const Mode& mode) const { return mode.guided ? guide_ : untrained_; }
+    const AnySampler& guide(const Mode& mode) const { return mode.guided ? guide_ : untrained_; }
 
     PassPlan pass(const Mode& mode) const {
         PassPlan pass;
@@ -134,8 +135,8 @@ class Limit {
 
     /// Unit by unit, as workers do; `learn` gets what each recorded.
     template <class Learn>
-    void render(PassPlan pass, const Resolved& job, const Guide& guide, TraceStats& stats, Learn learn) {
-        pass.kernel = kernel_of(job, pass, {guide.trained(), guide.view_count() > 0});
+    void render(PassPlan pass, const Resolved& job, const AnySampler& guide, TraceStats& stats, Learn learn) {
+        pass.kernel = kernel_of(job, pass, facts_of(guide));
         const Film& film = scene_.film();
         for (const WorkUnit& unit : cut_pass(pass, film.width, film.height, job.farm.tile_size)) {
             render_unit(scene_, job, pass, guide, unit, pixels_, log_, stats);
@@ -144,17 +145,17 @@ class Limit {
     }
 
     /// The tree after the job's passes.
-    SdTree train() {
-        SdTree tree = first_;
-        TreeLearner learner;
+    AnyModel train() {
+        AnyModel tree = first_;
+        AnyLearner learner;
         const std::vector<PassPlan> plans = plan_passes(resolved_);
         for (std::size_t k = 0; k < plans.size(); ++k) {
             PassPlan plan = plans[k];
             plan.record = true;
             plan.chunks = 1;
             plan.blocks_per_unit = 1u << 20;
-            const Guide guide(tree);
-            Accumulator sums(plan.index, guide, job_.guiding.directional_filter, plan.learn_mixture);
+            const AnySampler guide(tree);
+            AnyAccumulator sums(plan.index, guide, job_.guiding.directional_filter, plan.learn_mixture);
             TraceStats stats;
             render(plan, resolved_, guide, stats,
                    [&](RecordLog& log) { sums.commit(log.records, log.counts, log.caps); });
@@ -166,12 +167,13 @@ class Limit {
         return tree;
     }
 
-    template <class Surface, bool kGuided>
+    template <GuideWalk G, class Surface, bool kGuided>
     void collect_with(Mode& mode) const {
         TraceStats stats;
         const Resolved mode_job = job(mode);
-        PathKernel<Surface, kGuided, false, RayObserver> kernel(
-            scene_, guide(mode), PathSettings(scene_, mode_job, pass(mode), guide(mode)), stats);
+        const auto& sampler = guide(mode).get<typename G::Sampler>();
+        PathKernel<G, Surface, kGuided, false, RayObserver> kernel(
+            scene_, sampler, PathSettings(scene_, mode_job, pass(mode), sampler), stats);
         kernel.observer().rays = &mode.rays;
         kernel.observer().shadow_rays = &mode.shadow_rays;
         for (int y = 0; y < scene_.film().height; ++y)
@@ -234,12 +236,12 @@ class Limit {
     Box3 bounds_;
     SceneFacts facts_;
     Resolved resolved_;
-    SdTree first_;
+    AnyModel first_;
     TraceScene scene_;
     std::uint32_t spp_;
     std::vector<PixelEstimate> pixels_;
     RecordLog log_;
-    Guide guide_, untrained_;
+    AnySampler guide_, untrained_;
 };
 
 double median(std::vector<double> values) {
@@ -269,8 +271,9 @@ void print(const Mode& mode) {
 
 void run(const Options& options) {
     Limit limit(load_scene(options.scene, {}, false, options.width, options.height), options);
-    std::printf("%s, tree of %u regions, %.1f MB\n\n", options.scene.c_str(), limit.guide().region_count(),
-                1e-6 * static_cast<double>(limit.guide().bytes()));
+    std::printf("%s, tree of %u regions, %.1f MB\n\n", options.scene.c_str(),
+                limit.guide().get<SdTreeSampler>().region_count(),
+                1e-6 * static_cast<double>(limit.guide().get<SdTreeSampler>().bytes()));
     std::vector<Mode> modes = {{"path", false, false, false, {}, {}, {}},
                                {"path, next event", false, true, false, {}, {}, {}},
                                {"guided", true, false, false, {}, {}, {}},

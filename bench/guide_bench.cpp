@@ -7,9 +7,9 @@
 #include <memory>
 #include <random>
 
-#include "common/guiding/guide.h"
-#include "common/guiding/refine.h"
-#include "common/guiding/splat.h"
+#include "common/guiding/sd_tree/refine.h"
+#include "common/guiding/sd_tree/sd_tree_sampler.h"
+#include "common/guiding/statistics/cell_accumulator.h"
 #include "tests/support/random_tree.h"
 
 namespace treefarm {
@@ -17,7 +17,7 @@ namespace {
 
 struct Trained {
     SdTree tree;
-    Guide guide;
+    SdTreeSampler guide;
     std::vector<Vec3> positions;
     std::vector<std::uint32_t> regions, codes;
     explicit Trained(int split) : tree(test::random_tree(5, 400000, split, 1)), guide(tree) {
@@ -75,7 +75,7 @@ void map_direction(benchmark::State& state) {
 
 void commit_records(benchmark::State& state) {
     const Trained& t = trained(state);
-    Accumulator accumulator(t.tree.pass, t.guide);
+    CellAccumulator accumulator(t.tree.pass, t.guide);
     const std::vector<Record> records = test::random_records(t.guide, 80000, 3);
     const std::vector<std::uint32_t> counts(t.guide.region_count(), 1);
     for (auto _ : state) {
@@ -87,11 +87,11 @@ void commit_records(benchmark::State& state) {
 
 void merge_update(benchmark::State& state) {
     const Trained& t = trained(state);
-    Accumulator accumulator(t.tree.pass, t.guide);
+    CellAccumulator accumulator(t.tree.pass, t.guide);
     std::vector<Record> records = test::random_records(t.guide, 400000, 3);
     accumulator.commit(records, std::vector<std::uint32_t>(t.guide.region_count(), 1), {});
     const Bytes update = accumulator.take().encode();
-    TreeSums sums(t.tree.pass, t.guide.region_count(), t.guide.cell_count());
+    CellSums sums(t.tree.pass, t.guide.region_count(), t.guide.cell_count());
     std::uint64_t cells = 0;
     for (auto _ : state)
         cells = sums.merge_encoded(update);
@@ -101,10 +101,10 @@ void merge_update(benchmark::State& state) {
 
 void refine_tree(benchmark::State& state) {
     const Trained& t = trained(state);
-    Accumulator accumulator(t.tree.pass, t.guide);
+    CellAccumulator accumulator(t.tree.pass, t.guide);
     std::vector<Record> records = test::random_records(t.guide, 400000, 3);
     accumulator.commit(records, std::vector<std::uint32_t>(t.guide.region_count(), 1), {});
-    const TreeSums sums = accumulator.take();
+    const CellSums sums = accumulator.take();
     RefineReport report;
     for (auto _ : state)
         benchmark::DoNotOptimize(refine(t.tree, sums, {.spatial_threshold = 1e9}, report));

@@ -9,8 +9,8 @@
 #include <mutex>
 #include <random>
 
-#include "common/guiding/guide.h"
-#include "common/guiding/splat.h"
+#include "common/guiding/sd_tree/sd_tree_sampler.h"
+#include "common/guiding/statistics/cell_accumulator.h"
 #include "tests/support/random_tree.h"
 
 namespace treefarm {
@@ -21,7 +21,7 @@ constexpr std::size_t kRecords = 80000;
 
 struct Trained {
     SdTree tree = test::random_tree(5, 400000, kSplit, 1);
-    Guide guide = Guide(tree);
+    SdTreeSampler guide = SdTreeSampler(tree);
     std::vector<Record> records = test::random_records(guide, kRecords, 3);
     std::vector<std::uint32_t> counts = std::vector<std::uint32_t>(guide.region_count(), 1);
 };
@@ -31,10 +31,10 @@ const Trained& trained() {
     return all;
 }
 
-/// Accumulator without its integers: records sorted by region, a lock per stripe of regions, one float per cell.
+/// CellAccumulator without its integers: records sorted by region, a lock per stripe of regions, one float per cell.
 class FloatSums {
   public:
-    FloatSums(const Guide& guide) : guide_(guide), cells_(guide.cell_count()), counts_(guide.region_count()) {}
+    FloatSums(const SdTreeSampler& guide) : guide_(guide), cells_(guide.cell_count()), counts_(guide.region_count()) {}
 
     void commit(std::span<const Record> records, std::span<const std::uint32_t> counts) {
         std::vector<std::uint32_t> next(counts.size() + 1);
@@ -62,14 +62,14 @@ class FloatSums {
 
   private:
     static constexpr std::size_t kStripes = 64;
-    const Guide& guide_;
+    const SdTreeSampler& guide_;
     std::vector<float> cells_, counts_;
     std::array<std::mutex, kStripes> locks_;
 };
 
 void sums_exact(benchmark::State& state) {
     const Trained& t = trained();
-    Accumulator sums(t.tree.pass, t.guide);
+    CellAccumulator sums(t.tree.pass, t.guide);
     for (auto _ : state)
         sums.commit(t.records, t.counts, {});
     state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(kRecords));
@@ -101,8 +101,8 @@ void sums_float(benchmark::State& state) {
     state.counters["bytes_per_cell"] = sizeof(float);
 }
 
-/// One region's directions by a cumulative table of another type, found as Guide finds them: 64 look-up entries, then a
-/// search without branches.
+/// One region's directions by a cumulative table of another type, found as SdTreeSampler finds them: 64 look-up
+/// entries, then a search without branches.
 template <class Mass>
 class Table {
   public:

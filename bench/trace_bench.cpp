@@ -2,8 +2,8 @@
 // What a whole path costs: camera, intersection, scattering, next event, guiding, recording, film.
 #include <benchmark/benchmark.h>
 
-#include "common/guiding/refine.h"
-#include "common/guiding/splat.h"
+#include "common/guiding/sd_tree/refine.h"
+#include "common/guiding/statistics/cell_accumulator.h"
 #include "tests/support/material_scenes.h"
 #include "tests/support/resolved.h"
 #include "worker/integrators/path/tile_renderer.h"
@@ -30,8 +30,8 @@ SdTree train(const TraceScene& scene, const Job& job, const Box3& bounds) {
     RecordLog log;
     TraceStats stats;
     for (std::uint32_t pass = 0; pass < 5; ++pass) {
-        const Guide guide(tree);
-        Accumulator sums(pass, guide);
+        const SdTreeSampler guide(tree);
+        CellAccumulator sums(pass, guide);
         test::render_unit(scene, job, make_pass(pass, 4u << pass, false, true), guide, {pass, 0, 0, kSize, kSize, 0},
                           pixels, log, stats);
         sums.commit(log.records, log.counts, log.caps);
@@ -49,7 +49,7 @@ void trace_in(benchmark::State& state, Scene box, bool guided, bool next_event, 
     job.integrator.max_depth = 10;
     job.integrator.rr_depth = 10;
     const TraceScene scene(box, job);
-    const Guide guide(guided ? train(scene, job, bounds) : initial_tree(bounds, 1.0f));
+    const SdTreeSampler guide(guided ? train(scene, job, bounds) : initial_tree(bounds, 1.0f));
     if (!guided && !record) job.guiding.type = GuidingType::none;
     std::vector<PixelEstimate> pixels;
     RecordLog log;

@@ -23,8 +23,8 @@ namespace {
 const Location kHere{"--debug-sample", 0, 0};
 
 /// The tree that guides a pass, learned by rendering the passes before it.
-SdTree learn_tree(const RenderRequest& request, const std::vector<PassPlan>& plans, std::uint32_t pass) {
-    SdTree tree = first_tree(request.plan.job, request.scene);
+AnyModel learn_tree(const RenderRequest& request, const std::vector<PassPlan>& plans, std::uint32_t pass) {
+    AnyModel tree = first_model(request.plan.job, request.scene);
     if (pass == 0 || !request.plan.job.guides) return tree;
     const Log log = make_log("treefarm", {}, request.console, Loudness::quiet);
     auto channels = make_in_process_channels(2);
@@ -90,11 +90,12 @@ int debug_sample(const RenderRequest& request, const SampleName& name) {
         throw InputError(kHere, "there is no such sample",
                          "the image has " + std::to_string(film.width) + " x " + std::to_string(film.height) +
                              " pixels and " + std::to_string(plans.size()) + " passes");
-    const SdTree tree = learn_tree(request, plans, name.pass);
+    const AnyModel tree = learn_tree(request, plans, name.pass);
     PassPlan pass = plans[name.pass];
     pass.kernel = kernel_of(request.plan.job, pass, facts_of(tree));
     const TraceScene scene(request.scene, request.job);
-    const std::string text = describe_sample(scene, request.plan.job, pass, Guide(tree), name.x, name.y, name.sample);
+    const std::string text =
+        describe_sample(scene, request.plan.job, pass, AnySampler(tree), name.x, name.y, name.sample);
     std::fputs(text.c_str(), stdout);
     return 0;
 }

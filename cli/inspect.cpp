@@ -53,7 +53,7 @@ MapReport write_map(const std::string& kind, Plane map, double white, const std:
     return report;
 }
 
-std::vector<MapReport> write_maps(const TraceScene& scene, const SdTree& tree, const Guide& guide,
+std::vector<MapReport> write_maps(const TraceScene& scene, const AnyModel& tree, const AnySampler& guide,
                                   const std::filesystem::path& folder) {
     FilmMaps maps = film_maps(scene, tree, guide);
     float most = 1.0f;
@@ -79,7 +79,7 @@ std::filesystem::path picture_folder(const InspectOptions& options) {
 }
 
 void look(const InspectOptions& options, const InspectedRun& run, InspectReport& report) {
-    const Guide guide(run.tree);
+    const AnySampler guide(run.tree);
     const TraceScene scene(run.request.scene, run.request.job);
     std::vector<NamedPlace> places;  // all of them are understood before any is traced
     for (const std::string& pixel : options.pixels)
@@ -103,7 +103,7 @@ void inspect_run(const InspectOptions& options, std::ostream& out) {
     const InspectedRun run = read_inspected_run(options.directory);
     InspectReport report;
     report.directory = options.directory;
-    report.statistics = tree_statistics(run.tree, run.tree_bytes);
+    report.statistics = run.tree.statistics(run.tree_bytes);
     if (options.maps || !options.pixels.empty() || !options.points.empty()) look(options, run, report);
     options.json ? print_json(report, out) : print_text(report, out);
 }

@@ -65,7 +65,7 @@ void print_depths(const TreeStatistics& s, std::ostream& out) {
 }
 
 void print_place(const PlaceReport& place, std::ostream& out) {
-    const Guidance& g = place.facts.guidance;
+    const PlaceGuidance& g = place.facts.guidance;
     out << fmt::format("{}: at ({:.6g}, {:.6g}, {:.6g}), region {}", place.text, place.position.x, place.position.y,
                        place.position.z, g.region);
     if (g.has_view()) out << fmt::format(", distribution {} of its views", g.view);
@@ -115,7 +115,7 @@ Json statistics_json(const TreeStatistics& s) {
 }
 
 Json place_json(const PlaceReport& place) {
-    const Guidance& g = place.facts.guidance;
+    const PlaceGuidance& g = place.facts.guidance;
     Json json = {{"place", place.text},       {"position", {place.position.x, place.position.y, place.position.z}},
                  {"region", g.region},        {"view", g.has_view() ? Json(g.view) : Json()},
                  {"a_bsdf", g.bsdf_fraction}, {"a_t1", 1.0f - g.bsdf_fraction - g.view_fraction},

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "cli/inspect_places.h"
-#include "common/guiding/tree_statistics.h"
+#include "common/guiding/regions/model_statistics.h"
 
 namespace treefarm {
 

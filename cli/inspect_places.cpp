@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "common/config/parse_text.h"
-#include "common/guiding/tree_statistics.h"
 #include "common/image/png.h"
 #include "common/metrics/false_colour.h"
 
@@ -111,7 +110,7 @@ std::vector<Panel> panels_of(const std::string& title, std::vector<float> learne
 
 }  // namespace
 
-NamedPlace pixel_place(const std::string& text, const TraceScene& scene, const Guide& guide) {
+NamedPlace pixel_place(const std::string& text, const TraceScene& scene, const AnySampler& guide) {
     const Location where{"--pixel " + text, 0, 0};
     const std::vector<double> at = numbers_in(text);
     const int width = scene.film().width, height = scene.film().height;
@@ -132,7 +131,7 @@ NamedPlace pixel_place(const std::string& text, const TraceScene& scene, const G
     return {"pixel-" + std::to_string(x) + "-" + std::to_string(y), "pixel " + text, *place};
 }
 
-NamedPlace point_place(const std::string& text, const Guide& guide) {
+NamedPlace point_place(const std::string& text, const AnySampler& guide) {
     const Location where{"--point " + text, 0, 0};
     const std::size_t colon = text.find(':');
     const std::vector<double> at = numbers_in(text.substr(0, colon));
@@ -145,7 +144,7 @@ NamedPlace point_place(const std::string& text, const Guide& guide) {
     std::replace(named.name.begin(), named.name.end(), ' ', '_');
     Hit& hit = named.place.hit;
     hit.p = vector_of(at);
-    if (!guide.contains(hit.p))
+    if (!guide.regions().contains(hit.p))
         throw InputError(where, "lies outside of the cube that the tree divides",
                          "give a point of the scene, in its world's coordinates");
     if (colon == std::string::npos) return named;
@@ -158,20 +157,20 @@ NamedPlace point_place(const std::string& text, const Guide& guide) {
     return named;
 }
 
-PlaceReport look_at_place(const NamedPlace& named, const InspectedRun& run, const TraceScene& scene, const Guide& guide,
-                          const BruteForce& settings, const std::filesystem::path& folder) {
+PlaceReport look_at_place(const NamedPlace& named, const InspectedRun& run, const TraceScene& scene,
+                          const AnySampler& guide, const BruteForce& settings, const std::filesystem::path& folder) {
     PlaceReport report{named.text, named.place.hit.p, place_facts(scene, guide, named.place), 0.0, {}};
-    const Guidance& guidance = report.facts.guidance;
+    const PlaceGuidance& guidance = report.facts.guidance;
     const PlaceTruth truth = trace_place(scene, run.request.plan.job, guide, named.place, settings);
     report.reflected = integral_of(truth.reflected);
     const auto add = [&](const std::string& kind, const std::vector<Panel>& panels) {
         report.comparisons.push_back(compare(kind, panels, settings.bits, folder / (named.name + "-" + kind + ".png")));
     };
-    add("t1", panels_of("T1", density_map(run.tree, guidance.region, settings.bits), "incident radiance",
-                        truth.radiance, truth.left));
+    add("t1", panels_of("T1", run.tree.density_map(guidance.region, settings.bits), "incident radiance", truth.radiance,
+                        truth.left));
     if (guidance.has_view()) {
         const bool product = run.request.job.guiding.view_records == ViewRecords::product;
-        add("t2", panels_of("T2", density_map(run.tree, guidance.view, settings.bits),
+        add("t2", panels_of("T2", run.tree.density_map(guidance.view, settings.bits),
                             product ? "f cos L" : "incident radiance", product ? truth.reflected : truth.radiance,
                             product ? truth.left_reflected : truth.left));
     }

@@ -17,10 +17,10 @@ struct NamedPlace {
 };
 
 /// "x,y" of --pixel. Throws InputError where there is no such pixel, or nothing that the tree could be seen at.
-NamedPlace pixel_place(const std::string& text, const TraceScene& scene, const Guide& guide);
+NamedPlace pixel_place(const std::string& text, const TraceScene& scene, const AnySampler& guide);
 
 /// "x,y,z" or "x,y,z:nx,ny,nz" of --point. Throws InputError if it lies outside of the tree's cube.
-NamedPlace point_place(const std::string& text, const Guide& guide);
+NamedPlace point_place(const std::string& text, const AnySampler& guide);
 
 /// A learned distribution beside true ones.
 struct Comparison {
@@ -41,7 +41,7 @@ struct PlaceReport {
 };
 
 /// Traces the truth at a place and writes its pictures to `folder`.
-PlaceReport look_at_place(const NamedPlace& named, const InspectedRun& run, const TraceScene& scene, const Guide& guide,
-                          const BruteForce& settings, const std::filesystem::path& folder);
+PlaceReport look_at_place(const NamedPlace& named, const InspectedRun& run, const TraceScene& scene,
+                          const AnySampler& guide, const BruteForce& settings, const std::filesystem::path& folder);
 
 }  // namespace treefarm

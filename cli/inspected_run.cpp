@@ -44,8 +44,8 @@ nlohmann::json read_summary(const std::filesystem::path& file) {
     return summary;
 }
 
-SdTree read_tree(const std::filesystem::path& file, const std::string& expected_hash, const Job& job,
-                 std::uint64_t& size) {
+AnyModel read_tree(const std::filesystem::path& file, const std::string& expected_hash, const Job& job,
+                   std::uint64_t& size) {
     if (!std::filesystem::exists(file)) {
         if (job.guiding.type == GuidingType::none)
             refuse(file, "is missing, since guiding.type is \"none\": the run has no tree",
@@ -61,7 +61,7 @@ SdTree read_tree(const std::filesystem::path& file, const std::string& expected_
         refuse(file, "is not the tree that summary.json stands beside: it is of another run, or damaged",
                "render again");
     try {
-        return decode_tree(bytes);
+        return AnyModel::decode(bytes);
     } catch (const FormatError& error) {
         refuse(file, error.what(), "render again");
     }

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "cli/render.h"
-#include "common/guiding/sd_tree.h"
+#include "common/guiding/any_guide.h"
 
 namespace treefarm {
 
@@ -14,7 +14,7 @@ namespace treefarm {
 struct InspectedRun {
     std::filesystem::path directory;
     RenderRequest request;  ///< job and scene, read again
-    SdTree tree;
+    AnyModel tree;
     std::uint64_t tree_bytes = 0;       ///< of tree.bin
     bool taught_by_next_event = false;  ///< whether the last pass that taught the tree sampled emitters
 };

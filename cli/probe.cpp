@@ -48,7 +48,7 @@ Probe run_probe(const RenderRequest& request, double seconds, unsigned threads) 
         };
         PassHooks hooks;
         hooks.interrupted = interrupted;
-        probe.interrupted = run_passes(farm, request.plan.job, first, first_tree(request.plan.job, request.scene),
+        probe.interrupted = run_passes(farm, request.plan.job, first, first_model(request.plan.job, request.scene),
                                        film.width, film.height, hooks)
                                 .interrupted;
         return {0, farm.lost_peers()};

@@ -22,7 +22,7 @@ bool is_duration(double seconds) {
 
 }  // namespace
 
-Collector::Collector(const PassPlan& plan, const SdTree& tree, int width, int height, bool signed_pixels,
+Collector::Collector(const PassPlan& plan, const AnyModel& model, int width, int height, bool signed_pixels,
                      const AovLayout& aovs)
     : plan_(plan),
       width_(width),
@@ -31,7 +31,7 @@ Collector::Collector(const PassPlan& plan, const SdTree& tree, int width, int he
       film_(plan.layers.estimates ? width : 0, plan.layers.estimates ? height : 0, plan.chunks),
       aovs_(aovs, width, height, plan.chunks),
       splats_(plan.layers.splats),
-      sums_(plan.record ? TreeSums(plan.index, sums_shape(plan, tree)) : TreeSums()) {}
+      sums_(plan.record ? CellSums(plan.index, sums_shape(plan, model)) : CellSums()) {}
 
 std::uint32_t Collector::unit_samples(const WorkUnit& unit) const {
     const std::uint64_t per_unit = std::uint64_t{kBlockSamples} * plan_.blocks_per_unit;

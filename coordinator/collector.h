@@ -8,8 +8,8 @@
 #include "common/film/aov_film.h"
 #include "common/film/pass_film.h"
 #include "common/film/splat_film.h"
-#include "common/guiding/sd_tree.h"
-#include "common/guiding/tree_update.h"
+#include "common/guiding/any_guide.h"
+#include "common/guiding/statistics/cell_sums.h"
 #include "common/protocol/messages.h"
 #include "coordinator/ledger.h"
 
@@ -25,7 +25,7 @@ struct WorkerContribution {
 class Collector {
   public:
     /// `signed_pixels`: of a filter with negative lobes, so that means may be negative.
-    Collector(const PassPlan& plan, const SdTree& tree, int width, int height, bool signed_pixels,
+    Collector(const PassPlan& plan, const AnyModel& model, int width, int height, bool signed_pixels,
               const AovLayout& aovs = {});
 
     /// Merges a worker's result if the ledger says that the worker has all of its units; otherwise nothing changes and
@@ -37,7 +37,7 @@ class Collector {
     std::vector<PixelEstimate> take_pixels();  ///< once, of a complete pass: all layers together
     const SplatSums& splats() const { return splats_; }
     AovPixels take_aovs() { return aovs_.take(); }  ///< as take_pixels()
-    const TreeSums& sums() const { return sums_; }
+    const CellSums& sums() const { return sums_; }
     TraceStats totals() const;
     const std::map<int, WorkerContribution>& contributions() const { return contributions_; }
     std::uint64_t update_bytes() const { return update_bytes_; }
@@ -59,7 +59,7 @@ class Collector {
     PassFilm film_;
     AovFilm aovs_;
     SplatSums splats_;
-    TreeSums sums_;
+    CellSums sums_;
     std::map<int, WorkerContribution> contributions_;
     std::uint64_t update_bytes_ = 0;   ///< of all encoded tree updates
     std::uint64_t splat_bytes_ = 0;    ///< of all encoded splats

@@ -60,7 +60,7 @@ void Farm::gather(const std::function<bool()>& interrupted) {
             if (!roster_.find(peer)) turn_.absent.insert(peer);
 }
 
-void Farm::begin_pass(const PassPlan& plan, const SdTree& tree, Bytes encoded_tree, int width, int height) {
+void Farm::begin_pass(const PassPlan& plan, const AnyModel& tree, Bytes encoded_tree, int width, int height) {
     const std::uint64_t hash = hash_bytes(encoded_tree);
     pass_ = OpenPass{plan, std::move(encoded_tree), hash};
     ledger_ = std::make_unique<Ledger>(plan, width, height, job_.farm.tile_size);

@@ -50,7 +50,7 @@ class Farm {
     void allow_negative(bool allowed) { negative_allowed_ = allowed; }
 
     /// Announces a pass and sends its tree along the chain of those present; before the first one, the scene.
-    void begin_pass(const PassPlan& plan, const SdTree& tree, Bytes encoded_tree, int width, int height);
+    void begin_pass(const PassPlan& plan, const AnyModel& tree, Bytes encoded_tree, int width, int height);
 
     /// Takes what has arrived, hands out work, watches for silence; rests if nothing happened. Throws RunError when no
     /// worker is left, and none has come back within FarmLimits::grace.

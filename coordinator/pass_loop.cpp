@@ -80,8 +80,8 @@ class PassLoop {
     }
 
     void broadcast(const PassPlan& plan, PassReport& report) {
-        state_.tree.pass = plan.index;  // also where the pass before taught nothing
-        Bytes encoded = encode_tree(state_.tree);
+        state_.tree.set_pass(plan.index);  // also where the pass before taught nothing
+        Bytes encoded = state_.tree.encode();
         coming_tree_hash_ = hash_bytes(encoded);
         report.tree = tree_figures(state_.tree, encoded.size());
         farm_.begin_pass(plan, state_.tree, std::move(encoded), result_.width, result_.height);
@@ -213,7 +213,7 @@ class PassLoop {
     RenderState state_;
     RenderResult result_;  ///< what of the state is shown
     std::uint64_t coming_tree_hash_ = 0;
-    std::optional<SdTree> ended_with_;  ///< the last pass's tree, where a later one was learned that nobody uses
+    std::optional<AnyModel> ended_with_;  ///< the last pass's tree, where a later one was learned that nobody uses
     const Timer clock_;
     const double seconds_before_;  ///< that earlier lives of the render took
     double loading_seconds_ = 0;   ///< until the first worker had scene and tree and asked for work
@@ -227,8 +227,8 @@ RenderResult run_passes(Farm& farm, const Resolved& job, const PassChooser& choo
     return PassLoop(farm, job, choose, std::move(state), width, height, hooks).run();
 }
 
-RenderResult run_passes(Farm& farm, const Resolved& job, const PassChooser& choose, SdTree tree, int width, int height,
-                        const PassHooks& hooks) {
+RenderResult run_passes(Farm& farm, const Resolved& job, const PassChooser& choose, AnyModel tree, int width,
+                        int height, const PassHooks& hooks) {
     const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
     return run_passes(farm, job, choose, first_state(job, std::move(tree), pixels), width, height, hooks);
 }

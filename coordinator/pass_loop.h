@@ -7,7 +7,7 @@
 
 #include "common/film/aov_film.h"
 #include "common/film/combine.h"
-#include "common/guiding/sd_tree.h"
+#include "common/guiding/any_guide.h"
 #include "common/plan/budget.h"
 #include "common/scene/model/scene.h"
 #include "coordinator/farm.h"
@@ -54,8 +54,8 @@ struct RenderResult : DevelopedState {
     std::uint32_t spp = 0;
     bool interrupted = false;
     std::vector<PassReport> passes;
-    SdTree tree;  ///< that guides the pass after the last finished one, or guided the last of all; set at
-                  ///< the end
+    AnyModel tree;  ///< that guides the pass after the last finished one, or guided the last of all; set at
+                    ///< the end
     std::uint64_t tree_hash = 0;  ///< of the encoded tree that guided the last pass
 };
 
@@ -65,7 +65,7 @@ RenderResult run_passes(Farm& farm, const Resolved& job, const PassChooser& choo
                         int height, const PassHooks& hooks);
 
 /// As above, from the first tree on.
-RenderResult run_passes(Farm& farm, const Resolved& job, const PassChooser& choose, SdTree tree, int width, int height,
-                        const PassHooks& hooks);
+RenderResult run_passes(Farm& farm, const Resolved& job, const PassChooser& choose, AnyModel tree, int width,
+                        int height, const PassHooks& hooks);
 
 }  // namespace treefarm

@@ -3,29 +3,13 @@
 
 #include <spdlog/fmt/fmt.h>
 
-#include <algorithm>
 #include <functional>
-#include <utility>
 
 #include "common/plan/memory.h"
 
 namespace treefarm {
 
 namespace {
-
-int spatial_depth(const SdTree& tree) {
-    int deepest = 0;
-    std::vector<std::pair<std::uint32_t, int>> open = {{0, 0}};
-    while (!open.empty()) {
-        const auto [node, depth] = open.back();
-        open.pop_back();
-        deepest = std::max(deepest, depth);
-        if (tree.nodes[node].is_leaf()) continue;
-        for (const std::uint32_t child : tree.nodes[node].child)
-            open.emplace_back(child, depth + 1);
-    }
-    return deepest;
-}
 
 /// One column of passes.csv.
 struct Column {
@@ -144,17 +128,10 @@ std::string join_columns(Text text) {
 
 }  // namespace
 
-TreeFigures tree_figures(const SdTree& tree, std::uint64_t encoded_bytes) {
-    TreeFigures figures;
-    figures.nodes = tree.nodes.size();
-    figures.regions = tree.region_count();
-    figures.cells = tree.cell_count();
-    figures.spatial_depth = spatial_depth(tree);
-    figures.directional_depth =
-        tree.cell_depth.empty() ? 0 : *std::max_element(tree.cell_depth.begin(), tree.cell_depth.end());
-    figures.bytes = encoded_bytes;
-    figures.views = tree.view_count();
-    const TreeSize size{figures.regions, figures.cells, false, figures.views, !tree.light_probabilities.empty()};
+TreeFigures tree_figures(const AnyModel& model, std::uint64_t encoded_bytes) {
+    TreeFigures figures{model.figures(), encoded_bytes, 0};
+    const TreeSize size{figures.regions, figures.cells, false, figures.views, model.regions().learns_lights(),
+                        model.cost()};
     figures.memory = size.guide_bytes() + size.sum_bytes();
     return figures;
 }

@@ -10,8 +10,7 @@
 #include "common/film/error_estimate.h"
 #include "common/film/guiding_probe.h"
 #include "common/film/trace_stats.h"
-#include "common/guiding/refine.h"
-#include "common/guiding/sd_tree.h"
+#include "common/guiding/any_guide.h"
 #include "common/plan/forecast.h"
 #include "common/plan/schedule.h"
 #include "coordinator/collector.h"
@@ -24,18 +23,12 @@ struct Spread {
     int max_worker = 0;  ///< that attains the maximum
 };
 
-/// Size of a tree.
-struct TreeFigures {
-    std::uint64_t nodes = 0;  ///< of the spatial tree, leaves included
-    std::uint64_t regions = 0;
-    std::uint64_t views = 0;  ///< of T2
-    std::uint64_t cells = 0;
-    int spatial_depth = 0;
-    int directional_depth = 0;
+/// Size of a guide's model.
+struct TreeFigures : ModelFigures {
     std::uint64_t bytes = 0;   ///< encoded
     std::uint64_t memory = 0;  ///< on a worker: sampling form and sums
 };
-TreeFigures tree_figures(const SdTree& tree, std::uint64_t encoded_bytes);
+TreeFigures tree_figures(const AnyModel& model, std::uint64_t encoded_bytes);
 
 /// Where the time of a pass went: seconds of the wall clock on the coordinator, unless said otherwise.
 struct PassSeconds {

@@ -138,7 +138,7 @@ class RenderRun {
     /// What the render begins with, or goes on from.
     RenderState take_state() const {
         if (request_.resumed) return std::move(request_.resumed->state);
-        return first_state(job(), first_tree(job(), request_.scene), request_.scene.film.pixel_count());
+        return first_state(job(), first_model(job(), request_.scene), request_.scene.film.pixel_count());
     }
 
     const Resolved& job() const { return request_.plan.job; }

@@ -48,7 +48,7 @@ void judge_splitting(RenderState& state, const Resolved& job, PassReport& report
 
 }  // namespace
 
-RenderState first_state(const Resolved& job, SdTree tree, std::size_t pixels) {
+RenderState first_state(const Resolved& job, AnyModel tree, std::size_t pixels) {
     RenderState state;
     state.aovs = AovSums(aov_requests(job), pixels);
     state.tree = std::move(tree);
@@ -95,7 +95,7 @@ void judge(RenderState& state, const Resolved& job, const CombinedImage& image, 
 }
 
 void learn(RenderState& state, const Resolved& job, const PassPlan& pass, const std::optional<PassPlan>& coming,
-           const TreeSums& sums, RefineReport& report) {
+           const CellSums& sums, RefineReport& report) {
     if (!pass.record) return;
     const std::uint32_t done = pass.first_sample + pass.spp;
     const PassPlan next = coming ? *coming : make_pass(job, pass.index + 1, done, pass.spp, false);

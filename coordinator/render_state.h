@@ -9,7 +9,7 @@
 #include "common/film/aov_film.h"
 #include "common/film/combine.h"
 #include "common/film/guiding_probe.h"
-#include "common/guiding/tree_learner.h"
+#include "common/guiding/any_guide.h"
 #include "common/plan/budget.h"
 #include "coordinator/pass_report.h"
 
@@ -24,9 +24,9 @@ struct RenderState {
     AovSums aovs;
     GuidingProbe probe;
     ProbesSetAside set_aside;
-    SdTree tree;                    ///< guides the next pass
+    AnyModel tree;                  ///< guides the next pass
     std::optional<bool> last_tree;  ///< whether it was refined as the last one; nothing: it is the first
-    TreeLearner learner;
+    AnyLearner learner;
     std::vector<PassReport> reports;  ///< of finished passes
     std::uint64_t tree_hash = 0;      ///< of the encoded tree that guided the last of them
 
@@ -34,7 +34,7 @@ struct RenderState {
 };
 
 /// The state before any pass; `tree`: the first one.
-RenderState first_state(const Resolved& job, SdTree tree, std::size_t pixels);
+RenderState first_state(const Resolved& job, AnyModel tree, std::size_t pixels);
 
 /// What a pass brought.
 struct CollectedPass {
@@ -66,6 +66,6 @@ void judge(RenderState& state, const Resolved& job, const CombinedImage& image, 
 /// The tree of the coming pass, by what the pass recorded. Without a coming one, as for a pass that goes on doubling:
 /// whoever continues an ended render needs it.
 void learn(RenderState& state, const Resolved& job, const PassPlan& pass, const std::optional<PassPlan>& coming,
-           const TreeSums& sums, RefineReport& report);
+           const CellSums& sums, RefineReport& report);
 
 }  // namespace treefarm

@@ -286,9 +286,9 @@ std::vector<LastFile> RunDirectory::last_files(const RenderResult& result, Outli
                              }});
         add("passes.csv", [=, this] { write_text("passes.csv", passes_csv_, outlives); });
         add("schedule.toml", [=, this] { write_text("schedule.toml", write_schedule(passes_), outlives); });
-        if (result.tree.trained)
+        if (result.tree.trained())
             add("tree.bin", [=, this, &result, &end] {
-                const Bytes tree = encode_tree(result.tree);
+                const Bytes tree = result.tree.encode();
                 write_bytes("tree.bin", tree, outlives);
                 end.tree_file_hash = hash_text(hash_bytes(tree));
             });

@@ -63,7 +63,7 @@ class RunDirectory {
     /// since mpirun kills its ranks two seconds after a signal.
     void write_interruption(const RenderResult& result, const Farm* farm, double elapsed_seconds);
 
-    /// Writes what a run leaves: image.exr, the job's output.file, tree.bin (encode_tree() of the result's tree) if
+    /// Writes what a run leaves: image.exr, the job's output.file, tree.bin (the result's tree, encoded) if
     /// there is one that learned, preview.png, passes.csv, schedule.toml, summary.json and the last status.json, each
     /// on its own and tried again for some seconds. `end` says how the run ended; where files cannot be written it
     /// becomes failed, and they are returned, each with the reason.

@@ -7,7 +7,7 @@
 
 namespace treefarm {
 
-PassWork::PassWork(const PassPlan& plan, const SdTree& tree, DirectionalFilter filter) : plan_(plan), guide_(tree) {
+PassWork::PassWork(const PassPlan& plan, const AnyModel& model, DirectionalFilter filter) : plan_(plan), guide_(model) {
     if (plan_.record) accumulator_.emplace(plan_.index, guide_, filter, plan_.learn_mixture);
 }
 
@@ -37,7 +37,7 @@ void PassWork::add_splats(SplatLog& log) {
 std::optional<Result> PassWork::close() {
     Result result;
     result.pass = plan_.index;
-    std::optional<TreeSums> sums;
+    std::optional<CellSums> sums;
     {
         const std::unique_lock bundle(bundle_);
         if (units_.empty()) return std::nullopt;

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "common/film/splat_film.h"
-#include "common/guiding/splat.h"
+#include "common/guiding/any_guide.h"
 #include "common/protocol/messages.h"
 #include "worker/integrators/unit_output.h"
 
@@ -19,10 +19,10 @@ namespace treefarm {
 /// taught the tree and splatted. Tracing threads deliver while the communication thread closes bundles.
 class PassWork {
   public:
-    PassWork(const PassPlan& plan, const SdTree& tree, DirectionalFilter filter);
+    PassWork(const PassPlan& plan, const AnyModel& model, DirectionalFilter filter);
 
     const PassPlan& plan() const { return plan_; }
-    const Guide& guide() const { return guide_; }
+    const AnySampler& guide() const { return guide_; }
 
     /// Adds a finished unit and its records to the open bundle. Thread-safe; `output` gives up its pixels and AOVs, and
     /// its records are reordered.
@@ -39,13 +39,13 @@ class PassWork {
     void add_splats(SplatLog& log);
 
     const PassPlan plan_;
-    const Guide guide_;
+    const AnySampler guide_;
     std::shared_mutex bundle_;  ///< shared: adding to the open bundle; exclusive: closing it
     std::mutex units_lock_;
     std::vector<UnitResult> units_;
     std::atomic<std::size_t> bundle_bytes_{0};
     TraceStats stats_;
-    std::optional<Accumulator> accumulator_;  ///< of passes that record
+    std::optional<AnyAccumulator> accumulator_;  ///< of passes that record
     std::mutex splats_lock_;
     SplatSums splats_;  ///< made when the first unit splats
     bool splatted_ = false;

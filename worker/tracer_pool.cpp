@@ -90,7 +90,7 @@ void TracerPool::run() {
 }
 
 void TracerPool::trace(PassWork& pass, const WorkUnit& unit, UnitOutput& output) {
-    output.begin(pass.guide().distribution_count(), pass.plan().layers.splats);
+    output.begin(pass.guide().regions().distribution_count(), pass.plan().layers.splats);
     render_(pass.plan(), pass.guide(), unit, output);
     samples_ += output.stats.paths;
     rays_ += output.stats.rays + output.stats.shadow_rays;

@@ -265,7 +265,7 @@ class WorkerLoop {
                 pass_task_job_ = job_number_;
                 pass_task_ = std::async(std::launch::async, [plan = coming_->plan, bytes = std::move(*tree),
                                                              filter = job_.guiding.directional_filter] {
-                    return std::make_shared<PassWork>(plan, decode_tree(bytes), filter);
+                    return std::make_shared<PassWork>(plan, AnyModel::decode(bytes), filter);
                 });
             }
         }

@@ -4,15 +4,17 @@
 #include <algorithm>
 
 #include "common/config/estimators.h"
+#include "common/plan/learning.h"
+
 namespace treefarm {
 
 namespace {
 
 KernelChoice kernel_for(const PassPlan& pass, bool plainly_diffuse, const TreeFacts& tree) {
     KernelChoice kernel;
-    kernel.plain_diffuse = plainly_diffuse;
     kernel.guided = pass.guided && tree.trained;
     kernel.record = pass.record;
+    kernel.plain_diffuse = plainly_diffuse && (tree.plain_kernels || !(kernel.guided || kernel.record));
     kernel.views = tree.has_views && !kernel.plain_diffuse && (kernel.guided || kernel.record);
     return kernel;
 }
@@ -27,8 +29,18 @@ std::string KernelChoice::name() const {
     return text;
 }
 
-TreeFacts facts_of(const SdTree& tree) {
-    return {tree.trained, tree.view_count() > 0};
+TreeFacts facts_of(const AnyModel& model) {
+    const RegionModel& regions = model.regions();
+    return model.visit([&]<class G>(const auto&) {
+        return TreeFacts{regions.trained, regions.quantum_exponent.size() > regions.leaf_count(), G::kPlainKernels};
+    });
+}
+
+TreeFacts facts_of(const AnySampler& guide) {
+    const RegionSampler& regions = guide.regions();
+    return guide.visit([&]<class G>(const auto&) {
+        return TreeFacts{regions.trained(), regions.distribution_count() > regions.region_count(), G::kPlainKernels};
+    });
 }
 
 KernelChoice kernel_of(const Resolved& job, const PassPlan& pass, const TreeFacts& tree) {
@@ -43,7 +55,9 @@ std::vector<KernelUse> kernels_of(const Resolved& job) {
     std::vector<KernelUse> uses;
     if (const Estimator* estimator = find_estimator(job.integrator.type); estimator && !estimator->guides) return uses;
     for (const PassPlan& pass : plan_passes(job)) {
-        const KernelChoice kernel = kernel_of(job, pass, {pass.index > 0, job.learns_views});
+        TreeFacts facts{pass.index > 0, job.learns_views};
+        with_guide(guide_kind(job), [&]<class G>() { facts.plain_kernels = G::kPlainKernels; });
+        const KernelChoice kernel = kernel_of(job, pass, facts);
         const auto known =
             std::find_if(uses.begin(), uses.end(), [&](const KernelUse& u) { return u.kernel == kernel; });
         if (known != uses.end())

@@ -5,21 +5,23 @@
 #include <string>
 #include <vector>
 
-#include "common/guiding/sd_tree.h"
+#include "common/guiding/any_guide.h"
 #include "common/plan/schedule.h"
 
 namespace treefarm {
 
-/// Kernels in the program.
-inline constexpr int kKernelCount = 11;
+/// Kernels in the program: two that no guide takes part in, and those of guides.
+inline constexpr int kKernelCount = 2 + Guides::kKernels;
 
-/// Facts of the tree that a pass begins with.
+/// Facts of the guide's model that a pass begins with.
 struct TreeFacts {
     bool trained = false;
     bool has_views = false;
+    bool plain_kernels = true;  ///< the guide has kernels for plainly diffuse scenes
 };
 
-TreeFacts facts_of(const SdTree& tree);
+TreeFacts facts_of(const AnyModel& model);
+TreeFacts facts_of(const AnySampler& guide);
 
 /// The kernel of one pass. Pure; whoever renders a pass sets it once, and workers take it as it is.
 KernelChoice kernel_of(const Resolved& job, const PassPlan& pass, const TreeFacts& tree);

@@ -6,17 +6,33 @@
 #include "common/plan/policy.h"
 
 namespace treefarm {
-SdTree first_tree(const Resolved& job, const Box3& bounds, float radiance_scale) {
-    const float a = job.guiding.bsdf_fraction;
-    return initial_tree(
-        bounds, {job.guiding.target == GuidingTarget::variance ? radiance_scale * radiance_scale : radiance_scale, a,
-                 job.learns_views, job.guiding.learn_bsdf_fraction ? 0.0f : 1.0f - a, job.learns_lights});
+
+GuideKind guide_kind(const Resolved& job) {
+    switch (job.guiding.type) {
+        case GuidingType::none:
+        case GuidingType::ppg:
+        case GuidingType::view:
+        case GuidingType::automatic:
+            return GuideKind::sd_tree;
+    }
+    return {};
 }
 
-SdTree first_tree(const Resolved& job, const Scene& scene) {
+AnyModel first_model(const Resolved& job, const Box3& bounds, float radiance_scale) {
+    FirstModel first;
+    first.radiance_scale =
+        job.guiding.target == GuidingTarget::variance ? radiance_scale * radiance_scale : radiance_scale;
+    first.bsdf_fraction = job.guiding.bsdf_fraction;
+    first.with_views = job.learns_views;
+    first.view_fraction = job.guiding.learn_bsdf_fraction ? 0.0f : 1.0f - job.guiding.bsdf_fraction;
+    first.with_lights = job.learns_lights;
+    return AnyModel::first(guide_kind(job), bounds, first);
+}
+
+AnyModel first_model(const Resolved& job, const Scene& scene) {
     Box3 bounds = scene.bounds();
     bounds.extendBy(scene.camera.origin);
-    return first_tree(job, bounds, scene.radiance_scale());
+    return first_model(job, bounds, scene.radiance_scale());
 }
 
 RefineSettings refine_settings(const Resolved& job, const PassPlan& pass, const PassPlan& coming) {
@@ -38,9 +54,8 @@ RefineSettings refine_settings(const Resolved& job, const PassPlan& pass, const 
     return settings;
 }
 
-SumsShape sums_shape(const PassPlan& pass, const SdTree& tree) {
-    return {tree.region_count(), tree.cell_count(), pass.learn_mixture, tree.view_count(),
-            !tree.light_probabilities.empty()};
+SumsShape sums_shape(const PassPlan& pass, const AnyModel& model) {
+    return model.sums_shape(pass.learn_mixture);
 }
 
 }  // namespace treefarm

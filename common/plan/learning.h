@@ -1,21 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "common/guiding/refine.h"
-#include "common/guiding/sd_tree.h"
+#include "common/guiding/any_guide.h"
+#include "common/guiding/regions/refinement.h"
 #include "common/plan/schedule.h"
 
 namespace treefarm {
 
-/// The tree before the first pass over `bounds`; a record of average value is about `radiance_scale`.
-SdTree first_tree(const Resolved& job, const Box3& bounds, float radiance_scale);
-/// The first tree, over all that the scene's camera can see.
-SdTree first_tree(const Resolved& job, const Scene& scene);
+/// The guide of a job; of one that nothing guides, that whose model stands idle.
+GuideKind guide_kind(const Resolved& job);
+
+/// The guide's model before the first pass over `bounds`; a record of average value is about `radiance_scale`.
+AnyModel first_model(const Resolved& job, const Box3& bounds, float radiance_scale);
+/// The first model, over all that the scene's camera can see.
+AnyModel first_model(const Resolved& job, const Scene& scene);
 
 /// How the job refines the tree after `pass` for the `coming` one.
 RefineSettings refine_settings(const Resolved& job, const PassPlan& pass, const PassPlan& coming);
 
-/// Shape of the sums of a pass over `tree`.
-SumsShape sums_shape(const PassPlan& pass, const SdTree& tree);
+/// Shape of the sums of a pass over `model`.
+SumsShape sums_shape(const PassPlan& pass, const AnyModel& model);
 
 }  // namespace treefarm

@@ -8,7 +8,7 @@
 #include "common/config/aov_list.h"
 #include "common/film/fold_passes.h"
 #include "common/film/pixel_estimate.h"
-#include "common/guiding/tree_update.h"
+#include "common/guiding/statistics/cell_sums.h"
 #include "common/plan/kernel.h"
 #include "common/plan/learning.h"
 #include "common/plan/schedule.h"
@@ -26,12 +26,9 @@ constexpr double kRegionFilling = 0.65;
 constexpr double kCellsPerRegion = 2.4;
 constexpr double kCellsPerRegionByUse = 2.0;
 
-/// Sampling form of a cell, and its two sums (docs/design/guiding.md).
-constexpr std::uint64_t kGuideBytesPerCell = 8;
-constexpr std::uint64_t kGuideBytesPerRegion = 2 * 65 * 4 + 40;
-constexpr std::uint64_t kGuideBytesPerView = 32;
 /// Views for each region of a scene that learns views.
 constexpr double kViewsPerRegion = 0.5;
+/// A cell's two sums (docs/design/guiding.md).
 constexpr std::uint64_t kSumBytes = 8;
 constexpr std::uint64_t kPlainTreeBytesPerCell = 5;
 constexpr std::uint64_t kPlainTreeBytesPerRegion = 2 * 8 + 6;
@@ -110,8 +107,8 @@ std::uint64_t emitter_table_bytes(const Scene& scene, const Emitter& emitter) {
 }
 
 std::uint64_t TreeSize::guide_bytes() const {
-    return regions * (kGuideBytesPerRegion + (with_lights ? sizeof(LightProbabilities) : 0)) +
-           views * kGuideBytesPerView + cells * kGuideBytesPerCell;
+    return regions * (cost.region + (with_lights ? sizeof(LightProbabilities) : 0)) + views * cost.view +
+           cells * cost.cell;
 }
 
 std::uint64_t TreeSize::sum_bytes() const {
@@ -132,6 +129,13 @@ std::uint64_t MemoryPlan::coordinator_bytes() const {
 TreeSize expected_tree(const Scene& scene, const Resolved& job) {
     if (!job.guides) return {};
     const std::vector<PassPlan> passes = plan_passes(job);
+    const bool with_mixture =
+        std::any_of(passes.begin(), passes.end(), [](const PassPlan& pass) { return pass.learn_mixture; });
+    const AnyModel first = first_model(job, Box3(), 1.0f);
+    if (!first.grows()) {
+        const ModelFigures size = first.figures();
+        return {size.regions, size.cells, with_mixture, size.views, job.learns_lights, first.cost()};
+    }
     const int depth = job.integrator.max_depth;
     const double length = depth < 0 ? kVerticesPerPath : std::min(kVerticesPerPath, std::max(depth - 1.0, 0.0));
     const auto pixels = static_cast<double>(scene.film.pixel_count());
@@ -144,10 +148,12 @@ TreeSize expected_tree(const Scene& scene, const Resolved& job) {
     const double region_cells = job.cells_follow_use ? kCellsPerRegionByUse : kCellsPerRegion;
     const double cells =
         (region_cells * regions + kCellsPerRegion * views) / static_cast<double>(job.guiding.directional_threshold);
-    const bool with_mixture =
-        std::any_of(passes.begin(), passes.end(), [](const PassPlan& pass) { return pass.learn_mixture; });
-    return {static_cast<std::uint64_t>(regions), static_cast<std::uint64_t>(cells), with_mixture,
-            static_cast<std::uint64_t>(views), job.learns_lights};
+    return {static_cast<std::uint64_t>(regions),
+            static_cast<std::uint64_t>(cells),
+            with_mixture,
+            static_cast<std::uint64_t>(views),
+            job.learns_lights,
+            first.cost()};
 }
 
 MemoryPlan expected_memory(const Scene& scene, const Resolved& job) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "common/guiding/any_guide.h"
 #include "common/plan/resolve.h"
 #include "common/scene/model/scene.h"
 
@@ -25,12 +26,13 @@ struct MemoryPlan {
     std::uint64_t coordinator_bytes() const;
 };
 
-/// Expected size of an SD-tree after the last pass that records.
+/// Expected size of a guide's model after the last pass that records.
 struct TreeSize {
     std::uint64_t regions = 0, cells = 0;
     bool with_mixture = false;  ///< histograms from which the fractions of BSDF and tree are learned
     std::uint64_t views = 0;    ///< of T2; their cells are among `cells`
     bool with_lights = false;   ///< next event learns how to choose emitters
+    SamplerCost cost = {};      ///< of the form that workers sample from
 
     std::uint64_t guide_bytes() const;  ///< the form that workers sample from
     std::uint64_t sum_bytes() const;    ///< the plain form and the sums of what is recorded
@@ -52,7 +54,7 @@ std::uint64_t emitter_table_bytes(const Scene& scene, const Emitter& emitter);
 
 /// Expected size of the tree: a region holds about as many vertices as its splitting threshold asks for. A path is
 /// counted as eight vertices, a region's quadtree as 2.4 / directional_threshold cells, views as what they are bounded
-/// by (one for two regions). 0 without guiding.
+/// by (one for two regions). Of a guide that does not grow it is known. 0 without guiding.
 TreeSize expected_tree(const Scene& scene, const Resolved& job);
 
 /// Memory of the data of a render as formulas of scene and job. Program, libraries, MPI's buffers and the peak while

@@ -129,7 +129,7 @@ struct Result {
     std::uint64_t incarnation = 0;
     std::uint32_t pass = 0;
     std::vector<UnitResult> units;
-    Bytes update;  ///< TreeSums::encode(); empty when the pass records nothing
+    Bytes update;  ///< CellSums::encode(); empty when the pass records nothing
     Bytes splats;  ///< SplatSums::encode() of exactly these units; empty where the pass has none
     TraceStats stats;
 };

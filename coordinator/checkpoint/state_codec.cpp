@@ -186,11 +186,10 @@ bool is_film_name(const std::string& name) {
 }  // namespace
 
 std::vector<Section> encode_state(const CheckpointOrigin& origin, const RenderState& state) {
-    return {
-        section(kOrigin, origin),         section(kHistory, state.history),
-        section(kFilms, state.films),     section(kProbes, state.probe, state.set_aside),
-        section(kAovs, state.aovs),       section(kModel, encode_tree(state.tree), state.last_tree, state.tree_hash),
-        section(kLearner, state.learner), section(kReports, state.reports)};
+    return {section(kOrigin, origin),         section(kHistory, state.history),
+            section(kFilms, state.films),     section(kProbes, state.probe, state.set_aside),
+            section(kAovs, state.aovs),       section(kModel, state.tree.encode(), state.last_tree, state.tree_hash),
+            section(kLearner, state.learner), section(kReports, state.reports)};
 }
 
 CheckpointOrigin decode_origin(const SectionFile& file) {
@@ -208,7 +207,7 @@ RenderState decode_state(const SectionFile& file, std::size_t pixels, std::span<
     read(file, kAovs, state.aovs);
     Bytes tree;
     read(file, kModel, tree, state.last_tree, state.tree_hash);
-    state.tree = decode_tree(tree);
+    state.tree = AnyModel::decode(tree);
     read(file, kLearner, state.learner);
     read(file, kReports, state.reports);
     require(state.history.guiding <= Guiding::loses, "an unknown verdict on guiding");

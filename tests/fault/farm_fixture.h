@@ -64,7 +64,7 @@ inline void fill_aovs(const AovLayout& layout, const Job& job, const PassPlan& p
 
 inline RenderUnit fake_renderer(const Job& job) {
     return [job, layout = AovLayout(aov_requests(job)), render = fake_renderer(job.sampler.seed, kWidth)](
-               const PassPlan& pass, const Guide& guide, const WorkUnit& unit, UnitOutput& output) {
+               const PassPlan& pass, const AnySampler& guide, const WorkUnit& unit, UnitOutput& output) {
         render(pass, guide, unit, output);
         fill_aovs(layout, job, pass, unit, output);
     };

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cstdlib>
 
-#include "common/guiding/light_probabilities.h"
-#include "common/guiding/splat.h"
+#include "common/guiding/regions/light_probabilities.h"
+#include "common/guiding/statistics/cell_accumulator.h"
 #include "tests/fuzz/fuzz.h"
 #include "tests/support/random_tree.h"
 
@@ -19,16 +19,16 @@ const SdTree& small_tree() {
     return tree;
 }
 
-TreeSums empty_sums() {
+CellSums empty_sums() {
     const SdTree& tree = small_tree();
     return {tree.pass, SumsShape(tree.region_count(), tree.cell_count(), false, tree.view_count(), true)};
 }
 
 void merge(std::span<const std::uint8_t> bytes) {
-    TreeSums sums = empty_sums();
+    CellSums sums = empty_sums();
     try {
         sums.merge_encoded(bytes);
-        TreeSums again = empty_sums();
+        CellSums again = empty_sums();
         again.merge_encoded(sums.encode());
         if (again != sums) std::abort();
     } catch (const FormatError&) {
@@ -42,12 +42,12 @@ void decode(std::span<const std::uint8_t> bytes) {
         const Bytes form = encode_tree(tree);
         if (encode_tree(decode_tree(form)) != form) std::abort();
         // What was read can be walked and sampled.
-        const Guide guide(tree);
+        const SdTreeSampler guide(tree);
         for (const float at : {0.0f, 0.3f, 1.0f})
             if (guide.region(tree.origin + Vec3(at * tree.extent)) >= tree.region_count()) std::abort();
         for (const std::uint32_t code : {0u, 0x77777777u, 0xffffffffu}) {
             const std::uint32_t view = guide.view(guide.region(tree.origin), code);
-            if (view == Guide::kNoView) continue;
+            if (view == SdTreeSampler::kNoView) continue;
             if (view < tree.region_count() || view >= tree.distribution_count()) std::abort();
             if (!(guide.pdf(view, code) >= 0.0f)) std::abort();
         }
@@ -67,7 +67,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
 }
 
 std::vector<std::string> fuzz::seeds() {
-    const Guide guide(small_tree());
+    const SdTreeSampler guide(small_tree());
     const auto text = [](char kind, const Bytes& bytes) {
         return std::string(1, kind) + std::string(bytes.begin(), bytes.end());
     };
@@ -75,7 +75,7 @@ std::vector<std::string> fuzz::seeds() {
         std::vector<Record> records = test::random_view_records(guide, count, 5);
         records.push_back(light_record(1, guide.quantum_exponent(1), 3, 0.5f, 2.0f));
         std::vector<std::uint32_t> counts(guide.distribution_count(), 1);
-        Accumulator accumulator(small_tree().pass, guide);
+        CellAccumulator accumulator(small_tree().pass, guide);
         accumulator.commit(records, counts, {1, 2, 3});
         return accumulator.take().encode();
     };

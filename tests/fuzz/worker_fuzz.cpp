@@ -3,7 +3,7 @@
 #include <deque>
 
 #include "common/base/hash.h"
-#include "common/guiding/sd_tree.h"
+#include "common/guiding/sd_tree/sd_tree.h"
 #include "tests/fuzz/fuzz.h"
 #include "tests/fuzz/message_script.h"
 #include "tests/support/fake_work.h"
@@ -101,7 +101,7 @@ class ScriptedChannel final : public Channel {
 
 RenderUnit make_renderer(std::span<const std::uint8_t> scene, const Job& job) {
     if (!std::equal(scene.begin(), scene.end(), kScene.begin(), kScene.end())) throw RunError("wrong scene");
-    return [render = test::fake_renderer(job.sampler.seed, kSize)](const PassPlan& pass, const Guide& guide,
+    return [render = test::fake_renderer(job.sampler.seed, kSize)](const PassPlan& pass, const AnySampler& guide,
                                                                    const WorkUnit& unit, auto&... out) {
         const std::uint64_t paths = std::uint64_t{pass.units.light_paths} * pass.layers.splats.pixels;
         if (unit.x1 > kSize || unit.y1 > kSize || unit.kind == UnitKind::chains ||

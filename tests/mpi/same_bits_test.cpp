@@ -3,6 +3,7 @@
 
 #include "common/config/estimators.h"
 #include "tests/mpi/program.h"
+#include "tests/support/guide_types.h"
 #include "tests/support/support.h"
 
 // The same image and the same tree, whatever renders them (docs/design/testing.md).
@@ -137,6 +138,25 @@ TEST(SameBits, Estimators) {
         EXPECT_EQ(render(mpirun(2), "1", "8"), alone) << estimator.type;
         EXPECT_EQ(render(mpirun(3), "1", "50"), alone) << estimator.type;
         EXPECT_EQ(render(mpirun(5), "1", "32"), alone) << estimator.type;
+    }
+}
+
+/// Every guide: ranks, threads and tiles change together.
+TEST(SameBits, Guides) {
+    EXPECT_GE(guide_types().size(), 3u);
+    for (const std::string& word : guide_types()) {
+        const auto render = [&](const std::vector<std::string>& launcher, const char* threads, const char* tile) {
+            return render_scene(
+                launcher, {own_scene("glossy-room.xml"), "--set", "image.width=36", "--set", "image.height=24", "--spp",
+                           "28", "--threads", threads, "--set", std::string("farm.tile_size=") + tile, "--set",
+                           "guiding.type=" + word, "--set", "guiding.spatial_threshold=200"});
+        };
+        const Hashes alone = render({}, "1", "32");
+        EXPECT_FALSE(alone.image.empty());
+        EXPECT_EQ(render({}, "3", "8"), alone) << word;
+        EXPECT_EQ(render(mpirun(2), "3", "50"), alone) << word;
+        EXPECT_EQ(render(mpirun(3), "1", "8"), alone) << word;
+        EXPECT_EQ(render(mpirun(5), "1", "50"), alone) << word;
     }
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 
-#include "common/guiding/guide.h"
-#include "common/guiding/refine.h"
+#include "common/guiding/sd_tree/refine.h"
+#include "common/guiding/sd_tree/sd_tree_sampler.h"
 #include "tests/oracle/oracle.h"
 
 namespace treefarm::oracle {
@@ -18,8 +18,8 @@ void quadtrees(std::uint64_t count, std::vector<Row>& rows) {
     SdTree tree;
     for (std::uint64_t i = 0; i < count / 4096 + 8; ++i) {
         if (i % 8 == 0) tree = initial_tree(Box3(Vec3(0.0f), Vec3(1.0f)), 1.0f);
-        TreeSums energy(tree.pass, 1, tree.cell_count());
-        const Guide guide(tree);
+        CellSums energy(tree.pass, 1, tree.cell_count());
+        const SdTreeSampler guide(tree);
         // A few narrow lobes over a faint background.
         for (std::uint32_t c = 0; c < tree.cell_count(); ++c)
             energy.add_quanta(c, static_cast<std::uint64_t>(in.scale(1.0f, 1e6f)));
@@ -28,7 +28,7 @@ void quadtrees(std::uint64_t count, std::vector<Row>& rows) {
         energy.add_count(0, 1000);
         RefineReport report;
         const SdTree next = refine(tree, energy, {.spatial_threshold = 1e18}, report);
-        const Guide refined(next);
+        const SdTreeSampler refined(next);
         Quad total = 0, sum = 0;
         for (const std::uint64_t e : energy.cells())
             total += Quad(e);

@@ -2,8 +2,8 @@
 // Frames, maps of directions, and the quadtrees over them at their seams, poles and depth limits.
 #include <random>
 
-#include "common/guiding/guide.h"
-#include "common/guiding/refine.h"
+#include "common/guiding/sd_tree/refine.h"
+#include "common/guiding/sd_tree/sd_tree_sampler.h"
 #include "common/math/direction_map.h"
 #include "common/math/frame.h"
 #include "common/math/warp_batch.h"
@@ -78,7 +78,7 @@ TEST(Directions, OnSeamsAndPoles) {
         ASSERT_EQ(codes[0], direction_to_code(d)) << d;
     }
     EXPECT_LT(worst.value, 2e-6) << worst.where;
-    const Guide guide(initial_tree(Box3(Vec3(0.0f), Vec3(1.0f)), 1.0f));
+    const SdTreeSampler guide(initial_tree(Box3(Vec3(0.0f), Vec3(1.0f)), 1.0f));
     for (const Vec3& bad : {Vec3(test::kNan), Vec3(0.0f, test::kNan, 1.0f), Vec3(test::kInfinity), Vec3(0.0f)})
         EXPECT_LT(guide.cell(0, direction_to_code(bad)), 256u);
     test::figure("largest movement of a direction", worst.value);
@@ -88,8 +88,8 @@ TEST(Directions, OnSeamsAndPoles) {
 SdTree deep_tree(std::uint32_t code, int passes, RefineReport& report) {
     SdTree tree = initial_tree(Box3(Vec3(0.0f), Vec3(1.0f)), 1.0f);
     for (int pass = 0; pass < passes; ++pass) {
-        TreeSums sums(tree.pass, tree.region_count(), tree.cell_count());
-        sums.add_quanta(Guide(tree).cell(0, code), 1'000'000);
+        CellSums sums(tree.pass, tree.region_count(), tree.cell_count());
+        sums.add_quanta(SdTreeSampler(tree).cell(0, code), 1'000'000);
         for (std::uint32_t c = 0; c < tree.cell_count(); c += 7)
             sums.add_quanta(c, 3);
         sums.add_count(0, 100);
@@ -121,7 +121,7 @@ TEST(Directions, QuadtreesAtTheirDepthLimit) {
         const SdTree tree = deep_tree(code, 20, report);
         EXPECT_EQ(report.directional_depth, kMaxDirectionDepth);
         EXPECT_GT(report.directional_depth_capped, 0u);
-        const Guide guide(tree);
+        const SdTreeSampler guide(tree);
         double sum = 0;
         std::uint64_t begin = 0, mass = 0;
         for (const std::uint32_t m : tree.cell_mass)
@@ -136,7 +136,7 @@ TEST(Directions, QuadtreesAtTheirDepthLimit) {
         ASSERT_EQ(begin, std::uint64_t{1} << 32);
         for (int i = 0; i < 20000; ++i) {
             const auto u = [&] { return static_cast<std::uint32_t>(random()); };
-            const Guide::Sample s = guide.sample(0, u(), u(), u());
+            const SdTreeSampler::Sample s = guide.sample(0, u(), u(), u());
             ASSERT_EQ(s.pdf, guide.pdf(0, s.code)) << code;
             ASSERT_GT(s.pdf, 0.0f);
         }
@@ -154,18 +154,18 @@ TEST(Directions, QuadtreesAtTheirDepthLimit) {
 /// other cells have density 0; a mixture's density stays above 0 wherever the BSDF's is.
 TEST(Directions, CellsWithoutEnergy) {
     const SdTree first = initial_tree(Box3(Vec3(0.0f), Vec3(1.0f)), 1.0f);
-    TreeSums sums(0, 1, 256);
+    CellSums sums(0, 1, 256);
     sums.add_count(0, 1000);
     RefineReport report;
     const SdTree even = refine(first, sums, {.spatial_threshold = 1e18}, report);
-    const Guide even_guide(even);
+    const SdTreeSampler even_guide(even);
     ASSERT_EQ(even_guide.cell_count(), 256u);
     for (std::uint32_t c = 0; c < 256; ++c)
         ASSERT_EQ(even_guide.pdf(0, c << 24), kInvFourPi);
 
     sums.add_quanta(17, 1);
     const SdTree one = refine(first, sums, {.spatial_threshold = 1e18}, report);
-    const Guide guide(one);
+    const SdTreeSampler guide(one);
     std::mt19937 random(3);
     for (int i = 0; i < 10000; ++i) {
         const auto u = [&] { return static_cast<std::uint32_t>(random()); };

@@ -28,7 +28,7 @@ const ScaleAndOffset kScalesAndOffsets[] = {{1e-4f, Vec3(0.0f)},
 
 std::vector<PixelEstimate> render(const Scene& scene, const Job& job, std::uint32_t spp, bool next_event) {
     const TraceScene trace(scene, job);
-    const Guide guide(initial_tree(scene.bounds(), 1.0f));
+    const SdTreeSampler guide(initial_tree(scene.bounds(), 1.0f));
     PassPlan pass;
     pass.spp = spp;
     pass.next_event = next_event;
@@ -137,9 +137,9 @@ TEST(ScaleByTwo, PowersOfTwoAreTheSameBits) {
                         ASSERT_EQ(here.image.mean[i], there.image.mean[i]) << factor << " " << i << " " << int(guiding);
                         ASSERT_EQ(here.image.variance[i], there.image.variance[i]) << factor << " " << i;
                     }
-                    EXPECT_EQ(there.tree.cell_mass, here.tree.cell_mass);
-                    EXPECT_EQ(there.tree.cell_depth, here.tree.cell_depth);
-                    EXPECT_EQ(there.tree.extent, here.tree.extent * factor);
+                    EXPECT_EQ(there.tree().cell_mass, here.tree().cell_mass);
+                    EXPECT_EQ(there.tree().cell_depth, here.tree().cell_depth);
+                    EXPECT_EQ(there.tree().extent, here.tree().extent * factor);
                 }
             }
     }

@@ -4,9 +4,9 @@
 #include <random>
 
 #include "common/base/error.h"
-#include "common/guiding/mixture.h"
-#include "common/guiding/refine.h"
-#include "common/guiding/splat.h"
+#include "common/guiding/regions/mixture.h"
+#include "common/guiding/sd_tree/refine.h"
+#include "common/guiding/statistics/cell_accumulator.h"
 #include "tests/support/hard_case.h"
 #include "tests/support/random_tree.h"
 
@@ -22,7 +22,7 @@ SdTree one_region(float radiance_scale) {
 /// Here: sums are integers of 64 bits.
 /// Holds: 2^25 counts and 2^25 records of one quantum, then 2^31 more counts, give exactly that many.
 TEST(Sums, CountBeyondFloats) {
-    TreeSums sums(0, 1, 256);
+    CellSums sums(0, 1, 256);
     constexpr std::uint64_t kMany = std::uint64_t{1} << 25;
     for (std::uint64_t i = 0; i < kMany; ++i) {
         sums.add_count(0, 1);
@@ -46,11 +46,11 @@ TEST(Sums, CapsAreMetAndCounted) {
         EXPECT_EQ(quantise(huge, -16, 7u, capped), std::uint64_t{1} << 40);
         EXPECT_TRUE(capped);
     }
-    TreeSums sums(0, 1, 256);
+    CellSums sums(0, 1, 256);
     EXPECT_TRUE(sums.add_quanta(0, std::uint64_t(-1) - 5));
     EXPECT_FALSE(sums.add_quanta(0, 6));
     EXPECT_EQ(sums.cells()[0], std::uint64_t(-1));
-    TreeSums other(0, 1, 256);
+    CellSums other(0, 1, 256);
     other.add_quanta(0, 12);
     sums.add(other);
     sums.merge_encoded(other.encode());
@@ -67,7 +67,7 @@ TEST(Sums, CapsAreMetAndCounted) {
 /// up to their sum within 4.5 standard errors; units of regions reach from 1e-30 to 1e30 with the same relative
 /// steps.
 TEST(Sums, RangesWithinAndBetweenRegions) {
-    TreeSums sums(0, 1, 256);
+    CellSums sums(0, 1, 256);
     bool capped = false;
     sums.add_quanta(0, quantise(0x1.fffffep39f, 0, 0, capped));
     for (int i = 0; i < 1000; ++i)
@@ -94,7 +94,7 @@ TEST(Sums, RangesWithinAndBetweenRegions) {
 
     // A region whose mean record is beyond the largest float keeps the largest unit, not that of 1.
     const SdTree bright = one_region(1e30f);
-    TreeSums huge(bright.pass, 1, bright.cell_count());
+    CellSums huge(bright.pass, 1, bright.cell_count());
     huge.add_quanta(5, std::uint64_t{1} << 60);
     huge.add_count(0, 1);
     RefineReport report;
@@ -111,7 +111,7 @@ TEST(Sums, RangesWithinAndBetweenRegions) {
 /// bytes, refined tree and mixture, bit for bit.
 TEST(Sums, ThousandsOfUpdatesInAnyOrder) {
     const SdTree tree = test::random_tree(3, 20000, 500, 1);
-    const Guide guide(tree);
+    const SdTreeSampler guide(tree);
     std::vector<Record> records = test::random_records(guide, 120'000, 9);
     for (std::size_t i = 0; i < records.size(); ++i) {
         records[i].reflected = records[i].value;
@@ -119,7 +119,7 @@ TEST(Sums, ThousandsOfUpdatesInAnyOrder) {
     }
     std::vector<Bytes> updates;
     for (std::size_t first = 0; first < records.size(); first += 40) {
-        Accumulator part(tree.pass, guide, DirectionalFilter::box, true);
+        CellAccumulator part(tree.pass, guide, DirectionalFilter::box, true);
         std::vector<std::uint32_t> counts(guide.region_count());
         for (std::size_t i = first; i < first + 40; ++i)
             ++counts[records[i].distribution];
@@ -128,17 +128,17 @@ TEST(Sums, ThousandsOfUpdatesInAnyOrder) {
     }
     ASSERT_EQ(updates.size(), 3000u);
     std::mt19937 random(5);
-    TreeSums reference;
+    CellSums reference;
     Bytes refined;
     for (int order = 0; order < 3; ++order) {
-        TreeSums sums(tree.pass, guide.region_count(), guide.cell_count(), true);
+        CellSums sums(tree.pass, guide.region_count(), guide.cell_count(), true);
         // The last time in eight groups that are added to each other.
         if (order < 2) {
             for (const Bytes& update : updates)
                 sums.merge_encoded(update);
         } else {
             for (std::size_t group = 0; group < 8; ++group) {
-                TreeSums part(tree.pass, guide.region_count(), guide.cell_count(), true);
+                CellSums part(tree.pass, guide.region_count(), guide.cell_count(), true);
                 for (std::size_t i = group; i < updates.size(); i += 8)
                     part.merge_encoded(updates[i]);
                 sums.add(part);
@@ -167,7 +167,7 @@ TEST(Sums, ThousandsOfUpdatesInAnyOrder) {
 /// those of a well-formed update: refining them gives probabilities that sum to 2^30.
 TEST(Sums, DamagedUpdatesChangeNothing) {
     const SdTree tree = one_region(1.0f);
-    TreeSums update(tree.pass, 1, tree.cell_count());
+    CellSums update(tree.pass, 1, tree.cell_count());
     for (std::uint32_t c = 0; c < tree.cell_count(); c += 3)
         update.add_quanta(c, c + 1);
     update.add_count(0, 50);
@@ -180,8 +180,8 @@ TEST(Sums, DamagedUpdatesChangeNothing) {
             bad.resize(random() % bad.size());
         else
             bad[random() % bad.size()] ^= static_cast<std::uint8_t>(1u << (random() % 8));
-        TreeSums sums(tree.pass, 1, tree.cell_count());
-        const TreeSums before = sums;
+        CellSums sums(tree.pass, 1, tree.cell_count());
+        const CellSums before = sums;
         try {
             sums.merge_encoded(bad);
         } catch (const FormatError&) {

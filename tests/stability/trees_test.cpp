@@ -2,9 +2,9 @@
 // Spatial trees of scenes without extent, of coincident points, and of extreme light.
 #include <random>
 
-#include "common/guiding/mixture.h"
-#include "common/guiding/refine.h"
-#include "common/guiding/splat.h"
+#include "common/guiding/regions/mixture.h"
+#include "common/guiding/sd_tree/refine.h"
+#include "common/guiding/statistics/cell_accumulator.h"
 #include "common/plan/policy.h"
 #include "tests/support/hard_case.h"
 #include "tests/support/test_scenes.h"
@@ -31,9 +31,9 @@ TEST(Trees, TenMillionRecordsAtOnePoint) {
         SdTree tree = initial_tree(Box3(Vec3(0.0f), Vec3(1.0f)), 1.0f);
         RefineReport report;
         for (int pass = 0; pass < 10; ++pass) {
-            const Guide guide(tree);
+            const SdTreeSampler guide(tree);
             const std::uint32_t region = guide.region(point);
-            TreeSums sums(tree.pass, tree.region_count(), tree.cell_count());
+            CellSums sums(tree.pass, tree.region_count(), tree.cell_count());
             sums.add_count(region, 10'000'000);
             sums.add_quanta(guide.cell(region, 12345u), 10'000'000);
             // Nothing else was recorded: regions split by half their weight each.
@@ -41,7 +41,7 @@ TEST(Trees, TenMillionRecordsAtOnePoint) {
         }
         most = std::max<std::size_t>(most, tree.region_count());
         EXPECT_EQ(report.spatial_depth, kMaxSpatialDepth < 10 * 3 ? kMaxSpatialDepth : 30);
-        const Guide guide(tree);
+        const SdTreeSampler guide(tree);
         EXPECT_EQ(guide.region(point), guide.region(point + Vec3(1e-9f)));
         for (std::uint32_t r = 0; r < tree.region_count(); ++r)
             ASSERT_EQ(mass_of(tree, r), std::uint64_t{1} << kMassBits);
@@ -53,9 +53,9 @@ TEST(Trees, TenMillionRecordsAtOnePoint) {
     SdTree tree = first;
     RefineReport report;
     for (int pass = 0; pass < 12; ++pass) {
-        const Guide guide(tree);
+        const SdTreeSampler guide(tree);
         const std::uint32_t region = guide.region(Vec3(0.3f, 0.6f, 0.7f));
-        TreeSums sums(tree.pass, tree.region_count(), tree.cell_count());
+        CellSums sums(tree.pass, tree.region_count(), tree.cell_count());
         sums.add_count(region, 64);
         tree = refine(tree, sums, {.spatial_threshold = 1.5}, report);
     }
@@ -80,7 +80,7 @@ TEST(Trees, ScenesWithoutExtent) {
                 const Vec3 high = low + Vec3(axes & 1 ? size : 0.0f, axes & 2 ? size : 0.0f, axes & 4 ? size : 0.0f);
                 const SdTree tree = initial_tree(Box3(low, high), 1.0f);
                 ASSERT_TRUE(tree.extent > 0.0f && std::isfinite(tree.extent)) << at << " " << size;
-                const Guide guide(tree);
+                const SdTreeSampler guide(tree);
                 ASSERT_TRUE(guide.contains(low) && guide.contains(high)) << low << high;
                 ASSERT_EQ(guide.region(low), 0u);
             }
@@ -112,11 +112,11 @@ TEST(Trees, ScenesWithoutExtent) {
 TEST(Trees, PositionsOutsideTheCube) {
     const LetFloatsBe hostile;  // numbers that are none come in
     SdTree tree = initial_tree(Box3(Vec3(0.0f), Vec3(1.0f)), 1.0f);
-    TreeSums sums(0, 1, 256);
+    CellSums sums(0, 1, 256);
     sums.add_count(0, 4096);
     RefineReport report;
     tree = refine(tree, sums, {.spatial_threshold = 8.0}, report);
-    const Guide guide(tree);
+    const SdTreeSampler guide(tree);
     ASSERT_EQ(guide.region_count(), 512u);
     int positions = 2;
     std::mt19937 random(1);

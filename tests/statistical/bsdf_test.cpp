@@ -5,7 +5,7 @@
 #include "common/math/frame.h"
 #include "tests/support/chi_square.h"
 #include "tests/support/random_tree.h"
-#include "worker/integrators/path/guided_sampling.h"
+#include "worker/guides/sd_tree_walk.h"
 #include "worker/shading/plain_diffuse.h"
 
 namespace treefarm {
@@ -72,18 +72,18 @@ const SdTree& trained_tree() {
 }
 
 /// A trained tree; its cells are no finer than the grid on which the tests integrate.
-const Guide& trained_guide() {
-    static const Guide guide(trained_tree());
+const SdTreeSampler& trained_guide() {
+    static const SdTreeSampler guide(trained_tree());
     return guide;
 }
 
 TEST(GuideDistribution, SamplesFollowTheDensity) {
-    const Guide& guide = trained_guide();
+    const SdTreeSampler& guide = trained_guide();
     ASSERT_GT(guide.region_count(), 8u);
     for (const std::uint32_t region : {0u, guide.region_count() / 2, guide.region_count() - 1}) {
         const auto sample = [&](std::uint32_t i, Vec3& d) {
             const Draw r = draw({8, i, 0}, 0, Stream::scatter);
-            const Guide::Sample s = guide.sample(region, r[1], r[2], r[3]);
+            const SdTreeSampler::Sample s = guide.sample(region, r[1], r[2], r[3]);
             d = s.direction;
             return s.pdf > 0.0f;
         };
@@ -113,13 +113,13 @@ class TestSurface {
 /// Directions as a batch of paths draws them at one surface; f_cos black: none.
 class MixtureSamples {
   public:
-    MixtureSamples(const TestSurface& surface, const Guide& guide, std::uint32_t region, float fraction)
-        : MixtureSamples(surface, guide, Guidance{region, Guide::kNoView, fraction, 0.0f}) {}
-    MixtureSamples(const TestSurface& surface, const Guide& guide, const Guidance& guidance)
+    MixtureSamples(const TestSurface& surface, const SdTreeSampler& guide, std::uint32_t region, float fraction)
+        : MixtureSamples(surface, guide, SdTreeGuidance{region, SdTreeSampler::kNoView, fraction, 0.0f}) {}
+    MixtureSamples(const TestSurface& surface, const SdTreeSampler& guide, const SdTreeGuidance& guidance)
         : surface_(surface), guide_(guide), guidance_(guidance) {}
 
     /// The sample of a number. Samples of numbers that follow each other come from one batch.
-    const ScatterSample& operator[](std::uint32_t i) {
+    const SdTreeScatter& operator[](std::uint32_t i) {
         if (i / kDrawBatch != batch_) fill(i / kDrawBatch);
         return samples_[i % kDrawBatch];
     }
@@ -142,7 +142,7 @@ class MixtureSamples {
         VectorBatch cosines;
         draw_batch(8, keys, kDrawBatch, 0, Stream::scatter, draws);
         cosine_hemisphere_batch(draws, kDrawBatch, cosines);
-        ScatterBatch<true, true, true> scatter;
+        SdTreeScatterBatch<true, true, true> scatter;
         scatter.clear();
         std::array<bool, kDrawBatch> drawn;
         for (std::uint32_t k = 0; k < kDrawBatch; ++k)
@@ -156,19 +156,19 @@ class MixtureSamples {
     }
 
     const TestSurface& surface_;
-    const Guide& guide_;
-    Guidance guidance_;
+    const SdTreeSampler& guide_;
+    SdTreeGuidance guidance_;
     std::uint32_t batch_ = ~0u;
-    std::array<ScatterSample, kDrawBatch> samples_;
+    std::array<SdTreeScatter, kDrawBatch> samples_;
 };
 
 TEST(GuideDistribution, MixtureFollowsItsDensity) {
     const TestSurface surface(grey(0.5f, false), {0.3f, -0.4f, 0.2f}, {0.1f, 0.5f, 0.9f});
     for (const float fraction : {0.1f, 0.5f, 1.0f}) {
-        const Guide& guide = trained_guide();
+        const SdTreeSampler& guide = trained_guide();
         MixtureSamples samples(surface, guide, guide.region_count() / 3, fraction);
         const auto sample = [&](std::uint32_t i, Vec3& d) {
-            const ScatterSample& s = samples[i];
+            const SdTreeScatter& s = samples[i];
             d = s.world;
             return !is_black(s.f_cos);
         };
@@ -185,17 +185,17 @@ TEST(GuideDistribution, MixtureFollowsItsDensity) {
 }
 
 TEST(GuideDistribution, MixtureWithAViewFollowsItsDensity) {
-    static const Guide guide(test::random_view_tree(5, 60000, 1500, 4000, 2));
+    static const SdTreeSampler guide(test::random_view_tree(5, 60000, 1500, 4000, 2));
     const TestSurface surface(grey(0.5f, false), {0.3f, -0.4f, 0.2f}, {0.1f, 0.5f, 0.9f});
     std::uint32_t region = guide.region_count() / 2;
-    while (guide.view(region, 0) == Guide::kNoView)
+    while (guide.view(region, 0) == SdTreeSampler::kNoView)
         ++region;
-    for (const Guidance& guidance : {Guidance{region, guide.view(region, 77), 0.2f, 0.5f},
-                                     Guidance{region, guide.view(region, 0xc0000000u), 0.05f, 0.95f},
-                                     Guidance{region, guide.view(region, 0x80000000u), 0.5f, 0.0f}}) {
+    for (const SdTreeGuidance& guidance : {SdTreeGuidance{region, guide.view(region, 77), 0.2f, 0.5f},
+                                           SdTreeGuidance{region, guide.view(region, 0xc0000000u), 0.05f, 0.95f},
+                                           SdTreeGuidance{region, guide.view(region, 0x80000000u), 0.5f, 0.0f}}) {
         MixtureSamples samples(surface, guide, guidance);
         const auto sample = [&](std::uint32_t i, Vec3& d) {
-            const ScatterSample& s = samples[i];
+            const SdTreeScatter& s = samples[i];
             d = s.world;
             if (is_black(s.f_cos)) return false;
             EXPECT_EQ(s.pdf, samples.pdf(surface.bsdf().value(surface.wo(), s.local).pdf, s.code));
@@ -213,12 +213,12 @@ TEST(GuideDistribution, MixtureWithAViewFollowsItsDensity) {
 }
 
 TEST(GuideDistribution, SampleAndDensityOfTheMixtureAgree) {
-    const Guide& guide = trained_guide();
+    const SdTreeSampler& guide = trained_guide();
     const TestSurface surface(grey(0.5f, true), {-0.3f, 0.4f, -0.8f}, {0.1f, 0.5f, -0.9f});
     MixtureSamples samples(surface, guide, 1, 0.5f);
     int at_borders = 0;
     for (std::uint32_t i = 0; i < 100000; ++i) {
-        const ScatterSample& s = samples[i];
+        const SdTreeScatter& s = samples[i];
         if (is_black(s.f_cos)) continue;
         ASSERT_EQ(s.pdf, samples.pdf(surface.bsdf().value(surface.wo(), s.local).pdf, s.code));
         at_borders += s.code != direction_to_code(s.world);

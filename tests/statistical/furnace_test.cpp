@@ -72,7 +72,7 @@ TEST_P(Furnace, EveryPassHasTheExactMean) {
     const test::LocalRender run = test::render_locally(scene, job);
     ASSERT_GT(run.passes.size(), 4u);
     if (method.guiding != GuidingType::none) {
-        EXPECT_GT(run.tree.region_count(), 8u) << "the last passes are guided by a real tree";
+        EXPECT_GT(run.tree().region_count(), 8u) << "the last passes are guided by a real tree";
     }
     const double exact = 1.0 / (1.0 - double(method.albedo));
     for (const PassResult& pass : run.passes) {

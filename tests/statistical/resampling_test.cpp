@@ -13,7 +13,7 @@
 namespace treefarm {
 namespace {
 
-void offer(Candidates& candidates, const ScatterSample& s) {
+void offer(Candidates<ScatterSample>& candidates, const ScatterSample& s) {
     candidates.next() = s;
     candidates.offer();
 }
@@ -26,7 +26,7 @@ struct ShadedPoint {
     PlainDiffuse bsdf{Rgb(0.5f), false};
     Frame frame{normalize(Vec3(0.3f, -0.4f, 0.2f))};
     Vec3 wo{normalize(Vec3(0.1f, 0.5f, 0.9f))};
-    Guide guide{test::random_tree(5, 60000, 1500, 2)};
+    SdTreeSampler guide{test::random_tree(5, 60000, 1500, 2)};
     std::uint32_t region = guide.region_count() / 3;
 
     /// All that sampling knows of a direction.
@@ -49,7 +49,7 @@ struct ShadedPoint {
 
     /// Draws one of `count` candidates; false if nothing was found.
     bool draw_of(std::uint32_t count, std::uint32_t i, ScatterSample& s) const {
-        Candidates candidates;
+        Candidates<ScatterSample> candidates;
         const PathKey key{3, i, count};
         for (std::uint32_t c = 0; c < count; ++c)
             offer(candidates, draw_one(draw(key, c, Stream::scatter)));
@@ -147,7 +147,7 @@ TEST(Resampling, TheBetterOfTwoFollowsItsDensity) {
 }
 
 TEST(Resampling, NothingWorthTakingIsNothing) {
-    Candidates candidates;
+    Candidates<ScatterSample> candidates;
     ScatterSample s{};
     EXPECT_FALSE(candidates.take(2, 0.5f, s));
     s.f_cos = Rgb(1.0f);  // without density
@@ -167,7 +167,7 @@ TEST(Resampling, ProductsBeyondFloatsStillChoose) {
         sample.f_cos = Rgb(f);
         sample.pdf = 1.0f;
         sample.guide_pdf = f > 1.0f ? 1e6f : 1.0f;
-        Candidates candidates;
+        Candidates<ScatterSample> candidates;
         offer(candidates, sample);
         offer(candidates, sample);
         ScatterSample taken;
@@ -182,7 +182,7 @@ TEST(Resampling, NoDirectionWeighsMuchMoreThanAlone) {
     bright.pdf = dark.pdf = 1.0f;
     bright.guide_pdf = 1e6f;
     for (const float u : {0.0f, 0.5f, 0.89f, 0.91f, 0x1.fffffep-1f}) {
-        Candidates candidates;
+        Candidates<ScatterSample> candidates;
         offer(candidates, bright);
         offer(candidates, dark);
         ScatterSample s;

@@ -38,7 +38,7 @@ inline void fake_light_paths(std::uint64_t seed, const PassPlan& pass, const Wor
 /// A renderer without a scene, on a film of so many columns: radiance, records and splats come straight from the keyed
 /// generator. Samples of tiles splat where a pass has splats, but no light paths.
 inline RenderUnit fake_renderer(std::uint64_t seed, std::uint32_t width) {
-    return [seed, width](const PassPlan& pass, const Guide& guide, const WorkUnit& unit, UnitOutput& output) {
+    return [seed, width](const PassPlan& pass, const AnySampler& guide, const WorkUnit& unit, UnitOutput& output) {
         if (unit.kind == UnitKind::light_paths) return fake_light_paths(seed, pass, unit, output);
         auto& [pixels, log, stats, aovs, splats] = output;
         const bool splatting = pass.layers.splats.pixels > 0 && pass.units.light_paths == 0;
@@ -57,7 +57,7 @@ inline RenderUnit fake_renderer(std::uint64_t seed, std::uint32_t width) {
                     ++stats.paths;
                     stats.rays += 2;
                     if (!pass.record) continue;
-                    const std::uint32_t region = guide.region({to_unit(d[1]), to_unit(d[2]), 0.5f});
+                    const std::uint32_t region = guide.regions().region({to_unit(d[1]), to_unit(d[2]), 0.5f});
                     ++log.counts[region];
                     ++stats.records;
                     if (value > 0.5f) log.records.push_back({region, d[3] & d[1], d[2], value});
@@ -74,7 +74,7 @@ inline Result fake_result(const PassPlan& plan, std::span<const std::uint8_t> tr
     const RenderUnit render = fake_renderer(0, width);
     for (const WorkUnit& unit : units) {
         UnitOutput output;
-        output.begin(work.guide().distribution_count(), plan.layers.splats);
+        output.begin(work.guide().regions().distribution_count(), plan.layers.splats);
         render(plan, work.guide(), unit, output);
         work.deliver(unit, output);
     }

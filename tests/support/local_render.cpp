@@ -5,8 +5,6 @@
 
 #include "common/film/guiding_probe.h"
 #include "common/film/pass_film.h"
-#include "common/guiding/splat.h"
-#include "common/guiding/tree_learner.h"
 #include "common/plan/kernel.h"
 #include "common/plan/learning.h"
 #include "worker/integrators/registry.h"
@@ -28,23 +26,23 @@ LocalRender render_locally(const Scene& scene, const Job& asked) {
     const PassChooser choose = passes_of(job);
     const bool guided = job.guides;
     const RenderUnit render_unit = integrator_of(job).prepare(std::make_shared<const TraceScene>(scene, job), job);
-    run.tree = first_tree(job, guiding_bounds(scene), 1.0f);
-    TreeLearner learner;
+    run.model = first_model(job, guiding_bounds(scene), 1.0f);
+    AnyLearner learner;
     RenderHistory state;
     GuidingProbe probe;
     ProbesSetAside set_aside;
     std::optional<PassPlan> before;
     for (NextPass next = choose(state); next.pass;) {
         PassPlan pass = *next.pass;
-        pass.kernel = kernel_of(job, pass, facts_of(run.tree));
-        run.tree.pass = pass.index;
-        const Guide guide(run.tree);
-        Accumulator accumulator(pass.index, guide, job.guiding.directional_filter, pass.learn_mixture);
+        pass.kernel = kernel_of(job, pass, facts_of(run.model));
+        run.model.set_pass(pass.index);
+        const AnySampler guide(run.model);
+        AnyAccumulator accumulator(pass.index, guide, job.guiding.directional_filter, pass.learn_mixture);
         PassFilm film(scene.film.width, scene.film.height, pass.chunks);
         TraceStats stats;
         UnitOutput output;
         for (const WorkUnit& unit : cut_pass(pass, scene.film.width, scene.film.height, job.farm.tile_size)) {
-            output.begin(pass.record ? guide.distribution_count() : 0, pass.layers.splats);
+            output.begin(pass.record ? guide.regions().distribution_count() : 0, pass.layers.splats);
             render_unit(pass, guide, unit, output);
             film.add(unit, output.pixels);
             stats.add(output.stats);
@@ -85,8 +83,8 @@ LocalRender render_locally(const Scene& scene, const Job& asked) {
         next = choose(state);
         if (!pass.record || !next.pass) continue;
         RefineReport report;
-        run.tree = learner.learn(run.tree, accumulator.take(), refine_settings(job, pass, *next.pass),
-                                 pass.learn_mixture, report);
+        run.model = learner.learn(run.model, accumulator.take(), refine_settings(job, pass, *next.pass),
+                                  pass.learn_mixture, report);
     }
     return run;
 }

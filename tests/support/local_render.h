@@ -6,7 +6,7 @@
 
 #include "common/film/combine.h"
 #include "common/film/trace_stats.h"
-#include "common/guiding/refine.h"
+#include "common/guiding/any_guide.h"
 #include "common/plan/budget.h"
 #include "common/scene/model/scene.h"
 
@@ -19,7 +19,8 @@ struct LocalRender {
     std::vector<TraceStats> stats;
     std::vector<double> guiding_gains;  ///< of probe passes
     CombinedImage image;
-    SdTree tree;  ///< that guided the last pass
+    AnyModel model;  ///< that guided the last pass
+    const SdTree& tree() const { return *model.get_if<SdTree>(); }
 };
 
 LocalRender render_locally(const Scene& scene, const Job& job);

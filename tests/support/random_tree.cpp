@@ -3,14 +3,14 @@
 
 #include <random>
 
-#include "common/guiding/refine.h"
-#include "common/guiding/splat.h"
+#include "common/guiding/sd_tree/refine.h"
+#include "common/guiding/statistics/cell_accumulator.h"
 #include "common/math/frame.h"
 #include "common/math/warp.h"
 
 namespace treefarm::test {
 
-std::vector<Record> random_records(const Guide& guide, std::size_t count, unsigned seed) {
+std::vector<Record> random_records(const RegionSampler& guide, std::size_t count, unsigned seed) {
     std::mt19937 engine(seed);
     std::uniform_real_distribution<float> uniform(0.0f, 1.0f);
     std::vector<Record> records(count);
@@ -29,8 +29,8 @@ std::vector<Record> random_records(const Guide& guide, std::size_t count, unsign
 SdTree random_tree(int passes, std::size_t records_per_pass, double spatial_threshold, unsigned seed) {
     SdTree tree = initial_tree(Box3(Vec3(0.0f), Vec3(1.0f)), 1.0f);
     for (int pass = 0; pass < passes; ++pass) {
-        const Guide guide(tree);
-        Accumulator accumulator(tree.pass, guide);
+        const SdTreeSampler guide(tree);
+        CellAccumulator accumulator(tree.pass, guide);
         std::vector<Record> records = random_records(guide, records_per_pass, seed + static_cast<unsigned>(pass));
         std::vector<std::uint32_t> counts(guide.region_count());
         for (const Record& record : records)
@@ -42,20 +42,20 @@ SdTree random_tree(int passes, std::size_t records_per_pass, double spatial_thre
     return tree;
 }
 
-std::vector<Record> random_view_records(const Guide& guide, std::size_t count, unsigned seed) {
+std::vector<Record> random_view_records(const SdTreeSampler& guide, std::size_t count, unsigned seed) {
     std::vector<Record> records = random_records(guide, count, seed);
     std::mt19937 engine(seed + 1000);
     for (std::size_t i = 0; i + 1 < count; i += 2) {
         const std::uint32_t view = guide.view(records[i].distribution, static_cast<std::uint32_t>(engine()));
-        if (view == Guide::kNoView) continue;
+        if (view == SdTreeSampler::kNoView) continue;
         records[i + 1] = records[i];
         records[i + 1].distribution = view;
     }
     return records;
 }
 
-TreeSums sums_of(const Guide& guide, std::span<const Record> records) {
-    Accumulator accumulator(0, guide);
+CellSums sums_of(const SdTreeSampler& guide, std::span<const Record> records) {
+    CellAccumulator accumulator(0, guide);
     std::vector<std::uint32_t> counts(guide.distribution_count());
     for (const Record& record : records)
         ++counts[record.distribution];
@@ -67,7 +67,7 @@ SdTree random_view_tree(int passes, std::size_t records_per_pass, double spatial
                         unsigned seed) {
     SdTree tree = initial_tree(Box3(Vec3(0.0f), Vec3(1.0f)), {1.0f, 0.5f, true, 0.25f});
     for (int pass = 0; pass < passes; ++pass) {
-        const Guide guide(tree);
+        const SdTreeSampler guide(tree);
         const auto records = random_view_records(guide, records_per_pass, seed + static_cast<unsigned>(pass));
         RefineReport report;
         tree = refine(tree, sums_of(guide, records),

@@ -5,21 +5,21 @@
 #include <span>
 #include <vector>
 
-#include "common/guiding/guide.h"
-#include "common/guiding/sd_tree.h"
-#include "common/guiding/tree_update.h"
+#include "common/guiding/sd_tree/sd_tree.h"
+#include "common/guiding/sd_tree/sd_tree_sampler.h"
+#include "common/guiding/statistics/cell_sums.h"
 
 namespace treefarm::test {
 
 /// Records of a made-up light field in the unit cube: a few narrow and broad lobes whose directions move with the
 /// position.
-std::vector<Record> random_records(const Guide& guide, std::size_t count, unsigned seed);
+std::vector<Record> random_records(const RegionSampler& guide, std::size_t count, unsigned seed);
 
 /// A tree that has learned from random_records for `passes` passes.
 SdTree random_tree(int passes, std::size_t records_per_pass, double spatial_threshold, unsigned seed);
 
 /// Records as of random_records(), seen from random sides: half of them also for the views of their regions.
-std::vector<Record> random_view_records(const Guide& guide, std::size_t count, unsigned seed);
+std::vector<Record> random_view_records(const SdTreeSampler& guide, std::size_t count, unsigned seed);
 
 /// A tree with views that has learned from random_view_records: T2s with more records than `view_set_threshold` are
 /// cut, views with more than a quarter of that split.
@@ -27,6 +27,6 @@ SdTree random_view_tree(int passes, std::size_t records_per_pass, double spatial
                         unsigned seed);
 
 /// Sums of these records.
-TreeSums sums_of(const Guide& guide, std::span<const Record> records);
+CellSums sums_of(const SdTreeSampler& guide, std::span<const Record> records);
 
 }  // namespace treefarm::test

@@ -26,20 +26,20 @@ inline Resolved resolved(const Job& job, const TraceScene& scene) {
 }
 
 /// A pass with the kernel that a coordinator would give it, by the tree that `guide` was made of.
-inline PassPlan with_kernel(const Resolved& job, PassPlan pass, const Guide& guide) {
+inline PassPlan with_kernel(const Resolved& job, PassPlan pass, const AnySampler& guide) {
     pass.guided = pass.guided && job.guides;
-    pass.kernel = kernel_of(job, pass, {guide.trained(), guide.view_count() > 0});
+    pass.kernel = kernel_of(job, pass, facts_of(guide));
     return pass;
 }
 
-inline void render_unit(const TraceScene& scene, const Job& job, const PassPlan& pass, const Guide& guide,
+inline void render_unit(const TraceScene& scene, const Job& job, const PassPlan& pass, const AnySampler& guide,
                         const WorkUnit& unit, std::vector<PixelEstimate>& pixels, RecordLog& log, TraceStats& stats) {
     const Resolved as_used = resolved(job, scene);
     treefarm::render_unit(scene, as_used, with_kernel(as_used, pass, guide), guide, unit, pixels, log, stats);
 }
 
-inline std::string describe_sample(const TraceScene& scene, const Job& job, const PassPlan& pass, const Guide& guide,
-                                   int x, int y, std::uint32_t sample) {
+inline std::string describe_sample(const TraceScene& scene, const Job& job, const PassPlan& pass,
+                                   const AnySampler& guide, int x, int y, std::uint32_t sample) {
     const Resolved as_used = resolved(job, scene);
     return treefarm::describe_sample(scene, as_used, with_kernel(as_used, pass, guide), guide, x, y, sample);
 }

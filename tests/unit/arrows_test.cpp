@@ -18,16 +18,34 @@ namespace fs = std::filesystem;
 const fs::path kRoot = TREEFARM_SOURCE_DIR;
 
 /// Rooms by level (docs/design/architecture.md): a room includes itself and rooms of lower levels, never its siblings.
-const std::map<std::string, int> kLevels = {
-    {"common/base", 0},          {"common/math", 1},      {"common/image", 2},
-    {"common/film", 3},          {"common/guiding", 3},   {"common/metrics", 4},
-    {"common/config", 4},        {"common/scene", 5},     {"common/scene/colour", 4},
-    {"common/scene/readers", 6}, {"common/plan", 7},      {"common/protocol", 8},
-    {"common/comm", 9},          {"coordinator", 10},     {"report", 10},
-    {"worker/textures", 10},     {"worker/geometry", 11}, {"worker/shading", 11},
-    {"worker/lights", 12},       {"worker/camera", 12},   {"worker/scene", 13},
-    {"worker/integrators", 14},  {"worker/tools", 15},    {"worker", 16},
-    {"tests/support", 17},       {"bench", 18},           {"cli", 18}};
+const std::map<std::string, int> kLevels = {{"common/base", 0},
+                                            {"common/math", 1},
+                                            {"common/image", 2},
+                                            {"common/film", 3},
+                                            {"common/guiding", 3},
+                                            {"common/metrics", 4},
+                                            {"common/config", 4},
+                                            {"common/scene", 5},
+                                            {"common/scene/colour", 4},
+                                            {"common/scene/readers", 6},
+                                            {"common/plan", 7},
+                                            {"common/protocol", 8},
+                                            {"common/comm", 9},
+                                            {"coordinator", 10},
+                                            {"report", 10},
+                                            {"worker/textures", 10},
+                                            {"worker/geometry", 11},
+                                            {"worker/shading", 11},
+                                            {"worker/lights", 12},
+                                            {"worker/camera", 12},
+                                            {"worker/scene", 13},
+                                            {"worker/integrators", 14},
+                                            {"worker/guides", 15},
+                                            {"worker/tools", 16},
+                                            {"worker", 17},
+                                            {"tests/support", 18},
+                                            {"bench", 19},
+                                            {"cli", 19}};
 
 /// Beginnings of headers that include nothing of ours but each other, so that any room may include them.
 const std::vector<std::string> kLeaves = {"common/plan/policy.h", "common/plan/effects/"};
@@ -118,6 +136,15 @@ std::string estimator_of(const std::string& path) {
     return folder == "subpath" ? "" : folder;
 }
 
+/// The folder of one guide that a path lies in; none for what they share.
+std::string guide_of(const std::string& path) {
+    const std::string room = "common/guiding/";
+    const std::size_t end = path.find('/', room.size());
+    if (!starts_with(path, room) || end == std::string::npos) return "";
+    const std::string folder = path.substr(room.size(), end - room.size());
+    return folder == "regions" || folder == "statistics" ? "" : folder;
+}
+
 /// The fault of one include of one file; empty if it has none.
 std::string violation(const std::string& path, const Include& include) {
     const auto room = room_of(path);
@@ -133,6 +160,11 @@ std::string violation(const std::string& path, const Include& include) {
     }
     const std::string from = estimator_of(path), to = estimator_of(include.target);
     if (!from.empty() && !to.empty() && from != to) return "integrators never include each other";
+    const std::string guide = guide_of(include.target);
+    if (!guide.empty() && (starts_with(path, "worker/integrators/") || *room == "coordinator" || *room == "cli"))
+        return "integrators, coordinator and commands know guides by common/guiding/any_guide.h alone";
+    if (!guide.empty() && *room == "common/guiding" && guide != guide_of(path) && path != "common/guiding/guides.h")
+        return "guides never include each other, nor does what they share";
     if (include.quoted && !target) return "a quoted include must be a full path from the root into a room";
     if (!include.quoted && target) return "our own headers are included in quotes";
     // Benchmarks hold a library, used as it is, against our use of it.
@@ -188,7 +220,7 @@ TEST(Arrows, TheRulesCatchWhatTheyForbid) {
         const char *file, *include;
     } forbidden[] = {
         {"common/base/hash.cpp", "#include \"common/math/vec.h\""},
-        {"common/film/pass_film.h", "#include \"common/guiding/guide.h\""},
+        {"common/film/pass_film.h", "#include \"common/guiding/sd_tree/sd_tree_sampler.h\""},
         {"common/metrics/z_test.h", "#include \"common/config/job.h\""},
         {"common/plan/schedule.cpp", "#include \"common/comm/channel.h\""},
         {"coordinator/pass_loop.cpp", "#include \"worker/worker.h\""},
@@ -220,6 +252,12 @@ TEST(Arrows, TheRulesCatchWhatTheyForbid) {
         {"common/plan/policy.h", "#include \"common/math/vec.h\""},
         {"common/plan/effects/light.h", "#include \"common/plan/effect_finder.h\""},
         {"worker/integrators/light/walk.h", "#include \"worker/integrators/path/path_walk.h\""},
+        {"worker/integrators/path/path_walk.h", "#include \"worker/guides/sd_tree_walk.h\""},
+        {"worker/integrators/path/path_walk.h", "#include \"common/guiding/sd_tree/sd_tree.h\""},
+        {"coordinator/collector.h", "#include \"common/guiding/sd_tree/sd_tree.h\""},
+        {"cli/inspect.cpp", "#include \"common/guiding/sd_tree/sd_tree.h\""},
+        {"common/guiding/regions/mixture.h", "#include \"common/guiding/sd_tree/sd_tree.h\""},
+        {"common/guiding/lobes/lobes.h", "#include \"common/guiding/sd_tree/sd_tree.h\""},
         {"report/html.cpp", "#include \"coordinator/farm.h\""},
     };
     for (const auto& [file, include] : forbidden)
@@ -240,6 +278,9 @@ TEST(Arrows, TheRulesLetThroughWhatIsAllowed) {
         {"worker/integrators/light/walk.h", "#include \"worker/integrators/subpath/mis.h\""},
         {"worker/integrators/registry.cpp", "#include \"worker/integrators/path/path_integrator.h\""},
         {"worker/worker.cpp", "#include \"common/comm/channel.h\""},
+        {"worker/guides/sd_tree_walk.h", "#include \"common/guiding/sd_tree/sd_tree_sampler.h\""},
+        {"worker/guides/sd_tree_walk.h", "#include \"worker/integrators/path/path_walk.h\""},
+        {"coordinator/collector.h", "#include \"common/guiding/any_guide.h\""},
         {"cli/render.cpp", "#include \"worker/worker.h\""},
         {"coordinator/pass_loop.cpp", "#include <chrono>"},
         {"common/metrics/z_test.cpp", "#include \"common/image/image.h\""},

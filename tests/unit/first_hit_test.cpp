@@ -51,8 +51,8 @@ Rendered render(const Scene& scene, const std::string& aovs, std::uint32_t spp =
     job.output.aovs = aovs;
     const Resolved resolved = resolve(job, scene);
     const RenderUnit renderer = make_renderer(encode_scene(scene), resolved);
-    const SdTree tree = first_tree(resolved, scene.bounds(), 1.0f);
-    const Guide guide(tree);
+    const AnyModel tree = first_model(resolved, scene.bounds(), 1.0f);
+    const SdTreeSampler guide(tree);
     PassPlan pass = one_pass(spp);
     pass.next_event = job.integrator.next_event == NextEvent::always;
     pass.kernel = kernel_of(resolved, pass, facts_of(tree));
@@ -259,17 +259,17 @@ TEST(DirectLight, IsPartOfEachGuidedSample) {
     job.guiding.spatial_threshold = 100;
     job.budget.spp = 127;
     const test::LocalRender learned = test::render_locally(scene, job);
-    ASSERT_TRUE(learned.tree.trained);
+    ASSERT_TRUE(learned.tree().trained);
     job.output.aovs = "direct";
     const Resolved resolved = resolve(job, scene);
     const RenderUnit renderer = make_renderer(encode_scene(scene), resolved);
-    const Guide guide(learned.tree);
+    const SdTreeSampler guide(learned.tree());
     for (const bool next_event : {true, false}) {
         PassPlan pass = one_pass(8);
         pass.index = 3;
         pass.guided = pass.record = pass.split = pass.probe = true;
         pass.next_event = next_event;
-        pass.kernel = kernel_of(resolved, pass, facts_of(learned.tree));
+        pass.kernel = kernel_of(resolved, pass, facts_of(learned.tree()));
         UnitOutput output;
         output.begin(guide.distribution_count());
         renderer(pass, guide, {3, 0, 0, 16, 16, 0}, output);

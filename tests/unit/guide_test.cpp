@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // The sampling form of the tree against the plain one, and its codec.
-#include "common/guiding/guide.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <random>
 
+#include "common/guiding/sd_tree/sd_tree_sampler.h"
 #include "tests/support/random_tree.h"
 
 namespace treefarm {
@@ -16,7 +15,7 @@ namespace {
 class GuideTest : public ::testing::Test {
   protected:
     SdTree tree = test::random_tree(4, 50000, 2000, 2);
-    Guide guide{tree};
+    SdTreeSampler guide{tree};
     std::mt19937 engine{5};
     std::uniform_real_distribution<float> uniform{0.0f, 1.0f};
 
@@ -72,7 +71,7 @@ SdTree deep_tree() {
 /// In step, the first of a batch, shallow and deep ones mixed.
 TEST_F(GuideTest, RegionsOfABatchAreThoseOfItsPoints) {
     tree = deep_tree();
-    const Guide deep(tree);
+    const SdTreeSampler deep(tree);
     VectorBatch points{};
     std::array<std::uint32_t, kDrawBatch> found;
     std::uint32_t deepest = 0;
@@ -128,7 +127,7 @@ TEST_F(GuideTest, FindsTheCellThatHoldsACode) {
 TEST_F(GuideTest, SamplesLieInTheCellWhoseDensityTheyReport) {
     for (int i = 0; i < 200000; ++i) {
         const std::uint32_t r = bits() % guide.region_count();
-        const Guide::Sample s = guide.sample(r, bits(), bits(), bits());
+        const SdTreeSampler::Sample s = guide.sample(r, bits(), bits(), bits());
         ASSERT_GT(s.pdf, 0.0f);
         ASSERT_EQ(s.pdf, guide.pdf(r, s.code));
         ASSERT_NEAR(dot(s.direction, s.direction), 1.0f, 1e-5f);
@@ -145,7 +144,7 @@ TEST_F(GuideTest, ExtremeRandomNumbersAreFine) {
     for (std::uint32_t r = 0; r < guide.region_count(); ++r)
         for (const std::uint32_t pick : {0u, 0xffffffffu})
             for (const std::uint32_t u : {0u, 0xffffffffu}) {
-                const Guide::Sample s = guide.sample(r, pick, u, u);
+                const SdTreeSampler::Sample s = guide.sample(r, pick, u, u);
                 EXPECT_GT(s.pdf, 0.0f);
                 EXPECT_EQ(s.pdf, guide.pdf(r, s.code));
             }
@@ -161,7 +160,7 @@ TEST_F(GuideTest, CodecKeepsTheTree) {
     EXPECT_EQ(decoded.cell_mass, tree.cell_mass);
     EXPECT_EQ(decoded.quantum_exponent, tree.quantum_exponent);
     EXPECT_EQ(encode_tree(decoded), bytes);
-    const Guide again(decoded);
+    const SdTreeSampler again(decoded);
     for (int i = 0; i < 1000; ++i) {
         const Vec3 p(uniform(engine), uniform(engine), uniform(engine));
         EXPECT_EQ(again.region(p), guide.region(p));
@@ -186,7 +185,7 @@ TEST_F(GuideTest, DamagedBytesAreRefused) {
         Bytes bad = bytes;
         bad[i] = static_cast<std::uint8_t>(bad[i] ^ 0x55);
         try {
-            const Guide still_a_tree(decode_tree(bad));  // what passes every check can be used
+            const SdTreeSampler still_a_tree(decode_tree(bad));  // what passes every check can be used
         } catch (const FormatError&) {
         }
     }

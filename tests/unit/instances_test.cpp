@@ -3,7 +3,7 @@
 
 #include <random>
 
-#include "common/guiding/guide.h"
+#include "common/guiding/sd_tree/sd_tree_sampler.h"
 #include "tests/support/resolved.h"
 #include "tests/support/test_scenes.h"
 #include "worker/integrators/path/tile_renderer.h"
@@ -130,7 +130,7 @@ TEST(Instances, LookLikeTheFlattenedMeshes) {
     const auto render = [&](bool instances) {
         const Scene scene = make_scene(instances);
         const TraceScene trace(scene, job);
-        const Guide guide(initial_tree(scene.bounds(), 1.0f));
+        const SdTreeSampler guide(initial_tree(scene.bounds(), 1.0f));
         PassPlan pass;
         pass.spp = 32;
         pass.next_event = true;

@@ -2,14 +2,19 @@
 // Estimators against what is known exactly, and the lists of them against each other.
 #include <gtest/gtest.h>
 
+#include <cctype>
 #include <filesystem>
 #include <fstream>
+#include <set>
+#include <set>
+#include <sstream>
 
 #include "common/base/error.h"
 #include "common/config/check_job.h"
 #include "common/config/estimators.h"
 #include "common/plan/effects.h"
 #include "common/plan/plan_text.h"
+#include "tests/support/guide_types.h"
 #include "tests/support/local_render.h"
 #include "tests/support/test_scenes.h"
 #include "worker/integrators/registry.h"
@@ -112,6 +117,49 @@ TEST(Estimators, TheCoordinatorNamesNone) {
         EXPECT_EQ(text.find("integrator.type"), std::string::npos) << entry.path();
     }
     EXPECT_GT(files, 20u);
+}
+
+/// Words of a program, without its comments.
+std::set<std::string> identifiers(const std::string& text) {
+    std::set<std::string> words;
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);) {
+        std::string word;
+        for (const char c : line.substr(0, line.find("//")) + " ") {
+            if (std::isalnum(static_cast<unsigned char>(c)) || c == '_') {
+                word += c;
+            } else {
+                words.insert(word);
+                word.clear();
+            }
+        }
+    }
+    return words;
+}
+
+/// Nor does it name a guide, its kind, cells or codes; integrators do not either.
+TEST(Guides, CoordinatorAndIntegratorsNameNone) {
+    const std::filesystem::path root(TREEFARM_SOURCE_DIR);
+    std::vector<std::string> names = {"SdTree", "sd_tree", "GuideKind::", "GuidingType::"};
+    for (const std::string& type : test::guide_types())
+        if (type != "auto") names.push_back('"' + type + '"');
+    const std::set<std::string> parts = {"code",          "codes", "code_", "codes_",   "cell",
+                                         "cells",         "view",  "views", "quadtree", "direction_to_code",
+                                         "square_to_code"};
+    std::size_t files = 0;
+    for (const std::string room : {"coordinator", "worker/integrators"})
+        for (const auto& entry : std::filesystem::recursive_directory_iterator(root / room)) {
+            if (entry.path().extension() != ".h" && entry.path().extension() != ".cpp") continue;
+            ++files;
+            std::ifstream file(entry.path());
+            const std::string text{std::istreambuf_iterator<char>(file), {}};
+            for (const std::string& name : names)
+                EXPECT_EQ(text.find(name), std::string::npos) << entry.path() << " names " << name;
+            if (room != "worker/integrators") continue;
+            for (const std::string& word : identifiers(text))
+                EXPECT_EQ(parts.count(word), 0u) << entry.path() << " names a guide's " << word;
+        }
+    EXPECT_GT(files, 60u);
 }
 
 /// E = I cos / d^2 on the floor, of which it reflects albedo / pi.

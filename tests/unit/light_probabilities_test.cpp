@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // How next event learns to choose emitters: sums, what is made of them, and what is sent.
-#include "common/guiding/light_probabilities.h"
+#include "common/guiding/regions/light_probabilities.h"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <numeric>
 
 #include "common/base/error.h"
-#include "common/guiding/splat.h"
-#include "common/guiding/tree_learner.h"
+#include "common/guiding/sd_tree/tree_learner.h"
+#include "common/guiding/statistics/cell_accumulator.h"
 
 namespace treefarm {
 namespace {
@@ -74,13 +74,13 @@ TEST(LightProbabilities, TheSumsExpectationDoesNotDependOnTheChoice) {
 class LightLearning : public ::testing::Test {
   protected:
     static SdTree root() {
-        InitialTree settings;
+        FirstModel settings;
         settings.with_lights = true;
         return initial_tree(Box3(Vec3(0.0f), Vec3(1.0f)), settings);
     }
-    static TreeSums sums_of(const SdTree& tree, const std::vector<Record>& records, std::uint32_t vertices) {
-        const Guide guide(tree);
-        Accumulator accumulator(tree.pass, guide, DirectionalFilter::box, true);
+    static CellSums sums_of(const SdTree& tree, const std::vector<Record>& records, std::uint32_t vertices) {
+        const SdTreeSampler guide(tree);
+        CellAccumulator accumulator(tree.pass, guide, DirectionalFilter::box, true);
         const std::vector<std::uint32_t> counts(tree.distribution_count(), vertices);
         accumulator.commit(records, counts, {});
         return accumulator.take();
@@ -117,23 +117,23 @@ TEST_F(LightLearning, PartsInheritAndLearnOn) {
 TEST_F(LightLearning, SumsOfPartsAreTheSumOfTheWhole) {
     const SdTree tree = learned();
     const std::vector<Record> records = some_records(tree);
-    TreeSums merged(tree.pass, sums_of(tree, {}, 0).shape());
+    CellSums merged(tree.pass, sums_of(tree, {}, 0).shape());
     for (std::size_t at = 0; at < records.size(); at += 1500) {
         const std::vector<Record> some(records.begin() + static_cast<std::ptrdiff_t>(at),
                                        records.begin() + static_cast<std::ptrdiff_t>(at) + 1500);
         merged.merge_encoded(sums_of(tree, some, 0).encode());
     }
     EXPECT_EQ(merged, sums_of(tree, records, 0));
-    TreeSums added(tree.pass, merged.shape());
+    CellSums added(tree.pass, merged.shape());
     added.add(merged);
     EXPECT_EQ(added, merged);
-    TreeSums without(tree.pass, {tree.region_count(), tree.cell_count(), true});
+    CellSums without(tree.pass, {tree.region_count(), tree.cell_count(), true});
     EXPECT_THROW(without.merge_encoded(merged.encode()), FormatError);
 }
 
 TEST_F(LightLearning, SumsOfAnotherTreeAreRefused) {
     SdTree next = root();
-    EXPECT_THROW(LightLearner().learn(root(), TreeSums(0, 1, next.cell_count(), true), {}, next), RunError);
+    EXPECT_THROW(LightLearner().learn(root(), CellSums(0, 1, next.cell_count(), true), {}, next), RunError);
 }
 
 TEST_F(LightLearning, TheCodecKeepsProbabilitiesAndRefusesBrokenOnes) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The learned mixture of BSDF and tree, against optima found by hand or by search.
-#include "common/guiding/mixture.h"
+#include "common/guiding/regions/mixture.h"
 
 #include <gtest/gtest.h>
 
@@ -60,8 +60,8 @@ TEST(Mixture, IsTheMaximumOfTheObjective) {
 
 class MixtureLearning : public ::testing::Test {
   protected:
-    TreeSums sums(const SdTree& tree, std::uint32_t region, std::uint8_t bin) const {
-        TreeSums s(tree.pass, tree.region_count(), tree.cell_count(), true);
+    CellSums sums(const SdTree& tree, std::uint32_t region, std::uint8_t bin) const {
+        CellSums s(tree.pass, tree.region_count(), tree.cell_count(), true);
         for (std::uint32_t r = 0; r < tree.region_count(); ++r) {
             s.add_count(r, 1000);
             for (const int even : {0, kMixtureBins - 1})
@@ -70,7 +70,7 @@ class MixtureLearning : public ::testing::Test {
         return s;
     }
 
-    SdTree next(const SdTree& tree, const TreeSums& s, double threshold) {
+    SdTree next(const SdTree& tree, const CellSums& s, double threshold) {
         RefineReport report;
         SdTree refined = refine(tree, s, {.spatial_threshold = threshold}, report);
         learner_.learn(tree, s, report.origins, refined);
@@ -96,13 +96,13 @@ TEST_F(MixtureLearning, PartsInheritFromTheWhole) {
 
 TEST_F(MixtureLearning, RegionsWithoutRecordsKeepTheirFraction) {
     root_.bsdf_fraction = {0.25f};
-    const TreeSums nothing(0, 1, root_.cell_count(), true);
+    const CellSums nothing(0, 1, root_.cell_count(), true);
     EXPECT_EQ(next(root_, nothing, 1e9).bsdf_fraction[0], 0.25f);
 }
 
 TEST_F(MixtureLearning, RefusesSumsOfAnotherTree) {
     SdTree tree = root_;
-    EXPECT_THROW(learner_.learn(root_, TreeSums(0, 1, root_.cell_count()), {}, tree), RunError);
+    EXPECT_THROW(learner_.learn(root_, CellSums(0, 1, root_.cell_count()), {}, tree), RunError);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include "tests/support/resolved.h"
 #include "tests/support/test_scenes.h"
+#include "worker/guides/walks.h"
 #include "worker/integrators/path/path_kernel.h"
 #include "worker/integrators/path/path_recorder.h"
 #include "worker/integrators/path/tile_renderer.h"
@@ -41,7 +42,7 @@ struct Rendered {
 Rendered render(const Scene& scene, const Job& job, const PassPlan& pass) {
     Rendered r;
     const TraceScene trace(scene, job);
-    const Guide guide(initial_tree(scene.bounds(), 1.0f));
+    const SdTreeSampler guide(initial_tree(scene.bounds(), 1.0f));
     const WorkUnit unit{
         pass.index, 0, 0, static_cast<std::uint16_t>(scene.film.width), static_cast<std::uint16_t>(scene.film.height),
         0};
@@ -91,7 +92,7 @@ TEST(Roulette, Rules) {
 }
 
 TEST(PathRecorder, CarriesRadianceBackwards) {
-    PathRecorder recorder;
+    PathRecorder<SdTreeWalk<true>> recorder;
     RecordLog log;
     log.begin(3);
     recorder.begin_path();
@@ -114,7 +115,7 @@ TEST(PathRecorder, CarriesRadianceBackwards) {
 
 /// A region learns its mixture from its view-dependent vertices, too, in a bin of its own.
 TEST(PathRecorder, RegionAndViewLearnTheirOwnMixtures) {
-    PathRecorder recorder;
+    PathRecorder<SdTreeWalk<true>> recorder;
     RecordLog log;
     log.begin(2);
     recorder.begin_path();
@@ -134,7 +135,7 @@ TEST(PathRecorder, RegionAndViewLearnTheirOwnMixtures) {
 }
 
 TEST(PathRecorder, CountsVerticesWithoutRadiance) {
-    PathRecorder recorder;
+    PathRecorder<SdTreeWalk<true>> recorder;
     RecordLog log;
     log.begin(1);
     recorder.begin_path();
@@ -165,11 +166,11 @@ TEST(Path, RecordsHoldTheRadianceOfTheirDirections) {
 
 TEST(Path, RouletteIsPlayedByWhatGuides) {
     SdTree tree = initial_tree(Box3(Vec3(0.0f), Vec3(1.0f)), 1.0f);
-    const Guide untrained(tree);
+    const SdTreeSampler untrained(tree);
     tree.trained = true;
-    const Guide trained(tree);
+    const SdTreeSampler trained(tree);
     const TraceScene scene(test::furnace(0.5f, 1.0f, 2.0f, Vec3(0.0f)), {});
-    const auto survival = [&](const Job& job, const Guide& guide) {
+    const auto survival = [&](const Job& job, const SdTreeSampler& guide) {
         return PathSettings(scene, test::resolved(job),
                             test::with_kernel(test::resolved(job), one_pass(1, false), guide), guide)
             .roulette.survival(Rgb(0.01f));
@@ -258,7 +259,7 @@ TEST(Path, AUnitDoesNotDependOnHowTheImageIsCut) {
     test::set_film(scene, 12, 10);
     const Job job = unguided();
     const TraceScene trace(scene, job);
-    const Guide guide(initial_tree(scene.bounds(), 1.0f));
+    const SdTreeSampler guide(initial_tree(scene.bounds(), 1.0f));
     const PassPlan pass = one_pass(70, true);
     const Rendered whole = render(scene, job, pass);
     std::vector<PixelEstimate> part;
@@ -325,7 +326,7 @@ TEST(Path, VerticesOutsideTheTreeAreCounted) {
     Scene scene = test::furnace(0.5f, 1.0f, 2.0f, Vec3(0.0f));
     const Job job;
     const TraceScene trace(scene, job);
-    const Guide small(initial_tree(Box3(Vec3(-0.5f), Vec3(0.5f)), 1.0f));
+    const SdTreeSampler small(initial_tree(Box3(Vec3(-0.5f), Vec3(0.5f)), 1.0f));
     std::vector<PixelEstimate> pixels;
     RecordLog log;
     TraceStats stats;
@@ -340,7 +341,7 @@ TEST(Path, DescriptionTellsTheSamePath) {
     const Job job = unguided();
     const PassPlan pass = one_pass(1, true);
     const Rendered r = render(scene, job, pass);
-    const Guide guide(initial_tree(scene.bounds(), 1.0f));
+    const SdTreeSampler guide(initial_tree(scene.bounds(), 1.0f));
     const std::string text = test::describe_sample(TraceScene(scene, job), job, pass, guide, 0, 0, 0);
     EXPECT_NE(text.find("depth 1: shape \""), std::string::npos) << text;
     EXPECT_NE(text.find("end: "), std::string::npos) << text;

@@ -6,7 +6,7 @@
 
 #include "common/config/effect_switches.h"
 #include "common/config/job_reader.h"
-#include "common/guiding/tree_update.h"
+#include "common/guiding/statistics/cell_sums.h"
 #include "common/plan/effect_table.h"
 #include "common/plan/learning.h"
 #include "common/plan/plan_text.h"

@@ -6,8 +6,8 @@
 #include <numeric>
 #include <random>
 
-#include "common/guiding/refine.h"
-#include "common/guiding/splat.h"
+#include "common/guiding/sd_tree/refine.h"
+#include "common/guiding/statistics/cell_accumulator.h"
 #include "tests/support/random_tree.h"
 
 namespace treefarm {
@@ -23,9 +23,9 @@ SdTree even_tree(std::uint8_t depth) {
     return tree;
 }
 
-TreeSums splat(const SdTree& tree, const std::vector<Record>& records, bool with_mixture = false) {
-    const Guide guide(tree);
-    Accumulator accumulator(tree.pass, guide, DirectionalFilter::box, with_mixture);
+CellSums splat(const SdTree& tree, const std::vector<Record>& records, bool with_mixture = false) {
+    const SdTreeSampler guide(tree);
+    CellAccumulator accumulator(tree.pass, guide, DirectionalFilter::box, with_mixture);
     std::vector<std::uint32_t> counts(guide.region_count(), 1);
     accumulator.commit(records, counts, {});
     return accumulator.take();
@@ -35,7 +35,7 @@ std::uint32_t code_of(std::uint32_t x, std::uint32_t y) {
     return spread_bits(x) | (spread_bits(y) << 1);
 }
 
-double fraction(const TreeSums& sums, std::uint32_t cell) {
+double fraction(const CellSums& sums, std::uint32_t cell) {
     const double total =
         static_cast<double>(std::accumulate(sums.cells().begin(), sums.cells().end(), std::uint64_t{0}));
     return static_cast<double>(sums.cells()[cell]) / total;
@@ -46,7 +46,7 @@ TEST(BoxFilter, SpreadsByOverlap) {
     const std::uint32_t side = 1u << (kDirectionBits - 2);
     // A quarter of a cell right of the centre of cell (1, 2), a quarter above.
     const std::uint32_t x = side + side / 2 + side / 4, y = 2 * side + side / 4;
-    const TreeSums sums = splat(tree, {{0, code_of(x, y), 12345, 1.0f}});
+    const CellSums sums = splat(tree, {{0, code_of(x, y), 12345, 1.0f}});
     const auto cell = [](std::uint32_t cx, std::uint32_t cy) { return spread_bits(cx) | (spread_bits(cy) << 1); };
     EXPECT_NEAR(fraction(sums, cell(1, 2)), 0.75 * 0.75, 1e-3);
     EXPECT_NEAR(fraction(sums, cell(2, 2)), 0.25 * 0.75, 1e-3);
@@ -56,12 +56,12 @@ TEST(BoxFilter, SpreadsByOverlap) {
 
 TEST(BoxFilter, KeepsTheSumOnAnyTree) {
     const SdTree tree = test::random_tree(3, 20000, 2000, 1);
-    const Guide guide(tree);
+    const SdTreeSampler guide(tree);
     const std::vector<Record> records = test::random_records(guide, 20000, 5);
     std::vector<double> expected(tree.region_count()), got(tree.region_count());
     for (const Record& r : records)
         expected[r.distribution] += std::ldexp(static_cast<double>(r.value), -guide.quantum_exponent(r.distribution));
-    const TreeSums sums = splat(tree, records);
+    const CellSums sums = splat(tree, records);
     for (std::uint32_t r = 0; r < tree.region_count(); ++r) {
         for (std::uint32_t c = tree.cell_begin[r]; c < tree.cell_begin[r + 1]; ++c)
             got[r] += static_cast<double>(sums.cells()[c]);
@@ -71,11 +71,11 @@ TEST(BoxFilter, KeepsTheSumOnAnyTree) {
 
 TEST(BoxFilter, BeyondAnEdgeGoesOnAcrossTheFold) {
     const SdTree tree = even_tree(3);
-    const Guide guide(tree);
+    const SdTreeSampler guide(tree);
     const std::uint32_t side = 1u << (kDirectionBits - 3);
     // On the right edge, three quarters up: half the square is beyond, where the map goes on mirrored.
     const std::uint32_t y = 6 * side + side / 2;
-    const TreeSums sums = splat(tree, {{0, code_of((1u << kDirectionBits) - 1, y), 99, 1.0f}});
+    const CellSums sums = splat(tree, {{0, code_of((1u << kDirectionBits) - 1, y), 99, 1.0f}});
     const std::uint32_t here = guide.cell(0, code_of((1u << kDirectionBits) - 1, y));
     const std::uint32_t across = guide.cell(0, code_of((1u << kDirectionBits) - 1, (1u << kDirectionBits) - 1 - y));
     EXPECT_NEAR(fraction(sums, here), 0.5, 1e-2);
@@ -88,7 +88,7 @@ TEST(BoxFilter, BeyondAnEdgeGoesOnAcrossTheFold) {
 
 TEST(SpatialFilter, MovesByUpToHalfARegion) {
     SdTree tree = test::random_tree(3, 20000, 2000, 1);
-    const Guide guide(tree);
+    const SdTreeSampler guide(tree);
     std::mt19937 engine(3);
     const Vec3 p(0.3f, 0.6f, 0.2f);
     const std::uint32_t own = guide.region(p);
@@ -106,7 +106,7 @@ TEST(SpatialFilter, MovesByUpToHalfARegion) {
 
 TEST(SpatialFilter, MovesAcrossAWholeRegionAlongEachAxis) {
     const SdTree tree = test::random_tree(3, 20000, 2000, 1);
-    const Guide guide(tree);
+    const SdTreeSampler guide(tree);
     std::mt19937 engine(4);
     std::uniform_real_distribution<float> uniform(0.0f, 1.0f);
     for (int k = 0; k < 100; ++k) {
@@ -131,7 +131,7 @@ TEST(SpatialFilter, MovesAcrossAWholeRegionAlongEachAxis) {
 
 TEST(VarianceTarget, ProbabilityFollowsTheRootOfTheMoment) {
     const SdTree tree = even_tree(1);
-    TreeSums sums(0, 1, 4);
+    CellSums sums(0, 1, 4);
     sums.add_count(0, 10);
     for (std::uint32_t c = 0; c < 4; ++c)
         sums.add_quanta(c, std::uint64_t{1'000'000} * (c == 0 ? 16 : 1));
@@ -153,7 +153,7 @@ TEST(VarianceTarget, SmallCellsNeedTheirArea) {
     tree.cell_begin = {0, 7};
     tree.cell_mass.assign(7, (1u << kMassBits) / 7);
     tree.cell_mass[0] += (1u << kMassBits) % 7;
-    TreeSums sums(0, 1, 7);
+    CellSums sums(0, 1, 7);
     for (std::uint32_t c = 0; c < 7; ++c)
         sums.add_quanta(c, 1'000'000);
     RefineReport report;

@@ -1,26 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
 // Refinement, against hand-computed trees.
-#include "common/guiding/refine.h"
+#include "common/guiding/sd_tree/refine.h"
 
 #include <gtest/gtest.h>
 
 #include <numeric>
 
 #include "common/base/error.h"
-#include "common/guiding/guide.h"
+#include "common/guiding/sd_tree/sd_tree_sampler.h"
 
 namespace treefarm {
 namespace {
 
 const Box3 kUnitBox(Vec3(0.0f), Vec3(1.0f));
 
-SdTree refined(const SdTree& tree, const TreeSums& sums, double threshold = 1e18, RefineReport* report = nullptr) {
+SdTree refined(const SdTree& tree, const CellSums& sums, double threshold = 1e18, RefineReport* report = nullptr) {
     RefineReport own;
     return refine(tree, sums, {.spatial_threshold = threshold}, report ? *report : own);
 }
 
-TreeSums sums_for(const SdTree& tree) {
-    return TreeSums(tree.pass, tree.region_count(), tree.cell_count());
+CellSums sums_for(const SdTree& tree) {
+    return CellSums(tree.pass, tree.region_count(), tree.cell_count());
 }
 
 std::uint64_t mass_of(const SdTree& tree, std::uint32_t region) {
@@ -54,7 +54,7 @@ TEST(Refine, WithoutEnergyStaysEven) {
 
 TEST(Refine, SplitsABrightCellUntilNoneHoldsMoreThanAHundredth) {
     const SdTree first = initial_tree(kUnitBox, 1.0f);
-    TreeSums sums = sums_for(first);
+    CellSums sums = sums_for(first);
     sums.add_quanta(0, 1'000'000);  // all energy in the first cell, at depth 4
     sums.add_count(0, 10);
     const SdTree next = refined(first, sums);
@@ -72,7 +72,7 @@ TEST(Refine, SplitsABrightCellUntilNoneHoldsMoreThanAHundredth) {
 TEST(Refine, ThresholdIsExclusive) {
     // 100 equal cells of 256: each holds exactly one hundredth, which is not more than one hundredth.
     const SdTree first = initial_tree(kUnitBox, 1.0f);
-    TreeSums sums = sums_for(first);
+    CellSums sums = sums_for(first);
     for (std::uint32_t c = 0; c < 100; ++c)
         sums.add_quanta(c, 7);
     sums.add_count(0, 1);
@@ -84,7 +84,7 @@ TEST(Refine, ATreeThatIsSeldomSampledGetsFewerCells) {
     // 64 equal cells: each holds 1/64, more than a hundredth and less than a fiftieth.
     const auto cells_at = [](float bsdf_fraction, double least_use) {
         SdTree first = initial_tree(kUnitBox, 1.0f, bsdf_fraction);
-        TreeSums sums = sums_for(first);
+        CellSums sums = sums_for(first);
         for (std::uint32_t c = 0; c < 64; ++c)
             sums.add_quanta(c, 7);
         sums.add_count(0, 1);
@@ -102,13 +102,13 @@ TEST(Refine, ATreeThatIsSeldomSampledGetsFewerCells) {
 
 TEST(Refine, SplitsRegionsByWeightHalvingIt) {
     const SdTree first = initial_tree(kUnitBox, 1.0f);
-    TreeSums sums = sums_for(first);
+    CellSums sums = sums_for(first);
     sums.add_count(0, 1000);
     RefineReport report;
     const SdTree next = refined(first, sums, 250.0, &report);
     EXPECT_EQ(next.region_count(), 4u);  // 1000 -> 500 -> 250, which is not more than 250
     EXPECT_EQ(report.spatial_depth, 2);
-    const Guide guide(next);
+    const SdTreeSampler guide(next);
     // Axes cycle x, y, z: z does not matter yet, regions are numbered x-major.
     EXPECT_EQ(guide.region({0.2f, 0.2f, 0.9f}), 0u);
     EXPECT_EQ(guide.region({0.2f, 0.8f, 0.1f}), 1u);
@@ -118,7 +118,7 @@ TEST(Refine, SplitsRegionsByWeightHalvingIt) {
 
 TEST(Refine, KickstartRecordsWeighHalf) {
     const SdTree first = initial_tree(kUnitBox, 1.0f);
-    TreeSums sums = sums_for(first);
+    CellSums sums = sums_for(first);
     sums.add_count(0, 1000);
     RefineReport report;
     const SdTree next = refine(first, sums, {.spatial_threshold = 500, .record_weight = 0.5}, report);
@@ -127,7 +127,7 @@ TEST(Refine, KickstartRecordsWeighHalf) {
 
 TEST(Refine, QuantumFollowsTheMeanRecord) {
     const SdTree first = initial_tree(kUnitBox, 1.0f);
-    TreeSums sums = sums_for(first);
+    CellSums sums = sums_for(first);
     for (int i = 0; i < 8; ++i)
         sums.add_quanta(17, std::uint64_t{1} << 35);  // 2^20 times the 2^15 expected of it
     sums.add_count(0, 8);
@@ -138,8 +138,8 @@ TEST(Refine, DepthLimitsAreCounted) {
     SdTree tree = initial_tree(kUnitBox, 1.0f);
     RefineReport report;
     for (int pass = 0; pass < 12; ++pass) {
-        TreeSums sums = sums_for(tree);
-        const Guide guide(tree);
+        CellSums sums = sums_for(tree);
+        const SdTreeSampler guide(tree);
         const std::uint32_t region = guide.region({0.3f, 0.3f, 0.3f});
         sums.add_quanta(guide.cell(region, 0x12345678u),
                         1u << 30);  // all light from one point, all records at one place
@@ -156,7 +156,7 @@ TEST(Refine, DepthLimitsAreCounted) {
 
 TEST(Refine, RefusesForeignSums) {
     RefineReport report;
-    EXPECT_THROW(refine(initial_tree(kUnitBox, 1.0f), TreeSums(0, 1, 255), {}, report), RunError);
+    EXPECT_THROW(refine(initial_tree(kUnitBox, 1.0f), CellSums(0, 1, 255), {}, report), RunError);
 }
 
 }  // namespace

@@ -13,9 +13,8 @@ namespace treefarm {
 namespace {
 
 TEST(Kernels, AreThoseThatThePlanNamesAndAtMostTwelve) {
-    const std::vector<KernelChoice> compiled = compiled_kernels();
+    const std::vector<KernelChoice> compiled = compiled_kernels(GuideKind::sd_tree);
     EXPECT_LE(compiled.size(), 12u);
-    EXPECT_EQ(compiled.size(), std::size_t(kKernelCount)) << "what the plan says that the program has";
     for (const bool diffuse : {false, true})
         for (const bool guided : {false, true})
             for (const bool record : {false, true}) {
@@ -25,6 +24,31 @@ TEST(Kernels, AreThoseThatThePlanNamesAndAtMostTwelve) {
                 EXPECT_EQ(std::count(compiled.begin(), compiled.end(), by_view), !diffuse && (guided || record))
                     << by_view.name();
             }
+}
+
+/// A guide has kernels of its own for what guides or records; whether for plainly diffuse scenes it says itself.
+TEST(Kernels, OfEveryGuideAreThoseThatPassesAskFor) {
+    const std::size_t unguided = 2;
+    std::size_t all = unguided;
+    int kind = 0;
+    Guides::find([&]<class G>() {
+        const std::vector<KernelChoice> compiled = compiled_kernels(static_cast<GuideKind>(kind++));
+        EXPECT_EQ(compiled.size(), unguided + G::kKernels);
+        all += G::kKernels;
+        for (const bool diffuse : {false, true})
+            for (const bool trained : {false, true})
+                for (const bool record : {false, true}) {
+                    PassPlan pass;
+                    pass.guided = trained;
+                    pass.record = record;
+                    Resolved job;
+                    job.scene_facts.plainly_diffuse = diffuse;
+                    const KernelChoice choice = kernel_of(job, pass, {trained, false, G::kPlainKernels});
+                    EXPECT_EQ(std::count(compiled.begin(), compiled.end(), choice), 1) << choice.name();
+                }
+        return false;
+    });
+    EXPECT_EQ(all, std::size_t(kKernelCount)) << "what the plan says that the program has";
 }
 
 /// A masked pane before a camera with a lens, under a constant sky.

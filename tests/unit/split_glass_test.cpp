@@ -9,6 +9,7 @@
 #include "tests/support/local_render.h"
 #include "tests/support/material_scenes.h"
 #include "tests/support/resolved.h"
+#include "worker/guides/walks.h"
 #include "worker/integrators/path/path_recorder.h"
 #include "worker/integrators/path/tile_renderer.h"
 #include "worker/shading/fresnel.h"
@@ -103,7 +104,7 @@ TEST(SplitGlass, IsTheSameHoweverTheImageIsCut) {
     pass.next_event = pass.record = true;
     pass.blocks_per_unit = 64;
     const TraceScene trace(scene, job);
-    const Guide guide(initial_tree(scene.bounds(), 1.0f));
+    const SdTreeSampler guide(initial_tree(scene.bounds(), 1.0f));
     const auto render = [&](const WorkUnit& unit, RecordLog& log) {
         std::vector<PixelEstimate> pixels;
         TraceStats stats;
@@ -159,7 +160,7 @@ TEST(SplitGlass, NoPathIsLostOnAWayThatIsBlack) {
 }
 
 TEST(PathRecorder, AGlassSplitCarriesNothingForTheOtherWay) {
-    PathRecorder recorder;
+    PathRecorder<SdTreeWalk<true>> recorder;
     RecordLog log;
     log.begin(2);
     recorder.begin_path();
@@ -185,7 +186,8 @@ struct Traced {
     RecordFacts records;
 };
 
-Traced trace(const TraceScene& scene, const Job& job, const PassPlan& pass, const Guide& guide, const WorkUnit& unit) {
+Traced trace(const TraceScene& scene, const Job& job, const PassPlan& pass, const SdTreeSampler& guide,
+             const WorkUnit& unit) {
     Traced traced;
     RecordLog log;
     log.begin(guide.distribution_count());
@@ -209,7 +211,7 @@ TEST(PathKernel, APathDoesNotDependOnOthers) {
     pass.spp = 8;
     pass.next_event = true;
     pass.blocks_per_unit = 64;
-    const Guide guide(initial_tree(scene.bounds(), 1.0f));
+    const SdTreeSampler guide(initial_tree(scene.bounds(), 1.0f));
     const TraceScene prepared(scene, job);
     for (const bool record : {false, true}) {
         pass.record = record;

@@ -116,7 +116,7 @@ class SplittingInARoom : public ::testing::Test {
         job_.budget.spp = 31;
         job_.guiding.spatial_threshold = 200;
         job_.guiding.splitting = 32;
-        tree_ = test::render_locally(scene_, job_).tree;
+        tree_ = test::render_locally(scene_, job_).tree();
         pass_.spp = 96;
         pass_.blocks_per_unit = 64;
         pass_.next_event = true;
@@ -133,7 +133,7 @@ class SplittingInARoom : public ::testing::Test {
     Rendered render(const Job& job, const WorkUnit& unit) const {
         Rendered r;
         const TraceScene trace(scene_, job);
-        test::render_unit(trace, job, pass_, Guide(tree_), unit, r.pixels, r.log, r.stats);
+        test::render_unit(trace, job, pass_, SdTreeSampler(tree_), unit, r.pixels, r.log, r.stats);
         return r;
     }
 
@@ -213,7 +213,7 @@ TEST_F(SplittingInARoom, UnsplitSamplesAreThoseOfPathsThatAreNotSplit) {
 
 TEST_F(SplittingInARoom, IsToldByDescribeSample) {
     const TraceScene trace(scene_, job_);
-    const Guide guide(tree_);
+    const SdTreeSampler guide(tree_);
     for (std::uint32_t sample = 0; sample < pass_.spp; ++sample) {
         const std::string text = test::describe_sample(trace, job_, pass_, guide, 12, 8, sample);
         if (text.find("goes on as") == std::string::npos) continue;
@@ -235,7 +235,7 @@ TEST(Splitting, FractionsSumToOne) {
     job.guiding.splitting = 8;
     job.guiding.spatial_threshold = 50;
     job.budget.spp = 31;
-    SdTree tree = test::render_locally(scene, job).tree;
+    SdTree tree = test::render_locally(scene, job).tree();
     ASSERT_GT(tree.region_count(), 4u);
     for (std::uint32_t r = 0; r < tree.region_count(); ++r) {
         tree.bsdf_fraction[r] = 1.0f;
@@ -250,8 +250,8 @@ TEST(Splitting, FractionsSumToOne) {
     std::vector<PixelEstimate> pixels;
     RecordLog log;
     TraceStats stats;
-    test::render_unit(TraceScene(scene, job), job, pass, Guide(tree), {pass.index, 0, 0, 16, 16, 0}, pixels, log,
-                      stats);
+    test::render_unit(TraceScene(scene, job), job, pass, SdTreeSampler(tree), {pass.index, 0, 0, 16, 16, 0}, pixels,
+                      log, stats);
     EXPECT_GT(stats.rays, 6 * stats.paths + stats.paths / 2) << "the test must split paths: of six edges each";
     const SplittingGain gain = splitting_gain(stats);
     EXPECT_NEAR(gain.found, 1, 1e-6) << "alone they carry the same";

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // What `treefarm inspect` says of a tree.
-#include "common/guiding/tree_statistics.h"
+#include "common/guiding/sd_tree/tree_statistics.h"
 
 #include <gtest/gtest.h>
 
 #include <numeric>
 
-#include "common/guiding/guide.h"
+#include "common/guiding/sd_tree/sd_tree_sampler.h"
 #include "tests/support/random_tree.h"
 
 namespace treefarm {
@@ -47,13 +47,13 @@ TEST(TreeStatistics, OfTheTreeBeforeAnyPass) {
     EXPECT_EQ(s.regions_mixture.bsdf.mean, 0.5);
     EXPECT_EQ(s.regions_mixture.t1.mean, 0.5);
     EXPECT_EQ(s.encoded_bytes, 77u);
-    EXPECT_EQ(s.memory_bytes, Guide(tree).bytes());
+    EXPECT_EQ(s.memory_bytes, SdTreeSampler(tree).bytes());
 }
 
 class ViewTreeStatistics : public ::testing::Test {
   protected:
     SdTree tree = test::random_view_tree(5, 60000, 1500, 4000, 2);
-    Guide guide{tree};
+    SdTreeSampler guide{tree};
     TreeStatistics s = tree_statistics(tree, 1);
 };
 

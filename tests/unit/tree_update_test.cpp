@@ -7,7 +7,7 @@
 #include <random>
 #include <thread>
 
-#include "common/guiding/splat.h"
+#include "common/guiding/statistics/cell_accumulator.h"
 #include "tests/support/random_tree.h"
 
 namespace treefarm {
@@ -16,10 +16,10 @@ namespace {
 class TreeUpdate : public ::testing::Test {
   protected:
     SdTree tree = test::random_tree(3, 20000, 2000, 1);
-    Guide guide{tree};
+    SdTreeSampler guide{tree};
 
-    TreeSums sums_of(std::vector<Record> records, const UpdateCaps& caps = {}) const {
-        Accumulator accumulator(tree.pass, guide);
+    CellSums sums_of(std::vector<Record> records, const UpdateCaps& caps = {}) const {
+        CellAccumulator accumulator(tree.pass, guide);
         std::vector<std::uint32_t> counts(guide.region_count());
         for (const Record& record : records)
             ++counts[record.distribution];
@@ -30,7 +30,7 @@ class TreeUpdate : public ::testing::Test {
 
 TEST_F(TreeUpdate, SplitAndMergedInAnyOrderEqualsTheWhole) {
     const std::vector<Record> records = test::random_records(guide, 30000, 9);
-    const TreeSums whole = sums_of(records);
+    const CellSums whole = sums_of(records);
     std::mt19937 engine(4);
     for (int cut = 0; cut < 5; ++cut) {
         std::vector<Bytes> updates;
@@ -42,7 +42,7 @@ TEST_F(TreeUpdate, SplitAndMergedInAnyOrderEqualsTheWhole) {
             begin = end;
         }
         std::shuffle(updates.begin(), updates.end(), engine);
-        TreeSums merged(tree.pass, guide.region_count(), guide.cell_count());
+        CellSums merged(tree.pass, guide.region_count(), guide.cell_count());
         for (const Bytes& update : updates)
             merged.merge_encoded(update);
         EXPECT_EQ(merged, whole);
@@ -51,7 +51,7 @@ TEST_F(TreeUpdate, SplitAndMergedInAnyOrderEqualsTheWhole) {
 
 TEST_F(TreeUpdate, ThreadsCommitToTheSameSums) {
     const std::vector<Record> records = test::random_records(guide, 40000, 10);
-    Accumulator accumulator(tree.pass, guide);
+    CellAccumulator accumulator(tree.pass, guide);
     std::vector<std::thread> threads;
     for (std::size_t t = 0; t < 4; ++t)
         threads.emplace_back([&, t] {
@@ -67,12 +67,12 @@ TEST_F(TreeUpdate, ThreadsCommitToTheSameSums) {
     for (std::thread& thread : threads)
         thread.join();
     EXPECT_EQ(accumulator.take(), sums_of(records));
-    EXPECT_EQ(accumulator.take(), TreeSums(tree.pass, guide.region_count(), guide.cell_count()));
+    EXPECT_EQ(accumulator.take(), CellSums(tree.pass, guide.region_count(), guide.cell_count()));
 }
 
 TEST_F(TreeUpdate, CodecKeepsEverything) {
-    const TreeSums sums = sums_of(test::random_records(guide, 5000, 11), {.capped_records = 3, .outside_positions = 5});
-    TreeSums decoded(tree.pass, guide.region_count(), guide.cell_count());
+    const CellSums sums = sums_of(test::random_records(guide, 5000, 11), {.capped_records = 3, .outside_positions = 5});
+    CellSums decoded(tree.pass, guide.region_count(), guide.cell_count());
     const std::uint64_t touched = decoded.merge_encoded(sums.encode());
     EXPECT_EQ(decoded, sums);
     EXPECT_EQ(touched, static_cast<std::uint64_t>(
@@ -83,15 +83,15 @@ TEST_F(TreeUpdate, CodecKeepsEverything) {
 TEST_F(TreeUpdate, TakesAtMostTwelveBytesPerTouchedCell) {
     for (const std::size_t records : {100u, 10000u, 200000u}) {
         const Bytes update = sums_of(test::random_records(guide, records, 12)).encode();
-        TreeSums sums(tree.pass, guide.region_count(), guide.cell_count());
+        CellSums sums(tree.pass, guide.region_count(), guide.cell_count());
         EXPECT_LE(update.size(), 12 * sums.merge_encoded(update)) << records;
     }
 }
 
 TEST_F(TreeUpdate, CutShortItChangesNothing) {
     const Bytes update = sums_of(test::random_records(guide, 200, 13)).encode();
-    TreeSums sums(tree.pass, guide.region_count(), guide.cell_count());
-    const TreeSums empty = sums;
+    CellSums sums(tree.pass, guide.region_count(), guide.cell_count());
+    const CellSums empty = sums;
     for (std::size_t size = 0; size < update.size(); ++size) {
         EXPECT_THROW(sums.merge_encoded(std::span(update).first(size)), FormatError) << size;
         EXPECT_EQ(sums, empty);
@@ -103,7 +103,7 @@ TEST_F(TreeUpdate, CorruptedItThrowsOrStaysInRange) {
     for (std::size_t i = 0; i < update.size(); ++i) {
         Bytes bad = update;
         bad[i] = static_cast<std::uint8_t>(bad[i] ^ 0xff);
-        TreeSums sums(tree.pass, guide.region_count(), guide.cell_count());
+        CellSums sums(tree.pass, guide.region_count(), guide.cell_count());
         try {
             sums.merge_encoded(bad);  // the envelope's checksum catches what still parses
         } catch (const FormatError&) {
@@ -112,13 +112,13 @@ TEST_F(TreeUpdate, CorruptedItThrowsOrStaysInRange) {
 }
 
 TEST_F(TreeUpdate, OfAnotherPassIsRefused) {
-    const Bytes update = TreeSums(tree.pass + 1, guide.region_count(), guide.cell_count()).encode();
-    TreeSums sums(tree.pass, guide.region_count(), guide.cell_count());
+    const Bytes update = CellSums(tree.pass + 1, guide.region_count(), guide.cell_count()).encode();
+    CellSums sums(tree.pass, guide.region_count(), guide.cell_count());
     EXPECT_THROW(sums.merge_encoded(update), FormatError);
 }
 
-TEST(TreeSums, SaturateAndCountIt) {
-    TreeSums a(0, 1, 2), b(0, 1, 2);
+TEST(CellSums, SaturateAndCountIt) {
+    CellSums a(0, 1, 2), b(0, 1, 2);
     EXPECT_TRUE(a.add_quanta(0, ~std::uint64_t{0} - 5));
     EXPECT_FALSE(a.add_quanta(0, 6));
     EXPECT_EQ(a.cells()[0], ~std::uint64_t{0});

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a view adds to the mixture of its region, and when it is released.
-#include "common/guiding/view_mixture.h"
+#include "common/guiding/sd_tree/view_mixture.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "worker/integrators/path/guided_sampling.h"
+#include "worker/guides/sd_tree_walk.h"
 
 namespace treefarm {
 namespace {
@@ -50,7 +50,7 @@ struct OneView {
 
     /// A pass in which `records` of the view, of `all`, fell into this bin. Whether the view is kept.
     bool judge(int bin, std::uint32_t records, std::uint32_t all, bool last_update = false) {
-        TreeSums sums(tree.pass, SumsShape(1, tree.cell_count(), true, 1));
+        CellSums sums(tree.pass, SumsShape(1, tree.cell_count(), true, 1));
         sums.add_count(0, all);
         sums.add_count(1, records);
         sums.add_mixture(1, static_cast<std::uint8_t>(bin), std::uint64_t{records} << kMeanRecordBits);
@@ -91,7 +91,7 @@ TEST(ViewMixture, OfUseToFewIsReleasedToo) {
 
 TEST(ViewMixture, TakesItsPartOfWhatRegionAndBsdfShare) {
     const float region_fraction = 0.6f;
-    const Guidance guidance{0, 1, region_fraction * (1 - 0.25f), 0.25f};
+    const SdTreeGuidance guidance{0, 1, region_fraction * (1 - 0.25f), 0.25f};
     EXPECT_NEAR(without_view(guidance, 2.0f, 3.0f), mixed_pdf(region_fraction, 2.0f, 3.0f), 1e-6f);
     EXPECT_NEAR(mixed_pdf(guidance, 2.0f, 3.0f, 7.0f), 0.25f * 7 + 0.75f * mixed_pdf(region_fraction, 2.0f, 3.0f),
                 1e-6f);

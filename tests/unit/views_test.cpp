@@ -7,8 +7,8 @@
 #include <random>
 
 #include "common/base/error.h"
-#include "common/guiding/guide.h"
-#include "common/guiding/refine.h"
+#include "common/guiding/sd_tree/refine.h"
+#include "common/guiding/sd_tree/sd_tree_sampler.h"
 #include "tests/support/random_tree.h"
 
 namespace treefarm {
@@ -17,7 +17,7 @@ namespace {
 class ViewsTest : public ::testing::Test {
   protected:
     SdTree tree = test::random_view_tree(5, 60000, 1500, 4000, 2);
-    Guide guide{tree};
+    SdTreeSampler guide{tree};
     std::mt19937 engine{5};
 
     std::uint32_t bits() { return static_cast<std::uint32_t>(engine()); }
@@ -35,7 +35,7 @@ TEST_F(ViewsTest, FindsTheViewThatHoldsADirection) {
     for (std::uint32_t r = 0; r < tree.region_count(); ++r) {
         const std::uint32_t set = tree.view_set[r];
         if (set == SdTree::kNoViews) {
-            EXPECT_EQ(guide.view(r, bits()), Guide::kNoView);
+            EXPECT_EQ(guide.view(r, bits()), SdTreeSampler::kNoView);
             continue;
         }
         std::uint64_t code = 0;
@@ -63,7 +63,7 @@ TEST_F(ViewsTest, ViewsAreSampledByTheDensityOfTheirCells) {
         }
         EXPECT_NEAR(whole, 1.0, 1e-5);
         for (int i = 0; i < 20; ++i) {
-            const Guide::SquareSample drawn = guide.sample_square(d, bits(), bits(), bits());
+            const SdTreeSampler::SquareSample drawn = guide.sample_square(d, bits(), bits(), bits());
             EXPECT_GT(drawn.pdf, 0.0f);
             EXPECT_EQ(drawn.pdf, guide.pdf(d, drawn.code));
         }
@@ -77,7 +77,8 @@ TEST_F(ViewsTest, APickFindsTheCellThatHoldsItsProbability) {
         for (std::uint32_t c = tree.cell_begin[d]; c < tree.cell_begin[d + 1]; mass += tree.cell_mass[c++]) {
             if (tree.cell_mass[c] == 0) continue;
             for (const std::uint32_t at : {mass, mass + tree.cell_mass[c] - 1}) {
-                const Guide::SquareSample drawn = guide.sample_square(d, at << (32 - kMassBits), bits(), bits());
+                const SdTreeSampler::SquareSample drawn =
+                    guide.sample_square(d, at << (32 - kMassBits), bits(), bits());
                 ASSERT_EQ(guide.cell(d, drawn.code), c);
             }
         }
@@ -117,12 +118,12 @@ TEST_F(ViewsTest, BrokenViewsAreRefused) {
 TEST_F(ViewsTest, SumsOfPartsAreTheSumOfTheWhole) {
     const std::vector<Record> records = test::random_view_records(guide, 20000, 9);
     const auto sums_of = [&](std::span<const Record> part) { return test::sums_of(guide, part); };
-    TreeSums merged(tree.pass, sums_of({}).shape());
+    CellSums merged(tree.pass, sums_of({}).shape());
     for (std::size_t at = 0; at < records.size(); at += 5000)
         merged.merge_encoded(sums_of(std::span(records).subspan(at, 5000)).encode());
     EXPECT_EQ(merged, sums_of(records));
-    TreeSums other(tree.pass, tree.distribution_count(), tree.cell_count());
-    EXPECT_THROW(other.merge_encoded(TreeSums(tree.pass, tree.region_count(), tree.cell_count()).encode()),
+    CellSums other(tree.pass, tree.distribution_count(), tree.cell_count());
+    EXPECT_THROW(other.merge_encoded(CellSums(tree.pass, tree.region_count(), tree.cell_count()).encode()),
                  FormatError);
 }
 
@@ -133,7 +134,7 @@ class RefineViews : public ::testing::Test {
 
     SdTree refined(const SdTree& tree, std::uint64_t region_records, std::uint64_t view_records,
                    RefineSettings settings, std::span<const ViewAdvice> advice = {}) {
-        TreeSums sums(tree.pass, {tree.region_count(), tree.cell_count(), false, tree.view_count()});
+        CellSums sums(tree.pass, {tree.region_count(), tree.cell_count(), false, tree.view_count()});
         for (std::uint32_t r = 0; r < tree.region_count(); ++r)
             sums.add_count(r, region_records);
         for (std::uint32_t v = 0; v < tree.view_count(); ++v)

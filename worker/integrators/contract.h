@@ -8,7 +8,7 @@
 
 #include "common/config/job.h"
 #include "common/film/work_unit.h"
-#include "common/guiding/guide.h"
+#include "common/guiding/any_guide.h"
 #include "common/plan/schedule.h"
 #include "worker/integrators/unit_output.h"
 #include "worker/scene/trace_scene.h"
@@ -17,7 +17,7 @@ namespace treefarm {
 
 /// Renders a work unit: a pure function of its arguments' values and of the scene and job it was made for. Called by
 /// many threads at once with different outputs, each begun by its caller.
-using RenderUnit = std::function<void(const PassPlan&, const Guide&, const WorkUnit&, UnitOutput&)>;
+using RenderUnit = std::function<void(const PassPlan&, const AnySampler&, const WorkUnit&, UnitOutput&)>;
 
 /// Makes ready for tracing what the coordinator sent; called once, may take long.
 using MakeRenderer = std::function<RenderUnit(std::span<const std::uint8_t> scene, const Job&)>;

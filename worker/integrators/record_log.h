@@ -1,36 +1,39 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
-#include "common/guiding/guide.h"
-#include "common/guiding/tree_update.h"
+#include "common/guiding/settings.h"
+#include "common/guiding/statistics/cell_sums.h"
 
 namespace treefarm {
 
-/// Which distributions learn from a vertex.
-struct RecordTarget {
-    std::uint32_t region = Guide::kNoView;  ///< kNoView: none learns
-    std::uint32_t view = Guide::kNoView;    ///< the distribution of the view, where there is one
+/// What records are of.
+struct RecordRules {
+    GuidingTarget target = GuidingTarget::radiance;
+    ViewRecords view_records = ViewRecords::product;
 
-    bool empty() const { return region == Guide::kNoView; }
-    bool has_view() const { return view != Guide::kNoView; }
+    /// L / p, or L^2 / p for the second moment.
+    float target_value(float radiance, float pdf) const {
+        return finite(target == GuidingTarget::variance ? radiance * (radiance / pdf) : radiance / pdf);
+    }
+    /// A value beyond float becomes the largest one: the sums cap it, and count that.
+    static float finite(float value) { return std::min(value, std::numeric_limits<float>::max()); }
 };
 
-/// Where a record goes that the stochastic spatial filter has moved to `region`. One for a view goes to that of the
-/// same direction there, if there is one.
-template <bool kViews>
-RecordTarget moved(const Guide& guide, std::uint32_t region, std::uint32_t outgoing_code, RecordTarget target) {
-    target.region = region;
-    if (kViews && target.has_view()) {
-        const std::uint32_t view = guide.view(target.region, outgoing_code);
-        if (view != Guide::kNoView) target.view = view;
-    }
-    return target;
+/// Writes a record at `end`, unless it has nothing to tell, which nothing would predict: no branch asks. Returns the
+/// new end.
+inline Record* append_record(Record record, Record* end) {
+    record.value = record.value > 0.0f ? record.value : 0.0f;  // also NaN
+    record.reflected = record.reflected > 0.0f ? record.reflected : 0.0f;
+    *end = record;
+    return end + (std::max(record.value, record.reflected) > 0.0f);
 }
 
-/// Records of one work unit, appended in path order: added to the tree's sums afterwards, away from the path walk.
+/// Records of one work unit, appended in path order: added to the guide's sums afterwards, away from the path walk.
 struct RecordLog {
     LargeTable<Record> records;         ///< with radiance
     std::vector<std::uint32_t> counts;  ///< recorded vertices per distribution, those without radiance included

@@ -58,14 +58,14 @@ RenderUnit with_aovs(const Integrator& integrator, const std::shared_ptr<const T
     return
         [first_hit = FirstHitRenderer(scene, camera, job.sampler.seed, layout), render = integrator.prepare(scene, job),
          direct = layout.direct() ? integrator.prepare(scene, direct_job) : RenderUnit()](
-            const PassPlan& pass, const Guide& guide, const WorkUnit& unit, UnitOutput& output) {
+            const PassPlan& pass, const AnySampler& guide, const WorkUnit& unit, UnitOutput& output) {
             render(pass, guide, unit, output);
             if (unit.kind != UnitKind::tile) return;
             const double start = thread_cpu_seconds();
             first_hit.render(pass, unit, output.aovs);
             if (direct) {
                 UnitOutput part;
-                part.begin(guide.distribution_count());
+                part.begin(guide.regions().distribution_count());
                 direct(pass, guide, unit, part);
                 output.aovs.direct = std::move(part.pixels);
             }
@@ -94,8 +94,8 @@ RenderUnit make_renderer(std::span<const std::uint8_t> scene, const Job& job) {
     const AovLayout layout(aov_requests(resolved));
     RenderUnit render = layout.empty() ? integrator.prepare(trace_scene, resolved)
                                        : with_aovs(integrator, trace_scene, camera, resolved, layout);
-    return [trace_scene, render = std::move(render)](const PassPlan& pass, const Guide& guide, const WorkUnit& unit,
-                                                     UnitOutput& output) {
+    return [trace_scene, render = std::move(render)](const PassPlan& pass, const AnySampler& guide,
+                                                     const WorkUnit& unit, UnitOutput& output) {
         check_unit(unit, pass, *trace_scene);
         render(pass, guide, unit, output);
     };

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "common/guiding/sd_tree.h"
+#include "common/guiding/regions/region_model.h"
 #include "worker/lights/discrete_table.h"
 
 namespace treefarm {

@@ -6,14 +6,14 @@
 
 namespace treefarm {
 
-/// The surface that the walk stands on, as far as it needs it. Three kinds, a template argument of the path kernel, so
-/// that plainly diffuse scenes pay for no other material, and only trees with views for views.
+/// The surface that the walk stands on, as far as it needs it. Two kinds, a template argument of the path kernel, so
+/// that plainly diffuse scenes pay for no other material.
 
 /// A surface of a plainly diffuse scene (is_plainly_diffuse()): no delta lobes, no transmission, no textures.
 class DiffuseSurface {
   public:
     using Bsdf = PlainDiffuse;
-    static constexpr bool kGeneral = false, kTransmits = false, kViews = false;
+    static constexpr bool kGeneral = false, kTransmits = false;
     struct Scratch {};
     static Scratch make_scratch(const TraceScene&) { return {}; }
     static void prefetch(const TraceScene&, const Hit&) {}
@@ -47,7 +47,7 @@ class DiffuseSurface {
 class GeneralSurface {
   public:
     using Bsdf = treefarm::Bsdf;
-    static constexpr bool kGeneral = true, kTransmits = true, kViews = false;
+    static constexpr bool kGeneral = true, kTransmits = true;
     using Scratch = BsdfScratch;
     static Scratch make_scratch(const TraceScene& scene) { return scene.materials().make_scratch(); }
 
@@ -104,13 +104,6 @@ class GeneralSurface {
     Frame frame_;
     Vec3 wo_, ng_;
     LobeBits lobes_;
-};
-
-/// A surface of any scene where the tree has views.
-class ViewedSurface : public GeneralSurface {
-  public:
-    static constexpr bool kViews = true;
-    using GeneralSurface::GeneralSurface;
 };
 
 }  // namespace treefarm

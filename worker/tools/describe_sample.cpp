@@ -3,6 +3,7 @@
 
 #include <sstream>
 
+#include "worker/guides/walks.h"
 #include "worker/integrators/path/path_kernel.h"
 
 namespace treefarm {
@@ -36,7 +37,8 @@ struct TextObserver : NoObserver {
         text << "  scatter " << (s.delta ? "(delta) " : "") << "along " << s.world << " pdf " << s.pdf << " f cos "
              << s.f_cos << " throughput " << throughput << '\n';
     }
-    void next_event(const PendingLight& light, float scatter_pdf, float weight, const Rgb& contribution) {
+    template <class G>
+    void next_event(const PendingLight<G>& light, float scatter_pdf, float weight, const Rgb& contribution) {
         text << "  next event along " << light.wi << " distance " << light.distance << " pdf " << light.pdf
              << " scatter pdf " << scatter_pdf << " weight " << weight << " contributes " << contribution << '\n';
     }
@@ -56,12 +58,12 @@ struct TextObserver : NoObserver {
     void end(const char* why) { text << "  end: " << why << '\n'; }
 };
 
-template <class Surface, bool kGuided>
-std::string described(const TraceScene& scene, const Resolved& job, const PassPlan& pass, const Guide& guide, int x,
-                      int y, const PathKey& path) {
+template <GuideWalk G, class Surface, bool kGuided>
+std::string described(const TraceScene& scene, const Resolved& job, const PassPlan& pass,
+                      const typename G::Sampler& guide, int x, int y, const PathKey& path) {
     TraceStats stats;
-    PathKernel<Surface, kGuided, false, TextObserver> kernel(scene, guide, PathSettings(scene, job, pass, guide),
-                                                             stats);
+    PathKernel<G, Surface, kGuided, false, TextObserver> kernel(scene, guide, PathSettings(scene, job, pass, guide),
+                                                                stats);
     kernel.observer().scene = &scene;
     kernel.add(path, scene.camera().generate(x, y, path));
     kernel.trace();
@@ -74,16 +76,21 @@ std::string described(const TraceScene& scene, const Resolved& job, const PassPl
 
 }  // namespace
 
-std::string describe_sample(const TraceScene& scene, const Resolved& job, const PassPlan& pass, const Guide& guide,
+std::string describe_sample(const TraceScene& scene, const Resolved& job, const PassPlan& pass, const AnySampler& guide,
                             int x, int y, std::uint32_t sample) {
     const PathKey path{job.sampler.seed, scene.film().key_of(x, y), pass.first_sample + sample};
     const KernelChoice& kernel = pass.kernel;
-    if (kernel.plain_diffuse)
-        return kernel.guided ? described<DiffuseSurface, true>(scene, job, pass, guide, x, y, path)
-                             : described<DiffuseSurface, false>(scene, job, pass, guide, x, y, path);
-    if (kernel.guided && kernel.views) return described<ViewedSurface, true>(scene, job, pass, guide, x, y, path);
-    return kernel.guided ? described<GeneralSurface, true>(scene, job, pass, guide, x, y, path)
-                         : described<GeneralSurface, false>(scene, job, pass, guide, x, y, path);
+    return guide.visit([&]<class Of>(const auto& sampler) {
+        using Walk = WalkOf<typename Of::Sampler>;
+        const auto as = [&]<class G, class Surface, bool kGuided>() {
+            return described<G, Surface, kGuided>(scene, job, pass, sampler, x, y, path);
+        };
+        if (!kernel.guided)
+            return kernel.plain_diffuse ? as.template operator()<NoGuide, DiffuseSurface, false>()
+                                        : as.template operator()<NoGuide, GeneralSurface, false>();
+        if (kernel.plain_diffuse) return as.template operator()<Walk, DiffuseSurface, true>();
+        return as.template operator()<Walk, GeneralSurface, true>();
+    });
 }
 
 }  // namespace treefarm

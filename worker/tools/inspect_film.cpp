@@ -4,7 +4,6 @@
 #include <limits>
 
 #include "common/base/hash.h"
-#include "common/guiding/tree_statistics.h"
 
 namespace treefarm {
 
@@ -14,9 +13,9 @@ Rgb hashed_colour(std::uint32_t number) {
     return {channel(0), channel(20), channel(40)};
 }
 
-FilmMaps film_maps(const TraceScene& scene, const SdTree& tree, const Guide& guide) {
+FilmMaps film_maps(const TraceScene& scene, const AnyModel& tree, const AnySampler& guide) {
     const int width = scene.film().width, height = scene.film().height;
-    const std::vector<double> cells = cells_by_region(tree);
+    const std::vector<double> cells = tree.cells_by_region();
     FilmMaps maps{RgbImage(width, height), Plane(width, height), Plane(width, height), Plane(width, height)};
     std::size_t i = 0;
     for (int y = 0; y < height; ++y)

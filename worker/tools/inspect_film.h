@@ -12,12 +12,12 @@ struct FilmMaps {
     RgbImage regions;     ///< a colour hashed from the number of the region; black where nothing is seen
     Plane bsdf_fraction;  ///< a_BSDF
     Plane view_fraction;  ///< a_T2, 0 where there is none
-    Plane cells;          ///< cells_by_region() there
+    Plane cells;          ///< AnyModel::cells_by_region() there
 };
 
 /// A colour that tells numbers apart. Linear.
 Rgb hashed_colour(std::uint32_t number);
 
-FilmMaps film_maps(const TraceScene& scene, const SdTree& tree, const Guide& guide);
+FilmMaps film_maps(const TraceScene& scene, const AnyModel& tree, const AnySampler& guide);
 
 }  // namespace treefarm

@@ -6,6 +6,7 @@
 #include <memory>
 #include <thread>
 
+#include "worker/guides/walks.h"
 #include "worker/integrators/path/path_kernel.h"
 
 namespace treefarm {
@@ -70,6 +71,43 @@ EmitterHit intersect_emitter(const TraceScene& scene, const Vec3& from, const Ra
     return {emitters.emitted(hit, -ray.direction), emitters.pdf_direct(from, ray.direction, hit, probabilities)};
 }
 
+template <class Surface>
+void add_surface_facts(const TraceScene& scene, const InspectedPlace& place, PlaceFacts& facts) {
+    const Scatterer<Surface> scatterer(scene, place, false);
+    facts.black = scatterer.surface().black();
+    if (facts.black) return;
+    facts.smooth = scatterer.surface().smooth();
+    if constexpr (Surface::kGeneral) facts.view_dependent = scatterer.surface().view_dependent();
+}
+
+/// What is known of a place without any guide.
+PlaceFacts surface_facts(const TraceScene& scene, const InspectedPlace& place) {
+    PlaceFacts facts;
+    if (place.surface && scene.plainly_diffuse()) add_surface_facts<DiffuseSurface>(scene, place, facts);
+    if (place.surface && !scene.plainly_diffuse()) add_surface_facts<GeneralSurface>(scene, place, facts);
+    return facts;
+}
+
+/// The surface of a place, as far as a guide asks for it.
+struct SeenSurface {
+    static constexpr bool kGeneral = true;
+    bool depends;
+    bool view_dependent() const { return depends; }
+};
+
+template <GuideWalk G>
+typename G::Guidance guidance_at(const typename G::Sampler& guide, const InspectedPlace& place,
+                                 const PlaceFacts& facts) {
+    typename G::Guidance guidance = G::unguided();
+    guidance.region = guide.region(place.hit.p);
+    if (facts.smooth) guidance.bsdf_fraction = guide.bsdf_fraction(guidance.region);
+    typename G::Outgoing outgoing{};
+    if constexpr (G::kLocal)
+        G::template localise<true>(guide, SeenSurface{place.surface && facts.smooth && facts.view_dependent},
+                                   place.outgoing, outgoing, guidance);
+    return guidance;
+}
+
 /// The job of the paths that start at the place: their first edge is the second of a path from the camera, and what it
 /// meets shining is added apart.
 Resolved unguided(const Resolved& job) {
@@ -85,16 +123,16 @@ struct Square {
     double radiance = 0, left = 0, reflected = 0, left_reflected = 0, sampled = 0;
 };
 
-template <class Surface>
+template <GuideWalk G, class Surface>
 class PlaceTracer {
   public:
-    PlaceTracer(const TraceScene& scene, const Resolved& job, const Guide& guide, const InspectedPlace& place,
-                const BruteForce& settings)
+    PlaceTracer(const TraceScene& scene, const Resolved& job, const typename G::Sampler& guide,
+                const InspectedPlace& place, const BruteForce& settings)
         : scene_(scene),
           guide_(guide),
           place_(place),
           settings_(settings),
-          facts_(place_facts(scene, guide, place)),
+          guidance_(guidance_at<G>(guide, place, surface_facts(scene, place))),
           mis_(job.integrator.mis),
           seed_(job.sampler.seed),
           scatterer_(scene, place, job.integrator.strict_normals),
@@ -126,12 +164,12 @@ class PlaceTracer {
                       (static_cast<float>(row) + to_unit(random[1])) / static_cast<float>(side));
         const Vec3 d = square_to_direction(at);
         const Scattering scattering = scatterer_.toward(d);
-        const float pdf = mixed_pdf_at<true>(guide_, facts_.guidance, scattering.bsdf_pdf, square_to_code(at));
+        const float pdf = G::pdf(guide_, guidance_, scattering.bsdf_pdf, G::direction_at(at));
         sums.sampled += static_cast<double>(pdf);
         if (!scattering.reflects) return;
         const Ray ray{offset_origin(place_.hit, d), d};
         const EmitterHit emitter =
-            intersect_emitter(scene_, place_.hit.p, ray, guide_.light_probabilities(facts_.guidance.region));
+            intersect_emitter(scene_, place_.hit.p, ray, guide_.light_probabilities(guidance_.region));
         if (!is_black(emitter.emitted)) {
             const double weight = double(mis_weight(mis_, pdf, emitter.light_pdf));
             count(scattering.f_cos, emitter.emitted, 1.0, weight, sums);
@@ -157,27 +195,27 @@ class PlaceTracer {
     }
 
     const TraceScene& scene_;
-    const Guide& guide_;
+    const typename G::Sampler& guide_;
     const InspectedPlace& place_;
     const BruteForce& settings_;
-    const PlaceFacts facts_;
+    const typename G::Guidance guidance_;
     const MisHeuristic mis_;
     const std::uint64_t seed_;
     TraceStats stats_;
     Scatterer<Surface> scatterer_;
-    using Kernel = PathKernel<Surface, false, false>;
+    using Kernel = PathKernel<NoGuide, Surface, false, false>;
     Kernel kernel_;
     std::array<Rgb, Kernel::kGroup> waiting_;  ///< f |cos| of the directions that the kernel's paths start into
 };
 
-template <class Surface>
-PlaceTruth trace_with(const TraceScene& scene, const Resolved& job, const Guide& guide, const InspectedPlace& place,
-                      const BruteForce& settings) {
+template <GuideWalk G, class Surface>
+PlaceTruth trace_with(const TraceScene& scene, const Resolved& job, const typename G::Sampler& guide,
+                      const InspectedPlace& place, const BruteForce& settings) {
     const std::uint32_t side = 1u << settings.bits;
     std::vector<Square> squares(std::size_t{side} * side);
     std::atomic<std::uint32_t> next_row = 0;
     const auto work = [&] {
-        const auto tracer = std::make_unique<PlaceTracer<Surface>>(scene, job, guide, place, settings);
+        const auto tracer = std::make_unique<PlaceTracer<G, Surface>>(scene, job, guide, place, settings);
         for (std::uint32_t row; (row = next_row++) < side;)
             for (std::uint32_t column = 0; column < side; ++column)
                 squares[std::size_t{row} * side + column] = tracer->square(column, row);
@@ -202,15 +240,6 @@ PlaceTruth trace_with(const TraceScene& scene, const Resolved& job, const Guide&
     return truth;
 }
 
-template <class Surface>
-void add_surface_facts(const TraceScene& scene, const InspectedPlace& place, PlaceFacts& facts) {
-    const Scatterer<Surface> scatterer(scene, place, false);
-    facts.black = scatterer.surface().black();
-    if (facts.black) return;
-    facts.smooth = scatterer.surface().smooth();
-    if constexpr (Surface::kGeneral) facts.view_dependent = scatterer.surface().view_dependent();
-}
-
 }  // namespace
 
 std::optional<InspectedPlace> seen_place(const TraceScene& scene, int x, int y) {
@@ -222,24 +251,29 @@ std::optional<InspectedPlace> seen_place(const TraceScene& scene, int x, int y) 
     return place;
 }
 
-PlaceFacts place_facts(const TraceScene& scene, const Guide& guide, const InspectedPlace& place) {
-    PlaceFacts facts;
-    facts.inside = guide.contains(place.hit.p);
-    if (place.surface && scene.plainly_diffuse()) add_surface_facts<DiffuseSurface>(scene, place, facts);
-    if (place.surface && !scene.plainly_diffuse()) add_surface_facts<GeneralSurface>(scene, place, facts);
-    Guidance& guidance = facts.guidance;
-    guidance = {guide.region(place.hit.p), Guide::kNoView, 1.0f, 0.0f};
-    if (facts.smooth) guidance.bsdf_fraction = guide.bsdf_fraction(guidance.region);
-    std::uint32_t outgoing_code = 0;
-    find_view<true>(guide, place.surface && facts.smooth && facts.view_dependent, place.outgoing, outgoing_code,
-                    guidance);
+PlaceFacts place_facts(const TraceScene& scene, const AnySampler& guide, const InspectedPlace& place) {
+    PlaceFacts facts = surface_facts(scene, place);
+    facts.inside = guide.regions().contains(place.hit.p);
+    guide.visit([&]<class G>(const auto& sampler) {
+        using Walk = WalkOf<typename G::Sampler>;
+        const auto guidance = guidance_at<Walk>(sampler, place, facts);
+        facts.guidance.region = guidance.region;
+        facts.guidance.bsdf_fraction = guidance.bsdf_fraction;
+        if constexpr (Walk::kLocal) {
+            facts.guidance.view = guidance.view;
+            facts.guidance.view_fraction = guidance.view_fraction;
+        }
+    });
     return facts;
 }
 
-PlaceTruth trace_place(const TraceScene& scene, const Resolved& job, const Guide& guide, const InspectedPlace& place,
-                       const BruteForce& settings) {
-    return scene.plainly_diffuse() ? trace_with<DiffuseSurface>(scene, job, guide, place, settings)
-                                   : trace_with<GeneralSurface>(scene, job, guide, place, settings);
+PlaceTruth trace_place(const TraceScene& scene, const Resolved& job, const AnySampler& guide,
+                       const InspectedPlace& place, const BruteForce& settings) {
+    return guide.visit([&]<class G>(const auto& sampler) {
+        using Walk = WalkOf<typename G::Sampler>;
+        return scene.plainly_diffuse() ? trace_with<Walk, DiffuseSurface>(scene, job, sampler, place, settings)
+                                       : trace_with<Walk, GeneralSurface>(scene, job, sampler, place, settings);
+    });
 }
 
 }  // namespace treefarm

@@ -5,9 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "common/guiding/guide.h"
+#include "common/guiding/any_guide.h"
 #include "common/plan/resolve.h"
-#include "worker/integrators/path/guided_sampling.h"
 #include "worker/scene/trace_scene.h"
 
 namespace treefarm {
@@ -20,9 +19,19 @@ struct InspectedPlace {
     bool normal = false;  ///< whether the hit's normals mean something
 };
 
+/// The guide at a place, in figures.
+struct PlaceGuidance {
+    static constexpr std::uint32_t kNoView = 0xffffffffu;
+    std::uint32_t region = 0;
+    std::uint32_t view = kNoView;  ///< the distribution of the view there
+    float bsdf_fraction = 1.0f;    ///< probability of sampling the BSDF
+    float view_fraction = 0.0f;    ///< probability of sampling the view; the rest goes to the region's distribution
+    bool has_view() const { return view != kNoView; }
+};
+
 /// What the tree uses at a place, and whether the material gives it anything to do.
 struct PlaceFacts {
-    Guidance guidance;            ///< fractions as the walk uses them; of a bare point: of its region, without view
+    PlaceGuidance guidance;       ///< fractions as the walk uses them; of a bare point: of its region, without view
     bool inside = true;           ///< the tree's cube
     bool black = false;           ///< the surface reflects nothing to there
     bool smooth = true;           ///< it has a lobe that a tree can learn about
@@ -32,7 +41,7 @@ struct PlaceFacts {
 /// The place that the centre of a pixel sees (through the centre of a lens); nothing if it sees no surface.
 std::optional<InspectedPlace> seen_place(const TraceScene& scene, int x, int y);
 
-PlaceFacts place_facts(const TraceScene& scene, const Guide& guide, const InspectedPlace& place);
+PlaceFacts place_facts(const TraceScene& scene, const AnySampler& guide, const InspectedPlace& place);
 
 /// How the truth is found: by path tracing from the place, with next event, without guides.
 struct BruteForce {
@@ -54,7 +63,7 @@ struct PlaceTruth {
 };
 
 /// Traces what a place scatters and receives. Pure but for its time: the same numbers for any number of threads.
-PlaceTruth trace_place(const TraceScene& scene, const Resolved& job, const Guide& guide, const InspectedPlace& place,
-                       const BruteForce& settings);
+PlaceTruth trace_place(const TraceScene& scene, const Resolved& job, const AnySampler& guide,
+                       const InspectedPlace& place, const BruteForce& settings);
 
 }  // namespace treefarm

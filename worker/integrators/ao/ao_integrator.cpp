@@ -21,7 +21,7 @@ float reach(const TraceScene& scene, const Resolved& job) {
 
 RenderUnit prepare_ao(std::shared_ptr<const TraceScene> scene, const Resolved& job) {
     const float length = reach(*scene, job);
-    return [scene = std::move(scene), job, length](const PassPlan& pass, const Guide&, const WorkUnit& unit,
+    return [scene = std::move(scene), job, length](const PassPlan& pass, const AnySampler&, const WorkUnit& unit,
                                                    UnitOutput& output) {
         render_samples(*scene, job, pass, unit, output, [&](const PathKey& key, const Ray& ray) {
             Hit hit;

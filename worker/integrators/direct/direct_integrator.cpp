@@ -77,14 +77,14 @@ class DirectLight {
 }  // namespace
 
 RenderUnit prepare_direct(std::shared_ptr<const TraceScene> scene, const Resolved& job) {
-    return
-        [scene = std::move(scene), job](const PassPlan& pass, const Guide&, const WorkUnit& unit, UnitOutput& output) {
-            with_surface(*scene, [&]<class Surface>() {
-                DirectLight<Surface> light(*scene, job.integrator, output.stats);
-                render_samples(*scene, job, pass, unit, output,
-                               [&](const PathKey& key, const Ray& ray) { return light.radiance(key, ray); });
-            });
-        };
+    return [scene = std::move(scene), job](const PassPlan& pass, const AnySampler&, const WorkUnit& unit,
+                                           UnitOutput& output) {
+        with_surface(*scene, [&]<class Surface>() {
+            DirectLight<Surface> light(*scene, job.integrator, output.stats);
+            render_samples(*scene, job, pass, unit, output,
+                           [&](const PathKey& key, const Ray& ray) { return light.radiance(key, ray); });
+        });
+    };
 }
 
 }  // namespace treefarm

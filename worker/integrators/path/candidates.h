@@ -4,9 +4,12 @@
 #include <algorithm>
 
 #include "common/plan/policy.h"
-#include "worker/integrators/path/guided_sampling.h"
+#include "worker/integrators/path/scatter_sample.h"
 
 namespace treefarm {
+
+/// Directions of which one may be taken.
+inline constexpr std::uint32_t kMostCandidates = 4;
 
 /// One of several directions (after resampled importance sampling, Talbot et al. 2005). Of M directions y_i, each drawn
 /// with the density q, number j is taken with a probability P_j that may depend on all of them. 1 / (M q(y_j) P_j) then
@@ -17,17 +20,16 @@ namespace treefarm {
 /// samples alone; a part of it prefers nothing, so that a direction is never weighed more than 1 / candidate_fair
 /// (policy.h) times as much as alone. The density of what is taken has no closed form; against next event it is weighed
 /// by q, on both sides.
+template <class Scatter>
 class Candidates {
   public:
-    static constexpr std::uint32_t kMost = 4;
-
     void clear() { count_ = 0; }
 
-    /// Room for the next direction, of at most kMost; offer() makes it one of those that can be taken.
-    ScatterSample& next() { return samples_[count_]; }
+    /// Room for the next direction, of at most kMostCandidates; offer() makes it one of those that can be taken.
+    Scatter& next() { return samples_[count_]; }
 
     void offer() {
-        const ScatterSample& s = samples_[count_];
+        const Scatter& s = samples_[count_];
         if (!(s.pdf > 0.0f)) return;
         const float weight = average(s.f_cos) * (s.guide_pdf + kUnseen) / s.pdf;
         if (!(weight > 0.0f)) return;
@@ -36,7 +38,7 @@ class Candidates {
     }
 
     /// One of `drawn` directions, those that failed included; `u` is uniform in [0, 1). False if all failed.
-    bool take(std::uint32_t drawn, float u, ScatterSample& s) const {
+    bool take(std::uint32_t drawn, float u, Scatter& s) const {
         if (count_ == 0) return false;
         float sum = 0.0f;
         for (std::uint32_t i = 0; i < count_; ++i)
@@ -58,8 +60,8 @@ class Candidates {
     static constexpr float kUnseen = 1.0f / (4.0f * kPi);
 
     std::uint32_t count_ = 0;
-    std::array<float, kMost> weights_;
-    std::array<ScatterSample, kMost> samples_;
+    std::array<float, kMostCandidates> weights_;
+    std::array<Scatter, kMostCandidates> samples_;
 };
 
 }  // namespace treefarm

@@ -11,12 +11,13 @@ namespace treefarm {
 
 /// The directions that a batch of paths takes in a step. Each draws one, or, at its first vertices, several, of which
 /// it takes one.
-template <class Surface, bool kGuided, bool kCoded, bool kViews>
+template <class G, class Surface, bool kGuided, bool kConverts>
 class DirectionChoice {
   public:
-    using Path = PathState<Surface>;
+    using Path = PathState<G, Surface>;
+    using Sampler = typename G::Sampler;
 
-    DirectionChoice(const Guide& guide, const PathSettings& settings)
+    DirectionChoice(const Sampler& guide, const PathSettings& settings)
         : guide_(guide), candidates_(kGuided ? settings.candidates : 1), candidate_depth_(settings.candidate_depth) {}
 
     /// The random numbers of a step for `paths`, whose Path::lane say which are theirs.
@@ -32,31 +33,25 @@ class DirectionChoice {
             if (paths[alive[lane]].depth > candidate_depth_) continue;
             slot_keys_.pixel[slots_] = keys.pixel[lane];
             slot_keys_.sample[slots_] = keys.sample[lane];
-            slot_keys_.vertex[slots_++] = keys.vertex[lane] * Candidates::kMost;
+            slot_keys_.vertex[slots_++] = keys.vertex[lane] * kMostCandidates;
         }
         seed_ = seed;
         if (several()) draw_batch(seed, slot_keys_, slots_, 0, Stream::candidate, picks_);
     }
 
     // What sampling will read is fetched ahead, each time by what the last has brought.
-    void prefetch(std::uint32_t region, std::uint32_t lane) const {
-        guide_.prefetch(region, draws_.word[1][lane]);
-        if constexpr (kViews) guide_.prefetch_views(region);
+    void prefetch(std::uint32_t region, std::uint32_t lane) const { G::prefetch(guide_, region, draws_.word[1][lane]); }
+    void prefetch_more(const Path& path) const {
+        if (path.found) G::prefetch_more(guide_, path.guidance.region, draws_.word[1][path.lane]);
     }
-    void prefetch_cell(const Path& path) const {
-        if (path.found) guide_.prefetch_cell(path.guidance.region, draws_.word[1][path.lane]);
-    }
-    void prefetch_view(const Path& path) const {
-        if (path.guidance.has_view()) guide_.prefetch(path.guidance.view, draws_.word[1][path.lane]);
-    }
+    void prefetch_local(const Path& path) const { G::prefetch_local(guide_, path.guidance, draws_.word[1][path.lane]); }
 
     /// Begins a step, before any of its paths draws; `alive` are the numbers of those that will.
     void start(std::span<const Path> paths, std::span<const std::uint8_t> alive) {
         batch_.clear();
-        if constexpr (kGuided && kViews)
+        if constexpr (kGuided && G::kLocal)
             for (const std::uint8_t index : alive)
-                if (const Path& path = paths[index]; path.guidance.has_view())
-                    guide_.prefetch_cell(path.guidance.view, draws_.word[1][path.lane]);
+                G::prefetch_local_more(guide_, paths[index].guidance, draws_.word[1][paths[index].lane]);
     }
 
     // draw() for each path, then convert(), then choose(), then complete() for each.
@@ -103,14 +98,14 @@ class DirectionChoice {
     }
 
   private:
-    using Batch = ScatterBatch<kGuided, kCoded, kViews>;
+    using Batch = typename G::template ScatterBatch<kGuided, kConverts>;
 
     /// Whether any path of this step may choose among several.
     bool several() const { return slots_ != 0; }
 
     /// The candidates among which a path chooses.
     struct Offered {
-        Candidates candidates;
+        Candidates<typename G::Scatter> candidates;
         bool drawn;  ///< a direction waits to be completed
     };
 
@@ -140,7 +135,7 @@ class DirectionChoice {
         }
     }
 
-    const Guide& guide_;
+    const Sampler& guide_;
     const std::uint32_t candidates_;
     const int candidate_depth_;
     DrawBatch draws_;

@@ -12,23 +12,23 @@ namespace treefarm {
 
 /// Adds what emission brings to the paths that meet it, weighted against next event. `recorder`: the path's, where
 /// paths record.
-template <class Surface, bool kRecord, class Observer>
+template <class G, class Surface, bool kRecord, class Observer>
 class Emission {
   public:
-    using Path = PathState<Surface>;
+    using Path = PathState<G, Surface>;
 
     Emission(const TraceScene& scene, const PathSettings& settings, Observer& observer)
         : scene_(scene), settings_(settings), observer_(observer) {}
 
     // Rare, and out of line: what emitters may be (textured, an image) costs other vertices nothing, not a register.
 
-    [[gnu::noinline]] void from_emitter(Path& path, PathRecorder* recorder) const {
+    [[gnu::noinline]] void from_emitter(Path& path, PathRecorder<G>* recorder) const {
         const Emitters& emitters = scene_.emitters();
         add(path, recorder, emitters.emitted(path.hit, -path.ray.direction),
             [&] { return emitters.pdf_direct(path.scatter_point, path.ray.direction, path.hit, path.scatter_lights); });
     }
 
-    [[gnu::noinline]] void from_infinity(Path& path, PathRecorder* recorder) const {
+    [[gnu::noinline]] void from_infinity(Path& path, PathRecorder<G>* recorder) const {
         assert(scene_.effects().environment);
         const Emitters& emitters = scene_.emitters();
         add(path, recorder, emitters.environment(path.ray.direction),
@@ -38,7 +38,7 @@ class Emission {
   private:
     /// Next event finds `emitted` with the density `next_event_pdf()`.
     template <class Pdf>
-    void add(Path& path, PathRecorder* recorder, const Rgb& emitted, Pdf next_event_pdf) const {
+    void add(Path& path, PathRecorder<G>* recorder, const Rgb& emitted, Pdf next_event_pdf) const {
         if (is_black(emitted) || (path.depth == 1 && settings_.hide_emitters)) return;
         float light_pdf = 0.0f, weight = 1.0f;
         if (settings_.next_event && path.depth > 1) {

@@ -29,12 +29,12 @@ class GlassSplits {
 
     /// Splits a path at the first surface, which has drawn path.scatter: if the other of two ways is open, the path
     /// takes the likelier with certainty, and the lesser may be followed, too.
-    template <class Surface>
-    void split(PathState<Surface>& path, bool strict_normals) {
-        const Surface& surface = *path.surface;
+    template <class Path>
+    void split(Path& path, bool strict_normals) {
+        const auto& surface = *path.surface;
         const BsdfSample other = surface.bsdf().other_way(surface.wo(), path.scatter.local);
         if (!(other.pdf > 0.0f)) return;
-        ScatterSample lesser = path.scatter;
+        auto lesser = path.scatter;
         lesser.local = other.wi;
         lesser.world = surface.frame().to_world(other.wi);
         lesser.f_cos = other.f_cos;

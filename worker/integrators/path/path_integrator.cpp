@@ -8,9 +8,9 @@
 namespace treefarm {
 
 RenderUnit prepare_path(std::shared_ptr<const TraceScene> scene, const Resolved& job) {
-    return [scene = std::move(scene), job](const PassPlan& pass, const Guide& guide, const WorkUnit& unit,
+    return [scene = std::move(scene), job](const PassPlan& pass, const AnySampler& guide, const WorkUnit& unit,
                                            UnitOutput& output) {
-        if (!fits(pass, scene->plainly_diffuse(), {guide.trained(), guide.view_count() > 0}))
+        if (!fits(pass, scene->plainly_diffuse(), facts_of(guide)))
             throw RunError("a pass whose kernel does not fit the scene and the tree");
         render_unit(*scene, job, pass, guide, unit, output.pixels, output.log, output.stats);
     };

@@ -12,9 +12,9 @@ namespace treefarm {
 ///
 /// The other ways of paths that were split at glass wait until the camera paths of the whole group are done, and so do
 /// the paths that they leave where they are split: they are few, and walk together; then those that these leave do.
-template <class Surface, bool kGuided, bool kRecord, class Observer = NoObserver>
+template <GuideWalk G, class Surface, bool kGuided, bool kRecord, class Observer = NoObserver>
 class PathKernel {
-    using Walk = PathWalk<Surface, kGuided, kRecord, Observer>;
+    using Walk = PathWalk<G, Surface, kGuided, kRecord, Observer>;
 
     static constexpr std::uint32_t kBatch = Walk::kBatch;
 
@@ -22,8 +22,8 @@ class PathKernel {
     static constexpr std::uint32_t kGroup = 8 * kBatch;
 
     /// `log` is where records go.
-    PathKernel(const TraceScene& scene, const Guide& guide, const PathSettings& settings, TraceStats& stats,
-               RecordLog* log = nullptr)
+    PathKernel(const TraceScene& scene, const typename G::Sampler& guide, const PathSettings& settings,
+               TraceStats& stats, RecordLog* log = nullptr)
         : stats_(stats), log_(log), walk_(scene, guide, settings, stats) {
         assert(log || !kRecord);
         std::iota(slots_.begin(), slots_.end(), std::uint8_t{0});

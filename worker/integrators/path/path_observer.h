@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "worker/integrators/path/guided_sampling.h"
 #include "worker/integrators/path/pending_light.h"
+#include "worker/integrators/path/scatter_sample.h"
 #include "worker/integrators/path/split_paths.h"
 
 namespace treefarm {
@@ -15,7 +15,8 @@ struct NoObserver {
     void arrive(int, const Hit*) {}
     void emission(const Rgb&, float, float, const Rgb&) {}
     void scatter(const ScatterSample&, const Rgb&) {}
-    void next_event(const PendingLight&, float, float, const Rgb&) {}
+    template <class G>
+    void next_event(const PendingLight<G>&, float, float, const Rgb&) {}
     void roulette(float, bool) {}
     void other_way(const Ray&, const Rgb&) {}
     void split(std::uint32_t, const Rgb&) {}

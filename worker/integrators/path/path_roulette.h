@@ -14,24 +14,24 @@ inline int radiance_exponent(int record_exponent, GuidingTarget target) {
 }
 
 /// Ratio of the light about a path's end to that about its first vertex, by the mean records of their regions.
-template <class Surface>
-float brightness(const PathState<Surface>& path, const Guide& guide, const PathSettings& settings) {
+template <class G, class Surface>
+float brightness(const PathState<G, Surface>& path, const RegionSampler& guide, const PathSettings& settings) {
     if (!settings.roulette.needs_brightness()) return 1.0f;
     const int exponent = guide.quantum_exponent(path.guidance.region) - path.first_exponent;
     return power_of_two(std::clamp(radiance_exponent(exponent, settings.target), -60, 60));
 }
 
 /// Number of paths as which a path goes on from where it has arrived.
-template <class Surface>
-std::uint32_t splitting(const PathState<Surface>& path, const Guide& guide, const PathSettings& settings) {
+template <class G, class Surface>
+std::uint32_t splitting(const PathState<G, Surface>& path, const RegionSampler& guide, const PathSettings& settings) {
     if (settings.splitting == 1 || path.probe) return 1;
     const float spread = Surface::kTransmits ? path.spread : 1.0f;
     return settings.roulette.splitting(path.throughput, spread, brightness(path, guide, settings), settings.splitting);
 }
 
 /// Probability that a path goes on from where it has arrived.
-template <bool kGuided, class Surface>
-float survival(const PathState<Surface>& path, const Guide& guide, const PathSettings& settings) {
+template <bool kGuided, class G, class Surface>
+float survival(const PathState<G, Surface>& path, const RegionSampler& guide, const PathSettings& settings) {
     const float spread = Surface::kTransmits ? path.spread : 1.0f;
     if constexpr (!kGuided) return settings.roulette.survival(path.throughput, spread);
     const Roulette& roulette = path.probe ? settings.unguided_roulette : settings.roulette;

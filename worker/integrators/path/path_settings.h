@@ -2,7 +2,7 @@
 #pragma once
 
 #include "common/film/guiding_probe.h"
-#include "common/guiding/guide.h"
+#include "common/guiding/regions/region_sampler.h"
 #include "common/plan/resolve.h"
 #include "common/plan/schedule.h"
 #include "worker/integrators/subpath/roulette.h"
@@ -37,7 +37,7 @@ struct PathSettings {
     /// Whether the path of a pixel, by its number on the whole film, is unguided to see whether guiding pays.
     bool is_probe(std::uint32_t pixel) const { return probe.holds(film.index_of(pixel)); }
 
-    PathSettings(const TraceScene& scene, const Resolved& job, const PassPlan& pass, const Guide& guide)
+    PathSettings(const TraceScene& scene, const Resolved& job, const PassPlan& pass, const RegionSampler& guide)
         : max_depth(job.integrator.max_depth),
           next_event(pass.next_event && scene.emitters().can_sample()),
           delta_alone(!pass.next_event && scene.emitters().has_delta_lights()),

@@ -5,13 +5,13 @@
 #include <optional>
 
 #include "worker/geometry/embree_scene.h"
-#include "worker/integrators/path/guided_sampling.h"
+#include "worker/integrators/path/scatter_sample.h"
 #include "worker/integrators/path/split_paths.h"
 
 namespace treefarm {
 
-/// A path on its way, from the camera to where its ray has just arrived.
-template <class Surface>
+/// A path on its way, from the camera to where its ray has just arrived, guided by `G` (guide_walk.h).
+template <class G, class Surface>
 struct PathState {
     PathKey key;
     std::uint32_t vertex;  ///< by which random numbers are keyed; split paths and other ways have numbers of their own
@@ -33,11 +33,11 @@ struct PathState {
     bool found;
     EmbreeScene::EmbreeHit embree_hit;
     Hit hit;
-    Guidance guidance;            ///< where the tree is used
-    std::uint32_t outgoing_code;  ///< of the direction that light leaves in; where the tree has views
+    typename G::Guidance guidance;                        ///< where the guide is used
+    [[no_unique_address]] typename G::Outgoing outgoing;  ///< what the guide keeps of where light leaves to
     std::optional<Surface> surface;
     std::uint8_t lane;  ///< its slot in what the batch has drawn
-    ScatterSample scatter;
+    typename G::Scatter scatter;
     Rgb weight;  ///< f |cos| over the density of the sampled direction
 
     void begin(const PathKey& path, const Ray& from_camera) {
@@ -54,7 +54,7 @@ struct PathState {
         scatter_pdf = 0.0f;
         scatter_lights = nullptr;
         spread = 1.0f;
-        guidance = {0, Guide::kNoView, 1.0f, 0.0f};
+        guidance = G::unguided();
     }
 
     /// Goes on from a delta lobe at the first surface, to add more to the same radiance.

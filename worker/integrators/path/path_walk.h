@@ -12,6 +12,7 @@
 #include "worker/integrators/path/emitter_choice.h"
 #include "worker/integrators/path/ended_paths.h"
 #include "worker/integrators/path/glass_splits.h"
+#include "worker/integrators/path/guide_walk.h"
 #include "worker/integrators/path/path_observer.h"
 #include "worker/integrators/path/path_roulette.h"
 #include "worker/integrators/path/phase_clock.h"
@@ -22,17 +23,20 @@
 namespace treefarm {
 
 /// Path tracing with optional next event, guiding and recording (Mueller et al. 2017; tests in the order of their
-/// program). Depth counts path edges: a surface seen by the camera has depth 1. `Surface` is one of surface.h.
+/// program). Depth counts path edges: a surface seen by the camera has depth 1. `Surface` is one of surface.h, `G`
+/// the guide (guide_walk.h).
 ///
 /// Paths walk in step, up to kBatch of them: what one waits for (memory, square roots) another works through, and the
 /// shadow rays of a step are traced together. A path's result does not depend on what walks beside it.
-template <class Surface, bool kGuided, bool kRecord, class Observer = NoObserver>
+template <GuideWalk G, class Surface, bool kGuided, bool kRecord, class Observer = NoObserver>
 class PathWalk {
   public:
     static constexpr std::uint32_t kBatch = kDrawBatch;
-    using Path = PathState<Surface>;
+    using Path = PathState<G, Surface>;
+    using Recorder = PathRecorder<G>;
+    using Sampler = typename G::Sampler;
 
-    PathWalk(const TraceScene& scene, const Guide& guide, const PathSettings& settings, TraceStats& stats)
+    PathWalk(const TraceScene& scene, const Sampler& guide, const PathSettings& settings, TraceStats& stats)
         : scene_(scene),
           guide_(guide),
           settings_(settings),
@@ -43,7 +47,7 @@ class PathWalk {
           directions_(guide, settings),
           direction_records_(guide, settings),
           emission_(scene, settings_, observer_) {
-        recorders_.fill(PathRecorder(settings.target, settings.view_records));
+        recorders_.fill(Recorder({settings.target, settings.view_records}));
     }
 
     PathWalk(const PathWalk&) = delete;
@@ -51,7 +55,7 @@ class PathWalk {
 
     /// The places of a batch: whoever sets one up says so to walk().
     Path& operator[](std::uint32_t slot) { return paths_[slot]; }
-    PathRecorder& recorder(std::uint32_t slot) { return recorders_[slot]; }
+    Recorder& recorder(std::uint32_t slot) { return recorders_[slot]; }
 
     /// Traces the paths in these places, at most kBatch, to their ends. `follow(places)` is told where some have ended,
     /// and sets up others in the first of these places; it returns how many.
@@ -74,7 +78,8 @@ class PathWalk {
   private:
     /// Whether directions have to be converted before a path can leave.
     static constexpr bool kConverts = kGuided || kRecord;
-    static constexpr bool kViews = kConverts && Surface::kViews;
+    /// Whether what guides depends on more than the region.
+    static constexpr bool kLocal = kConverts && G::kLocal;
 
     /// One more edge for the first `alive` of alive_; returns how many go on.
     std::uint32_t step(std::uint32_t alive) {
@@ -104,7 +109,7 @@ class PathWalk {
         if constexpr (kConverts) find_regions(alive);
         pending_.clear();
         alive = keep(alive, [&](std::uint8_t path) {
-            if constexpr (kGuided) directions_.prefetch_cell(paths_[path]);
+            if constexpr (kGuided) directions_.prefetch_more(paths_[path]);
             return visit(path);
         });
         if (emitters_.together()) [[unlikely]]
@@ -192,7 +197,7 @@ class PathWalk {
     }
 
     /// Arrival of a path's ray: emission, and whether the path goes on from there, as one or as several.
-    bool arrive(Path& path, PathRecorder* recorder) {
+    bool arrive(Path& path, Recorder* recorder) {
         if (!path.found) {
             if (scene_.emitters().shines_from_infinity()) [[unlikely]]
                 emission_.from_infinity(path, recorder);
@@ -245,9 +250,9 @@ class PathWalk {
             return end("normals disagree");
         ++stats_.vertices;
         path.guidance.bsdf_fraction = kGuided && surface.smooth() ? guide_.bsdf_fraction(path.guidance.region) : 1.0f;
-        if constexpr (kViews)
-            find_view<kGuided>(guide_, surface.view_dependent(), -ray.direction, path.outgoing_code, path.guidance);
-        if constexpr (kGuided && kViews) directions_.prefetch_view(path);
+        if constexpr (kLocal)
+            G::template localise<kGuided>(guide_, surface, -ray.direction, path.outgoing, path.guidance);
+        if constexpr (kGuided && kLocal) directions_.prefetch_local(path);
         if (kGuided && path.probe) path.guidance.sample_bsdf_alone();
         if constexpr (kRecord)
             if (surface.smooth() && !guide_.contains(hit.p)) recorders_[index].add_outside();
@@ -259,7 +264,7 @@ class PathWalk {
     bool leave(std::uint8_t index) {
         Path& path = paths_[index];
         const Surface& surface = *path.surface;
-        const ScatterSample& s = path.scatter;
+        const auto& s = path.scatter;
         if constexpr (Surface::kTransmits)
             if (s.delta && path.depth == 1 && settings_.split_glass) glass_.split(path, settings_.strict_normals);
         if (!(s.pdf > 0.0f) || is_black(s.f_cos)) return end("no direction");
@@ -333,7 +338,7 @@ class PathWalk {
     }
 
     /// Finds out how the surface scatters what it sees, unless that is known; false if not at all.
-    bool reflects(PendingLight& light) {
+    bool reflects(PendingLight<G>& light) {
         const Surface& surface = *paths_[light.from.path].surface;
         if (!surface.evaluate_late()) return true;
         light.set(bsdf_value(surface, light.wi));
@@ -345,38 +350,38 @@ class PathWalk {
         const std::span<const bool> shadowed = pending_.trace(scene_.geometry(), observer_);
         std::array<std::uint8_t, kBatch> seen;
         std::uint32_t count = 0;
-        light_codes_.clear();
+        light_directions_.clear();
         for (std::uint32_t i = 0; i < pending_.size(); ++i) {
             if (shadowed[i] || !reflects(pending_[i])) continue;
             seen[count++] = static_cast<std::uint8_t>(i);
-            if constexpr (kConverts) light_codes_.add(pending_[i].wi, pending_[i].from.guidance);
+            if constexpr (kConverts) light_directions_.add(pending_[i].wi, pending_[i].from.guidance);
         }
-        if constexpr (kConverts) light_codes_.convert();
-        if constexpr (kGuided) light_codes_.prefetch(guide_);
+        if constexpr (kConverts) light_directions_.convert();
+        if constexpr (kGuided) light_directions_.prefetch(guide_);
         emitters_.shine_from_infinity(
-            pending_, {seen.data(), count}, [&](const PendingLight& light) { return paths_[light.from.path].lane; },
-            [&](const PendingLight& light) { return light_probabilities(paths_[light.from.path]); });
-        if constexpr (kGuided) light_codes_.prefetch_cells(guide_);
+            pending_, {seen.data(), count}, [&](const PendingLight<G>& light) { return paths_[light.from.path].lane; },
+            [&](const PendingLight<G>& light) { return light_probabilities(paths_[light.from.path]); });
+        if constexpr (kGuided) light_directions_.prefetch_more(guide_);
         for (std::uint32_t i = 0; i < count; ++i)
-            add_light(pending_[seen[i]], light_codes_[i]);
+            add_light(pending_[seen[i]], light_directions_[i]);
     }
 
-    void add_light(const PendingLight& light, std::uint32_t code) {
+    void add_light(const PendingLight<G>& light, const typename G::Direction& direction) {
         if (!(light.pdf > 0.0f)) return;  // of an environment map: only now known
         float scatter_pdf = light.delta ? 0.0f : light.bsdf_pdf;
         if constexpr (kGuided)
-            if (!light.delta) scatter_pdf = mixed_pdf_at<kViews>(guide_, light.from.guidance, light.bsdf_pdf, code);
+            if (!light.delta) scatter_pdf = G::pdf(guide_, light.from.guidance, light.bsdf_pdf, direction);
         const float weight = mis_weight(settings_.mis, light.pdf, scatter_pdf);
         const Rgb reflected = light.f_cos * light.radiance * (weight / light.pdf);
         Path& path = paths_[light.from.path];
         path.radiance += light.from.throughput * reflected;
         observer_.next_event(light, scatter_pdf, weight, light.from.throughput * reflected);
         if constexpr (kRecord)
-            record_light<kViews>(light, reflected, weight, code, path, guide_, settings_, recorders_[light.from.path]);
+            record_light(light, reflected, weight, direction, path, guide_, settings_, recorders_[light.from.path]);
     }
 
     const TraceScene& scene_;
-    const Guide& guide_;
+    const Sampler& guide_;
     const PathSettings settings_;
     TraceStats& stats_;
     PhaseClock clock_;
@@ -388,13 +393,13 @@ class PathWalk {
     SplitPaths split_paths_;
     DrawBatch roulette_draws_;
     EmitterChoice emitters_;
-    DirectionChoice<Surface, kGuided, kConverts, kViews> directions_;
-    CodeBatch<kViews> light_codes_;
-    PendingLights pending_;
-    std::array<PathRecorder, kRecord ? kBatch : 0> recorders_;
-    DirectionRecords<kViews> direction_records_;
+    DirectionChoice<G, Surface, kGuided, kConverts> directions_;
+    typename G::LightBatch light_directions_;
+    PendingLights<G> pending_;
+    std::array<Recorder, kRecord ? kBatch : 0> recorders_;
+    DirectionRecords<G> direction_records_;
     [[no_unique_address]] Observer observer_;
-    Emission<Surface, kRecord, Observer> emission_;
+    Emission<G, Surface, kRecord, Observer> emission_;
 };
 
 }  // namespace treefarm

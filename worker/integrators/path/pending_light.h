@@ -6,25 +6,28 @@
 #include <cstdint>
 #include <span>
 
+#include "common/guiding/regions/region_sampler.h"
 #include "worker/geometry/embree_scene.h"
-#include "worker/integrators/path/guided_sampling.h"
 #include "worker/integrators/record_log.h"
 #include "worker/lights/direct_sample.h"
+#include "worker/shading/bsdf_sample.h"
 
 namespace treefarm {
 
 /// The vertex from which an emitter was sampled.
+template <class G>
 struct LightSeeker {
     std::uint32_t path;    ///< of the batch
     std::uint32_t vertex;  ///< vertices that the path has recorded before this one
     bool learned_choice;   ///< the emitter was chosen by what is learned of this region
-    Guidance guidance;
+    typename G::Guidance guidance;
     Rgb throughput;
 };
 
 /// A sampled emitter of which it is not yet known whether it is seen.
+template <class G>
 struct PendingLight {
-    LightSeeker from;
+    LightSeeker<G> from;
     Vec3 wi;  ///< as in DirectSample, like all to cluster_probability
     float distance;
     float pdf;
@@ -42,13 +45,14 @@ struct PendingLight {
     }
 
     /// Record from which the choice of emitters learns, of a sample that brought `reflected`.
-    Record record(const Guide& guide, float reflected) const {
+    Record record(const RegionSampler& guide, float reflected) const {
         const std::uint32_t region = from.guidance.region;
         return light_record(region, guide.quantum_exponent(region), cluster, cluster_probability, reflected);
     }
 };
 
 /// Shadow rays of one step of a batch of paths, with the light samples that they belong to.
+template <class G>
 class PendingLights {
   public:
     static constexpr std::uint32_t kMost = EmbreeScene::kMostTogether;
@@ -56,12 +60,12 @@ class PendingLights {
     void clear() { count_ = 0; }
     bool empty() const { return count_ == 0; }
     std::uint32_t size() const { return count_; }
-    PendingLight& operator[](std::size_t i) { return lights_[i]; }
+    PendingLight<G>& operator[](std::size_t i) { return lights_[i]; }
 
     /// Adds what was sampled where `hit` is, with the BSDF's value for it, if it is known already.
-    void add(const Hit& hit, const DirectSample& light, const LightSeeker& from, const BsdfValue& bsdf) {
+    void add(const Hit& hit, const DirectSample& light, const LightSeeker<G>& from, const BsdfValue& bsdf) {
         assert(count_ < kMost);
-        PendingLight& pending = lights_[count_];
+        PendingLight<G>& pending = lights_[count_];
         pending.from = from;
         pending.wi = light.wi;
         pending.distance = light.distance;
@@ -86,7 +90,7 @@ class PendingLights {
 
   private:
     std::uint32_t count_ = 0;
-    std::array<PendingLight, kMost> lights_;
+    std::array<PendingLight<G>, kMost> lights_;
     std::array<Ray, kMost> rays_;
     std::array<bool, kMost> shadowed_;
 };

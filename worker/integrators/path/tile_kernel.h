@@ -5,6 +5,7 @@
 #include <span>
 
 #include "common/film/splitting_gain.h"
+#include "common/guiding/any_guide.h"
 #include "common/plan/kernel.h"
 #include "worker/integrators/path/path_kernel.h"
 #include "worker/integrators/path/path_roulette.h"
@@ -18,7 +19,7 @@ struct TileJob {
     const TraceScene& scene;
     const Resolved& job;
     const PassPlan& pass;
-    const Guide& guide;
+    const AnySampler& guide;
     const WorkUnit& unit;
     std::vector<PixelEstimate>& pixels;
     RecordLog& log;
@@ -31,16 +32,20 @@ struct TileKernel {
     void (*render)(const TileJob&);
 };
 
-/// The kernels of a kind of surface. Each kind is compiled by itself: the compiler inlines less where there are more.
-std::span<const TileKernel> diffuse_kernels();
-std::span<const TileKernel> general_kernels();
-std::span<const TileKernel> viewed_kernels();
+/// Kernels that were compiled together. The compiler inlines less where there are more: so they are few.
+using KernelList = std::span<const TileKernel> (*)();
 
-template <class Surface, bool kGuided, bool kRecord>
+/// Kernels of paths that nothing guides and that teach nothing.
+std::span<const TileKernel> unguided_kernels();
+/// Kernels of a guide (worker/guides/kernels.cpp).
+std::span<const KernelList> kernels_of(GuideKind kind);
+
+template <GuideWalk G, class Surface, bool kGuided, bool kRecord>
 void render_with(const TileJob& tile) {
-    const auto& [scene, job, pass, guide, unit, pixels, log, stats] = tile;
+    const auto& [scene, job, pass, any_guide, unit, pixels, log, stats] = tile;
+    const auto& guide = any_guide.template get<typename G::Sampler>();
     const PathSettings settings(scene, job, pass, guide);
-    PathKernel<Surface, kGuided, kRecord> kernel(scene, guide, settings, stats, &log);
+    PathKernel<G, Surface, kGuided, kRecord> kernel(scene, guide, settings, stats, &log);
     const bool is_signed = scene.film().is_signed();
     const auto key = [&tile](const UnitCursor& at) {
         return PathKey{tile.job.sampler.seed, tile.scene.film().key_of(at.x, at.y), tile.pass.first_sample + at.sample};
@@ -81,21 +86,12 @@ void render_with(const TileJob& tile) {
     pairs.finish(stats.splitting);
 }
 
-/// Kernels of a kind of surface that use a tree.
-template <class Surface>
-inline constexpr TileKernel kTreeKernelsOf[] = {
-    {{!Surface::kGeneral, false, true, Surface::kViews}, render_with<Surface, false, true>},
-    {{!Surface::kGeneral, true, false, Surface::kViews}, render_with<Surface, true, false>},
-    {{!Surface::kGeneral, true, true, Surface::kViews}, render_with<Surface, true, true>},
-};
-
-/// All kernels of a kind of surface that does without a tree, too.
-template <class Surface>
+/// Kernels of a guide for a kind of surface.
+template <GuideWalk G, class Surface>
 inline constexpr TileKernel kKernelsOf[] = {
-    {{!Surface::kGeneral, false, false}, render_with<Surface, false, false>},
-    kTreeKernelsOf<Surface>[0],
-    kTreeKernelsOf<Surface>[1],
-    kTreeKernelsOf<Surface>[2],
+    {{!Surface::kGeneral, false, true, G::kLocal}, render_with<G, Surface, false, true>},
+    {{!Surface::kGeneral, true, false, G::kLocal}, render_with<G, Surface, true, false>},
+    {{!Surface::kGeneral, true, true, G::kLocal}, render_with<G, Surface, true, true>},
 };
 
 }  // namespace treefarm

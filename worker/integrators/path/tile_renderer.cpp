@@ -6,31 +6,35 @@
 namespace treefarm {
 namespace {
 
-const TileKernel& kernel(const KernelChoice& choice) {
-    for (const auto& kernels : {diffuse_kernels(), general_kernels(), viewed_kernels()})
-        for (const TileKernel& kernel : kernels)
+const TileKernel& kernel(const KernelChoice& choice, GuideKind guide) {
+    for (const TileKernel& kernel : unguided_kernels())
+        if (kernel.choice == choice) return kernel;
+    for (const KernelList list : kernels_of(guide))
+        for (const TileKernel& kernel : list())
             if (kernel.choice == choice) return kernel;
     throw RunError("the program has no kernel \"" + choice.name() + "\"");
 }
 
 }  // namespace
 
-std::vector<KernelChoice> compiled_kernels() {
+std::vector<KernelChoice> compiled_kernels(GuideKind guide) {
     std::vector<KernelChoice> choices;
-    for (const auto& kernels : {diffuse_kernels(), general_kernels(), viewed_kernels()})
-        for (const TileKernel& kernel : kernels)
+    for (const TileKernel& kernel : unguided_kernels())
+        choices.push_back(kernel.choice);
+    for (const KernelList list : kernels_of(guide))
+        for (const TileKernel& kernel : list())
             choices.push_back(kernel.choice);
     return choices;
 }
 
-void render_unit(const TraceScene& scene, const Resolved& job, const PassPlan& pass, const Guide& guide,
+void render_unit(const TraceScene& scene, const Resolved& job, const PassPlan& pass, const AnySampler& guide,
                  const WorkUnit& unit, std::vector<PixelEstimate>& pixels, RecordLog& log, TraceStats& stats) {
     const double start = thread_cpu_seconds();
     pixels.clear();
     pixels.reserve(unit.pixel_count());
-    log.begin(pass.record ? guide.distribution_count() : 0);
+    log.begin(pass.record ? guide.regions().distribution_count() : 0);
     const TileJob tile{scene, job, pass, guide, unit, pixels, log, stats};
-    kernel(pass.kernel).render(tile);
+    kernel(pass.kernel, guide.kind()).render(tile);
     stats.trace_seconds += thread_cpu_seconds() - start;
 }
 

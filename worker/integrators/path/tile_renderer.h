@@ -6,7 +6,7 @@
 #include "common/film/pixel_estimate.h"
 #include "common/film/trace_stats.h"
 #include "common/film/work_unit.h"
-#include "common/guiding/guide.h"
+#include "common/guiding/any_guide.h"
 #include "common/plan/kernel.h"
 #include "common/plan/schedule.h"
 #include "worker/integrators/record_log.h"
@@ -16,10 +16,10 @@ namespace treefarm {
 
 /// Renders a work unit: a pure function of its arguments' values. `pixels` gets one reduced estimate per pixel, row by
 /// row; `log` is begun and filled if the pass records; `stats` is added to. Thread-safe for different outputs.
-void render_unit(const TraceScene& scene, const Resolved& job, const PassPlan& pass, const Guide& guide,
+void render_unit(const TraceScene& scene, const Resolved& job, const PassPlan& pass, const AnySampler& guide,
                  const WorkUnit& unit, std::vector<PixelEstimate>& pixels, RecordLog& log, TraceStats& stats);
 
-/// The kernels that render_unit() chooses from: those that the plan names.
-std::vector<KernelChoice> compiled_kernels();
+/// The kernels that render_unit() chooses from by this guide: those that the plan names.
+std::vector<KernelChoice> compiled_kernels(GuideKind guide);
 
 }  // namespace treefarm

@@ -3,7 +3,6 @@
 
 #include <span>
 
-#include "common/guiding/mixture.h"
 #include "worker/integrators/path/path_recorder.h"
 #include "worker/integrators/path/path_settings.h"
 #include "worker/integrators/path/path_state.h"
@@ -12,10 +11,10 @@
 namespace treefarm {
 
 /// Notes the directions that the paths of a step have taken.
-template <bool kViews>
+template <class G>
 class DirectionRecords {
   public:
-    DirectionRecords(const Guide& guide, const PathSettings& settings)
+    DirectionRecords(const typename G::Sampler& guide, const PathSettings& settings)
         : guide_(guide), jitters_(settings.jitter_records) {}
 
     /// The random numbers of a step; PathState::lane says which are a path's.
@@ -25,64 +24,62 @@ class DirectionRecords {
 
     /// Adds the vertices of the paths whose numbers are in `alive`, each to the path's own recorder.
     template <class Surface>
-    void add(std::span<const PathState<Surface>> paths, std::span<const std::uint8_t> alive,
-             std::span<PathRecorder> recorders) {
+    void add(std::span<const PathState<G, Surface>> paths, std::span<const std::uint8_t> alive,
+             std::span<PathRecorder<G>> recorders) {
         if (jitters_) find_regions(paths, alive);
         std::uint32_t smooth = 0;
         for (const std::uint8_t index : alive) {
-            const PathState<Surface>& path = paths[index];
-            const ScatterSample& s = path.scatter;
+            const PathState<G, Surface>& path = paths[index];
+            const auto& s = path.scatter;
             const std::uint32_t rounding = draws_.word[3][path.lane];
-            RecordTarget target{path.guidance.region, path.guidance.view};
+            typename G::Target target = G::target(path.guidance);
             if (s.delta) {
                 if (!path.surface->smooth()) target = {};
                 recorders[index].add_delta_vertex(path.weight, target, rounding);
                 continue;
             }
-            if (jitters_) target = moved<kViews>(guide_, regions_[smooth++], path.outgoing_code, target);
-            MixtureBins bins{mixture_bin(s.bsdf_pdf, s.guide_pdf)};
-            if (kViews && path.guidance.has_view())
-                bins.view = mixture_bin(without_view(path.guidance, s.bsdf_pdf, s.guide_pdf), s.view_pdf);
-            recorders[index].add_vertex(target, s.code, s.effective_pdf, path.weight, bins, rounding);
+            if (jitters_) target = G::moved(guide_, regions_[smooth++], path.outgoing, target);
+            recorders[index].add_vertex(target, G::direction(s), s.effective_pdf, path.weight,
+                                        G::bins(path.guidance, s), rounding);
         }
     }
 
   private:
     /// Finds where the stochastic spatial filter puts the records, delta lobes' left out.
     template <class Surface>
-    void find_regions(std::span<const PathState<Surface>> paths, std::span<const std::uint8_t> alive) {
+    void find_regions(std::span<const PathState<G, Surface>> paths, std::span<const std::uint8_t> alive) {
         VectorBatch points;
         std::uint32_t count = 0;
         for (const std::uint8_t index : alive) {
-            const PathState<Surface>& path = paths[index];
+            const PathState<G, Surface>& path = paths[index];
             if (path.scatter.delta) continue;
             points.set(count++, guide_.jittered(path.hit.p, path.guidance.region, draws_[path.lane]));
         }
         guide_.regions(points, count, regions_);
     }
 
-    const Guide& guide_;
+    const typename G::Sampler& guide_;
     const bool jitters_;
     DrawBatch draws_;
     std::array<std::uint32_t, kDrawBatch> regions_;
 };
 
 /// Notes what next event found at a vertex: `reflected` of it, at `weight` against scattering.
-template <bool kViews, class Surface>
-void record_light(const PendingLight& light, const Rgb& reflected, float weight, std::uint32_t code,
-                  const PathState<Surface>& path, const Guide& guide, const PathSettings& settings,
-                  PathRecorder& recorder) {
+template <class G, class Surface>
+void record_light(const PendingLight<G>& light, const Rgb& reflected, float weight,
+                  const typename G::Direction& direction, const PathState<G, Surface>& path,
+                  const typename G::Sampler& guide, const PathSettings& settings, PathRecorder<G>& recorder) {
     recorder.add_reflected(light.from.vertex, reflected);
     if (light.from.learned_choice) recorder.add_choice(light.record(guide, average(reflected)));
     // Scattering never meets a light without extent: its samples are weighted alone and teach the guide nothing.
     if (!settings.record_light_samples || light.delta) return;
-    RecordTarget target{light.from.guidance.region, light.from.guidance.view};
+    typename G::Target target = G::target(light.from.guidance);
     const Draw random = draw(path.key, path.vertex, Stream::light_record);
     if (settings.jitter_records) {
-        const std::uint32_t region = guide.region(guide.jittered(path.hit.p, target.region, random));
-        target = moved<kViews>(guide, region, path.outgoing_code, target);
+        const std::uint32_t region = guide.region(guide.jittered(path.hit.p, light.from.guidance.region, random));
+        target = G::moved(guide, region, path.outgoing, target);
     }
-    recorder.add_light_sample(target, code, light.radiance * weight, average(reflected), light.pdf, random[3]);
+    recorder.add_light_sample(target, direction, light.radiance * weight, average(reflected), light.pdf, random[3]);
 }
 
 }  // namespace treefarm

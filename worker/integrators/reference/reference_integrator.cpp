@@ -149,14 +149,14 @@ class PathTracer {
 }  // namespace
 
 RenderUnit prepare_reference(std::shared_ptr<const TraceScene> scene, const Resolved& job) {
-    return
-        [scene = std::move(scene), job](const PassPlan& pass, const Guide&, const WorkUnit& unit, UnitOutput& output) {
-            with_surface(*scene, [&]<class Surface>() {
-                PathTracer<Surface> tracer(*scene, Rules(*scene, job.integrator, pass), output.stats);
-                render_samples(*scene, job, pass, unit, output,
-                               [&](const PathKey& key, const Ray& ray) { return tracer.radiance(key, ray); });
-            });
-        };
+    return [scene = std::move(scene), job](const PassPlan& pass, const AnySampler&, const WorkUnit& unit,
+                                           UnitOutput& output) {
+        with_surface(*scene, [&]<class Surface>() {
+            PathTracer<Surface> tracer(*scene, Rules(*scene, job.integrator, pass), output.stats);
+            render_samples(*scene, job, pass, unit, output,
+                           [&](const PathKey& key, const Ray& ray) { return tracer.radiance(key, ray); });
+        });
+    };
 }
 
 }  // namespace treefarm

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "common/guiding/any_guide.h"
+
+#include <optional>
+
+#include "common/math/direction_map.h"
+
+namespace treefarm {
+namespace {
+
+/// The density at the middles of 4 by 4 parts of each square, averaged.
+template <class Sampler>
+std::vector<float> sampled_map(const Sampler& guide, std::uint32_t region, int bits) {
+    constexpr std::uint32_t kParts = 4;
+    const std::uint32_t side = 1u << bits;
+    const auto at = [&](std::uint32_t square, std::uint32_t part) {
+        return (static_cast<float>(square) + (static_cast<float>(part) + 0.5f) / kParts) / static_cast<float>(side);
+    };
+    std::vector<float> density;
+    for (std::uint32_t row = 0; row < side; ++row)
+        for (std::uint32_t column = 0; column < side; ++column) {
+            double sum = 0;
+            for (std::uint32_t part = 0; part < kParts * kParts; ++part)
+                sum += double(guide.pdf(region, square_to_code({at(column, part % kParts), at(row, part / kParts)})));
+            density.push_back(static_cast<float>(sum / (kParts * kParts)));
+        }
+    return density;
+}
+
+}  // namespace
+
+AnyModel AnyModel::first(GuideKind kind, const Box3& bounds, const FirstModel& settings) {
+    AnyModel model;
+    with_guide(kind, [&]<class G>() { model = G::first(bounds, settings); });
+    return model;
+}
+
+AnyModel AnyModel::decode(std::span<const std::uint8_t> bytes) {
+    const auto magic = ByteReader(bytes).get<std::uint32_t>();
+    std::optional<AnyModel> model;
+    Guides::find([&]<class G>() {
+        if (magic == G::kMagic) model = G::decode(bytes);
+        return model.has_value();
+    });
+    if (!model) throw FormatError("not a Treefarm tree");
+    return std::move(*model);
+}
+
+Bytes AnyModel::encode() const {
+    return visit([]<class G>(const auto& model) { return G::encode(model); });
+}
+
+const RegionModel& AnyModel::regions() const {
+    return std::visit([](const RegionModel& regions) -> const RegionModel& { return regions; }, model_);
+}
+
+void AnyModel::set_pass(std::uint32_t pass) {
+    std::visit([&](RegionModel& regions) { regions.pass = pass; }, model_);
+}
+
+ModelFigures AnyModel::figures() const {
+    return visit([]<class G>(const auto& model) { return G::figures(model); });
+}
+
+SamplerCost AnyModel::cost() const {
+    return visit([]<class G>(const auto&) { return G::kCost; });
+}
+
+bool AnyModel::grows() const {
+    return visit([]<class G>(const auto&) { return G::kGrows; });
+}
+
+SumsShape AnyModel::sums_shape(bool with_mixture) const {
+    const ModelFigures size = figures();
+    return {static_cast<std::uint32_t>(size.regions), static_cast<std::uint32_t>(size.cells), with_mixture,
+            static_cast<std::uint32_t>(size.views), regions().learns_lights()};
+}
+
+TreeStatistics AnyModel::statistics(std::uint64_t encoded_bytes) const {
+    return visit([&]<class G>(const auto& model) {
+        TreeStatistics statistics;
+        if constexpr (requires { G::statistics(model); })
+            statistics = G::statistics(model);
+        else
+            statistics = even_statistics(model, G::figures(model));
+        statistics.encoded_bytes = encoded_bytes;
+        statistics.memory_bytes = typename G::Sampler(model).bytes();
+        return statistics;
+    });
+}
+
+std::vector<double> AnyModel::cells_by_region() const {
+    return visit([&]<class G>(const auto& model) {
+        if constexpr (requires { G::cells_by_region(model); }) return G::cells_by_region(model);
+        const std::size_t regions = model.leaf_count();
+        return std::vector<double>(regions, static_cast<double>(G::figures(model).cells) / double(regions));
+    });
+}
+
+std::vector<float> AnyModel::density_map(std::uint32_t distribution, int bits) const {
+    return visit([&]<class G>(const auto& model) {
+        if constexpr (requires { G::density_map(model, distribution, bits); })
+            return G::density_map(model, distribution, bits);
+        else
+            return sampled_map(typename G::Sampler(model), distribution, bits);
+    });
+}
+
+AnySampler::AnySampler(const AnyModel& model)
+    : sampler_(model.visit([]<class G>(const auto& of_guide) -> Guides::Samplers {
+          return Guides::Samplers(std::in_place_type<typename G::Sampler>, of_guide);
+      })) {}
+
+AnyAccumulator::AnyAccumulator(std::uint32_t pass, const AnySampler& guide, DirectionalFilter filter,
+                               bool with_mixture) {
+    guide.visit([&]<class G>(const auto& sampler) {
+        accumulator_.template emplace<CellAccumulator<typename G::Sampler>>(pass, sampler, filter, with_mixture);
+    });
+}
+
+namespace {
+
+/// Calls use(accumulator) for the one that there is.
+template <class Accumulators, class Use>
+auto with_accumulator(Accumulators& accumulators, Use use) {
+    return std::visit(
+        [&]<class A>(A& accumulator) -> decltype(use(std::get<1>(accumulators))) {
+            if constexpr (std::is_same_v<A, std::monostate>)
+                throw RunError("no guide's records are added");
+            else
+                return use(accumulator);
+        },
+        accumulators);
+}
+
+}  // namespace
+
+void AnyAccumulator::commit(std::span<const Record> records, std::span<const std::uint32_t> counts,
+                            const UpdateCaps& caps) {
+    with_accumulator(accumulator_, [&](auto& accumulator) { accumulator.commit(records, counts, caps); });
+}
+
+CellSums AnyAccumulator::take() {
+    return with_accumulator(accumulator_, [](auto& accumulator) { return accumulator.take(); });
+}
+
+void AnyAccumulator::give_back(CellSums cleared) {
+    with_accumulator(accumulator_, [&](auto& accumulator) { accumulator.give_back(std::move(cleared)); });
+}
+
+AnyModel AnyLearner::learn(const AnyModel& model, const CellSums& sums, const RefineSettings& settings,
+                           bool learn_mixture, RefineReport& report) {
+    return model.visit([&]<class G>(const auto& of_guide) -> AnyModel {
+        using Learner = typename G::Learner;
+        if (!std::holds_alternative<Learner>(learner_)) learner_.template emplace<Learner>();
+        return std::get<Learner>(learner_).learn(of_guide, sums, settings, learn_mixture, report);
+    });
+}
+
+void AnyLearner::forget(std::uint8_t kind) {
+    int index = 0;
+    const bool found = Guides::find([&]<class G>() {
+        if (index++ != kind) return false;
+        learner_.template emplace<typename G::Learner>();
+        return true;
+    });
+    if (!found) throw FormatError("the memory of an unknown guide");
+}
+
+}  // namespace treefarm

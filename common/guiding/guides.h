@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <concepts>
+#include <variant>
+
+#include "common/guiding/sd_tree/sd_tree_guide.h"
+#include "common/guiding/statistics/cell_accumulator.h"
+
+namespace treefarm {
+
+/// What makes a guide (docs/use/write-a-guide.md). Its model is a RegionModel with plain values of its own, frozen for
+/// a pass. Its sampler, flat and immutable, is built from a decoded model alone, so that what is rounded for the wire
+/// is rounded for everybody, and has cells (cell_accumulator.h). Its learner is what the coordinator remembers of
+/// earlier passes.
+template <class G>
+concept Guide = std::derived_from<typename G::Model, RegionModel> &&
+    std::derived_from<typename G::Sampler, RegionSampler> &&
+    requires(const typename G::Model& model, typename G::Learner learner, const CellSums& sums, RefineReport report) {
+    /// First four bytes of an encoded model.
+    { G::kMagic } -> std::convertible_to<std::uint32_t>;
+    /// Whether passes change how many regions and cells there are.
+    { G::kGrows } -> std::convertible_to<bool>;
+    /// Kernels in worker/guides, and whether some are for plainly diffuse scenes; otherwise those of all surfaces do.
+    { G::kKernels } -> std::convertible_to<int>;
+    { G::kPlainKernels } -> std::convertible_to<bool>;
+    { G::kCost } -> std::convertible_to<SamplerCost>;
+    { G::first(Box3(), FirstModel()) } -> std::same_as<typename G::Model>;
+    { G::encode(model) } -> std::same_as<Bytes>;
+    /// Checks every structural rule, and throws FormatError.
+    { G::decode(Bytes()) } -> std::same_as<typename G::Model>;
+    { G::figures(model) } -> std::same_as<ModelFigures>;
+    { learner.learn(model, sums, RefineSettings(), true, report) } -> std::same_as<typename G::Model>;
+    { model == model } -> std::convertible_to<bool>;
+    requires std::constructible_from<typename G::Sampler, const typename G::Model&>;
+} && requires(const typename G::Sampler& sampler) {
+    /// A direction drawn in a region, by three uniform numbers.
+    { sampler.sample(0u, Draw()).pdf } -> std::convertible_to<float>;
+    /// Density per steradian in a region of the direction with this code, and bytes, for reports.
+    { sampler.pdf(0u, 0u) } -> std::same_as<float>;
+    { sampler.bytes() } -> std::same_as<std::size_t>;
+};
+
+/// Guides, and for each of their parts a type that holds any of them.
+template <Guide... G>
+struct GuideList {
+    static constexpr int kKernels = (... + G::kKernels);
+
+    using Models = std::variant<typename G::Model...>;
+    using Samplers = std::variant<typename G::Sampler...>;
+    using Learners = std::variant<typename G::Learner...>;
+    using Accumulators = std::variant<std::monostate, CellAccumulator<typename G::Sampler>...>;
+
+    /// Calls visit.operator()<G>() for each guide until one returns true; whether one did.
+    template <class Visit>
+    static bool find(Visit visit) {
+        return (... || visit.template operator()<G>());
+    }
+};
+
+/// The guides of the program, in the order of GuideKind. It is a closed set: what differs is chosen once per work unit.
+enum class GuideKind : std::uint8_t { sd_tree };
+using Guides = GuideList<SdTreeGuide>;
+
+}  // namespace treefarm

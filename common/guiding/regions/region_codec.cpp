@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <zstd.h>
+
+#include <cmath>
+#include <cstdlib>
+
+#include "common/guiding/regions/region_model.h"
+
+namespace treefarm {
+namespace {
+
+/// No tree of 2^31 cells needs more; a claim above it is a broken or hostile message.
+constexpr std::uint64_t kMaxRawBytes = std::uint64_t{1} << 34;
+constexpr int kCompressionLevel = 1;  // fast: a broadcast waits for it
+
+void write_nodes(ByteWriter& out, const RegionModel& model) {
+    // Preorder, a bit a node (1: inner), in bytes of eight.
+    out.put_varint(model.nodes.size());
+    std::vector<std::uint8_t> bits((model.nodes.size() + 7) / 8);
+    std::vector<std::uint32_t> stack{0};
+    for (std::size_t i = 0; !stack.empty(); ++i) {
+        const RegionModel::Node& node = model.nodes[stack.back()];
+        stack.pop_back();
+        if (node.is_leaf()) continue;
+        bits[i / 8] = static_cast<std::uint8_t>(bits[i / 8] | (1u << (i % 8)));
+        stack.push_back(node.child[1]);
+        stack.push_back(node.child[0]);
+    }
+    out.put_array(std::span<const std::uint8_t>(bits));
+}
+
+struct NodeReader {
+    const std::vector<std::uint8_t>& bits;
+    std::size_t count;
+    RegionModel& model;
+    std::uint32_t regions = 0;
+
+    std::uint32_t read(int depth) {
+        const std::size_t i = model.nodes.size();
+        if (i >= count || depth > kMaxSpatialDepth) throw FormatError("the spatial tree is malformed");
+        model.nodes.emplace_back();
+        if ((bits[i / 8] >> (i % 8)) & 1) {
+            const std::uint32_t low = read(depth + 1);
+            const std::uint32_t high = read(depth + 1);
+            model.nodes[i] = {{low, high}};
+        } else {
+            model.nodes[i] = {{0, regions++}};
+        }
+        return static_cast<std::uint32_t>(i);
+    }
+};
+
+}  // namespace
+
+void write_regions(ByteWriter& out, const RegionModel& model) {
+    out.put_varint(model.pass);
+    out.put<std::uint8_t>(model.trained);
+    for (int axis = 0; axis < 3; ++axis)
+        out.put(model.origin[axis]);
+    out.put(model.extent);
+    write_nodes(out, model);
+    out.put_array(std::span<const std::int16_t>(model.quantum_exponent));
+    out.put_array(std::span<const float>(model.bsdf_fraction));
+}
+
+std::uint32_t read_regions(ByteReader& in, RegionModel& model) {
+    model.pass = static_cast<std::uint32_t>(in.get_varint());
+    model.trained = in.get<std::uint8_t>() != 0;
+    for (int axis = 0; axis < 3; ++axis)
+        model.origin[axis] = in.get<float>();
+    model.extent = in.get<float>();
+    if (!is_finite(model.origin) || !(model.extent > 0.0f) || !std::isfinite(model.extent))
+        throw FormatError("a tree's cube is not finite");
+    const std::uint64_t node_count = in.get_varint();
+    const std::vector<std::uint8_t> bits = in.get_array<std::uint8_t>();
+    if (node_count == 0 || node_count > 8 * bits.size() || bits.size() != (node_count + 7) / 8)
+        throw FormatError("the spatial tree is malformed");
+    NodeReader nodes{bits, static_cast<std::size_t>(node_count), model};
+    nodes.read(0);
+    if (model.nodes.size() != node_count) throw FormatError("the spatial tree is malformed");
+    model.quantum_exponent = in.get_array<std::int16_t>();
+    for (const std::int16_t exponent : model.quantum_exponent)
+        if (std::abs(exponent) > kMostQuantumExponent) throw FormatError("a region's unit of records is out of range");
+    model.bsdf_fraction = in.get_array<float>();
+    if (model.bsdf_fraction.size() != model.quantum_exponent.size())
+        throw FormatError("a tree's mixtures do not match its regions");
+    for (const float fraction : model.bsdf_fraction)
+        if (!(fraction > 0.0f && fraction <= 1.0f)) throw FormatError("a region's mixture is out of range");
+    return nodes.regions;
+}
+
+void write_lights(ByteWriter& out, const RegionModel& model) {
+    out.put<std::uint8_t>(!model.light_probabilities.empty());
+    for (const LightProbabilities& probabilities : model.light_probabilities)
+        for (const std::uint16_t part : probabilities)
+            out.put(part);
+}
+
+void read_lights(ByteReader& in, RegionModel& model, std::uint32_t regions) {
+    const auto present = in.get<std::uint8_t>();
+    if (present > 1) throw FormatError("a tree's choice of emitters is malformed");
+    if (present == 0) return;
+    if (regions > in.remaining() / sizeof(LightProbabilities))
+        throw FormatError("a tree's choice of emitters is cut short");
+    model.light_probabilities.resize(regions);
+    for (LightProbabilities& probabilities : model.light_probabilities) {
+        std::uint32_t sum = 0;
+        for (std::uint16_t& part : probabilities)
+            sum += part = in.get<std::uint16_t>();
+        if (sum != kLightProbabilityOne) throw FormatError("a region's choice of emitters does not sum to one");
+    }
+}
+
+Bytes pack_model(std::uint32_t magic, std::uint8_t version, const Bytes& raw) {
+    ByteWriter header;
+    header.put(magic);
+    header.put(version);
+    header.put<std::uint64_t>(raw.size());
+    Bytes packed = header.take();
+    const std::size_t at = packed.size();
+    packed.resize(at + ZSTD_compressBound(raw.size()));
+    const std::size_t size =
+        ZSTD_compress(packed.data() + at, packed.size() - at, raw.data(), raw.size(), kCompressionLevel);
+    if (ZSTD_isError(size)) throw RunError(std::string("compressing a tree failed: ") + ZSTD_getErrorName(size));
+    packed.resize(at + size);
+    return packed;
+}
+
+Bytes unpack_model(std::uint32_t magic, std::uint8_t version, std::span<const std::uint8_t> packed) {
+    ByteReader header(packed);
+    if (header.get<std::uint32_t>() != magic) throw FormatError("not a Treefarm tree");
+    const auto found = header.get<std::uint8_t>();
+    if (found != version) throw FormatError("a tree of version " + std::to_string(found) + " cannot be read");
+    const auto raw_size = header.get<std::uint64_t>();
+    const auto rest = header.get_rest();
+    // The frame's own claim must agree before anything is allocated.
+    if (raw_size > kMaxRawBytes || ZSTD_getFrameContentSize(rest.data(), rest.size()) != raw_size)
+        throw FormatError("a tree's size is not what its header says");
+    Bytes raw(raw_size);
+    const std::size_t size = ZSTD_decompress(raw.data(), raw.size(), rest.data(), rest.size());
+    if (ZSTD_isError(size) || size != raw_size) throw FormatError("a tree's compressed bytes are damaged");
+    return raw;
+}
+
+}  // namespace treefarm

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "common/guiding/regions/region_model.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "common/guiding/regions/first_model.h"
+
+namespace treefarm {
+namespace {
+
+int exponent_of(float value) {
+    int exponent = 0;
+    std::frexp(value, &exponent);
+    return exponent;
+}
+
+}  // namespace
+
+void set_cube(RegionModel& model, const Box3& bounds) {
+    if (!bounds.isEmpty()) {
+        model.origin = bounds.min;
+        const Vec3 size = bounds.max - bounds.min;
+        model.extent = std::max(size.x, std::max(size.y, size.z));
+    }
+    // A scene without extent (no shape, or a point) still needs a cube to look things up in.
+    if (!(model.extent > 0.0f)) model.extent = 1.0f;
+}
+
+std::int16_t quantum_exponent_for(float mean_record) {
+    if (!(mean_record > 0.0f) || !std::isfinite(mean_record)) mean_record = 1.0f;
+    return static_cast<std::int16_t>(exponent_of(mean_record) - kMeanRecordBits);
+}
+
+std::int16_t learned_exponent(double total, std::uint64_t records, std::int16_t exponent) {
+    if (!(total > 0 && records > 0)) return exponent;
+    const double mean_record = std::ldexp(total / static_cast<double>(records), exponent);
+    constexpr double kMost = std::numeric_limits<float>::max();
+    return quantum_exponent_for(static_cast<float>(std::min(mean_record, kMost)));
+}
+
+int spatial_depth(const RegionModel& model) {
+    int deepest = 0;
+    std::vector<std::pair<std::uint32_t, int>> open = {{0, 0}};
+    while (!open.empty()) {
+        const auto [node, depth] = open.back();
+        open.pop_back();
+        deepest = std::max(deepest, depth);
+        if (model.nodes[node].is_leaf()) continue;
+        for (const std::uint32_t child : model.nodes[node].child)
+            open.emplace_back(child, depth + 1);
+    }
+    return deepest;
+}
+
+}  // namespace treefarm

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "common/guiding/sd_tree/tree_learner.h"
+
+namespace treefarm {
+
+SdTree TreeLearner::learn(const SdTree& tree, const CellSums& sums, const RefineSettings& settings, bool learn_mixture,
+                          RefineReport& report) {
+    std::vector<ViewAdvice> advice;
+    const bool learn_views = learn_mixture && tree.view_count() != 0;
+    if (learn_views) advice = views_.judge(tree, sums, settings.last_update);
+    SdTree next = refine(tree, sums, settings, report, advice);
+    if (!tree.light_probabilities.empty()) lights_.learn(tree, sums, report.origins, next);
+    if (!learn_mixture) return next;
+    mixture_.learn(tree, sums, report.origins, next);
+    if (learn_views) views_.hand_down(report.view_origins, next);
+    return next;
+}
+
+}  // namespace treefarm

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "common/guiding/sd_tree/view_mixture.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "common/base/error.h"
+#include "common/plan/policy.h"
+
+namespace treefarm {
+namespace {
+
+double total(const MixtureHistogram& histogram) {
+    return std::accumulate(histogram.begin(), histogram.end(), 0.0);
+}
+
+}  // namespace
+
+double view_gain(const MixtureHistogram& histogram, double others) {
+    const double whole = total(histogram);
+    if (!(whole > 0)) return 0;
+    double sum = 0;
+    for (int b = 0; b < kMixtureBins; ++b) {
+        const double r = mixture_bin_centre(b);
+        sum += histogram[static_cast<std::size_t>(b)] * std::log(others + (1.0 - others) * (1.0 - r) / r);
+    }
+    return sum / whole;
+}
+
+std::vector<ViewAdvice> ViewLearner::judge(const SdTree& tree, const CellSums& sums, bool last_update) {
+    const std::uint32_t regions = tree.region_count(), views = tree.view_count();
+    if (sums.shape() != SumsShape(regions, tree.cell_count(), true, views, !tree.light_probabilities.empty()))
+        throw RunError("the sums to learn the mixture from belong to another tree");
+    views_.resize(views);
+    std::vector<ViewAdvice> advice(views);
+    const double all_records = std::accumulate(sums.counts().begin(), sums.counts().begin() + regions, 0.0);
+    std::vector<bool> idle(views);
+    double gain_of_all = 0;
+    for (std::uint32_t v = 0; v < views; ++v) {
+        const std::uint32_t distribution = regions + v;
+        Evidence& evidence = views_[v];
+        const auto bins = sums.mixture(distribution);
+        double fresh = 0;
+        for (std::size_t b = 0; b < kMixtureBins; ++b) {
+            const double h = std::ldexp(static_cast<double>(bins[b]), tree.quantum_exponent[distribution]);
+            evidence.histogram[b] = 0.5 * evidence.histogram[b] + h;
+            fresh += h;
+        }
+        const auto records = static_cast<double>(sums.counts()[distribution]);
+        const double mean_record = records > 0 && fresh > 0 ? fresh / records : total(evidence.histogram);
+        const double prior = 1.0 - static_cast<double>(tree.view_fraction[v]);
+        if (mean_record > 0)
+            evidence.others =
+                best_bsdf_fraction(evidence.histogram, prior, kPolicy.learning.mixture_prior_records * mean_record);
+        const double gain = std::max(0.0, view_gain(evidence.histogram, evidence.others));
+        idle[v] = 1.0 - evidence.others < kPolicy.learning.idle_fraction || gain < kPolicy.learning.least_view_gain;
+        advice[v].gain = records * gain;
+        if (!idle[v]) gain_of_all += advice[v].gain;
+    }
+    const bool all_idle = gain_of_all < kPolicy.learning.least_view_gain_of_all * all_records;
+    for (std::uint32_t v = 0; v < views; ++v) {
+        int& idle_passes = views_[v].idle_passes;
+        idle_passes = idle[v] || all_idle ? idle_passes + 1 : 0;
+        advice[v].keep = idle_passes < (last_update ? 1 : kPolicy.learning.idle_passes);
+    }
+    return advice;
+}
+
+void ViewLearner::hand_down(std::span<const ViewOrigin> origins, SdTree& next) {
+    std::vector<Evidence> inherited;
+    inherited.reserve(origins.size());
+    for (std::size_t v = 0; v < origins.size(); ++v) {
+        inherited.push_back(views_[origins[v].view]);
+        Evidence& evidence = inherited.back();
+        for (double& h : evidence.histogram)
+            h = std::ldexp(h, -origins[v].halvings);
+        next.view_fraction[v] =
+            std::min(static_cast<float>(1.0 - evidence.others), 1.0f - next.bsdf_fraction[next.region_count() + v]);
+    }
+    views_ = std::move(inherited);
+}
+
+}  // namespace treefarm

@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "common/base/prefetch.h"
+#include "common/guiding/settings.h"
+#include "common/guiding/statistics/box_filter.h"
+#include "common/guiding/statistics/cell_sums.h"
+
+namespace treefarm {
+
+/// Records in the order of their distributions.
+struct RecordOrder {
+    std::vector<std::uint32_t> records;  ///< their indices in the log
+    std::vector<std::uint32_t> ends;     ///< per distribution: where among `records` the next one's begin
+};
+
+/// Counting sort: a unit has many records for few distributions.
+RecordOrder order_by_distribution(std::span<const Record> records, std::size_t distributions);
+
+/// Adds the records of finished work to a worker's sums per cell. Threads keep a log each while they trace and commit
+/// it once per unit: in the order of distributions, so that a stripe of them is locked once for many records and cells
+/// are found in cache.
+///
+/// A `Sampler` that has cells is a RegionSampler that gives the cell() of a direction's code in a distribution, the
+/// cell's side (cell_side()) and cell_count(), and fetches ahead what cell() reads: prefetch_pdf(), then
+/// prefetch_pdf_cell().
+template <class Sampler>
+class CellAccumulator {
+  public:
+    /// `with_mixture`: records also feed the histograms of mixture.h.
+    CellAccumulator(std::uint32_t pass, const Sampler& guide, DirectionalFilter filter = DirectionalFilter::nearest,
+                    bool with_mixture = false)
+        : guide_(guide), filter_(filter), with_mixture_(with_mixture), sums_(pass, shape()) {}
+
+    /// Adds a unit's records and the vertex counts per distribution. Thread-safe.
+    void commit(std::span<const Record> records, std::span<const std::uint32_t> counts, const UpdateCaps& caps);
+
+    /// Hands out the sums and starts again from zero. No commit may be in flight.
+    CellSums take();
+    /// Gives back what was handed out, cleared: the next take() need not make it anew. Not while take() runs.
+    void give_back(CellSums cleared);
+
+  private:
+    static constexpr std::size_t kStripes = 64;
+
+    /// Cell of each record of a block.
+    using BlockCells = std::array<std::uint32_t, BoxBlock::kRecords>;
+
+    /// Quanta for the cells of so many codes.
+    struct Overlaps {
+        static constexpr std::uint32_t kMost = BoxBlock::kRecords * (BoxBlock::kParts - 1);
+        std::uint32_t count = 0;
+        std::array<std::uint32_t, kMost> distribution, code, cell;
+        std::array<std::uint64_t, kMost> quanta;
+    };
+
+    template <class DistributionOf, class CodeOf>
+    void find_cells(std::uint32_t count, DistributionOf distribution, CodeOf code, std::span<std::uint32_t> cells);
+    /// Copies the records at the first `count` of `indices`, and has as many that follow fetched meanwhile.
+    static void gather(std::span<const Record> records, std::span<const std::uint32_t> indices, std::size_t count,
+                       std::array<Record, BoxBlock::kRecords>& block) {
+        const std::size_t last = indices.size() - 1;
+        for (std::size_t i = 0; i < count; ++i) {
+            prefetch_line(&records[indices[std::min(i + count, last)]]);
+            block[i] = records[indices[i]];
+        }
+    }
+    static std::uint64_t counted(float value, int exponent, std::uint32_t random, UpdateCaps& met) {
+        bool capped = false;
+        const std::uint64_t quanta = quantise(value, exponent, random, capped);
+        met.capped_records += capped;
+        return quanta;
+    }
+    void add_block(std::span<const Record> records, UpdateCaps& met);
+    void add_boxes(std::span<const Record> records, const BlockCells& cells, UpdateCaps& met);
+    void add_reflected(const Record& record, UpdateCaps& met);
+    void add_to_cell(std::uint32_t cell, std::uint64_t quanta, UpdateCaps& met);
+    int exponent(const Record& record) const { return guide_.quantum_exponent(record.distribution); }
+
+    SumsShape shape() const {
+        const std::uint32_t regions = guide_.region_count();
+        return {regions, guide_.cell_count(), with_mixture_, guide_.distribution_count() - regions,
+                guide_.learns_lights()};
+    }
+
+    const Sampler& guide_;
+    const DirectionalFilter filter_;
+    const bool with_mixture_;
+    CellSums sums_;
+    std::optional<CellSums> spare_;  ///< all zero
+    std::mutex caps_lock_;
+    std::array<std::mutex, kStripes> stripe_locks_;
+};
+
+/// The cells of `count` codes, and their sums fetched. Each step fetches for all what the next one reads.
+template <class Sampler>
+template <class DistributionOf, class CodeOf>
+void CellAccumulator<Sampler>::find_cells(std::uint32_t count, DistributionOf distribution, CodeOf code,
+                                          std::span<std::uint32_t> cells) {
+    for (std::uint32_t i = 0; i < count; ++i)
+        guide_.prefetch_pdf(distribution(i), code(i));
+    for (std::uint32_t i = 0; i < count; ++i)
+        guide_.prefetch_pdf_cell(distribution(i), code(i));
+    for (std::uint32_t i = 0; i < count; ++i) {
+        cells[i] = guide_.cell(distribution(i), code(i));
+        sums_.prefetch_cell(cells[i]);
+    }
+}
+
+template <class Sampler>
+void CellAccumulator<Sampler>::add_block(std::span<const Record> records, UpdateCaps& met) {
+    BlockCells cells;
+    find_cells(
+        static_cast<std::uint32_t>(records.size()), [&](std::uint32_t i) { return records[i].distribution; },
+        [&](std::uint32_t i) { return records[i].code; }, cells);
+    if (with_mixture_)
+        for (const Record& record : records)
+            sums_.prefetch_mixture(record.distribution);
+    if (filter_ == DirectionalFilter::box)
+        add_boxes(records, cells, met);
+    else
+        for (std::uint32_t i = 0; i < records.size(); ++i)
+            add_to_cell(cells[i], counted(records[i].value, exponent(records[i]), records[i].rounding, met), met);
+    for (const Record& record : records)
+        add_reflected(record, met);
+}
+
+template <class Sampler>
+void CellAccumulator<Sampler>::add_boxes(std::span<const Record> records, const BlockCells& cells, UpdateCaps& met) {
+    BoxBlock boxes;
+    for (std::uint32_t i = 0; i < records.size(); ++i)
+        boxes.set(i, records[i], guide_.cell_side(records[i].distribution, cells[i]), exponent(records[i]));
+    met.capped_records += boxes.cut(static_cast<std::uint32_t>(records.size()));
+    Overlaps others;
+    for (std::uint32_t i = 0; i < records.size(); ++i) {
+        add_to_cell(cells[i], boxes.quanta(0, i), met);
+        for (std::uint32_t part = 1; part < BoxBlock::kParts; ++part) {
+            others.distribution[others.count] = records[i].distribution;
+            others.code[others.count] = boxes.part_code(part, i);
+            others.quanta[others.count] = boxes.quanta(part, i);
+            others.count += others.quanta[others.count] != 0;
+        }
+    }
+    find_cells(
+        others.count, [&](std::uint32_t i) { return others.distribution[i]; },
+        [&](std::uint32_t i) { return others.code[i]; }, others.cell);
+    for (std::uint32_t i = 0; i < others.count; ++i)
+        add_to_cell(others.cell[i], others.quanta[i], met);
+}
+
+/// Adds what the mixture, or next event, learns of a record.
+template <class Sampler>
+void CellAccumulator<Sampler>::add_reflected(const Record& record, UpdateCaps& met) {
+    if (record.bin >= kLightBin) {
+        const std::uint64_t units = counted(record.reflected, 0, record.rounding, met);
+        if (units != 0 && !sums_.add_light(record.distribution, record.bin - kLightBin, units)) ++met.saturated_cells;
+    } else if (with_mixture_ && record.reflected > 0.0f) {
+        const std::uint64_t quanta = counted(record.reflected, exponent(record), scrambled(record.rounding, 0), met);
+        if (quanta != 0 && !sums_.add_mixture(record.distribution, record.bin, quanta)) ++met.saturated_cells;
+    }
+}
+
+template <class Sampler>
+void CellAccumulator<Sampler>::add_to_cell(std::uint32_t cell, std::uint64_t quanta, UpdateCaps& met) {
+    if (!sums_.add_quanta(cell, quanta)) ++met.saturated_cells;
+}
+
+template <class Sampler>
+void CellAccumulator<Sampler>::commit(std::span<const Record> records, std::span<const std::uint32_t> counts,
+                                      const UpdateCaps& caps) {
+    const std::size_t distributions = counts.size();
+    const RecordOrder order = order_by_distribution(records, distributions);
+
+    // Consecutive distributions share a stripe: ordered records walk through the stripes once.
+    const std::size_t stripe_size = (distributions + kStripes - 1) / kStripes;
+    UpdateCaps met = caps;
+    std::array<Record, BoxBlock::kRecords> block;
+    std::span<const std::uint32_t> rest(order.records);
+    for (std::size_t begin = 0, stripe = 0; begin < distributions; begin += stripe_size, ++stripe) {
+        const std::size_t stop = std::min(begin + stripe_size, distributions);
+        const std::lock_guard lock(stripe_locks_[stripe]);
+        for (std::size_t d = begin; d < stop; ++d)
+            if (counts[d] != 0) sums_.add_count(static_cast<std::uint32_t>(d), counts[d]);
+        for (const std::size_t after = order.records.size() - order.ends[stop - 1]; rest.size() > after;) {
+            const std::size_t count = std::min<std::size_t>(BoxBlock::kRecords, rest.size() - after);
+            gather(records, rest, count, block);
+            add_block({block.data(), count}, met);
+            rest = rest.subspan(count);
+        }
+    }
+    const std::lock_guard lock(caps_lock_);
+    sums_.add_caps(met);
+}
+
+template <class Sampler>
+CellSums CellAccumulator<Sampler>::take() {
+    CellSums next = spare_ ? std::move(*spare_) : CellSums(sums_.pass(), shape());
+    spare_.reset();
+    return std::exchange(sums_, std::move(next));
+}
+
+template <class Sampler>
+void CellAccumulator<Sampler>::give_back(CellSums cleared) {
+    spare_ = std::move(cleared);
+}
+
+}  // namespace treefarm

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "common/guiding/statistics/cell_sums.h"
+
+#include <algorithm>
+
+namespace treefarm {
+namespace {
+
+/// Cap of what one next-event sample brings: more weighs as much, which only makes its emitter a little less popular.
+constexpr double kMostLightUnits = 0x1p38;
+
+/// Entries of a sparse list: (distance to the last index, value), both varints; calls `visit(index, value)`.
+template <class Visit>
+void read_sparse(ByteReader& in, std::size_t limit, const char* what, Visit visit) {
+    const std::size_t count = in.get_count(2);
+    std::uint64_t next = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::uint64_t skip = in.get_varint();
+        if (skip >= limit - next)
+            throw FormatError(std::string("a tree update names a ") + what + " beyond the tree's " +
+                              std::to_string(limit));
+        next += skip;
+        const std::uint64_t value = in.get_varint();
+        if (value == 0) throw FormatError(std::string("a tree update holds an empty ") + what);
+        visit(next, value);
+        ++next;
+        if (next == limit && i + 1 < count)
+            throw FormatError(std::string("a tree update names a ") + what + " beyond the tree's " +
+                              std::to_string(limit));
+    }
+}
+
+void write_sparse(ByteWriter& out, std::span<const std::uint64_t> values) {
+    std::uint64_t count = 0;
+    for (const std::uint64_t v : values)
+        count += v != 0;
+    out.put_varint(count);
+    std::size_t next = 0;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        if (values[i] == 0) continue;
+        out.put_varint(i - next);
+        out.put_varint(values[i]);
+        next = i + 1;
+    }
+}
+
+}  // namespace
+
+void UpdateCaps::add(const UpdateCaps& other) {
+    capped_records += other.capped_records;
+    saturated_cells += other.saturated_cells;
+    outside_positions += other.outside_positions;
+}
+
+CellSums::CellSums(std::uint32_t pass, const SumsShape& shape)
+    : pass_(pass),
+      shape_(shape),
+      cells_(shape.cells),
+      counts_(shape.regions + shape.views),
+      mixture_(shape.mixture_begin(shape.regions + shape.views)),
+      lights_(shape.light_sums()) {}
+
+bool CellSums::add_light(std::uint32_t region, int cluster, std::uint64_t quanta) {
+    return add_saturating(lights_[std::size_t{region} * kLightClusters + static_cast<std::size_t>(cluster)], quanta);
+}
+
+void CellSums::add(const CellSums& other) {
+    if (other.pass_ != pass_ || other.shape_ != shape_) throw RunError("sums of different trees cannot be added");
+    for (std::size_t c = 0; c < cells_.size(); ++c)
+        if (!add_quanta(static_cast<std::uint32_t>(c), other.cells_[c])) ++caps_.saturated_cells;
+    for (std::size_t r = 0; r < counts_.size(); ++r)
+        counts_[r] += other.counts_[r];
+    for (std::size_t m = 0; m < mixture_.size(); ++m)
+        if (!add_saturating(mixture_[m], other.mixture_[m])) ++caps_.saturated_cells;
+    for (std::size_t l = 0; l < lights_.size(); ++l)
+        if (!add_saturating(lights_[l], other.lights_[l])) ++caps_.saturated_cells;
+    caps_.add(other.caps_);
+}
+
+void CellSums::clear() {
+    std::fill(cells_.begin(), cells_.end(), 0);
+    std::fill(counts_.begin(), counts_.end(), 0);
+    std::fill(mixture_.begin(), mixture_.end(), 0);
+    std::fill(lights_.begin(), lights_.end(), 0);
+    caps_ = {};
+}
+
+Bytes CellSums::encode() const {
+    ByteWriter out;
+    out.put_varint(pass_);
+    out.put_varint(cells_.size());
+    out.put_varint(counts_.size());
+    out.put_varint(mixture_.size());
+    out.put_varint(lights_.size());
+    out.put_varint(caps_.capped_records);
+    out.put_varint(caps_.saturated_cells);
+    out.put_varint(caps_.outside_positions);
+    write_sparse(out, counts_);
+    write_sparse(out, cells_);
+    write_sparse(out, mixture_);
+    write_sparse(out, lights_);
+    return out.take();
+}
+
+std::uint64_t CellSums::merge_encoded(std::span<const std::uint8_t> update) {
+    // Two readings: the first only checks, so that a bad message changes nothing.
+    const auto read = [&](auto&& on_count, auto&& on_cell, auto&& on_mixture, auto&& on_light) {
+        ByteReader in(update);
+        const std::uint64_t pass = in.get_varint(), cells = in.get_varint(), distributions = in.get_varint();
+        const std::uint64_t bins = in.get_varint(), lights = in.get_varint();
+        if (bins != mixture_.size() || lights != lights_.size() || pass != pass_ || cells != cells_.size() ||
+            distributions != counts_.size())
+            throw FormatError("a tree update of pass " + std::to_string(pass) + " with " + std::to_string(cells) +
+                              " cells does not fit the tree of pass " + std::to_string(pass_) + " with " +
+                              std::to_string(cells_.size()));
+        UpdateCaps caps;
+        caps.capped_records = in.get_varint();
+        caps.saturated_cells = in.get_varint();
+        caps.outside_positions = in.get_varint();
+        read_sparse(in, counts_.size(), "distribution", on_count);
+        read_sparse(in, cells_.size(), "cell", on_cell);
+        read_sparse(in, mixture_.size(), "mixture bin", on_mixture);
+        read_sparse(in, lights_.size(), "cluster of emitters", on_light);
+        in.expect_end();
+        return caps;
+    };
+    const auto ignore = [](std::uint64_t, std::uint64_t) {};
+    read(ignore, ignore, ignore, ignore);
+    std::uint64_t touched = 0;
+    const UpdateCaps caps =
+        read([&](std::uint64_t distribution, std::uint64_t count) { counts_[distribution] += count; },
+             [&](std::uint64_t cell, std::uint64_t sum) {
+                 if (!add_quanta(static_cast<std::uint32_t>(cell), sum)) ++caps_.saturated_cells;
+                 ++touched;
+             },
+             [&](std::uint64_t bin, std::uint64_t sum) {
+                 if (!add_saturating(mixture_[bin], sum)) ++caps_.saturated_cells;
+             },
+             [&](std::uint64_t light, std::uint64_t sum) {
+                 if (!add_saturating(lights_[light], sum)) ++caps_.saturated_cells;
+             });
+    caps_.add(caps);
+    return touched;
+}
+
+Record light_record(std::uint32_t region, int quantum_exponent, std::uint8_t cluster, float chosen, float reflected) {
+    const double x = static_cast<double>(reflected);
+    const double units =
+        x * x * static_cast<double>(chosen) * exact_power_of_two(-light_sum_exponent(quantum_exponent));
+    // Half of a unit rounds up: among 2^16 no randomness is needed.
+    return {region,
+            0,
+            std::uint32_t{1} << 31,
+            0.0f,
+            static_cast<float>(std::min(units, kMostLightUnits)),
+            static_cast<std::uint8_t>(kLightBin + cluster)};
+}
+
+}  // namespace treefarm

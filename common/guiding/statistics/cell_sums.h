@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "common/base/bytes.h"
+#include "common/base/large_table.h"
+#include "common/base/prefetch.h"
+#include "common/guiding/regions/region_model.h"
+#include "common/math/elementary.h"
+
+namespace treefarm {
+
+/// Bins of the mixture histogram of a region (mixture.h) and of a view (view_mixture.h).
+inline constexpr int kMixtureBins = 16;
+/// Records with this bin and above are none of the mixture: what next event found in cluster `bin - kLightBin`.
+inline constexpr std::uint8_t kLightBin = 64;
+
+/// A path vertex's record for a distribution: `value` of radiance arrived from the direction `code`.
+struct Record {
+    std::uint32_t distribution;
+    std::uint32_t code;      ///< Z-order code of the direction
+    std::uint32_t rounding;  ///< uniform bits of the keyed generator, for stochastic rounding
+    float value;             ///< L / p (or what else the tree's target is), >= 0 and finite
+    float reflected = 0.0f;  ///< f |cos| L / p, >= 0 and finite: what the mixture learns from
+    std::uint8_t bin = 0;    ///< of the mixture histogram, or kLightBin and a cluster
+};
+
+/// Second moments of emitters are counted in units of 2^light_sum_exponent(e), where records are in units of 2^e: one
+/// like the average record is then 2^16 units, and sums hold from 2^-8 to 2^11 times what the average is.
+inline constexpr int light_sum_exponent(int quantum_exponent) {
+    return 2 * quantum_exponent + kMeanRecordBits;
+}
+
+/// The record of a next-event sample of `cluster`, chosen with the probability `chosen`, that brought `reflected`.
+Record light_record(std::uint32_t region, int quantum_exponent, std::uint8_t cluster, float chosen, float reflected);
+
+/// Caps that were met. Nothing is dropped silently: they travel with the update and are reported.
+struct UpdateCaps {
+    std::uint64_t capped_records = 0;     ///< contributions above 2^40 quanta
+    std::uint64_t saturated_cells = 0;    ///< sums that reached 2^64 - 1
+    std::uint64_t outside_positions = 0;  ///< vertices outside the tree's cube
+
+    void add(const UpdateCaps& other);
+    bool operator==(const UpdateCaps&) const = default;
+};
+
+/// Shape of a CellSums: how much there are sums for, and of which kinds.
+struct SumsShape {
+    std::uint32_t regions = 0;
+    std::uint32_t views = 0;
+    std::uint32_t cells = 0;
+    bool with_mixture = false;  ///< mixture histograms: kMixtureBins more sums per distribution
+    bool with_lights = false;   ///< sums of emitters: kLightClusters more sums per region
+
+    SumsShape() = default;
+    SumsShape(std::uint32_t region_count, std::uint32_t cell_count, bool mixture = false, std::uint32_t view_count = 0,
+              bool lights = false)
+        : regions(region_count), views(view_count), cells(cell_count), with_mixture(mixture), with_lights(lights) {}
+    bool operator==(const SumsShape&) const = default;
+    std::size_t light_sums() const { return with_lights ? std::size_t{regions} * kLightClusters : 0; }
+    /// Index of a distribution's first mixture bin; that of the distribution after the last is the number of bins.
+    std::size_t mixture_begin(std::uint32_t distribution) const {
+        return with_mixture ? std::size_t{distribution} * kMixtureBins : 0;
+    }
+};
+
+/// Dense sums over the cells and distributions of one model, exact integers: adding is order-free and split == whole.
+class CellSums {
+  public:
+    CellSums() = default;
+    CellSums(std::uint32_t pass, const SumsShape& shape);
+    CellSums(std::uint32_t pass, std::uint32_t regions, std::uint32_t cells, bool with_mixture = false)
+        : CellSums(pass, SumsShape(regions, cells, with_mixture)) {}
+
+    std::uint32_t pass() const { return pass_; }
+    const LargeTable<std::uint64_t>& cells() const { return cells_; }
+    /// Recorded vertices per distribution, those without radiance included.
+    const std::vector<std::uint64_t>& counts() const { return counts_; }
+    /// The mixture histogram of a distribution; empty where no mixture is learned.
+    std::span<const std::uint64_t> mixture(std::uint32_t distribution) const {
+        const std::size_t begin = shape_.mixture_begin(distribution);
+        return {mixture_.data() + begin, shape_.mixture_begin(distribution + 1) - begin};
+    }
+    /// Second moments of what next event found in a region, per cluster of emitters; empty where that is not learned.
+    std::span<const std::uint64_t> lights(std::uint32_t region) const {
+        if (!shape_.with_lights) return {};
+        return {lights_.data() + std::size_t{region} * kLightClusters, kLightClusters};
+    }
+    const SumsShape& shape() const { return shape_; }
+    const UpdateCaps& caps() const { return caps_; }
+
+    void add_count(std::uint32_t distribution, std::uint64_t count) { counts_[distribution] += count; }
+    /// Adds to one cell; false where the sum would pass 2^64 - 1 and stays there (the caller counts it).
+    bool add_quanta(std::uint32_t cell, std::uint64_t quanta) { return add_saturating(cells_[cell], quanta); }
+    void prefetch_cell(std::uint32_t cell) const { prefetch_line(&cells_[cell]); }
+    void prefetch_mixture(std::uint32_t distribution) const {
+        prefetch_line(mixture_.data() + shape_.mixture_begin(distribution));
+    }
+    bool add_light(std::uint32_t region, int cluster, std::uint64_t quanta);
+    bool add_mixture(std::uint32_t distribution, std::uint8_t bin, std::uint64_t quanta) {
+        return add_saturating(mixture_[shape_.mixture_begin(distribution) + bin], quanta);
+    }
+    void add_caps(const UpdateCaps& caps) { caps_.add(caps); }
+    void add(const CellSums& other);
+    void clear();
+
+    /// Sparse form: only cells and counts that are not zero (docs/design/protocol.md, "tree update").
+    Bytes encode() const;
+    /// Adds an encoded update, checking pass, order and range of every entry before anything is added; FormatError
+    /// otherwise. Returns the number of touched cells.
+    std::uint64_t merge_encoded(std::span<const std::uint8_t> update);
+
+    bool operator==(const CellSums&) const = default;
+
+  private:
+    /// False where the sum would pass 2^64 - 1 and stays there.
+    static bool add_saturating(std::uint64_t& sum, std::uint64_t quanta) {
+        const bool fits = quanta <= ~sum;
+        sum = fits ? sum + quanta : ~std::uint64_t{0};
+        return fits;
+    }
+
+    std::uint32_t pass_ = 0;
+    SumsShape shape_;
+    LargeTable<std::uint64_t> cells_;
+    std::vector<std::uint64_t> counts_;
+    std::vector<std::uint64_t> mixture_;
+    std::vector<std::uint64_t> lights_;
+    UpdateCaps caps_;
+};
+
+/// Cap of one contribution, in quanta: leaves 2^24 capped ones before a cell saturates.
+inline constexpr double kMostQuanta = 0x1p40;
+
+/// value * per_value as a whole number, rounded up with the probability of its fraction, so that the expectation is
+/// exact; at most kMostQuanta. `per_value`, a power of two: scaling a float by it in double loses nothing, nor does
+/// splitting off the integer part.
+inline double whole_quanta(float value, double per_value, std::uint32_t random) {
+    const double quanta = static_cast<double>(value) * per_value;
+    const double whole = std::floor(quanta);
+    // An unsigned number is converted as a signed one, for which there are vector instructions.
+    const double threshold = static_cast<double>(static_cast<std::int32_t>(random ^ 0x80000000u)) * 0x1p-32 + 0.5;
+    return quanta < kMostQuanta ? whole + (threshold < quanta - whole ? 1.0 : 0.0) : kMostQuanta;
+}
+
+/// value / 2^exponent by whole_quanta(). Above 2^40 quanta it is capped and `capped` is raised.
+inline std::uint64_t quantise(float value, int exponent, std::uint32_t random, bool& capped) {
+    const double quanta = whole_quanta(value, exact_power_of_two(-exponent), random);
+    capped = capped || quanta >= kMostQuanta;  // a float beyond 2^24 is whole: rounding does not bring it there
+    return static_cast<std::uint64_t>(static_cast<std::int64_t>(quanta));
+}
+
+}  // namespace treefarm

@@ -1,0 +1,275 @@
+// SPDX-License-Identifier: Apache-2.0
+// What every guide has to keep: the same tests over the closed set of common/guiding/guides.h, on trained and on
+// hostile models. That renders by it are right is in guided_test, furnace_test and mpi/same_bits_test.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <string>
+#include <thread>
+
+#include "common/guiding/any_guide.h"
+#include "common/math/frame.h"
+#include "tests/support/chi_square.h"
+#include "tests/support/random_tree.h"
+#include "worker/guides/walks.h"
+#include "worker/shading/plain_diffuse.h"
+
+namespace treefarm {
+namespace {
+
+constexpr double kSignificance = 1e-4 / 8;  // models of one guide
+constexpr std::uint32_t kSamples = 1 << 19;
+
+template <class List>
+struct TypesOf;
+template <class... G>
+struct TypesOf<GuideList<G...>> {
+    using type = ::testing::Types<G...>;
+};
+
+/// Records at random places of a unit cube, or all alike.
+using Records = std::vector<Record>;
+
+template <class G>
+class GuideLaws : public ::testing::Test {
+  protected:
+    using Model = typename G::Model;
+    using Sampler = typename G::Sampler;
+
+    struct Named {
+        std::string name;
+        Model model;
+        std::uint32_t region;  ///< to look at
+    };
+
+    static Model first() {
+        FirstModel settings;
+        settings.with_lights = true;
+        return G::first(Box3(Vec3(0.0f), Vec3(1.0f)), settings);
+    }
+
+    static CellSums sums_of(const Sampler& guide, std::uint32_t pass, const Records& records) {
+        CellAccumulator<Sampler> accumulator(pass, guide, DirectionalFilter::box, true);
+        accumulator.commit(records, counts_of(guide, records), {});
+        return accumulator.take();
+    }
+
+    static std::vector<std::uint32_t> counts_of(const Sampler& guide, const Records& records) {
+        std::vector<std::uint32_t> counts(guide.distribution_count());
+        for (const Record& record : records)
+            ++counts[record.distribution];
+        return counts;
+    }
+
+    static Model learned(const Model& model, const Records& records) {
+        typename G::Learner learner;
+        RefineReport report;
+        return learner.learn(model, sums_of(Sampler(model), model.pass, records), {.spatial_threshold = 1000}, true,
+                             report);
+    }
+
+    /// Records in the middle of the cube, along one direction, of one value.
+    static Records alike(const Sampler& guide, std::size_t count, float value, std::uint32_t code) {
+        Records records(count, {guide.region(Vec3(0.5f)), code, 1u << 31, value});
+        for (Record& record : records)
+            record.reflected = value;
+        return records;
+    }
+
+    /// Models with a region that is worth a look, and what they are.
+    static std::vector<Named> models() {
+        std::vector<Named> all;
+        const auto add = [&](const std::string& name, const Model& model, const Vec3& place) {
+            all.push_back({name, model, Sampler(model).region(place)});
+        };
+        const Sampler guide(first());
+        const std::uint32_t code = direction_to_code(normalize(Vec3(0.3f, -0.5f, 0.7f)));
+        const Vec3 middle(0.5f), corner(0.01f, 0.01f, 0.99f);
+        add("before any pass", first(), middle);
+        const Model trained = learned(first(), test::random_records(guide, 200'000, 1));
+        add("trained", trained, middle);
+        add("trained twice", learned(trained, test::random_records(Sampler(trained), 100'000, 2)), middle);
+        add("one record", learned(first(), alike(guide, 1, 1.0f, code)), middle);
+        add("all in one direction", learned(first(), alike(guide, 5000, 1.0f, code)), middle);
+        add("nothing recorded there", learned(first(), alike(guide, 5000, 1.0f, code)), corner);
+        add("tiny records", learned(first(), alike(guide, 100, 1e-30f, code)), middle);
+        add("huge records", learned(first(), alike(guide, 100, 1e30f, code)), middle);
+        return all;
+    }
+};
+TYPED_TEST_SUITE(GuideLaws, TypesOf<Guides>::type);
+
+/// Laws 1 and 2: what is drawn follows the density, which integrates to one.
+TYPED_TEST(GuideLaws, DirectionsFollowTheirDensityWhichIntegratesToOne) {
+    for (const auto& [name, model, region] : TestFixture::models()) {
+        const typename TypeParam::Sampler guide(model);
+        const auto drawn = [&, at = region](std::uint32_t i) {
+            return guide.sample(at, draw({5, i, 0}, 0, Stream::scatter));
+        };
+        const auto sample = [&](std::uint32_t i, Vec3& d) {
+            const auto s = drawn(i);
+            d = s.direction;
+            return s.pdf > 0.0f;
+        };
+        const auto density = [&, at = region](const Vec3& d) { return double(guide.pdf(at, direction_to_code(d))); };
+        const auto result = test::test_directions(sample, density, kSamples, 16, 64);
+        EXPECT_NEAR(result.integral, result.success, 1e-3) << name;
+        EXPECT_GT(result.p_value, kSignificance) << name;
+        for (std::uint32_t i = 0; i < 4096; ++i) {
+            const auto s = drawn(i);
+            ASSERT_EQ(s.pdf, guide.pdf(region, s.code)) << name << ": drawn from another density than it is weighed by";
+            ASSERT_NEAR(dot(s.direction, s.direction), 1.0f, 1e-5f) << name;
+        }
+    }
+}
+
+/// A diffuse surface that directions are drawn for.
+class PlainSurface {
+  public:
+    const PlainDiffuse& bsdf() const { return bsdf_; }
+    const Frame& frame() const { return frame_; }
+    const Vec3& wo() const { return wo_; }
+
+  private:
+    PlainDiffuse bsdf_{Rgb(0.8f), false};
+    Frame frame_{normalize(Vec3(0.2f, 0.3f, 1.0f))};
+    Vec3 wo_ = normalize(Vec3(0.5f, 0.1f, 0.8f));
+};
+
+struct Moments {
+    double sum = 0, squares = 0, count = 0;
+    void add(double x) {
+        sum += x;
+        squares += x * x;
+        ++count;
+    }
+    double z(double exact) const {
+        const double mean = sum / count;
+        const double error = std::sqrt(std::max(squares / count - mean * mean, 1e-18) / count);
+        return (mean - exact) / error;
+    }
+};
+
+/// Law 3: the mixture of BSDF and guide estimates integrals of f cos g, as the walk draws and weighs it.
+TYPED_TEST(GuideLaws, TheMixtureEstimatesIntegrals) {
+    using Walk = WalkOf<typename TypeParam::Sampler>;
+    const PlainSurface surface;
+    const Vec3 side = normalize(cross(surface.frame().n, Vec3(1.0f, 0.0f, 0.0f)));
+    for (const auto& [name, model, region] : TestFixture::models()) {
+        const typename TypeParam::Sampler guide(model);
+        typename Walk::Guidance guidance = Walk::unguided();
+        guidance.region = region;
+        guidance.bsdf_fraction = 0.3f;
+        auto scatter = std::make_unique<typename Walk::template ScatterBatch<true, true>>();
+        Moments all, tilted, half;
+        for (std::uint32_t i = 0; i < kSamples; ++i) {
+            const Draw random = draw({6, i, 0}, 0, Stream::scatter);
+            const Vec3 cosine = square_to_cosine_hemisphere({to_unit(random[2]), to_unit(random[3])});
+            typename Walk::Scatter s;
+            scatter->clear();
+            double value = 0, along = 0;
+            if (scatter->draw(surface, guide, guidance, to_unit(random[0]), random, cosine, s)) {
+                scatter->convert(guide);
+                scatter->complete(surface, guide, guidance, s);
+                value = s.pdf > 0.0f ? double(s.f_cos.x / s.pdf) : 0.0;
+                along = double(dot(s.world, side));
+            }
+            all.add(value);
+            tilted.add(value * (1 + along));
+            half.add(along > 0 ? value : 0.0);
+        }
+        EXPECT_LT(std::abs(all.z(0.8)), 4.5) << name;
+        EXPECT_LT(std::abs(tilted.z(0.8)), 4.5) << name;
+        EXPECT_LT(std::abs(half.z(0.4)), 4.5) << name;
+    }
+}
+
+/// Law 4: sums are the same bytes however their records are split, in whatever order and by how many threads.
+TYPED_TEST(GuideLaws, SumsMergeToTheSameBytes) {
+    using Sampler = typename TypeParam::Sampler;
+    const typename TypeParam::Model model =
+        TestFixture::learned(TestFixture::first(), test::random_records(Sampler(TestFixture::first()), 20'000, 3));
+    const Sampler guide(model);
+    Records records = test::random_records(guide, 20'000, 4);
+    for (std::size_t i = 0; i < records.size(); ++i) {
+        records[i].reflected = 0.5f * records[i].value;
+        records[i].bin = static_cast<std::uint8_t>(i % kMixtureBins);
+    }
+    const CellSums whole = TestFixture::sums_of(guide, model.pass, records);
+    const Bytes expected = whole.encode();
+    std::mt19937 engine(9);
+    for (const std::size_t parts : {1u, 2u, 3u, 7u, 17u}) {
+        std::shuffle(records.begin(), records.end(), engine);
+        CellSums merged(model.pass, whole.shape()), added(model.pass, whole.shape());
+        CellAccumulator<Sampler> together(model.pass, guide, DirectionalFilter::box, true);
+        std::vector<std::jthread> threads;
+        for (std::size_t part = 0; part < parts; ++part) {
+            const Records share(records.begin() + std::ptrdiff_t(records.size() * part / parts),
+                                records.begin() + std::ptrdiff_t(records.size() * (part + 1) / parts));
+            const CellSums sums = TestFixture::sums_of(guide, model.pass, share);
+            added.add(sums);
+            merged.merge_encoded(sums.encode());
+            threads.emplace_back(
+                [&together, &guide, share] { together.commit(share, TestFixture::counts_of(guide, share), {}); });
+        }
+        threads.clear();
+        EXPECT_EQ(added.encode(), expected) << parts;
+        EXPECT_EQ(merged.encode(), expected) << parts;
+        EXPECT_EQ(together.take().encode(), expected) << parts << " threads";
+    }
+    CellSums untouched(model.pass, whole.shape());
+    const Bytes nothing = untouched.encode();
+    for (std::size_t cut = 1; cut < expected.size(); cut += expected.size() / 50 + 1) {
+        EXPECT_THROW(untouched.merge_encoded({expected.data(), expected.size() - cut}), FormatError) << cut;
+        EXPECT_EQ(untouched.encode(), nothing) << "a bad update changes nothing";
+    }
+}
+
+/// Law 6: what is decoded is what was encoded, and so is what is sampled from it; nothing else is decoded.
+TYPED_TEST(GuideLaws, WhatIsDecodedSamplesAlike) {
+    for (const auto& [name, model, region] : TestFixture::models()) {
+        const Bytes bytes = TypeParam::encode(model);
+        const AnyModel decoded = AnyModel::decode(bytes);
+        ASSERT_NE(decoded.get_if<typename TypeParam::Model>(), nullptr) << name;
+        EXPECT_TRUE(*decoded.get_if<typename TypeParam::Model>() == model) << name;
+        EXPECT_EQ(decoded.encode(), bytes) << name;
+        const typename TypeParam::Sampler before(model);
+        const auto& after = AnySampler(decoded).template get<typename TypeParam::Sampler>();
+        for (std::uint32_t i = 0; i < 4096; ++i) {
+            const Draw random = draw({7, i, 0}, 0, Stream::scatter);
+            const auto a = before.sample(region, random), b = after.sample(region, random);
+            ASSERT_TRUE(a.direction == b.direction && a.code == b.code && a.pdf == b.pdf) << name;
+            ASSERT_EQ(before.cell(region, a.code), after.cell(region, a.code)) << name;
+        }
+        for (std::size_t cut = 1; cut < bytes.size(); cut += bytes.size() / 50 + 1)
+            EXPECT_THROW(AnyModel::decode({bytes.data(), bytes.size() - cut}), FormatError) << name;
+    }
+}
+
+/// What is told of a model in reports and plans is what it is.
+TYPED_TEST(GuideLaws, FiguresAreTheModels) {
+    for (const auto& [name, model, region] : TestFixture::models()) {
+        const AnyModel any(model);
+        const typename TypeParam::Sampler sampler(model);
+        const SumsShape shape = any.sums_shape(true);
+        EXPECT_EQ(shape.regions, sampler.region_count()) << name;
+        EXPECT_EQ(shape.regions, model.leaf_count()) << name;
+        EXPECT_EQ(shape.regions + shape.views, sampler.distribution_count()) << name;
+        EXPECT_EQ(shape.cells, sampler.cell_count()) << name;
+        EXPECT_EQ(any.cells_by_region().size(), shape.regions) << name;
+        const std::vector<float> map = any.density_map(region, 4);
+        double sum = 0;
+        for (const float density : map)
+            sum += double(density) * 4 * 3.14159265358979 / double(map.size());
+        EXPECT_NEAR(sum, 1.0, 1e-4) << name;
+        const SamplerCost cost = any.cost();
+        const double expected =
+            double(cost.region * shape.regions + cost.cell * shape.cells + sizeof(LightProbabilities) * shape.regions);
+        EXPECT_NEAR(double(sampler.bytes()) / expected, 1.0, 0.5) << name << ": plans forecast otherwise";
+    }
+}
+
+}  // namespace
+}  // namespace treefarm

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "worker/integrators/path/tile_kernel.h"
+
+namespace treefarm {
+
+std::span<const TileKernel> sd_tree_diffuse_kernels();
+std::span<const TileKernel> sd_tree_general_kernels();
+/// Where the tree has views.
+std::span<const TileKernel> sd_tree_viewed_kernels();
+
+}  // namespace treefarm

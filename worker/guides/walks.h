@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "worker/guides/plain_walk.h"
+#include "worker/guides/sd_tree_walk.h"
+
+namespace treefarm {
+
+/// How the path walk uses a guide with all that it has, by the type of its sampler: one that has no walk of its own
+/// walks plainly.
+template <class Sampler>
+struct WalkOfSampler {
+    using type = PlainWalk<Sampler>;
+};
+template <>
+struct WalkOfSampler<SdTreeSampler> {
+    using type = SdTreeWalk<true>;
+};
+template <class Sampler>
+using WalkOf = typename WalkOfSampler<Sampler>::type;
+
+}  // namespace treefarm
