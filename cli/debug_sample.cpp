@@ -22,10 +22,32 @@ namespace {
 
 const Location kHere{"--debug-sample", 0, 0};
 
-/// The tree that guides a pass, learned by rendering the passes before it.
+/// Whether the checkpoint is one of these passes: their kernels may not be known yet.
+bool begins(const std::vector<PassPlan>& plans, const RenderState& state) {
+    const auto alike = [](const PassReport& done, PassPlan plan) {
+        plan.kernel = done.plan.kernel;
+        return done.plan == plan;
+    };
+    return state.reports.size() <= plans.size() &&
+           std::equal(state.reports.begin(), state.reports.end(), plans.begin(), alike);
+}
+
+/// The state after the pass before, as far as a checkpoint knows it; otherwise that before any pass.
+RenderState nearest_state(const RenderRequest& request, const std::vector<PassPlan>& plans, std::uint32_t pass) {
+    if (request.resumed && begins(plans, request.resumed->state)) {
+        RenderState& state = request.resumed->state;
+        const bool has_its_tree = state.reports.size() == pass + 1 && !state.reports.back().plan.record;
+        if (state.reports.size() <= pass || has_its_tree) return std::move(state);
+    }
+    return first_state(request.plan.job,
+                       request.initial_model ? *request.initial_model : first_model(request.plan.job, request.scene),
+                       request.scene.film.pixel_count());
+}
+
+/// The tree that guides a pass, learned by rendering the passes before it, but for those that a checkpoint knows.
 AnyModel learn_tree(const RenderRequest& request, const std::vector<PassPlan>& plans, std::uint32_t pass) {
-    AnyModel tree = first_model(request.plan.job, request.scene);
-    if (pass == 0 || !request.plan.job.guides) return tree;
+    RenderState state = nearest_state(request, plans, pass);
+    if (state.reports.size() >= pass || !request.plan.job.guides) return std::move(state.tree);
     const Log log = make_log("treefarm", {}, request.console, Loudness::quiet);
     auto channels = make_in_process_channels(2);
     std::thread worker([&] {
@@ -48,14 +70,15 @@ AnyModel learn_tree(const RenderRequest& request, const std::vector<PassPlan>& p
         farm.gather({[] { return false; }});
         const Film& film = request.scene.film;
         farm.allow_negative(film.is_signed());
-        tree = run_passes(farm, request.plan.job, listed_passes(plans), std::move(tree), film.width, film.height, hooks)
-                   .tree;
+        state.tree =
+            run_passes(farm, request.plan.job, listed_passes(plans), std::move(state), film.width, film.height, hooks)
+                .tree;
     } catch (...) {
         send_away();
         throw;
     }
     send_away();
-    return tree;
+    return std::move(state.tree);
 }
 
 }  // namespace

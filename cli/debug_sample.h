@@ -17,8 +17,9 @@ struct SampleName {
 /// A sample's name from "pass,x,y,sample"; throws InputError.
 SampleName parse_sample_name(const std::string& text);
 
-/// Renders the passes before the sample's, since they teach the tree that guides it, traces the sample and prints its
-/// path vertex by vertex on standard output. Returns the exit code; throws InputError if there is no such sample.
+/// Renders the passes before the sample's, since they teach the tree that guides it (but for those that the request's
+/// checkpoint knows), traces the sample and prints its path vertex by vertex on standard output. Returns the exit code;
+/// throws InputError if there is no such sample.
 int debug_sample(const RenderRequest& request, const SampleName& name);
 
 }  // namespace treefarm

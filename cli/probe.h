@@ -10,7 +10,7 @@ inline constexpr double kProbeSeconds = 5;
 
 /// The first passes of a render, on this machine.
 struct Probe {
-    RenderHistory state;      ///< after them
+    RenderHistory state;    ///< after them
     bool complete = false;  ///< they are all that the job asks for
     bool interrupted = false;
     unsigned threads = 0;

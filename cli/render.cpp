@@ -6,6 +6,7 @@
 
 #include "cli/debug_sample.h"
 #include "cli/option_values.h"
+#include "cli/resume.h"
 #include "common/base/reading_notice.h"
 
 namespace treefarm {
@@ -28,7 +29,9 @@ int debug(const LaunchEnvironment& launch, const RenderOptions& options) {
     if (launch.rank != 0) return 0;
     if (launch.under_mpi)
         throw InputError(Location{"--debug-sample", 0, 0}, "traces one sample in one process", "leave mpirun away");
-    return debug_sample(read_request(options), parse_sample_name(options.debug_sample));
+    RenderRequest request = read_request(options);
+    request.resumed = find_checkpoint(options.run_directory, request);
+    return debug_sample(request, parse_sample_name(options.debug_sample));
 }
 
 }  // namespace

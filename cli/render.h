@@ -29,6 +29,7 @@ struct RenderOptions {
     bool lenient = false;
     std::string run_directory;  ///< --run-dir
     bool overwrite = false;     ///< --overwrite
+    bool reads_model = true;    ///< guiding.initial_model is still to be read
     FarmOptions farm;
     std::string debug_sample;  ///< "pass,x,y,sample"
     std::string command;       ///< as it was typed

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <utility>
 
+#include "cli/initial_model.h"
 #include "cli/input_kind.h"
 #include "cli/render.h"
 #include "cli/this_build.h"
@@ -120,6 +121,7 @@ RenderRequest read_request(const RenderOptions& options) {
     request.job.scene.file = std::filesystem::absolute(request.job.scene.file).lexically_normal().string();
     request.scene = std::move(loaded.scene);
     if (!options.schedule.empty()) replay(options.schedule, request);
+    if (options.reads_model) read_initial_model(request);
     request.plan = plan_effects(request.scene, request.job);
     request.plan.passes_guessed |= !request.schedule.empty();
     for (const Warning& warning : loaded.warnings)

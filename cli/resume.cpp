@@ -70,6 +70,7 @@ RenderRequest read_resumed(const ResumeOptions& options) {
     as_render.error = options.error;
     as_render.set = options.set;
     as_render.command = options.command;
+    as_render.reads_model = false;  // the checkpoint has what became of it
     RenderRequest request = read_request(as_render);
     request.resumed = std::make_shared<LoadedCheckpoint>(
         load_checkpoint(run, [&](const CheckpointOrigin& origin) { check_origin(run, origin, request); }));
@@ -82,6 +83,16 @@ RenderRequest read_resumed(const ResumeOptions& options) {
         refuse(run, "is done (" + std::to_string(loaded.state.spp()) + " spp)",
                "add samples with --spp N above that, or --seconds or --error beyond what it has");
     return request;
+}
+
+std::shared_ptr<LoadedCheckpoint> find_checkpoint(const std::string& run, const RenderRequest& request) {
+    if (run.empty() || !fs::exists(fs::path(run) / kCheckpointFolder)) return nullptr;
+    try {
+        return std::make_shared<LoadedCheckpoint>(
+            load_checkpoint(run, [&](const CheckpointOrigin& origin) { check_origin(run, origin, request); }));
+    } catch (const InputError&) {  // it only saves time
+        return nullptr;
+    }
 }
 
 void add_resume_command(CLI::App& app, const LaunchEnvironment& launch, const std::string& command_line,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -35,5 +36,8 @@ void add_resume_command(CLI::App& app, const LaunchEnvironment& launch, const st
 /// Reads a run directory's job, its scene and its newest usable checkpoint. Throws InputError where the render cannot
 /// go on from there to the same bits; nothing has been written then.
 RenderRequest read_resumed(const ResumeOptions& options);
+
+/// The newest usable checkpoint of this very render in a run directory; nullptr where there is none.
+std::shared_ptr<LoadedCheckpoint> find_checkpoint(const std::string& run, const RenderRequest& request);
 
 }  // namespace treefarm

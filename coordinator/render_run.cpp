@@ -138,7 +138,8 @@ class RenderRun {
     /// What the render begins with, or goes on from.
     RenderState take_state() const {
         if (request_.resumed) return std::move(request_.resumed->state);
-        return first_state(job(), first_model(job(), request_.scene), request_.scene.film.pixel_count());
+        return first_state(job(), request_.initial_model ? *request_.initial_model : first_model(job(), request_.scene),
+                           request_.scene.film.pixel_count());
     }
 
     const Resolved& job() const { return request_.plan.job; }
@@ -168,7 +169,7 @@ class RenderRun {
         for (const InvalidSample& sample : pass.stats.first_invalid)
             log_->warn("radiance ({}, {}, {}) counts as black; reproduce with: {} {},{},{},{}{}", sample.rgb[0],
                        sample.rgb[1], sample.rgb[2], request_.debug_command, sample.pass, sample.x, sample.y,
-                       sample.sample, replay_option());
+                       sample.sample, replay_options());
         if (pass.stats.invalid_samples > pass.stats.first_invalid.size())
             log_->warn("{} invalid samples in pass {} in all", pass.stats.invalid_samples, pass.plan.index);
         if (pass.caps.capped_records > 0 || pass.caps.saturated_cells > 0 || pass.caps.outside_positions > 0)
@@ -238,10 +239,16 @@ class RenderRun {
         return "the last pass was planned too short";
     }
 
-    /// The option that makes an open budget's passes known to --debug-sample.
-    std::string replay_option() const {
-        if (!request_.schedule.empty() || !has_open_budget(job())) return "";
-        return " --schedule " + std::filesystem::absolute(directory_.path() / "schedule.toml").string();
+    /// The options that make the passes known to --debug-sample, where they were chosen as the render went, and its
+    /// checkpoint.
+    std::string replay_options() const {
+        const std::filesystem::path run = std::filesystem::absolute(directory_.path());
+        std::string options = " --run-dir " + run.string();
+        const Job::Guiding& guiding = job().guiding;
+        const bool is_planned = !has_open_budget(job()) && guiding.rule == Rule::always &&
+                                guiding.splitting_rule == Rule::always && !request_.resumed;
+        if (request_.schedule.empty() && !is_planned) options += " --schedule " + (run / "schedule.toml").string();
+        return options;
     }
 
     const RenderRequest& request_;

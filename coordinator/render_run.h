@@ -2,6 +2,8 @@
 #pragma once
 
 #include <functional>
+#include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -30,6 +32,7 @@ struct RenderRequest {
     Fingerprint fingerprint;    ///< of this process
     bool overwrite = false;     ///< an earlier run in the folder may be replaced
     bool checkpoints = true;    ///< the render can be gone on with; false: it is one of many that are short
+    std::optional<AnyModel> initial_model;      ///< that guides the first pass; nothing: the guide's first
     std::shared_ptr<LoadedCheckpoint> resumed;  ///< what the render goes on from; its state is taken
     ConsolePtr console = std::make_shared<Console>(TerminalKind{}, false);
     Loudness loudness = Loudness::normal;  ///< of the log on the console

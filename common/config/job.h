@@ -108,6 +108,9 @@ struct Job {
         double spatial_threshold = 0;         ///< c of the spatial split rule; 0: as the film says
         float directional_threshold = 0.01f;  ///< share of a region's energy above which a cell splits
         int spp_unit = 1;                     ///< samples per pixel of the first pass; passes double
+        std::string initial_model;            ///< run directory whose model the first pass is guided by; empty: none
+        std::string initial_model_hash;       ///< of its file
+        int initial_model_spp = 0;            ///< of the pass that taught it; shorter passes do not teach
         Combination combination = Combination::inverse_variance;
     } guiding;
 

@@ -58,6 +58,16 @@ void AnyModel::set_pass(std::uint32_t pass) {
     std::visit([&](RegionModel& regions) { regions.pass = pass; }, model_);
 }
 
+void AnyModel::set_learns_lights(bool learns) {
+    std::visit(
+        [&](RegionModel& regions) {
+            if (!learns) regions.light_probabilities.clear();
+            if (learns && !regions.learns_lights())
+                regions.light_probabilities.assign(regions.leaf_count(), kChoiceByPower);
+        },
+        model_);
+}
+
 ModelFigures AnyModel::figures() const {
     return visit([]<class G>(const auto& model) { return G::figures(model); });
 }

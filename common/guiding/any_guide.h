@@ -51,6 +51,8 @@ class AnyModel {
     const RegionModel& regions() const;
     bool trained() const { return regions().trained; }
     void set_pass(std::uint32_t pass);
+    /// Lets next event learn how to choose emitters, from a choice by power on where it has not, or forgets that.
+    void set_learns_lights(bool learns);
     ModelFigures figures() const;
     /// About the bytes of the form that workers sample from.
     SamplerCost cost() const;

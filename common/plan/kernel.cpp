@@ -55,7 +55,7 @@ std::vector<KernelUse> kernels_of(const Resolved& job) {
     std::vector<KernelUse> uses;
     if (const Estimator* estimator = find_estimator(job.integrator.type); estimator && !estimator->guides) return uses;
     for (const PassPlan& pass : plan_passes(job)) {
-        TreeFacts facts{pass.index > 0, job.learns_views};
+        TreeFacts facts{pass.index > 0 || !job.guiding.initial_model.empty(), job.learns_views};
         with_guide(guide_kind(job), [&]<class G>() { facts.plain_kernels = G::kPlainKernels; });
         const KernelChoice kernel = kernel_of(job, pass, facts);
         const auto known =

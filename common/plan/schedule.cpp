@@ -42,7 +42,8 @@ void set_next_event(PassPlan& pass, const Resolved& job, bool next_event) {
 void set_record(PassPlan& pass, const Resolved& job, bool record) {
     pass.record = record;
     pass.last_tree = !record;
-    pass.learn_mixture = record && pass.index > 0 && job.guiding.learn_bsdf_fraction;
+    const bool has_model = pass.index > 0 || !job.guiding.initial_model.empty();
+    pass.learn_mixture = record && has_model && job.guiding.learn_bsdf_fraction;
 }
 
 void set_guiding(PassPlan& pass, const Resolved& job, Guiding guiding) {
@@ -88,7 +89,8 @@ PassPlan make_pass(const Resolved& job, std::uint32_t index, std::uint32_t first
     const bool kickstart =
         job.integrator.next_event == NextEvent::kickstart && first_sample < kPolicy.schedule.kickstart_spp;
     set_next_event(pass, job, kickstart || job.integrator.next_event == NextEvent::always);
-    set_record(pass, job, job.guides && !last);
+    const bool is_long = spp >= static_cast<std::uint32_t>(job.guiding.initial_model_spp);
+    set_record(pass, job, job.guides && !last && is_long);
     cut_into_units(pass, job.farm.tile_size);
     return pass;
 }
