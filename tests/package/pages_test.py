@@ -6,6 +6,7 @@ usage: tests/package/pages_test.py PROGRAM
 Scenes and run directories that a page does not name in full are ours. What needs other machines, other people's files
 or minutes is counted as left out.
 """
+import itertools
 import os
 import pathlib
 import re
@@ -20,6 +21,7 @@ COMMAND = re.compile(r"^    (?P<mpirun>mpirun -n \d+ )?(?:build/release/)?treefa
 LEFT_OUT = re.compile(r"[$\\<|]|\.\.\.|FOLDER|--hostfile|--export|--schedule|camera")
 BOX = "configs/scenes/cornell-box.xml"
 SMALL = ["--set", "image.width=128", "--set", "image.height=128"]
+SAMPLES = itertools.count(16, 8)
 FEW = ["--quiet", *SMALL, "--set", "budget.max_spp=4"]
 ENVIRONMENT = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
                "OMPI_MCA_btl_tcp_if_include": "lo", "OMPI_MCA_oob_tcp_if_include": "lo"}
@@ -59,6 +61,8 @@ def runnable(name, rest, work):
         arguments += ["--probe", "0.2", *SMALL]
     if name == "inspect":
         arguments += ["--spp", "1", "--size", "16", "-o", f"{work}/inspect"]
+    if name == "resume":  # a run that is done: it gets more samples each time
+        arguments = [arguments[0], "--quiet", "--spp", str(next(SAMPLES))]
     if name == "study":
         arguments += ["--dry-run", "--dir", f"{work}/study"]
     return arguments
