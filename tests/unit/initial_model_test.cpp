@@ -30,10 +30,10 @@ class InitialModel : public ::testing::Test {
         ASSERT_EQ(first.code, 0) << first.output;
     }
 
-    static test::Ended render(const std::string& run, const std::string& options) {
+    static test::Ended render(const std::string& run, const std::string& options, int spp = 63) {
         return test::run_treefarm("render " + test::own_scene("glossy-room.xml") +
-                                  " -D width=24 -D height=16 --spp 63 --set guiding.spatial_threshold=200 --run-dir " +
-                                  (folder() / run).string() + " " + options);
+                                  " -D width=24 -D height=16 --set guiding.spatial_threshold=200 --run-dir " +
+                                  (folder() / run).string() + " --spp " + std::to_string(spp) + " " + options);
     }
 
     static std::string from(const std::string& run) {
@@ -108,7 +108,7 @@ TEST_F(InitialModel, WhatIsNoRunDirectoryIsRefused) {
 }
 
 TEST_F(InitialModel, ARenderThatLearnedNothingIsAWarning) {
-    ASSERT_EQ(render("short", "--set guiding.type=ppg --spp 1").code, 0);
+    ASSERT_EQ(render("short", "--set guiding.type=ppg", 1).code, 0);
     const test::Ended ended = render("bare", "--set guiding.type=ppg " + from("short"));
     EXPECT_EQ(ended.code, 0) << ended.output;
     EXPECT_NE(ended.output.find("has no model to begin with: it has learned none"), std::string::npos) << ended.output;
