@@ -12,7 +12,7 @@ namespace treefarm {
 /// What makes a guide (docs/use/write-a-guide.md). Its model is a RegionModel with plain values of its own, frozen for
 /// a pass. Its sampler, flat and immutable, is built from a decoded model alone, so that what is rounded for the wire
 /// is rounded for everybody, and has cells (cell_accumulator.h). Its learner is what the coordinator remembers of
-/// earlier passes.
+/// earlier passes, and lists that for checkpoints: serialize().
 template <class G>
 concept Guide = std::derived_from<typename G::Model, RegionModel> &&
     std::derived_from<typename G::Sampler, RegionSampler> &&

@@ -7,7 +7,7 @@
 
 namespace treefarm {
 
-GuideKind guide_kind(const Resolved& job) {
+GuideKind guide_kind(const Job& job) {
     switch (job.guiding.type) {
         case GuidingType::none:
         case GuidingType::ppg:
@@ -16,6 +16,12 @@ GuideKind guide_kind(const Resolved& job) {
             return GuideKind::sd_tree;
     }
     return {};
+}
+
+bool has_plain_kernels(GuideKind guide) {
+    bool plain = false;
+    with_guide(guide, [&]<class G>() { plain = G::kPlainKernels; });
+    return plain;
 }
 
 AnyModel first_model(const Resolved& job, const Box3& bounds, float radiance_scale) {
