@@ -4,6 +4,7 @@
 #include <concepts>
 #include <variant>
 
+#include "common/guiding/grid/grid.h"
 #include "common/guiding/sd_tree/sd_tree_guide.h"
 #include "common/guiding/statistics/cell_accumulator.h"
 
@@ -59,7 +60,7 @@ struct GuideList {
 };
 
 /// The guides of the program, in the order of GuideKind. It is a closed set: what differs is chosen once per work unit.
-enum class GuideKind : std::uint8_t { sd_tree };
-using Guides = GuideList<SdTreeGuide>;
+enum class GuideKind : std::uint8_t { sd_tree, grid };
+using Guides = GuideList<SdTreeGuide, GridGuide>;
 
 }  // namespace treefarm

@@ -14,6 +14,8 @@ GuideKind guide_kind(const Job& job) {
         case GuidingType::view:
         case GuidingType::automatic:
             return GuideKind::sd_tree;
+        case GuidingType::grid:
+            return GuideKind::grid;
     }
     return {};
 }
@@ -32,6 +34,7 @@ AnyModel first_model(const Resolved& job, const Box3& bounds, float radiance_sca
     first.with_views = job.learns_views;
     first.view_fraction = job.guiding.learn_bsdf_fraction ? 0.0f : 1.0f - job.guiding.bsdf_fraction;
     first.with_lights = job.learns_lights;
+    first.grid_halvings = job.guiding.grid_halvings;
     return AnyModel::first(guide_kind(job), bounds, first);
 }
 
