@@ -27,12 +27,13 @@ enum class MisHeuristic : std::uint8_t {
 };
 
 /// The guide of paths: nothing, the SD-tree (Mueller et al. 2017), the SD-tree with a view-dependent part (Cavus 2020),
-/// or the last as long as it pays.
+/// the last as long as it pays, or a fixed grid (docs/use/write-a-guide.md).
 enum class GuidingType : std::uint8_t {
     none,
     ppg,
     view,
     automatic,  ///< view, as long as guiding pays
+    grid,
 };
 
 /// How long what a render has begun with goes on.
@@ -107,6 +108,7 @@ struct Job {
         int view_threshold = 4000;            ///< c of the split rule of views
         double spatial_threshold = 0;         ///< c of the spatial split rule; 0: as the film says
         float directional_threshold = 0.01f;  ///< share of a region's energy above which a cell splits
+        int grid_halvings = 12;               ///< of space: a grid has 2^this regions
         int spp_unit = 1;                     ///< samples per pixel of the first pass; passes double
         std::string initial_model;            ///< run directory whose model the first pass is guided by; empty: none
         std::string initial_model_hash;       ///< of its file

@@ -174,12 +174,14 @@ std::vector<JobKey> make_job_keys() {
         "guiding.type",
         "what guides paths; ppg: a tree learned from the passes before (Mueller et al. 2017); view: with a "
         "view-dependent "
-        "part (Cavus 2020); auto: that, as long as it pays",
+        "part (Cavus 2020); auto: that, as long as it pays; grid: fixed regions and strata of directions, the simplest "
+        "guide to learn from",
         [](auto& j) -> auto& { return j.guiding.type; },
         std::vector<std::pair<std::string, GuidingType>>{{"none", GuidingType::none},
                                                          {"ppg", GuidingType::ppg},
                                                          {"view", GuidingType::view},
-                                                         {"auto", GuidingType::automatic}}));
+                                                         {"auto", GuidingType::automatic},
+                                                         {"grid", GuidingType::grid}}));
     add(rule_key(
         "guiding.rule",
         "how long a tree guides; while_it_pays: until probes in the first passes show that it loses; usual: that where "
@@ -215,6 +217,9 @@ std::vector<JobKey> make_job_keys() {
         "the BSDF is sampled rather than the tree",
         [](auto& j) -> auto& { return j.guiding.directional_threshold; },
         [](float v) { return v >= 0.0005f && v <= 1.0f; }));
+    add(integer_key(
+        "guiding.grid_halvings", "0 to 18", "grid: halvings of space, in turn along x, y and z: 2^this regions",
+        [](auto& j) -> auto& { return j.guiding.grid_halvings; }, 0, 18));
     add(integer_key(
         "guiding.spp_unit", "1 to 65536", "samples per pixel of the first pass; passes double",
         [](auto& j) -> auto& { return j.guiding.spp_unit; }, 1, 65536));

@@ -4,6 +4,7 @@
 #include <concepts>
 #include <variant>
 
+#include "common/guiding/grid/grid.h"
 #include "common/guiding/sd_tree/sd_tree_guide.h"
 #include "common/guiding/statistics/cell_accumulator.h"
 
@@ -12,7 +13,7 @@ namespace treefarm {
 /// What makes a guide (docs/use/write-a-guide.md). Its model is a RegionModel with plain values of its own, frozen for
 /// a pass. Its sampler, flat and immutable, is built from a decoded model alone, so that what is rounded for the wire
 /// is rounded for everybody, and has cells (cell_accumulator.h). Its learner is what the coordinator remembers of
-/// earlier passes.
+/// earlier passes, and lists that for checkpoints: serialize().
 template <class G>
 concept Guide = std::derived_from<typename G::Model, RegionModel> &&
     std::derived_from<typename G::Sampler, RegionSampler> &&
@@ -59,7 +60,7 @@ struct GuideList {
 };
 
 /// The guides of the program, in the order of GuideKind. It is a closed set: what differs is chosen once per work unit.
-enum class GuideKind : std::uint8_t { sd_tree };
-using Guides = GuideList<SdTreeGuide>;
+enum class GuideKind : std::uint8_t { sd_tree, grid };
+using Guides = GuideList<SdTreeGuide, GridGuide>;
 
 }  // namespace treefarm

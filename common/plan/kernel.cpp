@@ -14,7 +14,7 @@ KernelChoice kernel_for(const PassPlan& pass, bool plainly_diffuse, const TreeFa
     KernelChoice kernel;
     kernel.guided = pass.guided && tree.trained;
     kernel.record = pass.record;
-    kernel.plain_diffuse = plainly_diffuse && (tree.plain_kernels || !(kernel.guided || kernel.record));
+    kernel.plain_diffuse = plainly_diffuse && tree.plain_kernels;
     kernel.views = tree.has_views && !kernel.plain_diffuse && (kernel.guided || kernel.record);
     return kernel;
 }
@@ -55,8 +55,8 @@ std::vector<KernelUse> kernels_of(const Resolved& job) {
     std::vector<KernelUse> uses;
     if (const Estimator* estimator = find_estimator(job.integrator.type); estimator && !estimator->guides) return uses;
     for (const PassPlan& pass : plan_passes(job)) {
-        TreeFacts facts{pass.index > 0 || !job.guiding.initial_model.empty(), job.learns_views};
-        with_guide(guide_kind(job), [&]<class G>() { facts.plain_kernels = G::kPlainKernels; });
+        const bool is_trained = pass.index > 0 || !job.guiding.initial_model.empty();
+        const TreeFacts facts{is_trained, job.learns_views, has_plain_kernels(guide_kind(job))};
         const KernelChoice kernel = kernel_of(job, pass, facts);
         const auto known =
             std::find_if(uses.begin(), uses.end(), [&](const KernelUse& u) { return u.kernel == kernel; });

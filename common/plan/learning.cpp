@@ -7,15 +7,23 @@
 
 namespace treefarm {
 
-GuideKind guide_kind(const Resolved& job) {
+GuideKind guide_kind(const Job& job) {
     switch (job.guiding.type) {
         case GuidingType::none:
         case GuidingType::ppg:
         case GuidingType::view:
         case GuidingType::automatic:
             return GuideKind::sd_tree;
+        case GuidingType::grid:
+            return GuideKind::grid;
     }
     return {};
+}
+
+bool has_plain_kernels(GuideKind guide) {
+    bool plain = false;
+    with_guide(guide, [&]<class G>() { plain = G::kPlainKernels; });
+    return plain;
 }
 
 AnyModel first_model(const Resolved& job, const Box3& bounds, float radiance_scale) {
@@ -26,6 +34,7 @@ AnyModel first_model(const Resolved& job, const Box3& bounds, float radiance_sca
     first.with_views = job.learns_views;
     first.view_fraction = job.guiding.learn_bsdf_fraction ? 0.0f : 1.0f - job.guiding.bsdf_fraction;
     first.with_lights = job.learns_lights;
+    first.grid_halvings = job.guiding.grid_halvings;
     return AnyModel::first(guide_kind(job), bounds, first);
 }
 

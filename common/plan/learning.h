@@ -8,7 +8,9 @@
 namespace treefarm {
 
 /// The guide of a job; of one that nothing guides, that whose model stands idle.
-GuideKind guide_kind(const Resolved& job);
+GuideKind guide_kind(const Job& job);
+/// Whether a guide has kernels of its own for plainly diffuse scenes; otherwise these are traced as any scene is.
+bool has_plain_kernels(GuideKind guide);
 
 /// The guide's model before the first pass over `bounds`; a record of average value is about `radiance_scale`.
 AnyModel first_model(const Resolved& job, const Box3& bounds, float radiance_scale);

@@ -39,6 +39,9 @@ std::vector<Method> methods() {
     for (const float albedo : {0.5f, 0.8f})
         all.push_back({"LearnedNever" + std::to_string(int(albedo * 10.01f)), GuidingType::ppg, NextEvent::never,
                        MisHeuristic::balance, albedo, true});
+    for (const NextEvent next_event : {NextEvent::never, NextEvent::always, NextEvent::kickstart})
+        all.push_back({"Grid" + std::to_string(static_cast<int>(next_event)), GuidingType::grid, next_event,
+                       MisHeuristic::balance, 0.8f, true});
     return all;
 }
 
@@ -72,7 +75,7 @@ TEST_P(Furnace, EveryPassHasTheExactMean) {
     const test::LocalRender run = test::render_locally(scene, job);
     ASSERT_GT(run.passes.size(), 4u);
     if (method.guiding != GuidingType::none) {
-        EXPECT_GT(run.tree().region_count(), 8u) << "the last passes are guided by a real tree";
+        EXPECT_GT(run.model.regions().leaf_count(), 8u) << "the last passes are guided by a real tree";
     }
     const double exact = 1.0 / (1.0 - double(method.albedo));
     for (const PassResult& pass : run.passes) {

@@ -21,12 +21,14 @@ struct Case {
     int candidates = 1, candidate_depth = 1;
     LightSelection light_selection = LightSelection::power;
     int splitting = 1;
+    GuidingType type = GuidingType::ppg;
 };
 
 void PrintTo(const Case& c, std::ostream* out) {
     *out << c.scene << ", next event " << static_cast<int>(c.next_event) << ", MIS " << static_cast<int>(c.mis)
          << ", candidates " << c.candidates << " to depth " << c.candidate_depth << ", light selection "
-         << static_cast<int>(c.light_selection) << ", splitting " << c.splitting;
+         << static_cast<int>(c.light_selection) << ", splitting " << c.splitting << ", guide "
+         << static_cast<int>(c.type);
 }
 
 struct Estimate {
@@ -70,7 +72,7 @@ TEST_P(GuidedAgainstUnguided, AgreesInEveryBlock) {
 
     job.sampler.seed = 2;
     job.budget.spp = 508;
-    job.guiding.type = GuidingType::ppg;
+    job.guiding.type = GetParam().type;
     job.guiding.combination = Combination::fixed;
     job.guiding.spatial_threshold = 1000;  // a fine tree for a small image
     job.guiding.spp_unit = GetParam().spp_unit;
@@ -98,6 +100,12 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"cornell-box.xml", NextEvent::never, MisHeuristic::balance, 1, 1, 1, LightSelection::power, 32},
         Case{"door-ajar.xml", NextEvent::always, MisHeuristic::power, 1, 2, 8, LightSelection::power, 8},
         Case{"features.xml", NextEvent::always, MisHeuristic::power, 1, 1, 1, LightSelection::learned, 32},
+        Case{"cornell-box.xml", NextEvent::never, MisHeuristic::balance, 1, 1, 1, LightSelection::power, 1,
+             GuidingType::grid},
+        Case{"features.xml", NextEvent::kickstart, MisHeuristic::balance, 1, 2, 8, LightSelection::learned, 4,
+             GuidingType::grid},
+        Case{"door-ajar.xml", NextEvent::always, MisHeuristic::power, 1, 1, 1, LightSelection::power, 1,
+             GuidingType::grid},
         Case{"door-ajar.xml", NextEvent::always}, Case{"door-ajar.xml", NextEvent::kickstart}));
 
 /// A guided job for a small image.

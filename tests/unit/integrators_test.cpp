@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <fstream>
 #include <set>
-#include <set>
 #include <sstream>
 
 #include "common/base/error.h"

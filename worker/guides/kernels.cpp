@@ -5,6 +5,7 @@ namespace treefarm {
 namespace {
 
 constexpr KernelList kSdTree[] = {sd_tree_diffuse_kernels, sd_tree_general_kernels, sd_tree_viewed_kernels};
+constexpr KernelList kGrid[] = {grid_kernels};
 
 }  // namespace
 
@@ -12,6 +13,8 @@ std::span<const KernelList> kernels_of(GuideKind kind) {
     switch (kind) {
         case GuideKind::sd_tree:
             return kSdTree;
+        case GuideKind::grid:
+            return kGrid;
     }
     return {};
 }

@@ -3,10 +3,16 @@
 
 #include <cassert>
 
+#include "common/plan/learning.h"
 #include "common/scene/model/material_traits.h"
 
 namespace treefarm {
 namespace {
+
+/// Whether surfaces need not be told apart: there are kernels for no others.
+bool traced_plainly(const Scene& scene, const Job& job) {
+    return is_plainly_diffuse(scene) && has_plain_kernels(guide_kind(job));
+}
 
 /// Per shape of a plainly diffuse scene; a shape without material is black.
 std::vector<PlainDiffuse> diffuse_bsdfs(const Scene& scene) {
@@ -32,8 +38,8 @@ std::vector<FloatInput> shape_opacity(const Scene& scene) {
     return opacity;
 }
 
-std::optional<MaterialSet> make_materials(const Scene& scene, const TextureSet& textures) {
-    if (is_plainly_diffuse(scene)) return std::nullopt;
+std::optional<MaterialSet> make_materials(const Scene& scene, const Job& job, const TextureSet& textures) {
+    if (traced_plainly(scene, job)) return std::nullopt;
     return std::optional<MaterialSet>(std::in_place, scene, textures);
 }
 
@@ -47,8 +53,8 @@ TraceScene::TraceScene(Scene&& scene, const std::vector<FloatInput>& opacity, co
       camera_(scene.camera, scene.film),
       bounds_(scene.bounds()),
       textures_(std::move(scene.textures), std::move(scene.images)),
-      plain_diffuse_(is_plainly_diffuse(scene) ? diffuse_bsdfs(scene) : std::vector<PlainDiffuse>()),
-      materials_(make_materials(scene, textures_)),
+      plain_diffuse_(traced_plainly(scene, job) ? diffuse_bsdfs(scene) : std::vector<PlainDiffuse>()),
+      materials_(make_materials(scene, job, textures_)),
       geometry_(std::move(scene.shapes), job.farm.isa, {opacity, &textures_}, job.farm.robust),
       emitters_(scene.emitters, geometry_, bounds_, &textures_) {
     assert(effects_.lens == camera_.has_lens());

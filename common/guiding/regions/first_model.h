@@ -13,6 +13,7 @@ struct FirstModel {
     bool with_views = false;     ///< and a T2 of one view,
     float view_fraction = 0.0f;  ///< sampled with this probability; 0: it is learned
     bool with_lights = false;    ///< next event learns how to choose emitters
+    int grid_halvings = 12;      ///< a fixed grid has 2^this regions
 };
 
 /// Size of a model, for reports. A guide without cells or views has none.

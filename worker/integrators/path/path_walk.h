@@ -23,8 +23,7 @@
 namespace treefarm {
 
 /// Path tracing with optional next event, guiding and recording (Mueller et al. 2017; tests in the order of their
-/// program). Depth counts path edges: a surface seen by the camera has depth 1. `Surface` is one of surface.h, `G`
-/// the guide (guide_walk.h).
+/// program). Depth counts path edges: a surface seen by the camera has depth 1. `G`: guide_walk.h.
 ///
 /// Paths walk in step, up to kBatch of them: what one waits for (memory, square roots) another works through, and the
 /// shadow rays of a step are traced together. A path's result does not depend on what walks beside it.
@@ -34,9 +33,8 @@ class PathWalk {
     static constexpr std::uint32_t kBatch = kDrawBatch;
     using Path = PathState<G, Surface>;
     using Recorder = PathRecorder<G>;
-    using Sampler = typename G::Sampler;
 
-    PathWalk(const TraceScene& scene, const Sampler& guide, const PathSettings& settings, TraceStats& stats)
+    PathWalk(const TraceScene& scene, const typename G::Sampler& guide, const PathSettings& settings, TraceStats& stats)
         : scene_(scene),
           guide_(guide),
           settings_(settings),
@@ -51,7 +49,6 @@ class PathWalk {
     }
 
     PathWalk(const PathWalk&) = delete;
-    PathWalk& operator=(const PathWalk&) = delete;
 
     /// The places of a batch: whoever sets one up says so to walk().
     Path& operator[](std::uint32_t slot) { return paths_[slot]; }
@@ -76,10 +73,8 @@ class PathWalk {
     PhaseClock& clock() { return clock_; }
 
   private:
-    /// Whether directions have to be converted before a path can leave.
-    static constexpr bool kConverts = kGuided || kRecord;
-    /// Whether what guides depends on more than the region.
-    static constexpr bool kLocal = kConverts && G::kLocal;
+    /// Whether directions are converted before a path can leave, and whether more guides than the region.
+    static constexpr bool kConverts = kGuided || kRecord, kLocal = kConverts && G::kLocal;
 
     /// One more edge for the first `alive` of alive_; returns how many go on.
     std::uint32_t step(std::uint32_t alive) {
@@ -381,7 +376,7 @@ class PathWalk {
     }
 
     const TraceScene& scene_;
-    const Sampler& guide_;
+    const typename G::Sampler& guide_;
     const PathSettings settings_;
     TraceStats& stats_;
     PhaseClock clock_;

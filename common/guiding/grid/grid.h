@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "common/guiding/regions/first_model.h"
+#include "common/guiding/regions/light_probabilities.h"
+#include "common/guiding/regions/mixture.h"
+#include "common/guiding/regions/region_sampler.h"
+
+namespace treefarm {
+
+/// The simplest guide that can be, to read first and to copy from (docs/use/write-a-guide.md): regions of a fixed grid,
+/// in each the direction square (direction_map.h) in 8 by 8 strata of equal solid angle, sampled in proportion to the
+/// radiance that the pass before recorded there.
+inline constexpr int kStrataDepth = 3;
+inline constexpr std::uint32_t kStrata = 1u << (2 * kStrataDepth);
+/// What all strata share alike of the probability, however dark: light that no record has found must be found.
+inline constexpr double kEvenPart = 0.1;
+
+struct GridModel : RegionModel {
+    std::vector<std::uint32_t> mass;  ///< per region kStrata probabilities in Z-order, times 2^kMassBits, their sum
+    bool operator==(const GridModel&) const = default;
+};
+
+/// The grid in the form that workers sample from.
+class GridSampler : public RegionSampler {
+  public:
+    explicit GridSampler(const GridModel& model);
+
+    struct Sample {
+        Vec3 direction;      ///< unit
+        std::uint32_t code;  ///< its Z-order code, inside the sampled stratum
+        float pdf;           ///< per steradian
+    };
+    Sample sample(std::uint32_t region, const Draw& random) const;
+    float pdf(std::uint32_t region, std::uint32_t code) const;
+
+    // Where records go: CellAccumulator.
+    std::uint32_t cell_count() const { return static_cast<std::uint32_t>(mass_.size()); }
+    std::uint32_t cell(std::uint32_t region, std::uint32_t code) const;
+    std::uint32_t cell_side(std::uint32_t region, std::uint32_t cell) const;
+    void prefetch_pdf(std::uint32_t, std::uint32_t) const {}
+    void prefetch_pdf_cell(std::uint32_t, std::uint32_t) const {}
+
+    std::size_t bytes() const { return region_bytes() + 4 * mass_.size(); }
+
+  private:
+    std::vector<std::uint32_t> mass_;
+};
+
+/// The coordinator's memory: none of directions, only what all guides share.
+class GridLearner {
+  public:
+    GridModel learn(const GridModel& model, const CellSums& sums, const RefineSettings& settings, bool learn_mixture,
+                    RefineReport& report);
+
+    /// Lists what it remembers, for a checkpoint.
+    template <class Archive>
+    void serialize(Archive& archive) {
+        archive(lights_, mixture_);
+    }
+
+  private:
+    LightLearner lights_;
+    MixtureLearner mixture_;
+};
+
+/// The grid among the guides (guides.h).
+struct GridGuide {
+    using Model = GridModel;
+    using Sampler = GridSampler;
+    using Learner = GridLearner;
+
+    static constexpr std::uint32_t kMagic = 0x52474654;  ///< "TFGR"
+    static constexpr bool kGrows = false;
+    static constexpr int kKernels = 3;
+    static constexpr bool kPlainKernels = false;
+    static constexpr SamplerCost kCost = {16, 0, 4};
+
+    static GridModel first(const Box3& bounds, const FirstModel& settings);
+    static Bytes encode(const GridModel& model);
+    static GridModel decode(std::span<const std::uint8_t> bytes);
+    static ModelFigures figures(const GridModel& model);
+};
+
+}  // namespace treefarm
