@@ -68,6 +68,14 @@ struct IgnoreFields {
     void coordinates(const auto&) {}
 };
 
+/// Calls f for each image that a kind is made of, by a reference that may be changed.
+template <class F>
+struct ImageVisitor : IgnoreFields {
+    F& f;
+    explicit ImageVisitor(F& call) : f(call) {}
+    void image(auto& index) { f(index); }
+};
+
 /// Shows a visitor each value of what a variant of kinds holds, const or not.
 template <class Kind, class Visitor>
 void visit_fields(Kind& kind, Visitor&& visitor) {
