@@ -6,6 +6,7 @@
 
 #include "cli/debug_sample.h"
 #include "cli/option_values.h"
+#include "cli/render_shot.h"
 #include "common/base/reading_notice.h"
 
 namespace treefarm {
@@ -68,6 +69,9 @@ void add_render_command(CLI::App& app, const LaunchEnvironment& launch, const st
     add_texts_option(*command, "--set", options->set, "key=value: sets a key of the job (treefarm keys lists them)");
     add_texts_option(*command, "-D", options->defines, "name=value: gives $name in the scene a value");
     add_text_option(*command, "--sensor", options->sensor, "which of several sensors, by number from 0 on or by id");
+    add_text_option(*command, "--frames", options->frames,
+                    "1-24, 1-24x2 or 1,5,9-12: a shot, whose frames' numbers stand for %d or %04d in the input, -D and "
+                    "--set, and for #### in -o");
     command->add_flag("--lenient", options->lenient, "replace what the scene reader does not know instead of refusing");
     add_text_option(*command, "--run-dir", options->run_directory, "where results go (default: runs/<scene>-<time>)");
     command->add_flag("--overwrite", options->overwrite,
@@ -77,7 +81,9 @@ void add_render_command(CLI::App& app, const LaunchEnvironment& launch, const st
                     "pass,x,y,sample: trace this sample and tell its story");
     command->footer(std::string(kDefaultsText) + "\n" + kExitCodesText);
     command->callback([options, launch, &exit_code] {
-        exit_code = options->debug_sample.empty() ? render(launch, *options) : debug(launch, *options);
+        exit_code = !options->frames.empty()        ? render_shot(launch, *options)
+                    : options->debug_sample.empty() ? render(launch, *options)
+                                                    : debug(launch, *options);
     });
 }
 

@@ -26,6 +26,7 @@ struct RenderOptions {
     std::vector<std::string> set;      ///< --set key=value
     std::vector<std::string> defines;  ///< -D name=value
     std::string sensor;                ///< --sensor
+    std::string frames;                ///< --frames
     bool lenient = false;
     std::string run_directory;  ///< --run-dir
     bool overwrite = false;     ///< --overwrite

@@ -66,17 +66,10 @@ bool has_preview(std::size_t pixels) {
     return pixels <= kMostPixels;
 }
 
-/// Where it was written is no part of a job that somebody repeats; what was written is.
-std::string job_without_output(Job job) {
-    job.output.directory.clear();
-    job.output.file.clear();
-    return write_job(job);
-}
-
 std::string resolved_text(const Resolved& job) {
     return "# The job as it was used: what job.toml leaves to the program has its value here, and so have the tuned\n"
            "# constants. treefarm render resolved.toml repeats the experiment, or says why this build cannot.\n" +
-           job_without_output(job) + "\n" + write_policy();
+           run_job_text(job) + "\n" + write_policy();
 }
 
 std::vector<std::uint8_t> encode_image(const fs::path& path, const CombinedImage& image,
@@ -90,9 +83,15 @@ std::vector<std::uint8_t> encode_image(const fs::path& path, const CombinedImage
 
 }  // namespace
 
+std::string run_job_text(Job job) {
+    job.output.directory.clear();
+    job.output.file.clear();
+    return write_job(job);
+}
+
 RunDirectory::RunDirectory(const Job& job, RunFacts facts, const EffectPlan& plan, const RunDirectoryOptions& options)
     : job_(checked(job)),
-      job_toml_(job_without_output(job)),
+      job_toml_(run_job_text(job)),
       facts_(std::move(facts)),
       resolved_toml_(resolved_text(plan.job)),
       folder_(job, options.overwrite, options.interrupted),

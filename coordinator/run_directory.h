@@ -28,6 +28,9 @@ struct RunDirectoryOptions {
     std::function<bool()> interrupted;  ///< ends the wait for a folder that is in use; may be empty
 };
 
+/// The text of a run's job.toml: without where results go, since whoever repeats a run must not replace it.
+std::string run_job_text(Job job);
+
 /// The folder of one run: job.toml, plan.txt, plan.json, log.txt, status.json, passes.csv, schedule.toml, image.exr,
 /// preview.png, tree.bin, summary.json. Every file is replaced as a whole or appended to by lines, so that a reader
 /// never sees half of one. While it renders all are written beside it, and none that cannot be written ends it; a
