@@ -28,6 +28,10 @@ constexpr const char* kStudy = "give a study file (.toml)";
     if (has("study.json"))
         refuse(input, "is the folder of a study",
                "give the study file to go on with it, or write treefarm report " + input);
+    if (has("shot.json"))
+        refuse(
+            input, "is the folder of a shot",
+            "its frames are run directories in it: treefarm render " + (folder / "frame.0001" / "job.toml").string());
     if (has("job.toml"))
         refuse(input, "is a run directory",
                "its job is a file in it: treefarm render " + (folder / "job.toml").string());

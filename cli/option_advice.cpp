@@ -29,8 +29,8 @@ const std::vector<Foreign>& foreign_options() {
          "choose "
          "with -D name=value"},
         {{"--camera", "--view"}, "write --sensor N, or its id"},
-        {{"--frames", "--frame", "--frame-start", "--frame-end", "--frame-jump", "--frameRange", "--animation"},
-         "one image a render; start one for each frame, with $name in the scene and -D name=value"},
+        {{"--frame", "--frame-start", "--frame-end", "--frame-jump", "--frameRange", "--animation"},
+         "write --frames 1-24 -D name=%d, with $name in the scene"},
         {{"--output-format", "--format", "--render-format", "--file-format"},
          "-o writes an EXR; preview.png is in the run directory"},
         {{"--resolution", "--res", "--size", "--film-size"}, "write --set image.width=N --set image.height=N"},

@@ -6,6 +6,7 @@
 
 #include "cli/debug_sample.h"
 #include "cli/option_values.h"
+#include "cli/render_shot.h"
 #include "cli/resume.h"
 #include "common/base/reading_notice.h"
 
@@ -72,6 +73,11 @@ void add_render_command(CLI::App& app, const LaunchEnvironment& launch, const st
     add_texts_option(*command, "--set", options->set, "key=value: sets a key of the job (treefarm keys lists them)");
     add_texts_option(*command, "-D", options->defines, "name=value: gives $name in the scene a value");
     add_text_option(*command, "--sensor", options->sensor, "which of several sensors, by number from 0 on or by id");
+    add_text_option(*command, "--frames", options->frames,
+                    "1-24, 1-24x2 or 1,5,9-12: a shot, whose frames' numbers stand for %d or %04d in the input, -D and "
+                    "--set, and for #### in -o");
+    command->add_flag("--carry-model", options->carry_model,
+                      "of a shot: each frame begins with what the one before has learned");
     command->add_flag("--lenient", options->lenient, "replace what the scene reader does not know instead of refusing");
     add_text_option(*command, "--run-dir", options->run_directory, "where results go (default: runs/<scene>-<time>)");
     command->add_flag("--overwrite", options->overwrite,
@@ -82,9 +88,16 @@ void add_render_command(CLI::App& app, const LaunchEnvironment& launch, const st
     command->footer(std::string(kDefaultsText) + "\n" + kExitCodesText);
     command->callback([options, launch, &exit_code] {
         const auto read = [&] { return read_request(*options); };
-        exit_code = options->debug_sample.empty()
-                        ? render_on_farm(launch, options->farm, std::filesystem::path(options->input).stem(), read)
-                        : debug(launch, *options);
+        if (options->carry_model && options->frames.empty())
+            throw InputError(Location{"--carry-model", 0, 0}, "carries models from frame to frame, and there is one image",
+                             "add --frames, or write --set guiding.initial_model=RUN_DIR");
+        if (!options->frames.empty())
+            exit_code = render_shot(launch, *options);
+        else if (!options->debug_sample.empty())
+            exit_code = debug(launch, *options);
+        else
+            exit_code =
+                render_on_farm(launch, options->farm, std::filesystem::path(options->input).stem().string(), read);
     });
 }
 

@@ -26,9 +26,11 @@ struct RenderOptions {
     std::vector<std::string> set;      ///< --set key=value
     std::vector<std::string> defines;  ///< -D name=value
     std::string sensor;                ///< --sensor
+    std::string frames;                ///< --frames
     bool lenient = false;
     std::string run_directory;  ///< --run-dir
     bool overwrite = false;     ///< --overwrite
+    bool carry_model = false;   ///< --carry-model
     bool reads_model = true;    ///< guiding.initial_model is still to be read
     FarmOptions farm;
     std::string debug_sample;  ///< "pass,x,y,sample"

@@ -91,6 +91,7 @@ FolderContent folder_content(const fs::path& folder) {
     std::error_code error;
     if (!fs::is_directory(folder, error)) return has(folder) ? FolderContent::other : FolderContent::nothing;
     if (has(folder / "study.json") || has(folder / "cells")) return FolderContent::study;
+    if (has(folder / "shot.json")) return FolderContent::shot;
     if (has(folder / "passes.csv") || !text_of(read_object(folder / "status.json"), "state").empty())
         return FolderContent::render;
     return holds_nothing(folder) ? FolderContent::nothing : FolderContent::other;

@@ -14,6 +14,7 @@ enum class FolderContent {
     nothing,
     render,  ///< a run directory
     study,   ///< what treefarm study writes
+    shot,    ///< what treefarm render --frames writes
     other    ///< none of ours
 };
 FolderContent folder_content(const std::filesystem::path& folder);

@@ -83,8 +83,11 @@ std::string passes_text(const Resolved& job) {
 }  // namespace
 
 std::uint64_t mesh_bytes(const Mesh& mesh) {
+    std::uint64_t attributes = 0;
+    for (const MeshAttribute& attribute : mesh.attributes)
+        attributes += sizeof(MeshAttribute) + attribute.values.size() * sizeof(Rgb);
     return mesh.positions.size() * sizeof(Vec3) + mesh.normals.size() * sizeof(Vec3) + mesh.uvs.size() * sizeof(Vec2) +
-           mesh.indices.size() * sizeof(std::uint32_t);
+           mesh.indices.size() * sizeof(std::uint32_t) + attributes;
 }
 
 std::uint64_t emitter_table_bytes(const Scene& scene, const Emitter& emitter) {

@@ -3,6 +3,7 @@
 
 #include "common/scene/model/material_traits.h"
 #include "common/scene/uses/emitter_uses.h"
+#include "common/scene/uses/mesh_attribute_uses.h"
 #include "common/scene/uses/remove_unused.h"
 
 namespace treefarm {
@@ -31,6 +32,7 @@ void strip_coordinates(Scene& scene) {
 void strip_scene(Scene& scene) {
     remove_unused(scene);
     strip_coordinates(scene);
+    remove_unused_attributes(scene);
 }
 
 }  // namespace treefarm

@@ -17,15 +17,16 @@ Rgb image_mean(const TextureImage& image) {
     return mean;
 }
 
-struct ImageMeans {
-    const std::vector<TextureImage>& images;
-    Rgb mean_of_image(std::int32_t image) const { return image_mean(images[static_cast<std::size_t>(image)]); }
+struct Means {
+    const Scene& scene;
+    Rgb mean_of_image(std::int32_t image) const { return image_mean(scene.images[static_cast<std::size_t>(image)]); }
+    Rgb mean_of_attribute(const std::string& name) const { return scene.mean_of_attribute(name); }
 };
 
 }  // namespace
 
 Rgb texture_mean(const Scene& scene, std::int32_t texture) {
-    return std::visit([&](const auto& kind) { return kind.mean(ImageMeans{scene.images}); },
+    return std::visit([&](const auto& kind) { return kind.mean(Means{scene}); },
                       scene.textures[static_cast<std::size_t>(texture)].kind);
 }
 

@@ -26,6 +26,8 @@ void check_study_folder(const std::filesystem::path& folder, const Study& study,
     if (folder_content(folder) == FolderContent::render)
         throw InputError(where, "holds a render (" + render_words(folder) + "), which a study does not replace",
                          "name another folder with --dir");
+    if (folder_content(folder) == FolderContent::shot)
+        throw InputError(where, "holds a shot, which a study does not replace", "name another folder with --dir");
     const std::string there = study_file_name(folder), own = std::filesystem::path(study.file).filename().string();
     if (!there.empty() && there != own && !overwrite)
         throw InputError(where, "holds another study (" + printable(there) + ")",

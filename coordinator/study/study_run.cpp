@@ -15,11 +15,11 @@
 #include "coordinator/pass_text.h"
 #include "coordinator/pulse.h"
 #include "coordinator/result_image.h"
+#include "coordinator/series_progress.h"
 #include "coordinator/study/cell_record.h"
 #include "coordinator/study/cell_request.h"
 #include "coordinator/study/reference.h"
 #include "coordinator/study/study_folder.h"
-#include "coordinator/study/study_progress.h"
 
 namespace treefarm {
 
@@ -66,17 +66,17 @@ ReadyCell ready_cell(const Study& study, const StudyCell& cell, const LoadedScen
 
 class StudyRun {
   public:
-    StudyRun(Channel& channel, const Study& study, const StudyContext& context,
+    StudyRun(Channel& channel, const Study& study, const SeriesContext& context,
              const std::function<bool()>& interrupted)
-        : channel_(channel),
-          pulse_(channel),
+        : pulse_(channel),
           study_(study),
           context_(context),
           log_(context.log),
           interrupted_(interrupted),
           directory_(study.directory),
           cells_(study_cells(study)),
-          progress_(cells_.size()) {}
+          progress_("cell", cells_.size()),
+          series_(channel, context, interrupted) {}
 
     StudyOutcome run() {
         fs::create_directories(directory_);
@@ -97,7 +97,7 @@ class StudyRun {
             log_->warn("interrupted: the same command goes on from here");
             outcome.state = RunState::interrupted;
         }
-        outcome.lost_peers = turn_.absent;
+        outcome.lost_peers = series_.lost_peers();
         fs::remove_all(directory_ / "warmup");
         return outcome;
     }
@@ -192,16 +192,8 @@ class StudyRun {
     RenderOutcome render(RenderRequest& request, const fs::path& folder) {
         if (interrupted_()) throw Interrupted();
         fs::remove_all(folder);
-        request.job.output.directory = folder.string();
-        request.command = context_.command;
-        request.console = context_.console;
-        // A study has a line per cell: what happens within stands in the cell's log.txt.
-        request.loudness = context_.loudness == Loudness::verbose ? Loudness::verbose : Loudness::quiet;
-        ++turn_.number;
-        request.turn = turn_;
         request.checkpoints = false;
-        const RenderOutcome outcome = run_render(channel_, request, interrupted_);
-        turn_.absent = outcome.lost_peers;
+        const RenderOutcome outcome = series_.render(request, folder);
         if (outcome.state == RunState::interrupted) throw Interrupted();
         return outcome;
     }
@@ -218,10 +210,10 @@ class StudyRun {
     }
 
     void run_cell(const StudyCell& cell, ReadyCell& ready, const Reference& reference) {
-        progress_.begin_cell(cell_words(study_, cell));
+        progress_.begin(cell_words(study_, cell));
         if (ready.done()) return;
         const Timer timer;
-        ready.request.status_frame = [this](const RenderWords& words) { return progress_.cell_status(words); };
+        ready.request.status_frame = [this](const RenderWords& words) { return progress_.status(words); };
         std::vector<MeasuredPass> passes;
         const int width = reference.image.width, height = reference.image.height;
         ready.request.on_pass = [&](const PassReport& report, const CombinedImage& image) {
@@ -238,35 +230,34 @@ class StudyRun {
         run_aside([&] { record = render_record(passes, reference.image); }, [&] { pulse_.beat(); });
         tell(cell, record);
         write_json(ready.folder / "cell.json", record);
-        progress_.end_cell(timer.seconds());
+        progress_.end(timer.seconds());
     }
 
     void tell(const StudyCell& cell, const Json& record) const {
         const Json& last = record["passes"].back();
         log_->info(
-            "{}", join_fields({progress_.cell_name(), cell_words(study_, cell),
+            "{}", join_fields({progress_.place(), cell_words(study_, cell),
                                fmt::format("{} spp", last["spp_done"].get<int>()),
                                duration_text(last["run_seconds"].get<double>()),
                                fmt::format("error {:.3g} %", 100 * last["measured"]["rmse_over_mean"].get<double>())}));
     }
 
-    Channel& channel_;
     Pulse pulse_;
     const Study& study_;
-    const StudyContext& context_;
+    const SeriesContext& context_;
     const Log log_;
     const std::function<bool()>& interrupted_;
     const fs::path directory_;
     const std::vector<StudyCell> cells_;
     Json description_;
-    JobTurn turn_;
-    StudyProgress progress_;
+    SeriesProgress progress_;
+    RenderSeries series_;
     int failures_ = 0;
 };
 
 }  // namespace
 
-StudyOutcome run_study(Channel& channel, const Study& study, const StudyContext& context,
+StudyOutcome run_study(Channel& channel, const Study& study, const SeriesContext& context,
                        const std::function<bool()>& interrupted) {
     return StudyRun(channel, study, context, interrupted).run();
 }

@@ -5,7 +5,7 @@
 #include <ostream>
 
 #include "common/config/study.h"
-#include "coordinator/render_run.h"
+#include "coordinator/render_series.h"
 
 namespace treefarm {
 
@@ -14,22 +14,12 @@ struct StudyOutcome {
     std::set<int> lost_peers;
 };
 
-/// How a study was started, and where it speaks.
-struct StudyContext {
-    std::string command;  ///< as it was typed
-    Fingerprint build;    ///< of this program
-    ConsolePtr console;
-    Loudness loudness = Loudness::normal;
-    bool overwrite = false;  ///< the other study that its folder holds
-    Log log;                 ///< on that console
-};
-
 /// Runs a study's cells that are not there yet, in one allocation of workers, and leaves in its folder:
 ///   study.json                    what is compared, and the cells' folders in order
 ///   references/NAME/image.exr     those that were rendered
 ///   cells/NAME/                   a run directory each, with cell.json: written last, so a cell with one is whole
 /// A folder's name holds a hash of all that decides its content, so a changed study finds what still holds.
-StudyOutcome run_study(Channel& channel, const Study& study, const StudyContext& context,
+StudyOutcome run_study(Channel& channel, const Study& study, const SeriesContext& context,
                        const std::function<bool()>& interrupted);
 
 /// Lists the cells in the order in which they would run, and which of them are there.

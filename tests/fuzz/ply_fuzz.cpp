@@ -29,6 +29,10 @@ std::vector<std::string> fuzz::seeds() {
         "property float u\nproperty float v\nproperty list uchar int extra\nelement face 2\n"
         "property list uchar int vertex_index\nproperty uchar red\nend_header\n"
         "0 0 0 0 0 0\n1 0 0 1 0 2 7 8\n1 1 0 1 1 0\n0 1 0 0 1 0\n0.5 0.25 0 0 0 1 9\n3 0 1 2 255\n5 0 1 4 2 3 0\n",
+        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+        "property ushort r\nproperty ushort g\nproperty ushort b\nelement face 1\nproperty double red\n"
+        "property list uchar int vertex_index\nproperty double green\nproperty double blue\nend_header\n"
+        "0 0 0 1 2 3\n1 0 0 4 5 6\n1 1 0 65535 0 9\n0.5 3 0 1 2 1 nan\n",
         test::binary_ply(test::tetrahedron(), false), test::binary_ply(test::tetrahedron(), true),
         "ply\nformat binary_little_endian 1.0\nelement vertex 4000000000\nproperty float x\nend_header\n"};
 }

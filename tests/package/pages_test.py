@@ -51,11 +51,14 @@ def runnable(name, rest, work):
              "normal.png": f"{work}/normal.png", "flip.png": f"{work}/flip.png", "difference.png": f"{work}/difference.png"}
     arguments = [words.get(word, word) for word in shlex.split(rest)]
     if name == "render":
-        arguments = value_replaced(value_replaced(arguments, "--spp", "4"), "--run-dir", f"{work}/again")
+        folder = f"{work}/{'shot' if '--frames' in arguments else 'again'}"
+        arguments = value_replaced(value_replaced(arguments, "--spp", "4"), "--run-dir", folder)
         if not {"--spp", "--error", "--seconds"} & set(arguments):
             arguments += ["--spp", "4"]
         if "--run-dir" not in arguments:
-            arguments += ["--run-dir", f"{work}/again"]
+            arguments += ["--run-dir", folder]
+        if "--frames" in arguments:
+            arguments = value_replaced(arguments, "-o", f"{work}/frames/f.####.exr")
         arguments += ["--overwrite", *FEW]
     if name == "plan" and {"--error", "--seconds", "--spp"} & set(arguments):
         arguments += ["--probe", "0.2", *SMALL]

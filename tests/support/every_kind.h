@@ -32,7 +32,9 @@ inline Scene every_kind_scene() {
     scene.textures = {
         {bitmap, "wood", {"a.xml", 1, 2}},
         {CheckerboardTexture{Rgb(0.5f, 0.25f, 0.125f), Rgb(1.0f), {Vec3(4, 0, 0), Vec3(0, 5, 0)}}, "", {}},
-        {plain, "gray", {}}};
+        {plain, "gray", {}},
+        {MeshAttributeTexture{"vertex_color"}, "painted", {"a.xml", 3, 4}},
+        {MeshAttributeTexture{"face_wear"}, "worn", {}}};
 
     const Roughness rough{Microfacets::ggx, {0.25f}, {0.5f, 2}}, coat{Microfacets::beckmann, {0.125f}, {0.125f}};
     const auto add = [&](decltype(Material::bsdf) bsdf) -> Material& {
@@ -50,7 +52,8 @@ inline Scene every_kind_scene() {
         1, 0.25f, 0, Rgb(0.5f, 1.0f, 0.25f), true, true};
     add(BlendMaterial{{0.75f, 2}, 4, 0});
     add(NullMaterial{});
-    Material& two = add(DiffuseMaterial{Rgb(0.5f)});
+    Material& two = add(DiffuseMaterial{ColorInput(Rgb(0.5f), 3)});
+    two.opacity = {0.75f, 4};
     two.twosided = true;
     two.back = 1;
     add(RoughDiffuseMaterial{ColorInput(Rgb(0.3f, 0.2f, 0.1f), 0), {0.75f, 2}, true});
@@ -74,12 +77,15 @@ inline Scene every_kind_scene() {
     mesh.normals = {Vec3(0, 0, 1), Vec3(0, 1, 0), Vec3(1, 0, 0)};
     mesh.uvs = {Vec2(0, 0), Vec2(1, 0), Vec2(0, 1)};
     mesh.indices = {0, 1, 2};
+    Mesh painted = mesh;
+    painted.attributes = {{"vertex_color", {Rgb(0.5f, 0.25f, 0.125f), Rgb(0.75f), Rgb(0, 1, 0)}},
+                          {"face_wear", {Rgb(0.375f)}}};
     Imath::M44f to_world(0, 2, 0, 0, -2, 0, 0, 0, 0, 0, 3, 0, 5, 6, 7, 1);
     scene.shapes = {{mesh, 1, 0, kNone, "lamp", {"b.xml", 3, 4}},
                     {Sphere{Vec3(1, 2, 3), 4.0f, true, Vec3(0, 1, 0), Vec3(0, 0, 1), true}, 0, kNone, kNone, "", {}},
                     {Disk{Vec3(1, 1, 1), Vec3(2, 0, 0), Vec3(1, 3, 0), true}, 5, 1, kNone, "disk", {}},
                     {Cylinder{Vec3(0, 0, 1), Vec3(0, 0, 4), 2.0f, true, Vec3(0, 1, 0), true}, 2, kNone, kNone, "", {}},
-                    {mesh, 7, kNone, 0, "part", {}},
+                    {painted, 7, kNone, 0, "part", {"b.xml", 6, 2}},
                     {Instance{0, to_world}, kNone, kNone, kNone, "placed", {"b.xml", 9, 9}}};
     scene.group_count = 1;
 

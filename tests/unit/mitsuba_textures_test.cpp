@@ -55,6 +55,27 @@ TEST_F(MitsubaTextures, BytesStayBytesWithTheirDecoding) {
     EXPECT_THROW(scene("<float name=\"gamma\" value=\"-2\"/>"), InputError);
 }
 
+TEST_F(MitsubaTextures, ColoursOfAMesh) {
+    write("m.ply",
+          "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+          "property float r\nproperty float g\nproperty float b\nelement face 1\n"
+          "property list uchar int vertex_indices\nend_header\n"
+          "0 0 0 1 0 0\n1 0 0 0 1 0\n0 1 0 0 0 1\n3 0 1 2\n");
+    const auto shape = [](const std::string& name) {
+        return "<shape type=\"ply\"><string name=\"filename\" value=\"m.ply\"/><bsdf type=\"diffuse\">"
+               "<texture type=\"mesh_attribute\" name=\"reflectance\"><string name=\"name\" value=\"" +
+               name + "\"/><float name=\"scale\" value=\"0.5\"/></texture></bsdf></shape>";
+    };
+    const Scene s = load_with_sensor(shape("vertex_color"), "3.0.0").scene;
+    EXPECT_EQ(std::get<MeshAttributeTexture>(s.textures.at(0).kind).name, "vertex_color");
+    EXPECT_EQ(std::get<DiffuseMaterial>(s.materials[0].bsdf).reflectance, ColorInput(Rgb(0.5f), 0));
+    EXPECT_EQ(std::get<Mesh>(s.shapes[0].geometry).attributes.at(0).values,
+              (std::vector<Rgb>{Rgb(1, 0, 0), Rgb(0, 1, 0), Rgb(0, 0, 1)}));
+    EXPECT_THROW(load_with_sensor(shape("face_color"), "3.0.0"), InputError);
+    EXPECT_THROW(load_with_sensor(shape("color"), "3.0.0"), InputError);
+    EXPECT_THROW(load_with_sensor(shape("vertex_color"), "0.6.0"), InputError);
+}
+
 TEST_F(MitsubaTextures, GammaOfTheFileCountsInTheOldVersion) {
     write("g.png", TinyPng{1, 1, 1, 8, {128}, 0.5}.bytes());
     EXPECT_NEAR(scene("", "g.png").images[0].decode[128], std::pow(128.0f / 255.0f, 2.0f), 1e-5f);

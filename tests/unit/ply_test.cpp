@@ -28,6 +28,63 @@ void expect_refused(const std::string& bytes, const std::string& begin) {
     EXPECT_EQ(message_of(bytes).substr(0, begin.size()), begin) << message_of(bytes);
 }
 
+TEST(Ply, ColoursOfVerticesAndFaces) {
+    const std::string positions = "property float x\nproperty float y\nproperty float z\n";
+    const Mesh mesh = parse_ply(ascii("element vertex 4\nproperty uchar blue\n" + positions +
+                                          "property uchar red\nproperty uchar green\nproperty uchar alpha\n"
+                                          "element face 2\nproperty float b\nproperty list uchar int vertex_indices\n"
+                                          "property float r\nproperty float g\n",
+                                      "255 0 0 0 0 128 9\n0 1 0 0 255 0 9\n0 1 1 0 0 0 9\n0 0 1 0 0 0 9\n"
+                                      "3 3 0 1 2 1 2\n-0.5 4 0 1 2 3 0.25 0.5\n"),
+                                "m.ply");
+    const MeshAttribute* vertices = mesh.find_attribute("vertex_color");
+    const MeshAttribute* faces = mesh.find_attribute("face_color");
+    ASSERT_TRUE(vertices && faces);
+    ASSERT_EQ(vertices->values.size(), 4u);
+    EXPECT_EQ(vertices->values[0].x, 0.0f);
+    EXPECT_NEAR(vertices->values[0].y, 0.2158605f, 1e-6f) << "integers are sRGB";
+    EXPECT_EQ(vertices->values[0].z, 1.0f);
+    EXPECT_EQ(vertices->values[1], Rgb(1, 0, 0));
+    EXPECT_EQ(faces->values, (std::vector<Rgb>{Rgb(1, 2, 3), Rgb(0.25f, 0.5f, -0.5f), Rgb(0.25f, 0.5f, -0.5f)}))
+        << "floats are linear; a polygon's colour is that of all its triangles";
+    EXPECT_TRUE(parse_ply(ascii(kVertices + kFaces, kPoints + "4 0 1 2 3\n"), "m.ply").attributes.empty());
+}
+
+TEST(Ply, AnAttributeThatIsNoNumberMattersToWhoAsksForItOnly) {
+    const Mesh mesh = parse_ply(ascii("element vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+                                      "property float wear_0\nproperty uchar age_0\n" +
+                                          kFaces,
+                                      "0 0 0 nan 0\n1 0 0 -inf x\n0 1 0 1 255\n3 0 1 2\n"),
+                                "m.ply");
+    EXPECT_TRUE(std::isnan(mesh.find_attribute("vertex_wear")->values.at(0).x));
+    EXPECT_TRUE(std::isnan(mesh.find_attribute("vertex_age")->values.at(1).x));
+    EXPECT_EQ(mesh.find_attribute("vertex_age")->values.at(2), Rgb(1.0f));
+}
+
+TEST(Ply, AttributesAreNamedAsTheirPropertiesBegin) {
+    const Mesh mesh = parse_ply(
+        ascii(
+            "element vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+            "property float tint_r\nproperty float tint_g\nproperty float tint_b\nproperty float tint_a\n"
+            "property float wear_0\nproperty float wind_1\nproperty float wind_2\nproperty float wind_3\n"
+            "property float pair_x\nproperty float pair_y\nproperty float quality\nproperty float late_2\n"
+            "element face 1\nproperty list uchar int vertex_indices\nproperty float id_x\n",
+            "0 0 0 1 2 3 9 4 5 6 7 8 9 9 9\n1 0 0 0 0 0 9 0 0 0 0 8 9 9 9\n0 1 0 0 0 0 9 0 0 0 0 8 9 9 9\n3 0 1 2 8\n"),
+        "m.ply");
+    std::vector<std::string> names;
+    for (const MeshAttribute& attribute : mesh.attributes)
+        names.push_back(attribute.name);
+    EXPECT_EQ(names,
+              (std::vector<std::string>{"vertex_tint", "vertex_tint_color", "vertex_wear", "vertex_wind", "face_id"}))
+        << "one or three values; a colour may have an alpha";
+    for (const auto& [name, value] : {std::pair("vertex_tint", Rgb(1, 2, 3)),
+                                      {"vertex_tint_color", Rgb(1, 2, 3)},
+                                      {"vertex_wear", Rgb(4.0f)},
+                                      {"vertex_wind", Rgb(5, 6, 7)},
+                                      {"face_id", Rgb(8.0f)}})
+        EXPECT_EQ(mesh.find_attribute(name)->values.at(0), value) << name;
+}
+
 TEST(Ply, AsciiWithWhatNobodyAsksFor) {
     const Mesh mesh =
         parse_ply(ascii("comment hello world\nobj_info x\n"

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "coordinator/study/study_progress.h"
+#include "coordinator/series_progress.h"
 
 namespace treefarm {
 namespace {
@@ -109,21 +109,21 @@ TEST(Progress, BeforeTheFirstRay) {
     EXPECT_EQ(status_text(status, 79), status.line);
 }
 
-TEST(StudyProgress, CountsCellsAndTheirTime) {
-    StudyProgress study(4);
-    study.begin_cell("box.auto.1");
+TEST(SeriesProgress, CountsCellsAndTheirTime) {
+    SeriesProgress study("cell", 4);
+    study.begin("box.auto.1");
     RenderWords words;
     words.fraction = 0.5;
     words.how_far = "50 % of 2 s";
     words.pass = "pass 3";
     words.since_begin = "1.0 s";
     words.run_seconds = 1;
-    EXPECT_EQ(study.cell_status(words).line, "cell 1/4   box.auto.1   pass 3   50 % of 2 s   1.0 s");
-    EXPECT_NEAR(study.cell_status(words).fraction, 0.125, 1e-9);
-    study.end_cell(3);
-    study.begin_cell("box.none.1");
-    EXPECT_EQ(study.cell_status(words).line, "cell 2/4   box.none.1   pass 3   50 % of 2 s   1.0 s   about 8 s left");
-    EXPECT_EQ(status_text(study.cell_status(words), 40), "[====       ]  cell 2/4   about 8 s left");
+    EXPECT_EQ(study.status(words).line, "cell 1/4   box.auto.1   pass 3   50 % of 2 s   1.0 s");
+    EXPECT_NEAR(study.status(words).fraction, 0.125, 1e-9);
+    study.end(3);
+    study.begin("box.none.1");
+    EXPECT_EQ(study.status(words).line, "cell 2/4   box.none.1   pass 3   50 % of 2 s   1.0 s   about 8 s left");
+    EXPECT_EQ(status_text(study.status(words), 40), "[====       ]  cell 2/4   about 8 s left");
 }
 
 }  // namespace

@@ -97,13 +97,16 @@ TEST(RunFolder, AnEarlierRunThatLiesAsideIsNoOtherFile) {
 
 TEST(RunFolder, StudiesAndOtherFilesAreNeverReplaced) {
     const fs::path study = fresh_folder() / "study", cells = fresh_folder() / "cells", other = fresh_folder() / "other";
+    const fs::path shot = fresh_folder() / "shot";
     write(study / "study.json", "{}");
     write(study / "passes.csv", "of the report");
     write(cells / "cells" / "a" / "passes.csv", "pass");
     write(other / "job.toml", "mine");
+    write(shot / "shot.json", "{}");
     for (const bool overwrite : {false, true}) {
         EXPECT_NE(refusal(study, overwrite).find("holds a study"), std::string::npos);
         EXPECT_NE(refusal(cells, overwrite).find("holds a study"), std::string::npos);
+        EXPECT_NE(refusal(shot, overwrite).find("holds a shot"), std::string::npos);
         EXPECT_NE(refusal(other, overwrite).find("holds other files"), std::string::npos);
     }
     EXPECT_EQ(read(other / "job.toml"), "mine");

@@ -33,6 +33,19 @@ TEST(SceneCodec, RoundTrip) {
     const auto& board = std::get<CheckerboardTexture>(back.textures[1].kind);
     EXPECT_EQ(board.color0, Rgb(0.5f, 0.25f, 0.125f));
     EXPECT_EQ(board.color1, Rgb(1.0f));
+    EXPECT_EQ(std::get<MeshAttributeTexture>(back.textures[3].kind).name, "vertex_color");
+    const auto& attributes = std::get<Mesh>(back.shapes[4].geometry).attributes;
+    ASSERT_EQ(attributes.size(), 2u);
+    EXPECT_EQ(attributes[0].values, (std::vector<Rgb>{Rgb(0.5f, 0.25f, 0.125f), Rgb(0.75f), Rgb(0, 1, 0)}));
+    EXPECT_EQ(attributes[1].name, "face_wear");
+}
+
+TEST(SceneCodec, AttributesMustFitTheirMesh) {
+    Scene scene = example();
+    std::get<Mesh>(scene.shapes[4].geometry).attributes[1].values.clear();
+    EXPECT_THROW(decode_scene(encode_scene(scene)), FormatError);
+    std::get<Mesh>(scene.shapes[4].geometry).attributes[1].values = {3, Rgb(0.5f)};
+    EXPECT_THROW(decode_scene(encode_scene(scene)), FormatError);
 }
 
 TEST(SceneCodec, MaterialsRoundTrip) {
@@ -187,11 +200,11 @@ TEST(SceneCodec, IndicesAreChecked) {
     refused([](Scene& s) { s.materials[7].back = 7; });
     refused([](Scene& s) { s.materials[7].twosided = false; });
     refused([](Scene& s) { std::get<BlendMaterial>(s.materials[5].bsdf).second = 5; });
-    refused([](Scene& s) { std::get<BlendMaterial>(s.materials[5].bsdf).weight.texture = 3; });
+    refused([](Scene& s) { std::get<BlendMaterial>(s.materials[5].bsdf).weight.texture = 5; });
     refused([](Scene& s) { std::get<DiffuseMaterial>(s.materials[0].bsdf).reflectance.texture = -2; });
-    refused([](Scene& s) { s.materials[4].detail.bump = 3; });
-    refused([](Scene& s) { s.materials[4].detail.normal_map = 3; });
-    refused([](Scene& s) { s.materials[4].opacity.texture = 3; });
+    refused([](Scene& s) { s.materials[4].detail.bump = 5; });
+    refused([](Scene& s) { s.materials[4].detail.normal_map = 5; });
+    refused([](Scene& s) { s.materials[4].opacity.texture = 5; });
     refused([](Scene& s) { std::get<BitmapTexture>(s.textures[0].kind).image = 3; });
     refused([](Scene& s) { std::get<BitmapTexture>(s.textures[0].kind).image = kNone; });
     refused([](Scene& s) { std::get<BitmapTexture>(s.textures[0].kind).wrap_u = static_cast<Wrap>(5); });
@@ -202,8 +215,8 @@ TEST(SceneCodec, IndicesAreChecked) {
     refused([](Scene& s) { std::get<EnvironmentEmitter>(s.emitters[5].kind).image = 2; });
     refused([](Scene& s) { std::get<EnvironmentEmitter>(s.emitters[5].kind).image = 3; });
     refused([](Scene& s) { s.emitters.push_back({ConstantEmitter{}, {}}); });
-    refused([](Scene& s) { std::get<AreaEmitter>(s.emitters[0].kind).radiance.texture = 3; });
-    refused([](Scene& s) { std::get<SpotEmitter>(s.emitters[3].kind).texture = 3; });
+    refused([](Scene& s) { std::get<AreaEmitter>(s.emitters[0].kind).radiance.texture = 5; });
+    refused([](Scene& s) { std::get<SpotEmitter>(s.emitters[3].kind).texture = 5; });
     refused([](Scene& s) { std::get<AreaEmitter>(s.emitters[0].kind).shape = 1; });
     refused([](Scene& s) { std::get<AreaEmitter>(s.emitters[0].kind).shape = kNone; });
     refused([](Scene& s) { s.film.width = 0; });

@@ -47,6 +47,10 @@ TEST(Serialized, VersionsAndPrecisions) {
                 EXPECT_EQ(mesh.normals, expected.normals);
                 EXPECT_EQ(mesh.uvs, expected.uvs);
                 EXPECT_EQ(mesh.indices, expected.indices);
+                ASSERT_EQ(mesh.attributes.size(), colors ? 1u : 0u);
+                if (!colors) continue;
+                EXPECT_EQ(mesh.attributes[0].name, "vertex_color");
+                EXPECT_EQ(mesh.attributes[0].values, std::vector<Rgb>(4, Rgb(0.5f, -2.0f, 3.0f)));
             }
 }
 

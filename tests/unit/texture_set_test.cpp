@@ -132,6 +132,62 @@ TEST(TextureSet, Checkerboard) {
     EXPECT_EQ(set.gradient(0, {0.3f, 0.6f}), Vec2(0.0f));
 }
 
+Mesh painted_square() {
+    Mesh mesh;
+    mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}};
+    mesh.indices = {2, 0, 1, 1, 3, 2};
+    mesh.attributes = {{"vertex_color", {Rgb(0, 8, 0), Rgb(0, 0, 16), Rgb(4, 0, 0), Rgb(1)}},
+                       {"face_wear", {Rgb(1, 2, 3), Rgb(4, 5, 6)}}};
+    return mesh;
+}
+
+TextureSet painted() {
+    return TextureSet({{MeshAttributeTexture{"vertex_color"}, "", {}}, {MeshAttributeTexture{"face_wear"}, "", {}}},
+                      {});
+}
+
+TEST(TextureSet, AttributesOfAMeshAreInterpolatedOverTrianglesOrOneForEach) {
+    const Mesh mesh = painted_square();
+    const TextureSet set = painted();
+    EXPECT_TRUE(set.reads_meshes());
+    EXPECT_FALSE(nearest(Wrap::repeat, Wrap::repeat).reads_meshes());
+    // a quarter of the way to vertex 0 (the second corner), half of it to vertex 1: the rest is vertex 2
+    const MeshPoint first{&mesh, 0, 0.25f, 0.5f}, second{&mesh, 1, 0.25f, 0.5f};
+    EXPECT_EQ(set.color(0, {Vec2(7.0f), &first}), Rgb(1, 2, 8));
+    EXPECT_EQ(set.color(0, {Vec2(7.0f), &second}), Rgb(0, 0, 16) * 0.25f + Rgb(1) * 0.25f + Rgb(4, 0, 0) * 0.5f);
+    EXPECT_EQ(set.color(1, {Vec2(7.0f), &first}), Rgb(1, 2, 3));
+    EXPECT_EQ(set.color(1, {Vec2(7.0f), &second}), Rgb(4, 5, 6));
+    EXPECT_EQ(set.eval(ColorInput(Rgb(2), 1), {Vec2(0.0f), &second}), Rgb(8, 10, 12));
+}
+
+TEST(TextureSet, TheGradientOfAnAttributeIsThatOfItsInterpolation) {
+    Mesh mesh = painted_square();
+    const TextureSet set = painted();
+    for (const bool has_uvs : {false, true}) {
+        if (has_uvs) mesh.uvs = {{0.125f, 0.25f}, {2.0f, 0.5f}, {0.5f, -1.0f}, {1.0f, 1.5f}};
+        for (const std::uint32_t triangle : {0u, 1u}) {
+            const auto at = [&](float b1, float b2) { return MeshPoint{&mesh, triangle, b1, b2}; };
+            const auto uv = [&](float b1, float b2) {
+                if (!has_uvs) return Vec2(b1, b2);
+                const std::uint32_t* corner = &mesh.indices[3 * triangle];
+                return mesh.uvs[corner[0]] * (1.0f - b1 - b2) + mesh.uvs[corner[1]] * b1 + mesh.uvs[corner[2]] * b2;
+            };
+            const MeshPoint here = at(0.25f, 0.25f);
+            const Vec2 gradient = set.gradient(0, {uv(0.25f, 0.25f), &here});
+            for (const Vec2& step : {Vec2(0.5f, 0.0f), Vec2(0.0f, 0.5f), Vec2(-0.25f, 0.5f)}) {
+                const MeshPoint there = at(0.25f + step.x, 0.25f + step.y);
+                const Vec2 way = uv(0.25f + step.x, 0.25f + step.y) - uv(0.25f, 0.25f);
+                EXPECT_NEAR(gradient.dot(way), set.value(0, {Vec2(0.0f), &there}) - set.value(0, {Vec2(0.0f), &here}),
+                            1e-5f);
+            }
+            EXPECT_EQ(set.gradient(1, {Vec2(0.5f), &here}), Vec2(0.0f));
+        }
+    }
+    mesh.uvs.assign(4, Vec2(0.5f));
+    const MeshPoint here{&mesh, 0, 0.25f, 0.25f};
+    EXPECT_EQ(set.gradient(0, {Vec2(0.5f), &here}), Vec2(0.0f)) << "all corners at one place of the texture";
+}
+
 TEST(TextureSet, InputsAreFactorsOfTheirTextures) {
     const TextureSet set = nearest(Wrap::repeat, Wrap::repeat);
     EXPECT_EQ(set.eval(ColorInput(Rgb(1, 2, 3)), middle(1, 1)), Rgb(1, 2, 3));

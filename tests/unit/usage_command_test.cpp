@@ -118,7 +118,7 @@ TEST(Usage, UnknownOptionsNameTheNearest) {
 
 TEST(Usage, WhatOtherRenderersHaveIsAnsweredByWhatThereIs) {
     for (const auto& [option, text] :
-         std::vector<std::pair<std::string, std::string>>{{"--frames 1-3", "start one for each frame"},
+         std::vector<std::pair<std::string, std::string>>{{"--frame-start 1", "write --frames 1-24 -D name=%d"},
                                                           {"--resume", "keeps its finished passes"},
                                                           {"--denoise", "no denoiser in this version"},
                                                           {"--crop 0,0,8,8", "crop_offset_x"},
@@ -183,6 +183,9 @@ TEST_F(WrongFiles, FormatsOfOthersSayHowToConvert) {
     write("study.json", "{}");
     expect_refusal("render " + folder_.string(), {"is the folder of a study", "treefarm report"});
     std::filesystem::remove(folder_ / "study.json");
+    write("shot.json", "{}");
+    expect_refusal("render " + folder_.string(), {"is the folder of a shot", "frame.0001/job.toml"});
+    std::filesystem::remove(folder_ / "shot.json");
 }
 
 TEST_F(WrongFiles, FilesOfSettingsCheckNumbersToo) {

@@ -76,9 +76,40 @@ TEST(ValidateKinds, Textures) {
     expect_refused("checkerboard", [](Scene& s) { std::get<CheckerboardTexture>(s.textures[1].kind).color1.x = kInf; });
 }
 
+TEST(ValidateKinds, AttributesOfMeshes) {
+    const auto attributes = [](Scene& s) -> std::vector<MeshAttribute>& { return geometry<Mesh>(s, 4).attributes; };
+    const Scene fewer = expect_accepted(0, [&](Scene& s) {
+        attributes(s).push_back({"vertex_heat", {Rgb(kNan)}});
+        bsdf<DiffuseMaterial>(s, 7).reflectance.texture = kNone;
+    });
+    const auto& left = std::get<Mesh>(fewer.shapes[4].geometry).attributes;
+    ASSERT_EQ(left.size(), 1u) << "what nobody asks for is neither checked nor kept";
+    EXPECT_EQ(left[0].name, "face_wear");
+    expect_refused("b.xml:6:2: shape \"part\" has no vertex_color, which its texture asks for; it has face_wear",
+                   [&](Scene& s) { attributes(s).erase(attributes(s).begin()); });
+    expect_refused("red, green and blue", [&](Scene& s) { attributes(s).clear(); });
+    expect_refused("has 2 values of vertex_color for its 3 vertices",
+                   [&](Scene& s) { attributes(s)[0].values.pop_back(); });
+    expect_refused("has 2 values of face_wear for its 1 triangles",
+                   [&](Scene& s) { attributes(s)[1].values.push_back(Rgb(1.0f)); });
+    expect_refused("has a face_wear that is not finite", [&](Scene& s) { attributes(s)[1].values[0].y = kNan; });
+    expect_refused("the shape is no mesh, so it has no face_wear", [](Scene& s) { s.shapes[1].material = 7; });
+    expect_refused("the emitter has the texture mesh_attribute, but no mesh",
+                   [](Scene& s) { kind<SpotEmitter>(s, 3).texture = 3; });
+}
+
+TEST(ValidateKinds, AttributesOfTrianglesWithoutAreaGoWithThem) {
+    const Scene scene = expect_accepted(1, [](Scene& s) {
+        Mesh& mesh = geometry<Mesh>(s, 4);
+        mesh.indices = {0, 0, 1, 0, 1, 2, 1, 1, 1};
+        mesh.attributes[1].values = {Rgb(1.0f), Rgb(0.5f), Rgb(0.25f)};
+    });
+    EXPECT_EQ(std::get<Mesh>(scene.shapes[4].geometry).attributes[1].values, std::vector<Rgb>{Rgb(0.5f)});
+}
+
 TEST(ValidateKinds, Materials) {
     expect_refused("a.xml:1:7: ", [](Scene& s) { bsdf<DiffuseMaterial>(s, 0).reflectance.value.x = -1.0f; });
-    expect_refused("texture that does not", [](Scene& s) { bsdf<DiffuseMaterial>(s, 0).reflectance.texture = 3; });
+    expect_refused("texture that does not", [](Scene& s) { bsdf<DiffuseMaterial>(s, 0).reflectance.texture = 5; });
     expect_refused("a.xml:2:7: ", [](Scene& s) { bsdf<ConductorMaterial>(s, 1).k.y = -1.0f; });
     expect_refused("a.xml:2:7: ", [](Scene& s) { bsdf<ConductorMaterial>(s, 1).eta.y = kInf; });
     expect_refused("alpha", [](Scene& s) { bsdf<ConductorMaterial>(s, 1).roughness.alpha_u.value = 0.0f; });
@@ -102,7 +133,7 @@ TEST(ValidateKinds, Materials) {
     });
     expect_refused("opacity", [](Scene& s) { s.materials[0].opacity = 1.01f; });
     expect_refused("bump", [](Scene& s) { s.materials[4].detail.bump_scale = kNan; });
-    expect_refused("does not exist", [](Scene& s) { s.materials[4].detail.bump = 3; });
+    expect_refused("does not exist", [](Scene& s) { s.materials[4].detail.bump = 5; });
     expect_refused("normal map", [](Scene& s) { s.materials[4].detail.normal_scale.x = kNan; });
     expect_accepted(0, [](Scene& s) { s.materials[4].detail.normal_map = 1; });
     expect_refused("negative", [](Scene& s) { std::get<CheckerboardTexture>(s.textures[1].kind).color0.x = -0.5f; });
@@ -170,7 +201,7 @@ TEST(ValidateKinds, GroupsAndInstances) {
 }
 
 TEST(ValidateKinds, Emitters) {
-    expect_refused("b.xml:5:6: ", [](Scene& s) { kind<AreaEmitter>(s, 0).radiance.texture = 3; });
+    expect_refused("b.xml:5:6: ", [](Scene& s) { kind<AreaEmitter>(s, 0).radiance.texture = 5; });
     expect_refused("intensity", [](Scene& s) { kind<PointEmitter>(s, 2).intensity.x = -1.0f; });
     expect_refused("position", [](Scene& s) { kind<PointEmitter>(s, 2).position.x = 1e19f; });
     expect_refused("direction", [](Scene& s) { kind<SpotEmitter>(s, 3).axis = Vec3(0.0f); });
@@ -179,7 +210,7 @@ TEST(ValidateKinds, Emitters) {
     expect_refused("beam", [](Scene& s) { kind<SpotEmitter>(s, 3).beam = 0.6f; });
     expect_refused("beam", [](Scene& s) { kind<SpotEmitter>(s, 3).beam = kNan; });
     expect_refused("below 90 degrees", [](Scene& s) { kind<SpotEmitter>(s, 3).cutoff = 1.6f; });
-    expect_refused("does not exist", [](Scene& s) { kind<SpotEmitter>(s, 3).texture = 3; });
+    expect_refused("does not exist", [](Scene& s) { kind<SpotEmitter>(s, 3).texture = 5; });
     expect_refused("direction", [](Scene& s) { kind<SpotEmitter>(s, 3).x_axis = Vec3(0.0f); });
     expect_refused("direction", [](Scene& s) { kind<DirectionalEmitter>(s, 4).direction = Vec3(2, 0, 0); });
     expect_refused("irradiance", [](Scene& s) { kind<DirectionalEmitter>(s, 4).irradiance.z = kInf; });
@@ -194,7 +225,7 @@ TEST(ValidateKinds, Emitters) {
     expect_refused("field of view", [](Scene& s) { kind<ProjectorEmitter>(s, 6).half_width = 0.0f; });
     expect_refused("field of view", [](Scene& s) { kind<ProjectorEmitter>(s, 6).half_height = kInf; });
     expect_refused("irradiance", [](Scene& s) { kind<ProjectorEmitter>(s, 6).irradiance.value.y = -1.0f; });
-    expect_refused("does not exist", [](Scene& s) { kind<ProjectorEmitter>(s, 6).irradiance.texture = 3; });
+    expect_refused("does not exist", [](Scene& s) { kind<ProjectorEmitter>(s, 6).irradiance.texture = 5; });
     expect_refused("second environment", [](Scene& s) { s.emitters.push_back({ConstantEmitter{}, {}}); });
     expect_refused("not its shape's", [](Scene& s) { s.emitters.push_back({AreaEmitter{Rgb(1.0f), 1}, {}}); });
 }

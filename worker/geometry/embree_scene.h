@@ -100,6 +100,10 @@ class EmbreeScene {
     Hit cylinder_point(std::uint32_t shape, float along, const Vec3& outward) const;
     /// Texture coordinates of a hit; the barycentrics where the mesh has none.
     Vec2 uv(const Hit& hit) const;
+    /// Where on its mesh it lies; no mesh for other shapes.
+    MeshPoint mesh_point(const Hit& hit) const {
+        return {std::get_if<Mesh>(&shapes_[hit.shape].geometry), hit.primitive, hit.b1, hit.b2};
+    }
     /// Texture coordinates of a hit, with tangents in world space.
     SurfaceDetail detail(const Hit& hit) const;
     /// Probability that a ray meets the shape of the hit there, in [0, 1].

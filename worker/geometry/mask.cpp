@@ -40,7 +40,11 @@ void filter(const RTCFilterFunctionNArguments* args) {
 
 float Mask::opacity_at(std::uint32_t primitive, float b1, float b2, const Vec3& outward) const {
     float value = opacity.value;
-    if (opacity.varies()) value *= textures->value(opacity.texture, shape_uv(*shape, primitive, b1, b2, outward));
+    if (opacity.varies()) {
+        const MeshPoint on_mesh =
+            textures->reads_meshes() ? MeshPoint{std::get_if<Mesh>(&shape->geometry), primitive, b1, b2} : MeshPoint();
+        value *= textures->value(opacity.texture, {shape_uv(*shape, primitive, b1, b2, outward), &on_mesh});
+    }
     if (!(value < 1.0f)) return 1.0f;
     return value > 0.0f ? value : 0.0f;
 }

@@ -35,12 +35,14 @@ AreaLight::AreaLight(const AreaEmitter& emitter, const LightScene& scene)
 double AreaLight::power(const LightScene& scene) const {
     const std::vector<double> areas = part_areas(*scene.geometry, shape);
     const double area = std::accumulate(areas.begin(), areas.end(), 0.0);
-    const Rgb mean = radiance * (texture != kNone ? mean_color(*scene.textures, texture) : Rgb(1.0f));
+    const Rgb mean =
+        radiance * (texture != kNone ? mean_color(*scene.textures, texture, &scene.geometry->shape(shape)) : Rgb(1.0f));
     return area * double(kPi) * double(average(mean));
 }
 
 AreaLight::Channels AreaLight::textured(const LightScene& scene, const Hit& hit) const {
-    const Rgb c = radiance * scene.textures->color(texture, scene.geometry->uv(hit));
+    const MeshPoint on_mesh = scene.textures->reads_meshes() ? scene.geometry->mesh_point(hit) : MeshPoint();
+    const Rgb c = radiance * scene.textures->color(texture, {scene.geometry->uv(hit), &on_mesh});
     return {c.x, c.y, c.z};
 }
 

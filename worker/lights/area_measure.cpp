@@ -36,8 +36,9 @@ Hit uniform_point(const EmbreeScene& geometry, std::uint32_t shape, const Vec2& 
 
 namespace {
 
-struct ImageMeans {
+struct Means {
     const std::vector<TextureImage>& images;
+    const Shape* shape;
 
     Rgb mean_of_image(std::int32_t index) const {
         const TextureImage& image = images[static_cast<std::size_t>(index)];
@@ -47,14 +48,23 @@ struct ImageMeans {
                 sum += Imath::V3d(texel(image, x, y));
         return Rgb(Vec3(sum / (double(image.width) * double(image.height))));
     }
+    Rgb mean_of_attribute(const std::string& name) const {
+        const auto* mesh = shape ? std::get_if<Mesh>(&shape->geometry) : nullptr;
+        const MeshAttribute* attribute = mesh ? mesh->find_attribute(name) : nullptr;
+        if (!attribute || attribute->values.empty()) return Rgb(0.0f);
+        Imath::V3d sum(0.0);
+        for (const Rgb& value : attribute->values)
+            sum += Imath::V3d(value);
+        return Rgb(Vec3(sum / double(attribute->values.size())));
+    }
 };
 
 }  // namespace
 
-Rgb mean_color(const TextureSet& textures, std::int32_t texture) {
+Rgb mean_color(const TextureSet& textures, std::int32_t texture, const Shape* shape) {
     return std::visit(
         [&]<class Kind>(const Kind& kind) {
-            Rgb mean = kind.mean(ImageMeans{textures.images()});
+            Rgb mean = kind.mean(Means{textures.images(), shape});
             // White beyond the image may be all that is seen of it.
             if constexpr (requires { kind.has_beyond(Wrap::one); })
                 if (kind.has_beyond(Wrap::one)) mean = mean * 0.5f + Rgb(0.5f);

@@ -35,7 +35,8 @@ std::vector<double> part_areas(const EmbreeScene& geometry, std::uint32_t shape)
 /// A point of a disk or cylinder, uniform by area.
 Hit uniform_point(const EmbreeScene& geometry, std::uint32_t shape, const Vec2& u);
 
-/// Mean of a texture over its unit square, for a guess at an emitter's power: above 0 wherever the texture may be.
-Rgb mean_color(const TextureSet& textures, std::int32_t texture);
+/// Mean of a texture over its unit square, for a guess at an emitter's power: above 0 wherever the texture may be. One
+/// that is an attribute of meshes is that of `shape`.
+Rgb mean_color(const TextureSet& textures, std::int32_t texture, const Shape* shape = nullptr);
 
 }  // namespace treefarm

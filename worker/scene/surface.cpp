@@ -12,6 +12,11 @@ void GeneralSurface::look_up(const TraceScene& scene, const Hit& hit, std::int32
     ShadingPoint point;
     point.wo = wo_;
     point.mirrored = back;
+    MeshPoint on_mesh;
+    if (scene.textures().reads_meshes()) {
+        on_mesh = scene.geometry().mesh_point(hit);
+        point.on_mesh = &on_mesh;
+    }
     if (scene.materials().needs_tangents(material)) {
         const SurfaceDetail detail = scene.geometry().detail(hit);
         point.uv = detail.uv;

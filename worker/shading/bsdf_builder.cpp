@@ -39,8 +39,7 @@ OrientedBsdf oriented(const Bsdf* inner, const Vec3& n, const Vec3& along) {
 
 /// The point as seen in the frame of an oriented BSDF.
 ShadingPoint seen_in(const OrientedBsdf& frame, const ShadingPoint& point) {
-    return {point.uv, frame.to_inner(point.dp_du), frame.to_inner(point.dp_dv), frame.to_inner(point.wo),
-            point.mirrored};
+    return {point, frame.to_inner(point.dp_du), frame.to_inner(point.dp_dv), frame.to_inner(point.wo), point.mirrored};
 }
 
 /// The texture of a material's first input: its main colour, or what a blend is mixed by.
@@ -190,8 +189,8 @@ struct BsdfBuilder::Context {
 
     Rgb color(const ColorInput& input) const { return builder.color(input, point, largest); }
     Rgb amount(const ColorInput& input) const { return builder.color(input, point, std::numeric_limits<float>::max()); }
-    float number(const FloatInput& input) const { return builder.textures_->eval(input, point.uv); }
-    float fraction(const FloatInput& input) const { return clamped(builder.textures_->eval(input, point.uv), 1.0f); }
+    float number(const FloatInput& input) const { return builder.textures_->eval(input, point); }
+    float fraction(const FloatInput& input) const { return clamped(builder.textures_->eval(input, point), 1.0f); }
     Microfacet facets(const Roughness& roughness) const { return builder.facets(roughness, point); }
     const Bsdf* part(std::int32_t material) const { return builder.side(material, back, point, nodes); }
     const PrincipledInputs* keep(const PrincipledInputs& inputs) const { return &(nodes.add_principled() = inputs); }
@@ -213,13 +212,13 @@ Bsdf BsdfBuilder::leaf(std::int32_t index, bool back, const ShadingPoint& point,
 }
 
 Rgb BsdfBuilder::color(const ColorInput& input, const ShadingPoint& point, float most) const {
-    const Rgb c = textures_->eval(input, point.uv);
+    const Rgb c = textures_->eval(input, point);
     return {clamped(c.x, most), clamped(c.y, most), clamped(c.z, most)};
 }
 
 Microfacet BsdfBuilder::facets(const Roughness& roughness, const ShadingPoint& point) const {
     const auto alpha = [&](const FloatInput& input) {
-        return std::clamp(textures_->eval(input, point.uv), Microfacet::kMinAlpha, Microfacet::kMaxAlpha);
+        return std::clamp(textures_->eval(input, point), Microfacet::kMinAlpha, Microfacet::kMaxAlpha);
     };
     return {roughness.distribution == Microfacets::ggx, alpha(roughness.alpha_u), alpha(roughness.alpha_v)};
 }
@@ -232,14 +231,14 @@ Vec3 BsdfBuilder::tilted_normal(const NormalDetail& detail, const ShadingPoint& 
     const float side = point.mirrored ? -1.0f : 1.0f;
     Vec3 n = up;
     if (detail.normal_map != kNone) {
-        const Rgb c = textures_->color(detail.normal_map, point.uv) * detail.normal_scale;
+        const Rgb c = textures_->color(detail.normal_map, point) * detail.normal_scale;
         const Vec3 local(2.0f * c.x - 1.0f, 2.0f * c.y - 1.0f, 2.0f * c.z - 1.0f);
         const OrientedBsdf tangents = oriented(nullptr, up * side, point.dp_du);
         const Vec3 mapped = tangents.to_outer(local) * side;
         if (mapped.z > 0.0f) n = normalize(mapped);
     }
     if (detail.bump != kNone) {
-        const Vec2 slope = textures_->gradient(detail.bump, point.uv) * detail.bump_scale;
+        const Vec2 slope = textures_->gradient(detail.bump, point) * detail.bump_scale;
         const Vec3 outward = n * side;
         // The displaced surface's tangents, as in Mitsuba 0.6: without the term in the change of the normal.
         const Vec3 du = point.dp_du + outward * (slope.x - dot(outward, point.dp_du));

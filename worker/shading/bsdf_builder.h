@@ -13,8 +13,7 @@
 namespace treefarm {
 
 /// Where a surface was hit, in the frame that its BSDF is wanted in.
-struct ShadingPoint {
-    Vec2 uv{0.0f};
+struct ShadingPoint : TexturePoint {
     Vec3 dp_du{1.0f, 0.0f, 0.0f}, dp_dv{0.0f, 1.0f, 0.0f};  ///< in the shading frame
     Vec3 wo{0.0f, 0.0f, 1.0f};                              ///< in the shading frame, wo.z > 0
     bool mirrored = false;                                  ///< the frame's normal is the reverse of the surface's

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "worker/textures/texture_set.h"
 
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -81,12 +82,40 @@ bool in_upper_half(float x) {
 }
 
 /// What a texture without an image has at a place: an overload for each kind, or it does not compile.
-Rgb procedural(const CheckerboardTexture& board, const Vec2& uv) {
-    const Vec2 at = transformed(board.uv, uv);
+Rgb procedural(const CheckerboardTexture& board, const TexturePoint& point) {
+    const Vec2 at = transformed(board.uv, point.uv);
     return in_upper_half(at.x) == in_upper_half(at.y) ? board.color0 : board.color1;
 }
-Rgb procedural(const BitmapTexture&, const Vec2&) {
+Rgb procedural(const BitmapTexture&, const TexturePoint&) {
     return Rgb(0.0f);  // looked up before
+}
+/// The values of an attribute at the corners of a triangle; black without one, which check_mesh_attributes() rules out.
+std::array<Rgb, 3> corner_values(const MeshAttributeTexture& texture, const MeshPoint* at) {
+    const MeshAttribute* attribute = at && at->mesh ? at->mesh->find_attribute(texture.name) : nullptr;
+    if (!attribute) return {Rgb(0.0f), Rgb(0.0f), Rgb(0.0f)};
+    const std::vector<Rgb>& values = attribute->values;
+    if (attribute->is_of_faces()) return {values[at->triangle], values[at->triangle], values[at->triangle]};
+    const std::uint32_t* corner = at->mesh->indices.data() + 3 * std::size_t(at->triangle);
+    return {values[corner[0]], values[corner[1]], values[corner[2]]};
+}
+Rgb procedural(const MeshAttributeTexture& texture, const TexturePoint& point) {
+    const auto [a, b, c] = corner_values(texture, point.on_mesh);
+    if (a == b && a == c) return a;
+    return a * (1.0f - point.on_mesh->b1 - point.on_mesh->b2) + b * point.on_mesh->b1 + c * point.on_mesh->b2;
+}
+
+/// How what is linear over a triangle changes with its texture coordinates; 0 where these do not span a plane.
+Vec2 gradient_over(const MeshAttributeTexture& texture, const MeshPoint* at) {
+    const auto [a, b, c] = corner_values(texture, at);
+    const double along1 = double(average(b)) - double(average(a)), along2 = double(average(c)) - double(average(a));
+    if (along1 == 0.0 && along2 == 0.0) return Vec2(0.0f);
+    if (at->mesh->uvs.empty()) return Vec2(float(along1), float(along2));
+    const std::uint32_t* corner = at->mesh->indices.data() + 3 * std::size_t(at->triangle);
+    const Imath::V2d uv(at->mesh->uvs[corner[0]]);
+    const Imath::V2d e1 = Imath::V2d(at->mesh->uvs[corner[1]]) - uv, e2 = Imath::V2d(at->mesh->uvs[corner[2]]) - uv;
+    const double area = e1.cross(e2);
+    if (!(std::abs(area) > 1e-30)) return Vec2(0.0f);
+    return Vec2(float((along1 * e2.y - along2 * e1.y) / area), float((along2 * e1.x - along1 * e2.x) / area));
 }
 
 /// Index of a texel's first value.
@@ -119,13 +148,16 @@ Rgb texel(const TextureImage& image, int x, int y) {
 }
 
 TextureSet::TextureSet(std::vector<Texture> textures, std::vector<TextureImage> images)
-    : textures_(std::move(textures)), images_(std::move(images)) {}
+    : textures_(std::move(textures)), images_(std::move(images)) {
+    for (const Texture& texture : textures_)
+        reads_meshes_ |= std::holds_alternative<MeshAttributeTexture>(texture.kind);
+}
 
-Rgb TextureSet::color(std::int32_t texture, const Vec2& uv) const {
+Rgb TextureSet::color(std::int32_t texture, const TexturePoint& at) const {
     const TextureKind& kind = textures_[static_cast<std::size_t>(texture)].kind;
     if (const auto* bitmap = std::get_if<BitmapTexture>(&kind))
-        return look_up(images_[static_cast<std::size_t>(bitmap->image)], *bitmap, uv);
-    return std::visit([&](const auto& other) { return procedural(other, uv); }, kind);
+        return look_up(images_[static_cast<std::size_t>(bitmap->image)], *bitmap, at.uv);
+    return std::visit([&](const auto& other) { return procedural(other, at); }, kind);
 }
 
 void TextureSet::prefetch(std::int32_t texture, const Vec2& uv) const {
@@ -139,9 +171,12 @@ void TextureSet::prefetch(std::int32_t texture, const Vec2& uv) const {
         if (row >= 0 && row < image.height) prefetch_texel(image, x, row);
 }
 
-Vec2 TextureSet::gradient(std::int32_t texture, const Vec2& uv) const {
-    const auto* bitmap = std::get_if<BitmapTexture>(&textures_[static_cast<std::size_t>(texture)].kind);
+Vec2 TextureSet::gradient(std::int32_t texture, const TexturePoint& at) const {
+    const TextureKind& kind = textures_[static_cast<std::size_t>(texture)].kind;
+    if (const auto* attribute = std::get_if<MeshAttributeTexture>(&kind)) return gradient_over(*attribute, at.on_mesh);
+    const auto* bitmap = std::get_if<BitmapTexture>(&kind);
     if (!bitmap) return Vec2(0.0f);  // a board has steps only
+    const Vec2& uv = at.uv;
     const TextureImage& image = images_[static_cast<std::size_t>(bitmap->image)];
     // Half a texel, in the coordinates before the transform.
     const auto half_step = [&](float du, float dv) {

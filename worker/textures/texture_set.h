@@ -7,27 +7,47 @@
 
 namespace treefarm {
 
+/// A point of a mesh; barycentrics of the second and third vertex.
+struct MeshPoint {
+    const Mesh* mesh = nullptr;
+    std::uint32_t triangle = 0;
+    float b1 = 0, b2 = 0;
+};
+
+/// Where a texture is looked up.
+struct TexturePoint {
+    Vec2 uv{0.0f};
+    const MeshPoint* on_mesh = nullptr;  ///< where TextureSet::reads_meshes(), on a mesh
+
+    TexturePoint() = default;
+    TexturePoint(float u, float v) : uv(u, v) {}
+    TexturePoint(const Vec2& coordinates, const MeshPoint* point = nullptr) : uv(coordinates), on_mesh(point) {}
+};
+
 /// The textures of a scene, ready to be looked up. Immutable; any number of threads may ask.
 class TextureSet {
   public:
     TextureSet() = default;
     TextureSet(std::vector<Texture> textures, std::vector<TextureImage> images);
 
-    /// Linear value of a texture at texture coordinates.
-    Rgb color(std::int32_t texture, const Vec2& uv) const;
+    /// Linear value of a texture at a point.
+    Rgb color(std::int32_t texture, const TexturePoint& at) const;
     /// Fetches most of what color() reads.
     void prefetch(std::int32_t texture, const Vec2& uv) const;
     /// Mean of the channels of color().
-    float value(std::int32_t texture, const Vec2& uv) const { return average(color(texture, uv)); }
-    /// How the value changes with u and v: central differences over half a texel to each side.
-    Vec2 gradient(std::int32_t texture, const Vec2& uv) const;
+    float value(std::int32_t texture, const TexturePoint& at) const { return average(color(texture, at)); }
+    /// How the value changes with u and v: of an image, by central differences over half a texel to each side.
+    Vec2 gradient(std::int32_t texture, const TexturePoint& at) const;
 
-    Rgb eval(const ColorInput& input, const Vec2& uv) const {
-        return input.varies() ? input.value * color(input.texture, uv) : input.value;
+    Rgb eval(const ColorInput& input, const TexturePoint& at) const {
+        return input.varies() ? input.value * color(input.texture, at) : input.value;
     }
-    float eval(const FloatInput& input, const Vec2& uv) const {
-        return input.varies() ? input.value * value(input.texture, uv) : input.value;
+    float eval(const FloatInput& input, const TexturePoint& at) const {
+        return input.varies() ? input.value * value(input.texture, at) : input.value;
     }
+
+    /// Whether some are made of attributes of meshes: only then points must say on_mesh.
+    bool reads_meshes() const { return reads_meshes_; }
 
     const std::vector<Texture>& textures() const { return textures_; }
     const std::vector<TextureImage>& images() const { return images_; }
@@ -37,6 +57,7 @@ class TextureSet {
   private:
     std::vector<Texture> textures_;
     std::vector<TextureImage> images_;
+    bool reads_meshes_ = false;
 };
 
 /// Texel (x, y) of an image, x and y in range; single-channel images are grey.

@@ -89,6 +89,9 @@ inline constexpr auto kMaterialEffects = std::tuple(
     effect_of_kind(
         {"checkerboards", "materials", "squares of two colours", "a texture in use is a checkerboard", "no memory"},
         EffectFamily::textures, part_of("textures")),
+    effect_of_kind({"mesh_attributes", "materials", "colours and numbers that meshes bring along",
+                    "a texture in use is a mesh attribute", "12 bytes per vertex or triangle of meshes that use it"},
+                   EffectFamily::textures, part_of("textures")),
     effect(
         {"bump", "materials", "shading normals tilted by a texture of displacements", "a material has a bump map",
          "three lookups per vertex"},

@@ -32,8 +32,9 @@ void check_camera(const Camera& camera) {
 }  // namespace
 
 void validate_scene(Scene& scene, std::vector<Warning>& warnings) {
+    validation::check_mesh_attributes(scene);
     const std::vector<ValueRange> images = validation::check_images(scene.images);
-    const std::vector<ValueRange> textures = validation::check_textures(scene.textures, images);
+    const std::vector<ValueRange> textures = validation::check_textures(scene, images);
     validation::check_materials(scene, textures, warnings);
     validation::check_shapes(scene, warnings);
     validation::check_emitters(scene, images, textures);

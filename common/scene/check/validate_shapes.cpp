@@ -30,9 +30,13 @@ std::size_t drop_degenerate(Mesh& mesh) {
         if (without_area(mesh, i)) continue;
         for (std::size_t k = 0; k < 3; ++k)
             mesh.indices[3 * kept + k] = mesh.indices[3 * i + k];
+        for (MeshAttribute& attribute : mesh.attributes)
+            if (attribute.is_of_faces()) attribute.values[kept] = attribute.values[i];
         ++kept;
     }
     mesh.indices.resize(3 * kept);
+    for (MeshAttribute& attribute : mesh.attributes)
+        if (attribute.is_of_faces()) attribute.values.resize(kept);
     return count - kept;
 }
 

@@ -44,7 +44,8 @@ ValueRange check_image(const TextureImage& image) {
 
 class TextureCheck {
   public:
-    TextureCheck(const Texture& texture, const std::vector<ValueRange>& images) : texture_(texture), images_(images) {}
+    TextureCheck(const Scene& scene, const Texture& texture, const std::vector<ValueRange>& images)
+        : scene_(scene), texture_(texture), images_(images) {}
 
     /// The range of its values.
     ValueRange run() const {
@@ -52,6 +53,7 @@ class TextureCheck {
         return std::visit([this](const auto& kind) { return kind.range(*this); }, texture_.kind);
     }
     ValueRange range_of_image(std::int32_t image) const { return images_[static_cast<std::size_t>(image)]; }
+    ValueRange range_of_attribute(const std::string& name) const { return scene_.range_of_attribute(name); }
 
     void image(std::int32_t image) const {
         if (image < 0 || static_cast<std::size_t>(image) >= images_.size())
@@ -59,6 +61,7 @@ class TextureCheck {
     }
     void flag(const char*, bool) const {}
     void choice(const char*, auto, auto) const {}
+    void mesh_attribute(const std::string&) const {}  // shapes are asked for theirs
     void color(const char* name, const Rgb& value) const {
         if (!is_finite(value))
             refuse("the " + title() + " has a " + name + " that is not finite",
@@ -77,6 +80,7 @@ class TextureCheck {
         throw InputError(texture_.where, what, cure);
     }
 
+    const Scene& scene_;
     const Texture& texture_;
     const std::vector<ValueRange>& images_;
 };
@@ -90,10 +94,10 @@ std::vector<ValueRange> check_images(const std::vector<TextureImage>& images) {
     return ranges;
 }
 
-std::vector<ValueRange> check_textures(const std::vector<Texture>& textures, const std::vector<ValueRange>& images) {
+std::vector<ValueRange> check_textures(const Scene& scene, const std::vector<ValueRange>& images) {
     std::vector<ValueRange> ranges;
-    for (const Texture& texture : textures)
-        ranges.push_back(TextureCheck(texture, images).run());
+    for (const Texture& texture : scene.textures)
+        ranges.push_back(TextureCheck(scene, texture, images).run());
     return ranges;
 }
 

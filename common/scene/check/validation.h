@@ -28,7 +28,7 @@ inline bool is_unit(const Vec3& v) {
 std::vector<ValueRange> check_images(const std::vector<TextureImage>& images);
 
 /// The range of each texture's values, from those of the images.
-std::vector<ValueRange> check_textures(const std::vector<Texture>& textures, const std::vector<ValueRange>& images);
+std::vector<ValueRange> check_textures(const Scene& scene, const std::vector<ValueRange>& images);
 
 /// Raises roughness below the least to it and scales textured factors above 1 down, with a warning; those of unlimited
 /// materials stay, with one, too.
@@ -37,6 +37,10 @@ void check_materials(Scene& scene, const std::vector<ValueRange>& textures, std:
 /// Whether no triangle has an area (or one too small for single precision to give it a normal), though all vertices are
 /// finite.
 bool is_flat(const Mesh& mesh);
+
+/// Removes attributes of meshes that no texture asks for; those that one does must be there, one value for each vertex
+/// or triangle, and finite.
+void check_mesh_attributes(Scene& scene);
 
 /// Leaves out triangles without area, with a warning.
 void check_shapes(Scene& scene, std::vector<Warning>& warnings);

@@ -41,6 +41,7 @@ namespace treefarm {
 ///     choice(name, Enum&, last)                   as of a material
 ///     color(name, Rgb&)                           a finite colour
 ///     coordinates(UvTransform&)                   what texture coordinates go through
+///     mesh_attribute(std::string&)                name of what it takes from the mesh that it is looked up on
 ///
 /// Names are words for messages: "specular reflectance".
 
@@ -66,6 +67,15 @@ struct IgnoreFields {
     void rule(bool, const char*, const char*) {}
     void color(const char*, const auto&) {}
     void coordinates(const auto&) {}
+    void mesh_attribute(const auto&) {}
+};
+
+/// Calls f for each image that a kind is made of, by a reference that may be changed.
+template <class F>
+struct ImageVisitor : IgnoreFields {
+    F& f;
+    explicit ImageVisitor(F& call) : f(call) {}
+    void image(auto& index) { f(index); }
 };
 
 /// Shows a visitor each value of what a variant of kinds holds, const or not.

@@ -8,13 +8,13 @@ namespace {
 
 using enum Finding::Severity;
 
-/// Ranges of a scene's images, of what is missing 0 to 1.
-struct ImageRanges {
-    const std::vector<TextureImage>& images;
+/// Ranges of a scene's images and mesh attributes, of what is missing 0 to 1.
+struct Ranges {
+    const Scene& scene;
 
     ValueRange range_of_image(std::int32_t index) const {
-        if (index < 0 || static_cast<std::size_t>(index) >= images.size()) return {0.0f, 1.0f};
-        const TextureImage& image = images[static_cast<std::size_t>(index)];
+        if (index < 0 || static_cast<std::size_t>(index) >= scene.images.size()) return {0.0f, 1.0f};
+        const TextureImage& image = scene.images[static_cast<std::size_t>(index)];
         ValueRange range;
         for (const float value : image.floats)
             range = range.with(value);
@@ -22,12 +22,13 @@ struct ImageRanges {
             range = range.with(image.decode[byte]);
         return range;
     }
+    ValueRange range_of_attribute(const std::string& name) const { return scene.range_of_attribute(name); }
 };
 
 /// The largest value of a texture.
 float largest_of(const Scene& scene, std::int32_t texture) {
     if (texture < 0 || static_cast<std::size_t>(texture) >= scene.textures.size()) return 1.0f;
-    return std::visit([&](const auto& kind) { return kind.range(ImageRanges{scene.images}).max; },
+    return std::visit([&](const auto& kind) { return kind.range(Ranges{scene}).max; },
                       scene.textures[static_cast<std::size_t>(texture)].kind);
 }
 

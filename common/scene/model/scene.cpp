@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/scene/model/scene.h"
 
+#include <limits>
+
 namespace treefarm {
 namespace {
 
@@ -78,6 +80,32 @@ std::size_t Scene::triangle_count() const {
     for (const Shape& shape : shapes)
         if (const auto* mesh = std::get_if<Mesh>(&shape.geometry)) count += mesh->triangle_count();
     return count;
+}
+
+ValueRange Scene::range_of_attribute(const std::string& name) const {
+    ValueRange range{std::numeric_limits<float>::max(), std::numeric_limits<float>::lowest()};
+    for (const Shape& shape : shapes) {
+        const auto* mesh = std::get_if<Mesh>(&shape.geometry);
+        const MeshAttribute* attribute = mesh ? mesh->find_attribute(name) : nullptr;
+        if (!attribute) continue;
+        for (const Rgb& value : attribute->values)
+            range = range.with(value.x).with(value.y).with(value.z);
+    }
+    return range.min <= range.max ? range : ValueRange{0.0f, 1.0f};
+}
+
+Rgb Scene::mean_of_attribute(const std::string& name) const {
+    Imath::V3d sum(0.0);
+    std::size_t count = 0;
+    for (const Shape& shape : shapes) {
+        const auto* mesh = std::get_if<Mesh>(&shape.geometry);
+        const MeshAttribute* attribute = mesh ? mesh->find_attribute(name) : nullptr;
+        if (!attribute) continue;
+        for (const Rgb& value : attribute->values)
+            sum += Imath::V3d(value);
+        count += attribute->values.size();
+    }
+    return count > 0 ? Rgb(Vec3(sum / static_cast<double>(count))) : Rgb(0.5f);
 }
 
 }  // namespace treefarm

@@ -98,6 +98,10 @@ struct Scene {
     float radiance_scale() const;
     /// Triangles in memory: those of a group count once.
     std::size_t triangle_count() const;
+    /// Range and mean of the values of all mesh attributes of this name, each counted once; 0 to 1, and grey, if there
+    /// are none.
+    ValueRange range_of_attribute(const std::string& name) const;
+    Rgb mean_of_attribute(const std::string& name) const;
 };
 
 }  // namespace treefarm

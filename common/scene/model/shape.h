@@ -12,14 +12,30 @@
 
 namespace treefarm {
 
+/// What a mesh says of each vertex or triangle for textures to show: "vertex_color", "face_color", "vertex_wear"...
+struct MeshAttribute {
+    std::string name;         ///< begins with "face_" if it is of triangles
+    std::vector<Rgb> values;  ///< linear; one per position, or per triangle; numbers are grey
+
+    static bool is_of_faces(const std::string& name) { return name.starts_with("face_"); }
+    bool is_of_faces() const { return is_of_faces(name); }
+};
+
 /// An indexed triangle mesh in world space (or its group's space).
 struct Mesh {
     std::vector<Vec3> positions;
-    std::vector<Vec3> normals;           ///< unit shading normals, one per position; empty: use the triangle's own
-    std::vector<Vec2> uvs;               ///< one per position; empty: none
-    std::vector<std::uint32_t> indices;  ///< three per triangle, counter-clockwise seen from the front
+    std::vector<Vec3> normals;              ///< unit shading normals, one per position; empty: use the triangle's own
+    std::vector<Vec2> uvs;                  ///< one per position; empty: none
+    std::vector<std::uint32_t> indices;     ///< three per triangle, counter-clockwise seen from the front
+    std::vector<MeshAttribute> attributes;  ///< after checks, only those that a texture asks for
 
     std::size_t triangle_count() const { return indices.size() / 3; }
+    /// The attribute of this name, or nullptr.
+    const MeshAttribute* find_attribute(const std::string& name) const {
+        for (const MeshAttribute& attribute : attributes)
+            if (attribute.name == name) return &attribute;
+        return nullptr;
+    }
 };
 
 /// An analytic sphere. Its texture coordinates are (azimuth about `pole` from `meridian`, angle from `pole`), over 2 pi

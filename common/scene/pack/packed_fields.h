@@ -47,6 +47,7 @@ class PutFields {
     void rule(bool, const char*, const char*) {}
 
     void color(const char*, const Rgb& value) { put_vector(out_, value); }
+    void mesh_attribute(const std::string& name) { out_.put_string(name); }
     void coordinates(const UvTransform& uv) {
         put_vector(out_, uv.u_row);
         put_vector(out_, uv.v_row);
@@ -99,6 +100,7 @@ class GetFields {
     void rule(bool, const char*, const char*) {}
 
     void color(const char*, Rgb& value) { value = get_vector<Rgb>(in_); }
+    void mesh_attribute(std::string& name) { name = in_.get_string(); }
     void coordinates(UvTransform& uv) {
         uv.u_row = get_vector<Vec3>(in_);
         uv.v_row = get_vector<Vec3>(in_);

@@ -6,7 +6,9 @@
 namespace treefarm::packed {
 namespace {
 
-/// The place of a kind of shape in the variant is its number in packed form.
+/// The place of a kind of shape in the variant is its number in packed form; a mesh with attributes has another.
+constexpr std::uint8_t kMeshWithAttributes = 5;
+constexpr std::size_t kMinAttributeBytes = 2;
 using Geometry = decltype(Shape::geometry);
 static_assert(std::is_same_v<std::variant_alternative_t<0, Geometry>, Mesh>);
 static_assert(std::is_same_v<std::variant_alternative_t<1, Geometry>, Sphere>);
@@ -14,6 +16,11 @@ static_assert(std::is_same_v<std::variant_alternative_t<2, Geometry>, Disk>);
 static_assert(std::is_same_v<std::variant_alternative_t<3, Geometry>, Cylinder>);
 static_assert(std::is_same_v<std::variant_alternative_t<4, Geometry>, Instance>);
 static_assert(std::variant_size_v<Geometry> == 5);
+
+std::uint8_t number_of(const Geometry& geometry) {
+    const auto* mesh = std::get_if<Mesh>(&geometry);
+    return mesh && !mesh->attributes.empty() ? kMeshWithAttributes : static_cast<std::uint8_t>(geometry.index());
+}
 
 struct Put {
     ByteWriter& out;
@@ -23,6 +30,11 @@ struct Put {
         put_vectors(out, mesh.normals);
         put_vectors(out, mesh.uvs);
         out.put_array(std::span<const std::uint32_t>(mesh.indices));
+        if (mesh.attributes.empty()) return;
+        put_list(out, mesh.attributes, [](ByteWriter& to, const MeshAttribute& attribute) {
+            to.put_string(attribute.name);
+            put_vectors(to, attribute.values);
+        });
     }
     void operator()(const Sphere& sphere) const {
         put_vector(out, sphere.center);
@@ -74,6 +86,22 @@ Mesh get_mesh(ByteReader& in) {
         if (index >= mesh.positions.size())
             throw FormatError("scene: vertex " + std::to_string(index) + " of " +
                               std::to_string(mesh.positions.size()));
+    return mesh;
+}
+
+Mesh get_mesh_with_attributes(ByteReader& in) {
+    Mesh mesh = get_mesh(in);
+    get_list(in, kMinAttributeBytes, mesh.attributes, [&] {
+        MeshAttribute attribute;
+        attribute.name = in.get_string();
+        attribute.values = get_vectors<Rgb>(in);
+        const std::size_t wanted = attribute.is_of_faces() ? mesh.triangle_count() : mesh.positions.size();
+        if (attribute.values.size() != wanted)
+            throw FormatError("scene: a mesh has " + std::to_string(attribute.values.size()) +
+                              " values of an attribute for " + std::to_string(wanted));
+        return attribute;
+    });
+    if (mesh.attributes.empty()) throw FormatError("scene: a mesh has attributes, and none");
     return mesh;
 }
 
@@ -129,6 +157,8 @@ Geometry get_geometry(ByteReader& in, std::size_t group_count) {
             return get_cylinder(in);
         case 4:
             return get_instance(in, group_count);
+        case kMeshWithAttributes:
+            return get_mesh_with_attributes(in);
         default:
             throw FormatError("scene: unknown kind of shape " + std::to_string(kind));
     }
@@ -137,7 +167,7 @@ Geometry get_geometry(ByteReader& in, std::size_t group_count) {
 }  // namespace
 
 void put_shape(ByteWriter& out, const Shape& shape) {
-    out.put(static_cast<std::uint8_t>(shape.geometry.index()));
+    out.put(number_of(shape.geometry));
     std::visit(Put{out}, shape.geometry);
     out.put(shape.material);
     out.put(shape.emitter);

@@ -12,7 +12,7 @@ namespace treefarm::packed {
 /// kind: its place in TextureKind (kinds/textures.h); values: as fields() of that kind names them, indices as i32,
 /// flags and choices as u8, colours as three f32, the transform of coordinates as its two rows.
 
-inline constexpr std::size_t kMinImageBytes = 8, kMinTextureBytes = 42;
+inline constexpr std::size_t kMinImageBytes = 8, kMinTextureBytes = 12;
 
 void put_image(ByteWriter& out, const TextureImage& image);
 TextureImage get_image(ByteReader& in);

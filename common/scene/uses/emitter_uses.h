@@ -20,13 +20,6 @@ struct EmitterTextureVisitor : IgnoreFields {
     }
 };
 
-template <class F>
-struct EmitterImageVisitor : IgnoreFields {
-    F& f;
-    explicit EmitterImageVisitor(F& call) : f(call) {}
-    void image(auto& index) { f(index); }
-};
-
 template <class EmitterRef>
 concept IsEmitter = std::same_as<std::remove_const_t<EmitterRef>, Emitter>;
 
@@ -39,7 +32,7 @@ void for_each_texture(EmitterRef& emitter, F&& f) {
 /// Calls f(image index) for each image that an emitter is made of, by a reference that may be changed.
 template <IsEmitter EmitterRef, class F>
 void for_each_image(EmitterRef& emitter, F&& f) {
-    visit_fields(emitter.kind, EmitterImageVisitor<F>(f));
+    visit_fields(emitter.kind, ImageVisitor<F>(f));
 }
 
 /// Whether a texture varies the light of an emitter.

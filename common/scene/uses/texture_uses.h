@@ -8,20 +8,13 @@
 
 namespace treefarm {
 
-template <class F>
-struct TextureImageVisitor : IgnoreFields {
-    F& f;
-    explicit TextureImageVisitor(F& call) : f(call) {}
-    void image(auto& index) { f(index); }
-};
-
 template <class TextureRef>
 concept IsTexture = std::same_as<std::remove_const_t<TextureRef>, Texture>;
 
 /// Calls f(image index) for each image that a texture is made of, by a reference that may be changed.
 template <IsTexture TextureRef, class F>
 void for_each_image(TextureRef& texture, F&& f) {
-    visit_fields(texture.kind, TextureImageVisitor<F>(f));
+    visit_fields(texture.kind, ImageVisitor<F>(f));
 }
 
 }  // namespace treefarm

@@ -74,6 +74,7 @@ void split_at_edges(Mesh& mesh, double min_cosine) {
         normals[i] = triangle_normal(mesh, i);
 
     Mesh split;
+    std::vector<std::uint32_t> origins;  // per new vertex, the one that it comes from
     split.indices.resize(mesh.indices.size());
     for (std::size_t begin = 0, end; begin < corners.size(); begin = end) {
         for (end = begin + 1; end < corners.size() && key(corners[end]) == key(corners[begin]);)
@@ -91,9 +92,18 @@ void split_at_edges(Mesh& mesh, double min_cosine) {
                 cluster = clusters.end() - 1;
                 split.positions.push_back(mesh.positions[mesh.indices[corners[i]]]);
                 if (has_uvs) split.uvs.push_back(mesh.uvs[mesh.indices[corners[i]]]);
+                origins.push_back(mesh.indices[corners[i]]);
             }
             split.indices[corners[i]] = cluster->second;
         }
+    }
+    for (MeshAttribute& attribute : mesh.attributes) {
+        MeshAttribute& copy = split.attributes.emplace_back(attribute.name);
+        if (attribute.is_of_faces())
+            copy.values = std::move(attribute.values);
+        else
+            for (const std::uint32_t origin : origins)
+                copy.values.push_back(attribute.values[origin]);
     }
     mesh = std::move(split);
 }

@@ -3,7 +3,9 @@
 
 #include <array>
 
+#include "common/image/srgb.h"
 #include "common/scene/readers/input_file.h"
+#include "common/scene/readers/meshes/ply_attributes.h"
 #include "common/scene/readers/meshes/ply_values.h"
 #include "common/scene/readers/meshes/triangulate.h"
 
@@ -14,6 +16,12 @@ using namespace ply;
 
 /// Roles of the vertices' properties, by their place.
 enum class Role : std::uint8_t { x, y, z, nx, ny, nz, u, v, none };
+
+/// The largest value of an integer type.
+double largest_of(Type type) {
+    const bool is_signed = type == Type::int8 || type == Type::int16 || type == Type::int32;
+    return std::ldexp(1.0, 8 * static_cast<int>(size_of(type)) - (is_signed ? 1 : 0)) - 1.0;
+}
 
 /// A group of properties counts only if all of it is there.
 std::vector<Role> roles_of(const Element& vertex) {
@@ -36,6 +44,40 @@ std::vector<Role> roles_of(const Element& vertex) {
     if (!assign({"u", "v"}, Role::u) && !assign({"texture_u", "texture_v"}, Role::u)) assign({"s", "t"}, Role::u);
     return roles;
 }
+
+/// Gathers the attributes of an element's properties in a mesh.
+class AttributeReader {
+  public:
+    AttributeReader(const Element& element, Mesh& mesh)
+        : groups_(attribute_groups(element)),
+          wanted_(element.properties.size(), false),
+          row_(element.properties.size(), 0.0f),
+          mesh_(mesh),
+          first_(mesh.attributes.size()) {
+        for (const AttributeGroup& group : groups_) {
+            mesh.attributes.emplace_back(group.name);
+            for (const std::size_t property : group.properties)
+                wanted_[property] = true;
+        }
+    }
+    bool wants(std::size_t property) const { return wanted_[property]; }
+    void set(std::size_t property, float value) { row_[property] = value; }
+    /// Gives what was set to the values that are missing to `count`.
+    void fill(std::size_t count) {
+        for (std::size_t i = 0; i < groups_.size(); ++i) {
+            const std::vector<std::size_t>& from = groups_[i].properties;
+            const Rgb value = from.size() == 1 ? Rgb(row_[from[0]]) : Rgb(row_[from[0]], row_[from[1]], row_[from[2]]);
+            mesh_.attributes[first_ + i].values.resize(count, value);
+        }
+    }
+
+  private:
+    std::vector<AttributeGroup> groups_;
+    std::vector<bool> wanted_;
+    std::vector<float> row_;
+    Mesh& mesh_;
+    std::size_t first_;
+};
 
 template <class Values>
 class BodyReader {
@@ -77,6 +119,14 @@ class BodyReader {
         return static_cast<float>(value);
     }
 
+    /// A value of an attribute: as in Mitsuba 2 and 3, integers are sRGB of which the largest is 1. Whether it is
+    /// finite matters where a texture asks for it.
+    float channel(Type type) {
+        const double value = values_.any_number(type);
+        if (!is_integer(type)) return static_cast<float>(value);
+        return srgb_decode(static_cast<float>(value / largest_of(type)));
+    }
+
     std::uint64_t list_length(const Property& list) {
         const std::int64_t length = values_.integer(list.count_type);
         if (length < 0 || static_cast<std::uint64_t>(length) > values_.most_values(list.type))
@@ -109,17 +159,21 @@ class BodyReader {
         mesh_.positions.reserve(count);
         if (has(Role::nx)) mesh_.normals.reserve(count);
         if (has(Role::u)) mesh_.uvs.reserve(count);
+        AttributeReader attributes(element, mesh_);
         for (std::size_t i = 0; i < count; ++i) {
-            std::array<float, 9> vertex{};
+            std::array<float, static_cast<std::size_t>(Role::none)> vertex{};
             for (std::size_t k = 0; k < roles.size(); ++k)
-                if (roles[k] == Role::none)
-                    skip(element.properties[k]);
-                else
+                if (roles[k] != Role::none)
                     vertex[static_cast<std::size_t>(roles[k])] = finite(element.properties[k].type);
+                else if (attributes.wants(k))
+                    attributes.set(k, channel(element.properties[k].type));
+                else
+                    skip(element.properties[k]);
             values_.end_element();
             mesh_.positions.emplace_back(vertex[0], vertex[1], vertex[2]);
             if (has(Role::nx)) mesh_.normals.emplace_back(vertex[3], vertex[4], vertex[5]);
             if (has(Role::u)) mesh_.uvs.emplace_back(vertex[6], vertex[7]);
+            attributes.fill(mesh_.positions.size());
         }
     }
 
@@ -132,12 +186,16 @@ class BodyReader {
             refuse(corners->line, "the vertices of faces are no integers", "use an integer type");
         mesh_.indices.reserve(static_cast<std::size_t>(std::min(element.count, values_.most_values(corners->type))) *
                               3);
+        AttributeReader attributes(element, mesh_);
         for (std::uint64_t i = 0; i < element.count; ++i) {
-            for (const Property& property : element.properties)
-                if (&property == corners)
+            for (std::size_t k = 0; k < element.properties.size(); ++k)
+                if (const Property& property = element.properties[k]; &property == corners)
                     read_face(property);
+                else if (attributes.wants(k))
+                    attributes.set(k, channel(property.type));
                 else
                     skip(property);
+            attributes.fill(mesh_.triangle_count());  // a polygon's triangles all have its value
             values_.end_element();
         }
     }

@@ -29,6 +29,9 @@ class TextValues {
         refuse(in_quotes(word) + " is not a number", "write a finite decimal number");
     }
 
+    /// NaN for a word that is no number.
+    double any_number(Type) { return parse_number(next_word()).value_or(std::numeric_limits<double>::quiet_NaN()); }
+
     std::int64_t integer(Type) {
         const std::string_view word = next_word();
         if (const auto value = parse_integer(word)) return *value;
@@ -110,6 +113,8 @@ class BinaryValues {
                 return static_cast<double>(integer(type));
         }
     }
+
+    double any_number(Type type) { return number(type); }
 
     /// The type is one of integers.
     std::int64_t integer(Type type) {

@@ -102,12 +102,6 @@ void read_vectors(Inflater& in, bool is_double, std::uint64_t count, std::vector
     }
 }
 
-void skip_bytes(Inflater& in, std::uint64_t count) {
-    char buffer[4096];
-    for (; count > 0; count -= std::min<std::uint64_t>(count, sizeof(buffer)))
-        in.read(buffer, static_cast<std::size_t>(std::min<std::uint64_t>(count, sizeof(buffer))));
-}
-
 void read_indices(Inflater& in, std::uint64_t triangle_count, Mesh& mesh) {
     std::vector<std::uint32_t> piece(3 * 4096);
     for (std::uint64_t left = 3 * triangle_count; left > 0;) {
@@ -144,7 +138,8 @@ Mesh read_mesh(Inflater& in, std::uint16_t version) {
     read_vectors(in, is_double, vertex_count, mesh.positions);
     if (flags & kHasNormals) read_vectors(in, is_double, vertex_count, mesh.normals);
     if (flags & kHasUvs) read_vectors(in, is_double, vertex_count, mesh.uvs);
-    if (flags & kHasColors) skip_bytes(in, vertex_count * 3 * (is_double ? 8 : 4));
+    if (flags & kHasColors)
+        read_vectors(in, is_double, vertex_count, mesh.attributes.emplace_back("vertex_color").values);
     read_indices(in, triangle_count, mesh);
     in.finish();
     return mesh;

@@ -17,7 +17,7 @@ void require_triangles(const Mesh& mesh, const std::filesystem::path& file) {
 
 Mesh read_ply_mesh(Properties& properties, Diagnostics& diagnostics) {
     const MeshOptions options = read_mesh_options(properties, false);
-    properties.ignore({"srgb"});  // of colours, which nothing uses
+    properties.ignore({"srgb"});  // of colours, which 0.6 alone has
     Mesh mesh = read_ply(options.file, properties.where("filename"));
     require_triangles(mesh, options.file);
     place_mesh(mesh, options, properties.where(), diagnostics);

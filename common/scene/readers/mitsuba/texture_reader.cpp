@@ -11,8 +11,8 @@
 namespace treefarm::mitsuba {
 namespace {
 
-constexpr std::string_view kTextures[] = {"bitmap", "checkerboard", "scale",     "uniform", "rawconstant",
-                                          "srgb",   "d65",          "irregular", "regular", "blackbody"};
+constexpr std::string_view kTextures[] = {"bitmap", "checkerboard", "scale",   "uniform",   "rawconstant",   "srgb",
+                                          "d65",    "irregular",    "regular", "blackbody", "mesh_attribute"};
 
 Wrap read_wrap(const std::string& word, const Location& where) {
     if (word == "repeat") return Wrap::repeat;
@@ -129,6 +129,8 @@ ColorInput TextureReader::convert(const XmlElement& texture, const Use& use) {
         input = convert_checkerboard(properties, use);
     } else if (type == "scale") {
         input = convert_scale(properties, use);
+    } else if (type == "mesh_attribute" && properties.element().version >= 2) {
+        input = convert_mesh_attribute(properties);
     } else if (const auto constant = read_constant(properties, use)) {
         input = *constant;
     } else {
@@ -214,6 +216,16 @@ ColorInput TextureReader::convert_checkerboard(Properties& properties, const Use
         std::swap(board.color0, board.color1);
     if (properties.element().version < 2) properties.ignore({"filter_type", "cache"});
     return {Rgb(1.0f), add(board, properties)};
+}
+
+ColorInput TextureReader::convert_mesh_attribute(Properties& properties) {
+    const std::string name = properties.text("name", "");
+    if (!name.starts_with("vertex_") && !name.starts_with("face_"))
+        throw InputError(properties.has("name") ? properties.where("name") : properties.where(),
+                         "a mesh attribute is named " + in_quotes(name),
+                         "begin its name with vertex_ or face_, as vertex_color");
+    const auto scale = static_cast<float>(properties.number("scale", 1.0));
+    return {Rgb(scale), add(MeshAttributeTexture{name}, properties)};
 }
 
 ColorInput TextureReader::convert_scale(Properties& properties, const Use& use) {

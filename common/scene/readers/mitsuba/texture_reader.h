@@ -54,6 +54,7 @@ class TextureReader {
     ColorInput convert_bitmap(Properties& properties, const Use& use);
     ColorInput convert_checkerboard(Properties& properties, const Use& use);
     ColorInput convert_scale(Properties& properties, const Use& use);
+    ColorInput convert_mesh_attribute(Properties& properties);
     std::int32_t add(TextureKind kind, const Properties& properties);
 
     Scene& scene_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "coordinator/study/study_progress.h"
+#include "coordinator/series_progress.h"
 
 #include <spdlog/fmt/fmt.h>
 
@@ -9,33 +9,33 @@
 
 namespace treefarm {
 
-void StudyProgress::begin_cell(const std::string& name) {
+void SeriesProgress::begin(const std::string& name) {
     ++number_;
     name_ = name;
 }
 
-void StudyProgress::end_cell(double seconds) {
+void SeriesProgress::end(double seconds) {
     ++rendered_;
     rendered_seconds_ += seconds;
 }
 
-std::string StudyProgress::cell_name() const {
-    return fmt::format("cell {}/{}", number_, cells_);
+std::string SeriesProgress::place() const {
+    return fmt::format("{} {}/{}", noun_, number_, count_);
 }
 
-std::string StudyProgress::left(double seconds) const {
+std::string SeriesProgress::left(double seconds) const {
     if (rendered_ == 0) return "";
     const double of_one = rendered_seconds_ / static_cast<double>(rendered_);
-    const double of_others = of_one * static_cast<double>(cells_ - number_);
+    const double of_others = of_one * static_cast<double>(count_ - number_);
     return "about " + rough_duration_text(of_others + std::max(0.0, of_one - seconds)) + " left";
 }
 
-Status StudyProgress::cell_status(const RenderWords& w) const {
+Status SeriesProgress::status(const RenderWords& w) const {
     Status status;
     const double before = static_cast<double>(number_) - 1;
-    status.fraction = (before + std::clamp(w.fraction, 0.0, 1.0)) / static_cast<double>(cells_);
-    status.fields = {cell_name(), left(w.run_seconds), name_, w.how_far, w.pass};
-    status.line = join_fields({cell_name(), name_, w.pass, w.how_far, w.since_begin, left(w.run_seconds)});
+    status.fraction = (before + std::clamp(w.fraction, 0.0, 1.0)) / static_cast<double>(count_);
+    status.fields = {place(), left(w.run_seconds), name_, w.how_far, w.pass};
+    status.line = join_fields({place(), name_, w.pass, w.how_far, w.since_begin, left(w.run_seconds)});
     return status;
 }
 

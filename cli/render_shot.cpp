@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/render_shot.h"
+
+#include <algorithm>
+
+#include "cli/resume.h"
+#include "cli/this_build.h"
+#include "common/config/frames.h"
+#include "coordinator/shot/shot_run.h"
+
+namespace treefarm {
+
+namespace {
+
+/// The options of one frame's render: its number stands where the shot's have %d.
+RenderOptions frame_options(RenderOptions options, int frame) {
+    const auto put = [frame](std::string& text) { text = for_frame(text, frame); };
+    put(options.input);
+    put(options.sensor);
+    std::for_each(options.set.begin(), options.set.end(), put);
+    std::for_each(options.defines.begin(), options.defines.end(), put);
+    return options;
+}
+
+/// The folder of the nearest frame before this one that has left a model; empty: there is none.
+std::string model_before(const Shot& shot, int frame) {
+    const auto end = std::find(shot.frames.begin(), shot.frames.end(), frame);
+    for (auto before = end; before != shot.frames.begin();) {
+        const std::filesystem::path folder = shot.directory / frame_folder(*--before);
+        if (std::filesystem::exists(folder / "tree.bin")) return folder.string();
+    }
+    return "";
+}
+
+RenderRequest frame_request(const RenderOptions& shot_options, const Shot& shot, int frame) {
+    RenderOptions options = frame_options(shot_options, frame);
+    if (options.carry_model)
+        if (const std::string model = model_before(shot, frame); !model.empty())
+            options.set.push_back("guiding.initial_model=" + model);
+    RenderRequest request = read_request(options);
+    std::string& file = request.job.output.file;  // of -o, --set or the job
+    file = output_for_frame(file, frame);
+    return request;
+}
+
+void check(const RenderOptions& options, std::size_t frame_count) {
+    const auto refuse = [](const char* option, const std::string& what, const std::string& cure) {
+        throw InputError(Location{option, 0, 0}, what, cure);
+    };
+    if (!options.debug_sample.empty())
+        refuse("--debug-sample", "traces one sample of one render", "leave --frames away, and give -D its value");
+    if (!options.schedule.empty())
+        refuse("--schedule", "repeats the passes of one render", "leave it or --frames away");
+    if (names_frame(options.run_directory))
+        refuse("--run-dir", "is the folder of all frames, each of which gets one in it", "leave %d away");
+    if (frame_count > 1 && !options.output.empty() && !output_names_frame(options.output))
+        refuse("-o", "all frames would be written to " + options.output,
+               "write #### where the frame's number belongs, as in frame.####.exr");
+}
+
+/// Whether frames can differ.
+bool varies(const RenderOptions& options) {
+    const auto named = [](const std::vector<std::string>& texts) {
+        return std::any_of(texts.begin(), texts.end(), [](const std::string& text) { return names_frame(text); });
+    };
+    return names_frame(options.input) || names_frame(options.sensor) || named(options.set) || named(options.defines);
+}
+
+std::filesystem::path shot_directory(const RenderOptions& options) {
+    if (!options.run_directory.empty()) return options.run_directory;
+    return std::filesystem::path("runs") /
+           (name_without_frame(std::filesystem::path(options.input).stem().string()) + "-shot");
+}
+
+int exit_code_of(const ShotOutcome& outcome) {
+    switch (outcome.state) {
+        case RunState::done:
+            return outcome.missed_target ? 4 : 0;
+        case RunState::interrupted:
+            return 3;
+        default:
+            return 1;
+    }
+}
+
+}  // namespace
+
+int render_shot(const LaunchEnvironment& launch, const RenderOptions& options) {
+    if (is_separate_world(launch)) return 2;
+    Shot shot;
+    FarmTask task;
+    const Voice voice = make_voice(launch, options.farm);
+    const Log log = make_log("treefarm", {}, voice.console, voice.loudness);
+    task.prepare = [&] {
+        shot.frames = parse_frames(options.frames, Location{"--frames", 0, 0});
+        check(options, shot.frames.size());
+        shot.directory = shot_directory(options);
+        shot.read_request = [&](int frame) { return frame_request(options, shot, frame); };
+        shot.find_checkpoint = [](const std::filesystem::path& folder, const RenderRequest& request) {
+            return find_checkpoint(folder.string(), request);
+        };
+        std::vector<std::string> warnings;
+        warn_if_crowded(options.farm.threads, warnings);
+        if (shot.frames.size() > 1 && !varies(options))
+            warnings.emplace_back("nothing changes from frame to frame: write -D name=%d to give the scene its number");
+        for (const std::string& warning : warnings)
+            log->warn("{}", warning);
+    };
+    task.coordinate = [&](Channel& channel, const std::function<bool()>& interrupted) -> CoordinatorEnd {
+        const ShotOutcome outcome = run_shot(
+            channel, shot, {options.command, this_build(), voice.console, voice.loudness, options.overwrite, log},
+            interrupted);
+        return {exit_code_of(outcome), outcome.lost_peers};
+    };
+    return run_on_farm(launch, options.farm, voice, task);
+}
+
+}  // namespace treefarm

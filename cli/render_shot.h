@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "cli/render.h"
+
+namespace treefarm {
+
+/// treefarm render --frames: renders every frame of a shot over all processes. Returns the exit code.
+int render_shot(const LaunchEnvironment& launch, const RenderOptions& options);
+
+}  // namespace treefarm

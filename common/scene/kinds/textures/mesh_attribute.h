@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "common/scene/kinds/texture_traits.h"
+
+namespace treefarm {
+
+/// What the mesh that is looked up on says of its vertices, interpolated over triangles, or of its faces.
+struct MeshAttributeTexture {
+    std::string name = "vertex_color";  ///< as of MeshAttribute
+
+    static constexpr KindEffect kEffect{"mesh_attributes", "mesh attribute"};
+    ValueRange range(const auto& scene) const { return scene.range_of_attribute(name); }
+    Rgb mean(const auto& scene) const { return scene.mean_of_attribute(name); }
+    static void fields(auto& self, auto& visitor) { visitor.mesh_attribute(self.name); }
+};
+
+}  // namespace treefarm

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "common/scene/uses/mesh_attribute_uses.h"
+
+#include "common/scene/uses/emitter_uses.h"
+#include "common/scene/uses/material_uses.h"
+
+namespace treefarm {
+namespace {
+
+template <class T>
+const T* at(const std::vector<T>& list, std::int32_t index) {
+    return index >= 0 && static_cast<std::size_t>(index) < list.size() ? &list[static_cast<std::size_t>(index)]
+                                                                       : nullptr;
+}
+
+}  // namespace
+
+std::string attribute_of(const Texture& texture) {
+    struct : IgnoreFields {
+        std::string found;
+        void mesh_attribute(const std::string& name) { found = name; }
+    } visitor;
+    visit_fields(texture.kind, visitor);
+    return visitor.found;
+}
+
+std::vector<std::set<std::string>> mesh_attribute_uses(const Scene& scene) {
+    using Names = std::set<std::string>;
+    const auto add = [&](Names& names, std::int32_t index) {
+        const Texture* texture = at(scene.textures, index);
+        const std::string name = texture ? attribute_of(*texture) : std::string();
+        if (!name.empty()) names.insert(name);
+    };
+    // The parts of a material lie below it.
+    std::vector<Names> materials(scene.materials.size());
+    for (std::size_t i = 0; i < materials.size(); ++i) {
+        for_each_texture(scene.materials[i], [&](std::int32_t texture) { add(materials[i], texture); });
+        for_each_part(scene.materials[i], [&](std::int32_t part) {
+            if (part >= 0 && static_cast<std::size_t>(part) < i)
+                materials[i].insert(materials[static_cast<std::size_t>(part)].begin(),
+                                    materials[static_cast<std::size_t>(part)].end());
+        });
+    }
+    std::vector<Names> shapes(scene.shapes.size());
+    for (std::size_t i = 0; i < shapes.size(); ++i) {
+        if (const Names* names = at(materials, scene.shapes[i].material)) shapes[i] = *names;
+        if (const Emitter* emitter = at(scene.emitters, scene.shapes[i].emitter))
+            for_each_texture(*emitter, [&](std::int32_t texture) { add(shapes[i], texture); });
+    }
+    return shapes;
+}
+
+void remove_unused_attributes(Scene& scene) {
+    const std::vector<std::set<std::string>> uses = mesh_attribute_uses(scene);
+    for (std::size_t i = 0; i < scene.shapes.size(); ++i)
+        if (auto* mesh = std::get_if<Mesh>(&scene.shapes[i].geometry))
+            std::erase_if(mesh->attributes, [&](const MeshAttribute& a) { return !uses[i].contains(a.name); });
+}
+
+}  // namespace treefarm

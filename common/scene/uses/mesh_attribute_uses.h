@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <set>
+#include <string>
+#include <vector>
+
+#include "common/scene/model/scene.h"
+
+namespace treefarm {
+
+/// Name of the mesh attribute that a texture is made of; empty if it is made of none.
+std::string attribute_of(const Texture& texture);
+
+/// Per shape: names of the mesh attributes that its material, with its parts, and its emitter ask for. Indices may be
+/// out of range.
+std::vector<std::set<std::string>> mesh_attribute_uses(const Scene& scene);
+
+/// Removes attributes of meshes that no texture asks for.
+void remove_unused_attributes(Scene& scene);
+
+}  // namespace treefarm

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "coordinator/render_series.h"
+
+namespace treefarm {
+
+RenderOutcome RenderSeries::render(RenderRequest& request, const std::filesystem::path& folder) {
+    request.job.output.directory = folder.string();
+    request.command = context_.command;
+    request.console = context_.console;
+    request.loudness = context_.loudness == Loudness::verbose ? Loudness::verbose : Loudness::quiet;
+    ++turn_.number;
+    request.turn = turn_;
+    RenderOutcome outcome = run_render(channel_, request, interrupted_);
+    turn_.absent = outcome.lost_peers;
+    return outcome;
+}
+
+}  // namespace treefarm

@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "coordinator/shot/shot_run.h"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "common/base/reading_notice.h"
+#include "common/config/frames.h"
+#include "common/image/atomic_file.h"
+#include "coordinator/folder_content.h"
+#include "coordinator/folder_lock.h"
+#include "coordinator/pass_text.h"
+#include "coordinator/pulse.h"
+#include "coordinator/series_progress.h"
+#include "coordinator/shot/finished_frame.h"
+
+namespace treefarm {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A shot that was killed has left its folder by then.
+constexpr double kFolderPatience = 5.0;
+
+/// Throws InputError where a folder holds something else.
+void check_shot_folder(const fs::path& folder) {
+    const auto refuse = [&](const std::string& what) {
+        throw InputError(Location{folder.string(), 0, 0}, what, "name another folder with --run-dir");
+    };
+    switch (folder_content(folder)) {
+        case FolderContent::nothing:
+        case FolderContent::shot:
+            return;
+        case FolderContent::render:
+            refuse("holds a render (" + render_words(folder) + "), which a shot does not replace");
+            break;
+        case FolderContent::study:
+            refuse("holds a study, which a shot does not replace");
+            break;
+        case FolderContent::other:
+            refuse("is no folder of a shot, but holds other files");
+            break;
+    }
+}
+
+class ShotRun {
+  public:
+    ShotRun(Channel& channel, const Shot& shot, const SeriesContext& context, const std::function<bool()>& interrupted)
+        : pulse_(channel),
+          shot_(shot),
+          context_(context),
+          log_(context.log),
+          interrupted_(interrupted),
+          progress_("frame", shot.frames.size()),
+          series_(channel, context, interrupted) {
+        for (const int frame : shot.frames)
+            records_.emplace_back().frame = frame;
+    }
+
+    ShotOutcome run() {
+        make_folder(shot_.directory, "cannot be the shot's folder");
+        const FolderLock lock(shot_.directory, kFolderPatience, interrupted_);
+        if (lock.refused())
+            throw InputError(Location{shot_.directory.string(), 0, 0}, "another shot is at work in this folder",
+                             "wait for it, or name another folder with --run-dir");
+        check_shot_folder(shot_.directory);
+        write_index();
+        log_->info("{} frames; results in {}", records_.size(), shot_.directory.string());
+        for (FrameRecord& record : records_) {
+            if (interrupted_()) break;
+            run_frame(record);
+            write_index();
+            if (record.state == FrameState::interrupted) break;
+            if (series_.has_lost_all()) {
+                log_->error("no worker is left: start again, the frames that are done are kept");
+                break;
+            }
+        }
+        return end();
+    }
+
+  private:
+    static void make_folder(const fs::path& folder, const char* what) {
+        std::error_code error;
+        fs::create_directories(folder, error);
+        if (error)
+            throw InputError(Location{folder.string(), 0, 0}, std::string(what) + ": " + error.message(),
+                             "name another");
+    }
+
+    void write_index() const {
+        const std::string text =
+            shot_json(context_.command, records_).dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+        write_file_atomically(shot_.directory / "shot.json",
+                              {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+    }
+
+    void run_frame(FrameRecord& record) {
+        progress_.begin(frame_digits(record.frame));
+        try {
+            render_frame(record);
+        } catch (const std::bad_alloc&) {
+            fail(record, "not enough memory to read the scene");
+        } catch (const std::exception& error) {
+            fail(record, error.what());
+        }
+    }
+
+    void fail(FrameRecord& record, const std::string& message) const {
+        record.state = FrameState::failed;
+        record.message = message;
+        log_->error("frame {}: {}", frame_digits(record.frame), message);
+    }
+
+    void render_frame(FrameRecord& record) {
+        const Timer timer;
+        const fs::path folder = shot_.directory / frame_folder(record.frame);
+        RenderRequest request;
+        bool is_there = false;
+        {
+            const ReadingNotice notice(context_.console, "frame " + frame_digits(record.frame));
+            run_aside(
+                [&] {
+                    request = shot_.read_request(record.frame);
+                    is_there = holds_result_of(folder, request);
+                    if (!is_there) go_on(folder, request);
+                },
+                [&] { pulse_.beat(); });
+        }
+        prepare_output(request.job.output.file, record.frame);
+        if (is_there && restore_output(folder, request.job.output.file)) {
+            take_figures(folder, request, record);
+            record.state = FrameState::kept;
+            tell(record);
+            return;
+        }
+        tell_warnings(request);
+        // What was broken off and cannot go on is begun again, but another request's result is replaced only where that is asked for.
+        request.overwrite = context_.overwrite || is_there || !holds_result(folder);
+        request.status_frame = [this](const RenderWords& words) { return progress_.status(words); };
+        const RenderOutcome outcome = series_.render(request, folder);
+        take_figures(folder, request, record);
+        switch (outcome.state) {
+            case RunState::done:
+                record.state = FrameState::done;
+                progress_.end(timer.seconds());
+                tell(record);
+                return;
+            case RunState::interrupted:
+                record.state = FrameState::interrupted;
+                return;
+            default:
+                fail(record, "see " + (folder / "log.txt").string());
+        }
+    }
+
+    /// Goes on with the frame, if it was broken off.
+    void go_on(const fs::path& folder, RenderRequest& request) const {
+        if (holds_result(folder)) return;
+        request.resumed = shot_.find_checkpoint(folder, request);
+        if (request.resumed && !passes_of(request)(request.resumed->state.history).pass) request.resumed.reset();
+    }
+
+    static void take_figures(const fs::path& folder, const RenderRequest& request, FrameRecord& record) {
+        read_figures(folder, record);
+        if (!request.job.output.file.empty()) record.image = request.job.output.file;
+    }
+
+    /// Two frames cannot share an output file.
+    void prepare_output(const std::string& file, int frame) {
+        if (file.empty()) return;
+        const auto [at, is_new] = outputs_.try_emplace(file, frame);
+        if (!is_new)
+            throw InputError(Location{file, 0, 0}, fmt::format("is the image of frame {} already", at->second),
+                             "write #### where the frame's number belongs, as in frame.####.exr");
+        if (const fs::path folder = fs::path(file).parent_path(); !folder.empty())
+            make_folder(folder, "cannot be the folder of images");
+    }
+
+    /// Each once: frames of one scene have the same.
+    void tell_warnings(const RenderRequest& request) {
+        for (const std::string& warning : request.warnings)
+            if (told_.insert(warning).second) log_->warn("{}", warning);
+    }
+
+    void tell(const FrameRecord& record) const {
+        log_->info("{}", join_fields({progress_.place(), frame_digits(record.frame), fmt::format("{} spp", record.spp),
+                                      duration_text(record.seconds),
+                                      record.error ? fmt::format("error {:.3g} %", 100 * *record.error) : "",
+                                      record.state == FrameState::kept ? "kept: it was done before" : "",
+                                      record.missed_target ? "above the error asked for" : ""}));
+    }
+
+    ShotOutcome end() {
+        for (const std::string& line : frame_table(records_))
+            log_->info("{}", line);
+        const auto any = [&](auto... states) {
+            return std::any_of(records_.begin(), records_.end(),
+                               [&](const FrameRecord& record) { return ((record.state == states) || ...); });
+        };
+        ShotOutcome outcome;
+        outcome.lost_peers = series_.lost_peers();
+        outcome.missed_target = std::any_of(records_.begin(), records_.end(),
+                                            [](const FrameRecord& record) { return record.missed_target; });
+        const bool is_broken_off = interrupted_() || any(FrameState::interrupted);
+        if (is_broken_off) {
+            log_->warn("interrupted: the same command goes on from here");
+            outcome.state = RunState::interrupted;
+        } else {
+            outcome.state = any(FrameState::failed, FrameState::waiting) ? RunState::failed : RunState::done;
+        }
+        return outcome;
+    }
+
+    Pulse pulse_;
+    const Shot& shot_;
+    const SeriesContext& context_;
+    const Log log_;
+    const std::function<bool()>& interrupted_;
+    std::vector<FrameRecord> records_;
+    std::map<std::string, int> outputs_;
+    std::set<std::string> told_;
+    SeriesProgress progress_;
+    RenderSeries series_;
+};
+
+}  // namespace
+
+ShotOutcome run_shot(Channel& channel, const Shot& shot, const SeriesContext& context,
+                     const std::function<bool()>& interrupted) {
+    return ShotRun(channel, shot, context, interrupted).run();
+}
+
+}  // namespace treefarm
