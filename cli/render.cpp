@@ -89,7 +89,8 @@ void add_render_command(CLI::App& app, const LaunchEnvironment& launch, const st
     command->callback([options, launch, &exit_code] {
         const auto read = [&] { return read_request(*options); };
         if (options->carry_model && options->frames.empty())
-            throw InputError(Location{"--carry-model", 0, 0}, "carries models from frame to frame, and there is one image",
+            throw InputError(Location{"--carry-model", 0, 0},
+                             "carries models from frame to frame, and there is one image",
                              "add --frames, or write --set guiding.initial_model=RUN_DIR");
         if (!options->frames.empty())
             exit_code = render_shot(launch, *options);

@@ -6,6 +6,7 @@
 #include "cli/resume.h"
 #include "cli/this_build.h"
 #include "common/config/frames.h"
+#include "coordinator/shot/frame_record.h"
 #include "coordinator/shot/shot_run.h"
 
 namespace treefarm {

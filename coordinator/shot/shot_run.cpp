@@ -139,7 +139,8 @@ class ShotRun {
             return;
         }
         tell_warnings(request);
-        // What was broken off and cannot go on is begun again, but another request's result is replaced only where that is asked for.
+        // What was broken off and cannot go on is begun again, but another request's result is replaced only where that
+        // is asked for.
         request.overwrite = context_.overwrite || is_there || !holds_result(folder);
         request.status_frame = [this](const RenderWords& words) { return progress_.status(words); };
         const RenderOutcome outcome = series_.render(request, folder);
