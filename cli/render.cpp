@@ -31,7 +31,9 @@ int debug(const LaunchEnvironment& launch, const RenderOptions& options) {
     if (launch.under_mpi)
         throw InputError(Location{"--debug-sample", 0, 0}, "traces one sample in one process", "leave mpirun away");
     RenderRequest request = read_request(options);
+    const std::vector<PassPlan> asked = request.schedule;
     request.resumed = find_checkpoint(options.run_directory, request);
+    request.schedule = asked;
     return debug_sample(request, parse_sample_name(options.debug_sample));
 }
 

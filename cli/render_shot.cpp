@@ -6,6 +6,7 @@
 #include "cli/resume.h"
 #include "cli/this_build.h"
 #include "common/config/frames.h"
+#include "common/config/job_reader.h"
 #include "coordinator/shot/frame_record.h"
 #include "coordinator/shot/shot_run.h"
 
@@ -23,8 +24,12 @@ RenderOptions frame_options(RenderOptions options, int frame) {
     return options;
 }
 
-/// The folder of the nearest frame before this one that has left a model; empty: there is none.
-std::string model_before(const Shot& shot, int frame) {
+/// The run directory whose model a frame begins with: as it did, if it was begun before; else that of the nearest frame
+/// before it that has left one. Empty: there is none.
+std::string carried_model(const Shot& shot, int frame) {
+    if (const std::filesystem::path own = shot.directory / frame_folder(frame) / "job.toml";
+        std::filesystem::exists(own))
+        return read_job_file(own).guiding.initial_model;
     const auto end = std::find(shot.frames.begin(), shot.frames.end(), frame);
     for (auto before = end; before != shot.frames.begin();) {
         const std::filesystem::path folder = shot.directory / frame_folder(*--before);
@@ -36,7 +41,7 @@ std::string model_before(const Shot& shot, int frame) {
 RenderRequest frame_request(const RenderOptions& shot_options, const Shot& shot, int frame) {
     RenderOptions options = frame_options(shot_options, frame);
     if (options.carry_model)
-        if (const std::string model = model_before(shot, frame); !model.empty())
+        if (const std::string model = carried_model(shot, frame); !model.empty())
             options.set.push_back("guiding.initial_model=" + model);
     RenderRequest request = read_request(options);
     std::string& file = request.job.output.file;  // of -o, --set or the job
@@ -97,7 +102,7 @@ int render_shot(const LaunchEnvironment& launch, const RenderOptions& options) {
         check(options, shot.frames.size());
         shot.directory = shot_directory(options);
         shot.read_request = [&](int frame) { return frame_request(options, shot, frame); };
-        shot.find_checkpoint = [](const std::filesystem::path& folder, const RenderRequest& request) {
+        shot.find_checkpoint = [](const std::filesystem::path& folder, RenderRequest& request) {
             return find_checkpoint(folder.string(), request);
         };
         std::vector<std::string> warnings;

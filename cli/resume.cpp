@@ -2,13 +2,17 @@
 #include "cli/resume.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <filesystem>
+#include <fstream>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "cli/option_values.h"
 #include "cli/render.h"
 #include "common/base/hash.h"
+#include "common/config/job_keys.h"
 #include "common/plan/resolved_file.h"
 #include "common/scene/pack/scene_codec.h"
 
@@ -43,17 +47,43 @@ void check_origin(const fs::path& run, const CheckpointOrigin& origin, const Ren
     if (!changed.empty())
         refuse(run / "job.toml", "is not the job of the render: " + changed,
                "only farm.*, output.* and the budget may change; for the new job: " + again);
-    if (origin.scene_hash != hash_bytes(encode_scene(request.scene)))
+    if (origin.scene_hash != hash_bytes(encode_scene(request.scene)) ||
+        origin.pixels != request.scene.film.pixel_count())
         refuse(request.job.scene.file, "the scene has changed since " + run.string() + " began",
                "resume needs the old files; for the new scene: " + again);
 }
 
-/// A new budget starts its own reckoning of how to end.
-void set_budget(RenderRequest& request, LoadedCheckpoint& loaded, bool has_budget) {
-    if (has_budget)
+/// Whether the render was asked for by another budget.
+bool has_new_budget(const LoadedCheckpoint& loaded, const Job& now) {
+    const Job before = read_resolved(loaded.origin.resolved, "the checkpoint");
+    const auto keys = job_keys();
+    return std::any_of(keys.begin(), keys.end(), [&](const JobKey& key) {
+        return key.name.starts_with("budget.") && key.print(before) != key.print(now);
+    });
+}
+
+/// A new budget starts its own reckoning of how to end; else the passes of --schedule go on.
+void set_budget(RenderRequest& request, LoadedCheckpoint& loaded) {
+    if (has_new_budget(loaded, request.job))
         loaded.state.history.budget.ending = false;
     else
         request.schedule = loaded.origin.schedule;
+}
+
+std::shared_ptr<LoadedCheckpoint> load(const fs::path& run, RenderRequest& request) {
+    auto loaded = std::make_shared<LoadedCheckpoint>(
+        load_checkpoint(run, [&](const CheckpointOrigin& origin) { check_origin(run, origin, request); }));
+    set_budget(request, *loaded);
+    return loaded;
+}
+
+/// Whether the run has written all that these samples give.
+bool has_written(const fs::path& run, const RenderRequest& request, std::uint32_t spp) {
+    std::ifstream file(run / "summary.json", std::ios::binary);
+    const nlohmann::json summary = nlohmann::json::parse(file, nullptr, false);
+    if (!summary.is_object() || summary.value("state", "") != "done" || summary.value("spp", 0u) != spp) return false;
+    const std::string& output = request.job.output.file;
+    return fs::exists(run / "image.exr") && (output.empty() || fs::exists(output));
 }
 
 }  // namespace
@@ -72,24 +102,22 @@ RenderRequest read_resumed(const ResumeOptions& options) {
     as_render.command = options.command;
     as_render.reads_model = false;  // the checkpoint has what became of it
     RenderRequest request = read_request(as_render);
-    request.resumed = std::make_shared<LoadedCheckpoint>(
-        load_checkpoint(run, [&](const CheckpointOrigin& origin) { check_origin(run, origin, request); }));
-    LoadedCheckpoint& loaded = *request.resumed;
+    request.resumed = load(run, request);
+    const LoadedCheckpoint& loaded = *request.resumed;
     if (request.job.output.file.empty()) request.job.output.file = loaded.origin.output_file;
     for (const std::string& warning : loaded.warnings)
         request.warnings.push_back(warning);
-    set_budget(request, loaded, options.has_budget());
-    if (!passes_of(request)(loaded.state.history).pass)
-        refuse(run, "is done (" + std::to_string(loaded.state.spp()) + " spp)",
+    const std::uint32_t spp = loaded.state.spp();
+    if (!passes_of(request)(loaded.state.history).pass && has_written(run, request, spp))
+        refuse(run, "is done (" + std::to_string(spp) + " spp)",
                "add samples with --spp N above that, or --seconds or --error beyond what it has");
     return request;
 }
 
-std::shared_ptr<LoadedCheckpoint> find_checkpoint(const std::string& run, const RenderRequest& request) {
+std::shared_ptr<LoadedCheckpoint> find_checkpoint(const std::string& run, RenderRequest& request) {
     if (run.empty() || !fs::exists(fs::path(run) / kCheckpointFolder)) return nullptr;
     try {
-        return std::make_shared<LoadedCheckpoint>(
-            load_checkpoint(run, [&](const CheckpointOrigin& origin) { check_origin(run, origin, request); }));
+        return load(run, request);
     } catch (const InputError&) {  // it only saves time
         return nullptr;
     }

@@ -25,8 +25,6 @@ struct ResumeOptions {
     std::vector<std::string> set;      ///< --set key=value
     FarmOptions farm;
     std::string command;  ///< as it was typed
-
-    bool has_budget() const { return spp || seconds || error; }
 };
 
 /// Registers the subcommand; as add_render_command().
@@ -37,7 +35,8 @@ void add_resume_command(CLI::App& app, const LaunchEnvironment& launch, const st
 /// go on from there to the same bits; nothing has been written then.
 RenderRequest read_resumed(const ResumeOptions& options);
 
-/// The newest usable checkpoint of this very render in a run directory; nullptr where there is none.
-std::shared_ptr<LoadedCheckpoint> find_checkpoint(const std::string& run, const RenderRequest& request);
+/// The newest usable checkpoint of this very render in a run directory, or nullptr; sets the passes of --schedule that
+/// the render goes on with.
+std::shared_ptr<LoadedCheckpoint> find_checkpoint(const std::string& run, RenderRequest& request);
 
 }  // namespace treefarm

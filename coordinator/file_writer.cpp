@@ -103,7 +103,7 @@ void FileWriter::run(Slots::iterator slot, std::unique_lock<std::mutex>& lock) {
         return tell_recovery();
     }
     if (!done.write) done.write = std::move(write);
-    done.due = clock_.seconds() + kRetrySeconds;
+    done.due = clock_.seconds() + std::max(kRetrySeconds, done.pace.multiple * seconds);
     tell_failure(kind, message);
 }
 

@@ -29,17 +29,22 @@ class PassLoop {
         try {
             if (!state_.reports.empty()) show_finished();
             render_passes();
+            result_.tree = ended_with_ ? std::move(*ended_with_) : state_.tree;
         } catch (...) {
-            result_.tree = std::move(state_.tree);
+            hand_over();
             if (hooks_.on_failure) hooks_.on_failure(std::move(result_));
             throw;
         }
-        if (hooks_.on_last_state && !state_.reports.empty()) hooks_.on_last_state(state_);
-        result_.tree = ended_with_ ? std::move(*ended_with_) : std::move(state_.tree);
+        hand_over();
         return std::move(result_);
     }
 
   private:
+    /// Gives away the state, unless a pass was being added to it.
+    void hand_over() {
+        if (whole_ && hooks_.on_last_state && !state_.reports.empty()) hooks_.on_last_state(std::move(state_));
+    }
+
     /// The image of passes that an earlier life of the render finished.
     void show_finished() {
         farm_.beat_during([&] {
@@ -48,6 +53,7 @@ class PassLoop {
             describe_image(state_, job_, result_, known);
         });
         set_result();
+        clock_.restart();  // to combine them again is not rendering
     }
 
     void render_passes() {
@@ -64,6 +70,7 @@ class PassLoop {
                 break;
             }
             DevelopedState developed;
+            whole_ = false;
             add_film(state_, job_, collected(plan));
             farm_.beat_during([&] { develop(developed, report); });
             next = look_ahead(next, report);
@@ -163,6 +170,7 @@ class PassLoop {
         // All at once: whatever fails before leaves the pass before, whole.
         state_.reports.push_back(report);
         state_.tree_hash = coming_tree_hash_;
+        whole_ = true;
         static_cast<DevelopedState&>(result_) = std::move(developed);
         set_result();
         is_first_ = false;
@@ -214,10 +222,11 @@ class PassLoop {
     RenderResult result_;  ///< what of the state is shown
     std::uint64_t coming_tree_hash_ = 0;
     std::optional<AnyModel> ended_with_;  ///< the last pass's tree, where a later one was learned that nobody uses
-    const Timer clock_;
+    Timer clock_;
     const double seconds_before_;  ///< that earlier lives of the render took
     double loading_seconds_ = 0;   ///< until the first worker had scene and tree and asked for work
     bool is_first_ = true;         ///< pass of this life
+    bool whole_ = true;            ///< the state is that between two passes
 };
 
 }  // namespace

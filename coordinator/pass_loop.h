@@ -44,7 +44,7 @@ struct PassHooks {
     std::function<void(RenderResult)> on_failure;              ///< the finished passes, before the error leaves
     /// Called last after each pass, with all that a render needs that goes on from here.
     std::function<void(RenderState&)> on_state;
-    std::function<void(RenderState&)> on_last_state;  ///< once at the end, if any pass was finished
+    std::function<void(RenderState)> on_last_state;  ///< once at the end, if any pass was finished: it gets the state
 };
 
 /// Result of a render; after an interruption of the passes that were whole by then, possibly none. The image is empty

@@ -20,7 +20,8 @@ namespace {
 
 /// Later jobs of a study take the place of the first in the memory of all processes.
 bool checks_memory(const RenderRequest& request) {
-    return request.job.farm.memory_check && request.turn.number <= 1;
+    // What goes on was checked when it began, and its films are in memory already.
+    return request.job.farm.memory_check && request.turn.number <= 1 && !request.resumed;
 }
 
 FolderUse folder_use(const RenderRequest& request) {
@@ -43,7 +44,8 @@ class RenderRun {
                      request.plan, {folder_use(request), interrupted, request.resumed.get()}),
           log_(make_log("treefarm", directory_.log_file(), request.console, request.loudness)),
           progress_(request.console, request.job.budget, request.status_frame),
-          farm_(channel, request.plan.job, std::move(scene_), request.fingerprint.hash(), log_, {}, request.turn) {}
+          farm_(channel, request.plan.job, std::move(scene_), request.fingerprint.hash(), log_, {}, request.turn),
+          spp_before_(request.resumed ? request.resumed->state.spp() : 0) {}
 
     RenderOutcome run() {
         log_->debug("{}", request_.command);
@@ -59,7 +61,10 @@ class RenderRun {
             end.state = result_.interrupted ? RunState::interrupted : RunState::done;
         } catch (const InputError&) {
             progress_.clear();
-            directory_.give_back();
+            if (request_.resumed)
+                leave(end);
+            else
+                directory_.give_back();
             throw;
         } catch (const std::bad_alloc&) {
             end.error = "not enough memory; render a smaller image, or on a machine that has more";
@@ -82,9 +87,13 @@ class RenderRun {
     void finish(RunEnd& end) {
         end.elapsed_seconds = clock_.seconds();
         tell_news();
+        if (request_.resumed && result_.passes.empty()) return leave(end);
         for (const std::string& failure : directory_.finish(result_, &farm_, end))
             log_->error("{}", failure);
     }
+
+    /// Leaves what the render went on with as it was.
+    void leave(const RunEnd& end) { directory_.leave(end.state, spp_before_, end.elapsed_seconds); }
 
     /// Logs the news of files that could not be written.
     void tell_news() {
@@ -124,7 +133,7 @@ class RenderRun {
         };
         if (request_.checkpoints) {
             hooks.on_state = [this](RenderState& now) { directory_.offer_checkpoint(now, clock_.seconds()); };
-            hooks.on_last_state = [this](RenderState& last) { directory_.take_last_state(last); };
+            hooks.on_last_state = [this](RenderState last) { directory_.take_last_state(std::move(last)); };
         }
         hooks.on_failure = [this](RenderResult finished) { result_ = std::move(finished); };
         hooks.on_pass = [this](const PassReport& pass, const CombinedImage& image) {
@@ -260,7 +269,8 @@ class RenderRun {
     Progress progress_;
     Farm farm_;
     bool reported_black_ = false;
-    std::size_t pass_count_ = 0;  ///< 0: not known
+    std::size_t pass_count_ = 0;      ///< 0: not known
+    const std::uint32_t spp_before_;  ///< of what the render goes on with
     RenderResult result_;
 };
 

@@ -84,15 +84,19 @@ RunDirectory::RunDirectory(const Job& job, RunFacts facts, const EffectPlan& pla
       job_toml_(job_without_output(job)),
       facts_(std::move(facts)),
       resolved_toml_(write_resolved(plan.job)),
+      output_file_(job.output.file.empty() ? "" : fs::absolute(job.output.file).string()),
       folder_(job, options.use, options.interrupted),
       plan_text_(plan_text(plan, job.scene.file)),
       plan_json_(plan_json(plan, job.scene.file)),
       passes_csv_(pass_csv_header() + "\n") {
     if (job.farm.checkpoint_seconds > 0) checkpoints_.emplace(path(), options.resumed);
     if (options.resumed) {
+        if (newest_generation(path()) != options.resumed->newest)
+            throw InputError(Location{path().string(), 0, 0}, "another render has gone on with it meanwhile",
+                             "start again");
         for (const PassReport& report : options.resumed->state.reports)
             note_pass(report);
-        checkpoint_passes_ = written_passes_ = options.resumed->state.reports.size();
+        written_passes_ = options.resumed->state.reports.size();
     }
     try {
         write_text("status.json", status_json(RunState::running, 0, 0.0), Outlives::process);
@@ -165,30 +169,28 @@ void RunDirectory::add_pass(const PassReport& report) {
 }
 
 void RunDirectory::offer_checkpoint(RenderState& state, double elapsed_seconds) {
-    if (checkpoints_ && elapsed_seconds >= next_checkpoint_)
-        writer_.put("checkpoint", prepare_checkpoint(state, elapsed_seconds), kCheckpointPace);
-}
-
-void RunDirectory::take_last_state(RenderState& state) {
-    if (checkpoints_ && state.reports.size() > checkpoint_passes_) prepare_checkpoint(state, 0.0);
-}
-
-std::function<void()> RunDirectory::prepare_checkpoint(RenderState& state, double elapsed_seconds) {
+    if (!checkpoints_ || elapsed_seconds < next_checkpoint_) return;
     const Timer timer;
-    const CheckpointOrigin origin{facts_.fingerprint.hash(),
-                                  facts_.fingerprint.text(),
-                                  facts_.scene_hash,
-                                  resolved_toml_,
-                                  job_.output.file.empty() ? "" : fs::absolute(job_.output.file).string(),
-                                  facts_.schedule,
-                                  state.films.front().pixels.size()};
-    checkpoint_passes_ = state.reports.size();
-    last_checkpoint_ = [this, write = checkpoints_->prepare(origin, state), passes = checkpoint_passes_] {
-        write();
-        written_passes_ = passes;
-    };
+    try {
+        last_prepared_ = [this, write = checkpoints_->prepare(checkpoint_origin(state), state),
+                          passes = state.reports.size()] {
+            write();
+            written_passes_ = passes;
+        };
+        checkpoint_writer_.put("checkpoint", last_prepared_, kCheckpointPace);
+    } catch (const std::bad_alloc&) {  // the next one may find room
+    }
     next_checkpoint_ = elapsed_seconds + std::max(job_.farm.checkpoint_seconds, kCheckpointInterval * timer.seconds());
-    return last_checkpoint_;
+}
+
+void RunDirectory::take_last_state(RenderState state) {
+    if (checkpoints_) last_state_ = std::move(state);
+}
+
+CheckpointOrigin RunDirectory::checkpoint_origin(const RenderState& state) const {
+    return {
+        facts_.fingerprint.hash(), facts_.fingerprint.text(),        facts_.scene_hash, resolved_toml_, output_file_,
+        facts_.schedule,           state.films.front().pixels.size()};
 }
 
 /// The last checkpoint, unless it is there or nobody wants it. Whether it can be written decides nothing: the image is
@@ -199,9 +201,15 @@ std::string RunDirectory::finish_checkpoint(const RunEnd& end) {
         checkpoints_->remove();
         return "";
     }
-    if (!last_checkpoint_ || written_passes_ >= checkpoint_passes_) return "";
-    std::vector<LastFile> file = {{(path() / kCheckpointFolder).string(), last_checkpoint_}};
+    if (last_state_ ? written_passes_ >= last_state_->reports.size() : !last_prepared_) return "";
+    std::vector<LastFile> file = {{(path() / kCheckpointFolder).string(), [this] {
+                                       if (last_state_)
+                                           checkpoints_->write(checkpoint_origin(*last_state_), *last_state_);
+                                       else
+                                           last_prepared_();
+                                   }}};
     const std::vector<std::string> failures = write_last_files(file, kSummaryPatience);
+    last_state_.reset();
     return failures.empty() ? "" : "no checkpoint of the last pass: " + failures.front();
 }
 
@@ -323,6 +331,21 @@ void RunDirectory::write_interruption(const RenderResult& result, const Farm* fa
     write_last_files(files, 0.0);
 }
 
+std::vector<std::string> RunDirectory::take_news() {
+    std::vector<std::string> news = writer_.take_news();
+    for (const std::string& other : checkpoint_writer_.take_news())
+        news.push_back(other);
+    return news;
+}
+
+void RunDirectory::leave(RunState state, std::uint32_t spp, double elapsed_seconds) {
+    writer_.stop();
+    std::vector<LastFile> files = {
+        {(path() / "status.json").string(),
+         [&] { write_text("status.json", status_json(state, spp, elapsed_seconds), Outlives::power); }}};
+    write_last_files(files, 0.0);
+}
+
 void RunDirectory::give_back() {
     writer_.stop();
     folder_.give_back();
@@ -330,13 +353,13 @@ void RunDirectory::give_back() {
 
 std::vector<std::string> RunDirectory::finish(const RenderResult& result, const Farm* farm, RunEnd& end) {
     writer_.stop();
+    checkpoint_writer_.stop();
     // One that may be killed soon does not wait for the disk, nor for what takes longer to write.
     const bool hurry = end.state == RunState::interrupted;
     const Outlives outlives = hurry ? Outlives::process : Outlives::power;
     std::vector<LastFile> files = last_files(result, outlives, end);
     if (hurry && (image_is_on_disk(result) || (!files.empty() && try_to_write(files.front()))))
         write_interruption(result, farm, end.elapsed_seconds);
-    const std::string no_checkpoint = hurry ? finish_checkpoint(end) : "";
     std::vector<std::string> failures = write_last_files(files, kResultPatience);
     for (const std::string& failure : failures)
         end.error += (end.error.empty() ? "" : "; ") + failure;
@@ -346,7 +369,7 @@ std::vector<std::string> RunDirectory::finish(const RenderResult& result, const 
         end.state = RunState::failed;
         failures.push_back(failure);
     }
-    if (const std::string why = hurry ? no_checkpoint : finish_checkpoint(end); !why.empty()) failures.push_back(why);
+    if (const std::string why = finish_checkpoint(end); !why.empty()) failures.push_back(why);
     if (hurry) {
         for (const std::string_view name : run_file_names())
             make_durable(path() / name);

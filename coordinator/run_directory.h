@@ -55,9 +55,9 @@ class RunDirectory {
     /// A checkpoint, where one is due; called after each pass.
     void offer_checkpoint(RenderState& state, double elapsed_seconds);
     /// The state that the run ends in, for a checkpoint that finish() writes.
-    void take_last_state(RenderState& state);
+    void take_last_state(RenderState state);
     /// News of what went wrong with files since the last call, for a person.
-    std::vector<std::string> take_news() { return writer_.take_news(); }
+    std::vector<std::string> take_news();
 
     /// summary.json and status.json of a run that was interrupted, if its image is on disk: finish() may come too late,
     /// since mpirun kills its ranks two seconds after a signal.
@@ -69,6 +69,10 @@ class RunDirectory {
     /// becomes failed, and they are returned, each with the reason.
     std::vector<std::string> finish(const RenderResult& result, const Farm* farm, RunEnd& end);
 
+    /// Ends a run that went on with another and came to nothing: what that has left stays, status.json says how it
+    /// ended.
+    void leave(RunState state, std::uint32_t spp, double elapsed_seconds);
+
     /// Whether an earlier run lies aside in the folder.
     bool has_previous() const { return folder_.has_previous(); }
     /// Leaves the folder as it was found: nothing comes of this run.
@@ -76,7 +80,7 @@ class RunDirectory {
 
   private:
     void note_pass(const PassReport& report);
-    std::function<void()> prepare_checkpoint(RenderState& state, double elapsed_seconds);
+    CheckpointOrigin checkpoint_origin(const RenderState& state) const;
     std::string finish_checkpoint(const RunEnd& end);
     void write_bytes(const std::string& name, std::span<const std::uint8_t> bytes, Outlives outlives) const;
     void write_text(const std::string& name, const std::string& text, Outlives outlives) const;
@@ -90,7 +94,7 @@ class RunDirectory {
     const Job job_;
     const std::string job_toml_;  ///< without its output: whoever repeats a run must not replace it
     const RunFacts facts_;
-    const std::string resolved_toml_;
+    const std::string resolved_toml_, output_file_;
     RunFolder folder_;
     const std::string plan_text_, plan_json_;
     std::string passes_csv_;
@@ -101,13 +105,14 @@ class RunDirectory {
     std::uint32_t newest_spp_ = 0;
     std::atomic<double> preview_seconds_ = 0;  ///< of a core, that the last one took the writer
     std::optional<CheckpointStore> checkpoints_;
-    std::function<void()> last_checkpoint_;        ///< that was prepared
-    std::size_t checkpoint_passes_ = 0;            ///< of it
-    std::atomic<std::size_t> written_passes_ = 0;  ///< of the last that is on disk
+    std::function<void()> last_prepared_;          ///< the last checkpoint that was given to the writer
+    std::optional<RenderState> last_state_;        ///< that the run ended in
+    std::atomic<std::size_t> written_passes_ = 0;  ///< of the last checkpoint that is on disk
     double next_checkpoint_ = 0;                   ///< not before, in elapsed seconds
     mutable std::mutex on_disk_mutex_;
     std::weak_ptr<const CombinedImage> on_disk_;  ///< whose image.exr is whole
-    FileWriter writer_;                           ///< last: it ends first
+    FileWriter checkpoint_writer_;                ///< of its own: nothing waits for gigabytes
+    FileWriter writer_;                           ///< last: both end first
 };
 
 }  // namespace treefarm

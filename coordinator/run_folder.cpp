@@ -77,7 +77,7 @@ void RunFolder::check() const {
     if (lock_.refused()) {
         const std::string who = writer_words(path_);
         refuse(path_, "another render or study is at work in this folder" + (who.empty() ? "" : " (" + who + ")"),
-               "wait for it, or name another folder with --run-dir");
+               use_ == FolderUse::resume ? "wait for it" : "wait for it, or name another folder with --run-dir");
     }
     switch (folder_content(path_)) {
         case FolderContent::nothing:
@@ -120,7 +120,7 @@ void RunFolder::give_back() const {
     if (use_ == FolderUse::resume) return;
     std::error_code ignored;
     for (const std::string& name : moved_names()) {
-        fs::remove(path_ / name, ignored);
+        fs::remove_all(path_ / name, ignored);
         if (!aside_.empty()) fs::rename(aside_ / name, path_ / name, ignored);
     }
     if (!aside_.empty()) fs::remove(aside_, ignored);

@@ -2,13 +2,13 @@
 #include "coordinator/checkpoint/checkpoint_store.h"
 
 #include <algorithm>
+#include <fstream>
 #include <utility>
 
 #include "common/base/error.h"
 #include "common/base/hash.h"
 #include "common/config/aov_list.h"
 #include "common/image/atomic_file.h"
-#include "common/image/read_bytes.h"
 #include "common/plan/resolved_file.h"
 
 namespace treefarm {
@@ -19,33 +19,43 @@ namespace fs = std::filesystem;
 
 constexpr std::array<const char*, 2> kGenerationNames = {"a.tfc", "b.tfc"};
 
-bool is_film(const std::string& name) {
-    return name.starts_with("film-");
+std::string film_name(std::span<const std::uint8_t> bytes) {
+    return "film-" + hash_text(hash128_bytes(bytes)) + ".tff";
 }
 
 bool is_ours(const std::string& name) {
     const auto is = [&](const char* file) { return name == file || is_temporary_of(name, file); };
-    return is_film(name) || std::any_of(kGenerationNames.begin(), kGenerationNames.end(), is);
+    return is_film_name(name) || std::any_of(kGenerationNames.begin(), kGenerationNames.end(), is);
+}
+
+/// A whole file, however large. Throws FormatError where it cannot be read.
+Bytes read_file(const fs::path& path) {
+    std::ifstream file(path, std::ios::binary | std::ios::ate);
+    if (!file) throw FormatError("cannot be opened");
+    Bytes bytes(static_cast<std::size_t>(file.tellg()));
+    file.seekg(0);
+    file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+    if (!file) throw FormatError("cannot be read");
+    return bytes;
 }
 
 /// A generation's file, or why it is not usable.
 struct Candidate {
     fs::path path;
+    std::size_t slot = 0;
     SectionFile file;
     std::string fault;
 };
 
-Candidate read_candidate(const fs::path& path) {
-    Candidate candidate{path, {}, ""};
+Candidate read_candidate(const fs::path& folder, std::size_t slot) {
+    Candidate candidate{folder / kGenerationNames[slot], slot, {}, ""};
     std::error_code error;
-    if (!fs::exists(path, error)) {
+    if (!fs::exists(candidate.path, error)) {
         candidate.fault = "is missing";
         return candidate;
     }
     try {
-        candidate.file = decode_sections(read_bytes(path, ""));
-    } catch (const InputError& unreadable) {
-        candidate.fault = unreadable.what();
+        candidate.file = decode_sections(read_file(candidate.path));
     } catch (const FormatError& damage) {
         candidate.fault = damage.what();
     }
@@ -53,23 +63,52 @@ Candidate read_candidate(const fs::path& path) {
 }
 
 std::vector<PixelEstimate> read_film(const fs::path& path, std::size_t pixels) {
+    const std::string name = path.filename().string();
     std::error_code error;
-    if (!fs::exists(path, error)) throw FormatError("its film " + path.filename().string() + " is missing");
-    const std::vector<std::uint8_t> bytes = read_bytes(path, "");
-    if (path.filename() != "film-" + hash_text(hash128_bytes(bytes)) + ".tff")
-        throw FormatError("its film " + path.filename().string() + " is damaged");
+    if (!fs::exists(path, error)) throw FormatError("its film " + name + " is missing");
+    const Bytes bytes = read_file(path);
+    if (name != film_name(bytes)) throw FormatError("its film " + name + " is damaged");
     return decode_pixels(bytes, pixels);
 }
 
+std::set<std::string> film_names(const RenderState& state) {
+    std::set<std::string> names;
+    for (const PassResult& film : state.films)
+        names.insert(film.stored);
+    return names;
+}
+
+/// Films that a candidate names which is not taken, so that they stay while it does.
+std::set<std::string> films_of(const Candidate& candidate, const Job& job) {
+    if (!candidate.fault.empty()) return {};
+    try {
+        return film_names(decode_state(candidate.file, decode_origin(candidate.file).pixels, aov_requests(job)));
+    } catch (const FormatError&) {
+        return {};
+    }
+}
+
 }  // namespace
+
+std::uint64_t newest_generation(const fs::path& run) {
+    std::uint64_t newest = 0;
+    for (const char* const name : kGenerationNames) {
+        std::array<std::uint8_t, kSectionFileHead> head{};
+        std::ifstream file(run / kCheckpointFolder / name, std::ios::binary);
+        if (file.read(reinterpret_cast<char*>(head.data()), head.size()))
+            newest = std::max(newest, generation_of(head));
+    }
+    return newest;
+}
 
 LoadedCheckpoint load_checkpoint(const fs::path& run, const std::function<void(const CheckpointOrigin&)>& check) {
     const fs::path folder = run / kCheckpointFolder;
     std::array<Candidate, 2> candidates;
     for (std::size_t slot = 0; slot < 2; ++slot)
-        candidates[slot] = read_candidate(folder / kGenerationNames[slot]);
+        candidates[slot] = read_candidate(folder, slot);
     if (candidates[1].file.generation > candidates[0].file.generation) std::swap(candidates[0], candidates[1]);
     LoadedCheckpoint loaded;
+    loaded.newest = newest_generation(run);
     for (Candidate& candidate : candidates) {
         if (!candidate.fault.empty()) continue;
         try {
@@ -80,11 +119,13 @@ LoadedCheckpoint load_checkpoint(const fs::path& run, const std::function<void(c
             for (PassResult& film : loaded.state.films)
                 film.pixels = read_film(folder / film.stored, loaded.origin.pixels);
             loaded.generation = candidate.file.generation;
-            for (const Candidate& other : candidates)
-                if (&other != &candidate && !other.fault.empty() && other.fault != "is missing")
-                    loaded.warnings.push_back(other.path.string() + " " + other.fault + "; going on from " +
-                                              candidate.path.filename().string() + ": " +
-                                              std::to_string(loaded.state.spp()) + " spp");
+            loaded.slot = candidate.slot;
+            const Candidate& other = &candidate == &candidates[0] ? candidates[1] : candidates[0];
+            loaded.other_films = films_of(other, job);
+            if (!other.fault.empty() && other.fault != "is missing")
+                loaded.warnings.push_back(other.path.string() + " " + other.fault + "; going on from " +
+                                          candidate.path.filename().string() + ": " +
+                                          std::to_string(loaded.state.spp()) + " spp");
             return loaded;
         } catch (const FormatError& damage) {
             candidate.fault = damage.what();
@@ -102,62 +143,68 @@ LoadedCheckpoint load_checkpoint(const fs::path& run, const std::function<void(c
 CheckpointStore::CheckpointStore(fs::path run, const LoadedCheckpoint* loaded)
     : folder_(std::move(run) / kCheckpointFolder) {
     if (!loaded) return;
-    generation_ = loaded->generation;
-    for (const PassResult& film : loaded->state.films)
-        named_[generation_ % 2].insert(film.stored);
+    generation_ = std::max(loaded->generation, loaded->newest);
+    slot_ = 1 - loaded->slot;
+    named_[loaded->slot] = film_names(loaded->state);
+    named_[slot_] = loaded->other_films;
 }
 
 std::function<void()> CheckpointStore::prepare(const CheckpointOrigin& origin, RenderState& state) {
-    Names films;
-    bytes_ = 0;
+    Films films;
     {
         const std::lock_guard lock(mutex_);
         for (PassResult& film : state.films) {
             std::error_code none;
-            const bool kept =
-                !film.stored.empty() && (unwritten_.contains(film.stored) || fs::exists(folder_ / film.stored, none));
-            if (!kept) {
+            if (const auto waiting = unwritten_.find(film.stored); waiting != unwritten_.end()) {
+                films.insert(*waiting);
+            } else if (film.stored.empty() || !fs::exists(folder_ / film.stored, none)) {
                 auto bytes = std::make_shared<const Bytes>(encode_pixels(film.pixels));
-                film.stored = "film-" + hash_text(hash128_bytes(*bytes)) + ".tff";
-                unwritten_[film.stored] = {std::move(bytes), generation_ + 1};
+                film.stored = film_name(*bytes);
+                films[film.stored] = std::move(bytes);
             }
-            films.insert(film.stored);
-            bytes_ += film.pixels.size() * kStoredPixelBytes;
         }
+        unwritten_ = films;
     }
-    auto file = std::make_shared<SectionFile>();
-    file->generation = ++generation_;
-    file->sections = encode_state(origin, state);
-    for (const Section& section : file->sections)
-        bytes_ += section.bytes.size();
-    return [this, file, films = std::move(films)] { write(*file, films); };
+    auto file = std::make_shared<const SectionFile>(SectionFile{++generation_, encode_state(origin, state)});
+    return [this, file, names = film_names(state), films = std::move(films)] { write_generation(*file, names, films); };
 }
 
-void CheckpointStore::write(const SectionFile& file, const Names& films) {
-    fs::create_directories(folder_);
+void CheckpointStore::write(const CheckpointOrigin& origin, RenderState& state) {
+    make_folder();
+    for (PassResult& film : state.films) {
+        if (!film.stored.empty() && fs::exists(folder_ / film.stored)) continue;
+        const Bytes bytes = encode_pixels(film.pixels);
+        film.stored = film_name(bytes);
+        write_file_atomically(folder_ / film.stored, bytes, Outlives::power);
+    }
+    write_generation({++generation_, encode_state(origin, state)}, film_names(state), {});
+}
+
+void CheckpointStore::write_generation(const SectionFile& file, const Names& names, const Films& films) {
+    make_folder();
     write_films(films);
-    const std::size_t slot = file.generation % 2;
+    std::size_t slot = 0;
+    {
+        const std::lock_guard lock(mutex_);
+        slot = slot_;
+    }
     write_file_atomically(folder_ / kGenerationNames[slot], encode_sections(file), Outlives::power);
     const std::lock_guard lock(mutex_);
-    named_[slot] = films;
-    std::erase_if(unwritten_, [&](const auto& film) {  // superseded before they were written
-        return film.second.generation <= file.generation && !films.contains(film.first);
-    });
+    named_[slot] = names;
+    slot_ = 1 - slot;
     remove_unnamed();
 }
 
-void CheckpointStore::write_films(const Names& films) {
-    for (const std::string& name : films) {
-        std::shared_ptr<const Bytes> bytes;
-        {
-            const std::lock_guard lock(mutex_);
-            if (const auto found = unwritten_.find(name); found != unwritten_.end()) bytes = found->second.bytes;
-        }
-        if (!bytes) continue;
-        write_file_atomically(folder_ / name, *bytes, Outlives::power);
+void CheckpointStore::write_films(const Films& films) {
+    for (const auto& [name, bytes] : films) {
+        if (!fs::exists(folder_ / name)) write_file_atomically(folder_ / name, *bytes, Outlives::power);
         const std::lock_guard lock(mutex_);
         unwritten_.erase(name);
     }
+}
+
+void CheckpointStore::make_folder() const {
+    if (fs::create_directories(folder_)) make_durable(folder_);
 }
 
 /// Removes films that neither generation names, and what a killed program was writing.
@@ -167,7 +214,7 @@ void CheckpointStore::remove_unnamed() const {
         const std::string name = entry.path().filename().string();
         const bool temporary = name.find(".tmp-") != std::string::npos;
         const bool is_named = named_[0].contains(name) || named_[1].contains(name);
-        if (is_ours(name) && (temporary || (is_film(name) && !is_named))) fs::remove(entry.path(), ignored);
+        if (is_ours(name) && (temporary || (is_film_name(name) && !is_named))) fs::remove(entry.path(), ignored);
     }
 }
 

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::uint32_t kMagic = section_tag("TFCP"), kEnd = section_tag("END!");
 /// magic, format, generation; tag, version, length; tag, sections, length of all; a check sum.
-constexpr std::size_t kFileHead = 16, kSectionHead = 16, kEndHead = 16, kCheck = 16;
+constexpr std::size_t kSectionHead = 16, kEndHead = 16, kCheck = 16;
 
 void put_check(ByteWriter& out, const Hash128& hash) {
     out.put(hash.low);
@@ -45,6 +45,12 @@ const Section& SectionFile::at(std::uint32_t tag, std::uint32_t version) const {
     throw FormatError("its part " + tag_text(tag) + " is missing");
 }
 
+std::uint64_t generation_of(std::span<const std::uint8_t, kSectionFileHead> head) {
+    ByteReader in(head);
+    if (in.get<std::uint32_t>() != kMagic || in.get<std::uint32_t>() != kSectionFileFormat) return 0;
+    return in.get<std::uint64_t>();
+}
+
 Bytes encode_sections(const SectionFile& file) {
     ByteWriter out, checks;
     out.put(kMagic);
@@ -73,7 +79,7 @@ Bytes encode_sections(const SectionFile& file) {
 
 SectionFile decode_sections(std::span<const std::uint8_t> bytes) {
     ByteReader in(bytes);
-    if (bytes.size() < kFileHead || in.get<std::uint32_t>() != kMagic) throw FormatError("is no checkpoint");
+    if (bytes.size() < kSectionFileHead || in.get<std::uint32_t>() != kMagic) throw FormatError("is no checkpoint");
     if (const auto format = in.get<std::uint32_t>(); format != kSectionFileFormat)
         throw FormatError("has format " + std::to_string(format) + ", this program reads " +
                           std::to_string(kSectionFileFormat));

@@ -36,6 +36,10 @@ struct SectionFile {
 };
 
 inline constexpr std::uint32_t kSectionFileFormat = 1;
+inline constexpr std::size_t kSectionFileHead = 16;  ///< bytes before the first section
+
+/// The generation that the first bytes of a file say; 0 if it is none.
+std::uint64_t generation_of(std::span<const std::uint8_t, kSectionFileHead> head);
 
 Bytes encode_sections(const SectionFile& file);
 

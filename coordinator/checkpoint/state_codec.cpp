@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "coordinator/checkpoint/state_codec.h"
 
+#include <algorithm>
 #include <cereal/types/array.hpp>
 #include <cereal/types/common.hpp>
 #include <cereal/types/map.hpp>
@@ -178,12 +179,19 @@ void require(bool condition, const char* what) {
     if (!condition) throw FormatError(what);
 }
 
+/// Whether noise that was measured is of the films from number `first` on.
+bool fits(const SampleNoise& noise, std::size_t films) {
+    return noise.passes <= films && std::all_of(noise.half.begin(), noise.half.end(), [&](const HalfNoise& half) {
+               return half.samples.size() <= noise.passes;
+           });
+}
+
+}  // namespace
+
 bool is_film_name(const std::string& name) {
     return name.size() == 41 && name.starts_with("film-") && name.ends_with(".tff") &&
            name.find_first_not_of("0123456789abcdef", 5) == 37;
 }
-
-}  // namespace
 
 std::vector<Section> encode_state(const CheckpointOrigin& origin, const RenderState& state) {
     return {section(kOrigin, origin),         section(kHistory, state.history),
@@ -214,8 +222,10 @@ RenderState decode_state(const SectionFile& file, std::size_t pixels, std::span<
     require(!state.reports.empty() && state.reports.size() == state.history.passes.size(),
             "not a report for each pass");
     require(!state.films.empty(), "no film");
-    for (const PassResult& film : state.films)
-        require(is_film_name(film.stored), "a film without a file");
+    for (std::size_t k = 0; k < state.films.size(); ++k) {
+        require(is_film_name(state.films[k].stored), "a film without a file");
+        require(fits(state.films[k].noise, state.films.size() - k), "noise of other films");
+    }
     for (const PassReport& report : state.reports)
         require(report.guiding <= Guiding::loses && report.halving.trust <= Trust::firm &&
                     report.target.trust <= Trust::firm && report.plan.spp > 0,
@@ -235,6 +245,9 @@ Bytes encode_pixels(std::span<const PixelEstimate> pixels) {
 }
 
 std::vector<PixelEstimate> decode_pixels(std::span<const std::uint8_t> bytes, std::size_t count) {
+    if (bytes.size() != count * kStoredPixelBytes)
+        throw FormatError("its film has " + std::to_string(bytes.size()) + " bytes, not those of " +
+                          std::to_string(count) + " pixels");
     ByteReader reader(bytes);
     ReadArchive archive(reader);
     std::vector<PixelEstimate> pixels(count);

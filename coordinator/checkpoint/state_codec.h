@@ -32,6 +32,9 @@ CheckpointOrigin decode_origin(const SectionFile& file);
 /// image of this size and these AOVs.
 RenderState decode_state(const SectionFile& file, std::size_t pixels, std::span<const AovRequest> aovs);
 
+/// Whether a file of this name is a film's: "film-", 32 hexadecimal digits, ".tff".
+bool is_film_name(const std::string& name);
+
 /// A film's file.
 inline constexpr std::size_t kStoredPixelBytes = 104;
 Bytes encode_pixels(std::span<const PixelEstimate> pixels);

@@ -163,7 +163,6 @@ class ShotRun {
     void go_on(const fs::path& folder, RenderRequest& request) const {
         if (holds_result(folder)) return;
         request.resumed = shot_.find_checkpoint(folder, request);
-        if (request.resumed && !passes_of(request)(request.resumed->state.history).pass) request.resumed.reset();
     }
 
     static void take_figures(const fs::path& folder, const RenderRequest& request, FrameRecord& record) {

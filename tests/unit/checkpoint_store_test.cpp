@@ -207,7 +207,7 @@ TEST_F(Checkpoints, AStateThatNoRenderHasIsRefused) {
     EXPECT_NE(fault_with([](RenderState& s) { s.reports.pop_back(); }).find("not a report for each pass"),
               std::string::npos);
     EXPECT_NE(fault_with([](RenderState& s) { s.films.clear(); }).find("no film"), std::string::npos);
-    EXPECT_NE(fault_with([](RenderState& s) { s.films[0].pixels.pop_back(); }).find("cut short"), std::string::npos);
+    EXPECT_NE(fault_with([](RenderState& s) { s.films[0].pixels.pop_back(); }).find("not those of 12 pixels"), std::string::npos);
     EXPECT_NE(fault_with([](RenderState& s) { s.history.guiding = Guiding(7); }).find("unknown verdict"),
               std::string::npos);
     EXPECT_NE(fault_with([](RenderState& s) { s.reports[0].plan.spp = 0; }).find("no pass makes"), std::string::npos);
