@@ -52,14 +52,14 @@ Rendered render(const Scene& scene, const std::string& aovs, std::uint32_t spp =
     const Resolved resolved = resolve(job, scene);
     const RenderUnit renderer = make_renderer(encode_scene(scene), resolved);
     const AnyModel tree = first_model(resolved, scene.bounds(), 1.0f);
-    const SdTreeSampler guide(tree);
+    const AnySampler guide(tree);
     PassPlan pass = one_pass(spp);
     pass.next_event = job.integrator.next_event == NextEvent::always;
     pass.kernel = kernel_of(resolved, pass, facts_of(tree));
     const auto width = static_cast<std::uint16_t>(scene.film.width),
                height = static_cast<std::uint16_t>(scene.film.height);
     UnitOutput output;
-    output.begin(guide.distribution_count());
+    output.begin(guide.regions().distribution_count());
     renderer(pass, guide, {0, 0, 0, width, height, 0}, output);
     Rendered result;
     AovSums sums(aov_requests(resolved), scene.film.pixel_count());

@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "common/base/error.h"
+#include "common/guiding/sd_tree/sd_tree_sampler.h"
 #include "common/guiding/sd_tree/tree_learner.h"
 #include "common/guiding/statistics/cell_accumulator.h"
 

@@ -7,6 +7,8 @@
 #include <cmath>
 
 #include "common/base/error.h"
+#include "common/guiding/sd_tree/refine.h"
+#include "common/guiding/sd_tree/sd_tree.h"
 #include "common/plan/policy.h"
 
 namespace treefarm {
