@@ -20,6 +20,14 @@ inline Roughness rough(Microfacets distribution, float alpha_u, float alpha_v) {
     return {distribution, FloatInput(alpha_u), FloatInput(alpha_v)};
 }
 
+/// Adds a texture; returns its index.
+inline std::int32_t add_texture(Scene& scene, TextureKind kind, const char* name) {
+    Texture& texture = scene.textures.emplace_back();  // in place: GCC 12 warns about copies of what may hold a string
+    texture.kind = std::move(kind);
+    texture.name = name;
+    return static_cast<std::int32_t>(scene.textures.size()) - 1;
+}
+
 /// An image of linear floats as a texture; returns its index.
 inline std::int32_t add_image_texture(Scene& scene, int width, int height, std::vector<float> rgb) {
     TextureImage image;
@@ -29,16 +37,14 @@ inline std::int32_t add_image_texture(Scene& scene, int width, int height, std::
     scene.images.push_back(std::move(image));
     BitmapTexture bitmap;
     bitmap.image = static_cast<std::int32_t>(scene.images.size()) - 1;
-    scene.textures.push_back({bitmap, "image", {}});
-    return static_cast<std::int32_t>(scene.textures.size()) - 1;
+    return add_texture(scene, bitmap, "image");
 }
 
 inline std::int32_t add_board(Scene& scene, const Rgb& color0, const Rgb& color1) {
     CheckerboardTexture board;
     board.color0 = color0;
     board.color1 = color1;
-    scene.textures.push_back({board, "board", {}});
-    return static_cast<std::int32_t>(scene.textures.size()) - 1;
+    return add_texture(scene, board, "board");
 }
 
 /// The last material of a scene, on one shape, prepared as for tracing.

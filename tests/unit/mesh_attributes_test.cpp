@@ -14,7 +14,7 @@ enum class Slot { reflectance, roughness, weight, opacity, bump, normal_map, bac
 
 /// Colours at the left and at the right of a square, whose u runs from 1/4 to 3/4: seen as directions of a normal map,
 /// too.
-const Rgb kLeft(0.3f, 0.5f, 0.9f), kRight(0.7f, 0.4f, 0.6f);
+const Rgb kLeft(0.3f, 0.5f, 0.9f), kRight(0.7f, 0.4f, 0.8f);
 
 std::int32_t add_texture(Scene& scene, bool as_attribute) {
     if (as_attribute) {
@@ -38,7 +38,8 @@ Scene square_with(Slot slot, bool as_attribute) {
     const std::int32_t texture = add_texture(scene, as_attribute);
     const ColorInput color(Rgb(0.9f), texture);
     std::int32_t material = white;
-    if (slot == Slot::reflectance) material = test::add_material(scene, DiffuseMaterial{color}, true);
+    if (slot == Slot::reflectance || slot == Slot::bump)
+        material = test::add_material(scene, DiffuseMaterial{color}, true);
     if (slot == Slot::roughness) {
         ConductorMaterial metal{Rgb(0.2f, 0.9f, 1.1f), Rgb(3.9f, 2.4f, 2.2f), Rgb(0.9f), {}};
         metal.roughness = {Microfacets::ggx, {0.5f, texture}, {0.5f, texture}};
@@ -49,7 +50,7 @@ Scene square_with(Slot slot, bool as_attribute) {
             scene,
             BlendMaterial{{1.0f, texture}, test::add_diffuse(scene, Rgb(0.1f)), test::add_diffuse(scene, Rgb(0.9f))},
             true);
-    if (slot == Slot::opacity || slot == Slot::bump || slot == Slot::normal_map || slot == Slot::back)
+    if (slot == Slot::opacity || slot == Slot::normal_map || slot == Slot::back)
         material = test::add_diffuse(scene, Rgb(0.6f, 0.7f, 0.8f), true);
     Material& made = scene.materials[static_cast<std::size_t>(material)];
     if (slot == Slot::opacity) made.opacity = {0.8f, texture};
