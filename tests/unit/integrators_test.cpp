@@ -12,7 +12,10 @@
 #include "common/config/check_job.h"
 #include "common/config/estimators.h"
 #include "common/plan/effects.h"
+#include "common/plan/kernel.h"
+#include "common/plan/learning.h"
 #include "common/plan/plan_text.h"
+#include "common/scene/pack/scene_codec.h"
 #include "tests/support/guide_types.h"
 #include "tests/support/local_render.h"
 #include "tests/support/test_scenes.h"
@@ -159,6 +162,30 @@ TEST(Guides, CoordinatorAndIntegratorsNameNone) {
                 EXPECT_EQ(parts.count(word), 0u) << entry.path() << " names a guide's " << word;
         }
     EXPECT_GT(files, 60u);
+}
+
+/// A message may bring any model: one of another guide may ask for kernels that the scene was not prepared for.
+TEST(Guides, AModelOfAnotherGuideThanTheJobsIsRefused) {
+    Scene scene = floor_from_above();
+    scene.emitters.push_back({PointEmitter{{0.6f, 0.8f, 0.0f}, Rgb(3.0f)}, {}});
+    for (const bool own : {false, true}) {
+        const Job job = job_of("path");
+        const Resolved resolved = resolve(job, scene);
+        const RenderUnit render = make_renderer(encode_scene(scene), job);
+        const auto kind =
+            own ? guide_kind(resolved) : static_cast<GuideKind>(1 - static_cast<int>(guide_kind(resolved)));
+        const AnyModel model = AnyModel::first(kind, scene.bounds(), {});
+        PassPlan pass = plan_passes(resolved)[0];
+        pass.kernel = kernel_of(resolved, pass, facts_of(model));
+        const AnySampler guide(model);
+        UnitOutput output;
+        output.begin(guide.regions().distribution_count());
+        const WorkUnit unit{.pass = pass.index, .x1 = 1, .y1 = 1};
+        if (own)
+            EXPECT_NO_THROW(render(pass, guide, unit, output));
+        else
+            EXPECT_THROW(render(pass, guide, unit, output), RunError);
+    }
 }
 
 /// E = I cos / d^2 on the floor, of which it reflects albedo / pi.

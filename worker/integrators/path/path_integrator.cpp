@@ -3,6 +3,7 @@
 
 #include "common/base/error.h"
 #include "common/plan/kernel.h"
+#include "common/plan/learning.h"
 #include "worker/integrators/path/tile_renderer.h"
 
 namespace treefarm {
@@ -10,7 +11,8 @@ namespace treefarm {
 RenderUnit prepare_path(std::shared_ptr<const TraceScene> scene, const Resolved& job) {
     return [scene = std::move(scene), job](const PassPlan& pass, const AnySampler& guide, const WorkUnit& unit,
                                            UnitOutput& output) {
-        if (!fits(pass, scene->plainly_diffuse(), facts_of(guide)))
+        // The scene was prepared for the kernels of the job's guide.
+        if (guide.kind() != guide_kind(job) || !fits(pass, scene->plainly_diffuse(), facts_of(guide)))
             throw RunError("a pass whose kernel does not fit the scene and the tree");
         render_unit(*scene, job, pass, guide, unit, output.pixels, output.log, output.stats);
     };
