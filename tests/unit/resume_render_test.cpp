@@ -44,7 +44,7 @@ class Stopped {
 
     Resolved& job() { return job_; }
 
-    RenderState begin() const { return first_state(job_, first_tree(job_, scene_), scene_.film.pixel_count()); }
+    RenderState begin() const { return first_state(job_, first_model(job_, scene_), scene_.film.pixel_count()); }
 
     /// Goes on with `state` by these passes, writing what it has after each; stops once so many are done.
     RenderResult render(RenderState state, const PassChooser& choose, std::size_t stop_after = ~std::size_t{0}) const {

@@ -48,7 +48,7 @@ Job job_in(const fs::path& folder) {
 
 std::string refusal(const fs::path& folder, bool overwrite) {
     try {
-        const RunFolder run(job_in(folder), overwrite, {});
+        const RunFolder run(job_in(folder), overwrite ? FolderUse::replace : FolderUse::fresh, {});
     } catch (const InputError& error) {
         return error.what();
     }
@@ -59,17 +59,17 @@ TEST(RunFolder, ARenderIsReplacedOnlyWhenAskedFor) {
     const fs::path folder = fresh_folder();
     write_run(folder, "first");
     EXPECT_EQ(refusal(folder, false), folder.string() +
-                                          ": holds a render (broken off, 7 spp); replace it with --overwrite, or name "
-                                          "another folder with --run-dir");
+                                          ": holds a render (broken off, 7 spp); go on with it by treefarm resume, "
+                                          "replace it with --overwrite, or name another folder with --run-dir");
     EXPECT_EQ(read(folder / "image.exr"), "first");
     {
-        const RunFolder run(job_in(folder), true, {});
+        const RunFolder run(job_in(folder), FolderUse::replace, {});
         EXPECT_FALSE(fs::exists(folder / "image.exr"));
         EXPECT_EQ(read(folder / "previous" / "image.exr"), "first");
         EXPECT_TRUE(run.has_previous());
     }
     write_run(folder, "second");
-    const RunFolder again(job_in(folder), true, {});
+    const RunFolder again(job_in(folder), FolderUse::replace, {});
     EXPECT_EQ(read(folder / "previous" / "image.exr"), "first");
     EXPECT_EQ(read(folder / "previous-2" / "image.exr"), "second");
     again.remove_previous();
@@ -77,12 +77,22 @@ TEST(RunFolder, ARenderIsReplacedOnlyWhenAskedFor) {
     EXPECT_TRUE(fs::is_empty(folder));
 }
 
+TEST(RunFolder, ARenderThatGoesOnKeepsItsFiles) {
+    const fs::path folder = fresh_folder();
+    write_run(folder, "first");
+    const RunFolder run(job_in(folder), FolderUse::resume, {});
+    EXPECT_EQ(read(folder / "image.exr"), "first");
+    EXPECT_FALSE(run.has_previous());
+    run.give_back();
+    EXPECT_EQ(read(folder / "image.exr"), "first");
+}
+
 TEST(RunFolder, KeepsWhatIsNotTheRunsOwn) {
     const fs::path folder = fresh_folder();
     write_run(folder, "first");
     write(folder / "notes.txt", "mine");
     write(folder / "previous-notes" / "a.txt", "mine");
-    const RunFolder run(job_in(folder), true, {});
+    const RunFolder run(job_in(folder), FolderUse::replace, {});
     run.remove_previous();
     EXPECT_EQ(read(folder / "notes.txt"), "mine");
     EXPECT_EQ(read(folder / "previous-notes" / "a.txt"), "mine");
@@ -114,7 +124,7 @@ TEST(RunFolder, StudiesAndOtherFilesAreNeverReplaced) {
 
 TEST(RunFolder, IsOnePrograms) {
     const fs::path folder = fresh_folder();
-    const RunFolder run(job_in(folder), false, {});
+    const RunFolder run(job_in(folder), FolderUse::fresh, {});
     write(folder / "status.json", R"({"state": "running", "pid": 12, "host": "node"})");
     const std::string refused = refusal(folder, true);
     EXPECT_NE(refused.find(folder.string() + ": another render or study is at work"), std::string::npos) << refused;
