@@ -26,7 +26,7 @@ class Resume : public FarmTest {
         std::size_t done = 0;
         hooks_.on_state = [&](RenderState& state) { done = state.reports.size(); };
         hooks_.interrupted = [&] { return done == passes; };
-        hooks_.on_last_state = [&](RenderState& state) { write(state); };
+        hooks_.on_last_state = [&](RenderState state) { write(state); };
         EXPECT_TRUE(render().interrupted);
         hooks_ = {};
         faulty_.clear();
@@ -121,7 +121,7 @@ TEST_F(Resume, TheTimeOfEarlierLivesCounts) {
 
 TEST_F(Resume, OneThatIsDoneGoesOnToMoreSamplesAsItsScheduleDoes) {
     make_workers(2);
-    hooks_.on_last_state = [&](RenderState& state) { write(state); };
+    hooks_.on_last_state = [&](RenderState state) { write(state); };
     expect_truth(render());
     hooks_ = {};
     faulty_.clear();

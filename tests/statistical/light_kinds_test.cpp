@@ -6,6 +6,7 @@
 #include "common/base/random.h"
 #include "tests/support/chi_square.h"
 #include "tests/support/light_checks.h"
+#include "tests/support/material_scenes.h"
 #include "tests/support/test_scenes.h"
 #include "worker/scene/trace_scene.h"
 
@@ -41,7 +42,7 @@ Scene half_black_lamp(float h) {
     image.height = image.channels = 1;
     image.floats = {0.0f, 4.0f};
     scene.images.push_back(image);
-    scene.textures.push_back({BitmapTexture{0, false, Wrap::repeat, Wrap::repeat, {}}, "", {}});
+    test::add_texture(scene, BitmapTexture{0, false, Wrap::repeat, Wrap::repeat, {}}, "");
     Mesh mesh = quad({-1, -1, h}, {0, 2, 0}, {2, 0, 0});
     mesh.uvs = {{0, 0}, {0, 1}, {1, 1}, {1, 0}};
     add_shape(scene, mesh, kNone, Rgb(0.5f));
@@ -272,7 +273,7 @@ TEST(LightIrradiance, SpotsProjectTheirTexture) {
     for (int i = 0; i < kSize * kSize; ++i)
         image.floats.push_back(1.0f + float(i));
     scene.images.push_back(image);
-    scene.textures.push_back({BitmapTexture{0, false, Wrap::repeat, Wrap::repeat, {}}, "", {}});
+    test::add_texture(scene, BitmapTexture{0, false, Wrap::repeat, Wrap::repeat, {}}, "");
     const float half = height * std::tan(cutoff);
     for (int row = 0; row < kSize; ++row)
         for (int column = 0; column < kSize; ++column) {

@@ -3,6 +3,7 @@
 
 #include "common/base/random.h"
 #include "tests/support/light_checks.h"
+#include "tests/support/material_scenes.h"
 #include "tests/support/test_scenes.h"
 #include "worker/scene/trace_scene.h"
 
@@ -35,7 +36,7 @@ struct Projection {
         for (int i = 0; i < kColumns * kRows; ++i)
             image.floats.push_back(1.0f + float(i));
         scene.images.push_back(image);
-        scene.textures.push_back({BitmapTexture{0, false, Wrap::repeat, Wrap::repeat, {}}, "", {}});
+        test::add_texture(scene, BitmapTexture{0, false, Wrap::repeat, Wrap::repeat, {}}, "");
     }
     /// Place on the plane z = 0 where this point of the picture falls.
     Vec3 point(float u, float v) const {

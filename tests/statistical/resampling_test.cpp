@@ -13,6 +13,14 @@
 namespace treefarm {
 namespace {
 
+/// A sample all of whose members have a value.
+ScatterSample empty_sample() {
+    ScatterSample s{};
+    s.local = s.world = Vec3(0.0f);
+    s.f_cos = Rgb(0.0f);
+    return s;
+}
+
 void offer(Candidates<ScatterSample>& candidates, const ScatterSample& s) {
     candidates.next() = s;
     candidates.offer();
@@ -148,7 +156,7 @@ TEST(Resampling, TheBetterOfTwoFollowsItsDensity) {
 
 TEST(Resampling, NothingWorthTakingIsNothing) {
     Candidates<ScatterSample> candidates;
-    ScatterSample s{};
+    ScatterSample s = empty_sample();
     EXPECT_FALSE(candidates.take(2, 0.5f, s));
     s.f_cos = Rgb(1.0f);  // without density
     offer(candidates, s);
@@ -177,7 +185,7 @@ TEST(Resampling, ProductsBeyondFloatsStillChoose) {
 }
 
 TEST(Resampling, NoDirectionWeighsMuchMoreThanAlone) {
-    ScatterSample bright{}, dark{};
+    ScatterSample bright = empty_sample(), dark = empty_sample();
     bright.f_cos = dark.f_cos = Rgb(1.0f);
     bright.pdf = dark.pdf = 1.0f;
     bright.guide_pdf = 1e6f;

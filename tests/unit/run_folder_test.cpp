@@ -142,7 +142,7 @@ TEST(RunFolder, AutomaticNamesDiffer) {
     const fs::path before = fs::current_path();
     fs::current_path(fresh_folder());
     Job job = job_in("");
-    const RunFolder a(job, false, {}), b(job, false, {}), c(job, false, {});
+    const RunFolder a(job, FolderUse::fresh, {}), b(job, FolderUse::fresh, {}), c(job, FolderUse::fresh, {});
     EXPECT_NE(a.path(), b.path());
     EXPECT_NE(b.path(), c.path());
     fs::current_path(before);

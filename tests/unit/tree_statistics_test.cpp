@@ -6,6 +6,7 @@
 
 #include <numeric>
 
+#include "common/guiding/any_guide.h"
 #include "common/guiding/sd_tree/sd_tree_sampler.h"
 #include "tests/support/random_tree.h"
 
@@ -35,7 +36,7 @@ TEST(QuantilesOf, AreNumbersOfTheList) {
 
 TEST(TreeStatistics, OfTheTreeBeforeAnyPass) {
     const SdTree tree = initial_tree(Box3(Vec3(0.0f), Vec3(1.0f)), 1.0f, 0.5f);
-    const TreeStatistics s = tree_statistics(tree, 77);
+    const TreeStatistics s = AnyModel(tree).statistics(77);
     EXPECT_FALSE(s.trained);
     EXPECT_EQ(s.regions, 1u);
     EXPECT_EQ(s.nodes, 1u);
@@ -54,7 +55,7 @@ class ViewTreeStatistics : public ::testing::Test {
   protected:
     SdTree tree = test::random_view_tree(5, 60000, 1500, 4000, 2);
     SdTreeSampler guide{tree};
-    TreeStatistics s = tree_statistics(tree, 1);
+    TreeStatistics s = AnyModel(tree).statistics(1);
 };
 
 TEST_F(ViewTreeStatistics, CountEverythingOnce) {
