@@ -224,15 +224,13 @@ std::vector<JobKey> make_job_keys() {
         "guiding.spp_unit", "1 to 65536", "samples per pixel of the first pass; passes double",
         [](auto& j) -> auto& { return j.guiding.spp_unit; }, 1, 65536));
     add(text_key(
-        "guiding.initial_model",
-        "begin with what the render in this run directory learned: another frame of a shot; empty: with nothing",
+        "guiding.initial_model", "begin with what the render in this run directory has learned; empty: nothing",
         [](auto& j) -> auto& { return j.guiding.initial_model; }));
     add(text_key(
         "guiding.initial_model_hash", "of its tree.bin, as the render finds it; where one is given, another is refused",
         [](auto& j) -> auto& { return j.guiding.initial_model_hash; }));
     add(integer_key(
-        "guiding.initial_model_spp", "0 to 2^30",
-        "samples of the pass that taught it, as the render finds them: shorter passes do not teach",
+        "guiding.initial_model_spp", "0 to 2^30", "samples of the pass that taught it; shorter ones do not teach",
         [](auto& j) -> auto& { return j.guiding.initial_model_spp; }, 0, kMaxSpp));
     add(word_key(
         "guiding.combination",

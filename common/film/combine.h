@@ -58,8 +58,8 @@ struct CombinedImage {
 CombinedImage combine_passes(std::span<const PassResult> passes, Combination method, bool guided);
 
 /// Measures the noise of passes where combine_passes() would, if it is not known yet, and keeps it with them. Called
-/// after each pass, it would otherwise measure all of them again. Whoever changes a pass forgets its noise, and the file
-/// that holds it.
+/// after each pass, it would otherwise measure all of them again. Whoever changes a pass forgets its noise, and the
+/// file that holds it.
 void remember_noise(std::span<PassResult> passes, Combination method, bool guided);
 
 /// Weight of a pass that is set before it begins (`fixed`): spp sqrt(spp_before); without guiding, spp. Not normalised.

@@ -45,7 +45,8 @@ const SectionFile& small_file() {
 
 }  // namespace
 
-/// 'f': a whole file follows; another first byte: the content of the section of that number, as check sums let little pass.
+/// 'f': a whole file follows; another first byte: the content of the section of that number, as check sums let little
+/// pass.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     if (size == 0) return 0;
     const std::span<const std::uint8_t> rest(data + 1, size - 1);

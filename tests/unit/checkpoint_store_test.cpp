@@ -100,13 +100,13 @@ TEST_F(Checkpoints, WhereTheNewestIsDamagedTheOneBeforeIsTaken) {
     CheckpointStore store(run_);
     for (std::size_t k = 1; k <= 3; ++k)
         write(store, state_of(k));
-    damage(folder_ / "b.tfc");  // generation 3
+    damage(folder_ / "a.tfc");  // generation 3
     const LoadedCheckpoint loaded = load();
     EXPECT_EQ(loaded.generation, 2u);
     EXPECT_EQ(loaded.state.spp(), 2u);
     ASSERT_EQ(loaded.warnings.size(), 1u);
-    EXPECT_NE(loaded.warnings[0].find("b.tfc is damaged in its part "), std::string::npos) << loaded.warnings[0];
-    EXPECT_NE(loaded.warnings[0].find("going on from a.tfc: 2 spp"), std::string::npos) << loaded.warnings[0];
+    EXPECT_NE(loaded.warnings[0].find("a.tfc is damaged in its part "), std::string::npos) << loaded.warnings[0];
+    EXPECT_NE(loaded.warnings[0].find("going on from b.tfc: 2 spp"), std::string::npos) << loaded.warnings[0];
 
     CheckpointStore after(run_, &loaded);
     write(after, state_of(4));
@@ -207,7 +207,8 @@ TEST_F(Checkpoints, AStateThatNoRenderHasIsRefused) {
     EXPECT_NE(fault_with([](RenderState& s) { s.reports.pop_back(); }).find("not a report for each pass"),
               std::string::npos);
     EXPECT_NE(fault_with([](RenderState& s) { s.films.clear(); }).find("no film"), std::string::npos);
-    EXPECT_NE(fault_with([](RenderState& s) { s.films[0].pixels.pop_back(); }).find("not those of 12 pixels"), std::string::npos);
+    EXPECT_NE(fault_with([](RenderState& s) { s.films[0].pixels.pop_back(); }).find("not those of 12 pixels"),
+              std::string::npos);
     EXPECT_NE(fault_with([](RenderState& s) { s.history.guiding = Guiding(7); }).find("unknown verdict"),
               std::string::npos);
     EXPECT_NE(fault_with([](RenderState& s) { s.reports[0].plan.spp = 0; }).find("no pass makes"), std::string::npos);

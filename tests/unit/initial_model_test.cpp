@@ -20,10 +20,13 @@ namespace fs = std::filesystem;
 
 class InitialModel : public ::testing::Test {
   protected:
-    static fs::path folder() { return fs::path(::testing::TempDir()) / "initial_model"; }
+    static fs::path folder() {
+        return fs::path(::testing::TempDir()) / "initial_model" /
+               ::testing::UnitTest::GetInstance()->current_test_info()->name();
+    }
 
     /// The frame that the others begin with.
-    static void SetUpTestSuite() {
+    void SetUp() override {
         fs::remove_all(folder());
         fs::create_directories(folder());
         const test::Ended first = render("first", "--set guiding.type=ppg");

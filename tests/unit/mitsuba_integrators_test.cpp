@@ -122,6 +122,8 @@ constexpr const char* kOwn[] = {
     "integrator.mis",
     "integrator.split_glass",
     "guiding.preset",
+    "guiding.grid_halvings",
+    "guiding.initial_model",
     "guiding.rule",
     "guiding.view_",
     "guiding.candidate",

@@ -107,7 +107,7 @@ struct PlainWalk {
     static Target target(const Guidance& guidance) { return {guidance.region}; }
     static Target moved(const Sampler&, std::uint32_t region, Outgoing, Target) { return {region}; }
     static Direction direction(const Scatter& s) { return s.code; }
-    /// Of a point of the direction square.
+    /// The direction of a point of the direction square.
     static Direction direction_at(const Vec2& square) { return square_to_code(square); }
     static Bins bins(const Guidance&, const Scatter& s) { return mixture_bin(s.bsdf_pdf, s.guide_pdf); }
 

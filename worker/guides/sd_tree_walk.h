@@ -290,7 +290,7 @@ struct SdTreeWalk {
     }
 
     static Direction direction(const Scatter& s) { return s.code; }
-    /// Of a point of the direction square.
+    /// The direction of a point of the direction square.
     static Direction direction_at(const Vec2& square) { return square_to_code(square); }
 
     static Bins bins(const Guidance& guidance, const Scatter& s) {
