@@ -122,6 +122,7 @@ constexpr const char* kOwn[] = {
     "integrator.mis",
     "integrator.split_glass",
     "guiding.preset",
+    "farm.checkpoint_seconds",
     "guiding.grid_halvings",
     "guiding.initial_model",
     "guiding.rule",
