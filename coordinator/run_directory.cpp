@@ -88,7 +88,8 @@ RunDirectory::RunDirectory(const Job& job, RunFacts facts, const EffectPlan& pla
       folder_(job, options.use, options.interrupted),
       plan_text_(plan_text(plan, job.scene.file)),
       plan_json_(plan_json(plan, job.scene.file)),
-      passes_csv_(pass_csv_header() + "\n") {
+      passes_csv_(pass_csv_header() + "\n"),
+      next_checkpoint_(job.farm.checkpoint_seconds) {
     if (job.farm.checkpoint_seconds > 0) checkpoints_.emplace(path(), options.resumed);
     if (options.resumed) {
         if (newest_generation(path()) != options.resumed->newest)
