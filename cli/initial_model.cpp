@@ -53,12 +53,15 @@ void read_initial_model(RenderRequest& request) {
     const fs::path run = guiding.initial_model, file = run / "tree.bin";
     if (!fs::exists(run / "resolved.toml") || !fs::exists(run / "schedule.toml"))
         refuse(run, "is no run directory", std::string("name one with ") + kKey);
-    check_guide(run, read_resolved(read_settings_text(run / "resolved.toml", "job"), (run / "resolved.toml").string()),
-                resolved);
+    const Job before =
+        read_resolved(read_settings_text(run / "resolved.toml", "job"), (run / "resolved.toml").string());
+    check_guide(run, before, resolved);
     const std::vector<PassPlan> passes = parse_schedule(read_settings_text(run / "schedule.toml", "schedule"),
                                                         (run / "schedule.toml").string(), resolved);
     const auto teacher = std::find_if(passes.rbegin(), passes.rend(), [](const PassPlan& pass) { return pass.record; });
-    if (!fs::exists(file) || teacher == passes.rend() || !passes.back().guided) {
+    // One whose passes taught nothing hands on the model that it began with.
+    const bool has_learned = teacher != passes.rend() || !before.guiding.initial_model.empty();
+    if (!fs::exists(file) || !has_learned || !passes.back().guided) {
         request.warnings.push_back(run.string() + " has no model to begin with: it " +
                                    (fs::exists(file) ? "gave guiding up" : "has learned none"));
         guiding.initial_model.clear();
@@ -71,7 +74,8 @@ void read_initial_model(RenderRequest& request) {
                "is not the model that guiding.initial_model_hash says: " + hash + ", not " + guiding.initial_model_hash,
                "render that frame again as it was, or leave the hash away");
     guiding.initial_model_hash = hash;
-    guiding.initial_model_spp = static_cast<int>(teacher->spp);
+    guiding.initial_model_spp =
+        teacher != passes.rend() ? static_cast<int>(teacher->spp) : before.guiding.initial_model_spp;
     request.initial_model = decoded(file, bytes);
     request.initial_model->set_learns_lights(resolved.learns_lights);
 }

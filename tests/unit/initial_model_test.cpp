@@ -87,6 +87,16 @@ TEST_F(InitialModel, ARenderThatBeganWithOneGoesOnWithoutIt) {
     EXPECT_EQ(summary("grown")["spp"], 100);
 }
 
+TEST_F(InitialModel, OneThatTaughtNothingHandsOnWhatItBeganWith) {
+    ASSERT_EQ(render("second", "--set guiding.type=ppg " + from("first"), 15).code, 0)
+        << "passes of 1 2 4 8 teach nothing";
+    ASSERT_EQ(render("third", "--set guiding.type=ppg " + from("second"), 15).code, 0);
+    const Job job = read_resolved(text_of(folder() / "third/resolved.toml"), "resolved.toml");
+    EXPECT_EQ(job.guiding.initial_model_spp, 16);
+    EXPECT_FALSE(job.guiding.initial_model_hash.empty());
+    EXPECT_GT(summary("third")["passes"][0]["tree_regions"], 1);
+}
+
 TEST_F(InitialModel, AnotherGuidesModelIsRefused) {
     const test::Ended ended = render("other", "--set guiding.type=view " + from("first"));
     EXPECT_EQ(ended.code, 2);
