@@ -10,8 +10,8 @@ namespace treefarm {
 namespace {
 
 constexpr std::uint32_t kMagic = section_tag("TFCP"), kEnd = section_tag("END!");
-/// magic, format, generation; tag, version, length; tag, sections, length of all; a check sum.
-constexpr std::size_t kSectionHead = 16, kEndHead = 16, kCheck = 16;
+/// magic, format, generation; tag, version, length; a check sum.
+constexpr std::size_t kSectionHead = 16, kCheck = 16;
 
 void put_check(ByteWriter& out, const Hash128& hash) {
     out.put(hash.low);
