@@ -39,9 +39,7 @@ RenderState nearest_state(const RenderRequest& request, const std::vector<PassPl
         const bool has_its_tree = state.reports.size() == pass + 1 && !state.reports.back().plan.record;
         if (state.reports.size() <= pass || has_its_tree) return std::move(state);
     }
-    return first_state(request.plan.job,
-                       request.initial_model ? *request.initial_model : first_model(request.plan.job, request.scene),
-                       request.scene.film.pixel_count());
+    return starting_state(request);
 }
 
 /// The tree that guides a pass, learned by rendering the passes before it, but for those that a checkpoint knows.

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "common/base/hash.h"
+#include "cli/refuse.h"
+#include "cli/stored_model.h"
 #include "common/config/job_keys.h"
 #include "common/config/job_reader.h"
-#include "common/image/read_bytes.h"
 #include "common/plan/resolved_file.h"
 #include "common/plan/schedule_file.h"
 
@@ -19,10 +19,6 @@ namespace fs = std::filesystem;
 
 constexpr const char* kKey = "guiding.initial_model";
 
-[[noreturn]] void refuse(const fs::path& where, const std::string& what, const std::string& cure) {
-    throw InputError(Location{where.string(), 0, 0}, what, cure);
-}
-
 /// Keys that say what a model's densities are of.
 void check_guide(const fs::path& run, const Job& before, const Job& now) {
     for (const char* name : {"guiding.type", "guiding.target", "guiding.view_records"}) {
@@ -32,14 +28,6 @@ void check_guide(const fs::path& run, const Job& before, const Job& now) {
                    std::string("its model is another guide's: ") + name + " was \"" + key.print(before) + "\", is \"" +
                        key.print(now) + "\"",
                    std::string("leave ") + kKey + " away, or render both alike");
-    }
-}
-
-AnyModel decoded(const fs::path& file, std::span<const std::uint8_t> bytes) {
-    try {
-        return AnyModel::decode(bytes);
-    } catch (const FormatError& error) {
-        refuse(file, error.what(), "render that frame again");
     }
 }
 
@@ -67,16 +55,12 @@ void read_initial_model(RenderRequest& request) {
         guiding.initial_model.clear();
         return;
     }
-    const std::vector<std::uint8_t> bytes = read_bytes(file, "render that frame again");
-    const std::string hash = hash_text(hash_bytes(bytes));
-    if (!guiding.initial_model_hash.empty() && guiding.initial_model_hash != hash)
-        refuse(file,
-               "is not the model that guiding.initial_model_hash says: " + hash + ", not " + guiding.initial_model_hash,
-               "render that frame again as it was, or leave the hash away");
-    guiding.initial_model_hash = hash;
+    StoredModel stored =
+        read_model(file, guiding.initial_model_hash, "is not the model that guiding.initial_model_hash says");
+    guiding.initial_model_hash = stored.hash;
     guiding.initial_model_spp =
         teacher != passes.rend() ? static_cast<int>(teacher->spp) : before.guiding.initial_model_spp;
-    request.initial_model = decoded(file, bytes);
+    request.initial_model = std::move(stored.model);
     request.initial_model->set_learns_lights(resolved.learns_lights);
 }
 

@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "common/base/error.h"
+#include "cli/refuse.h"
 #include "common/config/parse_text.h"
 #include "common/scene/readers/foreign_format.h"
 
@@ -13,10 +13,6 @@ namespace {
 
 constexpr const char* kSceneOrJob = "give a Mitsuba scene (.xml) or a job (.toml)";
 constexpr const char* kStudy = "give a study file (.toml)";
-
-[[noreturn]] void refuse(const std::string& input, const std::string& what, const std::string& cure) {
-    throw InputError(Location{input, 0, 0}, what, cure);
-}
 
 /// Refuses a folder, and says what to do with it.
 [[noreturn]] void refuse_folder(const std::filesystem::path& folder, const char* otherwise) {

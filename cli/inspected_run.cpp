@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "cli/refuse.h"
+#include "cli/stored_model.h"
 #include "common/base/hash.h"
 #include "common/config/job_reader.h"
 #include "common/image/read_bytes.h"
@@ -13,10 +15,6 @@
 namespace treefarm {
 
 namespace {
-
-[[noreturn]] void refuse(const std::filesystem::path& file, const std::string& what, const std::string& cure) {
-    throw InputError(Location{file.string(), 0, 0}, what, cure);
-}
 
 void check_directory(const std::filesystem::path& directory) {
     if (!std::filesystem::is_directory(directory))
@@ -44,8 +42,7 @@ nlohmann::json read_summary(const std::filesystem::path& file) {
     return summary;
 }
 
-AnyModel read_tree(const std::filesystem::path& file, const std::string& expected_hash, const Job& job,
-                   std::uint64_t& size) {
+StoredModel read_tree(const std::filesystem::path& file, const std::string& expected_hash, const Job& job) {
     if (!std::filesystem::exists(file)) {
         if (job.guiding.type == GuidingType::none)
             refuse(file, "is missing, since guiding.type is \"none\": the run has no tree",
@@ -55,16 +52,9 @@ AnyModel read_tree(const std::filesystem::path& file, const std::string& expecte
                    "render more samples, so that there are at least two passes");
         refuse(file, "is missing, though the run wrote it", "render again");
     }
-    const std::vector<std::uint8_t> bytes = read_bytes(file, "render again");
-    size = bytes.size();
-    if (hash_text(hash_bytes(bytes)) != expected_hash)
-        refuse(file, "is not the tree that summary.json stands beside: it is of another run, or damaged",
-               "render again");
-    try {
-        return AnyModel::decode(bytes);
-    } catch (const FormatError& error) {
-        refuse(file, error.what(), "render again");
-    }
+    constexpr const char* kOther = "is not the tree that summary.json stands beside: it is of another run, or damaged";
+    if (expected_hash.empty()) refuse(file, kOther, "render again");
+    return read_model(file, expected_hash, kOther);
 }
 
 }  // namespace
@@ -77,8 +67,10 @@ InspectedRun read_inspected_run(const std::filesystem::path& directory) {
     run.directory = directory;
     RenderOptions options;
     options.input = job.string();
-    run.tree = read_tree(directory / "tree.bin", summary_text(summary, summary_file, "tree_file_hash"),
-                         read_job_file(job), run.tree_bytes);
+    StoredModel stored =
+        read_tree(directory / "tree.bin", summary_text(summary, summary_file, "tree_file_hash"), read_job_file(job));
+    run.tree = std::move(stored.model);
+    run.tree_bytes = stored.bytes;
     run.request = read_request(options);
     if (hash_text(hash_bytes(encode_scene(run.request.scene))) != summary_text(summary, summary_file, "scene_hash"))
         refuse(run.request.job.scene.file, "is not the scene that " + job.string() + " rendered: it has changed since",

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "cli/debug_sample.h"
+#include "cli/exit_code.h"
 #include "cli/option_values.h"
 #include "cli/render_shot.h"
 #include "cli/resume.h"
@@ -14,26 +15,13 @@ namespace treefarm {
 
 namespace {
 
-int exit_code_of(const RenderOutcome& outcome) {
-    switch (outcome.state) {
-        case RunState::done:
-            return outcome.missed_target ? 4 : 0;
-        case RunState::interrupted:
-            return 3;
-        default:
-            return 1;
-    }
-}
-
 /// A sample is traced in one process.
 int debug(const LaunchEnvironment& launch, const RenderOptions& options) {
     if (launch.rank != 0) return 0;
     if (launch.under_mpi)
         throw InputError(Location{"--debug-sample", 0, 0}, "traces one sample in one process", "leave mpirun away");
     RenderRequest request = read_request(options);
-    const std::vector<PassPlan> asked = request.schedule;
     request.resumed = find_checkpoint(options.run_directory, request);
-    request.schedule = asked;
     return debug_sample(request, parse_sample_name(options.debug_sample));
 }
 
@@ -54,7 +42,7 @@ int render_on_farm(const LaunchEnvironment& launch, const FarmOptions& farm, con
     };
     task.coordinate = [&](Channel& channel, const std::function<bool()>& interrupted) -> CoordinatorEnd {
         const RenderOutcome outcome = run_render(channel, request, interrupted);
-        return {exit_code_of(outcome), outcome.lost_peers};
+        return {exit_code_of(outcome.state, outcome.missed_target), outcome.lost_peers};
     };
     return run_on_farm(launch, farm, voice, task);
 }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "cli/exit_code.h"
 #include "cli/resume.h"
 #include "cli/this_build.h"
 #include "common/config/frames.h"
@@ -78,17 +79,6 @@ std::filesystem::path shot_directory(const RenderOptions& options) {
            (name_without_frame(std::filesystem::path(options.input).stem().string()) + "-shot");
 }
 
-int exit_code_of(const ShotOutcome& outcome) {
-    switch (outcome.state) {
-        case RunState::done:
-            return outcome.missed_target ? 4 : 0;
-        case RunState::interrupted:
-            return 3;
-        default:
-            return 1;
-    }
-}
-
 }  // namespace
 
 int render_shot(const LaunchEnvironment& launch, const RenderOptions& options) {
@@ -102,9 +92,7 @@ int render_shot(const LaunchEnvironment& launch, const RenderOptions& options) {
         check(options, shot.frames.size());
         shot.directory = shot_directory(options);
         shot.read_request = [&](int frame) { return frame_request(options, shot, frame); };
-        shot.find_checkpoint = [](const std::filesystem::path& folder, RenderRequest& request) {
-            return find_checkpoint(folder.string(), request);
-        };
+        shot.find_checkpoint = find_checkpoint;
         std::vector<std::string> warnings;
         warn_if_crowded(options.farm.threads, warnings);
         if (shot.frames.size() > 1 && !varies(options))
@@ -116,7 +104,7 @@ int render_shot(const LaunchEnvironment& launch, const RenderOptions& options) {
         const ShotOutcome outcome = run_shot(
             channel, shot, {options.command, this_build(), voice.console, voice.loudness, options.overwrite, log},
             interrupted);
-        return {exit_code_of(outcome), outcome.lost_peers};
+        return {exit_code_of(outcome.state, outcome.missed_target), outcome.lost_peers};
     };
     return run_on_farm(launch, options.farm, voice, task);
 }

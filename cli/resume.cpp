@@ -4,27 +4,23 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "cli/option_values.h"
+#include "cli/refuse.h"
 #include "cli/render.h"
 #include "common/base/hash.h"
 #include "common/config/job_keys.h"
 #include "common/plan/resolved_file.h"
 #include "common/scene/pack/scene_codec.h"
+#include "coordinator/shot/finished_frame.h"
 
 namespace treefarm {
 
 namespace {
 
 namespace fs = std::filesystem;
-
-[[noreturn]] void refuse(const fs::path& where, const std::string& what, const std::string& cure) {
-    throw InputError(Location{where.string(), 0, 0}, what, cure);
-}
 
 void check_directory(const fs::path& run) {
     if (!fs::is_directory(run) || !fs::exists(run / "job.toml"))
@@ -62,28 +58,20 @@ bool has_new_budget(const LoadedCheckpoint& loaded, const Job& now) {
     });
 }
 
-/// A new budget starts its own reckoning of how to end; else the passes of --schedule go on.
-void set_budget(RenderRequest& request, LoadedCheckpoint& loaded) {
-    if (has_new_budget(loaded, request.job))
-        loaded.state.history.budget.ending = false;
-    else
-        request.schedule = loaded.origin.schedule;
-}
-
-std::shared_ptr<LoadedCheckpoint> load(const fs::path& run, RenderRequest& request) {
+std::shared_ptr<LoadedCheckpoint> load(const fs::path& run, const RenderRequest& request) {
     auto loaded = std::make_shared<LoadedCheckpoint>(
         load_checkpoint(run, [&](const CheckpointOrigin& origin) { check_origin(run, origin, request); }));
-    set_budget(request, *loaded);
+    // A new budget starts its own reckoning of how to end.
+    if (has_new_budget(*loaded, request.job)) loaded->state.history.budget.ending = false;
     return loaded;
 }
 
 /// Whether the run has written all that these samples give.
 bool has_written(const fs::path& run, const RenderRequest& request, std::uint32_t spp) {
-    std::ifstream file(run / "summary.json", std::ios::binary);
-    const nlohmann::json summary = nlohmann::json::parse(file, nullptr, false);
-    if (!summary.is_object() || summary.value("state", "") != "done" || summary.value("spp", 0u) != spp) return false;
+    FrameRecord record;
+    read_figures(run, record);
     const std::string& output = request.job.output.file;
-    return fs::exists(run / "image.exr") && (output.empty() || fs::exists(output));
+    return holds_result(run) && record.spp == spp && (output.empty() || fs::exists(output));
 }
 
 }  // namespace
@@ -104,6 +92,7 @@ RenderRequest read_resumed(const ResumeOptions& options) {
     RenderRequest request = read_request(as_render);
     request.resumed = load(run, request);
     const LoadedCheckpoint& loaded = *request.resumed;
+    if (!has_new_budget(loaded, request.job)) request.schedule = loaded.origin.schedule;
     if (request.job.output.file.empty()) request.job.output.file = loaded.origin.output_file;
     for (const std::string& warning : loaded.warnings)
         request.warnings.push_back(warning);
@@ -114,8 +103,8 @@ RenderRequest read_resumed(const ResumeOptions& options) {
     return request;
 }
 
-std::shared_ptr<LoadedCheckpoint> find_checkpoint(const std::string& run, RenderRequest& request) {
-    if (run.empty() || !fs::exists(fs::path(run) / kCheckpointFolder)) return nullptr;
+std::shared_ptr<LoadedCheckpoint> find_checkpoint(const fs::path& run, const RenderRequest& request) {
+    if (run.empty() || !fs::exists(run / kCheckpointFolder)) return nullptr;
     try {
         return load(run, request);
     } catch (const InputError&) {  // it only saves time

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -35,8 +36,7 @@ void add_resume_command(CLI::App& app, const LaunchEnvironment& launch, const st
 /// go on from there to the same bits; nothing has been written then.
 RenderRequest read_resumed(const ResumeOptions& options);
 
-/// The newest usable checkpoint of this very render in a run directory, or nullptr; sets the passes of --schedule that
-/// the render goes on with.
-std::shared_ptr<LoadedCheckpoint> find_checkpoint(const std::string& run, RenderRequest& request);
+/// The newest usable checkpoint of this very render in a run directory; nullptr where there is none.
+std::shared_ptr<LoadedCheckpoint> find_checkpoint(const std::filesystem::path& run, const RenderRequest& request);
 
 }  // namespace treefarm

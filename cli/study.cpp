@@ -5,6 +5,7 @@
 #include <iostream>
 #include <memory>
 
+#include "cli/exit_code.h"
 #include "cli/input_kind.h"
 #include "cli/on_farm.h"
 #include "cli/option_values.h"
@@ -40,10 +41,6 @@ Study read_study_for(const StudyOptions& options) {
     Study study = read_study(options.input);
     if (!options.directory.empty()) study.directory = options.directory;
     return study;
-}
-
-int exit_code_of(RunState state) {
-    return state == RunState::done ? 0 : state == RunState::interrupted ? 3 : 1;
 }
 
 int study(const LaunchEnvironment& launch, const StudyOptions& options) {

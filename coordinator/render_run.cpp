@@ -147,8 +147,7 @@ class RenderRun {
     /// What the render begins with, or goes on from.
     RenderState take_state() const {
         if (request_.resumed) return std::move(request_.resumed->state);
-        return first_state(job(), request_.initial_model ? *request_.initial_model : first_model(job(), request_.scene),
-                           request_.scene.film.pixel_count());
+        return starting_state(request_);
     }
 
     const Resolved& job() const { return request_.plan.job; }
@@ -275,6 +274,12 @@ class RenderRun {
 };
 
 }  // namespace
+
+RenderState starting_state(const RenderRequest& request) {
+    const Resolved& job = request.plan.job;
+    return first_state(job, request.initial_model ? *request.initial_model : first_model(job, request.scene),
+                       request.scene.film.pixel_count());
+}
 
 PassChooser passes_of(const RenderRequest& request) {
     if (!request.schedule.empty()) return listed_passes(request.schedule);

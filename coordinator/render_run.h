@@ -42,6 +42,9 @@ struct RenderRequest {
     std::function<void(const PassReport&, const CombinedImage&)> on_pass;
 };
 
+/// The state that it begins with where it goes on from none.
+RenderState starting_state(const RenderRequest& request);
+
 /// The passes that it asks for.
 PassChooser passes_of(const RenderRequest& request);
 

@@ -130,11 +130,12 @@ AnyAccumulator::AnyAccumulator(std::uint32_t pass, const AnySampler& guide, Dire
 
 namespace {
 
-/// Calls use(accumulator) for the one that there is.
-template <class Accumulators, class Use>
-auto with_accumulator(Accumulators& accumulators, Use use) {
+/// Calls use(accumulator) for the one that there is. The result is named: clang 14 breaks down where it has to deduce
+/// it.
+template <class Result, class Accumulators, class Use>
+Result with_accumulator(Accumulators& accumulators, Use use) {
     return std::visit(
-        [&]<class A>(A& accumulator) -> decltype(use(std::get<1>(accumulators))) {
+        [&]<class A>(A& accumulator) -> Result {
             if constexpr (std::is_same_v<A, std::monostate>)
                 throw RunError("no guide's records are added");
             else
@@ -147,15 +148,15 @@ auto with_accumulator(Accumulators& accumulators, Use use) {
 
 void AnyAccumulator::commit(std::span<const Record> records, std::span<const std::uint32_t> counts,
                             const UpdateCaps& caps) {
-    with_accumulator(accumulator_, [&](auto& accumulator) { accumulator.commit(records, counts, caps); });
+    with_accumulator<void>(accumulator_, [&](auto& accumulator) { accumulator.commit(records, counts, caps); });
 }
 
 CellSums AnyAccumulator::take() {
-    return with_accumulator(accumulator_, [](auto& accumulator) { return accumulator.take(); });
+    return with_accumulator<CellSums>(accumulator_, [](auto& accumulator) { return accumulator.take(); });
 }
 
 void AnyAccumulator::give_back(CellSums cleared) {
-    with_accumulator(accumulator_, [&](auto& accumulator) { accumulator.give_back(std::move(cleared)); });
+    with_accumulator<void>(accumulator_, [&](auto& accumulator) { accumulator.give_back(std::move(cleared)); });
 }
 
 AnyModel AnyLearner::learn(const AnyModel& model, const CellSums& sums, const RefineSettings& settings,

@@ -188,7 +188,7 @@ MemoryPlan expected_memory(const Scene& scene, const Resolved& job) {
          count_text(pixels, "pixels, ") + passes_text(job)});
     if (job.farm.checkpoint_seconds > 0)
         plan.coordinator.push_back({"checkpoint", pixels * 2 * 2 * (sizeof(std::uint32_t) + 6 * sizeof(double)),
-                                    "two passes, while they are written"});
+                                    "copies of two passes, to be written"});
     if (const AovLayout aovs(aov_requests(job)); !job.output.aovs.empty()) {
         std::size_t channels = 0;
         for (const AovRequest& request : aov_requests(job))

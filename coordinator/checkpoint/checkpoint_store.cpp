@@ -3,12 +3,14 @@
 
 #include <algorithm>
 #include <fstream>
+#include <limits>
 #include <utility>
 
 #include "common/base/error.h"
 #include "common/base/hash.h"
 #include "common/config/aov_list.h"
 #include "common/image/atomic_file.h"
+#include "common/image/read_bytes.h"
 #include "common/plan/resolved_file.h"
 
 namespace treefarm {
@@ -30,13 +32,11 @@ bool is_ours(const std::string& name) {
 
 /// A whole file, however large. Throws FormatError where it cannot be read.
 Bytes read_file(const fs::path& path) {
-    std::ifstream file(path, std::ios::binary | std::ios::ate);
-    if (!file) throw FormatError("cannot be opened");
-    Bytes bytes(static_cast<std::size_t>(file.tellg()));
-    file.seekg(0);
-    file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-    if (!file) throw FormatError("cannot be read");
-    return bytes;
+    try {
+        return read_bytes(path, "", std::numeric_limits<std::uintmax_t>::max());
+    } catch (const InputError& error) {
+        throw FormatError(error.what());
+    }
 }
 
 /// A generation's file, or why it is not usable.

@@ -13,7 +13,8 @@ struct Shot {
     std::vector<int> frames;                         ///< in the order in which they are rendered
     std::function<RenderRequest(int)> read_request;  ///< reads a frame's job and scene; throws InputError
     /// What a request can go on from in the folder of a frame that was broken off; nullptr: nothing.
-    std::function<std::shared_ptr<LoadedCheckpoint>(const std::filesystem::path&, RenderRequest&)> find_checkpoint;
+    std::function<std::shared_ptr<LoadedCheckpoint>(const std::filesystem::path&, const RenderRequest&)>
+        find_checkpoint;
 };
 
 struct ShotOutcome {

@@ -103,15 +103,17 @@ fs::path broken_off(const std::vector<std::string>& options = {"--spp", "255"}) 
 
 TEST(Resume, AKilledProgramGoesOnUnderAnyNumberOfRanks) {
     std::mt19937 random(1);
-    int k = 0;
+    int k = 0, resumes = 0;
     for (const auto& [before, after] : {std::pair(1, 3), std::pair(3, 1), std::pair(2, 5), std::pair(1, 1)}) {
         const fs::path folder = fresh_folder("run");
         kill_after(render(folder), before, folder, 0.05 * static_cast<double>(random() % 8));
         if (fs::exists(folder / "summary.json")) continue;  // it was done before
+        ++resumes;
         EXPECT_EQ(resumed(after, folder, {"--threads", std::to_string(1 + k++ % 3)}), 0);
         EXPECT_EQ(hashes(folder), never_stopped()) << before << " ranks, then " << after;
         EXPECT_EQ(passes_done(folder), 8) << "passes.csv has no hole";
     }
+    EXPECT_GT(resumes, 0) << "none was killed in time";
 }
 
 TEST(Resume, AnInterruptedProgramGoesOn) {
@@ -145,13 +147,10 @@ TEST(Resume, AGrownBudgetAndATimedOneAreWhatTheirScheduleReplays) {
 
 TEST(Resume, TheSecondsOfAllLivesCount) {
     const fs::path folder = fresh_folder("run");
-    const auto begin = std::chrono::steady_clock::now();
     kill_after(render(folder, {"--seconds", "4"}), 1, folder, 1.5);
-    const std::chrono::duration<double> before = std::chrono::steady_clock::now() - begin;
     ASSERT_EQ(resumed(1, folder), 0);
-    const double all = read_summary(folder)["passes"].back()["run_seconds"];
-    EXPECT_GT(all, 2.0) << "with the first life's";
-    EXPECT_LT(all, 4.0 + 3.0 + before.count());
+    const nlohmann::json summary = read_summary(folder);
+    EXPECT_GT(summary["passes"].back()["run_seconds"], summary["seconds"]) << "more than this life's";
 }
 
 TEST(Resume, WhereTheNewestIsDamagedTheOneBeforeIsUsed) {

@@ -32,7 +32,8 @@ class LoneTasks : public testing::Test {
         EXPECT_FALSE(std::filesystem::exists(folder_)) << "nothing is written";
     }
 
-    const std::string folder_ = testing::TempDir() + "lone-tasks";
+    const std::string folder_ =
+        std::string(testing::TempDir()) + "lone-tasks-" + testing::UnitTest::GetInstance()->current_test_info()->name();
 };
 
 TEST_F(LoneTasks, OfSrunWithoutPmixAreRefused) {

@@ -158,7 +158,9 @@ class WrongFiles : public testing::Test {
         return (folder_ / name).string();
     }
 
-    const std::filesystem::path folder_ = std::filesystem::path(testing::TempDir()) / "wrong-files";
+    // One for each test: they may run at the same time.
+    const std::filesystem::path folder_ = std::filesystem::path(testing::TempDir()) / "wrong-files" /
+                                          testing::UnitTest::GetInstance()->current_test_info()->name();
 };
 
 TEST_F(WrongFiles, FormatsOfOthersSayHowToConvert) {

@@ -29,6 +29,12 @@ struct Mesh {
     std::vector<std::uint32_t> indices;     ///< three per triangle, counter-clockwise seen from the front
     std::vector<MeshAttribute> attributes;  ///< after checks, only those that a texture asks for
 
+    /// Adds an attribute without values.
+    MeshAttribute& add_attribute(const std::string& name) {
+        attributes.push_back({name, {}});
+        return attributes.back();
+    }
+
     std::size_t triangle_count() const { return indices.size() / 3; }
     /// The attribute of this name, or nullptr.
     const MeshAttribute* find_attribute(const std::string& name) const {

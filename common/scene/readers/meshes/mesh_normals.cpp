@@ -98,7 +98,7 @@ void split_at_edges(Mesh& mesh, double min_cosine) {
         }
     }
     for (MeshAttribute& attribute : mesh.attributes) {
-        MeshAttribute& copy = split.attributes.emplace_back(attribute.name);
+        MeshAttribute& copy = split.add_attribute(attribute.name);
         if (attribute.is_of_faces())
             copy.values = std::move(attribute.values);
         else

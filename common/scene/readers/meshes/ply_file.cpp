@@ -55,7 +55,7 @@ class AttributeReader {
           mesh_(mesh),
           first_(mesh.attributes.size()) {
         for (const AttributeGroup& group : groups_) {
-            mesh.attributes.emplace_back(group.name);
+            mesh.add_attribute(group.name);
             for (const std::size_t property : group.properties)
                 wanted_[property] = true;
         }

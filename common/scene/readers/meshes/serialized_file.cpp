@@ -138,8 +138,7 @@ Mesh read_mesh(Inflater& in, std::uint16_t version) {
     read_vectors(in, is_double, vertex_count, mesh.positions);
     if (flags & kHasNormals) read_vectors(in, is_double, vertex_count, mesh.normals);
     if (flags & kHasUvs) read_vectors(in, is_double, vertex_count, mesh.uvs);
-    if (flags & kHasColors)
-        read_vectors(in, is_double, vertex_count, mesh.attributes.emplace_back("vertex_color").values);
+    if (flags & kHasColors) read_vectors(in, is_double, vertex_count, mesh.add_attribute("vertex_color").values);
     read_indices(in, triangle_count, mesh);
     in.finish();
     return mesh;
