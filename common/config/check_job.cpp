@@ -32,6 +32,11 @@ void check_job(const Job& job) {
                 throw InputError(Location{"output.aovs", 0, 0},
                                  "the estimator \"" + job.integrator.type + "\" sees no light, direct or indirect",
                                  "leave \"" + aov_text(request) + "\" out of output.aovs");
+    if (job.guiding.target == GuidingTarget::variance &&
+        (job.guiding.bootstrap > 0.0f || job.guiding.type == GuidingType::qtable))
+        throw InputError(Location{"guiding.target", 0, 0},
+                         "records of second moments cannot be made of the radiance that regions have learned",
+                         "set guiding.target = \"radiance\", or guiding.bootstrap = 0 and another guide than qtable");
     if (job.guiding.splitting > 1 && job.guiding.roulette == GuidingRoulette::constant)
         throw InputError(Location{"guiding.splitting", 0, 0},
                          "where roulette is constant nobody knows what a path is expected to carry, so none is split",

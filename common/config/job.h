@@ -27,14 +27,18 @@ enum class MisHeuristic : std::uint8_t {
 };
 
 /// The guide of paths: nothing, the SD-tree (Mueller et al. 2017), the SD-tree with a view-dependent part (Cavus 2020),
-/// the last as long as it pays, or a fixed grid (docs/use/write-a-guide.md).
+/// the last as long as it pays, a fixed grid (docs/use/write-a-guide.md), or Q-learning on one (Dahm and Keller 2017).
 enum class GuidingType : std::uint8_t {
     none,
     ppg,
     view,
     automatic,  ///< view, as long as guiding pays
     grid,
+    qtable,
 };
+
+/// Job::Guiding::bootstrap that is left to the program.
+inline constexpr float kUsualBootstrap = -1.0f;
 
 /// How long what a render has begun with goes on.
 enum class Rule : std::uint8_t {
@@ -108,7 +112,8 @@ struct Job {
         int view_threshold = 4000;            ///< c of the split rule of views
         double spatial_threshold = 0;         ///< c of the spatial split rule; 0: as the film says
         float directional_threshold = 0.01f;  ///< share of a region's energy above which a cell splits
-        int grid_halvings = 12;               ///< of space: a grid has 2^this regions
+        int grid_halvings = 0;                ///< of space: a grid has 2^this regions; 0: as usual
+        float bootstrap = kUsualBootstrap;    ///< part of records that regions have learned before, [0, 1]
         int spp_unit = 1;                     ///< samples per pixel of the first pass; passes double
         std::string initial_model;            ///< run directory whose model the first pass is guided by; empty: none
         std::string initial_model_hash;       ///< of its file

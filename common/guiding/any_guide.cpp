@@ -82,8 +82,12 @@ bool AnyModel::grows() const {
 
 SumsShape AnyModel::sums_shape(bool with_mixture) const {
     const ModelFigures size = figures();
-    return {static_cast<std::uint32_t>(size.regions), static_cast<std::uint32_t>(size.cells), with_mixture,
-            static_cast<std::uint32_t>(size.views), regions().learns_lights()};
+    return {static_cast<std::uint32_t>(size.regions),
+            static_cast<std::uint32_t>(size.cells),
+            with_mixture,
+            static_cast<std::uint32_t>(size.views),
+            regions().learns_lights(),
+            visit([]<class G>(const auto&) { return counts_visits<typename G::Sampler>(); })};
 }
 
 TreeStatistics AnyModel::statistics(std::uint64_t encoded_bytes) const {

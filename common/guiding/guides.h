@@ -5,6 +5,7 @@
 #include <variant>
 
 #include "common/guiding/grid/grid.h"
+#include "common/guiding/qtable/qtable.h"
 #include "common/guiding/sd_tree/sd_tree_guide.h"
 #include "common/guiding/statistics/cell_accumulator.h"
 
@@ -39,6 +40,8 @@ concept Guide = std::derived_from<typename G::Model, RegionModel> &&
     { sampler.sample(0u, Draw()).pdf } -> std::convertible_to<float>;
     /// Density per steradian in a region of the direction with this code, and bytes, for reports.
     { sampler.pdf(0u, 0u) } -> std::same_as<float>;
+    /// Mean radiance that a region has learned of such a direction; negative where it has learned nothing.
+    { sampler.radiance(0u, 0u) } -> std::same_as<float>;
     { sampler.bytes() } -> std::same_as<std::size_t>;
 };
 
@@ -60,7 +63,7 @@ struct GuideList {
 };
 
 /// The guides of the program, in the order of GuideKind. It is a closed set: what differs is chosen once per work unit.
-enum class GuideKind : std::uint8_t { sd_tree, grid };
-using Guides = GuideList<SdTreeGuide, GridGuide>;
+enum class GuideKind : std::uint8_t { sd_tree, grid, qtable };
+using Guides = GuideList<SdTreeGuide, GridGuide, QTableGuide>;
 
 }  // namespace treefarm

@@ -16,6 +16,8 @@ GuideKind guide_kind(const Job& job) {
             return GuideKind::sd_tree;
         case GuidingType::grid:
             return GuideKind::grid;
+        case GuidingType::qtable:
+            return GuideKind::qtable;
     }
     return {};
 }
@@ -51,6 +53,7 @@ RefineSettings refine_settings(const Resolved& job, const PassPlan& pass, const 
         static_cast<std::uint32_t>(std::lround(1.0 / static_cast<double>(job.guiding.directional_threshold)));
     settings.record_weight = pass.record_weight;
     settings.target = job.guiding.target;
+    settings.with_flux = job.guiding.bootstrap > 0.0f;
     settings.view_threshold = split_growth(job, coming) * job.guiding.view_threshold;
     settings.last_update = coming.last_tree;
     settings.views_record_alone = job.guiding.view_records == ViewRecords::radiance;

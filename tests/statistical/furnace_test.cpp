@@ -16,6 +16,7 @@ struct Method {
     MisHeuristic mis;
     float albedo;
     bool learned = false;  ///< the mixture of BSDF and tree
+    float bootstrap = kUsualBootstrap;
 };
 
 std::vector<Method> methods() {
@@ -42,6 +43,12 @@ std::vector<Method> methods() {
     for (const NextEvent next_event : {NextEvent::never, NextEvent::always, NextEvent::kickstart})
         all.push_back({"Grid" + std::to_string(static_cast<int>(next_event)), GuidingType::grid, next_event,
                        MisHeuristic::balance, 0.8f, true});
+    for (const NextEvent next_event : {NextEvent::never, NextEvent::kickstart})
+        all.push_back({"QTable" + std::to_string(static_cast<int>(next_event)), GuidingType::qtable, next_event,
+                       MisHeuristic::balance, 0.8f, true});
+    for (const GuidingType guiding : {GuidingType::ppg, GuidingType::grid})
+        all.push_back({guiding == GuidingType::ppg ? "BootstrappedTree" : "BootstrappedGrid", guiding, NextEvent::never,
+                       MisHeuristic::balance, 0.8f, true, 0.9f});
     return all;
 }
 
@@ -68,6 +75,7 @@ TEST_P(Furnace, EveryPassHasTheExactMean) {
     job.guiding.spatial_threshold = 500;
     job.guiding.spp_unit = 4;
     job.guiding.learn_bsdf_fraction = method.learned;
+    job.guiding.bootstrap = method.bootstrap;
     job.integrator.next_event = method.next_event;
     job.integrator.mis = method.mis;
     job.budget.spp = 252;

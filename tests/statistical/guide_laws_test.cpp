@@ -17,6 +17,7 @@
 #include "tests/support/chi_square.h"
 #include "tests/support/random_tree.h"
 #include "worker/guides/walks.h"
+#include "worker/integrators/path/path_recorder.h"
 #include "worker/shading/plain_diffuse.h"
 
 namespace treefarm {
@@ -69,13 +70,13 @@ class GuideLaws : public ::testing::Test {
     static Model learned(const Model& model, const Records& records) {
         typename G::Learner learner;
         RefineReport report;
-        return learner.learn(model, sums_of(Sampler(model), model.pass, records), {.spatial_threshold = 1000}, true,
-                             report);
+        return learner.learn(model, sums_of(Sampler(model), model.pass, records),
+                             {.spatial_threshold = 1000, .with_flux = true}, true, report);
     }
 
     /// Records in the middle of the cube, along one direction, of one value.
     static Records alike(const Sampler& guide, std::size_t count, float value, std::uint32_t code) {
-        Records records(count, {guide.region(Vec3(0.5f)), code, 1u << 31, value});
+        Records records(count, {guide.region(Vec3(0.5f)), code, 1u << 31, value, 0.0f, 0, true});
         for (Record& record : records)
             record.reflected = value;
         return records;
@@ -187,6 +188,39 @@ TYPED_TEST(GuideLaws, TheMixtureEstimatesIntegrals) {
         EXPECT_LT(std::abs(tilted.z(0.8)), 4.5) << name;
         EXPECT_LT(std::abs(half.z(0.4)), 4.5) << name;
     }
+}
+
+/// What a guide knows of the light is what it was taught.
+TYPED_TEST(GuideLaws, TheRadianceItKnowsIsThatOfItsRecords) {
+    using Sampler = typename TypeParam::Sampler;
+    using Walk = WalkOf<Sampler>;
+    const auto light = [](const Vec3& d) { return d.z > 0.0f ? 3.0f : 0.5f; };
+    typename TypeParam::Model model = TestFixture::first();
+    typename TypeParam::Learner learner;
+    const Vec3 place(0.5f, 0.4f, 0.3f);
+    EXPECT_LE(Sampler(model).radiance(Sampler(model).region(place), 0), 0.0f) << "nothing is known yet";
+    for (std::uint32_t pass = 0; pass < 3; ++pass) {
+        const Sampler guide(model);
+        RecordLog log;
+        log.begin(guide.distribution_count());
+        log.drafts.resize(Walk::kRecordsPerVertex);
+        typename Walk::Target target;
+        target.region = guide.region(place);
+        for (std::uint32_t i = 0; i < 100'000; ++i) {
+            const Draw random = draw({8, i, pass}, 0, Stream::scatter);
+            const Vec3 d = square_to_direction({to_unit(random[0]), to_unit(random[1])});
+            const TaughtDirection<Walk> taught{direction_to_code(d), kInvFourPi, light(d), 0.0f, {}};
+            Record* const end = Walk::teach({}, random[2], target, taught, log, log.drafts.data());
+            log.records.insert(log.records.end(), log.drafts.data(), end);
+        }
+        CellAccumulator<Sampler> accumulator(model.pass, guide);
+        accumulator.commit(log.records, log.counts, {});
+        RefineReport report;
+        model = learner.learn(model, accumulator.take(), {.spatial_threshold = 1e9, .with_flux = true}, false, report);
+    }
+    const Sampler guide(model);
+    for (const Vec3& d : {Vec3(0.1f, 0.2f, 1.0f), Vec3(-0.3f, 0.4f, 1.0f), Vec3(0.1f, -0.2f, -1.0f)})
+        EXPECT_NEAR(guide.radiance(guide.region(place), direction_to_code(normalize(d))) / light(d), 1.0f, 0.1f);
 }
 
 /// Law 4: sums are the same bytes however their records are split, in whatever order and by how many threads.

@@ -22,13 +22,14 @@ struct Case {
     LightSelection light_selection = LightSelection::power;
     int splitting = 1;
     GuidingType type = GuidingType::ppg;
+    float bootstrap = kUsualBootstrap;
 };
 
 void PrintTo(const Case& c, std::ostream* out) {
     *out << c.scene << ", next event " << static_cast<int>(c.next_event) << ", MIS " << static_cast<int>(c.mis)
          << ", candidates " << c.candidates << " to depth " << c.candidate_depth << ", light selection "
          << static_cast<int>(c.light_selection) << ", splitting " << c.splitting << ", guide "
-         << static_cast<int>(c.type);
+         << static_cast<int>(c.type) << ", bootstrap " << c.bootstrap;
 }
 
 struct Estimate {
@@ -73,6 +74,7 @@ TEST_P(GuidedAgainstUnguided, AgreesInEveryBlock) {
     job.sampler.seed = 2;
     job.budget.spp = 508;
     job.guiding.type = GetParam().type;
+    job.guiding.bootstrap = GetParam().bootstrap;
     job.guiding.combination = Combination::fixed;
     job.guiding.spatial_threshold = 1000;  // a fine tree for a small image
     job.guiding.spp_unit = GetParam().spp_unit;
@@ -106,6 +108,14 @@ INSTANTIATE_TEST_SUITE_P(
              GuidingType::grid},
         Case{"door-ajar.xml", NextEvent::always, MisHeuristic::power, 1, 1, 1, LightSelection::power, 1,
              GuidingType::grid},
+        Case{"cornell-box.xml", NextEvent::never, MisHeuristic::balance, 1, 1, 1, LightSelection::power, 1,
+             GuidingType::qtable},
+        Case{"features.xml", NextEvent::kickstart, MisHeuristic::balance, 1, 2, 8, LightSelection::learned, 4,
+             GuidingType::qtable},
+        Case{"cornell-box.xml", NextEvent::never, MisHeuristic::balance, 1, 1, 1, LightSelection::power, 1,
+             GuidingType::ppg, 1.0f},
+        Case{"features.xml", NextEvent::always, MisHeuristic::balance, 1, 1, 1, LightSelection::learned, 4,
+             GuidingType::view, 0.9f},
         Case{"door-ajar.xml", NextEvent::always}, Case{"door-ajar.xml", NextEvent::kickstart}));
 
 /// A guided job for a small image.

@@ -20,8 +20,13 @@ std::vector<Record> random_records(const RegionSampler& guide, std::size_t count
         const Frame lobe(normalize(position - Vec3(0.4f, 0.6f, 1.5f)));
         const Vec3 direction = lobe.to_world(square_to_cone({uniform(engine), uniform(engine)}, width));
         const std::uint32_t region = guide.region(position);
-        record = {region, direction_to_code(direction), static_cast<std::uint32_t>(engine()),
-                  -std::log(1.0f - uniform(engine))};
+        record = {region,
+                  direction_to_code(direction),
+                  static_cast<std::uint32_t>(engine()),
+                  -std::log(1.0f - uniform(engine)),
+                  0.0f,
+                  0,
+                  true};
     }
     return records;
 }

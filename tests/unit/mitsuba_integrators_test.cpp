@@ -123,6 +123,7 @@ constexpr const char* kOwn[] = {
     "integrator.split_glass",
     "guiding.preset",
     "farm.checkpoint_seconds",
+    "guiding.bootstrap",
     "guiding.grid_halvings",
     "guiding.initial_model",
     "guiding.rule",

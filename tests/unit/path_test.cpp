@@ -113,6 +113,33 @@ TEST(PathRecorder, CarriesRadianceBackwards) {
     EXPECT_EQ(log.counts, (std::vector<std::uint32_t>{1, 0, 1}));
 }
 
+/// beta of what the second vertex's region knows takes the place of what the path found there; the mixture learns from
+/// what it found.
+TEST(PathRecorder, BootstrapsFromWhatTheNextRegionKnows) {
+    for (const float beta : {0.0f, 0.25f, 1.0f}) {
+        PathRecorder<SdTreeWalk<true>> recorder({.bootstrap = beta});
+        RecordLog log;
+        log.begin(3);
+        recorder.begin_path();
+        recorder.add_vertex({0}, 11, 0.5f, Rgb(0.5f), {3}, 0, 9.0f);
+        recorder.add_emission(Rgb(1.0f));
+        recorder.survive(0.5f);
+        recorder.add_reflected(recorder.vertex_count(), Rgb(2.0f));
+        recorder.add_vertex({2}, 22, 4.0f, Rgb(0.25f), {4}, 0, 40.0f);
+        recorder.add_emission(Rgb(8.0f));
+        recorder.survive(0.25f);
+        recorder.add_delta_vertex(Rgb(0.5f), {}, 0);
+        recorder.add_emission(Rgb(3.0f));
+        recorder.commit(log);
+        ASSERT_EQ(log.records.size(), 2u);
+        const float second = 8.0f + 0.5f * 3.0f / 0.25f;  // a delta lobe is no region's: what the path found stands
+        EXPECT_FLOAT_EQ(log.records[0].value, second / 4.0f) << beta;
+        const float carried = (1 - beta) * 0.25f * second + beta * 0.25f * 40.0f;
+        EXPECT_FLOAT_EQ(log.records[1].value, (1.0f + (2.0f + carried) / 0.5f) / 0.5f) << beta;
+        EXPECT_FLOAT_EQ(log.records[1].reflected, 0.5f * (1.0f + (2.0f + 0.25f * second) / 0.5f)) << beta;
+    }
+}
+
 /// A region learns its mixture from its view-dependent vertices, too, in a bin of its own.
 TEST(PathRecorder, RegionAndViewLearnTheirOwnMixtures) {
     PathRecorder<SdTreeWalk<true>> recorder;

@@ -6,6 +6,7 @@ namespace {
 
 constexpr KernelList kSdTree[] = {sd_tree_diffuse_kernels, sd_tree_general_kernels, sd_tree_viewed_kernels};
 constexpr KernelList kGrid[] = {grid_kernels};
+constexpr KernelList kQTable[] = {qtable_kernels};
 
 }  // namespace
 
@@ -15,6 +16,8 @@ std::span<const KernelList> kernels_of(GuideKind kind) {
             return kSdTree;
         case GuideKind::grid:
             return kGrid;
+        case GuideKind::qtable:
+            return kQTable;
     }
     return {};
 }

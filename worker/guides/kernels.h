@@ -10,5 +10,6 @@ std::span<const TileKernel> sd_tree_general_kernels();
 /// Where the tree has views.
 std::span<const TileKernel> sd_tree_viewed_kernels();
 std::span<const TileKernel> grid_kernels();
+std::span<const TileKernel> qtable_kernels();
 
 }  // namespace treefarm

@@ -17,6 +17,7 @@ namespace treefarm {
 ///                     draw failed
 ///   float pdf(std::uint32_t region, std::uint32_t code) const          of the direction with this code: the function
 ///                     that sample() returned
+///   float radiance(std::uint32_t region, std::uint32_t code) const     mean that was learned of it; negative: nothing
 template <class S>
 struct PlainWalk {
     using Sampler = S;
@@ -110,6 +111,9 @@ struct PlainWalk {
     /// The direction of a point of the direction square.
     static Direction direction_at(const Vec2& square) { return square_to_code(square); }
     static Bins bins(const Guidance&, const Scatter& s) { return mixture_bin(s.bsdf_pdf, s.guide_pdf); }
+    static float radiance(const Sampler& guide, const Guidance& guidance, const Scatter& s) {
+        return guide.radiance(guidance.region, s.code);
+    }
 
     template <class Taught>
     [[gnu::always_inline]] static Record* teach(const RecordRules& rules, std::uint32_t rounding, const Target& target,

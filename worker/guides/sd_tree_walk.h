@@ -300,6 +300,12 @@ struct SdTreeWalk {
         return bins;
     }
 
+    /// Of the region's own distribution, with a view or without.
+    static float radiance(const Sampler& guide, const Guidance& guidance, const Scatter& s) {
+        const float flux = guide.flux(guidance.region);
+        return flux > 0.0f ? flux * s.guide_pdf : -1.0f;
+    }
+
     /// As published a view alone learns, and the radiance; otherwise the region learns that as it would without, and
     /// the view what is reflected.
     template <class Taught>

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "worker/guides/plain_walk.h"
+#include "worker/guides/qtable_walk.h"
 #include "worker/guides/sd_tree_walk.h"
 
 namespace treefarm {
@@ -15,6 +16,10 @@ struct WalkOfSampler {
 template <>
 struct WalkOfSampler<SdTreeSampler> {
     using type = SdTreeWalk<true>;
+};
+template <>
+struct WalkOfSampler<QTableSampler> {
+    using type = QTableWalk;
 };
 template <class Sampler>
 using WalkOf = typename WalkOfSampler<Sampler>::type;

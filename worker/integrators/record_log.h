@@ -15,6 +15,7 @@ namespace treefarm {
 struct RecordRules {
     GuidingTarget target = GuidingTarget::radiance;
     ViewRecords view_records = ViewRecords::product;
+    float bootstrap = 0.0f;  ///< beta: which part of a record is what the next vertex's region has learned, [0, 1]
 
     /// L / p, or L^2 / p for the second moment.
     float target_value(float radiance, float pdf) const {

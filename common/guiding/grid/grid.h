@@ -7,15 +7,13 @@
 #include "common/guiding/regions/light_probabilities.h"
 #include "common/guiding/regions/mixture.h"
 #include "common/guiding/regions/region_sampler.h"
+#include "common/guiding/regions/strata.h"
 
 namespace treefarm {
 
 /// The simplest guide that can be, to read first and to copy from (docs/use/write-a-guide.md): regions of a fixed grid,
-/// in each the direction square (direction_map.h) in 8 by 8 strata of equal solid angle, sampled in proportion to the
-/// radiance that the pass before recorded there.
-inline constexpr int kStrataDepth = 3;
-inline constexpr std::uint32_t kStrata = 1u << (2 * kStrataDepth);
-/// What all strata share alike of the probability, however dark: light that no record has found must be found.
+/// in each the strata of directions (strata.h), sampled in proportion to the radiance that the pass before recorded
+/// there. What all strata share alike of the probability, however dark: light that no record has found must be found.
 inline constexpr double kEvenPart = 0.1;
 
 struct GridModel : RegionModel {
@@ -28,25 +26,24 @@ class GridSampler : public RegionSampler {
   public:
     explicit GridSampler(const GridModel& model);
 
-    struct Sample {
-        Vec3 direction;      ///< unit
-        std::uint32_t code;  ///< its Z-order code, inside the sampled stratum
-        float pdf;           ///< per steradian
-    };
-    Sample sample(std::uint32_t region, const Draw& random) const;
-    float pdf(std::uint32_t region, std::uint32_t code) const;
+    StrataTable::Sample sample(std::uint32_t region, const Draw& random) const {
+        return strata_.sample(region, random);
+    }
+    float pdf(std::uint32_t region, std::uint32_t code) const { return strata_.pdf(region, code); }
+    /// Mean radiance that the region has learned of this direction; negative where it has learned nothing.
+    float radiance(std::uint32_t region, std::uint32_t code) const;
 
     // Where records go: CellAccumulator.
-    std::uint32_t cell_count() const { return static_cast<std::uint32_t>(mass_.size()); }
-    std::uint32_t cell(std::uint32_t region, std::uint32_t code) const;
-    std::uint32_t cell_side(std::uint32_t region, std::uint32_t cell) const;
+    std::uint32_t cell_count() const { return strata_.cell_count(); }
+    std::uint32_t cell(std::uint32_t region, std::uint32_t code) const { return StrataTable::cell(region, code); }
+    std::uint32_t cell_side(std::uint32_t, std::uint32_t) const { return StrataTable::cell_side(); }
     void prefetch_pdf(std::uint32_t, std::uint32_t) const {}
     void prefetch_pdf_cell(std::uint32_t, std::uint32_t) const {}
 
-    std::size_t bytes() const { return region_bytes() + 4 * mass_.size(); }
+    std::size_t bytes() const { return region_bytes() + strata_.bytes(); }
 
   private:
-    std::vector<std::uint32_t> mass_;
+    StrataTable strata_;
 };
 
 /// The coordinator's memory: none of directions, only what all guides share.

@@ -21,6 +21,7 @@ struct RefineSettings {
     double view_threshold = 0;        ///< records (weighted) above which a view splits, once
     double view_set_threshold = 0;    ///< records (weighted) above which a T2 of several regions is cut in space
     bool last_update = false;         ///< nothing will be learned any more: what is of no use now never will be
+    bool with_flux = false;           ///< regions learn their flux
     bool views_record_alone = false;  ///< what views recorded is missing in their regions' counts
     double view_cells = std::numeric_limits<double>::infinity();  ///< at most so many of T2 for each of T1,
     double least_view_cells = 0;                                  ///< unless they are fewer than this

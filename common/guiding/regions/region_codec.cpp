@@ -11,6 +11,8 @@ namespace {
 
 /// No tree of 2^31 cells needs more; a claim above it is a broken or hostile message.
 constexpr std::uint64_t kMaxRawBytes = std::uint64_t{1} << 34;
+/// Bits of what a model has besides.
+constexpr int kHasLights = 1, kHasFlux = 2;
 constexpr int kCompressionLevel = 1;  // fast: a broadcast waits for it
 
 void write_nodes(ByteWriter& out, const RegionModel& model) {
@@ -89,25 +91,33 @@ std::uint32_t read_regions(ByteReader& in, RegionModel& model) {
     return nodes.regions;
 }
 
-void write_lights(ByteWriter& out, const RegionModel& model) {
-    out.put<std::uint8_t>(!model.light_probabilities.empty());
+void write_optional(ByteWriter& out, const RegionModel& model) {
+    const int present = (model.light_probabilities.empty() ? 0 : kHasLights) | (model.flux.empty() ? 0 : kHasFlux);
+    out.put(static_cast<std::uint8_t>(present));
     for (const LightProbabilities& probabilities : model.light_probabilities)
         for (const std::uint16_t part : probabilities)
             out.put(part);
+    for (const float flux : model.flux)
+        out.put(flux);
 }
 
-void read_lights(ByteReader& in, RegionModel& model, std::uint32_t regions) {
+void read_optional(ByteReader& in, RegionModel& model, std::uint32_t regions) {
     const auto present = in.get<std::uint8_t>();
-    if (present > 1) throw FormatError("a tree's choice of emitters is malformed");
-    if (present == 0) return;
-    if (regions > in.remaining() / sizeof(LightProbabilities))
-        throw FormatError("a tree's choice of emitters is cut short");
-    model.light_probabilities.resize(regions);
+    if ((present & ~(kHasLights | kHasFlux)) != 0) throw FormatError("what a tree has learned is malformed");
+    const std::size_t bytes =
+        (present & kHasLights ? sizeof(LightProbabilities) : 0) + (present & kHasFlux ? sizeof(float) : 0);
+    if (bytes != 0 && regions > in.remaining() / bytes) throw FormatError("what a tree has learned is cut short");
+    if (present & kHasLights) model.light_probabilities.resize(regions);
     for (LightProbabilities& probabilities : model.light_probabilities) {
         std::uint32_t sum = 0;
         for (std::uint16_t& part : probabilities)
             sum += part = in.get<std::uint16_t>();
         if (sum != kLightProbabilityOne) throw FormatError("a region's choice of emitters does not sum to one");
+    }
+    if (present & kHasFlux) model.flux.resize(regions);
+    for (float& flux : model.flux) {
+        flux = in.get<float>();
+        if (!(flux >= 0.0f && std::isfinite(flux))) throw FormatError("a region's flux is out of range");
     }
 }
 

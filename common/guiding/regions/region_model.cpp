@@ -17,6 +17,12 @@ int exponent_of(float value) {
     return exponent;
 }
 
+/// Of `records`, above 0, with the sum `total` in units of 2^`exponent`.
+float mean_record(double total, std::uint64_t records, std::int16_t exponent) {
+    const double mean = std::ldexp(total / static_cast<double>(records), exponent);
+    return static_cast<float>(std::min(mean, double{std::numeric_limits<float>::max()}));
+}
+
 }  // namespace
 
 void set_cube(RegionModel& model, const Box3& bounds) {
@@ -36,9 +42,11 @@ std::int16_t quantum_exponent_for(float mean_record) {
 
 std::int16_t learned_exponent(double total, std::uint64_t records, std::int16_t exponent) {
     if (!(total > 0 && records > 0)) return exponent;
-    const double mean_record = std::ldexp(total / static_cast<double>(records), exponent);
-    constexpr double kMost = std::numeric_limits<float>::max();
-    return quantum_exponent_for(static_cast<float>(std::min(mean_record, kMost)));
+    return quantum_exponent_for(mean_record(total, records, exponent));
+}
+
+float learned_flux(double total, std::uint64_t records, std::int16_t exponent, float before) {
+    return records > 0 ? mean_record(total, records, exponent) : before;
 }
 
 int spatial_depth(const RegionModel& model) {

@@ -38,6 +38,9 @@ struct RegionModel {
 
     /// Per region; empty: emitters are chosen by power, and nothing is learned.
     std::vector<LightProbabilities> light_probabilities;
+    /// Per region: mean of the records L / p, the integral of radiance over directions; 0: nothing is known. Empty:
+    /// nothing asks for it (path_recorder.h).
+    std::vector<float> flux;
 
     /// Regions, by the nodes.
     std::uint32_t leaf_count() const { return static_cast<std::uint32_t>((nodes.size() + 1) / 2); }
@@ -59,13 +62,16 @@ std::int16_t quantum_exponent_for(float mean_record);
 /// The exponent that suits what a pass recorded: `records` of them with the sum `total`, in units of 2^`exponent`;
 /// `exponent` itself where nothing was.
 std::int16_t learned_exponent(double total, std::uint64_t records, std::int16_t exponent);
+/// The mean record of a pass, of the same arguments; `before` where nothing was recorded.
+float learned_flux(double total, std::uint64_t records, std::int16_t exponent, float before);
 
 /// Codec of the shared part, as the beginning and the middle of a guide's own. Reading checks every structural rule and
 /// throws FormatError, but for how many exponents and fractions there are: returns the number of regions instead.
 void write_regions(ByteWriter& out, const RegionModel& model);
 std::uint32_t read_regions(ByteReader& in, RegionModel& model);
-void write_lights(ByteWriter& out, const RegionModel& model);
-void read_lights(ByteReader& in, RegionModel& model, std::uint32_t regions);
+/// What only some jobs learn: the choice of emitters, flux.
+void write_optional(ByteWriter& out, const RegionModel& model);
+void read_optional(ByteReader& in, RegionModel& model, std::uint32_t regions);
 
 /// How a model travels and is stored: `magic` tells guides apart, `version` what is in it; the rest is compressed.
 Bytes pack_model(std::uint32_t magic, std::uint8_t version, const Bytes& raw);

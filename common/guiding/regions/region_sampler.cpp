@@ -42,6 +42,7 @@ RegionSampler::RegionSampler(const RegionModel& model)
       inverse_extent_(1.0f / model.extent),
       extent_(model.extent),
       light_probabilities_(model.light_probabilities),
+      flux_(model.flux),
       region_depth_(model.leaf_count()) {
     for (int depth = 0; depth <= kMaxSpatialDepth; ++depth)
         for (int axis = 0; axis < 3; ++axis)
@@ -127,7 +128,8 @@ void RegionSampler::regions(const VectorBatch& positions, std::uint32_t count,
 
 std::size_t RegionSampler::region_bytes() const {
     return treelets_.size() * sizeof(treelets_[0]) + top_.size() * 4 + quantum_exponent_.size() * 2 +
-           bsdf_fraction_.size() * 4 + light_probabilities_.size() * sizeof(LightProbabilities) + region_depth_.size();
+           bsdf_fraction_.size() * 4 + light_probabilities_.size() * sizeof(LightProbabilities) + flux_.size() * 4 +
+           region_depth_.size();
 }
 
 }  // namespace treefarm

@@ -34,6 +34,9 @@ class RegionSampler {
         return light_probabilities_.empty() ? nullptr : &light_probabilities_[region];
     }
 
+    /// Integral of the radiance that a region has learned, over directions; 0: nothing is known of it.
+    float flux(std::uint32_t region) const { return flux_.empty() ? 0.0f : flux_[region]; }
+
     /// The region of a point. Points outside the cube belong to the nearest region (the caller may count them with
     /// contains()).
     std::uint32_t region(const Vec3& position) const;
@@ -74,6 +77,7 @@ class RegionSampler {
     std::vector<std::array<std::uint32_t, 8>> treelets_;
     std::vector<std::uint32_t> top_;  ///< the entries that kTopBits treelets lead to, or the leaf before
     std::vector<LightProbabilities> light_probabilities_;
+    std::vector<float> flux_;
     std::vector<std::uint8_t> region_depth_;                ///< halvings from the cube to the region
     std::array<Vec3, kMaxSpatialDepth + 1> region_size_{};  ///< per depth, in scene units
 };

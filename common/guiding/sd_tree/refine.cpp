@@ -98,6 +98,7 @@ class TreeRefiner {
         report_.spatial_depth = std::max(report_.spatial_depth, depth);
         result_.nodes[index] = {{0, result_.region_count()}};
         add_distribution(result_, region, old_.bsdf_fraction[old_region_]);
+        if (settings_.with_flux) result_.flux.push_back(region.flux);
         report_.origins.push_back({old_region_, depth - leaf_depth_});
         return index;
     }
@@ -136,6 +137,10 @@ RefinedDistribution refine_distribution(const SdTree& tree, const CellSums& sums
     RefinedDistribution refined{refine_directions(depths, energies, divisor), tree.quantum_exponent[distribution]};
     report.directional_depth_capped += refined.directions.depth_capped;
     report.directional_depth = std::max(report.directional_depth, refined.directions.max_depth);
+    if (settings.with_flux && distribution < tree.region_count()) {
+        const float before = tree.flux.empty() ? 0.0f : tree.flux[distribution];
+        refined.flux = learned_flux(total, sums.counts()[distribution], refined.quantum_exponent, before);
+    }
     refined.quantum_exponent = learned_exponent(total, sums.counts()[distribution], refined.quantum_exponent);
     return refined;
 }

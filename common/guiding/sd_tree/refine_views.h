@@ -12,6 +12,7 @@ namespace treefarm {
 struct RefinedDistribution {
     RefinedDirections directions;
     std::int16_t quantum_exponent;
+    float flux = 0.0f;  ///< of a region, where that is learned
 };
 
 /// A distribution of the old tree by what was recorded in it; what was capped is added to the report.

@@ -89,6 +89,12 @@ class SdTreeSampler : public RegionSampler {
     /// Density per steradian of the direction with this code; 0 where the tree has seen nothing.
     float pdf(std::uint32_t distribution, std::uint32_t code) const;
 
+    /// Mean radiance that the region has learned of the direction with this code; negative where it has learned
+    /// nothing.
+    float radiance(std::uint32_t region, std::uint32_t code) const {
+        return flux(region) > 0.0f ? flux(region) * pdf(region, code) : -1.0f;
+    }
+
     /// Index (over the whole tree) of the cell of a direction: where a record goes.
     std::uint32_t cell(std::uint32_t distribution, std::uint32_t code) const {
         return static_cast<std::uint32_t>(find(distribution, code) - cells_.data()) - distribution;

@@ -70,7 +70,7 @@ Bytes encode_tree(const SdTree& tree) {
     ByteWriter out;
     write_regions(out, tree);
     write_views(out, tree);
-    write_lights(out, tree);
+    write_optional(out, tree);
     out.put_array(std::span<const std::uint8_t>(tree.cell_depth));
     for (const std::uint32_t mass : tree.cell_mass)
         out.put_varint(mass);
@@ -91,7 +91,7 @@ SdTree decode_tree(std::span<const std::uint8_t> bytes) {
             tree.view_set.push_back(static_cast<std::uint32_t>(in.get_varint()) - 1);
         find_views(tree, regions);
     }
-    read_lights(in, tree, regions);
+    read_optional(in, tree, regions);
     tree.cell_depth = in.get_array<std::uint8_t>();
     if (tree.cell_depth.size() > in.remaining()) throw FormatError("a tree's cells are cut short");
     tree.cell_mass.reserve(tree.cell_depth.size());

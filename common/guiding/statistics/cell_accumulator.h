@@ -25,13 +25,21 @@ struct RecordOrder {
 /// Counting sort: a unit has many records for few distributions.
 RecordOrder order_by_distribution(std::span<const Record> records, std::size_t distributions);
 
+/// Whether a sampler's cells learn means of their records, rather than sums.
+template <class Sampler>
+constexpr bool counts_visits() {
+    if constexpr (requires { Sampler::kCountsVisits; }) return Sampler::kCountsVisits;
+    return false;
+}
+
 /// Adds the records of finished work to a worker's sums per cell. Threads keep a log each while they trace and commit
 /// it once per unit: in the order of distributions, so that a stripe of them is locked once for many records and cells
 /// are found in cache.
 ///
 /// A `Sampler` that has cells is a RegionSampler that gives the cell() of a direction's code in a distribution, the
 /// cell's side (cell_side()) and cell_count(), and fetches ahead what cell() reads: prefetch_pdf(), then
-/// prefetch_pdf_cell().
+/// prefetch_pdf_cell(). One that learns means per cell says so, by a constant kCountsVisits that is true: its records
+/// count for the cells of their directions, over which no filter spreads them.
 template <class Sampler>
 class CellAccumulator {
   public:
@@ -50,6 +58,7 @@ class CellAccumulator {
 
   private:
     static constexpr std::size_t kStripes = 64;
+    static constexpr bool kCountsVisits = counts_visits<Sampler>();
 
     /// Cell of each record of a block.
     using BlockCells = std::array<std::uint32_t, BoxBlock::kRecords>;
@@ -87,8 +96,12 @@ class CellAccumulator {
 
     SumsShape shape() const {
         const std::uint32_t regions = guide_.region_count();
-        return {regions, guide_.cell_count(), with_mixture_, guide_.distribution_count() - regions,
-                guide_.learns_lights()};
+        return {regions,
+                guide_.cell_count(),
+                with_mixture_,
+                guide_.distribution_count() - regions,
+                guide_.learns_lights(),
+                kCountsVisits};
     }
 
     const Sampler& guide_;
@@ -124,7 +137,10 @@ void CellAccumulator<Sampler>::add_block(std::span<const Record> records, Update
     if (with_mixture_)
         for (const Record& record : records)
             sums_.prefetch_mixture(record.distribution);
-    if (filter_ == DirectionalFilter::box)
+    if constexpr (kCountsVisits)
+        for (std::uint32_t i = 0; i < records.size(); ++i)
+            if (records[i].visit) sums_.add_visit(cells[i]);
+    if (!kCountsVisits && filter_ == DirectionalFilter::box)
         add_boxes(records, cells, met);
     else
         for (std::uint32_t i = 0; i < records.size(); ++i)

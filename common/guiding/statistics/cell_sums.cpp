@@ -56,6 +56,7 @@ CellSums::CellSums(std::uint32_t pass, const SumsShape& shape)
     : pass_(pass),
       shape_(shape),
       cells_(shape.cells),
+      visits_(shape.with_visits ? shape.cells : 0),
       counts_(shape.regions + shape.views),
       mixture_(shape.mixture_begin(shape.regions + shape.views)),
       lights_(shape.light_sums()) {}
@@ -70,6 +71,8 @@ void CellSums::add(const CellSums& other) {
         if (!add_quanta(static_cast<std::uint32_t>(c), other.cells_[c])) ++caps_.saturated_cells;
     for (std::size_t r = 0; r < counts_.size(); ++r)
         counts_[r] += other.counts_[r];
+    for (std::size_t c = 0; c < visits_.size(); ++c)
+        if (!add_saturating(visits_[c], other.visits_[c])) ++caps_.saturated_cells;
     for (std::size_t m = 0; m < mixture_.size(); ++m)
         if (!add_saturating(mixture_[m], other.mixture_[m])) ++caps_.saturated_cells;
     for (std::size_t l = 0; l < lights_.size(); ++l)
@@ -80,6 +83,7 @@ void CellSums::add(const CellSums& other) {
 void CellSums::clear() {
     std::fill(cells_.begin(), cells_.end(), 0);
     std::fill(counts_.begin(), counts_.end(), 0);
+    std::fill(visits_.begin(), visits_.end(), 0);
     std::fill(mixture_.begin(), mixture_.end(), 0);
     std::fill(lights_.begin(), lights_.end(), 0);
     caps_ = {};
@@ -99,12 +103,13 @@ Bytes CellSums::encode() const {
     write_sparse(out, cells_);
     write_sparse(out, mixture_);
     write_sparse(out, lights_);
+    if (shape_.with_visits) write_sparse(out, visits_);
     return out.take();
 }
 
 std::uint64_t CellSums::merge_encoded(std::span<const std::uint8_t> update) {
     // Two readings: the first only checks, so that a bad message changes nothing.
-    const auto read = [&](auto&& on_count, auto&& on_cell, auto&& on_mixture, auto&& on_light) {
+    const auto read = [&](auto&& on_count, auto&& on_cell, auto&& on_mixture, auto&& on_light, auto&& on_visits) {
         ByteReader in(update);
         const std::uint64_t pass = in.get_varint(), cells = in.get_varint(), distributions = in.get_varint();
         const std::uint64_t bins = in.get_varint(), lights = in.get_varint();
@@ -121,11 +126,12 @@ std::uint64_t CellSums::merge_encoded(std::span<const std::uint8_t> update) {
         read_sparse(in, cells_.size(), "cell", on_cell);
         read_sparse(in, mixture_.size(), "mixture bin", on_mixture);
         read_sparse(in, lights_.size(), "cluster of emitters", on_light);
+        if (shape_.with_visits) read_sparse(in, visits_.size(), "visited cell", on_visits);
         in.expect_end();
         return caps;
     };
     const auto ignore = [](std::uint64_t, std::uint64_t) {};
-    read(ignore, ignore, ignore, ignore);
+    read(ignore, ignore, ignore, ignore, ignore);
     std::uint64_t touched = 0;
     const UpdateCaps caps =
         read([&](std::uint64_t distribution, std::uint64_t count) { counts_[distribution] += count; },
@@ -138,6 +144,9 @@ std::uint64_t CellSums::merge_encoded(std::span<const std::uint8_t> update) {
              },
              [&](std::uint64_t light, std::uint64_t sum) {
                  if (!add_saturating(lights_[light], sum)) ++caps_.saturated_cells;
+             },
+             [&](std::uint64_t cell, std::uint64_t visits) {
+                 if (!add_saturating(visits_[cell], visits)) ++caps_.saturated_cells;
              });
     caps_.add(caps);
     return touched;

@@ -28,6 +28,7 @@ struct Record {
     float value;             ///< L / p (or what else the tree's target is), >= 0 and finite
     float reflected = 0.0f;  ///< f |cos| L / p, >= 0 and finite: what the mixture learns from
     std::uint8_t bin = 0;    ///< of the mixture histogram, or kLightBin and a cluster
+    bool visit = false;      ///< counts for its cell, where cells learn means
 };
 
 /// Second moments of emitters are counted in units of 2^light_sum_exponent(e), where records are in units of 2^e: one
@@ -56,11 +57,17 @@ struct SumsShape {
     std::uint32_t cells = 0;
     bool with_mixture = false;  ///< mixture histograms: kMixtureBins more sums per distribution
     bool with_lights = false;   ///< sums of emitters: kLightClusters more sums per region
+    bool with_visits = false;   ///< records per cell that count: one more sum per cell
 
     SumsShape() = default;
     SumsShape(std::uint32_t region_count, std::uint32_t cell_count, bool mixture = false, std::uint32_t view_count = 0,
-              bool lights = false)
-        : regions(region_count), views(view_count), cells(cell_count), with_mixture(mixture), with_lights(lights) {}
+              bool lights = false, bool visits = false)
+        : regions(region_count),
+          views(view_count),
+          cells(cell_count),
+          with_mixture(mixture),
+          with_lights(lights),
+          with_visits(visits) {}
     bool operator==(const SumsShape&) const = default;
     std::size_t light_sums() const { return with_lights ? std::size_t{regions} * kLightClusters : 0; }
     /// Index of a distribution's first mixture bin; that of the distribution after the last is the number of bins.
@@ -91,6 +98,8 @@ class CellSums {
         if (!shape_.with_lights) return {};
         return {lights_.data() + std::size_t{region} * kLightClusters, kLightClusters};
     }
+    /// Records per cell that count; empty where that is not asked for.
+    const LargeTable<std::uint64_t>& visits() const { return visits_; }
     const SumsShape& shape() const { return shape_; }
     const UpdateCaps& caps() const { return caps_; }
 
@@ -101,6 +110,7 @@ class CellSums {
     void prefetch_mixture(std::uint32_t distribution) const {
         prefetch_line(mixture_.data() + shape_.mixture_begin(distribution));
     }
+    void add_visit(std::uint32_t cell) { ++visits_[cell]; }
     bool add_light(std::uint32_t region, int cluster, std::uint64_t quanta);
     bool add_mixture(std::uint32_t distribution, std::uint8_t bin, std::uint64_t quanta) {
         return add_saturating(mixture_[shape_.mixture_begin(distribution) + bin], quanta);
@@ -127,7 +137,7 @@ class CellSums {
 
     std::uint32_t pass_ = 0;
     SumsShape shape_;
-    LargeTable<std::uint64_t> cells_;
+    LargeTable<std::uint64_t> cells_, visits_;
     std::vector<std::uint64_t> counts_;
     std::vector<std::uint64_t> mixture_;
     std::vector<std::uint64_t> lights_;

@@ -18,8 +18,8 @@ namespace treefarm {
 ///
 /// In the walk's order: a path's region is found, and prefetch() called; localise() where the guide depends on more
 /// than the region, once the surface is known; LightBatch has the directions of next event, for pdf(); ScatterBatch
-/// draws the path's own; target(), moved(), direction() and bins() say what a vertex teaches, and teach() writes it
-/// down.
+/// draws the path's own; target(), moved(), direction() and bins() say what a vertex teaches, radiance() what the guide
+/// knows of the direction already, and teach() writes it down.
 template <class G>
 concept GuideWalk = std::derived_from<typename G::Sampler, RegionSampler> &&
     requires(const typename G::Sampler& guide, typename G::Guidance guidance, typename G::Scatter scatter,
@@ -39,6 +39,7 @@ concept GuideWalk = std::derived_from<typename G::Sampler, RegionSampler> &&
     { target.empty() } -> std::same_as<bool>;
     { G::direction(scatter) } -> std::same_as<typename G::Direction>;
     { G::bins(guidance, scatter) } -> std::same_as<typename G::Bins>;
+    { G::radiance(guide, guidance, scatter) } -> std::same_as<float>;
     { G::kDeltaBins } -> std::convertible_to<typename G::Bins>;
     { G::kRecordsPerVertex } -> std::convertible_to<std::uint32_t>;
     lights.clear();
@@ -94,6 +95,7 @@ struct NoGuide {
     static Target moved(const Sampler&, std::uint32_t, Outgoing, Target target) { return target; }
     static Direction direction(const Scatter&) { return {}; }
     static Bins bins(const Guidance&, const Scatter&) { return {}; }
+    static float radiance(const Sampler&, const Guidance&, const Scatter&) { return -1.0f; }
 };
 static_assert(GuideWalk<NoGuide>);
 

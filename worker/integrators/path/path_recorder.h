@@ -23,7 +23,10 @@ struct TaughtDirection {
 /// Remembers the vertices of one path and, at its end, what radiance each sampled direction carried:
 ///   L_i = emission_i + (reflected_i + weight_(i+1) L_(i+1)) / survival_i,
 /// where emission_i was met by the direction sampled at vertex i, and reflected_i is what next event found at its end.
-/// What a vertex teaches is up to the guide `G`. Its memory grows to the longest path and stays.
+/// With bootstrapping the guide's own L~_(i+1), what the region of vertex i + 1 has learned of the direction sampled
+/// there, takes a part beta of L_(i+1)'s place (Q-learning: Dahm and Keller 2017, "Learning light transport the
+/// reinforced way"; beta < 1 keeps a part of what the path found). Only records change, which choose directions,
+/// never the image. What a vertex teaches is up to the guide `G`. Memory grows to the longest path and stays.
 template <class G>
 class PathRecorder {
   public:
@@ -46,17 +49,19 @@ class PathRecorder {
         add_delta_vertex(weight, {}, 0);
     }
 
-    /// A direction was sampled: with its density, f |cos| / density, its bins of the mixture histograms, and the
-    /// random bits by which its records are rounded.
+    static constexpr float kUnknown = -1.0f;
+
+    /// A direction was sampled: with its density, f |cos| / density, its bins of the mixture histograms, the random
+    /// bits by which its records are rounded, and the radiance that the guide knows to arrive from it, or kUnknown.
     void add_vertex(const Target& target, const Direction& direction, float pdf, const Rgb& weight, const Bins& bins,
-                    std::uint32_t rounding) {
-        vertices_.push_back({weight, Rgb(0.0f), Rgb(0.0f), 1.0f, pdf, target, direction, rounding, bins});
+                    std::uint32_t rounding, float known = kUnknown) {
+        vertices_.push_back({weight, Rgb(0.0f), Rgb(0.0f), 1.0f, pdf, known, target, direction, rounding, bins});
     }
 
     /// A direction of a delta lobe was sampled: it is no record, but what it carried belongs to the vertices before it,
     /// and to the mixture where the BSDF has lobes besides; the target is empty where it has not.
     void add_delta_vertex(const Rgb& weight, const Target& target, std::uint32_t rounding) {
-        vertices_.push_back({weight, Rgb(0.0f), Rgb(0.0f), 1.0f, 0.0f, target, {}, rounding, G::kDeltaBins});
+        vertices_.push_back({weight, Rgb(0.0f), Rgb(0.0f), 1.0f, 0.0f, kUnknown, target, {}, rounding, G::kDeltaBins});
     }
 
     /// Emission that the last sampled direction met, weighted against next event.
@@ -93,6 +98,7 @@ class PathRecorder {
     /// Appends the path's records. Returns how many vertices and next-event samples were counted.
     std::uint64_t commit(RecordLog& log) {
         Rgb carried(0.0f);
+        float replaced = 0.0f;  // what bootstrapping adds to the mean of `carried`
         std::uint64_t recorded = light_samples_.size();
         log.drafts.resize(
             std::max(log.drafts.size(), G::kRecordsPerVertex * (vertices_.size() + light_samples_.size())));
@@ -102,8 +108,10 @@ class PathRecorder {
             carried = v.emission + (v.reflected + carried) * (1.0f / v.survival);
             const Rgb arriving = carried;
             carried *= v.weight;
-            const TaughtDirection<G> taught{v.direction, v.pdf, average(arriving),
-                                            RecordRules::finite(average(carried)), v.bins};
+            const float radiance = average(arriving) + replaced / v.survival;
+            replaced = bootstrapped(v, carried);
+            const TaughtDirection<G> taught{v.direction, v.pdf, radiance, RecordRules::finite(average(carried)),
+                                            v.bins};
             if (v.target.empty()) continue;
             recorded += v.pdf > 0.0f;
             end = G::teach(rules_, v.rounding, v.target, taught, log, end);
@@ -119,12 +127,18 @@ class PathRecorder {
   private:
     struct Vertex {
         Rgb weight, emission, reflected;
-        float survival, pdf;
+        float survival, pdf, known;
         Target target;
         Direction direction;
         std::uint32_t rounding;
         Bins bins;
     };
+    /// beta (weight L~ - weight L) of a vertex.
+    float bootstrapped(const Vertex& v, const Rgb& carried) const {
+        if (rules_.bootstrap == 0.0f || v.known < 0.0f) return 0.0f;
+        return rules_.bootstrap * (average(v.weight) * v.known - average(carried));
+    }
+
     struct LightSample {
         Target target;
         std::uint32_t rounding;

@@ -30,6 +30,7 @@ struct PathSettings {
     bool compare_splitting;    ///< with what paths would be alone
     GuidingTarget target;
     ViewRecords view_records;
+    float bootstrap;  ///< RecordRules::bootstrap
     Roulette roulette, unguided_roulette;
 
     const Film& film;
@@ -56,6 +57,7 @@ struct PathSettings {
           compare_splitting(pass.record && splitting > 1),
           target(job.guiding.target),
           view_records(job.guiding.view_records),
+          bootstrap(job.guiding.bootstrap),
           roulette(!pass.guided                                       ? Roulette::Rule::unguided
                    : !guide.trained()                                 ? Roulette::Rule::untrained
                    : job.guiding.roulette == GuidingRoulette::adjoint ? Roulette::Rule::adjoint

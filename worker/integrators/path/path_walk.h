@@ -45,7 +45,7 @@ class PathWalk {
           directions_(guide, settings),
           direction_records_(guide, settings),
           emission_(scene, settings_, observer_) {
-        recorders_.fill(Recorder({settings.target, settings.view_records}));
+        recorders_.fill(Recorder({settings.target, settings.view_records, settings.bootstrap}));
     }
 
     PathWalk(const PathWalk&) = delete;

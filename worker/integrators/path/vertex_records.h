@@ -15,7 +15,7 @@ template <class G>
 class DirectionRecords {
   public:
     DirectionRecords(const typename G::Sampler& guide, const PathSettings& settings)
-        : guide_(guide), jitters_(settings.jitter_records) {}
+        : guide_(guide), jitters_(settings.jitter_records), bootstraps_(settings.bootstrap > 0.0f) {}
 
     /// The random numbers of a step; PathState::lane says which are a path's.
     void draw_numbers(std::uint64_t seed, const KeyBatch& keys, std::uint32_t lanes) {
@@ -39,8 +39,9 @@ class DirectionRecords {
                 continue;
             }
             if (jitters_) target = G::moved(guide_, regions_[smooth++], path.outgoing, target);
-            recorders[index].add_vertex(target, G::direction(s), s.effective_pdf, path.weight,
-                                        G::bins(path.guidance, s), rounding);
+            recorders[index].add_vertex(
+                target, G::direction(s), s.effective_pdf, path.weight, G::bins(path.guidance, s), rounding,
+                bootstraps_ ? G::radiance(guide_, path.guidance, s) : PathRecorder<G>::kUnknown);
         }
     }
 
@@ -59,7 +60,7 @@ class DirectionRecords {
     }
 
     const typename G::Sampler& guide_;
-    const bool jitters_;
+    const bool jitters_, bootstraps_;
     DrawBatch draws_;
     std::array<std::uint32_t, kDrawBatch> regions_;
 };

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "common/config/job_keys.h"
+
+namespace treefarm {
+
+/// Keys of a job that say what guides paths and how that learns: those of job_keys() that begin with "guiding.".
+std::vector<JobKey> guiding_keys();
+
+}  // namespace treefarm

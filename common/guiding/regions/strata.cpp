@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "common/guiding/regions/strata.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "common/math/direction_map.h"
+
+namespace treefarm {
+namespace {
+
+constexpr std::uint32_t kOne = 1u << kMassBits;
+constexpr int kStratumShift = 2 * (kDirectionBits - kStrataDepth);
+
+std::uint32_t add_nodes(RegionModel& model, int halvings, std::uint32_t& regions) {
+    const auto index = static_cast<std::uint32_t>(model.nodes.size());
+    model.nodes.emplace_back();
+    if (halvings == 0) {
+        model.nodes[index] = {{0, regions++}};
+        return index;
+    }
+    const std::uint32_t low = add_nodes(model, halvings - 1, regions);
+    const std::uint32_t high = add_nodes(model, halvings - 1, regions);
+    model.nodes[index] = {{low, high}};
+    return index;
+}
+
+}  // namespace
+
+std::uint32_t add_even_regions(RegionModel& model, int halvings) {
+    std::uint32_t regions = 0;
+    add_nodes(model, halvings, regions);
+    return regions;
+}
+
+/// What rounding leaves goes to the first stratum, which is none of importance: it is less than 2^-24.
+void set_strata(std::span<const double> weight, double even_part, std::uint32_t* mass) {
+    const double total = std::accumulate(weight.begin(), weight.end(), 0.0);
+    std::uint32_t left = kOne;
+    for (std::uint32_t s = 0; s < kStrata; ++s) {
+        const double part = even_part / kStrata + (1.0 - even_part) * (weight[s] / total);
+        mass[s] = std::min(left, static_cast<std::uint32_t>(part * kOne));
+        left -= mass[s];
+    }
+    mass[0] += left;
+}
+
+StrataTable::Sample StrataTable::sample(std::uint32_t region, const Draw& random) const {
+    const std::uint32_t* const mass = &mass_[region * kStrata];
+    std::uint32_t rest = random[1] >> (32 - kMassBits), stratum = 0;
+    while (rest >= mass[stratum])
+        rest -= mass[stratum++];
+    // On a grid of 2^23 steps an axis, whose centres are exact floats: the point lies in the stratum by construction.
+    constexpr int kFineBits = 23 - kDirectionBits, kInStratum = 23 - kStrataDepth;
+    const std::uint32_t x = (compact_bits(stratum) << kInStratum) + (random[2] >> (32 - kInStratum));
+    const std::uint32_t y = (compact_bits(stratum >> 1) << kInStratum) + (random[3] >> (32 - kInStratum));
+    const auto coordinate = [](std::uint32_t step) { return static_cast<float>(2 * step + 1) * 0x1p-24f; };
+    const std::uint32_t code = spread_bits(x >> kFineBits) | (spread_bits(y >> kFineBits) << 1);
+    return {square_to_direction({coordinate(x), coordinate(y)}), code, pdf(region, code)};
+}
+
+float StrataTable::pdf(std::uint32_t region, std::uint32_t code) const {
+    constexpr float kScale = kInvFourPi * static_cast<float>(kStrata) / static_cast<float>(kOne);
+    return kScale * static_cast<float>(mass_[cell(region, code)]);
+}
+
+std::uint32_t StrataTable::cell(std::uint32_t region, std::uint32_t code) {
+    return region * kStrata + (code >> kStratumShift);
+}
+
+std::uint32_t StrataTable::cell_side() {
+    return 1u << (kDirectionBits - kStrataDepth);
+}
+
+}  // namespace treefarm

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "common/base/random.h"
+#include "common/guiding/regions/region_model.h"
+
+namespace treefarm {
+
+/// What guides have in common whose regions and cells are fixed: the regions are an even grid of the cube, and the
+/// cells of each are 8 by 8 strata of the direction square (direction_map.h), in Z-order and of equal solid angle.
+inline constexpr int kStrataDepth = 3;
+inline constexpr std::uint32_t kStrata = 1u << (2 * kStrataDepth);
+
+/// Cuts the cube of a model without nodes into 2^halvings regions. Returns how many.
+std::uint32_t add_even_regions(RegionModel& model, int halvings);
+
+/// Probabilities of a region's strata, times 2^kMassBits: in proportion to `weight`, which has a sum above 0, but for
+/// the part that all of them share alike. Their sum is 2^kMassBits.
+void set_strata(std::span<const double> weight, double even_part, std::uint32_t* mass);
+
+/// The strata of all regions in the form that workers sample from.
+class StrataTable {
+  public:
+    /// By the probabilities of kStrata strata for each region in turn, of sum 2^kMassBits.
+    explicit StrataTable(std::vector<std::uint32_t> mass) : mass_(std::move(mass)) {}
+
+    struct Sample {
+        Vec3 direction;      ///< unit
+        std::uint32_t code;  ///< its Z-order code, inside the sampled stratum
+        float pdf;           ///< per steradian
+    };
+    Sample sample(std::uint32_t region, const Draw& random) const;
+    float pdf(std::uint32_t region, std::uint32_t code) const;
+
+    static std::uint32_t cell(std::uint32_t region, std::uint32_t code);
+    static std::uint32_t cell_side();
+    std::uint32_t cell_count() const { return static_cast<std::uint32_t>(mass_.size()); }
+    std::size_t bytes() const { return mass_.size() * sizeof(mass_[0]); }
+
+  private:
+    std::vector<std::uint32_t> mass_;
+};
+
+}  // namespace treefarm
