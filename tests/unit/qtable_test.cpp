@@ -117,7 +117,7 @@ TEST(QTable, TwoPlanesHaveTheirFixedPoint) {
     QTableLearner learner;
     QTableModel model = two_regions();
     double expected[] = {0, 0}, visits = 0;
-    for (int pass = 1; pass <= 40; ++pass) {
+    for (int pass = 1; pass <= 60; ++pass) {
         const QTableSampler guide(model);
         PathRecorder<QTableWalk> recorder({.bootstrap = 1.0f});
         RecordLog log;

@@ -300,7 +300,7 @@ struct SdTreeWalk {
         return bins;
     }
 
-    /// Of the region's own distribution, with a view or without.
+    /// Radiance by the region's own distribution, with a view or without.
     static float radiance(const Sampler& guide, const Guidance& guidance, const Scatter& s) {
         const float flux = guide.flux(guidance.region);
         return flux > 0.0f ? flux * s.guide_pdf : -1.0f;

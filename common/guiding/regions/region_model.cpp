@@ -17,7 +17,7 @@ int exponent_of(float value) {
     return exponent;
 }
 
-/// Of `records`, above 0, with the sum `total` in units of 2^`exponent`.
+/// Mean of `records`, above 0, with the sum `total` in units of 2^`exponent`.
 float mean_record(double total, std::uint64_t records, std::int16_t exponent) {
     const double mean = std::ldexp(total / static_cast<double>(records), exponent);
     return static_cast<float>(std::min(mean, double{std::numeric_limits<float>::max()}));
