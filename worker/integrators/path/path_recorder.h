@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "common/base/random.h"
@@ -106,10 +107,9 @@ class PathRecorder {
         for (std::size_t i = vertices_.size(); i-- > 0;) {
             const Vertex& v = vertices_[i];
             carried = v.emission + (v.reflected + carried) * (1.0f / v.survival);
-            const Rgb arriving = carried;
+            float radiance = average(carried);
             carried *= v.weight;
-            const float radiance = average(arriving) + replaced / v.survival;
-            replaced = bootstrapped(v, carried);
+            if (rules_.bootstrap > 0.0f) radiance += std::exchange(replaced, bootstrapped(v, carried)) / v.survival;
             const TaughtDirection<G> taught{v.direction, v.pdf, radiance, RecordRules::finite(average(carried)),
                                             v.bins};
             if (v.target.empty()) continue;
@@ -135,7 +135,7 @@ class PathRecorder {
     };
     /// beta (weight L~ - weight L) of a vertex.
     float bootstrapped(const Vertex& v, const Rgb& carried) const {
-        if (rules_.bootstrap == 0.0f || v.known < 0.0f) return 0.0f;
+        if (v.known < 0.0f) return 0.0f;
         return rules_.bootstrap * (average(v.weight) * v.known - average(carried));
     }
 
