@@ -35,7 +35,7 @@ std::string blame(const WorkUnit& unit) {
          {std::uint32_t{unit.x0}, std::uint32_t{unit.y0}, std::uint32_t{unit.x1}, std::uint32_t{unit.y1}, unit.chunk})
         name += "," + std::to_string(number);
     return "the pixels from " + std::to_string(unit.x0) + "," + std::to_string(unit.y0) + " to below " +
-           std::to_string(unit.x1) + "," + std::to_string(unit.y1) + of_pass + "; treefarm render --debug-unit " +
+           std::to_string(unit.x1) + "," + std::to_string(unit.y1) + of_pass + "; treefarm render --debug-sample " +
            name + " traces them alone";
 }
 
@@ -236,7 +236,7 @@ void Farm::beat_during(const std::function<void()>& work) {
 Speeds Farm::speeds() const {
     std::map<int, Hand> hands;
     for (const auto& [peer, member] : roster_.members())
-        if (member.state == MemberState::present) hands[peer] = {member.hello.threads, member.pace.paths_per_second()};
+        if (member.state == MemberState::present) hands[peer] = {member.hello.threads, member.speed.paths_per_second()};
     return Speeds(hands);
 }
 

@@ -141,7 +141,7 @@ void Farm::on(int peer, const Want& m) {
 
 void Farm::on(Member& member, const Heartbeat& m) {
     const bool busy = ledger_ && !ledger_->complete() && ledger_->outstanding(member.peer) > 0;
-    member.pace.beat(clock_.seconds(), m.samples, busy);
+    member.speed.beat(clock_.seconds(), m.samples, busy);
     member.progress = m;
 }
 

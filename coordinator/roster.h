@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "common/protocol/messages.h"
-#include "coordinator/pace.h"
+#include "coordinator/speeds.h"
 
 namespace treefarm {
 
@@ -30,7 +30,7 @@ struct Member {
     std::uint32_t lives = 0;         ///< of this peer, with this one
     std::uint32_t bad_messages = 0;  ///< of all its lives, that were refused
     Heartbeat progress;              ///< the last one
-    Pace pace;                       ///< by all of them
+    WorkerSpeed speed;               ///< by all of them
     std::uint64_t queued = 0;        ///< paths that it has to begin, as far as is known
     bool told_end = false;           ///< that nothing of the pass is left to hand out
 };

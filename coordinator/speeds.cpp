@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "coordinator/pace.h"
+#include "coordinator/speeds.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,7 +19,7 @@ constexpr double kLeastGain = 0.1, kLeastRatio = 1.0;
 
 }  // namespace
 
-void Pace::beat(double now, std::uint64_t samples, bool busy) {
+void WorkerSpeed::beat(double now, std::uint64_t samples, bool busy) {
     if (busy && last_ && now > last_->at && samples >= last_->samples) {
         const double seconds = now - last_->at;
         const double rate = static_cast<double>(samples - last_->samples) / seconds;
@@ -63,8 +63,13 @@ Portion Speeds::portion(int worker, std::size_t credit, std::uint64_t queued, st
 }
 
 double Speeds::gain(int here, std::uint64_t paths, int holder, std::uint64_t outstanding) const {
-    if (per_thread_ == 0) return 0;
-    const double takes = static_cast<double>(paths) / speed(here);
+    const auto known = [&](int worker) {
+        const auto found = hands_.find(worker);
+        return found != hands_.end() && found->second.speed.has_value();
+    };
+    if (per_thread_ == 0 && !known(holder)) return 0;
+    // Who has done all before his speed was known is quick.
+    const double takes = per_thread_ > 0 || known(here) ? static_cast<double>(paths) / speed(here) : 0.0;
     const double saved = static_cast<double>(outstanding) / speed(holder) - takes;
     return saved > std::max(kLeastGain, kLeastRatio * takes) ? saved : 0;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // How work is handed out by speed, on a simulated clock: workers of given speeds, results now and then, copies at the
 // end, as the farm does it.
-#include "coordinator/pace.h"
+#include "coordinator/speeds.h"
 
 #include <gtest/gtest.h>
 
@@ -25,7 +25,7 @@ struct SimulatedWorker {
     double sent = 0, beaten = 0;
     double samples = 0;
     bool told_end = false;
-    Pace pace;
+    WorkerSpeed measured;
 };
 
 /// Time of a pass over the ideal: of all workers without a pause.
@@ -81,7 +81,7 @@ class Simulation {
             w.queue.pop_front();
         }
         if (now_ - w.beaten >= 1.0) {
-            w.pace.beat(now_, static_cast<std::uint64_t>(w.samples), ledger.outstanding(number) > 0);
+            w.measured.beat(now_, static_cast<std::uint64_t>(w.samples), ledger.outstanding(number) > 0);
             w.beaten = now_;
         }
         const bool at_end = w.told_end && w.queue.empty();
@@ -106,7 +106,7 @@ class Simulation {
         SimulatedWorker& w = workers_[static_cast<std::size_t>(number)];
         std::map<int, Hand> hands;
         for (std::size_t i = 0; i < workers_.size(); ++i)
-            hands[static_cast<int>(i)] = {1, workers_[i].pace.paths_per_second()};
+            hands[static_cast<int>(i)] = {1, workers_[i].measured.paths_per_second()};
         const Speeds speeds(hands);
         std::uint64_t queued = 0;
         for (std::size_t i = 1; i < w.queue.size(); ++i)
@@ -181,17 +181,17 @@ INSTANTIATE_TEST_SUITE_P(
                          1.15}),
     [](const auto& info) { return info.param.name; });
 
-TEST(Pace, IsKnownAfterTwoHeartbeatsWithWork) {
-    Pace pace;
-    pace.beat(0.0, 0, true);
-    EXPECT_FALSE(pace.paths_per_second());
-    pace.beat(1.0, 1000, true);
-    EXPECT_DOUBLE_EQ(*pace.paths_per_second(), 1000);
-    pace.beat(2.0, 1000, false);
-    pace.beat(3.0, 1000, true);
-    EXPECT_DOUBLE_EQ(*pace.paths_per_second(), 1000) << "who has no work is not slow";
-    pace.beat(5.0, 1000, true);
-    EXPECT_DOUBLE_EQ(*pace.paths_per_second(), 500) << "half of it after the half-life";
+TEST(WorkerSpeed, IsKnownAfterTwoHeartbeatsWithWork) {
+    WorkerSpeed measured;
+    measured.beat(0.0, 0, true);
+    EXPECT_FALSE(measured.paths_per_second());
+    measured.beat(1.0, 1000, true);
+    EXPECT_DOUBLE_EQ(*measured.paths_per_second(), 1000);
+    measured.beat(2.0, 1000, false);
+    measured.beat(3.0, 1000, true);
+    EXPECT_DOUBLE_EQ(*measured.paths_per_second(), 1000) << "who has no work is not slow";
+    measured.beat(5.0, 1000, true);
+    EXPECT_DOUBLE_EQ(*measured.paths_per_second(), 500) << "half of it after the half-life";
 }
 
 TEST(Speeds, PortionsAreForTwoSecondsOrAQuarterOfOnesPart) {
@@ -205,6 +205,13 @@ TEST(Speeds, PortionsAreForTwoSecondsOrAQuarterOfOnesPart) {
     EXPECT_GE(speeds.portion(1, 9, 0, 1).paths, 1u) << "who has nothing gets something";
     EXPECT_EQ(speeds.gain(2, 300, 1, 1000), 0.9);
     EXPECT_EQ(speeds.gain(2, 3000, 2, 3000), 0);
+}
+
+TEST(Speeds, WhoStandsStillIsHelpedByWhomNobodyKnows) {
+    const Speeds unknown({{1, {2, std::nullopt}}, {2, {2, std::nullopt}}}),
+        still({{1, {2, 0.0}}, {2, {2, std::nullopt}}});
+    EXPECT_EQ(unknown.gain(2, 300, 1, 1000), 0) << "who is slow is not known yet";
+    EXPECT_GT(still.gain(2, 300, 1, 1000), 0);
 }
 
 }  // namespace

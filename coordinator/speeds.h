@@ -10,7 +10,7 @@
 namespace treefarm {
 
 /// Speed of a worker by its heartbeats, which say what it has traced so far, delivered or not.
-class Pace {
+class WorkerSpeed {
   public:
     /// Takes in a heartbeat at `now`, seconds of any clock: `samples` traced since the start, and whether the worker
     /// had work. Only what lies between two with work counts.
