@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/debug_sample.h"
 
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
 #include <charconv>
 #include <cstdio>
 #include <thread>
@@ -79,20 +82,40 @@ AnyModel learn_tree(const RenderRequest& request, const std::vector<PassPlan>& p
     return std::move(state.tree);
 }
 
+/// As many numbers, separated by commas; InputError if the text is not that.
+std::vector<std::uint32_t> parse_numbers(const std::string& text, std::size_t count) {
+    std::vector<std::uint32_t> values(count);
+    const char* at = text.data();
+    const char* const end = at + text.size();
+    for (std::size_t k = 0; k < count; ++k) {
+        const auto [next, error] = std::from_chars(at, end, values[k]);
+        const bool whole = error == std::errc() && (k + 1 < count ? next != end && *next == ',' : next == end);
+        if (!whole || values[k] > 1u << 30)
+            throw InputError(kHere, "\"" + text + "\" names neither a sample nor a tile",
+                             "write pass,x,y,sample, like 3,120,64,0, or pass,x0,y0,x1,y1,chunk");
+        at = next + 1;
+    }
+    return values;
+}
+
+std::vector<PassPlan> known_passes(const RenderRequest& request) {
+    if (request.schedule.empty() && has_open_budget(request.plan.job))
+        throw InputError(kHere, "the passes of this job depend on clock or error",
+                         "add --schedule with the schedule.toml of the run");
+    return request.schedule.empty() ? plan_passes(request.plan.job) : request.schedule;
+}
+
+[[noreturn]] void refuse_place(const RenderRequest& request, const std::vector<PassPlan>& plans, const char* what) {
+    const Film& film = request.scene.film;
+    throw InputError(kHere, std::string("there is no such ") + what,
+                     "the image has " + std::to_string(film.width) + " x " + std::to_string(film.height) +
+                         " pixels and " + std::to_string(plans.size()) + " passes");
+}
+
 }  // namespace
 
 SampleName parse_sample_name(const std::string& text) {
-    std::uint32_t values[4] = {};
-    const char* at = text.data();
-    const char* const end = at + text.size();
-    for (int k = 0; k < 4; ++k) {
-        const auto [next, error] = std::from_chars(at, end, values[k]);
-        const bool whole = error == std::errc() && (k < 3 ? next != end && *next == ',' : next == end);
-        if (!whole || values[k] > 1u << 30)
-            throw InputError(kHere, "\"" + text + "\" does not name a sample",
-                             "write pass,x,y,sample, like 3,120,64,0");
-        at = next + 1;
-    }
+    const std::vector<std::uint32_t> values = parse_numbers(text, 4);
     return {values[0], static_cast<int>(values[1]), static_cast<int>(values[2]), values[3]};
 }
 
@@ -101,16 +124,11 @@ int debug_sample(const RenderRequest& request, const SampleName& name) {
     if (type != Job().integrator.type)
         throw InputError(kHere, "the estimator \"" + type + "\" has no paths that can be described",
                          "add --set integrator.type=" + Job().integrator.type);
-    if (request.schedule.empty() && has_open_budget(request.plan.job))
-        throw InputError(kHere, "the passes of this job depend on clock or error",
-                         "add --schedule with the schedule.toml of the run");
-    const std::vector<PassPlan> plans = request.schedule.empty() ? plan_passes(request.plan.job) : request.schedule;
+    const std::vector<PassPlan> plans = known_passes(request);
     const Film& film = request.scene.film;
     if (name.pass >= plans.size() || name.x >= film.width || name.y >= film.height ||
         name.sample >= plans[name.pass].spp)
-        throw InputError(kHere, "there is no such sample",
-                         "the image has " + std::to_string(film.width) + " x " + std::to_string(film.height) +
-                             " pixels and " + std::to_string(plans.size()) + " passes");
+        refuse_place(request, plans, "sample");
     const AnyModel tree = learn_tree(request, plans, name.pass);
     PassPlan pass = plans[name.pass];
     pass.kernel = kernel_of(request.plan.job, pass, facts_of(tree));
@@ -118,6 +136,32 @@ int debug_sample(const RenderRequest& request, const SampleName& name) {
     const std::string text =
         describe_sample(scene, request.plan.job, pass, AnySampler(tree), name.x, name.y, name.sample);
     std::fputs(text.c_str(), stdout);
+    return 0;
+}
+
+bool names_tile(const std::string& text) {
+    return std::count(text.begin(), text.end(), ',') == 5;
+}
+
+int debug_tile(const RenderRequest& request, const std::string& text) {
+    const std::vector<std::uint32_t> n = parse_numbers(text, 6);
+    const std::vector<PassPlan> plans = known_passes(request);
+    const auto width = static_cast<std::uint32_t>(request.scene.film.width),
+               height = static_cast<std::uint32_t>(request.scene.film.height);
+    if (n[0] >= plans.size() || n[1] >= n[3] || n[2] >= n[4] || n[3] > width || n[4] > height ||
+        n[5] >= plans[n[0]].chunks)
+        refuse_place(request, plans, "tile");
+    const AnyModel tree = learn_tree(request, plans, n[0]);
+    PassPlan pass = plans[n[0]];
+    pass.kernel = kernel_of(request.plan.job, pass, facts_of(tree));
+    const RenderUnit render = make_renderer(encode_scene(request.scene), request.plan.job);
+    const AnySampler guide(tree);
+    UnitOutput output;
+    output.begin(guide.regions().distribution_count(), pass.layers.splats);
+    const auto edge = [](std::uint32_t value) { return static_cast<std::uint16_t>(value); };
+    render(pass, guide, {n[0], edge(n[1]), edge(n[2]), edge(n[3]), edge(n[4]), n[5]}, output);
+    fmt::print("pass {} pixels ({}, {}) to below ({}, {}): {} paths, {} rays, {:.3f} s\n", n[0], n[1], n[2], n[3], n[4],
+               output.stats.paths, output.stats.rays + output.stats.shadow_rays, output.stats.trace_seconds);
     return 0;
 }
 

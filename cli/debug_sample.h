@@ -22,4 +22,11 @@ SampleName parse_sample_name(const std::string& text);
 /// throws InputError if there is no such sample.
 int debug_sample(const RenderRequest& request, const SampleName& name);
 
+/// Whether the text names a tile: has the form of "pass,x0,y0,x1,y1,chunk".
+bool names_tile(const std::string& text);
+
+/// Renders as debug_sample() does what a worker would get as one unit, in this process and thread, and prints how much
+/// that was: whatever it crashes can be looked at by a debugger. Throws InputError if there is no such tile.
+int debug_tile(const RenderRequest& request, const std::string& text);
+
 }  // namespace treefarm

@@ -22,6 +22,7 @@ int debug(const LaunchEnvironment& launch, const RenderOptions& options) {
         throw InputError(Location{"--debug-sample", 0, 0}, "traces one sample in one process", "leave mpirun away");
     RenderRequest request = read_request(options);
     request.resumed = find_checkpoint(options.run_directory, request);
+    if (names_tile(options.debug_sample)) return debug_tile(request, options.debug_sample);
     return debug_sample(request, parse_sample_name(options.debug_sample));
 }
 
@@ -74,7 +75,7 @@ void add_render_command(CLI::App& app, const LaunchEnvironment& launch, const st
                       "replace the render that the folder holds, once this one is done");
     add_farm_options(*command, options->farm);
     add_text_option(*command, "--debug-sample", options->debug_sample,
-                    "pass,x,y,sample: trace this sample and tell its story");
+                    "pass,x,y,sample: trace this sample and tell its story; pass,x0,y0,x1,y1,chunk: trace this tile");
     command->footer(std::string(kDefaultsText) + "\n" + kExitCodesText);
     command->callback([options, launch, &exit_code] {
         const auto read = [&] { return read_request(*options); };

@@ -82,7 +82,7 @@ void Collector::check_splats(const Result& result) const {
     splats_.check(result.splats);
 }
 
-bool Collector::take(int worker, Result result, Ledger& ledger) {
+Verdict Collector::take(int worker, Result result, Ledger& ledger) {
     std::vector<WorkUnit> units;
     for (const UnitResult& unit : result.units) {
         check_pixels(unit);
@@ -91,7 +91,11 @@ bool Collector::take(int worker, Result result, Ledger& ledger) {
     }
     check_stats(result);
     check_splats(result);
-    if (result.pass != plan_.index || !ledger.holds(worker, units)) return false;
+    if (result.pass != plan_.index) return Verdict::lie;
+    if (const Verdict verdict = ledger.judge(worker, units); verdict != Verdict::accepted) {
+        if (verdict == Verdict::late) ledger.drop(worker, units);
+        return verdict;
+    }
     // merge_encoded checks everything before it adds anything: a result counts whole or not at all.
     Timer timer;
     if (plan_.record) touched_cells_ += sums_.merge_encoded(result.update);
@@ -111,7 +115,7 @@ bool Collector::take(int worker, Result result, Ledger& ledger) {
     if (!result.splats.empty()) splats_.merge_encoded(result.splats);
     contribution.stats.add(result.stats);
     film_seconds_ += timer.seconds();
-    return true;
+    return Verdict::accepted;
 }
 
 std::span<const PixelEstimate> Collector::pixels_so_far() const {

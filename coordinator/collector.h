@@ -28,9 +28,9 @@ class Collector {
     Collector(const PassPlan& plan, const AnyModel& model, int width, int height, bool signed_pixels,
               const AovLayout& aovs = {});
 
-    /// Merges a worker's result if the ledger says that the worker has all of its units; otherwise nothing changes and
-    /// false is returned. Throws FormatError if the content does not fit the pass (nothing was accepted then).
-    bool take(int worker, Result result, Ledger& ledger);
+    /// Merges a worker's result if the ledger accepts it; otherwise nothing changes here, and what it has of a late one
+    /// the ledger drops. Throws FormatError if the content does not fit the pass (nothing was accepted then).
+    Verdict take(int worker, Result result, Ledger& ledger);
 
     /// Pixels for a look at the pass while it goes on; none where they are but a layer of it.
     std::span<const PixelEstimate> pixels_so_far() const;

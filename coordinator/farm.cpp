@@ -22,8 +22,22 @@ constexpr double kResendHeartbeats = 2.0;
 /// Messages taken in before anything else is done again: a flood must not keep the farm from its other duties.
 constexpr int kMostLooks = 1024;
 
-/// While fewer units are left than this per thread, they are issued in quarters.
-constexpr std::size_t kShrinkUnitsPerThread = 2;
+/// After so many seconds from when nothing was left to hand out, who has not sent what it had is slow.
+constexpr double kSettleSeconds = 0.05, kLookSeconds = 0.02;
+
+/// A unit in words, and how to have it traced alone.
+std::string blame(const WorkUnit& unit) {
+    const std::string of_pass = " of pass " + std::to_string(unit.pass);
+    if (unit.kind != UnitKind::tile)
+        return "work " + std::to_string(unit.first) + " to " + std::to_string(unit.first + unit.count) + of_pass;
+    std::string pixels, name = std::to_string(unit.pass);
+    for (const std::uint32_t number :
+         {std::uint32_t{unit.x0}, std::uint32_t{unit.y0}, std::uint32_t{unit.x1}, std::uint32_t{unit.y1}, unit.chunk})
+        name += "," + std::to_string(number);
+    return "the pixels from " + std::to_string(unit.x0) + "," + std::to_string(unit.y0) + " to below " +
+           std::to_string(unit.x1) + "," + std::to_string(unit.y1) + of_pass + "; treefarm render --debug-sample " +
+           name + " traces them alone";
+}
 
 /// While more are left, and all are long, workers have enough to trace.
 constexpr std::size_t kCalmUnitsPerThread = 4;
@@ -63,6 +77,7 @@ void Farm::gather(const std::function<bool()>& interrupted) {
 void Farm::begin_pass(const PassPlan& plan, const AnyModel& tree, Bytes encoded_tree, int width, int height) {
     const std::uint64_t hash = hash_bytes(encoded_tree);
     pass_ = OpenPass{plan, std::move(encoded_tree), hash};
+    if (ledger_) copied_units_ += ledger_->copies();
     ledger_ = std::make_unique<Ledger>(plan, width, height, job_.farm.tile_size);
     pass_began_ = clock_.seconds();
     first_request_seconds_ = broadcast_seconds_ = 0;
@@ -72,6 +87,8 @@ void Farm::begin_pass(const PassPlan& plan, const AnyModel& tree, Bytes encoded_
     askers_.clear();
     for (Member* member : roster_.present()) {
         member->credit = 0;
+        member->queued = 0;
+        member->told_end = false;
         not_ready_.push_back(member->peer);
         announce(member->peer);
     }
@@ -146,6 +163,7 @@ void Farm::step() {
     }
     serve_askers();
     watch_for_silence();
+    watch_for_slowness();
     beat();
     if (!busy) rest(channel_, calm());
     listened_ = clock_.seconds();
@@ -164,8 +182,26 @@ void Farm::watch_for_silence() {
         alone_since_ = now;
         log_->warn("no worker answers: waiting {:.0f} s for one to come back", limits_.grace);
     }
-    if (!wait || now - *alone_since_ > limits_.grace)
-        throw RunError("no worker is left" + (last_failure_.empty() ? "" : ": " + last_failure_));
+    if (!wait || now - *alone_since_ > limits_.grace) throw RunError("no worker is left" + why_nobody());
+}
+
+/// What is known of how the last ones were lost.
+std::string Farm::why_nobody() const {
+    if (!last_failure_.empty()) return ": " + last_failure_;
+    const auto [unit, deaths] = deadliest();
+    return deaths < 2 ? "" : ": " + std::to_string(deaths) + " were lost over " + blame(unit);
+}
+
+std::pair<WorkUnit, std::size_t> Farm::deadliest() const {
+    return ledger_ ? ledger_->deadliest() : std::pair<WorkUnit, std::size_t>();
+}
+
+/// Looks now and then, where nothing waits any more, for whom somebody idle could help.
+void Farm::watch_for_slowness() {
+    if (!ledger_ || ledger_->complete() || ledger_->waiting() > 0) return;
+    if (clock_.seconds() - last_look_ < kLookSeconds) return;
+    last_look_ = clock_.seconds();
+    serve_all();
 }
 
 bool Farm::may_come_back() const {
@@ -197,29 +233,70 @@ void Farm::beat_during(const std::function<void()>& work) {
     run_aside(work, [this] { beat(); });
 }
 
-/// Gives a worker its share of what is left, by its threads: nobody takes all of a short queue. One that got less than
-/// it wants asks again when it has finished something. False if nothing is left.
+Speeds Farm::speeds() const {
+    std::map<int, Hand> hands;
+    for (const auto& [peer, member] : roster_.members())
+        if (member.state == MemberState::present) hands[peer] = {member.hello.threads, member.speed.paths_per_second()};
+    return Speeds(hands);
+}
+
+/// Gives a worker its portion of what is left. One that got less than it wants asks again when it has finished
+/// something. False if nothing is left, not even a copy of what somebody slow has.
 bool Farm::serve(Member& member) {
-    const std::size_t waiting = ledger_->waiting(), threads = static_cast<std::size_t>(roster_.thread_count());
-    const std::size_t portion = (waiting * member.hello.threads + threads - 1) / threads;
-    const std::size_t count = std::min<std::size_t>(member.credit, portion);
-    Work work{pass_->plan.index, ledger_->issue(member.peer, count, kShrinkUnitsPerThread * threads)};
+    if (ledger_->waiting() + ledger_->suspects() == 0) return serve_copies(member);
+    const Portion portion = speeds().portion(member.peer, member.credit, member.queued, ledger_->waiting_paths());
+    Work work{pass_->plan.index, ledger_->issue(member.peer, portion)};
+    work.alone = ledger_->has_suspect(member.peer);
+    for (const WorkUnit& unit : work.units)
+        member.queued += ledger_->paths(unit);
+    if (!work.units.empty()) {
+        member.credit -= static_cast<std::uint32_t>(work.units.size());
+        member.told_end = work.alone;
+        tell(member.peer, work);
+    }
+    if (ledger_->waiting() == 0) tell_end();
+    return true;
+}
+
+/// Says once to everybody that nothing waits: they send what they have finished, and soon, so that it shows who is
+/// slow.
+void Farm::tell_end() {
+    ended_ = clock_.seconds();
+    for (Member* member : roster_.present())
+        if (!std::exchange(member->told_end, true)) tell(member->peer, Work{pass_->plan.index, {}});
+}
+
+/// Gives an idle worker copies of what slower ones still have.
+bool Farm::serve_copies(Member& member) {
+    if (member.credit == 0 || clock_.seconds() - ended_ < kSettleSeconds) return false;
+    const Speeds all = speeds();
+    Work work{pass_->plan.index, ledger_->issue_copies(member.peer, std::min(member.credit, member.hello.threads),
+                                                       [&](int holder, std::uint64_t paths) {
+                                                           return all.gain(member.peer, paths, holder,
+                                                                           ledger_->outstanding_paths(holder));
+                                                       })};
     if (work.units.empty()) return false;
+    work.alone = true;
     member.credit -= static_cast<std::uint32_t>(work.units.size());
     tell(member.peer, work);
     return true;
 }
 
+void Farm::serve_all() {
+    for (Member* member : roster_.present())
+        if (member->credit > 0) serve(*member);
+}
+
 void Farm::give_up(Member& member, MemberState state, const std::string& why) {
     member.state = state;
-    const std::size_t units = ledger_ ? ledger_->reclaim(member.peer) : 0;
+    const std::size_t units = ledger_ ? ledger_->reclaim(member.peer, state == MemberState::lost) : 0;
     reissued_units_ += units;
     log_->error("worker {} on {} {}; {} units are issued again", member.peer, member.hello.host, why, units);
     if (std::erase(not_ready_, member.peer) > 0 && not_ready_.empty())
         broadcast_seconds_ = clock_.seconds() - pass_began_;
-    if (units == 0) return;
-    for (Member* other : roster_.present())
-        if (other->credit > 0) serve(*other);
+    if (const auto [unit, deaths] = deadliest(); deaths >= Ledger::kMostDeaths)
+        throw RunError(std::to_string(deaths) + " workers were lost over " + blame(unit));
+    if (units > 0) serve_all();
 }
 
 std::set<int> Farm::lost_peers() const {

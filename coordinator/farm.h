@@ -74,8 +74,10 @@ class Farm {
     void beat_during(const std::function<void()>& work);
     /// Units that were issued again.
     std::uint64_t reissued_units() const { return reissued_units_; }
-    /// Results that came from lost lives and were dropped.
+    /// Results that came from lost lives, or after another worker's of the same units, and were dropped.
     std::uint64_t dropped_results() const { return dropped_results_; }
+    /// Units that a second worker was given because the first was slow.
+    std::uint64_t copied_units() const { return copied_units_ + (ledger_ ? ledger_->copies() : 0); }
     /// Messages that were no messages, or said what cannot be.
     std::uint64_t bad_messages() const { return bad_messages_; }
     /// Rays of all workers in their present lives, as their heartbeats say.
@@ -92,17 +94,25 @@ class Farm {
     void take(const Received& received);
     void on_bad_message(int peer, const std::string& why);
     void watch_for_silence();
+    void watch_for_slowness();
+    std::string why_nobody() const;
+    std::pair<WorkUnit, std::size_t> deadliest() const;
     bool may_come_back() const;  ///< somebody who is not there now
     void on(int peer, const Hello& m);
     void on(int peer, const Resend& m);
     void on(int peer, const Want& m);
     void on(int peer, Result&& m);
+    void on(Member& member, const Heartbeat& m);
     void on(int peer, const Failure& m);
     Member* hear(int peer, std::uint64_t incarnation);
     void refuse(int peer, const Hello& m, const std::string& reason);
     void give_up(Member& member, MemberState state, const std::string& why);
     void announce(int peer);
+    Speeds speeds() const;
     bool serve(Member& member);
+    bool serve_copies(Member& member);
+    void serve_all();
+    void tell_end();
     BlobName name_of(Blob blob) const;
     void send_blob(Blob blob, std::uint64_t offset, std::span<const std::uint32_t> chain);
     bool may_have_copy(Blob blob, int peer);
@@ -144,7 +154,8 @@ class Farm {
     };
     std::map<Blob, Askers> askers_;
     std::string last_failure_;
-    std::uint64_t reissued_units_ = 0, dropped_results_ = 0, bad_messages_ = 0;
+    double ended_ = 0, last_look_ = 0;  ///< when nothing of the pass was left to hand out; for who is slow
+    std::uint64_t reissued_units_ = 0, copied_units_ = 0, dropped_results_ = 0, bad_messages_ = 0;
 };
 
 /// Sends every worker one message, whoever is there.

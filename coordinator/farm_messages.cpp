@@ -39,7 +39,7 @@ void Farm::take(const Received& received) {
                        [&](const Want& m) { on(peer, m); },
                        [&](Result& m) { on(peer, std::move(m)); },
                        [&](const Heartbeat& m) {
-                           if (Member* member = hear(peer, m.incarnation)) member->progress = m;
+                           if (Member* member = hear(peer, m.incarnation)) on(*member, m);
                        },
                        [&](const Failure& m) { on(peer, m); },
                        [&](const Bye& m) {
@@ -99,6 +99,7 @@ void Farm::on(int peer, const Hello& m) {
         return;
     }
     roster_.admit(peer, m, clock_.seconds());
+    if (ledger_) ledger_->forgive(peer);
     log_->debug("worker {} on {} with {} threads", peer, m.host, m.threads);
     tell(peer, Welcome{static_cast<std::uint32_t>(peer), job_.farm.heartbeat_seconds, job_text_, scene_hash_,
                        scene_.size(), turn_.number > 0});
@@ -134,17 +135,39 @@ void Farm::on(int peer, const Want& m) {
     if (!std::exchange(requested_, true)) first_request_seconds_ = clock_.seconds() - pass_began_;
     if (std::erase(not_ready_, peer) > 0 && not_ready_.empty()) broadcast_seconds_ = clock_.seconds() - pass_began_;
     member->credit += std::min(m.units, kMostCredit - member->credit);
-    if (!serve(*member)) tell(peer, Work{m.pass, {}});
+    member->queued = m.queued;
+    if (!serve(*member) && !std::exchange(member->told_end, true)) tell(peer, Work{m.pass, {}});
+}
+
+void Farm::on(Member& member, const Heartbeat& m) {
+    const bool busy = ledger_ && !ledger_->complete() && ledger_->outstanding(member.peer) > 0;
+    member.speed.beat(clock_.seconds(), m.samples, busy);
+    member.progress = m;
 }
 
 void Farm::on(int peer, Result&& m) {
-    if (!hear(peer, m.incarnation)) {
+    Member* member = hear(peer, m.incarnation);
+    if (!member) {
         if (++dropped_results_ <= kMostLogged)
             log_->warn("a result of worker {} came too late and was dropped: its work was issued again", peer);
         return;
     }
-    if (!collector_ || !collector_->take(peer, std::move(m), *ledger_))
-        throw FormatError("a result for work that the worker does not have");
+    if (pass_ && m.pass < pass_->plan.index) {  // others were quicker, and the pass is over
+        ++dropped_results_;
+        return;
+    }
+    const Verdict verdict = collector_ ? collector_->take(peer, std::move(m), *ledger_) : Verdict::lie;
+    if (verdict == Verdict::lie) throw FormatError("a result for work that the worker does not have");
+    if (verdict == Verdict::late) {
+        ++dropped_results_;
+        log_->debug("a result of worker {} was dropped: others were quicker", peer);
+    }
+    member->queued = std::min(member->queued, ledger_->outstanding_paths(peer));
+    for (Member* other : roster_.present())
+        if (std::vector<WorkUnit> done = ledger_->take_superseded(other->peer); !done.empty())
+            tell(other->peer, Drop{pass_->plan.index, std::move(done)});
+    if (ledger_->complete()) return;
+    if (ledger_->waiting() == 0 || ledger_->outstanding(peer) == 0) serve_all();
 }
 
 void Farm::on(int peer, const Failure& m) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common/protocol/messages.h"
+#include "coordinator/speeds.h"
 
 namespace treefarm {
 
@@ -29,6 +30,9 @@ struct Member {
     std::uint32_t lives = 0;         ///< of this peer, with this one
     std::uint32_t bad_messages = 0;  ///< of all its lives, that were refused
     Heartbeat progress;              ///< the last one
+    WorkerSpeed speed;               ///< by all of them
+    std::uint64_t queued = 0;        ///< paths that it has to begin, as far as is known
+    bool told_end = false;           ///< that nothing of the pass is left to hand out
 };
 
 /// Who is there, by peer and incarnation. Open MPI tells nobody about dead processes, so silence is the only sign.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "worker/tracer_pool.h"
 
+#include <algorithm>
 #include <exception>
 
 namespace treefarm {
@@ -46,6 +47,20 @@ void TracerPool::add(std::span<const WorkUnit> units) {
 void TracerPool::cancel() {
     const std::scoped_lock lock(mutex_);
     queue_.clear();
+}
+
+void TracerPool::drop(std::span<const WorkUnit> units) {
+    const std::scoped_lock lock(mutex_);
+    std::erase_if(queue_,
+                  [&](const WorkUnit& unit) { return std::find(units.begin(), units.end(), unit) != units.end(); });
+}
+
+std::uint64_t TracerPool::queued_weight() const {
+    const std::scoped_lock lock(mutex_);
+    std::uint64_t sum = 0;
+    for (const WorkUnit& unit : queue_)
+        sum += weight(unit);
+    return sum;
 }
 
 std::size_t TracerPool::queued() const {

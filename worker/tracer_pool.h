@@ -29,8 +29,12 @@ class TracerPool {
     void add(std::span<const WorkUnit> units);
     /// Drops what is queued.
     void cancel();
+    /// Drops these units where they are queued.
+    void drop(std::span<const WorkUnit> units);
 
     std::size_t queued() const;
+    /// Sum of the weights of what is queued (work_unit.h).
+    std::uint64_t queued_weight() const;
     /// Whether nothing is queued and nothing being traced.
     bool idle() const;
     /// Why a thread could not go on, if so.

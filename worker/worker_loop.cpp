@@ -31,6 +31,11 @@ constexpr double kPatienceHeartbeats = 5.0;
 /// Heartbeats of silence after which the coordinator is gone.
 constexpr double kSilentHeartbeats = 10.0;
 
+/// Where nothing is left, what was finished is sent at once, unless that was done so many seconds ago.
+constexpr double kLeastUpdateSeconds = 0.05;
+
+constexpr std::size_t kNeverAsked = ~std::size_t{0};
+
 /// Messages taken in before anything else is done again.
 constexpr int kMostLooks = 256;
 
@@ -107,8 +112,8 @@ class WorkerLoop {
                 Overloads{[&](const Welcome& m) { on(m); },
                           [&](const Refuse& m) { log_->error("refused by the coordinator: {}", m.reason); },
                           [&](const Chunk& m) { chain_.take(m, clock_.seconds()); }, [&](const PassBegin& m) { on(m); },
-                          [&](const Work& m) { on(m); }, [&](const Heartbeat&) {}, [&](const Rejoin& m) { on(m); },
-                          [&](const Quit&) { on_quit(); },
+                          [&](const Work& m) { on(m); }, [&](const Drop& m) { on(m); }, [&](const Heartbeat&) {},
+                          [&](const Rejoin& m) { on(m); }, [&](const Quit&) { on_quit(); },
                           [&](const Leave& m) { end_ = m.finalize ? WorkerEnd::orderly : WorkerEnd::disorderly; },
                           [&](const auto&) { throw FormatError("a message that workers send, not receive"); }},
                 decode(bytes));
@@ -151,14 +156,21 @@ class WorkerLoop {
 
     void on(const PassBegin& m) {
         coming_ = m;
+        if (pass_ && pass_->plan().index != m.plan.index) end_pass();  // others have done what is still here
         chain_.expect({Blob::tree, job_number_, m.plan.index}, m.tree_bytes, clock_.seconds());
     }
 
     void on(const Work& m) {
         if (!pass_ || m.pass != pass_->plan().index || !pool_) return;  // of a life that was given up
         credit_ -= std::min(credit_, m.units.size());
-        nothing_left_ = m.units.empty();
+        nothing_left_ = m.units.empty() || m.alone;
+        if (nothing_left_ && clock_.seconds() - last_update_ > kLeastUpdateSeconds) send_bundle();
+        asked_at_ = kNeverAsked;
         pool_->add(m.units);
+    }
+
+    void on(const Drop& m) {
+        if (pass_ && m.pass == pass_->plan().index && pool_) pool_->drop(m.units);
     }
 
     /// The coordinator has issued again what this worker had, or is done with it: none of it may be sent any more.
@@ -194,9 +206,13 @@ class WorkerLoop {
     }
 
     void drop_work() {
+        end_pass();
+        coming_.reset();
+    }
+
+    void end_pass() {
         if (pool_) pool_->cancel();
         pass_.reset();
-        coming_.reset();
         credit_ = 0;
     }
 
@@ -275,6 +291,7 @@ class WorkerLoop {
         coming_.reset();
         pass_ = std::move(built);
         credit_ = 0;
+        asked_at_ = kNeverAsked;
         nothing_left_ = false;
         pool_->begin(pass_);
         last_update_ = clock_.seconds();
@@ -284,7 +301,10 @@ class WorkerLoop {
     /// results, the less time has the coordinator to hand out work.
     void send_finished() {
         const bool at_end = nothing_left_ && pool_->idle(), enough = pass_->bundle_bytes() >= kBundleBytes;
-        if (!at_end && !enough && clock_.seconds() - last_update_ < job_.farm.update_seconds) return;
+        if (at_end || enough || clock_.seconds() - last_update_ >= job_.farm.update_seconds) send_bundle();
+    }
+
+    void send_bundle() {
         last_update_ = clock_.seconds();
         if (auto result = pass_->close()) {
             result->incarnation = incarnation_;
@@ -303,11 +323,15 @@ class WorkerLoop {
             kUnitsPerThread + kPathsPerThread / pass_->plan().unit_paths(job_.farm.tile_size);
         const std::size_t depth = per_thread * settings_.threads;
         const std::size_t queued = pool_->queued(), expected = queued + credit_;
-        if (expected >= depth) return;
-        const std::size_t more = depth - expected;
-        if (more < std::max<std::size_t>(1, settings_.threads / 2) && queued > 0) return;
+        const std::size_t more = depth - std::min(depth, expected);
+        // A coordinator that owes much of it, and sees how little is left here, gives some more.
+        const bool hungry = !nothing_left_ && queued < settings_.threads && queued < asked_at_;
+        if (!hungry && (more == 0 || (more < std::max<std::size_t>(1, settings_.threads / 2) && queued > 0))) return;
         credit_ += more;
-        tell(Want{incarnation_, pass_->plan().index, static_cast<std::uint32_t>(more)});
+        asked_at_ = queued;
+        const std::uint64_t paths_each = pass_->plan().units.tiles ? pass_->plan().unit_spp() : 1;
+        tell(Want{incarnation_, pass_->plan().index, static_cast<std::uint32_t>(more),
+                  paths_each * pool_->queued_weight()});
     }
 
     void beat() {
@@ -354,8 +378,9 @@ class WorkerLoop {
     std::future<std::shared_ptr<PassWork>> pass_task_;
     std::uint32_t pass_task_job_ = 0;
     std::shared_ptr<PassWork> pass_;
-    std::size_t credit_ = 0;     ///< units asked for that have not come
-    bool nothing_left_ = false;  ///< the last work that came was none
+    std::size_t credit_ = 0;              ///< units asked for that have not come
+    std::size_t asked_at_ = kNeverAsked;  ///< units that were queued when more were asked for, and none have come since
+    bool nothing_left_ = false;           ///< the last work that came was none
 };
 
 }  // namespace

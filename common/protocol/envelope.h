@@ -9,7 +9,7 @@
 namespace treefarm {
 
 /// Raised whenever a message changes its form: peers of another version are refused, not guessed at.
-inline constexpr std::uint32_t kProtocolVersion = 10;
+inline constexpr std::uint32_t kProtocolVersion = 11;
 
 /// Kind of a message. The numbers are on the wire: append only (docs/design/protocol.md).
 enum class Kind : std::uint8_t {
@@ -28,8 +28,9 @@ enum class Kind : std::uint8_t {
     quit,        ///< coordinator: stop tracing
     bye,         ///< worker: stopped
     leave,       ///< coordinator: end the process
+    drop,        ///< coordinator: units that others have done meanwhile
 };
-inline constexpr Kind kLastKind = Kind::leave;
+inline constexpr Kind kLastKind = Kind::drop;
 
 /// magic[4] version:u32 checksum:u64 length:u64 kind:u8 payload[length]; the checksum (XXH3-64) covers all that follows
 /// it.

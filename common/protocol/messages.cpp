@@ -38,7 +38,7 @@ void serialize(Archive& a, PassBegin& m) {
 
 template <class Archive>
 void serialize(Archive& a, Want& m) {
-    a(m.incarnation, m.pass, m.units);
+    a(m.incarnation, m.pass, m.units, m.queued);
 }
 
 template <class Archive>
@@ -128,11 +128,30 @@ void write_body(ByteWriter& writer, const Chunk& m) {
     writer.put_array(std::span(m.bytes));
 }
 
+void write_units(ByteWriter& writer, std::span<const WorkUnit> units) {
+    writer.put_varint(units.size());
+    for (const WorkUnit& unit : units)
+        write_unit(writer, unit);
+}
+
+std::vector<WorkUnit> read_units(ByteReader& reader, std::uint32_t pass) {
+    const std::size_t count = reader.get_count(kLeastUnitBytes);
+    std::vector<WorkUnit> units;
+    units.reserve(count);
+    for (std::size_t i = 0; i < count; ++i)
+        units.push_back(read_unit(reader, pass));
+    return units;
+}
+
 void write_body(ByteWriter& writer, const Work& m) {
     writer.put(m.pass);
-    writer.put_varint(m.units.size());
-    for (const WorkUnit& unit : m.units)
-        write_unit(writer, unit);
+    writer.put<std::uint8_t>(m.alone);
+    write_units(writer, m.units);
+}
+
+void write_body(ByteWriter& writer, const Drop& m) {
+    writer.put(m.pass);
+    write_units(writer, m.units);
 }
 
 void write_body(ByteWriter& writer, const Result& m) {
@@ -156,10 +175,13 @@ M read_body(ByteReader& reader) {
             throw FormatError("a chunk beyond the end of its blob");
     } else if constexpr (std::is_same_v<M, Work>) {
         message.pass = reader.get<std::uint32_t>();
-        const std::size_t count = reader.get_count(kLeastUnitBytes);
-        message.units.reserve(count);
-        for (std::size_t i = 0; i < count; ++i)
-            message.units.push_back(read_unit(reader, message.pass));
+        const auto alone = reader.get<std::uint8_t>();
+        if (alone > 1) throw FormatError("work that is neither alone nor not");
+        message.alone = alone != 0;
+        message.units = read_units(reader, message.pass);
+    } else if constexpr (std::is_same_v<M, Drop>) {
+        message.pass = reader.get<std::uint32_t>();
+        message.units = read_units(reader, message.pass);
     } else if constexpr (std::is_same_v<M, Result>) {
         message = read_result(reader);
     } else {
@@ -199,6 +221,7 @@ template Bytes encode(const Rejoin&);
 template Bytes encode(const Quit&);
 template Bytes encode(const Bye&);
 template Bytes encode(const Leave&);
+template Bytes encode(const Drop&);
 
 Message decode(std::span<const std::uint8_t> bytes) {
     const Envelope envelope = open_envelope(bytes);
@@ -234,6 +257,8 @@ Message decode(std::span<const std::uint8_t> bytes) {
             return read_body<Bye>(reader);
         case Kind::leave:
             return read_body<Leave>(reader);
+        case Kind::drop:
+            return read_body<Drop>(reader);
     }
     throw FormatError("message of unknown kind");
 }

@@ -97,12 +97,14 @@ struct PassBegin {
     bool operator==(const PassBegin&) const;
 };
 
-/// Credit: the worker can take so many more units of this pass than it asked for before.
+/// Credit: the worker can take so many more units of this pass than it asked for before. None: it only says how little
+/// it has left.
 struct Want {
     static constexpr Kind kKind = Kind::want;
     std::uint64_t incarnation = 0;
     std::uint32_t pass = 0;
     std::uint32_t units = 0;
+    std::uint64_t queued = 0;  ///< paths of the units that it has and has not begun
 
     bool operator==(const Want&) const = default;
 };
@@ -112,8 +114,18 @@ struct Work {
     static constexpr Kind kKind = Kind::work;
     std::uint32_t pass = 0;
     std::vector<WorkUnit> units;  ///< all of that pass
+    bool alone = false;           ///< what they bring is to be sent as soon as it is there, with nothing else
 
     bool operator==(const Work&) const = default;
+};
+
+/// Units that are done: whoever has not begun them need not.
+struct Drop {
+    static constexpr Kind kKind = Kind::drop;
+    std::uint32_t pass = 0;
+    std::vector<WorkUnit> units;  ///< all of that pass
+
+    bool operator==(const Drop&) const = default;
 };
 
 /// A finished unit: the estimates of its pixels, row by row, if it has any.
@@ -181,7 +193,7 @@ struct Leave {
 };
 
 using Message = std::variant<Hello, Welcome, Refuse, Chunk, Resend, PassBegin, Want, Work, Result, Heartbeat, Failure,
-                             Rejoin, Quit, Bye, Leave>;
+                             Rejoin, Quit, Bye, Leave, Drop>;
 
 /// Calls the member of `Overloads` that takes the message's type: std::visit(Overloads{...}, message).
 template <class... Handlers>

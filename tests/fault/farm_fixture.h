@@ -176,6 +176,7 @@ class FarmTest : public ::testing::Test {
             throw;
         }
         reissued_ = farm.reissued_units();
+        copied_ = farm.copied_units();
         dropped_ = farm.dropped_results();
         bad_messages_ = farm.bad_messages();
         lost_ = farm.lost_peers();
@@ -231,7 +232,7 @@ class FarmTest : public ::testing::Test {
     std::vector<MakeRenderer> renderers_;
     std::vector<WorkerEnd> ends_;
     std::vector<std::thread> threads_;
-    std::uint64_t reissued_ = 0, dropped_ = 0, bad_messages_ = 0;
+    std::uint64_t reissued_ = 0, copied_ = 0, dropped_ = 0, bad_messages_ = 0;
     std::set<int> lost_;
     bool orderly_ = false;
 };

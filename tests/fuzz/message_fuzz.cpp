@@ -63,7 +63,8 @@ std::vector<std::string> fuzz::seeds() {
                                            Failure{1, "no memory"},
                                            Rejoin{3},
                                            Bye{5},
-                                           Leave{true}};
+                                           Leave{true},
+                                           Drop{2, {{2, 0, 0, 8, 8, 0}}}};
     std::vector<std::string> seeds;
     for (const Message& message : messages) {
         const Bytes bytes = encode_any(message);

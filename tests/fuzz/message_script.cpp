@@ -134,7 +134,7 @@ PassBegin any_pass(Script& script, const Known& known) {
 }  // namespace
 
 Bytes any_message(Script& script, const Known& known) {
-    switch (1 + script.below(15)) {
+    switch (1 + script.below(16)) {
         case 1:
             return encode(Hello{likely(script, known.incarnation), likely(script, known.fingerprint),
                                 static_cast<std::uint32_t>(likely<std::uint64_t>(script, 2) % (kMostThreads + 1)),
@@ -155,11 +155,13 @@ Bytes any_message(Script& script, const Known& known) {
             return encode(any_pass(script, known));
         case 7:
             return encode(
-                Want{likely(script, known.incarnation), likely(script, known.pass), likely(script, script.below(8))});
+                Want{likely(script, known.incarnation), likely(script, known.pass), likely(script, script.below(8)),
+                     script.one_in(4) ? script.number() : script.below(100)});
         case 8: {
             Work work{likely(script, known.pass), {}};
             for (std::uint32_t count = script.below(4); count > 0; --count)
                 work.units.push_back(any_unit(script, known));
+            work.alone = script.one_in(4);
             return encode(work);
         }
         case 9:
@@ -174,8 +176,14 @@ Bytes any_message(Script& script, const Known& known) {
             return encode(Quit{});
         case 14:
             return encode(Bye{likely(script, known.incarnation)});
-        default:
+        case 15:
             return encode(Leave{script.one_in(2)});
+        default: {
+            Drop drop{likely(script, known.pass), {}};
+            for (std::uint32_t count = script.below(4); count > 0; --count)
+                drop.units.push_back(any_unit(script, known));
+            return encode(drop);
+        }
     }
 }
 

@@ -157,6 +157,21 @@ TEST(Ending, ADebugSampleTellsItsPath) {
     EXPECT_EQ(wrong.code, 2) << wrong.output;
 }
 
+/// What the farm names that workers were lost over can be traced alone.
+TEST(Ending, ADebugTileIsTracedAlone) {
+    const auto traced = [](const char* tile) {
+        return Program(std::vector<std::string>{TREEFARM_PROGRAM, "render", own_scene("cornell-box.xml"), "-D",
+                                                "size=32", "--spp", "28", "--debug-sample", tile})
+            .wait(kSoon);
+    };
+    const Ending ending = traced("2,8,8,24,16,0");
+    EXPECT_EQ(ending.code, 0) << ending.output;
+    EXPECT_NE(ending.output.find("pass 2 pixels (8, 8) to below (24, 16): 512 paths"), std::string::npos)
+        << ending.output;
+    for (const char* wrong : {"2,8,8,8,16,0", "2,8,8,33,16,0", "9,8,8,24,16,0", "2,8,8,24,16,7", "2,8,8,24,16,x"})
+        EXPECT_EQ(traced(wrong).code, 2) << wrong;
+}
+
 /// mpirun would wait for a stopped worker for ever, with the image on disk.
 TEST(Ending, AWorkerThatStandsStillForEverDoesNotHoldTheJob) {
     const auto folder = fresh_folder("run");

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <functional>
+#include <random>
 #include <set>
 
 namespace treefarm {
@@ -11,6 +13,11 @@ namespace {
 
 PassPlan plan(std::uint32_t chunks = 1) {
     return {.index = 4, .spp = 64 * chunks, .blocks_per_unit = 1, .chunks = chunks};
+}
+
+/// Some units, whole, or in pieces of so many paths.
+Portion some(std::size_t units, std::uint64_t piece = ~std::uint64_t{0}) {
+    return {units, ~std::uint64_t{0}, piece};
 }
 
 /// Marks the units' pixels; false if one of them was marked before.
@@ -32,11 +39,11 @@ TEST(Ledger, IssuesEveryAtomOnceInAFixedOrder) {
             Ledger a(plan(chunks), kWidth, kHeight, tile), b(plan(chunks), kWidth, kHeight, tile);
             std::vector<int> marks(kWidth * kHeight * chunks, 0);
             while (a.waiting() > 0) {
-                const auto units = a.issue(1, 3, 20);
-                EXPECT_EQ(units, b.issue(2, 3, 20));
+                const auto units = a.issue(1, some(3, 8192));
+                EXPECT_EQ(units, b.issue(2, some(3, 8192)));
                 EXPECT_TRUE(cover(marks, kWidth, kHeight, units));
                 EXPECT_FALSE(a.complete());
-                EXPECT_TRUE(a.accept(1, units));
+                EXPECT_EQ(a.accept(1, units), Verdict::accepted);
             }
             EXPECT_TRUE(a.complete());
             EXPECT_EQ(a.done(), a.total());
@@ -44,17 +51,28 @@ TEST(Ledger, IssuesEveryAtomOnceInAFixedOrder) {
         }
 }
 
-TEST(Ledger, PiecesShrinkTowardsTheEnd) {
+TEST(Ledger, PiecesAreAsSmallAsIsAskedFor) {
     Ledger ledger(plan(), 256, 256, 32);
     EXPECT_EQ(ledger.waiting(), 64u);
-    EXPECT_EQ(ledger.issue(1, 1, 10)[0].pixel_count(), 32u * 32u);
-    ledger.issue(1, 54, 10);
-    EXPECT_EQ(ledger.issue(1, 1, 10)[0].pixel_count(), 16u * 16u);
+    EXPECT_EQ(ledger.issue(1, some(1))[0].pixel_count(), 32u * 32u);
+    EXPECT_EQ(ledger.issue(1, some(1, 65536))[0].pixel_count(), 32u * 32u);
+    EXPECT_EQ(ledger.issue(1, some(1, 65535))[0].pixel_count(), 16u * 16u);
+    EXPECT_EQ(ledger.waiting(), 61u + 3u);
+}
+
+TEST(Ledger, APortionHasNoMorePathsThanAreAskedForButOneUnit) {
+    Ledger ledger(plan(), 256, 256, 32);
+    const std::uint64_t whole = 32 * 32 * 64;
+    EXPECT_EQ(ledger.issue(1, {100, 1, whole}).size(), 1u);
+    EXPECT_EQ(ledger.issue(1, {100, 5 * whole - 1, whole}).size(), 4u);
+    EXPECT_EQ(ledger.issue(1, {0, 5 * whole, whole}).size(), 0u);
+    EXPECT_EQ(ledger.outstanding_paths(1), 5 * whole);
+    EXPECT_EQ(ledger.waiting_paths(), 59 * whole);
 }
 
 TEST(Ledger, TinyPiecesAreNotCutFurther) {
     Ledger ledger(plan(), 7, 7, 32);
-    EXPECT_EQ(ledger.issue(1, 10, 100).size(), 1u);
+    EXPECT_EQ(ledger.issue(1, some(10, 1)).size(), 1u);
 }
 
 /// Pieces were cut down to 4 x 4 pixels whatever their samples: of a tenth of a millisecond each, they took a tenth of
@@ -63,7 +81,7 @@ TEST(Ledger, PiecesOfFewPathsAreNotCut) {
     for (const auto& [spp, smallest] : {std::pair{1u, 32u * 32u}, {8u, 16u * 16u}, {32u, 8u * 8u}, {64u, 8u * 8u}}) {
         Ledger ledger({.index = 0, .spp = spp}, 64, 64, 32);
         std::uint32_t least = 64 * 64;
-        for (const WorkUnit& unit : ledger.issue(1, 1000, 1000))
+        for (const WorkUnit& unit : ledger.issue(1, some(1000, 1)))
             least = std::min(least, unit.pixel_count());
         EXPECT_EQ(least, smallest) << spp << " spp";
     }
@@ -83,13 +101,13 @@ TEST(Ledger, RangesCoverEveryPathOnceAndShrink) {
     std::uint64_t next = 0;
     std::uint32_t most = 0, least = kRangePaths;
     while (ledger.waiting() > 0)
-        for (const WorkUnit& unit : ledger.issue(1, 1, 6)) {
+        for (const WorkUnit& unit : ledger.issue(1, some(1, ledger.waiting_paths() / 4))) {
             EXPECT_EQ(unit.kind, UnitKind::light_paths);
             EXPECT_EQ(unit.first, next);
             next += unit.count;
             most = std::max(most, unit.count);
             least = std::min(least, unit.count);
-            EXPECT_TRUE(ledger.accept(1, std::vector{unit}));
+            EXPECT_EQ(ledger.accept(1, std::vector{unit}), Verdict::accepted);
             EXPECT_EQ(ledger.done(), next);
         }
     EXPECT_EQ(next, kPaths);
@@ -105,15 +123,15 @@ TEST(Ledger, APassMayHaveUnitsOfSeveralKinds) {
     plan.units.chains = 3;
     Ledger ledger(plan, 101, 37, 32);
     EXPECT_EQ(ledger.total(), 3u * 101 * 37 + 3);
-    const std::vector<WorkUnit> units = ledger.issue(1, 1000, 0);
+    const std::vector<WorkUnit> units = ledger.issue(1, some(1000));
     EXPECT_EQ(units.front().kind, UnitKind::tile);
     EXPECT_EQ(units.back(), (WorkUnit{.pass = 4, .kind = UnitKind::chains, .first = 2, .count = 1}));
     const auto range =
         std::find_if(units.begin(), units.end(), [](const WorkUnit& u) { return u.kind == UnitKind::light_paths; });
     EXPECT_EQ(ledger.reclaim(1), units.size());
-    EXPECT_EQ(ledger.issue(2, 1000, 0).size(), units.size());
-    EXPECT_FALSE(ledger.holds(1, std::vector{*range})) << "it was taken from worker 1";
-    EXPECT_TRUE(ledger.accept(2, units));
+    EXPECT_EQ(ledger.issue(2, some(1000)).size(), units.size());
+    EXPECT_EQ(ledger.judge(1, std::vector{*range}), Verdict::lie) << "it was taken from worker 1";
+    EXPECT_EQ(ledger.accept(2, units), Verdict::accepted);
     EXPECT_TRUE(ledger.complete());
 }
 
@@ -134,34 +152,142 @@ TEST(WorkUnit, PiecesCoverTheWhole) {
 
 TEST(Ledger, AcceptsOnlyWhatTheWorkerHasAndOnlyOnce) {
     Ledger ledger(plan(), 64, 32, 32);
-    const auto mine = ledger.issue(1, 1, 0);
-    const auto other = ledger.issue(2, 1, 0);
-    EXPECT_FALSE(ledger.accept(2, mine));
-    EXPECT_FALSE(ledger.accept(1, std::vector{mine[0], other[0]})) << "one of them is not worker 1's";
-    EXPECT_FALSE(ledger.accept(1, std::vector{mine[0], mine[0]})) << "twice in one result";
+    const auto mine = ledger.issue(1, some(1));
+    const auto other = ledger.issue(2, some(1));
+    EXPECT_EQ(ledger.accept(2, mine), Verdict::lie);
+    EXPECT_EQ(ledger.accept(1, std::vector{mine[0], other[0]}), Verdict::lie) << "one of them is not worker 1's";
+    EXPECT_EQ(ledger.accept(1, std::vector{mine[0], mine[0]}), Verdict::lie) << "twice in one result";
     EXPECT_EQ(ledger.done(), 0u) << "a refused result must leave no trace";
-    EXPECT_TRUE(ledger.accept(1, mine));
-    EXPECT_FALSE(ledger.accept(1, mine)) << "accepted twice";
+    EXPECT_EQ(ledger.accept(1, mine), Verdict::accepted);
+    EXPECT_EQ(ledger.accept(1, mine), Verdict::lie) << "accepted twice";
     WorkUnit forged = other[0];
     forged.chunk = 9;
-    EXPECT_FALSE(ledger.accept(2, std::vector{forged}));
-    EXPECT_TRUE(ledger.accept(2, other));
+    EXPECT_EQ(ledger.accept(2, std::vector{forged}), Verdict::lie);
+    EXPECT_EQ(ledger.accept(2, other), Verdict::accepted);
     EXPECT_TRUE(ledger.complete());
 }
 
 TEST(Ledger, WorkOfALostWorkerIsIssuedAgainFirst) {
     Ledger ledger(plan(), 128, 32, 32);
-    const auto lost = ledger.issue(1, 2, 0);
-    const auto kept = ledger.issue(2, 1, 0);
+    const auto lost = ledger.issue(1, some(2));
+    const auto kept = ledger.issue(2, some(1));
     EXPECT_EQ(ledger.outstanding(1), 2u);
     EXPECT_EQ(ledger.reclaim(1), 2u);
     EXPECT_EQ(ledger.outstanding(1), 0u);
-    EXPECT_FALSE(ledger.accept(1, lost)) << "a late result of a lost worker counts nothing";
-    EXPECT_EQ(ledger.issue(2, 2, 0), lost);
-    EXPECT_TRUE(ledger.accept(2, lost));
-    EXPECT_TRUE(ledger.accept(2, kept));
-    EXPECT_TRUE(ledger.accept(3, ledger.issue(3, 5, 0)));
+    EXPECT_EQ(ledger.accept(1, lost), Verdict::lie) << "a late result of a lost worker counts nothing";
+    EXPECT_EQ(ledger.issue(2, some(2)), lost);
+    EXPECT_EQ(ledger.accept(2, lost), Verdict::accepted);
+    EXPECT_EQ(ledger.accept(2, kept), Verdict::accepted);
+    EXPECT_EQ(ledger.accept(3, ledger.issue(3, some(5))), Verdict::accepted);
     EXPECT_TRUE(ledger.complete());
+}
+
+/// Seconds that a copy would save: these, whoever has the unit.
+std::function<double(int, std::uint64_t)> saves(double seconds) {
+    return [=](int, std::uint64_t) { return seconds; };
+}
+
+TEST(Ledger, TheFirstOfTwoCopiesCounts) {
+    Ledger ledger(plan(), 96, 32, 32);
+    const auto slow = ledger.issue(1, some(2));
+    EXPECT_TRUE(ledger.issue_copies(2, 5, saves(1)).empty()) << "something waits";
+    const auto last = ledger.issue(2, some(1));
+    EXPECT_TRUE(ledger.issue_copies(2, 5, saves(1)).empty()) << "it has work of its own";
+    EXPECT_EQ(ledger.accept(2, last), Verdict::accepted);
+    EXPECT_TRUE(ledger.issue_copies(2, 5, saves(0)).empty()) << "none is worth it";
+    const auto copy = ledger.issue_copies(2, 1, saves(1));
+    ASSERT_EQ(copy, std::vector{slow[1]}) << "what the other begins last";
+    EXPECT_TRUE(ledger.issue_copies(3, 5, saves(1)) == std::vector{slow[0]}) << "two copies of one are enough";
+    EXPECT_EQ(ledger.reclaim(3), 1u);
+    EXPECT_EQ(ledger.outstanding(), 2u) << "worker 1 still has it";
+    EXPECT_EQ(ledger.accept(2, copy), Verdict::accepted);
+    EXPECT_EQ(ledger.take_superseded(1), copy);
+    EXPECT_TRUE(ledger.take_superseded(1).empty()) << "told once";
+    EXPECT_EQ(ledger.judge(1, slow), Verdict::late);
+    EXPECT_EQ(ledger.accept(1, slow), Verdict::late);
+    ledger.drop(1, slow);
+    EXPECT_EQ(ledger.judge(1, copy), Verdict::lie) << "late but once";
+    EXPECT_EQ(ledger.issue(2, some(5)), std::vector{slow[0]}) << "what else was in a late result is issued again";
+    EXPECT_EQ(ledger.accept(2, std::vector{slow[0]}), Verdict::accepted);
+    EXPECT_TRUE(ledger.complete());
+}
+
+TEST(Ledger, AUnitThatWorkersAreLostOverIsIssuedAlone) {
+    Ledger ledger(plan(), 128, 32, 32);
+    const auto lost = ledger.issue(1, some(2));
+    const auto kept = ledger.issue(2, some(1));
+    EXPECT_EQ(ledger.reclaim(1, true), 2u);
+    EXPECT_EQ(ledger.waiting(), 1u);
+    EXPECT_EQ(ledger.suspects(), 2u);
+    const auto others = ledger.issue(2, some(5));
+    EXPECT_EQ(others.size(), 1u) << "worker 2 has something: no suspect for it";
+    EXPECT_EQ(ledger.issue(3, some(5)), std::vector{lost[0]});
+    EXPECT_TRUE(ledger.has_suspect(3));
+    EXPECT_TRUE(ledger.issue(3, some(5)).empty()) << "alone";
+    EXPECT_EQ(ledger.accept(2, kept), Verdict::accepted);
+    EXPECT_EQ(ledger.accept(2, others), Verdict::accepted);
+    EXPECT_EQ(ledger.issue(2, some(5)), std::vector{lost[1]});
+    EXPECT_EQ(ledger.accept(2, std::vector{lost[1]}), Verdict::accepted) << "it was not the one";
+    EXPECT_EQ(ledger.reclaim(3, true), 1u);
+    EXPECT_EQ(ledger.deadliest(), (std::pair<WorkUnit, std::size_t>(lost[0], 2)));
+    ledger.forgive(3);
+    EXPECT_EQ(ledger.deadliest().second, 1u) << "worker 3 is back: it was silent, not dead";
+    EXPECT_EQ(ledger.issue(2, some(5)), std::vector{lost[0]});
+    EXPECT_EQ(ledger.reclaim(2, true), 1u);
+    EXPECT_EQ(ledger.issue(4, some(5)), std::vector{lost[0]});
+    EXPECT_EQ(ledger.reclaim(4, true), 1u);
+    EXPECT_EQ(ledger.deadliest().second, Ledger::kMostDeaths);
+}
+
+/// Whatever is issued, copied, delivered, late, lost and lied about: every atom is done once, and nothing is forgotten.
+TEST(Ledger, EveryAtomIsDoneOnceWhateverHappens) {
+    for (unsigned seed = 0; seed < 60; ++seed) {
+        std::mt19937 engine(seed);
+        const auto below = [&](std::size_t n) { return static_cast<std::size_t>(engine() % n); };
+        constexpr int kWidth = 96, kHeight = 64, kWorkers = 5;
+        Ledger ledger(plan(2), kWidth, kHeight, 16);
+        std::vector<int> marks(kWidth * kHeight * 2, 0);
+        std::vector<std::vector<WorkUnit>> bags(kWorkers);
+        for (int step = 0; step < 20'000 && !ledger.complete(); ++step) {
+            const auto worker = static_cast<int>(below(kWorkers));
+            std::vector<WorkUnit>& bag = bags[static_cast<std::size_t>(worker)];
+            const std::size_t what = below(20);
+            if (what < 8) {
+                const auto units = ledger.issue(worker, {1 + below(4), 1 + engine() % 100'000, 1 + engine() % 30'000});
+                bag.insert(bag.end(), units.begin(), units.end());
+            } else if (what < 11) {
+                const auto units = ledger.issue_copies(worker, 1 + below(3), saves(static_cast<double>(below(2))));
+                bag.insert(bag.end(), units.begin(), units.end());
+            } else if (what < 18 && !bag.empty()) {
+                std::shuffle(bag.begin(), bag.end(), engine);
+                const std::vector<WorkUnit> sent(bag.end() - std::ptrdiff_t(1 + below(bag.size())), bag.end());
+                bag.resize(bag.size() - sent.size());
+                const Verdict verdict = ledger.accept(worker, sent);
+                ASSERT_NE(verdict, Verdict::lie) << "seed " << seed;
+                if (verdict == Verdict::accepted) {
+                    ASSERT_TRUE(cover(marks, kWidth, kHeight, sent)) << "seed " << seed;
+                } else {
+                    ledger.drop(worker, sent);
+                }
+            } else if (what == 18) {
+                for (const WorkUnit& unit : ledger.take_superseded(worker))
+                    std::erase(bag, unit);
+            } else if (what == 19 && below(10) == 0) {
+                ledger.reclaim(worker, below(2) == 0);
+                bag.clear();
+                if (below(2) == 0) ledger.forgive(worker);
+            }
+            std::uint64_t held = 0;
+            for (int w = 0; w < kWorkers; ++w)
+                held += ledger.outstanding_paths(w);
+            ASSERT_LE(ledger.waiting_paths() + ledger.done() * 64, ledger.total() * 64) << "seed " << seed;
+            ASSERT_GE(ledger.waiting_paths() + ledger.done() * 64 + held + ledger.suspects() * 65'536,
+                      ledger.total() * 64)
+                << "seed " << seed << ": something was forgotten";
+        }
+        ASSERT_TRUE(ledger.complete()) << "seed " << seed;
+        EXPECT_EQ(std::set<int>(marks.begin(), marks.end()), std::set<int>{1}) << "seed " << seed;
+    }
 }
 
 }  // namespace

@@ -64,7 +64,7 @@ std::vector<Message> samples() {
             Chunk{Blob::tree, 1, 5, 100, 10, {2, 3}, {9, 8, 7}},
             Resend{Blob::scene, 1, 0, 42},
             sample_pass(),
-            Want{1, 2, 30},
+            Want{1, 2, 30, 400},
             Work{2,
                  {{2, 0, 0, 8, 8, 0},
                   {2, 8, 0, 16, 8, 1},
@@ -76,7 +76,8 @@ std::vector<Message> samples() {
             Rejoin{3},
             Quit{},
             Bye{5},
-            Leave{true}};
+            Leave{true},
+            Drop{2, {{2, 0, 0, 8, 8, 0}}}};
 }
 
 Bytes encode_any(const Message& message) {

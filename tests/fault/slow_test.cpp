@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+// Workers that are slow, stand still, or die over a unit, in one process.
+#include "tests/fault/farm_fixture.h"
+
+namespace treefarm::test {
+namespace {
+
+/// The fake renderer, but `before(unit)` comes first.
+template <class Before>
+MakeRenderer make_hindered(Before before) {
+    return [before](std::span<const std::uint8_t>, const Job& job) -> RenderUnit {
+        return [before, render = fake_renderer(job)](const PassPlan& pass, const AnySampler& guide,
+                                                     const WorkUnit& unit, UnitOutput& output) {
+            before(unit);
+            render(pass, guide, unit, output);
+        };
+    };
+}
+
+void nap(int milliseconds) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
+}
+
+/// One beats, takes what it gets, and delivers nothing: others do it, pass after pass.
+TEST_F(FarmTest, AWorkerThatStandsStillHoldsNobodyUp) {
+    make_workers(2);
+    std::atomic<bool> over = false;
+    renderers_[1] = make_hindered([&](const WorkUnit&) {
+        for (int k = 0; k < 20'000 && !over; ++k)
+            nap(1);
+    });
+    hooks_.on_pass = [&](const PassReport& report, const CombinedImage&) {
+        if (report.plan.index + 1 == truth().passes.size()) over = true;
+    };
+    expect_truth(render());
+    EXPECT_GT(copied_, 0u);
+    EXPECT_TRUE(lost_.empty()) << "slow is not lost";
+    EXPECT_EQ(bad_messages_, 0u) << "nor is it to blame";
+}
+
+/// What a slow worker delivers after others is dropped, the rest of it counts.
+TEST_F(FarmTest, ASlowWorkerCostsTimeNotBits) {
+    make_workers(3);
+    job_.farm.update_seconds = 0.2;
+    renderers_[1] = make_hindered([](const WorkUnit&) { nap(60); });
+    expect_truth(render());
+    EXPECT_TRUE(lost_.empty());
+    EXPECT_EQ(bad_messages_, 0u);
+}
+
+/// Whoever traces the pixel 0,0 of the second pass falls silent for ever.
+struct Deadly : FarmTest {
+    void make_mortal(int count) {
+        make_workers(count);
+        for (std::size_t w = 0; w < faulty_.size(); ++w) {
+            settings_[w].silence_seconds = 1.0;
+            renderers_[w] = make_hindered([channel = faulty_[w].get()](const WorkUnit& unit) {
+                if (unit.pass == 1 && unit.x0 == 0 && unit.y0 == 0) channel->cut = true;
+            });
+        }
+    }
+
+    std::string death(const FarmLimits& limits) {
+        try {
+            render(limits);
+        } catch (const RunError& error) {
+            return error.what();
+        }
+        return "it went on";
+    }
+};
+
+TEST_F(Deadly, AUnitThatKillsThreeWorkersEndsTheRenderByItsName) {
+    make_mortal(5);
+    const std::string why = death({.gather = 20, .lost = 0.3, .dismiss = 0.5, .grace = 1});
+    EXPECT_NE(why.find("3 workers were lost over the pixels from 0,0 to below "), std::string::npos) << why;
+    EXPECT_NE(why.find("of pass 1; treefarm render --debug-sample 1,0,0,"), std::string::npos) << why;
+}
+
+TEST_F(Deadly, IsNamedWhereNobodyIsLeft) {
+    make_mortal(2);
+    const std::string why = death({.gather = 20, .lost = 0.3, .dismiss = 0.5, .grace = 0.5});
+    EXPECT_NE(why.find("no worker is left: 2 were lost over the pixels from 0,0"), std::string::npos) << why;
+}
+
+}  // namespace
+}  // namespace treefarm::test
