@@ -210,9 +210,9 @@ TEST(AovPlan, MemoryIsNamedWhereLayersAreOn) {
     };
     EXPECT_FALSE(has_aovs(coordinator("")));
     ASSERT_TRUE(has_aovs(coordinator("albedo,normal")));
-    // Six numbers of the pass in hand and of all, and four copies of six floats.
+    // Six numbers of the pass in hand, of all, and of two checkpoints, and four copies of six floats.
     EXPECT_EQ(coordinator("albedo,normal").coordinator_bytes() - coordinator("").coordinator_bytes(),
-              scene.film.pixel_count() * (2 * 6 * sizeof(double) + 4 * 6 * sizeof(float)));
+              scene.film.pixel_count() * (4 * 6 * sizeof(double) + 4 * 6 * sizeof(float)));
 }
 
 }  // namespace
