@@ -219,6 +219,10 @@ TEST_F(Checkpoints, AStateThatNoRenderHasIsRefused) {
                   s.set_aside.take_out(other, 0, 0);
               }).find("probes of another image"),
               std::string::npos);
+    EXPECT_NE(fault_with([](RenderState& s) {
+                  s.aovs = AovSums(std::vector<AovRequest>{{Aov::depth, "depth"}}, kPixels);
+              }).find("AOVs of another image"),
+              std::string::npos);
 }
 
 /// What a checkpoint with layers takes in memory, as `treefarm plan` says it, and no more.

@@ -34,8 +34,9 @@ TEST(EstimatorList, SaysHowManyEdgesAreFollowed) {
         const int most = estimator.depth == 0 ? 5 : estimator.depth;
         EXPECT_EQ(render(estimator, 1.0f, most) == render(estimator, 1.0f, most + 1), estimator.depth != 0)
             << estimator.type;
-        if (estimator.sees_light)
+        if (estimator.sees_light) {
             EXPECT_NE(render(estimator, 1.0f, most - 1), render(estimator, 1.0f, most)) << estimator.type;
+        }
     }
 }
 

@@ -99,7 +99,9 @@ TEST_F(Folders, ARenderThatNeverGoesOnChangesNothingButItsStatus) {
     auto after = files();
     EXPECT_NE(after["status.json"].find("interrupted"), std::string::npos) << after["status.json"];
     for (const auto& [name, text] : before)
-        if (name != "status.json" && name != "log.txt") EXPECT_EQ(after[name], text) << name;
+        if (name != "status.json" && name != "log.txt") {
+            EXPECT_EQ(after[name], text) << name;
+        }
     EXPECT_EQ(after.size(), before.size());
 
     ASSERT_EQ(render(more(12)), RunState::done);
