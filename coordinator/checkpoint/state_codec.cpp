@@ -216,14 +216,16 @@ bool is_film_name(const std::string& name) {
 std::vector<Section> encode_state(const CheckpointOrigin& origin, const RenderState& state) {
     // As it grows it would be copied, and lie in memory twice.
     const std::size_t room = state.aovs.requested() ? 64 + most_aov_bytes() * state.films.front().pixels.size() : 0;
-    return {section(kOrigin, origin),
-            section(kHistory, state.history),
-            section(kFilms, state.films),
-            section(kProbes, state.probe, state.set_aside),
-            section_with_room(room, kAovs, state.aovs),
-            section(kModel, state.tree.encode(), state.last_tree, state.tree_hash),
-            section(kLearner, state.learner),
-            section(kReports, state.reports)};
+    std::vector<Section> sections;  // a list in braces would copy each
+    sections.push_back(section(kOrigin, origin));
+    sections.push_back(section(kHistory, state.history));
+    sections.push_back(section(kFilms, state.films));
+    sections.push_back(section(kProbes, state.probe, state.set_aside));
+    sections.push_back(section_with_room(room, kAovs, state.aovs));
+    sections.push_back(section(kModel, state.tree.encode(), state.last_tree, state.tree_hash));
+    sections.push_back(section(kLearner, state.learner));
+    sections.push_back(section(kReports, state.reports));
+    return sections;
 }
 
 CheckpointOrigin decode_origin(const SectionFile& file) {
