@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <random>
 
@@ -42,6 +43,7 @@ TEST(AovList, EveryNameIsReadAndEveryLayerHasItsChannels) {
     EXPECT_EQ(requests("albedo")[0].channels(), (std::vector<std::string>{"albedo.R", "albedo.G", "albedo.B"}));
     EXPECT_EQ(requests("depth")[0].channels(), (std::vector<std::string>{"depth.Z"}));
     EXPECT_EQ(requests("alpha")[0].channels(), (std::vector<std::string>{"A"}));
+    EXPECT_EQ(requests("glass:alpha")[0].channels(), (std::vector<std::string>{"glass.A"}));
     EXPECT_EQ(requests(" dd.y : depth ,uv")[0].channels(), (std::vector<std::string>{"dd.y.Z"}));
     EXPECT_TRUE(requests("").empty());
 }
@@ -146,6 +148,10 @@ TEST(AovFilm, RefusesWhatCannotBe) {
         EXPECT_THROW(film.check(unit, bad), FormatError) << value;
         bad = good;
         bad.direct[1].half[0].mean.y = value;
+        EXPECT_THROW(film.check(unit, bad), FormatError) << value;
+        if (std::isfinite(value)) continue;
+        bad = good;
+        bad.direct[0].half[1].m2.z = value;
         EXPECT_THROW(film.check(unit, bad), FormatError) << value;
     }
     EXPECT_THROW(AovFilm(AovLayout(), 2, 1, 1).check(unit, good), FormatError) << "nobody asked";

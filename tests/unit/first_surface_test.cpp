@@ -100,6 +100,9 @@ TEST(FirstSurface, DepthIsAlongTheAxisAndDistanceAlongTheRayOfAnyCamera) {
     scene.camera.corner.y *= -1.0f;
     const Layers mirrored = render_layers(scene, "depth,position");
     scene = wall_scene();
+    scene.camera.origin.z = 1.0f;
+    const Layers nearer = render_layers(scene, "depth");
+    scene = wall_scene();
     scene.camera.parallel = {0, 0, 1};
     scene.camera.corner = {2, 2, 0};
     scene.camera.across = {-4, 0, 0};
@@ -115,6 +118,7 @@ TEST(FirstSurface, DepthIsAlongTheAxisAndDistanceAlongTheRayOfAnyCamera) {
     for (std::size_t p = 0; p < 64; ++p) {
         EXPECT_NEAR(lens["depth.Z"][p], 10.0f, 1e-4f);
         EXPECT_NEAR(mirrored["depth.Z"][p], 10.0f, 1e-4f);
+        EXPECT_NEAR(nearer["depth.Z"][p], 9.0f, 1e-4f);
         EXPECT_NEAR(parallel["depth.Z"][p], 10.0f, 1e-4f);
         EXPECT_NEAR(parallel["distance.Z"][p], 10.0f, 1e-4f) << "from where the ray began, not from the camera's place";
         // All of the lens' points see what the pinhole sees in focus, at distance 1: beyond it paths spread.

@@ -16,13 +16,13 @@ namespace {
 /// layer has no noise.
 constexpr std::uint32_t kAlbedoSamples = 8;
 
-/// Point i of a lattice in which each coordinate takes so many evenly spaced values: of a rough surface most of what is
-/// lost is in the last of them.
+/// Point i of a lattice in which each coordinate takes so many evenly spaced values. One of them lies in the outer
+/// eighth of the disk that the last two are mapped to: there a rough surface loses most of what it loses.
 BsdfRandom albedo_point(std::uint32_t i) {
-    const auto coordinate = [&](std::uint32_t step) {
-        return (static_cast<float>(i * step % kAlbedoSamples) + 0.5f) / kAlbedoSamples;
+    const auto coordinate = [&](std::uint32_t step, float offset) {
+        return (static_cast<float>(i * step % kAlbedoSamples) + offset) / kAlbedoSamples;
     };
-    return {coordinate(1), {coordinate(3), coordinate(5)}};
+    return {coordinate(1, 0.5f), {coordinate(3, 0.875f), coordinate(5, 0.5f)}};
 }
 
 /// Fraction of light from all around that the surface sends towards wo, delta lobes included.
