@@ -80,7 +80,8 @@ class PassLoop {
     }
 
     /// The next pass. A tree that is there already guides it as it was refined, whatever was expected of the pass then.
-    NextPass choose_next(bool has_tree) const {
+    NextPass choose_next(bool has_tree) {
+        state_.history.threads = thread_count();
         NextPass next = choose_(state_.history);
         if (next.pass && has_tree && state_.last_tree) next.pass->last_tree = *state_.last_tree;
         return next;
@@ -139,11 +140,13 @@ class PassLoop {
         facts.overhead_seconds = std::max(0.0, s.broadcast - loading) + s.film + s.error + before;
         facts.trace_core_seconds = report.stats.trace_seconds;
         facts.record_core_seconds = s.splat;
+        facts.threads = thread_count();
         facts.record = report.plan.record;
         facts.next_event = report.plan.next_event;
         RenderHistory& history = state_.history;
         history.passes.push_back(facts);
         history.budget = finished.memory;
+        history.threads = facts.threads;
         history.seconds = report.run_seconds = seconds_before_ + clock_.seconds() - loading_seconds_;
         report.halving = forecast_error(history, job_, 0.5 * report.error.relative());
         if (job_.budget.error > 0) report.target = forecast_error(history, job_, job_.budget.error);
@@ -165,7 +168,7 @@ class PassLoop {
         report.seconds.all = seconds;
         report.spp_done = report.plan.first_sample + report.plan.spp;
         report.workers = farm_.roster().present_count();
-        report.threads = static_cast<std::uint32_t>(farm_.roster().thread_count());
+        report.threads = thread_count();
         count_idle(report);
         // All at once: whatever fails before leaves the pass before, whole.
         state_.reports.push_back(report);
@@ -184,6 +187,8 @@ class PassLoop {
         result_.spp = state_.spp();
         result_.tree_hash = state_.tree_hash;
     }
+
+    std::uint32_t thread_count() const { return static_cast<std::uint32_t>(farm_.roster().thread_count()); }
 
     /// Reading in the scene, before the first pass, is not rendering.
     double run_seconds() const {

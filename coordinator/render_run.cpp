@@ -111,8 +111,16 @@ class RenderRun {
         if (request_.resumed)
             log_->info("{} passes with {} spp are done, {} of rendering", state.reports.size(), state.spp(),
                        duration_text(state.history.seconds));
+        if (request_.resumed && job().farm.checkpoint_seconds == 0)
+            log_->warn("no checkpoints (farm.checkpoint_seconds = 0): that of {} spp stays until the render is done",
+                       state.spp());
         log_->debug("{} triangles", request_.scene.triangle_count());
         farm_.gather(interrupted_);
+        if (request_.resumed) {
+            result_.interrupted = interrupted_();
+            if (result_.interrupted) return;
+            directory_.write_request();
+        }
         farm_.allow_negative(film.is_signed());
         if (checks_memory(request_))
             check_memory(request_.plan.memory, this_host(), farm_.roster(), request_.job.scene.file);
@@ -210,7 +218,8 @@ class RenderRun {
             return;
         }
         if (result_.passes.empty()) {
-            log_->warn("interrupted before the first pass was finished: there is no image");
+            log_->warn("{}", request_.resumed ? "interrupted before it went on: nothing has changed"
+                                              : "interrupted before the first pass was finished: there is no image");
             return;
         }
         if (end.state == RunState::interrupted)

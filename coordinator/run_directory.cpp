@@ -32,9 +32,6 @@ constexpr double kPreviewInterval = 200.0;
 constexpr double kPreviewSecondsPerPixel = 4e-8;
 /// Tables and images of short passes share a writing.
 constexpr Pace kPassPace{0.0, 3.0};
-/// What checkpoints may take: of this process's time a hundredth, of the disk's a tenth.
-constexpr double kCheckpointInterval = 100.0;
-constexpr Pace kCheckpointPace{0.0, 10.0};
 /// How long the end tries to write what it could not, and then what says so.
 constexpr double kResultPatience = 4.0, kSummaryPatience = 1.0;
 
@@ -84,32 +81,55 @@ RunDirectory::RunDirectory(const Job& job, RunFacts facts, const EffectPlan& pla
       job_toml_(job_without_output(job)),
       facts_(std::move(facts)),
       resolved_toml_(write_resolved(plan.job)),
-      output_file_(job.output.file.empty() ? "" : fs::absolute(job.output.file).string()),
       folder_(job, options.use, options.interrupted),
       plan_text_(plan_text(plan, job.scene.file)),
       plan_json_(plan_json(plan, job.scene.file)),
       passes_csv_(pass_csv_header() + "\n"),
-      next_checkpoint_(job.farm.checkpoint_seconds) {
-    if (job.farm.checkpoint_seconds > 0) checkpoints_.emplace(path(), options.resumed);
+      checkpoints_(path(), job, origin_of_checkpoints(), options.resumed) {
     if (options.resumed) {
         if (newest_generation(path()) != options.resumed->newest)
             throw InputError(Location{path().string(), 0, 0}, "another render has gone on with it meanwhile",
                              "start again");
         for (const PassReport& report : options.resumed->state.reports)
             note_pass(report);
-        written_passes_ = options.resumed->state.reports.size();
     }
-    try {
+    write_first([&] {
         write_text("status.json", status_json(RunState::running, 0, 0.0), Outlives::process);
-        write_text("job.toml", job_toml_, Outlives::power);
-        write_text("resolved.toml", resolved_toml_, Outlives::power);
-        write_text("plan.txt", plan_text_, Outlives::power);
-        write_text("plan.json", plan_json_, Outlives::power);
-        write_text("passes.csv", passes_csv_, Outlives::power);
-    } catch (const std::exception& error) {  // better now than after the render
+        if (!options.resumed) write_request_files();
+    });
+}
+
+void RunDirectory::write_request() {
+    write_first([&] { write_request_files(); });
+}
+
+void RunDirectory::write_request_files() const {
+    write_text("job.toml", job_toml_, Outlives::power);
+    write_text("resolved.toml", resolved_toml_, Outlives::power);
+    write_text("plan.txt", plan_text_, Outlives::power);
+    write_text("plan.json", plan_json_, Outlives::power);
+    write_text("passes.csv", passes_csv_, Outlives::power);
+}
+
+/// Refuses a folder in which nothing can be written: better now than after the render.
+void RunDirectory::write_first(const std::function<void()>& write) const {
+    try {
+        write();
+    } catch (const std::exception& error) {
         throw InputError(Location{path().string(), 0, 0}, std::string("cannot be the run directory: ") + error.what(),
                          "name another with --run-dir");
     }
+}
+
+CheckpointOrigin RunDirectory::origin_of_checkpoints() const {
+    CheckpointOrigin origin;
+    origin.fingerprint = facts_.fingerprint.hash();
+    origin.build = facts_.fingerprint.text();
+    origin.scene_hash = facts_.scene_hash;
+    origin.resolved = resolved_toml_;
+    if (!job_.output.file.empty()) origin.output_file = fs::absolute(job_.output.file).string();
+    origin.schedule = facts_.schedule;
+    return origin;
 }
 
 void RunDirectory::write_bytes(const std::string& name, std::span<const std::uint8_t> bytes, Outlives outlives) const {
@@ -167,51 +187,6 @@ void RunDirectory::add_pass(const PassReport& report) {
     note_pass(report);
     put_text("passes.csv", passes_csv_, kPassPace);
     put_text("schedule.toml", write_schedule(passes_), kPassPace);
-}
-
-void RunDirectory::offer_checkpoint(RenderState& state, double elapsed_seconds) {
-    if (!checkpoints_ || elapsed_seconds < next_checkpoint_) return;
-    const Timer timer;
-    try {
-        last_prepared_ = [this, write = checkpoints_->prepare(checkpoint_origin(state), state),
-                          passes = state.reports.size()] {
-            write();
-            written_passes_ = passes;
-        };
-        checkpoint_writer_.put("checkpoint", last_prepared_, kCheckpointPace);
-    } catch (const std::bad_alloc&) {  // the next one may find room
-    }
-    next_checkpoint_ = elapsed_seconds + std::max(job_.farm.checkpoint_seconds, kCheckpointInterval * timer.seconds());
-}
-
-void RunDirectory::take_last_state(RenderState state) {
-    if (checkpoints_) last_state_ = std::move(state);
-}
-
-CheckpointOrigin RunDirectory::checkpoint_origin(const RenderState& state) const {
-    return {
-        facts_.fingerprint.hash(), facts_.fingerprint.text(),        facts_.scene_hash, resolved_toml_, output_file_,
-        facts_.schedule,           state.films.front().pixels.size()};
-}
-
-/// The last checkpoint, unless it is there or nobody wants it. Whether it can be written decides nothing: the image is
-/// there. Returns what went wrong.
-std::string RunDirectory::finish_checkpoint(const RunEnd& end) {
-    if (!checkpoints_) return "";
-    if (end.state == RunState::done && !job_.output.keep_checkpoint) {
-        checkpoints_->remove();
-        return "";
-    }
-    if (last_state_ ? written_passes_ >= last_state_->reports.size() : !last_prepared_) return "";
-    std::vector<LastFile> file = {{(path() / kCheckpointFolder).string(), [this] {
-                                       if (last_state_)
-                                           checkpoints_->write(checkpoint_origin(*last_state_), *last_state_);
-                                       else
-                                           last_prepared_();
-                                   }}};
-    const std::vector<std::string> failures = write_last_files(file, kSummaryPatience);
-    last_state_.reset();
-    return failures.empty() ? "" : "no checkpoint of the last pass: " + failures.front();
 }
 
 /// image.exr's header.
@@ -334,7 +309,7 @@ void RunDirectory::write_interruption(const RenderResult& result, const Farm* fa
 
 std::vector<std::string> RunDirectory::take_news() {
     std::vector<std::string> news = writer_.take_news();
-    for (const std::string& other : checkpoint_writer_.take_news())
+    for (const std::string& other : checkpoints_.take_news())
         news.push_back(other);
     return news;
 }
@@ -354,7 +329,7 @@ void RunDirectory::give_back() {
 
 std::vector<std::string> RunDirectory::finish(const RenderResult& result, const Farm* farm, RunEnd& end) {
     writer_.stop();
-    checkpoint_writer_.stop();
+    checkpoints_.stop();
     // One that may be killed soon does not wait for the disk, nor for what takes longer to write.
     const bool hurry = end.state == RunState::interrupted;
     const Outlives outlives = hurry ? Outlives::process : Outlives::power;
@@ -370,7 +345,7 @@ std::vector<std::string> RunDirectory::finish(const RenderResult& result, const 
         end.state = RunState::failed;
         failures.push_back(failure);
     }
-    if (const std::string why = finish_checkpoint(end); !why.empty()) failures.push_back(why);
+    if (const std::string why = checkpoints_.finish(end.state == RunState::done); !why.empty()) failures.push_back(why);
     if (hurry) {
         for (const std::string_view name : run_file_names())
             make_durable(path() / name);

@@ -6,16 +6,16 @@
 #include <functional>
 #include <memory>
 #include <mutex>
-#include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "common/config/job.h"
 #include "common/image/atomic_file.h"
 #include "common/image/exr.h"
 #include "common/plan/effects.h"
-#include "coordinator/checkpoint/checkpoint_store.h"
+#include "coordinator/checkpoint/run_checkpoints.h"
 #include "coordinator/file_writer.h"
 #include "coordinator/last_files.h"
 #include "coordinator/pass_loop.h"
@@ -37,11 +37,16 @@ struct RunDirectoryOptions {
 /// it; a folder that vanished is made again.
 class RunDirectory {
   public:
-    /// Makes the folder and writes what is known before the render. Throws InputError where that cannot be.
+    /// Makes the folder and writes what is known before the render; of a run that goes on with another no more than
+    /// status.json. Throws InputError where that cannot be.
     RunDirectory(const Job& job, RunFacts facts, const EffectPlan& plan, const RunDirectoryOptions& options = {});
 
     const std::filesystem::path& path() const { return folder_.path(); }
     std::filesystem::path log_file() const { return path() / "log.txt"; }
+
+    /// What is known before the render, in the place of what the run goes on from had: once it goes on. Throws as the
+    /// constructor.
+    void write_request();
 
     /// status.json, at most once a second.
     void write_status(const RenderProgress& progress, double elapsed_seconds);
@@ -53,9 +58,9 @@ class RunDirectory {
     /// image.exr of the passes so far.
     void write_image(const RenderResult& result);
     /// A checkpoint, where one is due; called after each pass.
-    void offer_checkpoint(RenderState& state, double elapsed_seconds);
+    void offer_checkpoint(RenderState& state, double elapsed_seconds) { checkpoints_.offer(state, elapsed_seconds); }
     /// The state that the run ends in, for a checkpoint that finish() writes.
-    void take_last_state(RenderState state);
+    void take_last_state(RenderState state) { checkpoints_.take_last(std::move(state)); }
     /// News of what went wrong with files since the last call, for a person.
     std::vector<std::string> take_news();
 
@@ -80,8 +85,9 @@ class RunDirectory {
 
   private:
     void note_pass(const PassReport& report);
-    CheckpointOrigin checkpoint_origin(const RenderState& state) const;
-    std::string finish_checkpoint(const RunEnd& end);
+    CheckpointOrigin origin_of_checkpoints() const;
+    void write_first(const std::function<void()>& write) const;
+    void write_request_files() const;
     void write_bytes(const std::string& name, std::span<const std::uint8_t> bytes, Outlives outlives) const;
     void write_text(const std::string& name, const std::string& text, Outlives outlives) const;
     void put_text(const std::string& name, std::string text, Pace pace);
@@ -94,7 +100,7 @@ class RunDirectory {
     const Job job_;
     const std::string job_toml_;  ///< without its output: whoever repeats a run must not replace it
     const RunFacts facts_;
-    const std::string resolved_toml_, output_file_;
+    const std::string resolved_toml_;
     RunFolder folder_;
     const std::string plan_text_, plan_json_;
     std::string passes_csv_;
@@ -104,15 +110,10 @@ class RunDirectory {
     std::shared_ptr<const CombinedImage> newest_ = std::make_shared<CombinedImage>();  ///< for previews
     std::uint32_t newest_spp_ = 0;
     std::atomic<double> preview_seconds_ = 0;  ///< of a core, that the last one took the writer
-    std::optional<CheckpointStore> checkpoints_;
-    std::function<void()> last_prepared_;          ///< the last checkpoint that was given to the writer
-    std::optional<RenderState> last_state_;        ///< that the run ended in
-    std::atomic<std::size_t> written_passes_ = 0;  ///< of the last checkpoint that is on disk
-    double next_checkpoint_ = 0;                   ///< not before, in elapsed seconds
+    RunCheckpoints checkpoints_;
     mutable std::mutex on_disk_mutex_;
     std::weak_ptr<const CombinedImage> on_disk_;  ///< whose image.exr is whole
-    FileWriter checkpoint_writer_;                ///< of its own: nothing waits for gigabytes
-    FileWriter writer_;                           ///< last: both end first
+    FileWriter writer_;                           ///< last: it ends first
 };
 
 }  // namespace treefarm

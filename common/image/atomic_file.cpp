@@ -45,14 +45,17 @@ class Descriptor {
     int fd_;
 };
 
+using Pieces = std::span<const std::span<const std::uint8_t>>;
+
 /// 0, or the errno of the call that failed.
-int write_all(int fd, std::span<const std::uint8_t> bytes) {
-    while (!bytes.empty()) {
-        const ssize_t written = ::write(fd, bytes.data(), bytes.size());
-        if (written < 0 && errno == EINTR) continue;
-        if (written <= 0) return written < 0 ? errno : EIO;
-        bytes = bytes.subspan(static_cast<std::size_t>(written));
-    }
+int write_all(int fd, Pieces pieces) {
+    for (std::span<const std::uint8_t> bytes : pieces)
+        while (!bytes.empty()) {
+            const ssize_t written = ::write(fd, bytes.data(), bytes.size());
+            if (written < 0 && errno == EINTR) continue;
+            if (written <= 0) return written < 0 ? errno : EIO;
+            bytes = bytes.subspan(static_cast<std::size_t>(written));
+        }
     return 0;
 }
 
@@ -70,15 +73,14 @@ fs::path temporary_name(const fs::path& target) {
     return fs::path(target) += end;
 }
 
-int write_whole(const fs::path& path, std::span<const std::uint8_t> bytes, Outlives outlives,
-                const fs::file_status& old) {
+int write_whole(const fs::path& path, Pieces pieces, Outlives outlives, const fs::file_status& old) {
     const bool replaces = fs::exists(old);
     const auto mode = replaces ? static_cast<mode_t>(old.permissions() & fs::perms::all) : mode_t{0666};
     // O_EXCL opens neither a file nor a link that is there.
     Descriptor file(path, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW, mode);
     if (!file.valid()) return errno;
     if (replaces) ::fchmod(file.get(), mode);  // some file systems have no permissions to set, which loses nothing
-    if (const int error = write_all(file.get(), bytes)) return error;
+    if (const int error = write_all(file.get(), pieces)) return error;
     if (outlives == Outlives::power && ::fsync(file.get()) != 0) return errno;
     return file.close() ? 0 : errno;
 }
@@ -90,24 +92,28 @@ void sync_folder(const fs::path& file) {
     if (directory.valid()) ::fsync(directory.get());
 }
 
-void write_special(const fs::path& path, std::span<const std::uint8_t> bytes) {
+void write_special(const fs::path& path, Pieces pieces) {
     const Descriptor file(path, O_WRONLY);
-    const int error = file.valid() ? write_all(file.get(), bytes) : errno;
+    const int error = file.valid() ? write_all(file.get(), pieces) : errno;
     if (error != 0) fail(path, "write", error);
 }
 
 }  // namespace
 
 void write_file_atomically(const fs::path& path, std::span<const std::uint8_t> bytes, Outlives outlives) {
+    write_pieces_atomically(path, {&bytes, 1}, outlives);
+}
+
+void write_pieces_atomically(const fs::path& path, Pieces pieces, Outlives outlives) {
     std::error_code none;
     const fs::file_status status = fs::status(path, none);
     if (fs::is_directory(status)) fail(path, "write", EISDIR);
-    if (fs::exists(status) && !fs::is_regular_file(status)) return write_special(path, bytes);
+    if (fs::exists(status) && !fs::is_regular_file(status)) return write_special(path, pieces);
 
     // A symbolic link stays one: its target is replaced.
     const fs::path target = fs::exists(status) ? fs::canonical(path, none) : path;
     const fs::path temporary = temporary_name(target);
-    int error = write_whole(temporary, bytes, outlives, status);
+    int error = write_whole(temporary, pieces, outlives, status);
     if (error == 0 && ::rename(temporary.c_str(), target.c_str()) != 0) error = errno;
     if (error != 0) {
         if (error != EEXIST) ::unlink(temporary.c_str());

@@ -32,6 +32,10 @@ class FileError : public RunError {
 void write_file_atomically(const std::filesystem::path& path, std::span<const std::uint8_t> bytes,
                            Outlives outlives = Outlives::power);
 
+/// As above, of a content in pieces.
+void write_pieces_atomically(const std::filesystem::path& path, std::span<const std::span<const std::uint8_t>> pieces,
+                             Outlives outlives = Outlives::power);
+
 /// Makes a file that was written to outlive the process outlive the power, too, as far as the file system can.
 void make_durable(const std::filesystem::path& path);
 

@@ -186,10 +186,13 @@ MemoryPlan expected_memory(const Scene& scene, const Resolved& job) {
         {"film",
          pixels * ((kept_passes(job) + 1) * sizeof(PixelEstimate) + 2 * 4 * sizeof(Rgb64) + 2 * 12 * sizeof(float)),
          count_text(pixels, "pixels, ") + passes_text(job)});
+    const AovLayout aovs(aov_requests(job));
+    const std::uint64_t sums = sizeof(double) * aovs.size() + (aovs.direct() ? sizeof(Rgb64) : 0);
     if (job.farm.checkpoint_seconds > 0)
-        plan.coordinator.push_back({"checkpoint", pixels * 2 * 2 * (sizeof(std::uint32_t) + 6 * sizeof(double)),
-                                    "copies of two passes, to be written"});
-    if (const AovLayout aovs(aov_requests(job)); !job.output.aovs.empty()) {
+        plan.coordinator.push_back(
+            {"checkpoint", pixels * 2 * (2 * (sizeof(std::uint32_t) + 6 * sizeof(double)) + sums),
+             std::string("copies of two passes") + (sums > 0 ? " and of two sums of AOVs" : "") + ", to be written"});
+    if (!job.output.aovs.empty()) {
         std::size_t channels = 0;
         for (const AovRequest& request : aov_requests(job))
             channels += request.channels().size();

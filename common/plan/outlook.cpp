@@ -11,6 +11,8 @@ namespace {
 
 /// Seconds of a sample by a clock that did not move.
 constexpr double kShortestSample = 1e-9;
+/// A farm whose threads differ by less is as fast as it was.
+constexpr double kOtherThreads = 0.1;
 
 /// Passes that had one tree.
 struct TreeFacts {
@@ -45,6 +47,28 @@ std::vector<TreeFacts> trees_of(const RenderHistory& state) {
         fresh = pass.record;
     }
     return trees;
+}
+
+double core_seconds(const PassFacts& pass) {
+    return pass.trace_core_seconds + pass.record_core_seconds;
+}
+
+/// What a core-second of the next pass takes of the clock: a matter of the machine and its neighbours. The mean over
+/// all passes that had about as many threads, of which the last ones are the longest; where none had, as after a resume
+/// on another farm, that of all passes by their threads.
+double clock_per_core(const RenderHistory& state) {
+    const double threads = state.threads;
+    const bool known =
+        threads > 0 && std::ranges::all_of(state.passes, [](const PassFacts& p) { return p.threads > 0; });
+    double clock = 0, core = 0, thread_seconds = 0, all_core = 0;
+    for (const PassFacts& pass : state.passes) {
+        thread_seconds += pass.threads * pass.collect_seconds;
+        all_core += core_seconds(pass);
+        if (known && std::abs(pass.threads - threads) > kOtherThreads * threads) continue;
+        clock += pass.collect_seconds;
+        core += core_seconds(pass);
+    }
+    return core > 0 ? clock / core : thread_seconds / all_core / threads;
 }
 
 }  // namespace
@@ -111,12 +135,10 @@ void Outlook::look_at_variance(const RenderHistory& state) {
 }
 
 void Outlook::look_at_cost(const RenderHistory& state) {
-    // What a core-second takes of the clock is a matter of the machine and its neighbours: the mean over all passes, of
-    // which the last ones are the longest.
     double clock = 0, core = 0, spp = 0;
     for (const PassFacts& pass : state.passes) {
         clock += pass.collect_seconds;
-        core += pass.trace_core_seconds + pass.record_core_seconds;
+        core += core_seconds(pass);
         spp += pass.spp;
     }
     const PassFacts& last = state.passes.back();
@@ -127,9 +149,9 @@ void Outlook::look_at_cost(const RenderHistory& state) {
         core_per_spp_ = clock / spp;
         return;
     }
-    clock_per_core_ = clock / core;
+    clock_per_core_ = clock_per_core(state);
     core_per_spp_ = traced;
-    if (last.record) recording_ = (last.trace_core_seconds + last.record_core_seconds) / (last.spp * traced);
+    if (last.record) recording_ = core_seconds(last) / (last.spp * traced);
     if (trees.size() < 3) return;
     const TreeFacts& before = trees[trees.size() - 2];
     if (before.core_per_spp() > 0 && before.next_event == trees.back().next_event)

@@ -19,6 +19,7 @@ struct PassFacts {
     double overhead_seconds = 0;     ///< of the clock: what does not (broadcast, refinement, combination)
     double trace_core_seconds = 0;   ///< of the workers' threads, tracing
     double record_core_seconds = 0;  ///< of the workers' threads, adding records to the sums
+    std::uint32_t threads = 0;       ///< of the workers that were there at its end; 0: not known
     bool record = false;             ///< taught the tree of the next pass; if not, the next has the same tree
     bool next_event = false;
 };
@@ -34,7 +35,8 @@ struct BudgetMemory {
 /// A render between two passes: all that decides which comes next.
 struct RenderHistory {
     std::vector<PassFacts> passes;  ///< the finished ones
-    double seconds = 0;             ///< spent since the first worker asked for work
+    double seconds = 0;             ///< of the clock, rendering, in all lives of the render
+    std::uint32_t threads = 0;      ///< of the workers that the next pass has; 0: not known
     ErrorEstimate error;            ///< of the image so far
     Guiding guiding = Guiding::open;
     bool splitting = true;  ///< may pay

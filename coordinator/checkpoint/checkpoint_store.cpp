@@ -188,7 +188,7 @@ void CheckpointStore::write_generation(const SectionFile& file, const Names& nam
         const std::lock_guard lock(mutex_);
         slot = slot_;
     }
-    write_file_atomically(folder_ / kGenerationNames[slot], encode_sections(file), Outlives::power);
+    write_pieces_atomically(folder_ / kGenerationNames[slot], SectionPieces(file).pieces(), Outlives::power);
     const std::lock_guard lock(mutex_);
     named_[slot] = names;
     slot_ = 1 - slot;

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "common/base/hash.h"
+#include "common/base/hash_stream.h"
 
 namespace treefarm {
 
@@ -51,29 +51,49 @@ std::uint64_t generation_of(std::span<const std::uint8_t, kSectionFileHead> head
     return in.get<std::uint64_t>();
 }
 
-Bytes encode_sections(const SectionFile& file) {
+SectionPieces::SectionPieces(const SectionFile& file) {
     ByteWriter out, checks;
+    std::vector<std::size_t> ends;  // in `between_`, before each section's bytes
     out.put(kMagic);
     out.put(kSectionFileFormat);
     out.put(file.generation);
+    std::uint64_t length = 0;
     for (const Section& section : file.sections) {
-        ByteWriter part;
-        part.reserve(kSectionHead + section.bytes.size() + kCheck);
-        part.put(section.tag);
-        part.put(section.version);
-        part.put(static_cast<std::uint64_t>(section.bytes.size()));
-        part.put_bytes(section.bytes);
-        const Bytes bytes = part.take();
-        const Hash128 check = hash128_bytes(bytes);
+        ByteWriter head;
+        head.put(section.tag);
+        head.put(section.version);
+        head.put(static_cast<std::uint64_t>(section.bytes.size()));
+        const Bytes bytes = head.take();
+        Hash128Stream hash;
+        hash.add(bytes);
+        hash.add(section.bytes);
         out.put_bytes(bytes);
-        put_check(out, check);
-        put_check(checks, check);
+        ends.push_back(out.size());
+        put_check(out, hash.result());
+        put_check(checks, hash.result());
+        length += section.bytes.size();
     }
     checks.put(file.generation);
     out.put(kEnd);
     out.put(static_cast<std::uint32_t>(file.sections.size()));
-    out.put(static_cast<std::uint64_t>(out.size() + sizeof(std::uint64_t) + kCheck));
+    out.put(static_cast<std::uint64_t>(length + out.size() + sizeof(std::uint64_t) + kCheck));
     put_check(out, hash128_bytes(checks.take()));
+    between_ = out.take();
+    const std::span<const std::uint8_t> between = between_;
+    std::size_t begin = 0;
+    for (std::size_t k = 0; k < ends.size(); ++k) {
+        pieces_.push_back(between.subspan(begin, ends[k] - begin));
+        pieces_.emplace_back(file.sections[k].bytes);
+        begin = ends[k];
+    }
+    pieces_.push_back(between.subspan(begin));
+}
+
+Bytes encode_sections(const SectionFile& file) {
+    const SectionPieces in_pieces(file);
+    ByteWriter out;
+    for (const auto& piece : in_pieces.pieces())
+        out.put_bytes(piece);
     return out.take();
 }
 

@@ -41,6 +41,22 @@ inline constexpr std::size_t kSectionFileHead = 16;  ///< bytes before the first
 /// The generation that the first bytes of a file say; 0 if it is none.
 std::uint64_t generation_of(std::span<const std::uint8_t, kSectionFileHead> head);
 
+/// The bytes of a file, in pieces: what the sections hold lies where it was, for it may be gigabytes.
+class SectionPieces {
+  public:
+    /// `file` has to outlive it.
+    explicit SectionPieces(const SectionFile& file);
+    SectionPieces(const SectionPieces&) = delete;
+    SectionPieces& operator=(const SectionPieces&) = delete;
+
+    std::span<const std::span<const std::uint8_t>> pieces() const { return pieces_; }
+
+  private:
+    Bytes between_;  ///< what stands around the sections' bytes
+    std::vector<std::span<const std::uint8_t>> pieces_;
+};
+
+/// All pieces in a row.
 Bytes encode_sections(const SectionFile& file);
 
 /// Throws FormatError, with what is wrong, for anything but the bytes of encode_sections().

@@ -43,9 +43,10 @@ void serialize(Archive& a, BudgetMemory& m) {
 template <class Archive>
 void serialize(Archive& a, PassFacts& f) {
     a(f.spp, f.spp_before, f.mse_of_sample, f.stuv_trimmed, f.collect_seconds, f.overhead_seconds, f.trace_core_seconds,
-      f.record_core_seconds, f.record, f.next_event);
+      f.record_core_seconds, f.threads, f.record, f.next_event);
 }
 
+/// But for the threads, which each life of a render has of its own.
 template <class Archive>
 void serialize(Archive& a, RenderHistory& h) {
     a(h.passes, h.seconds, h.error, h.guiding, h.splitting, h.budget);
@@ -159,17 +160,36 @@ constexpr std::uint32_t kOrigin = section_tag("IDNT"), kHistory = section_tag("F
                         kProbes = section_tag("PROB"), kAovs = section_tag("AOVS"), kModel = section_tag("MODL"),
                         kLearner = section_tag("LERN"), kReports = section_tag("RPRT");
 
+constexpr std::uint32_t version_of(std::uint32_t tag) {
+    return tag == kHistory ? 2 : 1;
+}
+
+/// `room`: bytes that it may take at the most, where they are many.
 template <class... T>
-Section section(std::uint32_t tag, const T&... values) {
+Section section_with_room(std::size_t room, std::uint32_t tag, const T&... values) {
     ByteWriter writer;
+    writer.reserve(room);
     WriteArchive archive(writer);
     archive(values...);
-    return {tag, 1, writer.take()};
+    return {tag, version_of(tag), writer.take()};
+}
+
+template <class... T>
+Section section(std::uint32_t tag, const T&... values) {
+    return section_with_room(0, tag, values...);
+}
+
+/// Bytes that the sums of a pixel's AOVs take, if a job asks for all of them.
+std::size_t most_aov_bytes() {
+    std::vector<AovRequest> all;
+    for (const AovKind& kind : aov_kinds())
+        all.push_back({kind.aov, kind.name});
+    return sizeof(double) * AovLayout(all).size() + sizeof(Rgb64);
 }
 
 template <class... T>
 void read(const SectionFile& file, std::uint32_t tag, T&... values) {
-    ByteReader reader(file.at(tag).bytes);
+    ByteReader reader(file.at(tag, version_of(tag)).bytes);
     ReadArchive archive(reader);
     archive(values...);
     reader.expect_end();
@@ -194,10 +214,18 @@ bool is_film_name(const std::string& name) {
 }
 
 std::vector<Section> encode_state(const CheckpointOrigin& origin, const RenderState& state) {
-    return {section(kOrigin, origin),         section(kHistory, state.history),
-            section(kFilms, state.films),     section(kProbes, state.probe, state.set_aside),
-            section(kAovs, state.aovs),       section(kModel, state.tree.encode(), state.last_tree, state.tree_hash),
-            section(kLearner, state.learner), section(kReports, state.reports)};
+    // As it grows it would be copied, and lie in memory twice.
+    const std::size_t room = state.aovs.requested() ? 64 + most_aov_bytes() * state.films.front().pixels.size() : 0;
+    std::vector<Section> sections;  // a list in braces would copy each
+    sections.push_back(section(kOrigin, origin));
+    sections.push_back(section(kHistory, state.history));
+    sections.push_back(section(kFilms, state.films));
+    sections.push_back(section(kProbes, state.probe, state.set_aside));
+    sections.push_back(section_with_room(room, kAovs, state.aovs));
+    sections.push_back(section(kModel, state.tree.encode(), state.last_tree, state.tree_hash));
+    sections.push_back(section(kLearner, state.learner));
+    sections.push_back(section(kReports, state.reports));
+    return sections;
 }
 
 CheckpointOrigin decode_origin(const SectionFile& file) {

@@ -12,6 +12,7 @@
 #include "common/image/atomic_file.h"
 #include "coordinator/folder_content.h"
 #include "coordinator/folder_lock.h"
+#include "coordinator/last_files.h"
 #include "coordinator/pass_text.h"
 #include "coordinator/pulse.h"
 #include "coordinator/series_progress.h"
@@ -25,6 +26,8 @@ namespace fs = std::filesystem;
 
 /// A shot that was killed has left its folder by then.
 constexpr double kFolderPatience = 5.0;
+/// How long the end tries to write the index.
+constexpr double kIndexPatience = 1.0;
 
 /// Throws InputError where a folder holds something else.
 void check_shot_folder(const fs::path& folder) {
@@ -68,12 +71,12 @@ class ShotRun {
             throw InputError(Location{shot_.directory.string(), 0, 0}, "another shot is at work in this folder",
                              "wait for it, or name another folder with --run-dir");
         check_shot_folder(shot_.directory);
-        write_index();
+        index_[0].write();  // better now than after the first frame
         log_->info("{} frames; results in {}", records_.size(), shot_.directory.string());
         for (FrameRecord& record : records_) {
             if (interrupted_()) break;
             run_frame(record);
-            write_index();
+            try_index();
             if (record.state == FrameState::interrupted) break;
             if (series_.has_lost_all()) {
                 log_->error("no worker is left: start again, the frames that are done are kept");
@@ -97,6 +100,14 @@ class ShotRun {
             shot_json(context_.command, records_).dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
         write_file_atomically(shot_.directory / "shot.json",
                               {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+    }
+
+    /// The index tells of frames, it is none: where it cannot be written, the next frame tries again.
+    void try_index() {
+        const bool was_written = index_[0].written;
+        index_[0].written = false;
+        if (!try_to_write(index_[0]) && was_written)
+            log_->warn("{}; the shot goes on, and it is tried again with each frame", index_[0].failure);
     }
 
     void run_frame(FrameRecord& record) {
@@ -196,6 +207,8 @@ class ShotRun {
     }
 
     ShotOutcome end() {
+        for (const std::string& failure : write_last_files(index_, kIndexPatience))
+            log_->error("{}; the frames that are done are kept", failure);
         for (const std::string& line : frame_table(records_))
             log_->info("{}", line);
         const auto any = [&](auto... states) {
@@ -211,7 +224,8 @@ class ShotRun {
             log_->warn("interrupted: the same command goes on from here");
             outcome.state = RunState::interrupted;
         } else {
-            outcome.state = any(FrameState::failed, FrameState::waiting) ? RunState::failed : RunState::done;
+            const bool failed = any(FrameState::failed, FrameState::waiting) || !index_[0].written;
+            outcome.state = failed ? RunState::failed : RunState::done;
         }
         return outcome;
     }
@@ -222,6 +236,7 @@ class ShotRun {
     const Log log_;
     const std::function<bool()>& interrupted_;
     std::vector<FrameRecord> records_;
+    std::vector<LastFile> index_ = {{"shot.json", [this] { write_index(); }, "", true}};
     std::map<std::string, int> outputs_;
     std::set<std::string> told_;
     SeriesProgress progress_;

@@ -119,6 +119,24 @@ TEST_F(Resume, TheTimeOfEarlierLivesCounts) {
     EXPECT_LT(result.passes.back().run_seconds, 1000 + 60);
 }
 
+TEST_F(Resume, EachLifeReckonsWithItsOwnThreads) {
+    make_workers(2);  // of two threads each
+    stop_after(2);
+    std::vector<std::uint32_t> before, now;
+    hooks_.on_state = [&](RenderState& state) {
+        before.clear();
+        for (const PassFacts& pass : state.history.passes)
+            before.push_back(pass.threads);
+        now.push_back(state.history.threads);
+    };
+    const std::size_t passes = go_on(3, 1).passes.size();
+    ASSERT_GE(passes, 4u);
+    std::vector<std::uint32_t> expected(passes, 3);
+    expected[0] = expected[1] = 4;
+    EXPECT_EQ(before, expected);
+    EXPECT_EQ(now, std::vector<std::uint32_t>(passes - 2, 3));
+}
+
 TEST_F(Resume, OneThatIsDoneGoesOnToMoreSamplesAsItsScheduleDoes) {
     make_workers(2);
     hooks_.on_last_state = [&](RenderState state) { write(state); };

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <random>
 
@@ -42,6 +43,7 @@ TEST(AovList, EveryNameIsReadAndEveryLayerHasItsChannels) {
     EXPECT_EQ(requests("albedo")[0].channels(), (std::vector<std::string>{"albedo.R", "albedo.G", "albedo.B"}));
     EXPECT_EQ(requests("depth")[0].channels(), (std::vector<std::string>{"depth.Z"}));
     EXPECT_EQ(requests("alpha")[0].channels(), (std::vector<std::string>{"A"}));
+    EXPECT_EQ(requests("glass:alpha")[0].channels(), (std::vector<std::string>{"glass.A"}));
     EXPECT_EQ(requests(" dd.y : depth ,uv")[0].channels(), (std::vector<std::string>{"dd.y.Z"}));
     EXPECT_TRUE(requests("").empty());
 }
@@ -147,6 +149,10 @@ TEST(AovFilm, RefusesWhatCannotBe) {
         bad = good;
         bad.direct[1].half[0].mean.y = value;
         EXPECT_THROW(film.check(unit, bad), FormatError) << value;
+        if (std::isfinite(value)) continue;
+        bad = good;
+        bad.direct[0].half[1].m2.z = value;
+        EXPECT_THROW(film.check(unit, bad), FormatError) << value;
     }
     EXPECT_THROW(AovFilm(AovLayout(), 2, 1, 1).check(unit, good), FormatError) << "nobody asked";
 }
@@ -210,9 +216,9 @@ TEST(AovPlan, MemoryIsNamedWhereLayersAreOn) {
     };
     EXPECT_FALSE(has_aovs(coordinator("")));
     ASSERT_TRUE(has_aovs(coordinator("albedo,normal")));
-    // Six numbers of the pass in hand and of all, and four copies of six floats.
+    // Six numbers of the pass in hand, of all, and of two checkpoints, and four copies of six floats.
     EXPECT_EQ(coordinator("albedo,normal").coordinator_bytes() - coordinator("").coordinator_bytes(),
-              scene.film.pixel_count() * (2 * 6 * sizeof(double) + 4 * 6 * sizeof(float)));
+              scene.film.pixel_count() * (4 * 6 * sizeof(double) + 4 * 6 * sizeof(float)));
 }
 
 }  // namespace

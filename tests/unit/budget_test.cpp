@@ -22,6 +22,7 @@ struct World {
     double slow_from = 1e9, slow = 1;  ///< from this second on a sample takes so much longer
     double growth = 1.0;               ///< by which a sample's cost changes with the first tree, then ever less
     double threads = 2;
+    double moves_at = 1e9, moves_to = 2;  ///< from this second on the render goes on with so many threads
 };
 
 /// Core-seconds of a sample with a tree that was learned in so many passes.
@@ -30,14 +31,15 @@ double core_per_spp(const World& world, std::uint32_t trees) {
 }
 
 /// Facts about a simulated pass; adding records takes a tenth of the time.
-PassFacts facts_of(const PassPlan& pass, const World& world, std::uint32_t trees, double speed) {
+PassFacts facts_of(const PassPlan& pass, const World& world, std::uint32_t trees, double speed, double threads) {
     PassFacts facts;
     facts.spp = pass.spp;
     facts.spp_before = pass.first_sample;
     facts.mse_of_sample = world.variance * std::pow(world.learning, trees);
     facts.trace_core_seconds = pass.spp * core_per_spp(world, trees);
     facts.record_core_seconds = pass.record ? 0.1 * facts.trace_core_seconds : 0.0;
-    facts.collect_seconds = speed * (facts.trace_core_seconds + facts.record_core_seconds) / world.threads;
+    facts.collect_seconds = speed * (facts.trace_core_seconds + facts.record_core_seconds) / threads;
+    facts.threads = static_cast<std::uint32_t>(threads);
     facts.overhead_seconds = world.overhead;
     facts.record = pass.record;
     facts.next_event = pass.next_event;
@@ -64,9 +66,11 @@ Simulated simulate(const Job& job, const World& world) {
         const double speed = state.seconds >= world.slow_from ? world.slow : 1.0;
         const bool same_tree = !state.passes.empty() && !state.passes.back().record;
         trees += !state.passes.empty() && !same_tree;
-        const PassFacts facts = facts_of(*pass, world, trees, speed);
+        const double threads = state.seconds >= world.moves_at ? world.moves_to : world.threads;
+        const PassFacts facts = facts_of(*pass, world, trees, speed, threads);
         state.passes.push_back(facts);
         state.seconds += facts.collect_seconds + world.overhead;
+        state.threads = static_cast<std::uint32_t>(state.seconds >= world.moves_at ? world.moves_to : world.threads);
         const bool counts = job.guiding.type == GuidingType::none || pass->spp >= kPolicy.schedule.least_weighed_spp;
         if (job.budget.strict || (shows_last_tree_only(test::resolved(job)) && !same_tree)) precision = 0;
         if (counts) precision += pass->spp / facts.mse_of_sample;
@@ -143,6 +147,16 @@ TEST(Budget, SecondsAreKeptWhenSamplesBecomeDearer) {
         for (const double from : {2.0, 8.0, 14.0}) {
             const Simulated run = simulate(seconds_job(30), {.slow_from = from, .slow = slow});
             EXPECT_LT(distance(run, 30), 1.0) << "from second " << from << " on, " << slow;
+        }
+}
+
+/// A pass of a life with fewer threads was as long as one with those before would have been, times their ratio.
+TEST(Budget, SecondsAreKeptWhenARenderGoesOnWithOtherThreads) {
+    for (const double threads : {1.0, 3.0, 7.0, 9.0, 64.0})
+        for (const double at : {2.0, 9.0, 20.0}) {
+            const Simulated run = simulate(seconds_job(60), {.threads = 8, .moves_at = at, .moves_to = threads});
+            EXPECT_LT(distance(run, 60), 1.0)
+                << threads << " threads from second " << at << " on, " << run.state.seconds;
         }
 }
 

@@ -6,7 +6,9 @@
 #include <fstream>
 
 #include "common/base/error.h"
-#include "common/image/read_bytes.h"
+#include "common/config/aov_list.h"
+#include "common/plan/memory.h"
+#include "tests/support/test_scenes.h"
 
 namespace treefarm {
 namespace {
@@ -217,6 +219,36 @@ TEST_F(Checkpoints, AStateThatNoRenderHasIsRefused) {
                   s.set_aside.take_out(other, 0, 0);
               }).find("probes of another image"),
               std::string::npos);
+    EXPECT_NE(fault_with([](RenderState& s) {
+                  s.aovs = AovSums(std::vector<AovRequest>{{Aov::depth, "depth"}}, kPixels);
+              }).find("AOVs of another image"),
+              std::string::npos);
+}
+
+/// What a checkpoint with layers takes in memory, as `treefarm plan` says it, and no more.
+TEST_F(Checkpoints, TakeTheMemoryThatIsPlanned) {
+    const Scene scene = test::cornell_box(1.0f, Vec3(0.0f));
+    const std::uint64_t pixels = scene.film.pixel_count();
+    const auto planned = [&](const Job& job) {
+        for (const MemoryItem& item : expected_memory(scene, resolve(job, scene)).coordinator)
+            if (item.name == "checkpoint") return item.bytes;
+        return std::uint64_t{0};
+    };
+    RenderState state = state_of(1);
+    state.films[0].pixels.resize(pixels);
+    for (const std::string aovs : {"depth", "normal,shape", "direct", "indirect,uv",
+                                   "albedo,normal,geometric_normal,depth,distance,position,uv,shape,material,alpha,"
+                                   "direct,indirect,spp"}) {
+        Job job;
+        job.output.aovs = aovs;
+        state.aovs = AovSums(aov_requests(job), pixels);
+        for (const Section& section : encode_state(origin(), state))
+            if (section.tag == section_tag("AOVS")) {
+                const double bytes = static_cast<double>(planned(job) - planned({})) / 2;
+                EXPECT_NEAR(static_cast<double>(section.bytes.size()), bytes, 32.0) << aovs;
+            }
+    }
+    EXPECT_EQ(planned({}), 2 * pixels * kStoredPixelBytes) << "two films";
 }
 
 }  // namespace

@@ -4,14 +4,9 @@
 
 #include <gtest/gtest.h>
 
-#include "common/base/random.h"
-#include "common/config/aov_list.h"
 #include "common/plan/kernel.h"
-#include "common/plan/learning.h"
-#include "common/scene/pack/scene_codec.h"
+#include "tests/support/aov_render.h"
 #include "tests/support/local_render.h"
-#include "tests/support/material_scenes.h"
-#include "worker/integrators/registry.h"
 
 namespace treefarm {
 namespace {
@@ -19,80 +14,19 @@ namespace {
 using test::add_diffuse;
 using test::add_material;
 using test::add_shape;
+using test::one_pass;
 using test::quad;
+using test::wall_scene;
 
-/// A pass of unguided samples, in one piece.
-PassPlan one_pass(std::uint32_t spp) {
-    PassPlan pass;
-    pass.spp = spp;
-    pass.blocks_per_unit = 16;
-    return pass;
+constexpr const char* kAll = test::kFirstHitAovs;
+
+test::Layers render(const Scene& scene, const std::string& aovs, std::uint32_t spp = 16, const Job& job = {}) {
+    return test::render_layers(scene, aovs, spp, job);
 }
-
-/// What a job's layers of a small film are after one unguided pass, channel by channel, with the image.
-struct Rendered {
-    std::vector<AovChannel> channels;
-    std::vector<PixelEstimate> pixels, direct;
-    TraceStats stats;
-
-    const std::vector<float>& operator[](const std::string& name) const {
-        for (const AovChannel& channel : channels)
-            if (channel.name == name) return channel.values;
-        throw RunError("no channel " + name);
-    }
-    Vec3 vector(const std::string& layer, std::size_t p, const char* names = "XYZ") const {
-        const auto at = [&](int c) { return (*this)[layer + "." + names[c]][p]; };
-        return {at(0), at(1), at(2)};
-    }
-};
-
-Rendered render(const Scene& scene, const std::string& aovs, std::uint32_t spp = 16, Job job = {}) {
-    job.guiding.type = GuidingType::none;
-    job.output.aovs = aovs;
-    const Resolved resolved = resolve(job, scene);
-    const RenderUnit renderer = make_renderer(encode_scene(scene), resolved);
-    const AnyModel tree = first_model(resolved, scene.bounds(), 1.0f);
-    const AnySampler guide(tree);
-    PassPlan pass = one_pass(spp);
-    pass.next_event = job.integrator.next_event == NextEvent::always;
-    pass.kernel = kernel_of(resolved, pass, facts_of(tree));
-    const auto width = static_cast<std::uint16_t>(scene.film.width),
-               height = static_cast<std::uint16_t>(scene.film.height);
-    UnitOutput output;
-    output.begin(guide.regions().distribution_count());
-    renderer(pass, guide, {0, 0, 0, width, height, 0}, output);
-    Rendered result;
-    AovSums sums(aov_requests(resolved), scene.film.pixel_count());
-    sums.add(output.aovs, spp);
-    std::vector<PassResult> passes(1);
-    passes[0].spp = spp;
-    passes[0].pixels = output.pixels;
-    result.channels = sums.channels(combine_passes(passes, Combination::fixed, false), passes);
-    result.direct = output.aovs.direct;
-    result.pixels = std::move(output.pixels);
-    result.stats = output.stats;
-    return result;
-}
-
-/// Looks along +z from the origin on a film of 8 x 8 pixels: the wall at z = 10 has x and y from -5 to 5, and is seen
-/// from the side that its normal (0, 0, -1) points to.
-Scene wall_scene(float tan_half = 0.25f) {
-    Scene scene;
-    const std::int32_t blue = add_diffuse(scene, {0.1f, 0.2f, 0.7f});
-    Mesh wall = quad({-5, -5, 10}, {0, 10, 0}, {10, 0, 0});
-    wall.uvs = {{0, 0}, {0, 1}, {1, 1}, {1, 0}};
-    add_shape(scene, wall, blue, Rgb(0.0f), "wall");
-    scene.emitters.push_back({ConstantEmitter{Rgb(1.0f)}, {}});
-    scene.camera = test::look_at(Vec3(0.0f), {0, 0, 1}, {0, 1, 0}, tan_half);
-    test::set_film(scene, 8, 8);
-    return scene;
-}
-
-constexpr const char* kAll = "albedo,normal,geometric_normal,depth,distance,position,uv,shape,material,alpha";
 
 TEST(FirstHit, OfAPlaneIsKnown) {
     const Scene scene = wall_scene();
-    const Rendered image = render(scene, kAll);
+    const test::Layers image = render(scene, kAll);
     for (std::size_t p = 0; p < 64; ++p) {
         const Vec3 position = image.vector("position", p);
         EXPECT_NEAR(image["depth.Z"][p], 10.0f, 1e-4f) << "along the axis, not along the ray";
@@ -117,7 +51,7 @@ TEST(FirstHit, OfAPlaneIsKnown) {
 TEST(FirstHit, NothingIsZeroAndItsFractionAlpha) {
     const Scene scene =
         wall_scene(1.0f);  // sees twice as far as the wall reaches: 2 of 8 pixels on each side are empty
-    const Rendered image = render(scene, kAll);
+    const test::Layers image = render(scene, kAll);
     for (const char* name : {"A", "albedo.B", "normal.Z", "depth.Z", "position.Z", "shape.I", "material.I", "uv.U"})
         EXPECT_EQ(image[name][0], 0.0f) << name;
     EXPECT_EQ(image["A"][3 * 8 + 3], 1.0f);
@@ -138,7 +72,7 @@ TEST(FirstHit, AMaskIsThereAsOftenAsItIsOpaque) {
     half.opacity = FloatInput(0.5f);
     scene.materials.push_back(half);
     add_shape(scene, quad({-5, -5, 10}, {0, 10, 0}, {10, 0, 0}), static_cast<std::int32_t>(scene.materials.size()) - 1);
-    const Rendered image = render(scene, "alpha,depth", 256);
+    const test::Layers image = render(scene, "alpha,depth", 256);
     double sum = 0;
     for (std::size_t p = 0; p < 64; ++p) {
         sum += static_cast<double>(image["A"][p]);
@@ -156,7 +90,7 @@ TEST(FirstHit, AMirrorShowsWhatItReflects) {
     scene.camera = test::look_at(Vec3(0.0f), {0, 0, 1}, {0, 1, 0}, 0.25f);
     test::set_film(scene, 4, 4);
     scene.emitters.push_back({ConstantEmitter{Rgb(1.0f)}, {}});
-    const Rendered image = render(scene, kAll);
+    const test::Layers image = render(scene, kAll);
     for (std::size_t p = 0; p < 16; ++p) {
         EXPECT_LT((image.vector("albedo", p, "RGB") - Vec3(0.8f, 0.1f, 0.1f)).length(), 1e-5f);
         EXPECT_LT((image.vector("normal", p) - Vec3(0, 0, 1)).length(), 1e-6f);
@@ -172,7 +106,7 @@ TEST(FirstHit, GlassShowsWhatIsBehindIt) {
     Scene scene = wall_scene();
     const std::int32_t glass = add_material(scene, DielectricMaterial{});
     add_shape(scene, test::box({-4, -4, 6}, {4, 4, 7}, false), glass);
-    const Rendered image = render(scene, kAll, 256);
+    const test::Layers image = render(scene, kAll, 256);
     double blue = 0;
     for (std::size_t p = 0; p < 64; ++p) {
         const Vec3 albedo = image.vector("albedo", p, "RGB"), normal = image.vector("normal", p);
@@ -192,7 +126,7 @@ TEST(FirstHit, ASurfaceThatIsPartlyAMirrorIsItsOwn) {
     PlasticMaterial plastic;
     plastic.diffuse_reflectance = Rgb(0.5f);
     scene.materials[0].bsdf = plastic;
-    const Rendered image = render(scene, "albedo,normal");
+    const test::Layers image = render(scene, "albedo,normal");
     for (std::size_t p = 0; p < 64; ++p) {
         EXPECT_LT((image.vector("normal", p) - Vec3(0, 0, -1)).length(), 1e-6f);
         EXPECT_GT(image["albedo.G"][p], 0.3f);
@@ -208,7 +142,7 @@ TEST(FirstHit, CropWindowsShowThePartOfTheWhole) {
     part.film.crop = {9, 3, 24, 16};
     part.film.width = 11;
     part.film.height = 7;
-    const Rendered a = render(whole, kAll, 6), b = render(part, kAll, 6);
+    const test::Layers a = render(whole, kAll, 6), b = render(part, kAll, 6);
     ASSERT_EQ(a.channels.size(), b.channels.size());
     for (std::size_t c = 0; c < a.channels.size(); ++c)
         for (std::size_t y = 0; y < 7; ++y)
@@ -226,9 +160,9 @@ TEST(DirectLight, IsTheImageOfPathsOfTwoEdges) {
     for (const NextEvent next_event : {NextEvent::always, NextEvent::never}) {
         Job job;
         job.integrator.next_event = next_event;
-        const Rendered whole = render(scene, "direct,indirect", 32, job);
+        const test::Layers whole = render(scene, "direct,indirect", 32, job);
         job.integrator.max_depth = 2;
-        const Rendered direct = render(scene, "direct,indirect", 32, job);
+        const test::Layers direct = render(scene, "direct,indirect", 32, job);
         for (std::size_t p = 0; p < 144; ++p)
             for (int half = 0; half < 2; ++half) {
                 EXPECT_EQ(whole.direct[p].half[half].mean, direct.pixels[p].half[half].mean) << p;
@@ -286,7 +220,7 @@ TEST(DirectLight, IsPartOfEachGuidedSample) {
 TEST(FirstHit, LeavesTheImageAndItsCountsAlone) {
     Scene scene = test::cornell_box(1.0f, Vec3(0.0f));
     test::set_film(scene, 12, 12);
-    const Rendered plain = render(scene, ""), layered = render(scene, std::string(kAll) + ",direct,spp");
+    const test::Layers plain = render(scene, ""), layered = render(scene, std::string(kAll) + ",direct,spp");
     for (std::size_t p = 0; p < 144; ++p)
         EXPECT_EQ(plain.pixels[p].whole().mean, layered.pixels[p].whole().mean);
     EXPECT_EQ(plain.stats.rays, layered.stats.rays);

@@ -212,6 +212,27 @@ TEST(Outlook, TheClockIsTheMeanOfAllPasses) {
     EXPECT_NEAR(Outlook(state).seconds_per_spp(0, false), 0.015, 1e-4) << "a small pass tells little";
 }
 
+/// Passes of a farm tell of another one by their threads, until it has a pass of its own.
+TEST(Outlook, OtherThreadsTakeOtherTimes) {
+    RenderHistory state = rendered({.progress = 1, .growth = 1}, 6);
+    for (PassFacts& pass : state.passes)
+        pass.threads = 2;
+    for (const auto& [threads, seconds] : {std::pair(0u, 0.01), {2u, 0.01}, {8u, 0.0025}, {1u, 0.02}}) {
+        state.threads = threads;
+        EXPECT_NEAR(Outlook(state).seconds_per_spp(0, false), seconds, 1e-12) << threads;
+    }
+    render_pass(state, {.progress = 1, .growth = 1}, 6, 64, true);
+    state.threads = state.passes.back().threads = 8;
+    state.passes.back().collect_seconds /= 3;  // eight are as fast as six
+    EXPECT_NEAR(Outlook(state).seconds_per_spp(0, false), 0.01 / 3, 1e-12);
+    state.threads = 2;
+    EXPECT_NEAR(Outlook(state).seconds_per_spp(0, false), 0.01, 1e-12) << "back where it began";
+    for (PassFacts& pass : state.passes)
+        pass.threads = 40;
+    state.threads = 42;
+    EXPECT_NEAR(Outlook(state).seconds_per_spp(0, false), 0.01 * (63 + 64 / 3.0) / 127, 1e-9) << "about as many";
+}
+
 TEST(Outlook, RecordingIsSeenApart) {
     const Outlook outlook(rendered({.progress = 1, .growth = 1}, 6));
     EXPECT_NEAR(outlook.seconds_per_spp(0, false), 0.01, 1e-9);

@@ -3,6 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
+#include "common/base/hash_stream.h"
+
 namespace treefarm {
 namespace {
 
@@ -28,6 +32,28 @@ TEST(SectionFile, GivesBackWhatItHolds) {
     EXPECT_EQ(file.at(kOne).bytes, (Bytes{1, 2, 3}));
     EXPECT_EQ(file.at(kTwo, 3).bytes.size(), 1000u);
     EXPECT_TRUE(decode_sections(encode_sections({1, {}})).sections.empty());
+}
+
+TEST(SectionFile, IsWrittenWithoutACopyOfWhatItHolds) {
+    const SectionFile file = two_sections();
+    const SectionPieces in_pieces(file);
+    for (const Section& section : file.sections)
+        EXPECT_TRUE(std::ranges::any_of(in_pieces.pieces(), [&](const auto& piece) {
+            return piece.data() == section.bytes.data() && piece.size() == section.bytes.size();
+        }));
+}
+
+TEST(Hash128Stream, IsTheHashOfAllPiecesInARow) {
+    Bytes bytes(5000);
+    for (std::size_t i = 0; i < bytes.size(); ++i)
+        bytes[i] = static_cast<std::uint8_t>(i * i >> 3);
+    for (const std::size_t step : {1u, 16u, 239u, 240u, 241u, 1024u, 5000u}) {
+        Hash128Stream stream;
+        for (std::size_t at = 0; at < bytes.size(); at += step)
+            stream.add(std::span(bytes).subspan(at, std::min(step, bytes.size() - at)));
+        EXPECT_EQ(stream.result(), hash128_bytes(bytes)) << step;
+    }
+    EXPECT_EQ(Hash128Stream().result(), hash128_bytes({}));
 }
 
 TEST(SectionFile, EveryCutIsNoticed) {

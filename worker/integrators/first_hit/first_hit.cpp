@@ -16,15 +16,13 @@ namespace {
 /// layer has no noise.
 constexpr std::uint32_t kAlbedoSamples = 8;
 
-/// Point i of a sequence that fills the unit cube evenly (Roberts 2018, "the unreasonable effectiveness of
-/// quasirandom sequences": multiples of powers of the root of x^4 = x + 1).
+/// Point i of a lattice in which each coordinate takes so many evenly spaced values. One of them lies in the outer
+/// eighth of the disk that the last two are mapped to: there a rough surface loses most of what it loses.
 BsdfRandom albedo_point(std::uint32_t i) {
-    constexpr double kSteps[] = {0.8191725133961645, 0.6710436067037893, 0.5497004779019703};
-    const auto coordinate = [&](int axis) {
-        const double value = 0.5 + (i + 1) * kSteps[axis];
-        return std::min(static_cast<float>(value - std::floor(value)), 0x1.fffffep-1f);
+    const auto coordinate = [&](std::uint32_t step, float offset) {
+        return (static_cast<float>(i * step % kAlbedoSamples) + offset) / kAlbedoSamples;
     };
-    return {coordinate(0), {coordinate(1), coordinate(2)}};
+    return {coordinate(1, 0.5f), {coordinate(3, 0.875f), coordinate(5, 0.5f)}};
 }
 
 /// Fraction of light from all around that the surface sends towards wo, delta lobes included.

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: Apache-2.0
+// Folders of renders that go on, and of shots: what in them changes when.
+#include <gtest/gtest.h>
+#include <spdlog/sinks/ostream_sink.h>
+
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <thread>
+
+#include "common/comm/in_process_channel.h"
+#include "coordinator/render_run.h"
+#include "coordinator/shot/shot_run.h"
+#include "tests/support/test_scenes.h"
+#include "worker/integrators/registry.h"
+#include "worker/worker_loop.h"
+
+namespace treefarm {
+namespace {
+
+namespace fs = std::filesystem;
+
+Log quiet_log() {
+    return std::make_shared<spdlog::logger>("test");
+}
+
+/// Does something with a farm of one worker in this process.
+template <class Action>
+auto on_farm(const Action& action) {
+    auto channels = make_in_process_channels(2);
+    std::thread worker([&] {
+        run_worker(*channels[1], {.threads = 1, .host = "here", .fingerprint = Fingerprint().hash()}, make_renderer,
+                   quiet_log());
+    });
+    const auto outcome = action(*channels[0]);
+    dismiss_workers(*channels[0], {}, 20.0);
+    worker.join();
+    return outcome;
+}
+
+class Folders : public ::testing::Test {
+  protected:
+    fs::path folder_ = fs::path(::testing::TempDir()) / "resumed_run" /
+                       ::testing::UnitTest::GetInstance()->current_test_info()->name();
+
+    void SetUp() override {
+        fs::remove_all(folder_);
+        fs::create_directories(folder_.parent_path());
+    }
+
+    RenderRequest request(std::uint32_t spp, double checkpoint_seconds = 1e-3) const {
+        RenderRequest request;
+        request.job.scene.file = "/nowhere/box.xml";
+        request.job.guiding.type = GuidingType::none;
+        request.job.budget.spp = spp;
+        request.job.farm.checkpoint_seconds = checkpoint_seconds;
+        request.job.farm.memory_check = false;
+        request.job.output.directory = folder_.string();
+        request.scene = test::cornell_box(1.0f, Vec3(0.0f));
+        test::set_film(request.scene, 8, 8);
+        request.plan = plan_effects(request.scene, request.job);
+        request.loudness = Loudness::quiet;
+        return request;
+    }
+
+    LoadedCheckpoint load() const {
+        return load_checkpoint(folder_, [](const CheckpointOrigin&) {});
+    }
+
+    RenderRequest more(std::uint32_t spp, double checkpoint_seconds = 1e-3) const {
+        RenderRequest wanted = request(spp, checkpoint_seconds);
+        wanted.resumed = std::make_shared<LoadedCheckpoint>(load());
+        return wanted;
+    }
+
+    /// `stop`: whether the render is interrupted, asked again and again.
+    static RunState render(
+        const RenderRequest& request, const std::function<bool()>& stop = [] { return false; }) {
+        return on_farm([&](Channel& channel) { return run_render(channel, request, stop); }).state;
+    }
+
+    /// The files of the folder by name.
+    std::map<std::string, std::string> files() const {
+        std::map<std::string, std::string> texts;
+        for (const auto& entry : fs::directory_iterator(folder_))
+            if (entry.is_regular_file())
+                texts[entry.path().filename().string()] =
+                    (std::stringstream() << std::ifstream(entry.path(), std::ios::binary).rdbuf()).str();
+        return texts;
+    }
+};
+
+TEST_F(Folders, ARenderThatNeverGoesOnChangesNothingButItsStatus) {
+    ASSERT_EQ(render(request(3)), RunState::done);
+    const auto before = files();
+    EXPECT_EQ(render(more(12), [] { return true; }), RunState::interrupted);
+    auto after = files();
+    EXPECT_NE(after["status.json"].find("interrupted"), std::string::npos) << after["status.json"];
+    for (const auto& [name, text] : before)
+        if (name != "status.json" && name != "log.txt") {
+            EXPECT_EQ(after[name], text) << name;
+        }
+    EXPECT_EQ(after.size(), before.size());
+
+    ASSERT_EQ(render(more(12)), RunState::done);
+    EXPECT_NE(files()["job.toml"].find("spp = 12"), std::string::npos) << files()["job.toml"];
+    EXPECT_NE(files()["resolved.toml"].find("spp = 12"), std::string::npos);
+    EXPECT_EQ(load().state.spp(), 12u);
+}
+
+TEST_F(Folders, WithoutCheckpointsTheOldOneStaysUntilTheRenderIsDone) {
+    ASSERT_EQ(render(request(3)), RunState::done);
+    RenderRequest broken_off = more(100, 0.0);
+    bool stop = false;
+    broken_off.on_pass = [&](const PassReport& pass, const CombinedImage&) { stop = pass.spp_done > 10; };
+    EXPECT_EQ(render(broken_off, [&] { return stop; }), RunState::interrupted);
+    EXPECT_EQ(load().state.spp(), 3u);
+    EXPECT_NE(files()["log.txt"].find("that of 3 spp stays until the render is done"), std::string::npos);
+
+    EXPECT_EQ(render(more(12, 0.0)), RunState::done);
+    EXPECT_FALSE(fs::exists(folder_ / kCheckpointFolder));
+}
+
+/// A shot of three frames, whose index cannot be written from the second frame on.
+class ShotIndex : public Folders {
+  protected:
+    std::ostringstream told_;
+
+    RunState render_shot(bool room_again) {
+        Shot shot;
+        shot.directory = folder_;
+        shot.frames = {1, 2, 3};
+        shot.find_checkpoint = [](const auto&...) { return nullptr; };
+        shot.read_request = [&](int frame) {
+            if (frame == 2) {
+                fs::remove(folder_ / "shot.json");
+                fs::create_directory(folder_ / "shot.json");
+            }
+            if (frame == 3 && room_again) fs::remove(folder_ / "shot.json");
+            return request(2);
+        };
+        const auto log =
+            std::make_shared<spdlog::logger>("test", std::make_shared<spdlog::sinks::ostream_sink_mt>(told_));
+        const SeriesContext context{"treefarm render", {},    std::make_shared<Console>(TerminalKind{}, false),
+                                    Loudness::quiet,   false, log};
+        return on_farm([&](Channel& channel) { return run_shot(channel, shot, context, [] { return false; }); }).state;
+    }
+
+    std::size_t count(const std::string& what) const {
+        std::size_t found = 0;
+        for (std::size_t at = 0; (at = told_.str().find(what, at)) != std::string::npos; ++at)
+            ++found;
+        return found;
+    }
+};
+
+TEST_F(ShotIndex, ThatCannotBeWrittenForAWhileStopsNoFrame) {
+    EXPECT_EQ(render_shot(true), RunState::done) << told_.str();
+    EXPECT_EQ(count("shot.json: cannot write"), 1u) << told_.str();
+    EXPECT_EQ(count("the shot goes on"), 1u) << told_.str();
+    std::ifstream file(folder_ / "shot.json");
+    const nlohmann::json index = nlohmann::json::parse(file);
+    for (const nlohmann::json& frame : index["frames"])
+        EXPECT_EQ(frame["state"], "done") << frame;
+}
+
+TEST_F(ShotIndex, ThatCannotBeWrittenAtTheEndIsAFailureThatKeepsTheFrames) {
+    EXPECT_EQ(render_shot(false), RunState::failed);
+    EXPECT_EQ(count("the shot goes on"), 1u) << told_.str();
+    EXPECT_EQ(count("the frames that are done are kept"), 1u) << told_.str();
+    for (const char* frame : {"frame.0001", "frame.0002", "frame.0003"})
+        EXPECT_TRUE(fs::exists(folder_ / frame / "image.exr")) << frame;
+}
+
+}  // namespace
+}  // namespace treefarm
