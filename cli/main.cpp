@@ -19,6 +19,7 @@
 #include "cli/render.h"
 #include "cli/resume.h"
 #include "cli/study.h"
+#include "cli/supervise.h"
 #include "cli/this_build.h"
 #include "cli/usage.h"
 #include "common/base/error.h"
@@ -57,6 +58,7 @@ int run(int argc, char** argv) {
     app.require_subcommand(1);
     add_render_command(app, launch, joined(argc, argv), exit_code);
     add_resume_command(app, launch, joined(argc, argv), exit_code);
+    add_launch_command(app, launch, exit_code);
     add_plan_command(app, launch, exit_code);
     add_check_command(app, launch, exit_code);
     add_compare_command(app, launch, exit_code);

@@ -100,7 +100,7 @@ RunDirectory::RunDirectory(const Job& job, RunFacts facts, const EffectPlan& pla
         written_passes_ = options.resumed->state.reports.size();
     }
     try {
-        write_text("status.json", status_json(RunState::running, 0, 0.0), Outlives::process);
+        write_text("status.json", status_json(facts_, RunState::running, 0, 0.0), Outlives::process);
         write_text("job.toml", job_toml_, Outlives::power);
         write_text("resolved.toml", resolved_toml_, Outlives::power);
         write_text("plan.txt", plan_text_, Outlives::power);
@@ -135,7 +135,7 @@ void RunDirectory::put_text(const std::string& name, std::string text, Pace pace
 void RunDirectory::write_status(const RenderProgress& progress, double elapsed_seconds) {
     if (elapsed_seconds - last_status_ < kStatusSeconds) return;
     last_status_ = elapsed_seconds;
-    put_text("status.json", status_json(progress, elapsed_seconds), {});
+    put_text("status.json", status_json(facts_, progress, elapsed_seconds), {});
 }
 
 void RunDirectory::write_preview(std::span<const PixelEstimate> film, int width, int height, double elapsed_seconds) {
@@ -320,7 +320,7 @@ std::vector<LastFile> RunDirectory::end_files(const RenderResult& result, const 
                  write_text("summary.json", summary_json(job_, facts_, result, farm, end), outlives);
              }},
             {(path() / "status.json").string(), [=, this, &result, &end] {
-                 write_text("status.json", status_json(end.state, result.spp, end.elapsed_seconds), outlives);
+                 write_text("status.json", status_json(facts_, end.state, result.spp, end.elapsed_seconds), outlives);
              }}};
 }
 
@@ -343,7 +343,7 @@ void RunDirectory::leave(RunState state, std::uint32_t spp, double elapsed_secon
     writer_.stop();
     std::vector<LastFile> files = {
         {(path() / "status.json").string(),
-         [&] { write_text("status.json", status_json(state, spp, elapsed_seconds), Outlives::power); }}};
+         [&] { write_text("status.json", status_json(facts_, state, spp, elapsed_seconds), Outlives::power); }}};
     write_last_files(files, 0.0);
 }
 

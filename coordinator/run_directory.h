@@ -42,6 +42,7 @@ class RunDirectory {
 
     const std::filesystem::path& path() const { return folder_.path(); }
     std::filesystem::path log_file() const { return path() / "log.txt"; }
+    std::size_t passes() const { return passes_.size(); }  ///< that are finished
 
     /// status.json, at most once a second.
     void write_status(const RenderProgress& progress, double elapsed_seconds);
