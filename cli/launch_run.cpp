@@ -5,6 +5,7 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -44,6 +45,10 @@ std::string random_name() {
     char text[9] = "";
     std::snprintf(text, sizeof text, "%08x", device());
     return text;
+}
+
+bool is_gone(pid_t process) {
+    return ::kill(process, 0) != 0 && errno == ESRCH;
 }
 
 std::string joined(const std::vector<std::string>& words) {
@@ -111,11 +116,12 @@ class LaunchRun {
         relay();
         sight.running = child_ && child_->running();
         if (child_ && !sight.running) end_child();
+        sight.coordinator_gone = seen_ && seen_->host == host_name() && is_gone(seen_->pid);
         // After the processes are gone: what they still said counts.
         sight.status = folder_.life(sight.readable);
         if (supervisor_.attempt() > 0) sight.summary = folder_.summary(name());
         if (!sight.running) sight.checkpoint = folder_.checkpoint();
-        if (sight.status && sight.status->attempt == name()) workers_ = sight.status->workers;
+        if (sight.status && sight.status->attempt == name()) seen_ = sight.status;
         sight.now = clock_.seconds();
         return sight;
     }
@@ -126,8 +132,8 @@ class LaunchRun {
         note("launcher: " + child_->ending());
         child_.reset();
         clean_up();
-        planner_.note_end(workers_);
-        workers_.clear();
+        if (seen_) planner_.note_end(seen_->workers);
+        seen_.reset();
     }
 
     void clean_up() {
@@ -237,7 +243,7 @@ class LaunchRun {
     LaunchFolder folder_;
     const OwnFolder temporary_, shared_memory_;
     std::ofstream log_;
-    std::vector<LifeWorker> workers_;  ///< as the attempt saw them last
+    std::optional<LifeStatus> seen_;  ///< the attempt's last sign of life
     std::unique_ptr<ChildProcess> child_;
     Supervisor supervisor_;
 };

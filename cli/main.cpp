@@ -43,6 +43,10 @@ constexpr std::chrono::seconds kFirstRankSpeaks{3};
 int fail(const LaunchEnvironment& launch, const std::string& message, int exit_code) {
     if (launch.rank == 0) {
         std::fprintf(stderr, "treefarm: %s\n", message.c_str());
+        if (launch.life) {  // a supervisor need not start again what is wrong
+            launch.life->begin();
+            launch.life->end(exit_code);
+        }
         return exit_code;
     }
     std::this_thread::sleep_for(kFirstRankSpeaks);

@@ -176,27 +176,13 @@ int run_processes(const LaunchEnvironment& launch, const FarmOptions& options, c
     return code;
 }
 
-/// Tells a supervisor the exit code of what `run` does, as main() will return it.
-int tell_end(SignOfLife& life, const std::function<int()>& run) {
-    try {
-        const int code = run();
-        life.end(code);
-        return code;
-    } catch (const InputError&) {
-        life.end(2);
-        throw;
-    } catch (const std::exception&) {
-        life.end(1);
-        throw;
-    }
-}
-
 }  // namespace
 
 int run_on_farm(const LaunchEnvironment& launch, const FarmOptions& options, const Voice& voice, const FarmTask& task) {
     ignore_broken_pipes();
-    const auto run = [&] { return run_processes(launch, options, voice, task); };
-    return launch.life ? tell_end(*launch.life, run) : run();
+    const int code = run_processes(launch, options, voice, task);
+    if (launch.life) launch.life->end(code);
+    return code;
 }
 
 void warn_if_crowded(unsigned threads, std::vector<std::string>& warnings) {

@@ -127,6 +127,8 @@ void Supervisor::watch(const Sight& sight) {
     if (!own_) {
         if (now - began_ > limits_.start)
             end_attempt(now, fmt::format("no sign of life within {:.0f} s", limits_.start));
+    } else if (sight.coordinator_gone) {
+        end_attempt(now, "the coordinator is gone");
     } else if (now - beat_at_ > limits_.beat) {
         end_attempt(now, fmt::format("no sign of life for {:.0f} s", now - beat_at_));
     } else if (now - progress_at_ > stall_limit()) {
@@ -137,7 +139,7 @@ void Supervisor::watch(const Sight& sight) {
 
 /// Waits as long as something is written; who goes on rendering has not heard.
 void Supervisor::watch_stop(const Sight& sight) {
-    if (code_at_) return watch(sight);
+    if (code_at_ || sight.coordinator_gone) return watch(sight);
     const bool writes = own_ && own_->phase != LifePhase::pass;
     const double still = sight.now - std::max(acted_at_, writes ? progress_at_ : 0.0);
     if (still > limits_.stop) end_attempt(sight.now, fmt::format("it has not stopped for {:.0f} s", still));

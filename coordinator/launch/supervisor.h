@@ -30,6 +30,7 @@ struct Sight {
     double now = 0;                    ///< seconds of its own clock
     bool running = false;              ///< the process that it started is there
     bool readable = true;              ///< the sign of life could be looked for
+    bool coordinator_gone = false;     ///< its process was here, and is not any more
     std::optional<LifeStatus> status;  ///< what is there, of this attempt or another
     std::optional<int> summary;        ///< exit code by the attempt's summary.json
     std::uint64_t checkpoint = 0;      ///< generation of the newest on disk

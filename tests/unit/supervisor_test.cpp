@@ -23,7 +23,7 @@ class World {
     /// One step of the clock, in which the coordinator may do something.
     void step(double seconds = 1.0) {
         now += seconds;
-        if (!end) end = supervisor_.step({now, running, readable, status, summary, checkpoint});
+        if (!end) end = supervisor_.step({now, running, readable, coordinator_gone, status, summary, checkpoint});
     }
     /// So many seconds, in each of which `life` happens.
     void pass(
@@ -68,7 +68,7 @@ class World {
     void stop() { supervisor_.ask_to_stop(); }
 
     double now = 0;
-    bool running = false, readable = true;
+    bool running = false, readable = true, coordinator_gone = false;
     int attempt = 0;
     std::optional<LifeStatus> status;
     std::optional<int> summary;
@@ -154,6 +154,31 @@ TEST(Supervisor, OneThatDoesNotBeatIsKilled) {
     EXPECT_TRUE(world.did("terminate"));
     EXPECT_FALSE(world.did("dump 42")) << "it would not come to writing a core";
     EXPECT_EQ(world.last_said(), "no sign of life for 31 s");
+}
+
+TEST(Supervisor, ACoordinatorThatIsSeenToBeGoneIsNotWaitedFor) {
+    World world;
+    world.run_to_pass();
+    world.coordinator_gone = true;
+    world.step();
+    EXPECT_TRUE(world.did("terminate"));
+    world.die();
+    world.coordinator_gone = false;
+    world.pass(3);
+    EXPECT_EQ(world.attempt, 2);
+}
+
+TEST(Supervisor, ACoordinatorThatIsGoneWithAResultHasEnded) {
+    World world;
+    world.run_to_pass();
+    world.status->code = 4;
+    world.coordinator_gone = true;
+    world.pass(10);
+    EXPECT_FALSE(world.did("terminate")) << "its launcher may end in order";
+    world.die();
+    world.step();
+    ASSERT_TRUE(world.end);
+    EXPECT_EQ(world.end->code, 4);
 }
 
 TEST(Supervisor, OneThatBeatsWithoutProgressIsKilledLater) {
