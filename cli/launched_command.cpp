@@ -115,7 +115,7 @@ LaunchedCommand read_launched_command(const Words& words) {
     CLI::App app("", "treefarm");
     app.require_subcommand(1);
     add_commands(app, no_code);
-    if (!app.get_subcommand_no_throw(words.front()))
+    if (const std::string& name = words.front(); name != "render" && name != "resume" && name != "study")
         refuse("\"" + words.front() + "\" cannot be launched", "name render, resume or study behind --");
     if (const std::string message = malformed_argument(words); !message.empty()) refuse(message, "");
     try {

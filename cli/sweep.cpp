@@ -42,7 +42,7 @@ bool is_dead_launch(const std::string& name) {
     return pid && is_dead(*pid);
 }
 
-int remove(const fs::path& path) {
+int discard(const fs::path& path) {
     std::error_code error;
     fs::remove_all(path, error);
     return !error;
@@ -52,7 +52,7 @@ int sweep_launches(const fs::path& folder) {
     int removed = 0;
     std::error_code error;
     for (const auto& entry : fs::directory_iterator(folder, error))
-        if (is_dead_launch(entry.path().filename().string()) && is_ours(entry.path())) removed += remove(entry.path());
+        if (is_dead_launch(entry.path().filename().string()) && is_ours(entry.path())) removed += discard(entry.path());
     return removed;
 }
 
@@ -67,7 +67,7 @@ int sweep_sessions() {
         const std::string name = entry.path().filename().string();
         if (!name.starts_with("pid.") || !is_ours(entry.path())) continue;
         if (const auto pid = parse_unsigned(std::string_view(name).substr(4)); pid && is_dead(*pid))
-            removed += remove(entry.path());
+            removed += discard(entry.path());
     }
     return removed;
 }
@@ -98,7 +98,7 @@ int sweep_shared_memory() {
     const std::set<std::string> mapped = mapped_files(folder.string());
     int removed = 0;
     for (const fs::path& path : found)
-        if (!mapped.contains(path.string())) removed += remove(path);
+        if (!mapped.contains(path.string())) removed += discard(path);
     return removed;
 }
 
@@ -119,14 +119,14 @@ OwnFolder::OwnFolder(const fs::path& parent) {
 }
 
 OwnFolder::~OwnFolder() {
-    if (!path_.empty()) remove(path_);
+    if (!path_.empty()) discard(path_);
 }
 
 void OwnFolder::empty() const {
     std::error_code error;
     if (!path_.empty())
         for (const auto& entry : fs::directory_iterator(path_, error))
-            remove(entry.path());
+            discard(entry.path());
 }
 
 int sweep() {
