@@ -121,7 +121,7 @@ class LaunchRun {
         sight.status = folder_.life(sight.readable);
         if (supervisor_.attempt() > 0) sight.summary = folder_.summary(name());
         if (!sight.running) sight.checkpoint = folder_.checkpoint();
-        if (sight.status && sight.status->attempt == name()) seen_ = sight.status;
+        if (sight.running && sight.status && sight.status->attempt == name()) seen_ = sight.status;
         sight.now = clock_.seconds();
         return sight;
     }

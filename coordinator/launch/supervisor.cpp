@@ -148,6 +148,7 @@ void Supervisor::watch_stop(const Sight& sight) {
 void Supervisor::end_attempt(double now, const std::string& why) {
     hands_.say(why);
     why_ = why;
+    place_ = life_place(own_);
     state_ = State::terminating;
     acted_at_ = now;
     hands_.terminate();
@@ -172,17 +173,18 @@ std::optional<SupervisorEnd> Supervisor::gone(const Sight& sight) {
     if (known && *known != kFailed && !(*known == kInterrupted && stood_still && stops_ == 0))
         return SupervisorEnd{*known, "", *known == kInterrupted};
     if (stops_ > 0) return SupervisorEnd{kInterrupted, "interrupted in " + life_place(own_), true};
-    if (!why_.empty() && !code_at_) return restart_or_end(sight, why_);
-    return restart_or_end(sight, known ? "the render failed" : "the render's processes are gone");
+    if (known == kFailed) return restart_or_end(sight, "the render failed", life_place(own_));
+    if (!why_.empty()) return restart_or_end(sight, why_, place_);
+    return restart_or_end(sight, "the render's processes are gone", life_place(own_));
 }
 
-std::optional<SupervisorEnd> Supervisor::restart_or_end(const Sight& sight, const std::string& why) {
+std::optional<SupervisorEnd> Supervisor::restart_or_end(const Sight& sight, const std::string& why,
+                                                        const std::string& place) {
     AttemptReach reach{sight.checkpoint, 0, 0};
     if (own_) {
         reach.passes = own_->passes;
         reach.renders = own_->renders;
     }
-    const std::string place = life_place(own_);
     const std::string host = own_ ? " on " + own_->host : "";
     if (restarts_.died(reach, place)) {
         due_ = sight.now + restarts_.pause();

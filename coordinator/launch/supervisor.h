@@ -80,9 +80,8 @@ class Supervisor {
     void push_stop(double now);
     std::optional<int> code(const Sight& sight) const;
     std::optional<SupervisorEnd> gone(const Sight& sight);
-    std::optional<SupervisorEnd> restart_or_end(const Sight& sight, const std::string& why);
+    std::optional<SupervisorEnd> restart_or_end(const Sight& sight, const std::string& why, const std::string& place);
     double stall_limit() const;
-    std::string place() const;
 
     const SupervisorLimits limits_;
     const SupervisorHands hands_;
@@ -97,10 +96,10 @@ class Supervisor {
     std::optional<LifeStatus> own_;                 ///< last sign of life of this attempt
     std::array<double, kLifePhases> longest_ = {};  ///< that each phase was without progress so far
     bool told_unreadable_ = false;
-    std::string why_;  ///< the attempt is ended by us
+    std::string why_, place_;  ///< why the attempt is ended by us, and where it was then
 };
 
-/// Words of an attempt's place: "pass 3, which node2 coordinated".
+/// Words of an attempt's place: "pass 3", "reading the input".
 std::string life_place(const std::optional<LifeStatus>& status);
 
 }  // namespace treefarm

@@ -413,10 +413,12 @@ TEST(Supervisor, OneThatEndsInOrderWhenItIsEndedForItsSilenceGoesOn) {
     world.pass(31);
     world.step();
     ASSERT_TRUE(world.did("terminate"));
+    world.status->phase = LifePhase::end;
     world.finish(3);  // it takes our SIGTERM for a person's
     world.pass(3);
     EXPECT_FALSE(world.end);
     EXPECT_EQ(world.attempt, 2);
+    EXPECT_EQ(world.last_said(), "no sign of life for 31 s in pass 2 on node1; again in 1 s");
 }
 
 TEST(Supervisor, ARenderThatWasDoneBeforeItsSilenceIsDone) {
