@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "coordinator/launch/sign_of_life.h"
 
+#include <pthread.h>
+#include <signal.h>
 #include <unistd.h>
 
 #include <chrono>
@@ -58,7 +60,12 @@ void SignOfLife::begin() {
     status_.attempt = attempt_.name;
     status_.host = host_name();
     status_.pid = getpid();
+    // Signals are for the main thread, which may not have blocked them yet: here they would end the process.
+    sigset_t all, before;
+    sigfillset(&all);
+    pthread_sigmask(SIG_SETMASK, &all, &before);
     thread_ = std::thread([this] { work(); });
+    pthread_sigmask(SIG_SETMASK, &before, nullptr);
 }
 
 void SignOfLife::enter(LifePhase phase) {
