@@ -168,6 +168,25 @@ TEST_F(SignOfLifeTest, AFolderThatIsGoneEndsNothing) {
     EXPECT_FALSE(fs::exists(folder_ / "gone"));
 }
 
+TEST(LifeStatus, ComesBackFromItsFile) {
+    LifeStatus status{"ab.3", 5, 6, LifePhase::combine, 7, 8, 9, "node1", 10, {{"node2", false}, {"node3", true}}, 4};
+    const auto read = parse_life_status(life_status_text(status));
+    ASSERT_TRUE(read);
+    EXPECT_EQ(life_status_text(*read), life_status_text(status));
+    EXPECT_EQ(read->workers, status.workers);
+    EXPECT_EQ(read->code, 4);
+    status.code.reset();
+    EXPECT_FALSE(parse_life_status(life_status_text(status))->code);
+}
+
+TEST(LifeStatus, WhatIsNoneIsNone) {
+    const std::string whole = life_status_text({});
+    for (std::size_t k = 0; k + 2 < whole.size(); ++k)
+        EXPECT_FALSE(parse_life_status(whole.substr(0, k))) << k;
+    EXPECT_FALSE(parse_life_status("[]"));
+    EXPECT_FALSE(parse_life_status("{\"attempt\": 3}"));
+}
+
 TEST(LifeAttempt, ComesThroughTheEnvironment) {
     const LifeAttempt attempt = parse_attempt(attempt_text({"0a.12", "/a:b/status.json"}));
     EXPECT_EQ(attempt.name, "0a.12");
