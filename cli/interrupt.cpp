@@ -22,6 +22,7 @@ InterruptWatch::InterruptWatch() {
     sigemptyset(&watched_);
     sigaddset(&watched_, SIGINT);
     sigaddset(&watched_, SIGTERM);
+    sigaddset(&watched_, SIGUSR1);
     // A blocked signal is kept even if it is ignored.
     if (!is_ignored(SIGHUP)) sigaddset(&watched_, SIGHUP);
     pthread_sigmask(SIG_BLOCK, &watched_, nullptr);

@@ -69,6 +69,9 @@ LaunchEnvironment read_launch_environment() {
     launch.one_host = here && all && std::string_view(here) == all;
     if (!launch.under_mpi && !isatty(STDIN_FILENO)) find_lone_tasks(launch);  // a person has a shell, not many tasks
     launch.terminal = read_terminal(launch.under_mpi);
+    if (const char* text = std::getenv(kAttemptVariable); text && launch.rank == 0)
+        if (const LifeAttempt attempt = parse_attempt(text); !attempt.name.empty())
+            launch.life = std::make_shared<SignOfLife>(attempt);
     return launch;
 }
 

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <string>
 
 #include "common/base/terminal.h"
+#include "coordinator/launch/sign_of_life.h"
 
 namespace treefarm {
 
@@ -17,6 +19,7 @@ struct LaunchEnvironment {
     int lone_task = 0;       ///< which of them this is
     bool by_slurm = false;   ///< they were started by srun
     TerminalKind terminal;   ///< standard error; nothing is drawn through mpirun
+    std::shared_ptr<SignOfLife> life;  ///< of a coordinator that treefarm launch started; else nullptr
 };
 LaunchEnvironment read_launch_environment();
 

@@ -19,6 +19,7 @@
 #include "cli/render.h"
 #include "cli/resume.h"
 #include "cli/study.h"
+#include "cli/supervise.h"
 #include "cli/this_build.h"
 #include "cli/usage.h"
 #include "common/base/error.h"
@@ -42,6 +43,10 @@ constexpr std::chrono::seconds kFirstRankSpeaks{3};
 int fail(const LaunchEnvironment& launch, const std::string& message, int exit_code) {
     if (launch.rank == 0) {
         std::fprintf(stderr, "treefarm: %s\n", message.c_str());
+        if (launch.life) {  // a supervisor need not start again what is wrong
+            launch.life->begin();
+            launch.life->end(exit_code);
+        }
         return exit_code;
     }
     std::this_thread::sleep_for(kFirstRankSpeaks);
@@ -57,6 +62,7 @@ int run(int argc, char** argv) {
     app.require_subcommand(1);
     add_render_command(app, launch, joined(argc, argv), exit_code);
     add_resume_command(app, launch, joined(argc, argv), exit_code);
+    add_launch_command(app, launch, exit_code);
     add_plan_command(app, launch, exit_code);
     add_check_command(app, launch, exit_code);
     add_compare_command(app, launch, exit_code);

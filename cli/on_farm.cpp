@@ -79,7 +79,8 @@ CoordinatorEnd guarded(const std::function<CoordinatorEnd()>& act) {
 }
 
 /// Sends every worker away and leaves: a signal came while the scene was being read, which nothing can break off.
-[[noreturn]] void leave_reading(MpiSession& session) {
+[[noreturn]] void leave_reading(const LaunchEnvironment& launch, MpiSession& session) {
+    if (launch.life) launch.life->end(3);
     const bool orderly = dismiss_workers(session.channel(), {}, kDismissSeconds);
     std::fputs("treefarm: interrupted while the input was being read\n", stderr);
     session.finish(orderly, 3, kFinalizeSeconds);
@@ -87,19 +88,20 @@ CoordinatorEnd guarded(const std::function<CoordinatorEnd()>& act) {
 }
 
 /// The input is read aside, so that workers hear from this process however long that takes.
-void prepare(MpiSession& session, const FarmTask& task, InterruptWatch& watch) {
+void prepare(const LaunchEnvironment& launch, MpiSession& session, const FarmTask& task, InterruptWatch& watch) {
     Pulse pulse(session.channel());
     run_aside(task.prepare, [&] {
-        if (watch.interrupted()) leave_reading(session);
+        if (watch.interrupted()) leave_reading(launch, session);
         pulse.beat();
     });
 }
 
-int coordinate(MpiSession& session, const FarmTask& task, InterruptWatch& watch) {
+int coordinate(const LaunchEnvironment& launch, MpiSession& session, const FarmTask& task, InterruptWatch& watch) {
     const CoordinatorEnd end = guarded([&] {
-        prepare(session, task, watch);
+        prepare(launch, session, task, watch);
         return task.coordinate(session.channel(), [&] { return watch.interrupted(); });
     });
+    if (launch.life) launch.life->end(end.code);
     session.finish(dismiss_workers(session.channel(), end.lost, kDismissSeconds), end.code, kFinalizeSeconds);
     return end.code;
 }
@@ -154,16 +156,32 @@ Voice make_voice(const LaunchEnvironment& launch, const FarmOptions& options) {
                                                                                           : Loudness::normal};
 }
 
-int run_on_farm(const LaunchEnvironment& launch, const FarmOptions& options, const Voice& voice, const FarmTask& task) {
-    ignore_broken_pipes();
-    if (!launch.under_mpi) return run_here(options, voice, task);
+namespace {
+
+int run_processes(const LaunchEnvironment& launch, const FarmOptions& options, const Voice& voice,
+                  const FarmTask& task) {
+    if (!launch.under_mpi) {
+        if (launch.life) launch.life->begin();
+        return run_here(options, voice, task);
+    }
     if (launch.one_host) skip_network_search();
     InterruptWatch watch;  // before MPI starts its threads; workers leave when the coordinator says so
     MpiSession session(options.start_seconds, missing_processes(launch, options.start_seconds));
+    if (launch.life) launch.life->begin();
     if (session.size() > 1)
-        return session.rank() == 0 ? coordinate(session, task, watch) : work(session, options, voice);
+        return session.rank() == 0 ? coordinate(launch, session, task, watch) : work(session, options, voice);
     const int code = guarded([&]() -> CoordinatorEnd { return {run_here(options, voice, task), {}}; }).code;
+    if (launch.life) launch.life->end(code);
     session.finish(true, code, kFinalizeSeconds);
+    return code;
+}
+
+}  // namespace
+
+int run_on_farm(const LaunchEnvironment& launch, const FarmOptions& options, const Voice& voice, const FarmTask& task) {
+    ignore_broken_pipes();
+    const int code = run_processes(launch, options, voice, task);
+    if (launch.life) launch.life->end(code);
     return code;
 }
 

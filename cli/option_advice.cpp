@@ -48,7 +48,7 @@ const std::vector<Foreign>& foreign_options() {
          "image.exr is linear, for a viewer to show; preview.png has exposure 0 and sRGB"},
         {{"--spectral", "--mode", "--variant", "-m"}, "it renders linear sRGB colours only"},
         {{"--hosts", "--hostfile", "--nodes", "--workers", "--ranks", "-n", "-np"},
-         "mpirun takes it: mpirun -n 9 treefarm render ... has one coordinator and eight workers"},
+         "treefarm launch takes it: treefarm launch -n 9 -- render ... has one coordinator and eight workers"},
     };
     return table;
 }

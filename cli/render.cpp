@@ -35,11 +35,13 @@ int render_on_farm(const LaunchEnvironment& launch, const FarmOptions& farm, con
     FarmTask task;
     const Voice voice = make_voice(launch, farm);
     task.prepare = [&] {
+        if (launch.life) launch.life->enter(LifePhase::scene);
         const ReadingNotice notice(voice.console, name);
         request = read();
         warn_if_crowded(farm.threads, request.warnings);
         request.console = voice.console;
         request.loudness = voice.loudness;
+        request.life = launch.life;
     };
     task.coordinate = [&](Channel& channel, const std::function<bool()>& interrupted) -> CoordinatorEnd {
         const RenderOutcome outcome = run_render(channel, request, interrupted);

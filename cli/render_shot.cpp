@@ -73,13 +73,13 @@ bool varies(const RenderOptions& options) {
     return names_frame(options.input) || names_frame(options.sensor) || named(options.set) || named(options.defines);
 }
 
+}  // namespace
+
 std::filesystem::path shot_directory(const RenderOptions& options) {
     if (!options.run_directory.empty()) return options.run_directory;
     return std::filesystem::path("runs") /
            (name_without_frame(std::filesystem::path(options.input).stem().string()) + "-shot");
 }
-
-}  // namespace
 
 int render_shot(const LaunchEnvironment& launch, const RenderOptions& options) {
     if (is_separate_world(launch)) return 2;
@@ -102,7 +102,8 @@ int render_shot(const LaunchEnvironment& launch, const RenderOptions& options) {
     };
     task.coordinate = [&](Channel& channel, const std::function<bool()>& interrupted) -> CoordinatorEnd {
         const ShotOutcome outcome = run_shot(
-            channel, shot, {options.command, this_build(), voice.console, voice.loudness, options.overwrite, log},
+            channel, shot,
+            {options.command, this_build(), voice.console, voice.loudness, options.overwrite, log, launch.life},
             interrupted);
         return {exit_code_of(outcome.state, outcome.missed_target), outcome.lost_peers};
     };

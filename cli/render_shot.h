@@ -5,6 +5,9 @@
 
 namespace treefarm {
 
+/// The folder of a shot.
+std::filesystem::path shot_directory(const RenderOptions& options);
+
 /// treefarm render --frames: renders every frame of a shot over all processes. Returns the exit code.
 int render_shot(const LaunchEnvironment& launch, const RenderOptions& options);
 

@@ -62,7 +62,8 @@ int study(const LaunchEnvironment& launch, const StudyOptions& options) {
     };
     task.coordinate = [&](Channel& channel, const std::function<bool()>& interrupted) -> CoordinatorEnd {
         const StudyOutcome outcome = run_study(
-            channel, study, {options.command, this_build(), voice.console, voice.loudness, options.overwrite, log},
+            channel, study,
+            {options.command, this_build(), voice.console, voice.loudness, options.overwrite, log, launch.life},
             interrupted);
         return {exit_code_of(outcome.state), outcome.lost_peers};
     };

@@ -10,6 +10,7 @@
 #include "common/config/parse_text.h"
 #include "common/image/atomic_file.h"
 #include "coordinator/folder_lock.h"
+#include "coordinator/launch/life_status.h"
 
 namespace treefarm {
 
@@ -61,7 +62,8 @@ bool holds_nothing(const fs::path& folder) {
     const std::vector<fs::path> previous = previous_runs(folder);
     std::error_code error;
     for (const auto& entry : fs::directory_iterator(folder, error))
-        if (entry.path().filename() != kLockFileName && !is_leftover(entry.path().filename().string()) &&
+        if (entry.path().filename() != kLockFileName && entry.path().filename() != kLaunchFolder &&
+            !is_leftover(entry.path().filename().string()) &&
             std::find(previous.begin(), previous.end(), entry.path()) == previous.end())
             return false;
     return true;

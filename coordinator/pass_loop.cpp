@@ -69,6 +69,7 @@ class PassLoop {
                 if (hooks_.on_interruption) hooks_.on_interruption(result_);
                 break;
             }
+            if (hooks_.on_collected) hooks_.on_collected();
             DevelopedState developed;
             whole_ = false;
             add_film(state_, job_, collected(plan));

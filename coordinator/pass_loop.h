@@ -37,6 +37,7 @@ struct RenderResult;
 struct PassHooks {
     std::function<bool()> interrupted;  ///< asked often; true ends the render after the last whole pass
     std::function<void(const RenderProgress&)> on_progress;  ///< called often
+    std::function<void()> on_collected;  ///< a pass has come in whole: now it is combined and learned from
     /// Called after each pass, with the image so far.
     std::function<void(const PassReport&, const CombinedImage&)> on_pass;
     std::function<void(const RenderResult&)> on_result;        ///< called after on_pass, with all there is so far

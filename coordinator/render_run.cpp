@@ -40,7 +40,7 @@ class RenderRun {
           scene_(encode_scene(request.scene)),
           directory_(request.job,
                      {request.command, hash_bytes(scene_), request.fingerprint, request.plan.approximations,
-                      request.scene.film.crop, request.schedule},
+                      request.scene.film.crop, request.schedule, request.life ? request.life->attempt() : ""},
                      request.plan, {folder_use(request), interrupted, request.resumed.get()}),
           log_(make_log("treefarm", directory_.log_file(), request.console, request.loudness)),
           progress_(request.console, request.job.budget, request.status_frame),
@@ -86,6 +86,7 @@ class RenderRun {
     /// Keeps what the finished passes gave, where that can still be written.
     void finish(RunEnd& end) {
         end.elapsed_seconds = clock_.seconds();
+        enter(LifePhase::write);
         tell_news();
         if (request_.resumed && result_.passes.empty()) return leave(end);
         for (const std::string& failure : directory_.finish(result_, &farm_, end))
@@ -115,6 +116,7 @@ class RenderRun {
             log_->warn("no checkpoints (farm.checkpoint_seconds = 0): that of {} spp stays until the render is done",
                        state.spp());
         log_->debug("{} triangles", request_.scene.triangle_count());
+        enter(LifePhase::gather);
         farm_.gather(interrupted_);
         if (request_.resumed) {
             result_.interrupted = interrupted_();
@@ -131,10 +133,12 @@ class RenderRun {
             const double elapsed = clock_.seconds();
             pass_count_ = progress.pass_count;
             progress_.update(progress);
+            show_life(progress);
             directory_.write_status(progress, elapsed);
             directory_.write_preview(farm_.collector().pixels_so_far(), film.width, film.height, elapsed);
             tell_news();
         };
+        hooks.on_collected = [this] { enter(LifePhase::combine); };
         hooks.on_result = [this](const RenderResult& so_far) { directory_.write_image(so_far); };
         hooks.on_interruption = [this](const RenderResult& finished) {
             directory_.write_interruption(finished, &farm_, clock_.seconds());
@@ -150,6 +154,22 @@ class RenderRun {
             if (request_.on_pass) request_.on_pass(pass, image);
         };
         result_ = run_passes(farm_, job(), passes, std::move(state), film.width, film.height, hooks);
+    }
+
+    void enter(LifePhase phase) const {
+        if (request_.life) request_.life->enter(phase);
+    }
+
+    /// For a supervisor: whether workers get on, and which are there.
+    void show_life(const RenderProgress& progress) const {
+        if (!request_.life) return;
+        request_.life->see({progress.pass, directory_.passes(), farm_.ledger().done() + progress.rays});
+        request_.life->see_workers([this] {
+            std::vector<LifeWorker> workers;
+            for (const auto& [peer, member] : farm_.roster().members())
+                workers.push_back({member.hello.host, member.state == MemberState::lost});
+            return workers;
+        });
     }
 
     /// What the render begins with, or goes on from.

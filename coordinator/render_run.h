@@ -13,6 +13,7 @@
 #include "common/plan/effects.h"
 #include "common/protocol/fingerprint.h"
 #include "common/scene/model/scene.h"
+#include "coordinator/launch/sign_of_life.h"
 #include "coordinator/progress.h"
 #include "coordinator/run_directory.h"
 
@@ -30,9 +31,10 @@ struct RenderRequest {
     std::string debug_command;  ///< reproduces a sample when " pass,x,y,sample" and, for an open budget, --schedule are
                                 ///< appended
     Fingerprint fingerprint;    ///< of this process
-    bool overwrite = false;     ///< an earlier run in the folder may be replaced
-    bool checkpoints = true;    ///< the render can be gone on with; false: it is one of many that are short
-    std::optional<AnyModel> initial_model;      ///< that guides the first pass; nothing: the guide's first
+    std::shared_ptr<SignOfLife> life;       ///< that a supervisor watches; nullptr: none does
+    bool overwrite = false;                 ///< an earlier run in the folder may be replaced
+    bool checkpoints = true;                ///< the render can be gone on with; false: it is one of many that are short
+    std::optional<AnyModel> initial_model;  ///< that guides the first pass; nothing: the guide's first
     std::shared_ptr<LoadedCheckpoint> resumed;  ///< what the render goes on from; its state is taken
     ConsolePtr console = std::make_shared<Console>(TerminalKind{}, false);
     Loudness loudness = Loudness::normal;  ///< of the log on the console

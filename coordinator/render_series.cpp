@@ -8,10 +8,12 @@ RenderOutcome RenderSeries::render(RenderRequest& request, const std::filesystem
     request.command = context_.command;
     request.console = context_.console;
     request.loudness = context_.loudness == Loudness::verbose ? Loudness::verbose : Loudness::quiet;
+    request.life = context_.life;
     ++turn_.number;
     request.turn = turn_;
     RenderOutcome outcome = run_render(channel_, request, interrupted_);
     turn_.absent = outcome.lost_peers;
+    if (context_.life && outcome.state == RunState::done) context_.life->finish_render();
     return outcome;
 }
 

@@ -16,8 +16,9 @@ struct SeriesContext {
     Fingerprint build;    ///< of this program
     ConsolePtr console;
     Loudness loudness = Loudness::normal;
-    bool overwrite = false;  ///< other results that its folder holds
-    Log log;                 ///< on that console
+    bool overwrite = false;                      ///< other results that its folder holds
+    Log log;                                     ///< on that console
+    std::shared_ptr<SignOfLife> life = nullptr;  ///< that a supervisor watches
 };
 
 /// Renders one after another in one allocation: workers stay, and are told to join the next one.

@@ -94,7 +94,7 @@ RunDirectory::RunDirectory(const Job& job, RunFacts facts, const EffectPlan& pla
             note_pass(report);
     }
     write_first([&] {
-        write_text("status.json", status_json(RunState::running, 0, 0.0), Outlives::process);
+        write_text("status.json", status_json(facts_, RunState::running, 0, 0.0), Outlives::process);
         if (!options.resumed) write_request_files();
     });
 }
@@ -155,7 +155,7 @@ void RunDirectory::put_text(const std::string& name, std::string text, Pace pace
 void RunDirectory::write_status(const RenderProgress& progress, double elapsed_seconds) {
     if (elapsed_seconds - last_status_ < kStatusSeconds) return;
     last_status_ = elapsed_seconds;
-    put_text("status.json", status_json(progress, elapsed_seconds), {});
+    put_text("status.json", status_json(facts_, progress, elapsed_seconds), {});
 }
 
 void RunDirectory::write_preview(std::span<const PixelEstimate> film, int width, int height, double elapsed_seconds) {
@@ -295,7 +295,7 @@ std::vector<LastFile> RunDirectory::end_files(const RenderResult& result, const 
                  write_text("summary.json", summary_json(job_, facts_, result, farm, end), outlives);
              }},
             {(path() / "status.json").string(), [=, this, &result, &end] {
-                 write_text("status.json", status_json(end.state, result.spp, end.elapsed_seconds), outlives);
+                 write_text("status.json", status_json(facts_, end.state, result.spp, end.elapsed_seconds), outlives);
              }}};
 }
 
@@ -318,7 +318,7 @@ void RunDirectory::leave(RunState state, std::uint32_t spp, double elapsed_secon
     writer_.stop();
     std::vector<LastFile> files = {
         {(path() / "status.json").string(),
-         [&] { write_text("status.json", status_json(state, spp, elapsed_seconds), Outlives::power); }}};
+         [&] { write_text("status.json", status_json(facts_, state, spp, elapsed_seconds), Outlives::power); }}};
     write_last_files(files, 0.0);
 }
 

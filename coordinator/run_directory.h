@@ -43,6 +43,7 @@ class RunDirectory {
 
     const std::filesystem::path& path() const { return folder_.path(); }
     std::filesystem::path log_file() const { return path() / "log.txt"; }
+    std::size_t passes() const { return passes_.size(); }  ///< that are finished
 
     /// What is known before the render, in the place of what the run goes on from had: once it goes on. Throws as the
     /// constructor.

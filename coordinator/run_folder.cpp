@@ -30,20 +30,10 @@ std::string time_stamp() {
     throw InputError(Location{folder.string(), 0, 0}, what, cure);
 }
 
-/// A folder that nobody else has: two runs may begin in the same second.
-fs::path make_new_folder(const std::string& scene_file) {
-    const std::string name = fs::path(scene_file).stem().string() + "-" + time_stamp();
-    fs::create_directories("runs");
-    for (int k = 1;; ++k) {
-        const fs::path path = fs::path("runs") / (k == 1 ? name : name + "-" + std::to_string(k));
-        if (fs::create_directory(path)) return path;
-    }
-}
-
 fs::path make_folder(const Job& job) {
     fs::path path = job.output.directory;
     try {
-        if (path.empty()) return make_new_folder(job.scene.file);
+        if (path.empty()) return make_new_run_folder(job.scene.file);
         fs::create_directories(path);
     } catch (const fs::filesystem_error& error) {
         refuse(path.empty() ? "runs" : path, std::string("cannot be the run directory: ") + error.code().message(),
@@ -61,6 +51,16 @@ std::vector<std::string> moved_names() {
 }
 
 }  // namespace
+
+fs::path make_new_run_folder(const std::string& scene_file) {
+    const std::string name = fs::path(scene_file).stem().string() + "-" + time_stamp();
+    fs::create_directories("runs");
+    // Two runs may begin in the same second.
+    for (int k = 1;; ++k) {
+        const fs::path path = fs::path("runs") / (k == 1 ? name : name + "-" + std::to_string(k));
+        if (fs::create_directory(path)) return path;
+    }
+}
 
 RunFolder::RunFolder(const Job& job, FolderUse use, const std::function<bool()>& interrupted)
     : use_(use), path_(make_folder(job)), lock_(path_, kPatience, interrupted) {

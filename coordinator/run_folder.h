@@ -10,6 +10,10 @@
 
 namespace treefarm {
 
+/// A folder for a render of this scene that names none, runs/<scene>-<time>: made, and nobody else's. Throws
+/// std::filesystem::filesystem_error.
+std::filesystem::path make_new_run_folder(const std::string& scene_file);
+
 /// Whose folder a run takes.
 enum class FolderUse {
     fresh,    ///< an empty or a new one

@@ -110,7 +110,8 @@ std::string time_text(std::time_t time) {
 }
 
 /// Adds what a reader needs to tell a run that lives from one that was killed.
-void add_writer(Json& status) {
+void add_writer(Json& status, const RunFacts& facts) {
+    if (!facts.attempt.empty()) status["attempt"] = facts.attempt;
     status["pid"] = getpid();
     status["host"] = host_name();
     status["time"] = std::time(nullptr);
@@ -156,7 +157,7 @@ const char* run_state_name(RunState state) {
     return "";
 }
 
-std::string status_json(const RenderProgress& progress, double elapsed_seconds) {
+std::string status_json(const RunFacts& facts, const RenderProgress& progress, double elapsed_seconds) {
     const double left = progress.fraction > 0 ? elapsed_seconds * (1 - progress.fraction) / progress.fraction : 0.0;
     Json status = {{"state", run_state_name(RunState::running)},
                    {"pass", progress.pass},
@@ -169,13 +170,13 @@ std::string status_json(const RenderProgress& progress, double elapsed_seconds) 
                    {"image_error", error_json(progress.error)},
                    {"workers", progress.workers},
                    {"rays", progress.rays}};
-    add_writer(status);
+    add_writer(status, facts);
     return text_of(status);
 }
 
-std::string status_json(RunState state, std::uint32_t spp_done, double elapsed_seconds) {
+std::string status_json(const RunFacts& facts, RunState state, std::uint32_t spp_done, double elapsed_seconds) {
     Json status = {{"state", run_state_name(state)}, {"spp_done", spp_done}, {"elapsed_seconds", elapsed_seconds}};
-    add_writer(status);
+    add_writer(status, facts);
     return text_of(status);
 }
 
@@ -206,6 +207,7 @@ std::string summary_json(const Job& job, const RunFacts& facts, const RenderResu
     if (job.budget.error > 0 && !result.passes.empty())
         summary["target"] = {{"relative_error", job.budget.error},
                              {"reached", !misses_target(job, result.passes.back().error)}};
+    if (!facts.attempt.empty()) summary["attempt"] = facts.attempt;
     if (!end.error.empty()) summary["error"] = end.error;
     summary["approximations"] = Json::array();
     for (const Approximation& approximation : facts.approximations)

@@ -25,6 +25,7 @@ struct RunFacts {
     std::vector<Approximation> approximations;
     CropWindow crop{};                 ///< of a crop window's image
     std::vector<PassPlan> schedule{};  ///< --schedule: these passes; empty: the job's own
+    std::string attempt{};             ///< of treefarm launch, that it is; "" without
 };
 
 /// How a run came out.
@@ -36,9 +37,9 @@ struct RunEnd {
 };
 
 /// The files status.json and summary.json. What is no UTF-8 in names of files and hosts is replaced.
-std::string status_json(const RenderProgress& progress, double elapsed_seconds);
+std::string status_json(const RunFacts& facts, const RenderProgress& progress, double elapsed_seconds);
 /// The file status.json before the first pass, and after the last.
-std::string status_json(RunState state, std::uint32_t spp_done, double elapsed_seconds);
+std::string status_json(const RunFacts& facts, RunState state, std::uint32_t spp_done, double elapsed_seconds);
 std::string summary_json(const Job& job, const RunFacts& facts, const RenderResult& result, const Farm* farm,
                          const RunEnd& end);
 

@@ -18,7 +18,7 @@ import tempfile
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs/use").glob("*.md"))]
 COMMAND = re.compile(r"^    (?P<mpirun>mpirun -n \d+ )?(?:build/release/)?treefarm (?P<name>[a-z]+) (?P<rest>.*)$")
-LEFT_OUT = re.compile(r"[$\\<|]|\.\.\.|FOLDER|--hostfile|--export|--schedule|camera")
+LEFT_OUT = re.compile(r"[$\\<|]|\.\.\.|FOLDER|--hostfile|--sweep|--export|--schedule|camera")
 BOX = "configs/scenes/cornell-box.xml"
 SMALL = ["--set", "image.width=128", "--set", "image.height=128"]
 SAMPLES = itertools.count(16, 8)
@@ -44,6 +44,11 @@ def runnable(name, rest, work):
     """The arguments with which a command is run here; None: it is not."""
     if LEFT_OUT.search(rest) or name in ("report",):
         return None
+    if name == "launch":
+        outer, _, inner = rest.partition("--")
+        command, *words = shlex.split(inner)
+        arguments = None if command == "study" else runnable(command, shlex.join(words), work)
+        return arguments and [*shlex.split(outer), "--", command, *arguments]
     words = {"SCENE.xml": BOX, "scene.xml": BOX, "RUN_DIR": f"{work}/first", "run": f"{work}/first",
              "box.exr": f"{work}/box.exr", "reference.exr": f"{work}/reference.exr",
              "[PATTERN]": "guiding", "STUDY.toml": "configs/studies/demo.toml",

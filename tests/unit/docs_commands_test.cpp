@@ -30,14 +30,17 @@ struct Command {
 /// Commands of all pages but frozen ones and the changelog, which speaks of the past.
 std::vector<Command> commands() {
     static const std::regex command(
-        R"(\btreefarm (render|plan|check|compare|convert|inspect|study|report|keys)\b([^#`|&;]*))");
+        R"(\btreefarm (?:(launch)\b([^#`|&;]*?)--(?= |$) *)?(render|plan|check|compare|convert|inspect|study|resume|report|keys)\b([^#`|&;]*))");
     std::vector<Command> found;
     for (const fs::path& page : test::markdown_pages()) {
         const std::string name = fs::relative(page, kRoot).string();
         if (name.starts_with("bench/log") || name == "CHANGELOG.md") continue;
         for (const test::MarkdownLine& line : test::markdown_lines(page))
-            for (std::sregex_iterator it(line.text.begin(), line.text.end(), command), end; it != end; ++it)
-                found.push_back({name + ":" + std::to_string(line.number), (*it)[1], (*it)[2]});
+            for (std::sregex_iterator it(line.text.begin(), line.text.end(), command), end; it != end; ++it) {
+                const std::string where = name + ":" + std::to_string(line.number);
+                if ((*it)[1].matched) found.push_back({where, (*it)[1], (*it)[2]});
+                found.push_back({where, (*it)[3], (*it)[4]});
+            }
     }
     return found;
 }

@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/launch_run.h"
+
+#include <poll.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <memory>
+#include <random>
+#include <sstream>
+
+#include "cli/attempt_processes.h"
+#include "cli/child_process.h"
+#include "cli/host_probe.h"
+#include "cli/launch_folder.h"
+#include "cli/launch_plan.h"
+#include "cli/launch_signals.h"
+#include "cli/launched_command.h"
+#include "cli/sweep.h"
+#include "common/base/error.h"
+#include "common/base/host.h"
+#include "common/base/timer.h"
+#include "coordinator/folder_content.h"
+#include "coordinator/launch/supervisor.h"
+
+namespace treefarm {
+
+namespace {
+
+/// Between two looks at the sign of life.
+constexpr int kLookMilliseconds = 1000;
+/// For killed processes to go.
+constexpr double kKillPatience = 5.0;
+/// For whoever still has the run directory, on another host.
+constexpr double kFolderPatience = 30.0;
+
+std::string random_name() {
+    std::random_device device;
+    char text[9] = "";
+    std::snprintf(text, sizeof text, "%08x", device());
+    return text;
+}
+
+bool is_gone(pid_t process) {
+    return ::kill(process, 0) != 0 && errno == ESRCH;
+}
+
+std::string joined(const std::vector<std::string>& words) {
+    std::string text;
+    for (const std::string& word : words)
+        text += (text.empty() ? "" : " ") + word;
+    return text;
+}
+
+/// Words for the terminal; a terminal that is gone ends nothing.
+void tell(const std::string& text) {
+    if (write(STDERR_FILENO, text.data(), text.size()) < 0) return;
+}
+
+class LaunchRun {
+  public:
+    LaunchRun(const LaunchOptions& options, LaunchedCommand command)
+        : options_(options),
+          command_(std::move(command)),
+          planner_(options),
+          folder_(command_),
+          temporary_(temporary_folder()),
+          shared_memory_(shared_memory_folder()),
+          log_(folder_.own() / "log", std::ios::app),
+          supervisor_(limits(options), hands(), [this](int number) { return name_of(number); }) {}
+
+    int run() {
+        try {
+            for (;;) {
+                if (const auto end = supervisor_.step(look())) return finish(*end);
+                wait();
+            }
+        } catch (const std::exception&) {
+            clean_up();
+            folder_.give_back();
+            throw;
+        }
+    }
+
+  private:
+    static SupervisorLimits limits(const LaunchOptions& options) {
+        SupervisorLimits limits;
+        limits.restarts = options.restarts;
+        limits.stall = options.stall_seconds;
+        return limits;
+    }
+
+    SupervisorHands hands() {
+        return {[this](int number) { start(number); },
+                [this] { child_->signal(SIGUSR1); },
+                [this](const LifeStatus& status) { dump(status); },
+                [this] { child_->signal(SIGTERM); },
+                [this] {
+                    child_->signal_group(SIGKILL);
+                    kill_attempt(name(), 0.0);
+                },
+                [this](const std::string& words) { say(words); }};
+    }
+
+    std::string name_of(int number) const { return launch_ + "." + std::to_string(number); }
+    std::string name() const { return name_of(supervisor_.attempt()); }
+
+    Sight look() {
+        Sight sight;
+        relay();
+        sight.running = child_ && child_->running();
+        if (child_ && !sight.running) end_child();
+        sight.coordinator_gone = seen_ && seen_->host == host_name() && is_gone(seen_->pid);
+        // After the processes are gone: what they still said counts.
+        sight.status = folder_.life(sight.readable);
+        if (supervisor_.attempt() > 0) sight.summary = folder_.summary(name());
+        if (!sight.running) sight.checkpoint = folder_.checkpoint();
+        if (sight.running && sight.status && sight.status->attempt == name()) seen_ = sight.status;
+        sight.now = clock_.seconds();
+        return sight;
+    }
+
+    /// The launcher has gone: nothing of its attempt may go on beside the next one.
+    void end_child() {
+        relay();
+        note("launcher: " + child_->ending());
+        child_.reset();
+        clean_up();
+        if (seen_) planner_.note_end(seen_->workers);
+        seen_.reset();
+    }
+
+    void clean_up() {
+        if (supervisor_.attempt() > 0 && !kill_attempt(name(), kKillPatience))
+            note("processes of the attempt cannot be killed");
+        temporary_.empty();
+        shared_memory_.empty();
+    }
+
+    void start(int number) {
+        sweep();
+        if (number > 1) wait_for_folder();
+        const StartPlan plan = planner_.plan(
+            {folder_.own() / ("hostfile-" + std::to_string(number)), temporary_.path(), shared_memory_.path()});
+        const bool goes_on = number > 1 && folder_.was_taken_by(launch_);
+        const std::vector<std::string> words = goes_on ? command_.again(folder_.checkpoint() > 0) : command_.first();
+        const std::vector<std::string> command = start_command(plan, words);
+        note("attempt " + std::to_string(number) + ": " + joined(command));
+        const LifeAttempt attempt{name_of(number), folder_.life_file()};
+        child_ = std::make_unique<ChildProcess>(command, std::string(kAttemptVariable) + "=" + attempt_text(attempt));
+    }
+
+    /// A coordinator on another host may have outlived its launcher.
+    void wait_for_folder() const {
+        const FolderLock lock(folder_.run(), kFolderPatience, nullptr);
+        if (lock.refused()) throw RunError(folder_.run().string() + " is still in use by an attempt that was ended");
+    }
+
+    /// A coordinator that stands still leaves a core, where the host keeps such.
+    void dump(const LifeStatus& status) const {
+        if (status.host != host_name()) return;
+        for (const pid_t process : attempt_processes(name()))
+            if (process == status.pid) ::kill(process, SIGABRT);
+    }
+
+    /// Until something happens, or it is time to look again.
+    void wait() {
+        pollfd ends[2] = {{signals_.descriptor(), POLLIN, 0}, {child_ ? child_->words_descriptor() : -1, POLLIN, 0}};
+        poll(ends, 2, kLookMilliseconds);
+        // A launcher whose end is closed is at its end: its exit is what comes next.
+        if ((ends[1].revents & POLLHUP) != 0) poll(ends, 1, kLookMilliseconds / 10);
+        for (const int number : signals_.take())
+            take(number);
+    }
+
+    void take(int number) {
+        switch (number) {
+            case SIGCHLD:
+                return;
+            case SIGTSTP:
+                if (child_) child_->signal(planner_.stands_alone() ? SIGSTOP : SIGTSTP);
+                raise(SIGSTOP);
+                return;
+            case SIGCONT:
+                if (child_) child_->signal(SIGCONT);
+                return;
+            default:
+                supervisor_.ask_to_stop();
+        }
+    }
+
+    /// What the launcher and the ranks say goes to the terminal and to the log.
+    void relay() {
+        if (!child_) return;
+        const std::string words = child_->take_words();
+        if (words.empty()) return;
+        tell(words);
+        log_ << words << std::flush;
+    }
+
+    void say(const std::string& words) {
+        tell("treefarm: launch: " + words + "\n");
+        note(words);
+    }
+
+    void note(const std::string& words) { log_ << "launch: " << words << "\n" << std::flush; }
+
+    int finish(const SupervisorEnd& end) {
+        sweep();
+        if (end.resumable) say((end.words.empty() ? "interrupted" : end.words) + "; " + what_is_kept());
+        if (end.code == 2) folder_.give_back();
+        return end.code;
+    }
+
+    /// What there is, and the command that goes on.
+    std::string what_is_kept() const {
+        std::string again = "treefarm launch";
+        if (options_.processes > 0) again += " -n " + std::to_string(options_.processes);
+        if (!options_.hostfile.empty()) again += " --hostfile " + options_.hostfile;
+        if (command_.kind == LaunchedCommand::Kind::render || command_.kind == LaunchedCommand::Kind::resume) {
+            if (folder_.checkpoint() == 0)
+                return "no pass is kept in " + folder_.run().string() + "; begin again with " + again + " -- " +
+                       joined(command_.again(false));
+            return "kept in " + folder_.run().string() + ": " + render_words(folder_.run()) + "; go on with " + again +
+                   " -- resume " + folder_.run().string();
+        }
+        return "finished ones are kept in " + folder_.run().string() + "; go on with " + again + " -- " +
+               joined(command_.words);
+    }
+
+    const LaunchOptions& options_;
+    LaunchedCommand command_;
+    const std::string launch_ = random_name();
+    const Timer clock_;
+    LaunchSignals signals_;
+    LaunchPlanner planner_;
+    LaunchFolder folder_;
+    const OwnFolder temporary_, shared_memory_;
+    std::ofstream log_;
+    std::optional<LifeStatus> seen_;  ///< the attempt's last sign of life
+    std::unique_ptr<ChildProcess> child_;
+    Supervisor supervisor_;
+};
+
+}  // namespace
+
+int run_launch(const LaunchOptions& options) {
+    return LaunchRun(options, read_launched_command(options.command)).run();
+}
+
+}  // namespace treefarm

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/launch_signals.h"
+
+#include <sys/signalfd.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+
+#include "common/base/error.h"
+
+namespace treefarm {
+
+namespace {
+
+bool is_ignored(int number) {
+    struct sigaction action {};
+    return sigaction(number, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
+}
+
+}  // namespace
+
+LaunchSignals::LaunchSignals() {
+    sigset_t watched;
+    sigemptyset(&watched);
+    for (const int number : {SIGINT, SIGTERM, SIGUSR1, SIGTSTP, SIGCONT, SIGCHLD})
+        sigaddset(&watched, number);
+    if (!is_ignored(SIGHUP)) sigaddset(&watched, SIGHUP);
+    sigprocmask(SIG_BLOCK, &watched, &before_);
+    descriptor_ = signalfd(-1, &watched, SFD_NONBLOCK | SFD_CLOEXEC);
+    if (descriptor_ < 0) throw RunError(std::string("cannot wait for signals: ") + std::strerror(errno));
+}
+
+LaunchSignals::~LaunchSignals() {
+    close(descriptor_);
+    sigprocmask(SIG_SETMASK, &before_, nullptr);
+}
+
+std::vector<int> LaunchSignals::take() {
+    std::vector<int> numbers;
+    signalfd_siginfo facts{};
+    while (read(descriptor_, &facts, sizeof facts) == sizeof facts)
+        numbers.push_back(static_cast<int>(facts.ssi_signo));
+    return numbers;
+}
+
+}  // namespace treefarm

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace treefarm {
+
+/// The command that treefarm launch keeps alive.
+struct LaunchedCommand {
+    enum class Kind { render, resume, shot, study };
+    Kind kind = Kind::render;
+    std::vector<std::string> words;         ///< as typed: "render", "room.xml", "--spp", "64"
+    std::filesystem::path folder;           ///< where results go; empty: a render that names none
+    std::string scene;                      ///< of a render, for the name of a folder
+    std::vector<std::string> farm_options;  ///< those of the words that a resume takes, too
+
+    /// Its words for the first attempt, or for one that died before it had the folder.
+    std::vector<std::string> first() const { return words; }
+    /// Its words for a further attempt, where an earlier one had the folder, and has left a checkpoint there or not.
+    std::vector<std::string> again(bool has_checkpoint) const;
+};
+
+/// Reads what stands behind "--", and checks its options as the command itself would. Throws InputError.
+LaunchedCommand read_launched_command(const std::vector<std::string>& words);
+
+}  // namespace treefarm

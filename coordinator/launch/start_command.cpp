@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "coordinator/launch/start_command.h"
+
+#include "coordinator/launch/sign_of_life.h"
+
+namespace treefarm {
+
+namespace {
+
+using Words = std::vector<std::string>;
+
+void add(Words& words, std::initializer_list<std::string> more) {
+    words.insert(words.end(), more);
+}
+
+void add_parameter(Words& words, const std::string& name, const std::string& value) {
+    add(words, {"--mca", name, value});
+}
+
+/// Daemons notice a host that is gone in 20 s instead of ten minutes.
+void add_keepalive(Words& words) {
+    add_parameter(words, "oob_tcp_keepalive_time", "10");
+    add_parameter(words, "oob_tcp_keepalive_intvl", "3");
+    add_parameter(words, "oob_tcp_keepalive_probes", "3");
+}
+
+void add_hosts(Words& words, const StartPlan& plan) {
+    if (plan.hostfile.empty()) {
+        add(words, {"--oversubscribe"});
+        add_parameter(words, "btl", "vader,self");
+        add_parameter(words, "oob_tcp_if_include", "lo");
+        if (!plan.shared_memory.empty())
+            add_parameter(words, "btl_vader_backing_directory", plan.shared_memory.string());
+    } else {
+        add(words, {"--hostfile", plan.hostfile.string(), "--map-by", "node"});
+        if (plan.oversubscribed) add(words, {"--oversubscribe"});
+        add_parameter(words, "btl", "tcp,vader,self");
+        if (!plan.network.empty()) {
+            add_parameter(words, "btl_tcp_if_include", plan.network);
+            add_parameter(words, "oob_tcp_if_include", plan.network);
+        }
+        add_keepalive(words);
+    }
+    // Where ranks outnumber cores a message would wait for a time slice.
+    if (plan.hostfile.empty() || plan.oversubscribed) add_parameter(words, "mpi_yield_when_idle", "1");
+}
+
+Words mpirun_words(const StartPlan& plan) {
+    Words words = {plan.mpirun, "-n", std::to_string(plan.processes), "--bind-to", "none"};
+    if (plan.recovery) add(words, {"--enable-recovery"});
+    add_hosts(words, plan);
+    add_parameter(words, "pml", "ob1");
+    if (!plan.temporary.empty()) add_parameter(words, "orte_tmpdir_base", plan.temporary.string());
+    add(words, {"-x", kAttemptVariable});
+    return words;
+}
+
+/// -K0: a task that dies ends no other.
+Words srun_words(const StartPlan& plan) {
+    Words words = {"srun", "--mpi=pmix", "-n", std::to_string(plan.processes)};
+    if (plan.recovery) add(words, {"-K0", "--no-kill"});
+    for (std::size_t k = 0; k < plan.left_out.size(); ++k)
+        k == 0 ? words.push_back("--exclude=" + plan.left_out[k]) : (words.back() += "," + plan.left_out[k], void());
+    return words;
+}
+
+}  // namespace
+
+Words start_command(const StartPlan& plan, const Words& words) {
+    Words command;
+    if (plan.starter == Starter::mpirun) command = mpirun_words(plan);
+    if (plan.starter == Starter::srun) command = srun_words(plan);
+    command.push_back(plan.program);
+    command.insert(command.end(), words.begin(), words.end());
+    return command;
+}
+
+}  // namespace treefarm

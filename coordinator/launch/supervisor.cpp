@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "coordinator/launch/supervisor.h"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace treefarm {
+
+namespace {
+
+/// Between two steps of one that was not stopped itself: longer, and nobody could have been heard.
+constexpr double kLongestStep = 5.0;
+
+constexpr int kFailed = 1, kInterrupted = 3;
+
+}  // namespace
+
+std::string life_place(const std::optional<LifeStatus>& status) {
+    if (!status) return "the start, before any sign of life";
+    switch (status->phase) {
+        case LifePhase::start:
+            return "the start";
+        case LifePhase::scene:
+            return "reading the input";
+        case LifePhase::gather:
+            return "gathering workers";
+        case LifePhase::write:
+        case LifePhase::end:
+            return "writing the result";
+        case LifePhase::pass:
+            return fmt::format("pass {}", status->pass);
+        case LifePhase::combine:
+            return fmt::format("combining pass {}", status->pass);
+    }
+    return "";
+}
+
+Supervisor::Supervisor(SupervisorLimits limits, SupervisorHands hands, std::function<std::string(int)> name)
+    : limits_(limits), hands_(std::move(hands)), name_(std::move(name)), restarts_(limits.restarts, limits.attempts) {}
+
+void Supervisor::ask_to_stop() {
+    ++stops_;
+}
+
+std::optional<SupervisorEnd> Supervisor::step(const Sight& sight) {
+    forgive_gap(sight.now);
+    if (state_ == State::waiting) {
+        if (stops_ > 0) return SupervisorEnd{kInterrupted, "interrupted", attempt_ > 0};
+        if (sight.now >= due_) start(sight.now);
+        return std::nullopt;
+    }
+    look(sight);
+    if (!sight.running) return gone(sight);
+    if (stops_ > heeded_stops_) push_stop(sight.now);
+    if (state_ == State::running)
+        watch(sight);
+    else if (state_ == State::stopping)
+        watch_stop(sight);
+    else if (state_ == State::terminating && sight.now - acted_at_ >= limits_.terminate) {
+        state_ = State::killed;
+        hands_.kill();
+    }
+    return std::nullopt;
+}
+
+/// Where the supervisor was stopped itself, and its host asleep, nobody was silent.
+void Supervisor::forgive_gap(double now) {
+    const double gap = now - std::exchange(last_step_, now);
+    if (gap <= kLongestStep) return;
+    for (double* time : {&began_, &beat_at_, &progress_at_, &phase_at_, &acted_at_})
+        *time += gap;
+    if (code_at_) *code_at_ += gap;
+}
+
+void Supervisor::start(double now) {
+    ++attempt_;
+    own_.reset();
+    code_at_.reset();
+    why_.clear();
+    told_unreadable_ = false;
+    began_ = beat_at_ = progress_at_ = phase_at_ = now;
+    state_ = State::running;
+    hands_.start(attempt_);
+}
+
+/// Takes in the sign of life.
+void Supervisor::look(const Sight& sight) {
+    const double now = sight.now;
+    if (!sight.readable) {  // who cannot see must not kill
+        if (!std::exchange(told_unreadable_, true))
+            hands_.say("the sign of life cannot be read: nothing is ended for its silence");
+        began_ = beat_at_ = progress_at_ = now;
+    }
+    if (code(sight) && !code_at_) code_at_ = now;
+    if (!sight.status || sight.status->attempt != name_(attempt_)) return;
+    const LifeStatus& status = *sight.status;
+    if (!own_ || status.beat != own_->beat) beat_at_ = now;
+    if (!own_ || status.progress != own_->progress || status.phase != own_->phase) {
+        if (own_) {
+            double& longest = longest_[static_cast<std::size_t>(own_->phase)];
+            longest = std::max(longest, now - progress_at_);
+        }
+        progress_at_ = now;
+    }
+    own_ = status;
+}
+
+/// The exit code of this attempt, as the coordinator said it or its summary has it.
+std::optional<int> Supervisor::code(const Sight& sight) const {
+    if (sight.status && sight.status->attempt == name_(attempt_) && sight.status->code) return sight.status->code;
+    return sight.summary;
+}
+
+double Supervisor::stall_limit() const {
+    return std::max(limits_.stall, limits_.stall_multiple * longest_[static_cast<std::size_t>(own_->phase)]);
+}
+
+void Supervisor::watch(const Sight& sight) {
+    const double now = sight.now;
+    if (code_at_) {
+        if (now - std::max(*code_at_, beat_at_) > limits_.leave || now - *code_at_ > limits_.leave_all)
+            end_attempt(now, "the render has ended, but its launcher goes on: it is ended");
+        return;
+    }
+    if (!own_) {
+        if (now - began_ > limits_.start)
+            end_attempt(now, fmt::format("no sign of life within {:.0f} s", limits_.start));
+    } else if (sight.coordinator_gone) {
+        end_attempt(now, "the coordinator is gone");
+    } else if (now - beat_at_ > limits_.beat) {
+        end_attempt(now, fmt::format("no sign of life for {:.0f} s", now - beat_at_));
+    } else if (now - progress_at_ > stall_limit()) {
+        hands_.dump(*own_);
+        end_attempt(now, fmt::format("no progress for {:.0f} s", now - progress_at_));
+    }
+}
+
+/// Waits as long as something is written; who goes on rendering has not heard.
+void Supervisor::watch_stop(const Sight& sight) {
+    if (code_at_ || sight.coordinator_gone) return watch(sight);
+    const bool writes = own_ && own_->phase != LifePhase::pass;
+    const double still = sight.now - std::max(acted_at_, writes ? progress_at_ : 0.0);
+    if (still > limits_.stop) end_attempt(sight.now, fmt::format("it has not stopped for {:.0f} s", still));
+}
+
+void Supervisor::end_attempt(double now, const std::string& why) {
+    hands_.say(why);
+    why_ = why;
+    place_ = life_place(own_);
+    state_ = State::terminating;
+    acted_at_ = now;
+    hands_.terminate();
+}
+
+void Supervisor::push_stop(double now) {
+    const bool first = heeded_stops_ == 0;
+    heeded_stops_ = stops_;
+    if (state_ == State::terminating || state_ == State::killed) return;
+    // Before its first sign of life a process knows no SIGUSR1, and has nothing to write.
+    if (!first || !own_) return end_attempt(now, first ? "stopping" : "giving up what is not written");
+    hands_.say("stopping: writing what is finished; once more, and it is given up");
+    state_ = State::stopping;
+    acted_at_ = now;
+    hands_.ask_to_stop();
+}
+
+std::optional<SupervisorEnd> Supervisor::gone(const Sight& sight) {
+    const std::optional<int> known = code(sight);
+    const bool stood_still = state_ == State::terminating || state_ == State::killed;
+    // One that we ended for its silence may have taken that for a person's wish.
+    if (known && *known != kFailed && !(*known == kInterrupted && stood_still && stops_ == 0))
+        return SupervisorEnd{*known, "", *known == kInterrupted};
+    if (stops_ > 0) return SupervisorEnd{kInterrupted, "interrupted in " + life_place(own_), true};
+    if (known == kFailed) return restart_or_end(sight, "the render failed", life_place(own_));
+    if (!why_.empty()) return restart_or_end(sight, why_, place_);
+    return restart_or_end(sight, "the render's processes are gone", life_place(own_));
+}
+
+std::optional<SupervisorEnd> Supervisor::restart_or_end(const Sight& sight, const std::string& why,
+                                                        const std::string& place) {
+    AttemptReach reach{sight.checkpoint, 0, 0};
+    if (own_) {
+        reach.passes = own_->passes;
+        reach.renders = own_->renders;
+    }
+    const std::string host = own_ ? " on " + own_->host : "";
+    if (restarts_.died(reach, place)) {
+        due_ = sight.now + restarts_.pause();
+        hands_.say(fmt::format("{} in {}{}; again in {:.0f} s", why, place, host, restarts_.pause()));
+        state_ = State::waiting;
+        return std::nullopt;
+    }
+    const std::string again = restarts_.common_place();
+    const int times = restarts_.in_a_row();
+    return SupervisorEnd{
+        kFailed,
+        fmt::format("{} in {}{}; {}", why, place, host,
+                    times > 1 ? fmt::format("given up after {} attempts in a row that brought nothing{}", times,
+                                            again.empty() ? "" : ", all of which ended there")
+                              : "no restarts are left"),
+        true};
+}
+
+}  // namespace treefarm

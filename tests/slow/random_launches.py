@@ -1,0 +1,134 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Kills every process of renders at random moments, but treefarm launch, which goes on with them.
+
+usage: random_launches.py TREEFARM SCENE [--count N] [--seed S] [--kills K] [--part]
+
+Each of N renders is killed 1 to K times: all its processes at once, or with --part one of them, or mpirun. Passes if each ends with
+exit code 0 and the bits of the render that never stopped, and leaves no process, no shared memory and no temporary folder. Prints a line
+per render.
+"""
+import argparse
+import glob
+import json
+import os
+import pathlib
+import random
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+
+GUIDES = ("auto", "view", "ppg", "none", "grid")
+DEADLINE = 240
+
+
+def environment():
+    return {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
+
+
+def command(arguments, folder, guide, launched, ranks=1):
+    render = ["render", arguments.scene, "-D", "size=48", "--run-dir", str(folder), "--overwrite", "--threads", "1",
+              "--quiet", "--spp", "255", "--set", f"guiding.type={guide}", "--set", "farm.checkpoint_seconds=0.001", "--set",
+              "farm.heartbeat_seconds=0.2"]
+    return [arguments.treefarm, *(["launch", "-n", str(ranks), "--"] if launched else []), *render]
+
+
+def hashes(folder):
+    summary = json.loads((folder / "summary.json").read_text())
+    return summary["image_hash"], summary["tree_hash"], summary["state"]
+
+
+def started(folder):
+    """Processes of all attempts in this folder."""
+    wanted = f":{folder}/launch/status.json".encode() + b"\0"
+    found = []
+    for process in pathlib.Path("/proc").glob("[0-9]*"):
+        try:
+            variables = b"\0" + (process / "environ").read_bytes()
+        except OSError:
+            continue
+        at = variables.find(b"\0TREEFARM_ATTEMPT=")
+        if at >= 0 and variables[at:].split(b"\0")[1].endswith(wanted[:-1]):
+            found.append(int(process.name))
+    return found
+
+
+def leftovers(pid):
+    return [name for place in ("/dev/shm", os.environ.get("TMPDIR", "/tmp"))
+            for name in glob.glob(f"{place}/treefarm-launch-{pid}-*")]
+
+
+def kill(pids):
+    for pid in pids:
+        try:
+            os.kill(pid, signal.SIGKILL)
+        except ProcessLookupError:
+            pass
+
+
+def one(arguments, work, random, truths):
+    guide, ranks, kills = random.choice(GUIDES), random.choice((1, 2, 2, 3)), random.randint(1, arguments.kills)
+    name = f"{guide} ranks {ranks} kills {kills}"
+    if guide not in truths:
+        truth = work / f"truth-{guide}"
+        subprocess.run(command(arguments, truth, guide, False), check=True, env=environment())
+        truths[guide] = hashes(truth)
+    folder = work / "run"
+    shutil.rmtree(folder, ignore_errors=True)
+    begin = time.monotonic()
+    process = subprocess.Popen(command(arguments, folder, guide, True, ranks), env=environment(), stdout=subprocess.PIPE,
+                               stderr=subprocess.STDOUT, text=True)
+    done = 0
+    for _ in range(kills):
+        time.sleep(random.uniform(0.1, 4.0))
+        victims = started(folder)
+        if process.poll() is not None:
+            break
+        kill([random.choice(victims)] if arguments.part and victims else victims)
+        done += bool(victims)
+    try:
+        output, _ = process.communicate(timeout=DEADLINE)
+    except subprocess.TimeoutExpired:
+        kill([*started(folder), process.pid])
+        return name, f"hangs: {process.communicate()[0]}", 0, done
+    seconds = time.monotonic() - begin
+    faults = []
+    if process.returncode != 0:
+        faults.append(f"exit code {process.returncode}: {output}")
+    elif hashes(folder) != truths[guide]:
+        faults.append(f"{hashes(folder)} instead of {truths[guide]}")
+    if started(folder):
+        faults.append(f"processes {started(folder)} stay")
+    if leftovers(process.pid):
+        faults.append(f"{leftovers(process.pid)} stay")
+    return name, "; ".join(faults), seconds, done
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("treefarm")
+    parser.add_argument("scene")
+    parser.add_argument("--count", type=int, default=100)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--kills", type=int, default=3)
+    parser.add_argument("--part", action="store_true", help="one process at a time")
+    arguments = parser.parse_args()
+    if shutil.which("mpirun") is None:
+        print("skipped: there is no mpirun")
+        sys.exit(77)
+    failed, kills, truths = 0, 0, {}
+    with tempfile.TemporaryDirectory() as work:
+        for k in range(arguments.count):
+            name, failure, seconds, done = one(arguments, pathlib.Path(work), random.Random(arguments.seed * 1000 + k), truths)
+            failed += bool(failure)
+            kills += done
+            print(f"{k:3} {name}: {failure or f'same bits after {seconds:.1f} s'}", flush=True)
+    print(f"{arguments.count} renders, {kills} times killed, {failed} failed")
+    sys.exit(1 if failed else 0)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "coordinator/launch/supervisor.h"
+
+namespace treefarm::test {
+
+/// A world of one attempt at a time, and what the supervisor did to it.
+class LaunchWorld {
+  public:
+    explicit LaunchWorld(SupervisorLimits limits = {})
+        : supervisor_(limits,
+                      {[this](int number) { begin(number); }, [this] { note("stop"); },
+                       [this](const LifeStatus& status) { note("dump " + std::to_string(status.pid)); },
+                       [this] { note("terminate"); }, [this] { note("kill"); },
+                       [this](const std::string& words) { said.push_back(words); }},
+                      [](int number) { return "run." + std::to_string(number); }) {}
+
+    /// One step of the clock, in which the coordinator may do something.
+    void step(double seconds = 1.0) {
+        now += seconds;
+        if (!end) end = supervisor_.step({now, running, readable, coordinator_gone, status, summary, checkpoint});
+    }
+    /// So many seconds, in each of which `life` happens.
+    void pass(
+        double seconds, const std::function<void()>& life = [] {}) {
+        for (double t = 0; t < seconds && !end; ++t) {
+            life();
+            step();
+        }
+    }
+    void live() {
+        if (status) ++status->beat;
+    }
+    void work() {
+        live();
+        if (status) ++status->progress;
+    }
+    /// The coordinator is heard of for the first time.
+    void appear(LifePhase phase = LifePhase::pass, std::uint32_t pass = 2) {
+        status = LifeStatus{};
+        status->attempt = "run." + std::to_string(attempt);
+        status->phase = phase;
+        status->pass = pass;
+        status->host = "node1";
+        status->pid = 42;
+    }
+    void die() { running = false; }
+    /// The coordinator says its exit code, and all its processes leave.
+    void finish(int code) {
+        if (!status) appear();
+        status->code = code;
+        running = false;
+    }
+    /// A start, that comes to a pass.
+    void run_to_pass(std::uint32_t pass = 2) {
+        while (!running && !end)
+            step();
+        appear(LifePhase::pass, pass);
+        step();
+    }
+    bool did(const std::string& deed) const { return std::find(deeds.begin(), deeds.end(), deed) != deeds.end(); }
+    std::string last_said() const { return said.empty() ? "" : said.back(); }
+    void stop() { supervisor_.ask_to_stop(); }
+
+    double now = 0;
+    bool running = false, readable = true, coordinator_gone = false;
+    int attempt = 0;
+    std::optional<LifeStatus> status;
+    std::optional<int> summary;
+    std::uint64_t checkpoint = 0;
+    std::vector<std::string> deeds, said;
+    std::vector<double> starts;
+    std::optional<SupervisorEnd> end;
+
+  private:
+    void begin(int number) {
+        attempt = number;
+        running = true;
+        summary.reset();
+        starts.push_back(now);
+        note("start");
+    }
+    void note(const std::string& deed) { deeds.push_back(deed); }
+
+    Supervisor supervisor_;
+};
+
+}  // namespace treefarm::test

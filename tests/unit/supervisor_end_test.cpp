@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: Apache-2.0
+// How treefarm launch ends, on a clock of its own: when it gives up, and when a person stops it.
+#include <gtest/gtest.h>
+
+#include "coordinator/launch/supervisor.h"
+#include "tests/support/launch_world.h"
+
+namespace treefarm {
+namespace {
+
+using test::LaunchWorld;
+
+TEST(Supervisor, PausesGrowAndDeathsAtOnePlaceEndItAndNameIt) {
+    LaunchWorld world;
+    while (!world.end) {
+        world.run_to_pass(7);
+        world.die();
+        world.step();
+    }
+    EXPECT_EQ(world.attempt, 6);
+    EXPECT_EQ(world.end->code, 1);
+    EXPECT_TRUE(world.end->resumable);
+    EXPECT_EQ(world.end->words,
+              "the render's processes are gone in pass 7 on node1; given up after 6 attempts in a row that brought "
+              "nothing, all of which ended there");
+    const std::vector<double>& at = world.starts;
+    EXPECT_LT(at[1] - at[0], at[3] - at[2]);
+    EXPECT_GE(at[5] - at[4], 16);
+}
+
+TEST(Supervisor, DeathsAtSeveralPlacesNameTheLast) {
+    LaunchWorld world({.restarts = 1});
+    world.run_to_pass(3);
+    world.die();
+    world.run_to_pass(4);
+    world.die();
+    world.step();
+    ASSERT_TRUE(world.end);
+    EXPECT_EQ(world.end->words,
+              "the render's processes are gone in pass 4 on node1; given up after 2 attempts in a row that brought "
+              "nothing");
+}
+
+TEST(Supervisor, ProgressBeginsTheCountAnew) {
+    const auto deaths = [](const std::function<void(LaunchWorld&)>& progress) {
+        LaunchWorld world({.restarts = 2, .attempts = 20});
+        while (!world.end) {
+            world.run_to_pass();
+            progress(world);
+            world.step();
+            world.die();
+            world.step();
+        }
+        return world.attempt;
+    };
+    EXPECT_EQ(deaths([](LaunchWorld&) {}), 3);
+    EXPECT_EQ(deaths([](LaunchWorld& world) { ++world.checkpoint; }), 21) << "to the limit of all";
+    EXPECT_EQ(deaths([](LaunchWorld& world) { world.status->passes = static_cast<std::uint64_t>(world.attempt); }), 21);
+    EXPECT_EQ(deaths([](LaunchWorld& world) { world.status->renders = 1; }), 21);
+    EXPECT_EQ(deaths([](LaunchWorld& world) { world.checkpoint = 5; }), 3) << "the same checkpoint is no progress";
+    EXPECT_EQ(deaths([](LaunchWorld& world) { world.checkpoint = world.attempt == 3 ? 1 : 0; }), 5);
+}
+
+TEST(Supervisor, WithoutRestartsTheFirstDeathEndsIt) {
+    LaunchWorld world({.restarts = 0});
+    world.run_to_pass();
+    world.die();
+    world.step();
+    ASSERT_TRUE(world.end);
+    EXPECT_EQ(world.end->code, 1);
+    EXPECT_NE(world.end->words.find("no restarts are left"), std::string::npos);
+}
+
+TEST(Supervisor, AStopWaitsForWhatIsWritten) {
+    LaunchWorld world;
+    world.run_to_pass();
+    world.stop();
+    world.step();
+    EXPECT_TRUE(world.did("stop"));
+    world.status->phase = LifePhase::write;
+    world.pass(500, [&] { world.work(); });
+    EXPECT_FALSE(world.did("terminate"));
+    world.finish(3);
+    world.step();
+    ASSERT_TRUE(world.end);
+    EXPECT_EQ(world.end->code, 3);
+    EXPECT_TRUE(world.end->resumable);
+}
+
+TEST(Supervisor, AStopThatIsNotHeardEndsByForce) {
+    LaunchWorld world;
+    world.run_to_pass();
+    world.stop();
+    world.pass(31, [&] { world.work(); });
+    EXPECT_FALSE(world.did("terminate"));
+    world.pass(2, [&] { world.work(); });
+    EXPECT_TRUE(world.did("terminate")) << "it goes on rendering";
+    world.pass(3);
+    EXPECT_TRUE(world.did("kill"));
+    world.die();
+    world.step();
+    ASSERT_TRUE(world.end);
+    EXPECT_EQ(world.end->code, 3);
+    EXPECT_EQ(world.attempt, 1) << "a person's wish is no reason to start again";
+}
+
+TEST(Supervisor, ASecondStopGivesUpWhatIsNotWritten) {
+    LaunchWorld world;
+    world.run_to_pass();
+    world.stop();
+    world.step();
+    EXPECT_FALSE(world.did("terminate"));
+    world.stop();
+    world.step();
+    EXPECT_TRUE(world.did("terminate"));
+    world.pass(4);
+    EXPECT_TRUE(world.did("kill"));
+    world.die();
+    world.step();
+    ASSERT_TRUE(world.end);
+    EXPECT_EQ(world.end->code, 3);
+}
+
+TEST(Supervisor, AStopBeforeTheFirstSignOfLifeIsNoSignalThatNobodyKnows) {
+    LaunchWorld world;
+    world.step();
+    world.stop();
+    world.step();
+    EXPECT_FALSE(world.did("stop"));
+    EXPECT_TRUE(world.did("terminate"));
+    world.die();
+    world.step();
+    ASSERT_TRUE(world.end);
+    EXPECT_EQ(world.end->code, 3);
+}
+
+TEST(Supervisor, AStopBetweenTwoAttemptsStartsNone) {
+    LaunchWorld world;
+    world.run_to_pass();
+    world.die();
+    world.step();
+    world.stop();
+    world.pass(5);
+    ASSERT_TRUE(world.end);
+    EXPECT_EQ(world.end->code, 3);
+    EXPECT_EQ(world.attempt, 1);
+}
+
+TEST(Supervisor, OneThatEndsInOrderWhenItIsEndedForItsSilenceGoesOn) {
+    LaunchWorld world;
+    world.run_to_pass();
+    world.pass(31);
+    world.step();
+    ASSERT_TRUE(world.did("terminate"));
+    world.status->phase = LifePhase::end;
+    world.finish(3);  // it takes our SIGTERM for a person's
+    world.pass(3);
+    EXPECT_FALSE(world.end);
+    EXPECT_EQ(world.attempt, 2);
+    EXPECT_EQ(world.last_said(), "no sign of life for 31 s in pass 2 on node1; again in 1 s");
+}
+
+TEST(Supervisor, ARenderThatWasDoneBeforeItsSilenceIsDone) {
+    LaunchWorld world;
+    world.run_to_pass();
+    world.pass(32);
+    ASSERT_TRUE(world.did("terminate"));
+    world.finish(0);
+    world.step();
+    ASSERT_TRUE(world.end);
+    EXPECT_EQ(world.end->code, 0);
+}
+
+}  // namespace
+}  // namespace treefarm
