@@ -14,7 +14,7 @@ struct LaunchedCommand {
     std::vector<std::string> words;         ///< as typed: "render", "room.xml", "--spp", "64"
     std::filesystem::path folder;           ///< where results go; empty: a render that names none
     std::string scene;                      ///< of a render, for the name of a folder
-    std::vector<std::string> farm_options;  ///< those of the words that a resume takes, too
+    std::vector<std::string> farm_options;  ///< of the words, what a resume takes, too
 
     /// Its words for the first attempt, or for one that died before it had the folder.
     std::vector<std::string> first() const { return words; }

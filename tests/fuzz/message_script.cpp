@@ -154,9 +154,9 @@ Bytes any_message(Script& script, const Known& known) {
         case 6:
             return encode(any_pass(script, known));
         case 7:
-            return encode(
-                Want{likely(script, known.incarnation), likely(script, known.pass), likely(script, script.below(8)),
-                     script.one_in(4) ? script.number() : script.below(100)});
+            return encode(Want{likely(script, known.incarnation), likely(script, known.pass),
+                               likely(script, script.below(8)),
+                               script.one_in(4) ? script.number() : script.below(100)});
         case 8: {
             Work work{likely(script, known.pass), {}};
             for (std::uint32_t count = script.below(4); count > 0; --count)
