@@ -34,7 +34,7 @@ std::vector<std::string> environment_with(const std::string& variable) {
 }
 
 /// Between fork and exec: only what is safe there.
-[[noreturn]] void become(pid_t parent, int words, char* const* arguments, char* const* variables) {
+[[noreturn]] void become(pid_t parent, int words, bool all, char* const* arguments, char* const* variables) {
     setsid();
     prctl(PR_SET_PDEATHSIG, SIGTERM);
     if (getppid() != parent) _exit(127);  // it died before we asked to be told
@@ -46,6 +46,7 @@ std::vector<std::string> environment_with(const std::string& variable) {
     const int nothing = open("/dev/null", O_RDONLY);
     dup2(nothing, STDIN_FILENO);
     dup2(words, STDERR_FILENO);
+    if (all) dup2(words, STDOUT_FILENO);
     execvpe(arguments[0], arguments, variables);
     const char* const why = std::strerror(errno);
     for (const char* text : {"treefarm: cannot start ", static_cast<const char*>(arguments[0]), ": ", why, "\n"})
@@ -55,14 +56,14 @@ std::vector<std::string> environment_with(const std::string& variable) {
 
 }  // namespace
 
-ChildProcess::ChildProcess(const std::vector<std::string>& words, const std::string& variable) {
+ChildProcess::ChildProcess(const std::vector<std::string>& words, const std::string& variable, Heard heard) {
     std::vector<std::string> arguments = words, variables = environment_with(variable);
     const std::vector<char*> argument_list = pointers(arguments), variable_list = pointers(variables);
     int ends[2];
     if (pipe2(ends, O_CLOEXEC) != 0) throw RunError(std::string("cannot make a pipe: ") + std::strerror(errno));
     const pid_t parent = getpid();
     pid_ = fork();
-    if (pid_ == 0) become(parent, ends[1], argument_list.data(), variable_list.data());
+    if (pid_ == 0) become(parent, ends[1], heard == Heard::all, argument_list.data(), variable_list.data());
     const int error = errno;
     close(ends[1]);
     words_ = ends[0];

@@ -12,9 +12,10 @@ namespace treefarm {
 /// says on its standard error can be read; it has no input.
 class ChildProcess {
   public:
+    enum class Heard { errors, all };  ///< its standard error, or its standard output with it
     /// `variable`: "NAME=value", added to its environment. Throws RunError where it cannot be started; a program that
     /// is not there ends with code 127.
-    ChildProcess(const std::vector<std::string>& words, const std::string& variable);
+    ChildProcess(const std::vector<std::string>& words, const std::string& variable, Heard heard = Heard::errors);
     /// Kills it.
     ~ChildProcess();
     ChildProcess(const ChildProcess&) = delete;

@@ -51,7 +51,7 @@ std::set<std::string> unreachable_hosts(const std::vector<HostLine>& hosts) {
     for (const HostLine& line : hosts)
         if (!is_here(line.host))
             probes.emplace_back(std::piecewise_construct, std::forward_as_tuple(line.host),
-                                std::forward_as_tuple(probe_command(line.host), kNothing));
+                                std::forward_as_tuple(probe_command(line.host), kNothing, ChildProcess::Heard::all));
     const Timer timer;
     std::set<std::string> unreachable;
     while (!probes.empty() && timer.seconds() < kProbeSeconds) {
@@ -81,7 +81,7 @@ bool is_program(const std::string& name) {
 
 std::string words_of(const Words& command, double seconds) {
     if (!is_program(command.front())) return "";
-    ChildProcess child(command, kNothing);
+    ChildProcess child(command, kNothing, ChildProcess::Heard::all);
     const Timer timer;
     std::string words;
     while (child.running() && timer.seconds() < seconds) {

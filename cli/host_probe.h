@@ -16,7 +16,7 @@ std::set<std::string> unreachable_hosts(const std::vector<HostLine>& hosts);
 /// Whether a program is found where the shell would find it.
 bool is_program(const std::string& name);
 
-/// What a program prints on its standard error, killed after `seconds`; "" where it is not there.
+/// What a program prints, killed after `seconds`; "" where it is not there.
 std::string words_of(const std::vector<std::string>& command, double seconds);
 
 }  // namespace treefarm

@@ -3,6 +3,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
@@ -84,6 +85,8 @@ StartPlan LaunchPlanner::plan(const Places& places) const {
     plan.temporary = places.temporary;
     plan.shared_memory = places.shared_memory;
     plan.processes = options_.processes > 0 ? options_.processes : is_set("SLURM_JOB_ID") ? slurm_tasks() : 1;
+    const char* const nodes = std::getenv("SLURM_JOB_NUM_NODES");
+    plan.one_host = !(is_set("SLURM_JOB_ID") && nodes && std::atoi(nodes) > 1);
     if (hosts_) use_hosts(places, plan);
     return plan;
 }

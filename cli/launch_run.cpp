@@ -18,6 +18,7 @@
 #include "cli/attempt_processes.h"
 #include "cli/child_process.h"
 #include "cli/host_probe.h"
+#include "cli/interrupt.h"
 #include "cli/launch_folder.h"
 #include "cli/launch_plan.h"
 #include "cli/launch_signals.h"
@@ -251,6 +252,7 @@ class LaunchRun {
 }  // namespace
 
 int run_launch(const LaunchOptions& options) {
+    ignore_broken_pipes();
     return LaunchRun(options, read_launched_command(options.command)).run();
 }
 

@@ -24,31 +24,32 @@ void add_keepalive(Words& words) {
     add_parameter(words, "oob_tcp_keepalive_probes", "3");
 }
 
+void add_one_host(Words& words, const StartPlan& plan) {
+    add(words, {"--oversubscribe"});
+    add_parameter(words, "btl", "vader,self");
+    add_parameter(words, "oob_tcp_if_include", "lo");
+    if (!plan.shared_memory.empty()) add_parameter(words, "btl_vader_backing_directory", plan.shared_memory.string());
+}
+
 void add_hosts(Words& words, const StartPlan& plan) {
-    if (plan.hostfile.empty()) {
-        add(words, {"--oversubscribe"});
-        add_parameter(words, "btl", "vader,self");
-        add_parameter(words, "oob_tcp_if_include", "lo");
-        if (!plan.shared_memory.empty())
-            add_parameter(words, "btl_vader_backing_directory", plan.shared_memory.string());
-    } else {
-        add(words, {"--hostfile", plan.hostfile.string(), "--map-by", "node"});
-        if (plan.oversubscribed) add(words, {"--oversubscribe"});
-        add_parameter(words, "btl", "tcp,vader,self");
-        if (!plan.network.empty()) {
-            add_parameter(words, "btl_tcp_if_include", plan.network);
-            add_parameter(words, "oob_tcp_if_include", plan.network);
-        }
-        add_keepalive(words);
+    if (!plan.hostfile.empty()) add(words, {"--hostfile", plan.hostfile.string()});
+    add(words, {"--map-by", "node"});
+    if (plan.oversubscribed) add(words, {"--oversubscribe"});
+    add_parameter(words, "btl", "tcp,vader,self");
+    if (!plan.network.empty()) {
+        add_parameter(words, "btl_tcp_if_include", plan.network);
+        add_parameter(words, "oob_tcp_if_include", plan.network);
     }
-    // Where ranks outnumber cores a message would wait for a time slice.
-    if (plan.hostfile.empty() || plan.oversubscribed) add_parameter(words, "mpi_yield_when_idle", "1");
+    add_keepalive(words);
 }
 
 Words mpirun_words(const StartPlan& plan) {
     Words words = {plan.mpirun, "-n", std::to_string(plan.processes), "--bind-to", "none"};
     if (plan.recovery) add(words, {"--enable-recovery"});
-    add_hosts(words, plan);
+    const bool alone = plan.hostfile.empty() && plan.one_host;
+    alone ? add_one_host(words, plan) : add_hosts(words, plan);
+    // Where ranks outnumber cores a message would wait for a time slice.
+    if (alone || plan.oversubscribed) add_parameter(words, "mpi_yield_when_idle", "1");
     add_parameter(words, "pml", "ob1");
     if (!plan.temporary.empty()) add_parameter(words, "orte_tmpdir_base", plan.temporary.string());
     add(words, {"-x", kAttemptVariable});

@@ -19,8 +19,9 @@ struct StartPlan {
     std::string mpirun = "mpirun";
     std::string program;  ///< this one's path, on all hosts
     int processes = 1;
+    bool one_host = true;                   ///< without a hostfile: mpirun itself knows no other
     bool recovery = true;                   ///< a rank that dies does not end the others
-    std::filesystem::path hostfile{};       ///< empty: this host alone
+    std::filesystem::path hostfile{};       ///< empty: this host, or those of a Slurm allocation
     bool oversubscribed = false;            ///< more processes than the hostfile has slots
     std::string network{};                  ///< that Open MPI is to use, "10.0.0.0/24"; empty: its choice
     std::filesystem::path temporary{};      ///< folder for Open MPI's own files

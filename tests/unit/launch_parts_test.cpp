@@ -64,6 +64,13 @@ TEST(StartCommand, HostsAreUsedAsTheyAreNamed) {
     EXPECT_TRUE(has(command(plan), " --oversubscribe "));
 }
 
+TEST(StartCommand, MpirunKnowsTheHostsOfAnAllocation) {
+    const std::string text = command({.program = "/bin/treefarm", .processes = 3, .one_host = false});
+    EXPECT_TRUE(has(text, " --mca btl tcp,vader,self ")) << text;
+    EXPECT_FALSE(has(text, " lo ")) << text;
+    EXPECT_FALSE(has(text, "--hostfile")) << text;
+}
+
 TEST(StartCommand, SlurmStartsByPmix) {
     StartPlan plan{.starter = Starter::srun, .program = "/bin/treefarm", .processes = 9, .left_out = {"n2", "n5"}};
     EXPECT_EQ(command(plan), " srun --mpi=pmix -n 9 -K0 --no-kill --exclude=n2,n5 /bin/treefarm render x.xml ");
