@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cstdio>
 #include <thread>
+#include <utility>
 
 #include "cli/launch.h"
 #include "common/base/host.h"
@@ -82,6 +83,15 @@ AnyModel learn_tree(const RenderRequest& request, const std::vector<PassPlan>& p
     return std::move(state.tree);
 }
 
+/// The tree that guides a pass, and the pass with the kernel that goes with it.
+std::pair<AnyModel, PassPlan> tree_and_pass(const RenderRequest& request, const std::vector<PassPlan>& plans,
+                                            std::uint32_t index) {
+    AnyModel tree = learn_tree(request, plans, index);
+    PassPlan pass = plans[index];
+    pass.kernel = kernel_of(request.plan.job, pass, facts_of(tree));
+    return {std::move(tree), pass};
+}
+
 /// As many numbers, separated by commas; InputError if the text is not that.
 std::vector<std::uint32_t> parse_numbers(const std::string& text, std::size_t count) {
     std::vector<std::uint32_t> values(count);
@@ -129,9 +139,7 @@ int debug_sample(const RenderRequest& request, const SampleName& name) {
     if (name.pass >= plans.size() || name.x >= film.width || name.y >= film.height ||
         name.sample >= plans[name.pass].spp)
         refuse_place(request, plans, "sample");
-    const AnyModel tree = learn_tree(request, plans, name.pass);
-    PassPlan pass = plans[name.pass];
-    pass.kernel = kernel_of(request.plan.job, pass, facts_of(tree));
+    const auto [tree, pass] = tree_and_pass(request, plans, name.pass);
     const TraceScene scene(request.scene, request.job);
     const std::string text =
         describe_sample(scene, request.plan.job, pass, AnySampler(tree), name.x, name.y, name.sample);
@@ -151,9 +159,7 @@ int debug_tile(const RenderRequest& request, const std::string& text) {
     if (n[0] >= plans.size() || n[1] >= n[3] || n[2] >= n[4] || n[3] > width || n[4] > height ||
         n[5] >= plans[n[0]].chunks)
         refuse_place(request, plans, "tile");
-    const AnyModel tree = learn_tree(request, plans, n[0]);
-    PassPlan pass = plans[n[0]];
-    pass.kernel = kernel_of(request.plan.job, pass, facts_of(tree));
+    const auto [tree, pass] = tree_and_pass(request, plans, n[0]);
     const RenderUnit render = make_renderer(encode_scene(request.scene), request.plan.job);
     const AnySampler guide(tree);
     UnitOutput output;

@@ -5,14 +5,10 @@
 
 namespace treefarm {
 
-namespace {
-
 bool is_ignored(int number) {
     struct sigaction action {};
     return sigaction(number, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
 }
-
-}  // namespace
 
 void ignore_broken_pipes() {
     signal(SIGPIPE, SIG_IGN);

@@ -7,18 +7,10 @@
 #include <cerrno>
 #include <cstring>
 
+#include "cli/interrupt.h"
 #include "common/base/error.h"
 
 namespace treefarm {
-
-namespace {
-
-bool is_ignored(int number) {
-    struct sigaction action {};
-    return sigaction(number, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
-}
-
-}  // namespace
 
 LaunchSignals::LaunchSignals() {
     sigset_t watched;

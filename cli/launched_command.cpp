@@ -4,12 +4,12 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
+#include "cli/refuse.h"
 #include "cli/render.h"
 #include "cli/render_shot.h"
 #include "cli/resume.h"
 #include "cli/study.h"
 #include "cli/usage.h"
-#include "common/base/error.h"
 #include "common/config/job_reader.h"
 #include "common/config/study.h"
 
@@ -18,10 +18,6 @@ namespace treefarm {
 namespace {
 
 using Words = std::vector<std::string>;
-
-[[noreturn]] void refuse(const std::string& what, const std::string& cure) {
-    throw InputError(Location{"launch", 0, 0}, what, cure);
-}
 
 /// Last value of an option; "" without.
 std::string value_of(const CLI::App& command, const std::string& option) {
@@ -49,7 +45,7 @@ Words farm_options(const CLI::App& command) {
 
 void read_render(const CLI::App& command, LaunchedCommand& launched) {
     if (command.get_option("--debug-sample")->count() > 0)
-        refuse("--debug-sample traces one sample in one process", "leave launch away");
+        refuse("launch", "--debug-sample traces one sample in one process", "leave launch away");
     RenderOptions options;
     options.input = value_of(command, "input");
     options.run_directory = value_of(command, "--run-dir");
@@ -71,12 +67,12 @@ void read_resume(const CLI::App& command, LaunchedCommand& launched) {
     launched.kind = LaunchedCommand::Kind::resume;
     launched.folder = value_of(command, "run");
     if (!std::filesystem::exists(launched.folder / "job.toml"))
-        throw InputError(Location{launched.folder.string(), 0, 0}, "is no run directory",
-                         "name the folder that a render wrote its files to");
+        refuse(launched.folder, "is no run directory", "name the folder that a render wrote its files to");
 }
 
 void read_study_command(const CLI::App& command, LaunchedCommand& launched) {
-    if (command.get_option("--dry-run")->count() > 0) refuse("--dry-run renders nothing", "leave launch away");
+    if (command.get_option("--dry-run")->count() > 0)
+        refuse("launch", "--dry-run renders nothing", "leave launch away");
     launched.kind = LaunchedCommand::Kind::study;
     const std::string folder = value_of(command, "--dir");
     launched.folder = folder.empty() ? read_study(value_of(command, "input")).directory : folder;
@@ -110,22 +106,22 @@ Words LaunchedCommand::again(bool has_checkpoint) const {
 }
 
 LaunchedCommand read_launched_command(const Words& words) {
-    if (words.empty()) refuse("has nothing to launch", "write treefarm launch -n 3 -- render scene.xml");
+    if (words.empty()) refuse("launch", "has nothing to launch", "write treefarm launch -n 3 -- render scene.xml");
     int no_code = 0;
     CLI::App app("", "treefarm");
     app.require_subcommand(1);
     add_commands(app, no_code);
     if (const std::string& name = words.front(); name != "render" && name != "resume" && name != "study")
-        refuse("\"" + words.front() + "\" cannot be launched", "name render, resume or study behind --");
-    if (const std::string message = malformed_argument(words); !message.empty()) refuse(message, "");
+        refuse("launch", "\"" + words.front() + "\" cannot be launched", "name render, resume or study behind --");
+    if (const std::string message = malformed_argument(words); !message.empty()) refuse("launch", message, "");
     try {
         Words reversed(words.rbegin(), words.rend());
         app.parse(reversed);
     } catch (const Checked&) {
     } catch (const CLI::Success&) {
-        refuse("asks for help or a version, which is no render", "treefarm " + words.front() + " --help");
+        refuse("launch", "asks for help or a version, which is no render", "treefarm " + words.front() + " --help");
     } catch (const CLI::ParseError& error) {
-        refuse(usage_message(app, error, words), "");
+        refuse("launch", usage_message(app, error, words), "");
     }
     LaunchedCommand launched;
     launched.words = words;

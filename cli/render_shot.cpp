@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "cli/exit_code.h"
+#include "cli/refuse.h"
 #include "cli/resume.h"
 #include "cli/this_build.h"
 #include "common/config/frames.h"
@@ -51,9 +52,6 @@ RenderRequest frame_request(const RenderOptions& shot_options, const Shot& shot,
 }
 
 void check(const RenderOptions& options, std::size_t frame_count) {
-    const auto refuse = [](const char* option, const std::string& what, const std::string& cure) {
-        throw InputError(Location{option, 0, 0}, what, cure);
-    };
     if (!options.debug_sample.empty())
         refuse("--debug-sample", "traces one sample of one render", "leave --frames away, and give -D its value");
     if (!options.schedule.empty())

@@ -242,9 +242,9 @@ Speeds Farm::speeds() const {
 
 /// Gives a worker its portion of what is left. One that got less than it wants asks again when it has finished
 /// something. False if nothing is left, not even a copy of what somebody slow has.
-bool Farm::serve(Member& member) {
-    if (ledger_->waiting() + ledger_->suspects() == 0) return serve_copies(member);
-    const Portion portion = speeds().portion(member.peer, member.credit, member.queued, ledger_->waiting_paths());
+bool Farm::serve(Member& member, const Speeds& all) {
+    if (ledger_->waiting() + ledger_->suspects() == 0) return serve_copies(member, all);
+    const Portion portion = all.portion(member.peer, member.credit, member.queued, ledger_->waiting_paths());
     Work work{pass_->plan.index, ledger_->issue(member.peer, portion)};
     work.alone = ledger_->has_suspect(member.peer);
     for (const WorkUnit& unit : work.units)
@@ -267,9 +267,8 @@ void Farm::tell_end() {
 }
 
 /// Gives an idle worker copies of what slower ones still have.
-bool Farm::serve_copies(Member& member) {
+bool Farm::serve_copies(Member& member, const Speeds& all) {
     if (member.credit == 0 || clock_.seconds() - ended_ < kSettleSeconds) return false;
-    const Speeds all = speeds();
     Work work{pass_->plan.index, ledger_->issue_copies(member.peer, std::min(member.credit, member.hello.threads),
                                                        [&](int holder, std::uint64_t paths) {
                                                            return all.gain(member.peer, paths, holder,
@@ -283,8 +282,9 @@ bool Farm::serve_copies(Member& member) {
 }
 
 void Farm::serve_all() {
+    const Speeds all = speeds();
     for (Member* member : roster_.present())
-        if (member->credit > 0) serve(*member);
+        if (member->credit > 0) serve(*member, all);
 }
 
 void Farm::give_up(Member& member, MemberState state, const std::string& why) {

@@ -109,8 +109,8 @@ class Farm {
     void give_up(Member& member, MemberState state, const std::string& why);
     void announce(int peer);
     Speeds speeds() const;
-    bool serve(Member& member);
-    bool serve_copies(Member& member);
+    bool serve(Member& member, const Speeds& all);
+    bool serve_copies(Member& member, const Speeds& all);
     void serve_all();
     void tell_end();
     BlobName name_of(Blob blob) const;

@@ -136,7 +136,7 @@ void Farm::on(int peer, const Want& m) {
     if (std::erase(not_ready_, peer) > 0 && not_ready_.empty()) broadcast_seconds_ = clock_.seconds() - pass_began_;
     member->credit += std::min(m.units, kMostCredit - member->credit);
     member->queued = m.queued;
-    if (!serve(*member) && !std::exchange(member->told_end, true)) tell(peer, Work{m.pass, {}});
+    if (!serve(*member, speeds()) && !std::exchange(member->told_end, true)) tell(peer, Work{m.pass, {}});
 }
 
 void Farm::on(Member& member, const Heartbeat& m) {

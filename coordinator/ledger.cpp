@@ -52,6 +52,10 @@ bool Ledger::cut_front(std::uint64_t most_paths) {
 
 void Ledger::hold(const WorkUnit& unit, int worker) {
     holders_[unit] = {worker, -1, issued_++};
+    burden(worker, unit);
+}
+
+void Ledger::burden(int worker, const WorkUnit& unit) {
     Load& load = loads_[worker];
     ++load.units;
     load.paths += paths(unit);
@@ -116,9 +120,7 @@ std::vector<WorkUnit> Ledger::issue_copies(int worker, std::size_t count,
         if (units.size() == count) break;
         units.push_back(candidate.unit);
         holders_[candidate.unit].second = worker;
-        Load& load = loads_[worker];
-        ++load.units;
-        load.paths += paths(candidate.unit);
+        burden(worker, candidate.unit);
     }
     copies_ += units.size();
     return units;

@@ -104,6 +104,7 @@ class Ledger {
     void hold(const WorkUnit& unit, int worker);
     void put_back(const WorkUnit& unit);
     bool release(std::map<WorkUnit, Holders>::iterator held, int worker);
+    void burden(int worker, const WorkUnit& unit);
     void lighten(int worker, const WorkUnit& unit);
 
     const std::uint32_t unit_spp_;  ///< samples of a pixel in a tile

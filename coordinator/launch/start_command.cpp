@@ -47,7 +47,10 @@ Words mpirun_words(const StartPlan& plan) {
     Words words = {plan.mpirun, "-n", std::to_string(plan.processes), "--bind-to", "none"};
     if (plan.recovery) add(words, {"--enable-recovery"});
     const bool alone = plan.hostfile.empty() && plan.one_host;
-    alone ? add_one_host(words, plan) : add_hosts(words, plan);
+    if (alone)
+        add_one_host(words, plan);
+    else
+        add_hosts(words, plan);
     // Where ranks outnumber cores a message would wait for a time slice.
     if (alone || plan.oversubscribed) add_parameter(words, "mpi_yield_when_idle", "1");
     add_parameter(words, "pml", "ob1");
@@ -60,8 +63,6 @@ Words mpirun_words(const StartPlan& plan) {
 Words srun_words(const StartPlan& plan) {
     Words words = {"srun", "--mpi=pmix", "-n", std::to_string(plan.processes)};
     if (plan.recovery) add(words, {"-K0", "--no-kill"});
-    for (std::size_t k = 0; k < plan.left_out.size(); ++k)
-        k == 0 ? words.push_back("--exclude=" + plan.left_out[k]) : (words.back() += "," + plan.left_out[k], void());
     return words;
 }
 

@@ -26,7 +26,6 @@ struct StartPlan {
     std::string network{};                  ///< that Open MPI is to use, "10.0.0.0/24"; empty: its choice
     std::filesystem::path temporary{};      ///< folder for Open MPI's own files
     std::filesystem::path shared_memory{};  ///< folder for memory that ranks of this host share; empty: the usual one
-    std::vector<std::string> left_out{};    ///< hosts of the Slurm allocation that are not used
 };
 
 /// The command that starts `words`, the program's arguments.

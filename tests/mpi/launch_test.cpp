@@ -43,27 +43,12 @@ std::vector<std::string> plain(const fs::path& folder, const std::vector<std::st
 /// A render that ends only when somebody ends it.
 const std::vector<std::string> kEndless = {"--spp", "100000000"};
 
-struct Hashes {
-    std::string image, tree;
-    bool operator==(const Hashes&) const = default;
-};
-
-std::ostream& operator<<(std::ostream& out, const Hashes& h) {
-    return out << "image " << h.image << " tree " << h.tree;
-}
-
-Hashes hashes(const fs::path& folder) {
-    const nlohmann::json summary = read_summary(folder);
-    EXPECT_EQ(summary["state"], "done");
-    return {summary["image_hash"], summary["tree_hash"]};
-}
-
-const Hashes& never_stopped() {
-    static const Hashes truth = [] {
+const RunHashes& never_stopped() {
+    static const RunHashes truth = [] {
         const fs::path folder = fresh_folder("whole");
         const Ending ending = Program(plain(folder)).wait(kSoon);
         EXPECT_EQ(ending.code, 0) << ending.output;
-        return hashes(folder);
+        return hashes_of(folder);
     }();
     return truth;
 }
@@ -135,7 +120,7 @@ TEST(Launch, ACalmRenderIsThePlainOne) {
         const fs::path folder = fresh_folder("run");
         const Ending ending = Program(launch(processes) + render(folder)).wait(kSoon);
         EXPECT_EQ(ending.code, 0) << ending.output;
-        EXPECT_EQ(hashes(folder), never_stopped());
+        EXPECT_EQ(hashes_of(folder), never_stopped());
         EXPECT_TRUE(read_summary(folder)["attempt"].get<std::string>().ends_with(".1"));
         EXPECT_NE(ending.output.find("pass 8/8"), std::string::npos) << "what the render says is relayed";
         EXPECT_NE(text_of(folder / "launch/log").find("attempt 1: "), std::string::npos);
@@ -156,7 +141,7 @@ TEST(Launch, WhoeverIsKilledItGoesOnToTheSameBits) {
         EXPECT_GT(kill_started(folder, which), 0) << name;
         const Ending ending = program.wait(kSoon);
         EXPECT_EQ(ending.code, 0) << name << ": " << ending.output;
-        EXPECT_EQ(hashes(folder), never_stopped()) << name;
+        EXPECT_EQ(hashes_of(folder), never_stopped()) << name;
         EXPECT_EQ(passes_done(folder), 8) << name;
         expect_nothing_left(folder);
     }
@@ -171,7 +156,7 @@ TEST(Launch, OneThatIsKilledAgainAndAgainComesToItsEnd) {
     }
     const Ending ending = program.wait(kSoon);
     EXPECT_EQ(ending.code, 0) << ending.output;
-    EXPECT_EQ(hashes(folder), never_stopped());
+    EXPECT_EQ(hashes_of(folder), never_stopped());
     expect_nothing_left(folder);
 }
 
@@ -182,7 +167,7 @@ TEST(Launch, WithoutACheckpointItBeginsAnew) {
     kill_started(folder, [](const Started&) { return true; });
     const Ending ending = program.wait(kSoon);
     EXPECT_EQ(ending.code, 0) << ending.output;
-    EXPECT_EQ(hashes(folder), never_stopped());
+    EXPECT_EQ(hashes_of(folder), never_stopped());
 }
 
 TEST(Launch, ASignalStopsItInOrder) {
@@ -214,7 +199,7 @@ TEST(Launch, AStoppedOneGoesOnUnderLaunch) {
     const Ending ending =
         Program(launch(3) + std::vector<std::string>{"resume", folder.string(), "--threads", "2"}).wait(kSoon);
     EXPECT_EQ(ending.code, 0) << ending.output;
-    EXPECT_EQ(hashes(folder), never_stopped());
+    EXPECT_EQ(hashes_of(folder), never_stopped());
 }
 
 TEST(Launch, BadInputEndsItAtOnce) {
@@ -251,14 +236,14 @@ TEST(Launch, BadUsageIsSeenBeforeAnythingIsStarted) {
 TEST(Launch, ARenderThatIsThereIsNotReplaced) {
     const fs::path folder = fresh_folder("run");
     ASSERT_EQ(Program(plain(folder, {"--spp", "4"})).wait(kSoon).code, 0);
-    const Hashes before = hashes(folder);
+    const RunHashes before = hashes_of(folder);
     const Ending refused = Program(launch(1) + render(folder)).wait(kSoon);
     EXPECT_EQ(refused.code, 2) << refused.output;
-    EXPECT_EQ(hashes(folder), before);
+    EXPECT_EQ(hashes_of(folder), before);
     EXPECT_FALSE(fs::exists(folder / "launch"));
     const Ending replaced = Program(launch(1) + render(folder) + std::vector<std::string>{"--overwrite"}).wait(kSoon);
     EXPECT_EQ(replaced.code, 0) << replaced.output;
-    EXPECT_EQ(hashes(folder), never_stopped());
+    EXPECT_EQ(hashes_of(folder), never_stopped());
 }
 
 TEST(Launch, TwoDoNotWatchOneFolder) {
@@ -327,7 +312,7 @@ TEST(Launch, TheExitCodeOfMpirunIsNotBelieved) {
         const std::string mpirun = false_mpirun(std::string(kRun) + code).string();
         const Ending ending = Program(launch(2, {"--mpirun", mpirun}) + render(folder)).wait(kSoon);
         EXPECT_EQ(ending.code, 0) << code << ending.output;
-        EXPECT_EQ(hashes(folder), never_stopped());
+        EXPECT_EQ(hashes_of(folder), never_stopped());
     }
     const fs::path folder = fresh_folder("run");
     const std::string mpirun = false_mpirun("exit 0").string();
@@ -341,7 +326,7 @@ TEST(Launch, AnMpirunThatStaysAndIsDeafIsEndedAfterTheResult) {
     const Ending ending = Program(launch(2, {"--mpirun", mpirun}) + render(folder)).wait(kSoon);
     EXPECT_FALSE(ending.timed_out);
     EXPECT_EQ(ending.code, 0) << ending.output;
-    EXPECT_EQ(hashes(folder), never_stopped());
+    EXPECT_EQ(hashes_of(folder), never_stopped());
     EXPECT_EQ(ending.output.find("again in"), std::string::npos) << ending.output;
     expect_nothing_left(folder);
 }

@@ -149,6 +149,16 @@ nlohmann::json read_summary(const std::filesystem::path& run_directory) {
     return nlohmann::json::parse(read_text(path));
 }
 
+std::ostream& operator<<(std::ostream& out, const RunHashes& hashes) {
+    return out << "image " << hashes.image << " tree " << hashes.tree;
+}
+
+RunHashes hashes_of(const std::filesystem::path& run_directory) {
+    const nlohmann::json summary = read_summary(run_directory);
+    EXPECT_EQ(summary["state"], "done");
+    return {summary["image_hash"], summary["tree_hash"]};
+}
+
 int passes_done(const std::filesystem::path& run_directory) {
     const std::string text = read_text(run_directory / "passes.csv");
     return static_cast<int>(std::count(text.begin(), text.end(), '\n')) - (text.empty() ? 0 : 1);

@@ -58,6 +58,15 @@ std::filesystem::path fresh_folder(const std::string& name);
 
 nlohmann::json read_summary(const std::filesystem::path& run_directory);
 
+/// What the image and the tree of a render are told from others by.
+struct RunHashes {
+    std::string image, tree;
+    bool operator==(const RunHashes&) const = default;
+};
+std::ostream& operator<<(std::ostream& out, const RunHashes& hashes);
+/// Those of a render, which is expected to be done.
+RunHashes hashes_of(const std::filesystem::path& run_directory);
+
 /// Lines of passes.csv without the header; 0 if it is not there.
 int passes_done(const std::filesystem::path& run_directory);
 

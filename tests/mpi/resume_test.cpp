@@ -36,27 +36,12 @@ std::vector<std::string> launcher(int ranks) {
     return ranks > 1 ? mpirun(ranks) : std::vector<std::string>();
 }
 
-struct Hashes {
-    std::string image, tree;
-    bool operator==(const Hashes&) const = default;
-};
-
-std::ostream& operator<<(std::ostream& out, const Hashes& h) {
-    return out << "image " << h.image << " tree " << h.tree;
-}
-
-Hashes hashes(const fs::path& folder) {
-    const nlohmann::json summary = read_summary(folder);
-    EXPECT_EQ(summary["state"], "done");
-    return {summary["image_hash"], summary["tree_hash"]};
-}
-
-const Hashes& never_stopped() {
-    static const Hashes truth = [] {
+const RunHashes& never_stopped() {
+    static const RunHashes truth = [] {
         const fs::path folder = fresh_folder("whole");
         const Ending ending = Program(render(folder)).wait(kSoon);
         EXPECT_EQ(ending.code, 0) << ending.output;
-        return hashes(folder);
+        return hashes_of(folder);
     }();
     return truth;
 }
@@ -110,7 +95,7 @@ TEST(Resume, AKilledProgramGoesOnUnderAnyNumberOfRanks) {
         if (fs::exists(folder / "summary.json")) continue;  // it was done before
         ++resumes;
         EXPECT_EQ(resumed(after, folder, {"--threads", std::to_string(1 + k++ % 3)}), 0);
-        EXPECT_EQ(hashes(folder), never_stopped()) << before << " ranks, then " << after;
+        EXPECT_EQ(hashes_of(folder), never_stopped()) << before << " ranks, then " << after;
         EXPECT_EQ(passes_done(folder), 8) << "passes.csv has no hole";
     }
     EXPECT_GT(resumes, 0) << "none was killed in time";
@@ -123,7 +108,7 @@ TEST(Resume, AnInterruptedProgramGoesOn) {
     program.signal(SIGINT);
     EXPECT_EQ(program.wait(kSoon).code, 3);
     EXPECT_EQ(resumed(2, folder), 0);
-    EXPECT_EQ(hashes(folder), never_stopped());
+    EXPECT_EQ(hashes_of(folder), never_stopped());
 }
 
 TEST(Resume, AGrownBudgetAndATimedOneAreWhatTheirScheduleReplays) {
@@ -141,7 +126,7 @@ TEST(Resume, AGrownBudgetAndATimedOneAreWhatTheirScheduleReplays) {
                                        (folder / "schedule.toml").string(), "--run-dir", again.string()})
                                   .wait(kSoon);
         ASSERT_EQ(replay.code, 0) << replay.output;
-        EXPECT_EQ(hashes(again), hashes(folder)) << more[0];
+        EXPECT_EQ(hashes_of(again), hashes_of(folder)) << more[0];
     }
 }
 
@@ -167,7 +152,7 @@ TEST(Resume, WhereTheNewestIsDamagedTheOneBeforeIsUsed) {
     const Ending ending = Program(resume(folder)).wait(kSoon);
     EXPECT_EQ(ending.code, 0) << ending.output;
     EXPECT_NE(ending.output.find(newest.filename().string() + " is cut off at "), std::string::npos) << ending.output;
-    EXPECT_EQ(hashes(folder), never_stopped());
+    EXPECT_EQ(hashes_of(folder), never_stopped());
 }
 
 TEST(Resume, OnlyItsOwnRenderGoesOn) {
@@ -178,7 +163,7 @@ TEST(Resume, OnlyItsOwnRenderGoesOn) {
     EXPECT_NE(refusal(folder, {"--set", "sampler.seed=3"}).find("sampler.seed was \"0\", is \"3\""), std::string::npos);
     EXPECT_NE(refusal(folder, {"--set", "farm.isa=sse2"}).find("farm.isa was"), std::string::npos);
     EXPECT_EQ(resumed(1, folder, {"--set", "farm.tile_size=7", "--set", "output.half=true"}), 0);
-    EXPECT_EQ(hashes(folder), never_stopped());
+    EXPECT_EQ(hashes_of(folder), never_stopped());
     EXPECT_NE(refusal(folder).find("is done (255 spp); add samples with --spp N above that"), std::string::npos);
     EXPECT_NE(refusal(folder, {"--spp", "100"}).find("is done (255 spp)"), std::string::npos);
 }

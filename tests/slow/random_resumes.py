@@ -20,7 +20,7 @@ import tempfile
 import time
 
 BUDGETS = (["--spp", "255"], ["--spp", "255"], ["--spp", "255"], ["--seconds", "4"], ["--error", "20%"])
-GUIDES = ("auto", "view", "ppg", "none", "grid")
+GUIDES = ("auto", "view", "ppg", "none", "grid", "qtable")
 
 
 def environment():

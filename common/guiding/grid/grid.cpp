@@ -30,15 +30,9 @@ GridModel GridLearner::learn(const GridModel& model, const CellSums& sums, const
     if (sums.cells().size() != model.mass.size() || sums.counts().size() != model.leaf_count())
         throw RunError("the sums to learn from belong to another grid");
     GridModel next = model;
-    next.pass = model.pass + 1;
-    next.trained = true;
+    advance_even_regions(next, report);
     next.flux.resize(settings.with_flux ? model.leaf_count() : 0);
-    report = {};
-    report.spatial_depth = spatial_depth(model);
-    report.directional_depth = kStrataDepth;
-    report.mean_cells = kStrata;
     for (std::uint32_t r = 0; r < model.leaf_count(); ++r) {
-        report.origins.push_back({r, 0});
         std::array<double, kStrata> energy;
         for (std::uint32_t s = 0; s < kStrata; ++s)
             energy[s] = static_cast<double>(sums.cells()[r * kStrata + s]);
@@ -59,11 +53,7 @@ GridModel GridLearner::learn(const GridModel& model, const CellSums& sums, const
 
 GridModel GridGuide::first(const Box3& bounds, const FirstModel& settings) {
     GridModel model;
-    set_cube(model, bounds);
-    const std::uint32_t regions = add_even_regions(model, settings.grid_halvings);
-    model.quantum_exponent.assign(regions, quantum_exponent_for(settings.radiance_scale));
-    model.bsdf_fraction.assign(regions, settings.bsdf_fraction);
-    if (settings.with_lights) model.light_probabilities.assign(regions, kChoiceByPower);
+    const std::uint32_t regions = begin_even_regions(model, bounds, settings);
     model.mass.assign(std::size_t{regions} * kStrata, kOne / kStrata);
     return model;
 }
@@ -81,9 +71,7 @@ GridModel GridGuide::decode(std::span<const std::uint8_t> bytes) {
     const Bytes raw = unpack_model(kMagic, kVersion, bytes);
     ByteReader in(raw);
     GridModel model;
-    const std::uint32_t regions = read_regions(in, model);
-    if (model.quantum_exponent.size() != regions) throw FormatError("a grid's regions do not match its nodes");
-    read_optional(in, model, regions);
+    const std::uint32_t regions = read_even_regions(in, model);
     if (std::size_t{regions} * kStrata > in.remaining()) throw FormatError("a grid's strata are cut short");
     for (std::uint32_t r = 0; r < regions; ++r) {
         std::uint64_t left = kOne;
@@ -97,16 +85,6 @@ GridModel GridGuide::decode(std::span<const std::uint8_t> bytes) {
     }
     in.expect_end();
     return model;
-}
-
-ModelFigures GridGuide::figures(const GridModel& model) {
-    ModelFigures figures;
-    figures.nodes = model.nodes.size();
-    figures.regions = model.leaf_count();
-    figures.cells = model.mass.size();
-    figures.spatial_depth = spatial_depth(model);
-    figures.directional_depth = kStrataDepth;
-    return figures;
 }
 
 }  // namespace treefarm

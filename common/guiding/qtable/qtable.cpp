@@ -38,15 +38,9 @@ QTableModel QTableLearner::learn(const QTableModel& model, const CellSums& sums,
     if (sums.cells().size() != cells || sums.visits().size() != cells || sums.counts().size() != model.leaf_count())
         throw RunError("the sums to learn from belong to another table");
     QTableModel next = model;
-    next.pass = model.pass + 1;
-    next.trained = true;
-    report = {};
-    report.spatial_depth = spatial_depth(model);
-    report.directional_depth = kStrataDepth;
-    report.mean_cells = kStrata;
+    advance_even_regions(next, report);
     visits_.resize(cells);
     for (std::uint32_t r = 0; r < model.leaf_count(); ++r) {
-        report.origins.push_back({r, 0});
         double recorded = 0;
         for (std::size_t c = r * std::size_t{kStrata}; c < (r + 1) * std::size_t{kStrata}; ++c) {
             const auto sum = static_cast<double>(sums.cells()[c]);
@@ -66,11 +60,7 @@ QTableModel QTableLearner::learn(const QTableModel& model, const CellSums& sums,
 
 QTableModel QTableGuide::first(const Box3& bounds, const FirstModel& settings) {
     QTableModel model;
-    set_cube(model, bounds);
-    const std::uint32_t regions = add_even_regions(model, settings.grid_halvings);
-    model.quantum_exponent.assign(regions, quantum_exponent_for(settings.radiance_scale));
-    model.bsdf_fraction.assign(regions, settings.bsdf_fraction);
-    if (settings.with_lights) model.light_probabilities.assign(regions, kChoiceByPower);
+    const std::uint32_t regions = begin_even_regions(model, bounds, settings);
     model.q.assign(std::size_t{regions} * kStrata, 0.0f);
     return model;
 }
@@ -87,9 +77,7 @@ QTableModel QTableGuide::decode(std::span<const std::uint8_t> bytes) {
     const Bytes raw = unpack_model(kMagic, kVersion, bytes);
     ByteReader in(raw);
     QTableModel model;
-    const std::uint32_t regions = read_regions(in, model);
-    if (model.quantum_exponent.size() != regions) throw FormatError("a table's regions do not match its nodes");
-    read_optional(in, model, regions);
+    const std::uint32_t regions = read_even_regions(in, model);
     model.q = in.get_array<float>();
     if (model.q.size() != std::size_t{regions} * kStrata)
         throw FormatError("a table's strata do not match its regions");
@@ -97,16 +85,6 @@ QTableModel QTableGuide::decode(std::span<const std::uint8_t> bytes) {
         if (!(q >= 0.0f && std::isfinite(q))) throw FormatError("a radiance of a table is out of range");
     in.expect_end();
     return model;
-}
-
-ModelFigures QTableGuide::figures(const QTableModel& model) {
-    ModelFigures figures;
-    figures.nodes = model.nodes.size();
-    figures.regions = model.leaf_count();
-    figures.cells = model.q.size();
-    figures.spatial_depth = spatial_depth(model);
-    figures.directional_depth = kStrataDepth;
-    return figures;
 }
 
 }  // namespace treefarm

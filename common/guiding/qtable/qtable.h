@@ -87,7 +87,7 @@ struct QTableGuide {
     static QTableModel first(const Box3& bounds, const FirstModel& settings);
     static Bytes encode(const QTableModel& model);
     static QTableModel decode(std::span<const std::uint8_t> bytes);
-    static ModelFigures figures(const QTableModel& model);
+    static ModelFigures figures(const QTableModel& model) { return even_figures(model); }
 };
 
 }  // namespace treefarm

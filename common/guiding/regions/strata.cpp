@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "common/guiding/regions/light_probabilities.h"
 #include "common/math/direction_map.h"
 
 namespace treefarm {
@@ -27,10 +28,42 @@ std::uint32_t add_nodes(RegionModel& model, int halvings, std::uint32_t& regions
 
 }  // namespace
 
-std::uint32_t add_even_regions(RegionModel& model, int halvings) {
+std::uint32_t begin_even_regions(RegionModel& model, const Box3& bounds, const FirstModel& settings) {
+    set_cube(model, bounds);
     std::uint32_t regions = 0;
-    add_nodes(model, halvings, regions);
+    add_nodes(model, settings.grid_halvings, regions);
+    model.quantum_exponent.assign(regions, quantum_exponent_for(settings.radiance_scale));
+    model.bsdf_fraction.assign(regions, settings.bsdf_fraction);
+    if (settings.with_lights) model.light_probabilities.assign(regions, kChoiceByPower);
     return regions;
+}
+
+void advance_even_regions(RegionModel& model, RefineReport& report) {
+    ++model.pass;
+    model.trained = true;
+    report = {};
+    report.spatial_depth = spatial_depth(model);
+    report.directional_depth = kStrataDepth;
+    report.mean_cells = kStrata;
+    for (std::uint32_t r = 0; r < model.leaf_count(); ++r)
+        report.origins.push_back({r, 0});
+}
+
+std::uint32_t read_even_regions(ByteReader& in, RegionModel& model) {
+    const std::uint32_t regions = read_regions(in, model);
+    if (model.quantum_exponent.size() != regions) throw FormatError("a grid's regions do not match its nodes");
+    read_optional(in, model, regions);
+    return regions;
+}
+
+ModelFigures even_figures(const RegionModel& model) {
+    ModelFigures figures;
+    figures.nodes = model.nodes.size();
+    figures.regions = model.leaf_count();
+    figures.cells = figures.regions * kStrata;
+    figures.spatial_depth = spatial_depth(model);
+    figures.directional_depth = kStrataDepth;
+    return figures;
 }
 
 /// What rounding leaves goes to the first stratum, which is none of importance: it is less than 2^-24.

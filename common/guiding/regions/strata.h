@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "common/base/random.h"
+#include "common/guiding/regions/first_model.h"
+#include "common/guiding/regions/refinement.h"
 #include "common/guiding/regions/region_model.h"
 
 namespace treefarm {
@@ -15,8 +17,13 @@ namespace treefarm {
 inline constexpr int kStrataDepth = 3;
 inline constexpr std::uint32_t kStrata = 1u << (2 * kStrataDepth);
 
-/// Cuts the cube of a model without nodes into 2^halvings regions. Returns how many.
-std::uint32_t add_even_regions(RegionModel& model, int halvings);
+/// Makes the shared part of a model what it is before any pass: 2^grid_halvings regions. Returns how many.
+std::uint32_t begin_even_regions(RegionModel& model, const Box3& bounds, const FirstModel& settings);
+/// The model after a pass, as far as it does not depend on what was recorded, and what there is to report of it.
+void advance_even_regions(RegionModel& model, RefineReport& report);
+/// Reads the shared part: as many exponents as regions, which are returned; FormatError otherwise.
+std::uint32_t read_even_regions(ByteReader& in, RegionModel& model);
+ModelFigures even_figures(const RegionModel& model);
 
 /// Probabilities of a region's strata, times 2^kMassBits: in proportion to `weight`, which has a sum above 0, but for
 /// the part that all of them share alike. Their sum is 2^kMassBits.
