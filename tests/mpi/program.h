@@ -64,7 +64,7 @@ struct RunHashes {
     bool operator==(const RunHashes&) const = default;
 };
 std::ostream& operator<<(std::ostream& out, const RunHashes& hashes);
-/// Those of a render, which is expected to be done.
+/// Hashes of a render, which is expected to be done.
 RunHashes hashes_of(const std::filesystem::path& run_directory);
 
 /// Lines of passes.csv without the header; 0 if it is not there.
