@@ -24,11 +24,21 @@ InterruptWatch::InterruptWatch() {
     pthread_sigmask(SIG_BLOCK, &watched_, nullptr);
 }
 
-bool InterruptWatch::interrupted() {
-    if (seen_) return true;
+bool InterruptWatch::has_come(const sigset_t& signals) {
     const timespec now{};
-    seen_ = sigtimedwait(&watched_, nullptr, &now) > 0;
+    seen_ = seen_ || sigtimedwait(&signals, nullptr, &now) > 0;
     return seen_;
+}
+
+bool InterruptWatch::interrupted() {
+    return has_come(watched_);
+}
+
+bool InterruptWatch::terminated() {
+    sigset_t only;
+    sigemptyset(&only);
+    sigaddset(&only, SIGTERM);
+    return has_come(only);
 }
 
 }  // namespace treefarm

@@ -19,8 +19,12 @@ class InterruptWatch {
     InterruptWatch();
     /// True once a signal has come.
     bool interrupted();
+    /// True once SIGTERM has come, whatever else: a worker does not heed the others.
+    bool terminated();
 
   private:
+    bool has_come(const sigset_t& signals);
+
     sigset_t watched_;
     bool seen_ = false;
 };

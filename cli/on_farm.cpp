@@ -106,7 +106,7 @@ int coordinate(const LaunchEnvironment& launch, MpiSession& session, const FarmT
     return end.code;
 }
 
-int work(MpiSession& session, const FarmOptions& options, const Voice& voice) {
+int work(MpiSession& session, const FarmOptions& options, const Voice& voice, InterruptWatch& watch) {
     const unsigned asked = options.threads;
     const unsigned portion = affinity_threads() / static_cast<unsigned>(std::max(1, session.workers_on_host()));
     const unsigned threads = asked > 0 ? asked : std::max(1u, portion);
@@ -119,7 +119,9 @@ int work(MpiSession& session, const FarmOptions& options, const Voice& voice) {
     for (const std::string& warning : warnings)
         log->warn("{}", warning);
     try {
-        const WorkerEnd end = run_worker(session.channel(), worker_settings(threads), make_renderer, log);
+        WorkerSettings settings = worker_settings(threads);
+        settings.told_to_leave = [&watch] { return watch.terminated(); };
+        const WorkerEnd end = run_worker(session.channel(), settings, make_renderer, log);
         const int code = end == WorkerEnd::orphaned ? 1 : 0;
         session.finish(end == WorkerEnd::orderly, code, kFinalizeSeconds);
         return code;
@@ -165,11 +167,11 @@ int run_processes(const LaunchEnvironment& launch, const FarmOptions& options, c
         return run_here(options, voice, task);
     }
     if (launch.one_host) skip_network_search();
-    InterruptWatch watch;  // before MPI starts its threads; workers leave when the coordinator says so
+    InterruptWatch watch;  // before MPI starts its threads
     MpiSession session(options.start_seconds, missing_processes(launch, options.start_seconds));
     if (launch.life) launch.life->begin();
     if (session.size() > 1)
-        return session.rank() == 0 ? coordinate(launch, session, task, watch) : work(session, options, voice);
+        return session.rank() == 0 ? coordinate(launch, session, task, watch) : work(session, options, voice, watch);
     const int code = guarded([&]() -> CoordinatorEnd { return {run_here(options, voice, task), {}}; }).code;
     if (launch.life) launch.life->end(code);
     session.finish(true, code, kFinalizeSeconds);

@@ -109,7 +109,7 @@ RenderRequest read_request(const RenderOptions& options) {
     if (where.scene.file.empty())
         throw InputError(Location{options.input, 0, 0}, "the job names no scene", "set scene.file");
     LoadedScene loaded = load_scene(where.scene.file, where.scene.defines, where.scene.lenient, where.image.width,
-                                    where.image.height, where.scene.sensor);
+                                    where.image.height, where.scene.sensor, scene_limits(where.scene));
 
     RenderRequest request;
     apply_layer(request.job, scene_layer(loaded.settings, {file_layer, line_layer}));

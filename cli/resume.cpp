@@ -26,7 +26,7 @@ void check_directory(const fs::path& run) {
     if (!fs::is_directory(run) || !fs::exists(run / "job.toml"))
         refuse(run, "is no run directory", "name the folder that a render wrote its files to");
     if (!fs::exists(run / kCheckpointFolder))
-        refuse(run, "holds no checkpoint: no pass was finished, or none was to be kept",
+        refuse(run, "holds no checkpoint: too little was done, or none was to be kept",
                "render again: treefarm render " + (run / "job.toml").string());
 }
 
@@ -97,7 +97,7 @@ RenderRequest read_resumed(const ResumeOptions& options) {
     for (const std::string& warning : loaded.warnings)
         request.warnings.push_back(warning);
     const std::uint32_t spp = loaded.state.spp();
-    if (!passes_of(request)(loaded.state.history).pass && has_written(run, request, spp))
+    if (!loaded.state.begun && !passes_of(request)(loaded.state.history).pass && has_written(run, request, spp))
         refuse(run, "is done (" + std::to_string(spp) + " spp)",
                "add samples with --spp N above that, or --seconds or --error beyond what it has");
     return request;

@@ -28,6 +28,7 @@ Collector::Collector(const PassPlan& plan, const AnyModel& model, int width, int
       width_(width),
       height_(height),
       signed_pixels_(signed_pixels),
+      done_(width, height, plan.chunks),
       film_(plan.layers.estimates ? width : 0, plan.layers.estimates ? height : 0, plan.chunks),
       aovs_(aovs, width, height, plan.chunks),
       splats_(plan.layers.splats),
@@ -110,12 +111,43 @@ Verdict Collector::take(int worker, Result result, Ledger& ledger) {
             film_.add(unit.unit, unit.pixels);
             aovs_.add(unit.unit, unit.aovs);
         }
+        done_.add(unit.unit);
         contribution.work += weight(unit.unit);
     }
     if (!result.splats.empty()) splats_.merge_encoded(result.splats);
     contribution.stats.add(result.stats);
     film_seconds_ += timer.seconds();
     return Verdict::accepted;
+}
+
+void Collector::fill(BegunPass& begun) const {
+    begun.plan = plan_;
+    begun.done = done_;
+    if (plan_.layers.estimates) begun.film = film_.encode(done_);
+    begun.aovs = aovs_.encode(done_);
+    if (plan_.layers.splats.pixels > 0) begun.splats = splats_.encode();
+    if (plan_.record) begun.sums = sums_.encode();
+    begun.stats = totals();
+    begun.update_bytes = update_bytes_;
+    begun.splat_bytes = splat_bytes_;
+    begun.touched_cells = touched_cells_;
+}
+
+void Collector::restore(const BegunPass& begun) {
+    const auto pixels = static_cast<std::uint64_t>(width_) * static_cast<std::uint64_t>(height_);
+    if (!(begun.plan == plan_) || !has_possible_units(begun, pixels)) throw FormatError("units of another pass");
+    if (begun.film.empty() != (begun.done.estimate_count() == 0 || !plan_.layers.estimates) ||
+        begun.splats.empty() != (plan_.layers.splats.pixels == 0) || begun.sums.empty() == plan_.record)
+        throw FormatError("other layers than the pass has");
+    if (plan_.layers.estimates) film_.restore(begun.done, begun.film);
+    aovs_.restore(begun.done, begun.aovs);
+    if (!begun.splats.empty()) splats_.merge_encoded(begun.splats);
+    if (plan_.record) sums_.merge_encoded(begun.sums);
+    done_ = begun.done;
+    earlier_ = begun.stats;
+    update_bytes_ = begun.update_bytes;
+    splat_bytes_ = begun.splat_bytes;
+    touched_cells_ = begun.touched_cells;
 }
 
 std::span<const PixelEstimate> Collector::pixels_so_far() const {
@@ -128,7 +160,7 @@ std::vector<PixelEstimate> Collector::take_pixels() {
 }
 
 TraceStats Collector::totals() const {
-    TraceStats totals;
+    TraceStats totals = earlier_;
     for (const auto& [worker, contribution] : contributions_)
         totals.add(contribution.stats);
     return totals;

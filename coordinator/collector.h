@@ -11,6 +11,7 @@
 #include "common/guiding/any_guide.h"
 #include "common/guiding/statistics/cell_sums.h"
 #include "common/protocol/messages.h"
+#include "coordinator/begun_pass.h"
 #include "coordinator/ledger.h"
 
 namespace treefarm {
@@ -31,6 +32,12 @@ class Collector {
     /// Merges a worker's result if the ledger accepts it; otherwise nothing changes here, and what it has of a late one
     /// the ledger drops. Throws FormatError if the content does not fit the pass (nothing was accepted then).
     Verdict take(int worker, Result result, Ledger& ledger);
+
+    /// Sets what has come in so far, in a copy of its own: the pass, what is done, layers, sums and figures.
+    void fill(BegunPass& begun) const;
+    /// Takes what fill() gave, before anything else. Throws FormatError where it is of another pass or image, and is
+    /// then of no use any more.
+    void restore(const BegunPass& begun);
 
     /// Pixels for a look at the pass while it goes on; none where they are but a layer of it.
     std::span<const PixelEstimate> pixels_so_far() const;
@@ -56,6 +63,8 @@ class Collector {
     PassPlan plan_;
     int width_, height_;
     bool signed_pixels_;
+    DoneWork done_;
+    TraceStats earlier_;  ///< of earlier lives of the render
     PassFilm film_;
     AovFilm aovs_;
     SplatSums splats_;

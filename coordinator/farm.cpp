@@ -74,11 +74,11 @@ void Farm::gather(const std::function<bool()>& interrupted) {
             if (!roster_.find(peer)) turn_.absent.insert(peer);
 }
 
-void Farm::begin_pass(const PassPlan& plan, const AnyModel& tree, Bytes encoded_tree, int width, int height) {
+void Farm::begin_pass(const PassPlan& plan, const AnyModel& tree, Bytes encoded_tree, int width, int height,
+                      const BegunPass* begun) {
     const std::uint64_t hash = hash_bytes(encoded_tree);
     pass_ = OpenPass{plan, std::move(encoded_tree), hash};
     if (ledger_) copied_units_ += ledger_->copies();
-    ledger_ = std::make_unique<Ledger>(plan, width, height, job_.farm.tile_size);
     pass_began_ = clock_.seconds();
     first_request_seconds_ = broadcast_seconds_ = 0;
     requested_ = false;
@@ -94,9 +94,30 @@ void Farm::begin_pass(const PassPlan& plan, const AnyModel& tree, Bytes encoded_
     }
     if (!std::exchange(scene_sent_, true)) send_blob(Blob::scene, 0, chain_without_scene());
     send_blob(Blob::tree, 0, chain_of_present());
-    // Its sums take a while to make, as the workers do to unpack the tree.
-    collector_ =
-        std::make_unique<Collector>(plan, tree, width, height, negative_allowed_, AovLayout(aov_requests(job_)));
+    // Sums take a while to make, as the workers do to unpack the tree.
+    open_books(tree, width, height, begun);
+}
+
+void Farm::open_books(const AnyModel& tree, int width, int height, const BegunPass* begun) {
+    const PassPlan& plan = pass_->plan;
+    const auto new_collector = [&] {
+        return std::make_unique<Collector>(plan, tree, width, height, negative_allowed_, AovLayout(aov_requests(job_)));
+    };
+    collector_ = new_collector();
+    try {
+        if (begun) collector_->restore(*begun);
+    } catch (const FormatError& error) {
+        log_->warn("what the run has of pass {} cannot be used ({}): it is traced again", plan.index, error.what());
+        collector_ = new_collector();
+        begun = nullptr;
+    }
+    ledger_ = std::make_unique<Ledger>(plan, width, height, job_.farm.tile_size, begun ? begun->done : DoneWork(),
+                                       begun ? begun->deadly : std::vector<DeadlyUnit>());
+}
+
+void Farm::fill(BegunPass& begun) const {
+    collector_->fill(begun);
+    begun.deadly = ledger_->deadly();
 }
 
 void Farm::announce(int peer) {
@@ -291,7 +312,8 @@ void Farm::give_up(Member& member, MemberState state, const std::string& why) {
     member.state = state;
     const std::size_t units = ledger_ ? ledger_->reclaim(member.peer, state == MemberState::lost) : 0;
     reissued_units_ += units;
-    log_->error("worker {} on {} {}; {} units are issued again", member.peer, member.hello.host, why, units);
+    log_->log(state == MemberState::left ? spdlog::level::info : spdlog::level::err,
+              "worker {} on {} {}; {} units are issued again", member.peer, member.hello.host, why, units);
     if (std::erase(not_ready_, member.peer) > 0 && not_ready_.empty())
         broadcast_seconds_ = clock_.seconds() - pass_began_;
     if (const auto [unit, deaths] = deadliest(); deaths >= Ledger::kMostDeaths)

@@ -49,13 +49,18 @@ class Farm {
     /// Whether pixels may be negative: those of a film that is_signed(). Otherwise they are refused.
     void allow_negative(bool allowed) { negative_allowed_ = allowed; }
 
-    /// Announces a pass and sends its tree along the chain of those present; before the first one, the scene.
-    void begin_pass(const PassPlan& plan, const AnyModel& tree, Bytes encoded_tree, int width, int height);
+    /// Announces a pass and sends its tree along the chain of those present; before the first one, the scene. `begun`:
+    /// what an earlier life of the render has of it, or nullptr.
+    void begin_pass(const PassPlan& plan, const AnyModel& tree, Bytes encoded_tree, int width, int height,
+                    const BegunPass* begun = nullptr);
+    /// Sets what has come in of the pass, and whom it cost.
+    void fill(BegunPass& begun) const;
 
     /// Takes what has arrived, hands out work, watches for silence; rests if nothing happened. Throws RunError when no
     /// worker is left, and none has come back within FarmLimits::grace.
     void step();
 
+    bool has_pass() const { return ledger_ != nullptr; }
     bool pass_complete() const { return ledger_ && ledger_->complete(); }
     const Collector& collector() const { return *collector_; }
     std::vector<PixelEstimate> take_pixels() { return collector_->take_pixels(); }  ///< of the complete pass, once
@@ -90,6 +95,7 @@ class Farm {
         std::uint64_t tree_hash = 0;
     };
 
+    void open_books(const AnyModel& tree, int width, int height, const BegunPass* begun);
     bool calm() const;  ///< all workers have enough to trace
     void take(const Received& received);
     void on_bad_message(int peer, const std::string& why);

@@ -44,7 +44,7 @@ void Farm::take(const Received& received) {
                        [&](const Failure& m) { on(peer, m); },
                        [&](const Bye& m) {
                            if (Member* member = hear(peer, m.incarnation))
-                               give_up(*member, MemberState::left, "left by itself");
+                               give_up(*member, MemberState::left, "leaves, as it was told");
                        },
                        [&](const auto&) { throw FormatError("a message that the coordinator sends, not receives"); },
                    },

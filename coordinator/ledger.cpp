@@ -11,16 +11,34 @@ namespace {
 constexpr std::uint32_t kLeastPaths = 2048;
 /// Pixels that a piece has at least, however many samples they have.
 constexpr std::uint32_t kLeastPixels = 16;
+/// From here on downwards: workers that an earlier life of the render lost. They have no numbers in this one.
+constexpr int kOfEarlierLives = -2;
 
 }  // namespace
 
-Ledger::Ledger(const PassPlan& plan, int width, int height, int tile_size) : unit_spp_(plan.unit_spp()) {
+Ledger::Ledger(const PassPlan& plan, int width, int height, int tile_size, const DoneWork& done,
+               std::span<const DeadlyUnit> deadly)
+    : unit_spp_(plan.unit_spp()), done_(done.weight()) {
     const std::vector<WorkUnit> units = cut_pass(plan, width, height, tile_size);
-    waiting_.assign(units.begin(), units.end());
-    for (const WorkUnit& unit : units) {
+    for (const WorkUnit& unit : units)
         total_ += weight(unit);
-        waiting_paths_ += paths(unit);
+    if (done.empty() && deadly.empty()) {
+        waiting_.assign(units.begin(), units.end());
+    } else {
+        DoneWork taken = done.pixel_count() > 0 ? done : DoneWork(width, height, plan.chunks);
+        for (const DeadlyUnit& each : deadly) {
+            taken.add(each.unit);
+            suspects_.push_back(each.unit);
+            for (std::uint32_t k = 0; k < each.deaths; ++k)
+                deaths_[each.unit].insert(kOfEarlierLives - static_cast<int>(k));
+        }
+        for (const WorkUnit& unit : units) {
+            const std::vector<WorkUnit> left = taken.left_of(unit);
+            waiting_.insert(waiting_.end(), left.begin(), left.end());
+        }
     }
+    for (const WorkUnit& unit : waiting_)
+        waiting_paths_ += paths(unit);
 }
 
 std::uint64_t Ledger::paths(const WorkUnit& unit) const {
@@ -220,6 +238,13 @@ std::pair<WorkUnit, std::size_t> Ledger::deadliest() const {
     for (const auto& [unit, workers] : deaths_)
         if (workers.size() > most.second) most = {unit, workers.size()};
     return most;
+}
+
+std::vector<DeadlyUnit> Ledger::deadly() const {
+    std::vector<DeadlyUnit> units;
+    for (const auto& [unit, workers] : deaths_)
+        units.push_back({unit, static_cast<std::uint32_t>(std::min(workers.size(), kMostDeaths - 1))});
+    return units;
 }
 
 std::size_t Ledger::outstanding(int worker) const {

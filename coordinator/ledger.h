@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/film/done_work.h"
 #include "common/film/work_unit.h"
 #include "common/plan/schedule.h"
 
@@ -20,6 +21,14 @@ enum class Verdict : std::uint8_t {
     accepted,  ///< the worker has all of these units, and each is still to be done
     late,      ///< it had them, but of some another worker's copy was quicker
     lie,       ///< of some it never had, or names one twice
+};
+
+/// A unit over which workers were lost.
+struct DeadlyUnit {
+    WorkUnit unit;
+    std::uint32_t deaths = 0;
+
+    bool operator==(const DeadlyUnit&) const = default;
 };
 
 /// How much of a pass a worker gets at once.
@@ -36,8 +45,10 @@ class Ledger {
     /// Workers that may lose their lives over a unit before it is given up.
     static constexpr std::size_t kMostDeaths = 3;
 
-    /// The units of a pass, tiles of `tile_size` pixels.
-    Ledger(const PassPlan& plan, int width, int height, int tile_size);
+    /// The units of a pass, tiles of `tile_size` pixels, but for what is `done` and, of an earlier life of the render,
+    /// those that are `deadly`: none of these is done, and each is issued as it is.
+    Ledger(const PassPlan& plan, int width, int height, int tile_size, const DoneWork& done = {},
+           std::span<const DeadlyUnit> deadly = {});
 
     /// Takes a portion for a worker. A unit of more paths than a piece may have is issued in pieces (halve), but in
     /// none so small that to ask for it takes longer than to trace it. A unit over which a worker was lost is issued
@@ -71,6 +82,8 @@ class Ledger {
     void forgive(int worker);
     /// The unit over which most workers were lost, and how many; none: 0.
     std::pair<WorkUnit, std::size_t> deadliest() const;
+    /// All such units, for a checkpoint. One that would end the render does so in its next life at the next death.
+    std::vector<DeadlyUnit> deadly() const;
 
     bool complete() const { return done_ == total_; }
     std::size_t waiting() const { return waiting_.size(); }

@@ -2,6 +2,7 @@
 #include "coordinator/pass_loop.h"
 
 #include <algorithm>
+#include <new>
 #include <utility>
 
 #include "common/base/hash.h"
@@ -20,7 +21,7 @@ class PassLoop {
           choose_(choose),
           hooks_(hooks),
           state_(std::move(state)),
-          seconds_before_(state_.history.seconds) {
+          seconds_before_(state_.begun ? state_.begun->run_seconds : state_.history.seconds) {
         result_.width = width;
         result_.height = height;
     }
@@ -42,7 +43,23 @@ class PassLoop {
   private:
     /// Gives away the state, unless a pass was being added to it.
     void hand_over() {
-        if (whole_ && hooks_.on_last_state && !state_.reports.empty()) hooks_.on_last_state(std::move(state_));
+        if (!whole_ || !hooks_.on_last_state) return;
+        try {
+            if (collecting_) note_begun();
+        } catch (const std::bad_alloc&) {  // the finished passes are kept
+        }
+        if (!state_.reports.empty() || state_.begun) hooks_.on_last_state(std::move(state_));
+    }
+
+    /// Adds to the state what has come in of the pass in hand.
+    void note_begun() {
+        BegunPass begun;
+        farm_.fill(begun);
+        if (begun.done.empty() && begun.deadly.empty()) return;
+        begun.memory = collecting_->memory;
+        begun.collect_seconds = collecting_->before + collecting_->clock.seconds();
+        begun.run_seconds = run_seconds();
+        state_.begun = std::move(begun);
     }
 
     /// The image of passes that an earlier life of the render finished.
@@ -57,7 +74,12 @@ class PassLoop {
     }
 
     void render_passes() {
-        for (NextPass next = choose_next(true); next.pass;) {
+        NextPass next = choose_next(true);
+        if (state_.begun) {  // it is finished in any case, and as it was begun
+            next.pass = state_.begun->plan;
+            next.memory = state_.begun->memory;
+        }
+        while (next.pass) {
             const Timer timer;
             PassPlan plan = *next.pass;
             plan.kernel = kernel_of(job_, plan, facts_of(state_.tree));
@@ -93,21 +115,33 @@ class PassLoop {
         Bytes encoded = state_.tree.encode();
         coming_tree_hash_ = hash_bytes(encoded);
         report.tree = tree_figures(state_.tree, encoded.size());
-        farm_.begin_pass(plan, state_.tree, std::move(encoded), result_.width, result_.height);
+        farm_.begin_pass(plan, state_.tree, std::move(encoded), result_.width, result_.height,
+                         state_.begun ? &*state_.begun : nullptr);
+        report.seconds.all = state_.begun ? state_.begun->collect_seconds : 0.0;
+        state_.begun.reset();  // it grows in the farm from now on
     }
 
     /// Collects the results of a pass; false if it was interrupted.
     bool collect(const PassPlan& plan, const NextPass& chosen, PassReport& report) {
-        const Timer timer;
+        collecting_ = Collecting{chosen.memory, report.seconds.all};
         while (!farm_.pass_complete()) {
             if (hooks_.interrupted && hooks_.interrupted()) return false;
             farm_.step();
             tell_progress(plan, chosen);
+            if (hooks_.state_due && hooks_.state_due()) show_begun();
         }
+        const double seconds = collecting_->before + collecting_->clock.seconds();
+        collecting_.reset();
         if (is_first_) loading_seconds_ = farm_.first_request_seconds();
         report.seconds.broadcast = farm_.broadcast_seconds();
-        report.seconds.collect = std::max(0.0, timer.seconds() - report.seconds.broadcast);
+        report.seconds.collect = std::max(0.0, seconds - report.seconds.broadcast);
         return true;
+    }
+
+    void show_begun() {
+        note_begun();
+        if (hooks_.on_state) hooks_.on_state(state_);
+        state_.begun.reset();
     }
 
     CollectedPass collected(const PassPlan& plan) {
@@ -166,7 +200,7 @@ class PassLoop {
     }
 
     void finish(DevelopedState developed, PassReport& report, double seconds) {
-        report.seconds.all = seconds;
+        report.seconds.all += seconds;
         report.spp_done = report.plan.first_sample + report.plan.spp;
         report.workers = farm_.roster().present_count();
         report.threads = thread_count();
@@ -228,6 +262,13 @@ class PassLoop {
     RenderResult result_;  ///< what of the state is shown
     std::uint64_t coming_tree_hash_ = 0;
     std::optional<AnyModel> ended_with_;  ///< the last pass's tree, where a later one was learned that nobody uses
+    /// A pass that comes in.
+    struct Collecting {
+        BudgetMemory memory;  ///< NextPass::memory
+        double before;        ///< seconds that earlier lives of the render collected
+        Timer clock{};
+    };
+    std::optional<Collecting> collecting_;
     Timer clock_;
     const double seconds_before_;  ///< that earlier lives of the render took
     double loading_seconds_ = 0;   ///< until the first worker had scene and tree and asked for work

@@ -43,8 +43,9 @@ struct PassHooks {
     std::function<void(const RenderResult&)> on_result;        ///< called after on_pass, with all there is so far
     std::function<void(const RenderResult&)> on_interruption;  ///< at once: what takes time comes later
     std::function<void(RenderResult)> on_failure;              ///< the finished passes, before the error leaves
-    /// Called last after each pass, with all that a render needs that goes on from here.
+    /// Called last after each pass, with all that a render needs that goes on from here; within one where that is due.
     std::function<void(RenderState&)> on_state;
+    std::function<bool()> state_due;                 ///< asked often within a pass
     std::function<void(RenderState)> on_last_state;  ///< once at the end, if any pass was finished: it gets the state
 };
 

@@ -88,7 +88,7 @@ class RenderRun {
         end.elapsed_seconds = clock_.seconds();
         enter(LifePhase::write);
         tell_news();
-        if (request_.resumed && result_.passes.empty()) return leave(end);
+        if (request_.resumed && (!went_on_ || result_.spp < spp_before_)) return leave(end);
         for (const std::string& failure : directory_.finish(result_, &farm_, end))
             log_->error("{}", failure);
     }
@@ -110,8 +110,9 @@ class RenderRun {
         log_->info("{} {}, {}, {}; results in {}", request_.resumed ? "going on with" : "rendering", scene_name(),
                    size_text(film), budget_text(passes(state.history)), directory_.path().string());
         if (request_.resumed)
-            log_->info("{} passes with {} spp are done, {} of rendering", state.reports.size(), state.spp(),
-                       duration_text(state.history.seconds));
+            log_->info("{} passes with {} spp are done{}, {} of rendering", state.reports.size(), state.spp(),
+                       state.begun ? ", one is begun" : "",
+                       duration_text(state.begun ? state.begun->run_seconds : state.history.seconds));
         if (request_.resumed && job().farm.checkpoint_seconds == 0)
             log_->warn("no checkpoints (farm.checkpoint_seconds = 0): that of {} spp stays until the render is done",
                        state.spp());
@@ -122,6 +123,7 @@ class RenderRun {
             result_.interrupted = interrupted_();
             if (result_.interrupted) return;
             directory_.write_request();
+            went_on_ = true;
         }
         farm_.allow_negative(film.is_signed());
         if (checks_memory(request_))
@@ -144,6 +146,7 @@ class RenderRun {
             directory_.write_interruption(finished, &farm_, clock_.seconds());
         };
         if (request_.checkpoints) {
+            hooks.state_due = [this] { return directory_.checkpoint_is_due(clock_.seconds()); };
             hooks.on_state = [this](RenderState& now) { directory_.offer_checkpoint(now, clock_.seconds()); };
             hooks.on_last_state = [this](RenderState last) { directory_.take_last_state(std::move(last)); };
         }
@@ -234,16 +237,19 @@ class RenderRun {
             log_->warn("an earlier run's files lie aside in {}, until a run in this folder is done",
                        (directory_.path() / "previous*").string());
         if (end.state == RunState::failed) {
-            if (!result_.passes.empty()) log_->info("the finished passes have {} spp", result_.spp);
+            if (const std::string kept = kept_text(); !kept.empty()) log_->info("{}", kept);
+            return;
+        }
+        if (request_.resumed && !went_on_) {
+            log_->warn("interrupted before it went on: nothing has changed");
             return;
         }
         if (result_.passes.empty()) {
-            log_->warn("{}", request_.resumed ? "interrupted before it went on: nothing has changed"
-                                              : "interrupted before the first pass was finished: there is no image");
+            log_->warn("interrupted before the first pass was finished: there is no image{}",
+                       kept_text().empty() ? "" : "; " + kept_text());
             return;
         }
-        if (end.state == RunState::interrupted)
-            log_->warn("interrupted: kept the {} spp of finished passes", result_.spp);
+        if (end.state == RunState::interrupted) log_->warn("interrupted: {}", kept_text());
         tell_if_black(*result_.image, result_.spp);
         const PassReport& last = result_.passes.back();
         log_->debug("{} spp in {:.2f} s, {}; image {} tree {}", result_.spp, end.elapsed_seconds,
@@ -257,6 +263,22 @@ class RenderRun {
         if (missed_target())
             log_->warn("the error is above the {:.3g} % asked for: {}; the image is kept",
                        100 * request_.job.budget.error, why_missed());
+    }
+
+    /// What is kept of a render that is not done, and how it goes on.
+    std::string kept_text() const {
+        const bool goes_on = request_.checkpoints && request_.job.farm.checkpoint_seconds > 0;
+        double share = 0;
+        if (goes_on && farm_.has_pass())
+            share = static_cast<double>(farm_.ledger().done()) / static_cast<double>(farm_.ledger().total());
+        if (share == 1) share = 0;  // of a finished pass
+        std::string text;
+        if (result_.spp > 0) text = fmt::format("kept the {} spp of finished passes", result_.spp);
+        if (share > 0)
+            text += fmt::format("{}{:.0f} % of the pass in hand", text.empty() ? "kept " : ", and ",
+                                std::floor(100 * share));
+        if (goes_on && !text.empty()) text += "; go on with: treefarm resume " + directory_.path().string();
+        return text;
     }
 
     /// The image's file, where a person looks for it.
@@ -299,6 +321,7 @@ class RenderRun {
     bool reported_black_ = false;
     std::size_t pass_count_ = 0;      ///< 0: not known
     const std::uint32_t spp_before_;  ///< of what the render goes on with
+    bool went_on_ = false;            ///< with that
     RenderResult result_;
 };
 
@@ -312,11 +335,7 @@ RenderState starting_state(const RenderRequest& request) {
 
 PassChooser passes_of(const RenderRequest& request) {
     if (!request.schedule.empty()) return listed_passes(request.schedule);
-    std::vector<PassPlan> begun;
-    if (request.resumed)
-        for (const PassReport& report : request.resumed->state.reports)
-            begun.push_back(report.plan);
-    return passes_of(request.plan.job, begun);
+    return passes_of(request.plan.job, request.resumed ? request.resumed->state.plans() : std::vector<PassPlan>());
 }
 
 RenderOutcome run_render(Channel& channel, const RenderRequest& request, const std::function<bool()>& interrupted) {

@@ -55,6 +55,14 @@ RenderState first_state(const Resolved& job, AnyModel tree, std::size_t pixels) 
     return state;
 }
 
+std::vector<PassPlan> RenderState::plans() const {
+    std::vector<PassPlan> plans;
+    for (const PassReport& report : reports)
+        plans.push_back(report.plan);
+    if (begun) plans.push_back(begun->plan);
+    return plans;
+}
+
 void add_film(RenderState& state, const Resolved& job, CollectedPass pass) {
     const PassPlan* const before = state.reports.empty() ? nullptr : &state.reports.back().plan;
     PassResult result = finished_pass(pass.plan, before, std::move(pass.pixels));

@@ -11,12 +11,13 @@
 #include "common/film/guiding_probe.h"
 #include "common/guiding/any_guide.h"
 #include "common/plan/budget.h"
+#include "coordinator/begun_pass.h"
 #include "coordinator/pass_report.h"
 
 namespace treefarm {
 
-/// A render between two passes, as a value: whatever decides a later bit, and the reports of the passes so far. Nothing
-/// else outlives a pass, so who has it can go on, here or elsewhere, as if nothing had happened
+/// A render between two passes, or within one, as a value: whatever decides a later bit, and the reports of the passes
+/// so far. Nothing else outlives a pass, so who has it can go on, here or elsewhere, as if nothing had happened
 /// (docs/design/checkpoint.md).
 struct RenderState {
     RenderHistory history;
@@ -29,8 +30,11 @@ struct RenderState {
     AnyLearner learner;
     std::vector<PassReport> reports;  ///< of finished passes
     std::uint64_t tree_hash = 0;      ///< of the encoded tree that guided the last of them
+    std::optional<BegunPass> begun;   ///< the pass after them, as far as it is, where the state goes on within it
 
     std::uint32_t spp() const { return history.spp(); }
+    /// The passes that are finished, and the one that is begun.
+    std::vector<PassPlan> plans() const;
 };
 
 /// The state before any pass; `tree`: the first one.

@@ -58,7 +58,8 @@ class RunDirectory {
     void add_pass(const PassReport& report);
     /// image.exr of the passes so far.
     void write_image(const RenderResult& result);
-    /// A checkpoint, where one is due; called after each pass.
+    bool checkpoint_is_due(double elapsed_seconds) const { return checkpoints_.is_due(elapsed_seconds); }
+    /// A checkpoint, where one is due; called after each pass, and within one by checkpoint_is_due().
     void offer_checkpoint(RenderState& state, double elapsed_seconds) { checkpoints_.offer(state, elapsed_seconds); }
     /// The state that the run ends in, for a checkpoint that finish() writes.
     void take_last_state(RenderState state) { checkpoints_.take_last(std::move(state)); }

@@ -78,6 +78,7 @@ class WorkerLoop {
                     take_from_worker(*message);
                 if (end_) return *end_;
             }
+            watch_for_leave();
             try {
                 advance();
             } catch (const std::exception& error) {
@@ -155,6 +156,7 @@ class WorkerLoop {
     }
 
     void on(const PassBegin& m) {
+        if (leaving_since_) return;
         coming_ = m;
         if (pass_ && pass_->plan().index != m.plan.index) end_pass();  // others have done what is still here
         chain_.expect({Blob::tree, job_number_, m.plan.index}, m.tree_bytes, clock_.seconds());
@@ -162,6 +164,7 @@ class WorkerLoop {
 
     void on(const Work& m) {
         if (!pass_ || m.pass != pass_->plan().index || !pool_) return;  // of a life that was given up
+        if (leaving_since_) return;                                     // given back by the good-bye
         credit_ -= std::min(credit_, m.units.size());
         nothing_left_ = m.units.empty() || m.alone;
         if (nothing_left_ && clock_.seconds() - last_update_ > kLeastUpdateSeconds) send_bundle();
@@ -175,6 +178,7 @@ class WorkerLoop {
 
     /// The coordinator has issued again what this worker had, or is done with it: none of it may be sent any more.
     void on(const Rejoin& m) {
+        if (leaving_since_) return;
         drop_work();
         if (m.job == job_number_) {
             log_->warn("the coordinator thought this worker lost: joining again");
@@ -227,6 +231,7 @@ class WorkerLoop {
             }
             return;
         }
+        if (leaving_since_) return leave();
         if (failed_) return;
         if (pool_)
             if (const auto failure = pool_->failure()) throw RunError(*failure);
@@ -234,6 +239,25 @@ class WorkerLoop {
         if (!pass_) return;
         send_finished();
         ask_for_work();
+    }
+
+    void watch_for_leave() {
+        if (leaving_since_ || !settings_.told_to_leave || !settings_.told_to_leave()) return;
+        log_->info("told to leave: finishing what is begun, for at most {:.0f} s", job_.farm.leave_seconds);
+        leaving_since_ = clock_.seconds();
+        if (pool_) pool_->cancel();
+        coming_.reset();
+    }
+
+    /// Sends what was begun once it is done, and says good-bye, which gives back the rest. The process stays until it
+    /// is dismissed or killed: mpirun ends the whole job where one of its processes ends before the others.
+    void leave() {
+        const bool is_late = clock_.seconds() - *leaving_since_ > job_.farm.leave_seconds;
+        if (has_left_ || (pool_ && !pool_->idle() && !is_late)) return;
+        if (pass_) send_bundle();
+        drop_work();
+        tell(Bye{incarnation_});
+        has_left_ = true;
     }
 
     BlobName scene_name() const { return {Blob::scene, job_number_, 0}; }
@@ -362,7 +386,8 @@ class WorkerLoop {
     double heartbeat_seconds_ = 1.0;
     SilenceWatch silence_;
     double last_beat_ = 0, last_update_ = 0;
-    bool quitting_ = false, said_bye_ = false, failed_ = false;
+    bool quitting_ = false, said_bye_ = false, failed_ = false, has_left_ = false;
+    std::optional<double> leaving_since_;  ///< told to leave
     std::optional<WorkerEnd> end_;
     std::set<int> ignored_;  ///< other workers that said what only the coordinator may; told once
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 
 #include "common/base/log.h"
@@ -14,8 +15,9 @@ struct WorkerSettings {
     unsigned threads = 1;  ///< that trace, besides the one that talks
     std::string host;
     std::uint64_t fingerprint = 0;
-    double silence_seconds = 30.0;  ///< a coordinator silent for so long is gone
-    std::uint64_t memory = 0;       ///< bytes that the host can still give; 0: not known
+    double silence_seconds = 30.0;          ///< a coordinator silent for so long is gone
+    std::uint64_t memory = 0;               ///< bytes that the host can still give; 0: not known
+    std::function<bool()> told_to_leave{};  ///< asked often; true: this worker has to go. Empty: it never has
 };
 
 /// How a worker's part ended.

@@ -67,7 +67,11 @@ struct Job {
         std::string file;
         std::map<std::string, std::string> defines;  ///< values for $name in the scene, from -D
         bool lenient = false;
-        std::string sensor;  ///< number from 0 on, or id; empty: the file's own choice
+        std::string sensor;      ///< number from 0 on, or id; empty: the file's own choice
+        std::string root;        ///< folder that holds all that the scene may read; empty: it may read what it names
+        int max_file_mb = 2147;  ///< of one file, 10^6 bytes
+        int max_image_megapixels = 268;  ///< of one image, 10^6 pixels
+        std::int64_t max_triangles = 0;  ///< of all meshes; 0: what memory holds
     } scene;
 
     struct Image {
@@ -139,6 +143,7 @@ struct Job {
         double heartbeat_seconds = 1.0;  ///< how often each side says that it lives
         double update_seconds = 1.5;     ///< how often a worker sends what it has finished
         double checkpoint_seconds = 5;   ///< least time from checkpoint to checkpoint; 0: none
+        double leave_seconds = 10;       ///< how long a worker that is told to leave goes on with what it has begun
         std::string isa =
             "avx2";           ///< Embree's instruction set, the same on every worker: sse2, sse4.2, avx, avx2, avx512
         bool robust = false;  ///< rays neither slip through shared edges nor start behind corners

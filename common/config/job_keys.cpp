@@ -92,6 +92,19 @@ std::vector<JobKey> make_job_keys() {
         "last)",
         [](auto& j) -> auto& { return j.scene.sensor; }));
 
+    add(text_key(
+        "scene.root",
+        "folder below which all files of the scene have to lie, links followed: for scenes of others; empty: anywhere",
+        [](auto& j) -> auto& { return j.scene.root; }));
+    add(integer_key(
+        "scene.max_file_mb", "1 to 2147", "10^6 bytes that a file of the scene may have",
+        [](auto& j) -> auto& { return j.scene.max_file_mb; }, 1, 2147));
+    add(integer_key(
+        "scene.max_image_megapixels", "1 to 268", "10^6 pixels that an image of the scene may have",
+        [](auto& j) -> auto& { return j.scene.max_image_megapixels; }, 1, 268));
+    add(integer_key(
+        "scene.max_triangles", "0 to 2^40", "triangles that all meshes of the scene together may have; 0: any number",
+        [](auto& j) -> auto& { return j.scene.max_triangles; }, 0, std::int64_t{1} << 40));
     add(integer_key(
         "image.width", "0 to 65535", "pixels; 0: as the scene says", [](auto& j) -> auto& { return j.image.width; }, 0,
         65535));
@@ -187,9 +200,12 @@ std::vector<JobKey> make_job_keys() {
         [](auto& j) -> auto& { return j.farm.update_seconds; }, seconds));
     add(number_key(
         "farm.checkpoint_seconds", "0 to 86400",
-        "least seconds from one checkpoint to the next, after whole passes; 0: none is written, and the render cannot "
-        "be gone on with",
+        "least seconds from one checkpoint to the next; 0: none is written, and the render cannot be gone on with",
         [](auto& j) -> auto& { return j.farm.checkpoint_seconds; }, [](double v) { return v >= 0 && v <= 86400; }));
+    add(number_key(
+        "farm.leave_seconds", "0 to 3600",
+        "how long a worker that is told to leave (SIGTERM) goes on with the tiles that it has begun",
+        [](auto& j) -> auto& { return j.farm.leave_seconds; }, [](double v) { return v >= 0 && v <= 3600; }));
     const std::vector<std::pair<std::string, std::string>> isas{
         {"sse2", "sse2"}, {"sse4.2", "sse4.2"}, {"avx", "avx"}, {"avx2", "avx2"}, {"avx512", "avx512"}};
     add(word_key(

@@ -156,7 +156,7 @@ std::string read_settings_text(const std::filesystem::path& path, const std::str
 std::vector<Setting> read_job_settings(const std::filesystem::path& path) {
     std::vector<Setting> settings = parse_job_settings(read_settings_text(path, "job"), path.string());
     for (Setting& setting : settings) {
-        if (setting.key != "scene.file" || setting.value.empty()) continue;
+        if ((setting.key != "scene.file" && setting.key != "scene.root") || setting.value.empty()) continue;
         const std::filesystem::path file = path.parent_path() / setting.value;
         setting.value = std::filesystem::absolute(file).lexically_normal().string();
     }

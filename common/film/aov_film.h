@@ -32,6 +32,9 @@ class AovFilm {
     void check(const WorkUnit& unit, const AovPixels& pixels) const;
     /// Adds what check() lets pass of a unit that fits the film; each pixel and chunk once.
     void add(const WorkUnit& unit, const AovPixels& pixels);
+    /// What has come, as PassFilm::encode(); restore() likewise.
+    Bytes encode(const DoneWork& done) const;
+    void restore(const DoneWork& done, std::span<const std::uint8_t> bytes);
     /// Everything, once the film is complete.
     AovPixels take();
 

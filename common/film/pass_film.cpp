@@ -43,4 +43,67 @@ void PassFilm::add(const WorkUnit& unit, std::span<const PixelEstimate> pixels) 
     missing_ -= pixels.size();
 }
 
+namespace {
+
+constexpr std::size_t kEstimateBytes = 2 * (sizeof(std::uint32_t) + 6 * sizeof(double));
+
+void put(ByteWriter& writer, const PixelEstimate& pixel) {
+    for (const Moments& half : pixel.half) {
+        writer.put(half.n);
+        for (const Rgb64& sum : {half.mean, half.m2})
+            for (const double value : {sum.x, sum.y, sum.z})
+                writer.put(value);
+    }
+}
+
+PixelEstimate get(ByteReader& reader) {
+    PixelEstimate pixel;
+    for (Moments& half : pixel.half) {
+        half.n = reader.get<std::uint32_t>();
+        for (Rgb64* sum : {&half.mean, &half.m2})
+            for (double* value : {&sum->x, &sum->y, &sum->z})
+                *value = reader.get<double>();
+    }
+    return pixel;
+}
+
+}  // namespace
+
+Bytes PassFilm::encode(const DoneWork& done) const {
+    ByteWriter writer;
+    writer.reserve(done.estimate_count() * kEstimateBytes);
+    for (std::uint32_t pixel = 0; pixel < pixels_.size(); ++pixel) {
+        const auto pending = pending_.find(pixel);
+        if (pending == pending_.end()) {
+            if (done.whole(pixel)) put(writer, pixels_[pixel]);
+            continue;
+        }
+        for (std::uint32_t chunk = 0; chunk < chunks_; ++chunk)
+            if (done.has(pixel, chunk)) put(writer, pending->second.chunks[chunk]);
+    }
+    return writer.take();
+}
+
+void PassFilm::restore(const DoneWork& done, std::span<const std::uint8_t> bytes) {
+    if (done.pixel_count() != pixels_.size() || done.chunks() != chunks_ ||
+        bytes.size() != done.estimate_count() * kEstimateBytes)
+        throw FormatError("the film of a pass in hand has another size");
+    ByteReader reader(bytes);
+    for (std::uint32_t pixel = 0; pixel < pixels_.size(); ++pixel) {
+        if (done.whole(pixel)) {
+            pixels_[pixel] = get(reader);
+            missing_ -= chunks_;
+            continue;
+        }
+        for (std::uint32_t chunk = 0; chunk < chunks_; ++chunk) {
+            if (!done.has(pixel, chunk)) continue;
+            Pending& pending = pending_[pixel];
+            pending.chunks.resize(chunks_);
+            pending.chunks[chunk] = get(reader);
+            ++pending.arrived;
+            --missing_;
+        }
+    }
+}
+
 }  // namespace treefarm

@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "common/base/bytes.h"
+#include "common/film/done_work.h"
 #include "common/film/pixel_estimate.h"
 #include "common/film/work_unit.h"
 
@@ -23,6 +25,12 @@ class PassFilm {
 
     /// Adds the pixels of a unit, row by row. Each pixel and chunk must come exactly once (the ledger sees to that).
     void add(const WorkUnit& unit, std::span<const PixelEstimate> pixels);
+
+    /// What has come, which is what `done` says: of each whole pixel its estimate, of others those of their chunks.
+    Bytes encode(const DoneWork& done) const;
+    /// Takes what encode() gave into a film that nothing was added to. Throws FormatError where it is of another size;
+    /// nothing is changed then.
+    void restore(const DoneWork& done, std::span<const std::uint8_t> bytes);
 
     bool complete() const { return missing_ == 0; }
     int width() const { return width_; }

@@ -116,7 +116,7 @@ bool is_cut_png(std::span<const std::uint8_t> bytes) {
 
 }  // namespace
 
-EncodedImage read_encoded_image(const std::filesystem::path& path, const std::string& cure) {
+EncodedImage read_encoded_image(const std::filesystem::path& path, const std::string& cure, std::uint64_t most_pixels) {
     const auto refuse = [&](const std::string& what, const std::string& advice) {
         throw InputError(Location{path.string()}, what, advice);
     };
@@ -132,7 +132,8 @@ EncodedImage read_encoded_image(const std::filesystem::path& path, const std::st
     const std::string claim =
         "claims " + std::to_string(image.width) + " x " + std::to_string(image.height) + " pixels";
     const std::size_t pixels = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
-    if (image.width > kMaxImageSide || image.height > kMaxImageSide || pixels > kMaxImageValues / 4)
+    if (image.width > kMaxImageSide || image.height > kMaxImageSide ||
+        pixels > std::min<std::uint64_t>(most_pixels, kMaxImageValues / 4))
         refuse(claim, "reduce its size, or check whether it is damaged");
     if (pixels / most_pixels_per_byte(image.format) > image.bytes.size())
         refuse(claim + ", which its " + std::to_string(image.bytes.size()) + " bytes cannot hold", again);

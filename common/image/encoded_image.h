@@ -22,6 +22,7 @@ struct EncodedImage {
 /// Reads such a file and holds the size that it claims against what is read at all (image.h) and against its length: no
 /// decoder allocates for pixels that cannot be there. Throws InputError that names the file: missing, another format
 /// (`cure` says what to give), too large, cut short.
-EncodedImage read_encoded_image(const std::filesystem::path& path, const std::string& cure);
+EncodedImage read_encoded_image(const std::filesystem::path& path, const std::string& cure,
+                                std::uint64_t most_pixels = ~0ull);
 
 }  // namespace treefarm

@@ -27,8 +27,10 @@ struct ExrImage {
 
 /// Reads the channels for which `wanted` holds (none given: all) over the file's data window; its place is known
 /// where it is a part of the display window. Scan lines or tiles, any compression; of a multi-part file the first part.
-/// Throws InputError that names the file: missing, not EXR, damaged, cut short, too large, subsampled, no such channel.
-ExrImage read_exr(const std::filesystem::path& path, const std::function<bool(const std::string&)>& wanted = {});
+/// Throws InputError that names the file: missing, not EXR, damaged, cut short, too large (by `most_pixels`, too,
+/// before anything is allocated for them), subsampled, no such channel.
+ExrImage read_exr(const std::filesystem::path& path, const std::function<bool(const std::string&)>& wanted = {},
+                  std::uint64_t most_pixels = ~0ull);
 
 /// The names of a file's channels, in its (alphabetical) order. Throws InputError like read_exr.
 std::vector<std::string> exr_channel_names(const std::filesystem::path& path);

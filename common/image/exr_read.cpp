@@ -45,9 +45,15 @@ void check_is_exr(const std::filesystem::path& path) {
     if (deep) refuse(path, "holds deep pixels, which are not read", "flatten it first");
 }
 
-void check_size(const std::filesystem::path& path, const Imath::Box2i& window, std::size_t channels) {
+void check_size(const std::filesystem::path& path, const Imath::Box2i& window, std::size_t channels,
+                std::uint64_t most_pixels) {
     const auto width = static_cast<std::size_t>(std::int64_t{window.max.x} - window.min.x + 1);
     const auto height = static_cast<std::size_t>(std::int64_t{window.max.y} - window.min.y + 1);
+    if (width * height > most_pixels)
+        refuse(path,
+               "claims " + std::to_string(width) + " x " + std::to_string(height) + " pixels, more than the " +
+                   std::to_string(most_pixels) + " that are allowed",
+               "reduce its size, or check whether it is damaged");
     if (width * height > kMaxImageValues / channels)
         refuse(path,
                "claims " + std::to_string(width) + " x " + std::to_string(height) + " pixels in " +
@@ -81,14 +87,15 @@ CropWindow crop_of(const Imath::Box2i& data, const Imath::Box2i& display) {
             display.max.y - display.min.y + 1};
 }
 
-ExrImage read_checked(const std::filesystem::path& path, const std::function<bool(const std::string&)>& wanted) {
+ExrImage read_checked(const std::filesystem::path& path, const std::function<bool(const std::string&)>& wanted,
+                      std::uint64_t most_pixels) {
     Imf::InputFile file(path.c_str());
     const Imf::Header& header = file.header();
     const Imath::Box2i window = header.dataWindow();
 
     ExrImage result;
     select_channels(path, header.channels(), wanted, result);
-    check_size(path, window, result.image.channel_names.size());
+    check_size(path, window, result.image.channel_names.size(), most_pixels);
     if (!file.isComplete()) refuse(path, "is cut short: parts of the image are missing", "write or copy it again");
     result.attributes = string_attributes(header);
 
@@ -132,10 +139,11 @@ bool is_exr_file(const std::filesystem::path& path) {
     return std::filesystem::is_regular_file(path, none) && Imf::isOpenExrFile(path.c_str());
 }
 
-ExrImage read_exr(const std::filesystem::path& path, const std::function<bool(const std::string&)>& wanted) {
+ExrImage read_exr(const std::filesystem::path& path, const std::function<bool(const std::string&)>& wanted,
+                  std::uint64_t most_pixels) {
     check_is_exr(path);
     check_exr_header(path);
-    return guarded(path, [&] { return read_checked(path, wanted); });
+    return guarded(path, [&] { return read_checked(path, wanted, most_pixels); });
 }
 
 std::vector<std::string> exr_channel_names(const std::filesystem::path& path) {

@@ -55,8 +55,8 @@ std::optional<Pixels> decode_integers(const EncodedImage& file, std::string& why
     return stb::decode(file.bytes, why);
 }
 
-StoredImage read_encoded(const std::filesystem::path& path) {
-    const EncodedImage file = read_encoded_image(path, kCure);
+StoredImage read_encoded(const std::filesystem::path& path, std::uint64_t most_pixels) {
+    const EncodedImage file = read_encoded_image(path, kCure, most_pixels);
     StoredImage image;
     image.width = file.width;
     image.height = file.height;
@@ -90,10 +90,11 @@ StoredImage read_encoded(const std::filesystem::path& path) {
     return image;
 }
 
-StoredImage read_from_exr(const std::filesystem::path& path) {
+StoredImage read_from_exr(const std::filesystem::path& path, std::uint64_t most_pixels) {
     const std::vector<std::string> chosen = choose_color_channels(path, exr_channel_names(path));
     const ExrImage file = read_exr(
-        path, [&](const std::string& name) { return std::find(chosen.begin(), chosen.end(), name) != chosen.end(); });
+        path, [&](const std::string& name) { return std::find(chosen.begin(), chosen.end(), name) != chosen.end(); },
+        most_pixels);
     StoredImage image;
     image.width = file.image.width;
     image.height = file.image.height;
@@ -110,8 +111,8 @@ StoredImage read_from_exr(const std::filesystem::path& path) {
 
 }  // namespace
 
-StoredImage read_stored_image(const std::filesystem::path& path) {
-    return is_exr_file(path) ? read_from_exr(path) : read_encoded(path);
+StoredImage read_stored_image(const std::filesystem::path& path, std::uint64_t most_pixels) {
+    return is_exr_file(path) ? read_from_exr(path, most_pixels) : read_encoded(path, most_pixels);
 }
 
 }  // namespace treefarm

@@ -21,6 +21,7 @@ struct StoredImage {
 /// Reads PNG, JPEG, OpenEXR, Radiance HDR, BMP, TGA, PGM, PPM or PFM, told apart by their first bytes (TGA also by its
 /// last ones, or its name). Throws InputError that names the file:
 /// missing, another format, damaged, too large, no channels R, G, B or Y.
-StoredImage read_stored_image(const std::filesystem::path& path);
+/// `most_pixels`: more are refused before anything is allocated for them.
+StoredImage read_stored_image(const std::filesystem::path& path, std::uint64_t most_pixels = ~0ull);
 
 }  // namespace treefarm

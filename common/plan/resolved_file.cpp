@@ -32,7 +32,8 @@ Job read_resolved(const std::string& toml, const std::string& name) {
 bool may_change_on_resume(const std::string& key) {
     constexpr std::array<std::string_view, 4> kFixed = {"farm.isa", "farm.robust", "output.aovs", "budget.strict"};
     if (std::find(kFixed.begin(), kFixed.end(), key) != kFixed.end()) return false;
-    return key.starts_with("budget.") || key.starts_with("farm.") || key.starts_with("output.");
+    return key.starts_with("budget.") || key.starts_with("farm.") || key.starts_with("output.") ||
+           key.starts_with("scene.max_") || key == "scene.root";
 }
 
 std::string first_difference(const Job& before, const Job& now) {

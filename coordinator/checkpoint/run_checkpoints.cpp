@@ -30,14 +30,22 @@ RunCheckpoints::RunCheckpoints(const std::filesystem::path& run, const Job& job,
       written_passes_(resumed ? resumed->state.reports.size() : 0),
       next_(interval_) {}
 
+bool RunCheckpoints::is_due(double elapsed_seconds) const {
+    return interval_ > 0 && elapsed_seconds >= next_ && written_ == prepared_;
+}
+
 void RunCheckpoints::offer(RenderState& state, double elapsed_seconds) {
     if (interval_ == 0 || elapsed_seconds < next_) return;
     const Timer timer;
+    if (written_ == prepared_) last_prepared_ = {};  // no two copies of what is on disk
     try {
-        last_prepared_ = [this, write = store_.prepare(origin_of(state), state), passes = state.reports.size()] {
+        last_prepared_ = [this, write = store_.prepare(origin_of(state), state), passes = state.reports.size(),
+                          number = prepared_ + 1] {
             write();
             written_passes_ = passes;
+            written_ = number;
         };
+        ++prepared_;
         writer_.put("checkpoint", last_prepared_, kPace);
     } catch (const std::bad_alloc&) {  // the next one may find room
     }
@@ -50,7 +58,7 @@ void RunCheckpoints::take_last(RenderState state) {
 
 CheckpointOrigin RunCheckpoints::origin_of(const RenderState& state) const {
     CheckpointOrigin origin = origin_;
-    origin.pixels = state.films.front().pixels.size();
+    origin.pixels = state.begun ? state.begun->done.pixel_count() : state.films.front().pixels.size();
     return origin;
 }
 
@@ -61,7 +69,8 @@ std::string RunCheckpoints::finish(bool done) {
         return "";
     }
     if (interval_ == 0) return "";
-    if (last_state_ ? written_passes_ >= last_state_->reports.size() : !last_prepared_) return "";
+    const bool has_all = last_state_ && !last_state_->begun && written_passes_ >= last_state_->reports.size();
+    if (has_all || (!last_state_ && !last_prepared_)) return "";
     std::vector<LastFile> file = {{folder_.string(), [this] {
                                        if (last_state_)
                                            store_.write(origin_of(*last_state_), *last_state_);
@@ -70,7 +79,7 @@ std::string RunCheckpoints::finish(bool done) {
                                    }}};
     const std::vector<std::string> failures = write_last_files(file, kPatience);
     last_state_.reset();
-    return failures.empty() ? "" : "no checkpoint of the last pass: " + failures.front();
+    return failures.empty() ? "" : "no checkpoint of the end: " + failures.front();
 }
 
 }  // namespace treefarm

@@ -22,7 +22,9 @@ class RunCheckpoints {
     RunCheckpoints(const std::filesystem::path& run, const Job& job, CheckpointOrigin origin,
                    const LoadedCheckpoint* resumed);
 
-    /// A checkpoint, where one is due; called after each pass.
+    /// Whether one is due within a pass: not while the last is being written, so that there are never three of them.
+    bool is_due(double elapsed_seconds) const;
+    /// A checkpoint, where one is due; called after each pass, and within one by is_due().
     void offer(RenderState& state, double elapsed_seconds);
     /// The state that the run ends in, for a checkpoint that finish() writes.
     void take_last(RenderState state);
@@ -47,6 +49,8 @@ class RunCheckpoints {
     std::function<void()> last_prepared_;          ///< the last one that was given to the writer
     std::optional<RenderState> last_state_;        ///< that the run ended in
     std::atomic<std::size_t> written_passes_ = 0;  ///< of the last one that is on disk
+    std::uint64_t prepared_ = 0;                   ///< number of the last one that was given to the writer
+    std::atomic<std::uint64_t> written_ = 0;       ///< of the last one that it has written
     double next_;                                  ///< not before, in elapsed seconds
     FileWriter writer_;                            ///< of its own: nothing waits for gigabytes. Last: it ends first
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "coordinator/checkpoint/section_file.h"
 
+#include <algorithm>
 #include <string>
 
 #include "common/base/hash_stream.h"
@@ -33,6 +34,10 @@ std::string tag_text(std::uint32_t tag) {
 }
 
 }  // namespace
+
+bool SectionFile::has(std::uint32_t tag) const {
+    return std::any_of(sections.begin(), sections.end(), [&](const Section& section) { return section.tag == tag; });
+}
 
 const Section& SectionFile::at(std::uint32_t tag, std::uint32_t version) const {
     for (const Section& section : sections) {

@@ -31,6 +31,7 @@ struct SectionFile {
     std::uint64_t generation = 0;  ///< the higher, the newer
     std::vector<Section> sections;
 
+    bool has(std::uint32_t tag) const;
     /// The section with this tag. Throws FormatError if there is none, or it is of another version.
     const Section& at(std::uint32_t tag, std::uint32_t version = 1) const;
 };

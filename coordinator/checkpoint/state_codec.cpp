@@ -150,6 +150,23 @@ void serialize(Archive& a, PassReport& r) {
 }
 
 template <class Archive>
+void serialize(Archive& a, WorkUnit& u) {
+    a(u.pass, u.x0, u.y0, u.x1, u.y1, u.chunk, u.kind, u.first, u.count);
+}
+
+template <class Archive>
+void serialize(Archive& a, DeadlyUnit& d) {
+    a(d.unit, d.deaths);
+}
+
+/// But for the layers, which are sections of their own.
+template <class Archive>
+void serialize(Archive& a, BegunPass& p) {
+    a(p.plan, p.memory, p.done, p.stats, p.update_bytes, p.splat_bytes, p.touched_cells, p.deadly, p.collect_seconds,
+      p.run_seconds);
+}
+
+template <class Archive>
 void serialize(Archive& a, CheckpointOrigin& o) {
     a(o.fingerprint, o.build, o.scene_hash, o.resolved, o.output_file, o.schedule, o.pixels);
 }
@@ -158,7 +175,9 @@ namespace {
 
 constexpr std::uint32_t kOrigin = section_tag("IDNT"), kHistory = section_tag("FACT"), kFilms = section_tag("FILM"),
                         kProbes = section_tag("PROB"), kAovs = section_tag("AOVS"), kModel = section_tag("MODL"),
-                        kLearner = section_tag("LERN"), kReports = section_tag("RPRT");
+                        kLearner = section_tag("LERN"), kReports = section_tag("RPRT"), kBegun = section_tag("OPEN"),
+                        kBegunFilm = section_tag("PFLM"), kBegunAovs = section_tag("PAOV"),
+                        kBegunSplats = section_tag("PSPL"), kBegunSums = section_tag("PSUM");
 
 constexpr std::uint32_t version_of(std::uint32_t tag) {
     return tag == kHistory ? 2 : 1;
@@ -215,7 +234,7 @@ bool is_film_name(const std::string& name) {
 
 std::vector<Section> encode_state(const CheckpointOrigin& origin, const RenderState& state) {
     // As it grows it would be copied, and lie in memory twice.
-    const std::size_t room = state.aovs.requested() ? 64 + most_aov_bytes() * state.films.front().pixels.size() : 0;
+    const std::size_t room = state.aovs.requested() ? 64 + most_aov_bytes() * origin.pixels : 0;
     std::vector<Section> sections;  // a list in braces would copy each
     sections.push_back(section(kOrigin, origin));
     sections.push_back(section(kHistory, state.history));
@@ -225,7 +244,27 @@ std::vector<Section> encode_state(const CheckpointOrigin& origin, const RenderSt
     sections.push_back(section(kModel, state.tree.encode(), state.last_tree, state.tree_hash));
     sections.push_back(section(kLearner, state.learner));
     sections.push_back(section(kReports, state.reports));
+    if (!state.begun) return sections;
+    const BegunPass& begun = *state.begun;
+    sections.push_back(section(kBegun, begun));
+    sections.push_back({kBegunFilm, version_of(kBegunFilm), begun.film});
+    sections.push_back({kBegunAovs, version_of(kBegunAovs), begun.aovs});
+    sections.push_back({kBegunSplats, version_of(kBegunSplats), begun.splats});
+    sections.push_back({kBegunSums, version_of(kBegunSums), begun.sums});
     return sections;
+}
+
+/// The pass that a state goes on within, if it does.
+std::optional<BegunPass> decode_begun(const SectionFile& file, std::size_t pixels) {
+    if (!file.has(kBegun)) return std::nullopt;
+    BegunPass begun;
+    read(file, kBegun, begun);
+    begun.film = file.at(kBegunFilm).bytes;
+    begun.aovs = file.at(kBegunAovs).bytes;
+    begun.splats = file.at(kBegunSplats).bytes;
+    begun.sums = file.at(kBegunSums).bytes;
+    require(begun.plan.spp > 0 && has_possible_units(begun, pixels), "a pass in hand of another image");
+    return begun;
 }
 
 CheckpointOrigin decode_origin(const SectionFile& file) {
@@ -247,9 +286,11 @@ RenderState decode_state(const SectionFile& file, std::size_t pixels, std::span<
     read(file, kLearner, state.learner);
     read(file, kReports, state.reports);
     require(state.history.guiding <= Guiding::loses, "an unknown verdict on guiding");
-    require(!state.reports.empty() && state.reports.size() == state.history.passes.size(),
-            "not a report for each pass");
-    require(!state.films.empty(), "no film");
+    state.begun = decode_begun(file, pixels);
+    require(state.reports.size() == state.history.passes.size(), "not a report for each pass");
+    require(!state.reports.empty() || state.begun, "no pass");
+    require(state.films.empty() == state.reports.empty(), "no film");
+    require(!state.begun || state.begun->plan.index == state.reports.size(), "a pass in hand that is not the next");
     for (std::size_t k = 0; k < state.films.size(); ++k) {
         require(is_film_name(state.films[k].stored), "a film without a file");
         require(fits(state.films[k].noise, state.films.size() - k), "noise of other films");

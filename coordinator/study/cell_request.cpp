@@ -24,7 +24,7 @@ Job scene_job(const Study& study, const StudyScene& scene) {
 LoadedScene load_study_scene(const Study& study, const StudyScene& scene) {
     const Job job = scene_job(study, scene);
     return load_scene(scene.file, job.scene.defines, job.scene.lenient, job.image.width, job.image.height,
-                      job.scene.sensor);
+                      job.scene.sensor, scene_limits(job.scene));
 }
 
 RenderRequest study_request(const Study& study, const StudyScene& scene, const LoadedScene& loaded,

@@ -161,10 +161,7 @@ class FarmTest : public ::testing::Test {
             farm.gather([] { return false; });
             RenderState begin = first_state(job_, initial_tree(Box3(Vec3(0.0f), Vec3(1.0f)), 1.0f), kWidth * kHeight);
             if (auto resumed = std::exchange(resumed_, std::nullopt)) begin = std::move(*resumed);
-            std::vector<PassPlan> begun;
-            for (const PassReport& report : begin.reports)
-                begun.push_back(report.plan);
-            const PassChooser chosen = passes_of(job_, begun);
+            const PassChooser chosen = passes_of(job_, begin.plans());
             const PassChooser passes = [&](const RenderHistory& state) {
                 NextPass next = chosen(state);
                 if (next.pass && change_pass_) change_pass_(*next.pass);

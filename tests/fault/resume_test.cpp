@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A render that goes on from any of its states, written and read, is the render that never stopped.
+#include <array>
 #include <filesystem>
 
 #include "common/plan/resolved_file.h"
@@ -28,6 +29,39 @@ class Resume : public FarmTest {
         hooks_.interrupted = [&] { return done == passes; };
         hooks_.on_last_state = [&](RenderState state) { write(state); };
         EXPECT_TRUE(render().interrupted);
+        hooks_ = {};
+        faulty_.clear();
+    }
+
+    /// Ends a render of two workers within a pass, once so much of it has come in: what the second brings is lost, and
+    /// the first begins when that has got something to do.
+    void stop_within(std::uint32_t pass, double share) {
+        make_workers(2);
+        double in_hand = 0;
+        std::array<std::atomic<bool>, 16> second_has{};
+        faulty_[1]->incoming = [&second_has](Bytes& bytes) {
+            if (!is<Work>(bytes)) return true;
+            const auto work = std::get<Work>(decode(bytes));
+            if (!work.units.empty()) second_has.at(work.pass) = true;
+            return true;
+        };
+        faulty_[1]->outgoing = [pass](Bytes& bytes) {
+            return !is<Result>(bytes) || std::get<Result>(decode(bytes)).pass != pass;
+        };
+        renderers_[0] = [&](std::span<const std::uint8_t>, const Job& job) -> RenderUnit {
+            return [&second_has, pass, render = fake_renderer(job)](const PassPlan& plan, auto&... args) {
+                for (int k = 0; k < 20'000 && plan.index == pass && !second_has.at(pass); ++k)
+                    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+                render(plan, args...);
+            };
+        };
+        hooks_.on_progress = [&](const RenderProgress& progress) {
+            const double before = truth().passes[pass].plan.first_sample, spp = truth().passes[pass].plan.spp;
+            if (progress.pass == pass) in_hand = (progress.fraction * progress.spp_total - before) / spp;
+        };
+        hooks_.interrupted = [&] { return in_hand > share + 1e-9; };
+        hooks_.on_last_state = [&](RenderState state) { write(state); };
+        EXPECT_TRUE(render({.gather = 20, .lost = 20, .dismiss = 1}).interrupted);
         hooks_ = {};
         faulty_.clear();
     }
@@ -80,6 +114,74 @@ TEST_F(Resume, AfterAnyPassOnAnyFarmTheBitsAreThoseOfARenderThatNeverStopped) {
         faulty_.clear();
         job_.farm.tile_size = 8;
     }
+}
+
+TEST_F(Resume, WithinAnyPassOnAnyFarmTheBitsAreThoseOfARenderThatNeverStopped) {
+    int k = 0;
+    for (std::uint32_t pass = 0; pass < truth().passes.size(); ++pass)
+        for (const double share : {0.0, 0.3}) {
+            stop_within(pass, share);
+            const RenderState state = load().state;
+            ASSERT_TRUE(state.begun) << "pass " << pass;
+            EXPECT_EQ(state.reports.size(), pass);
+            EXPECT_EQ(state.begun->plan.index, pass);
+            EXPECT_GT(state.begun->done.weight(), 0u);
+            EXPECT_LT(state.begun->done.weight(), std::uint64_t{kWidth} * kHeight * state.begun->plan.chunks);
+            job_.farm.tile_size = k % 2 == 0 ? 32 : 5;
+            expect_truth(go_on(1 + k % 5, 1 + static_cast<std::uint32_t>(k % 3)));
+            faulty_.clear();
+            job_.farm.tile_size = 8;
+            ++k;
+        }
+}
+
+TEST_F(Resume, ManyTimesWithinOnePass) {
+    const auto last = static_cast<std::uint32_t>(truth().passes.size() - 1);
+    stop_within(last, 0.0);
+    for (const double share : {0.2, 0.4, 0.6}) {
+        const std::uint64_t before = load().state.begun->done.weight();
+        resumed_ = load().state;
+        stop_within(last, share);
+        EXPECT_GE(load().state.begun->done.weight(), before) << "nothing is traced twice";
+    }
+    expect_truth(go_on(3, 1));
+}
+
+TEST_F(Resume, CheckpointsWithinAPassAreMadeWhileItGoesOn) {
+    make_workers(2);
+    std::vector<RenderState> states;
+    hooks_.state_due = [&] { return true; };
+    hooks_.on_state = [&](RenderState& state) {
+        if (state.begun && state.begun->plan.index >= 2 && states.size() < 5) states.push_back(state);
+    };
+    expect_truth(render());
+    ASSERT_FALSE(states.empty());
+    hooks_ = {};
+    for (RenderState& state : states) {
+        write(state);
+        faulty_.clear();
+        expect_truth(go_on(1, 2));
+    }
+}
+
+TEST_F(Resume, WhatCannotBeUsedOfAPassIsTracedAgain) {
+    stop_within(2, 0.0);
+    RenderState state = load().state;
+    state.begun->film.pop_back();
+    write(state);
+    expect_truth(go_on(2, 1));
+}
+
+TEST_F(Resume, APassInHandIsFinishedAsItWasBegunWhateverTheNewBudget) {
+    const auto last = static_cast<std::uint32_t>(truth().passes.size() - 1);
+    stop_within(last, 0.0);
+    job_.budget.spp = 300;
+    const RenderResult more = go_on(2, 2);
+    EXPECT_EQ(more.passes[last].plan, truth().passes[last].plan);
+    EXPECT_EQ(more.spp, 300u);
+    const RenderResult replayed = replay(more);
+    EXPECT_EQ(hash_text(replayed.image_hash), hash_text(more.image_hash));
+    EXPECT_EQ(hash_text(replayed.tree_hash), hash_text(more.tree_hash));
 }
 
 TEST_F(Resume, ManyTimesInARow) {

@@ -30,6 +30,16 @@ RenderState small_state() {
     report.seconds.worker = {{1, 0.5}, {2, 0.25}};
     report.stats.first_invalid.push_back({});
     state.reports.push_back(report);
+    BegunPass begun;
+    begun.plan.index = 1;
+    begun.plan.spp = 8;
+    begun.plan.units.light_paths = 2;
+    begun.done = DoneWork(3, 2, 1);
+    begun.done.add({1, 0, 0, 2, 1, 0});
+    begun.done.add({.pass = 1, .kind = UnitKind::light_paths, .first = 3, .count = 4});
+    begun.deadly = {{{1, 2, 1, 3, 2, 0}, 1}};
+    begun.film.resize(2 * kStoredPixelBytes);
+    state.begun = begun;
     return state;
 }
 

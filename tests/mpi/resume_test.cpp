@@ -101,6 +101,56 @@ TEST(Resume, AKilledProgramGoesOnUnderAnyNumberOfRanks) {
     EXPECT_GT(resumes, 0) << "none was killed in time";
 }
 
+const std::vector<std::string> kOnePass = {"--spp", "1500", "--set", "guiding.spp_unit=1500"};
+
+const RunHashes& one_pass() {
+    static const RunHashes truth = [] {
+        const fs::path folder = fresh_folder("one-pass");
+        EXPECT_EQ(Program(render(folder, kOnePass)).wait(kSoon).code, 0);
+        return hashes_of(folder);
+    }();
+    return truth;
+}
+
+/// Whether one of the checkpoints is of a pass in hand.
+bool has_begun_pass(const fs::path& folder) {
+    for (const char* name : {"a.tfc", "b.tfc"}) {
+        std::ifstream file(folder / "checkpoint" / name, std::ios::binary);
+        if ((std::stringstream() << file.rdbuf()).str().find("OPEN") != std::string::npos) return true;
+    }
+    return false;
+}
+
+TEST(Resume, AProgramThatIsKilledWithinAPassGoesOnWithinIt) {
+    const RunHashes& truth = one_pass();
+    const fs::path folder = fresh_folder("run");
+    Program program(render(folder, kOnePass));
+    ASSERT_TRUE(program.wait_until([&] { return has_begun_pass(folder); }, kSoon));
+    program.signal(SIGKILL);
+    program.wait(kSoon);
+    ASSERT_FALSE(fs::exists(folder / "summary.json"));
+    const Ending ending = Program(mpirun(3) + resume(folder, {"--set", "farm.tile_size=9"})).wait(kSoon);
+    EXPECT_EQ(ending.code, 0) << ending.output;
+    EXPECT_NE(ending.output.find("0 passes with 0 spp are done, one is begun"), std::string::npos) << ending.output;
+    EXPECT_EQ(hashes_of(folder), truth);
+}
+
+TEST(Resume, AProgramThatIsInterruptedWithinItsFirstPassKeepsWhatItHas) {
+    const RunHashes& truth = one_pass();
+    const fs::path folder = fresh_folder("run");
+    Program program(render(folder, kOnePass));
+    ASSERT_TRUE(program.wait_until([&] { return has_begun_pass(folder); }, kSoon));
+    program.signal(SIGINT);
+    const Ending ending = program.wait(kSoon);
+    EXPECT_EQ(ending.code, 3) << ending.output;
+    EXPECT_NE(ending.output.find("% of the pass in hand; go on with: treefarm resume " + folder.string()),
+              std::string::npos)
+        << ending.output;
+    EXPECT_FALSE(fs::exists(folder / "image.exr"));
+    EXPECT_EQ(resumed(2, folder), 0);
+    EXPECT_EQ(hashes_of(folder), truth);
+}
+
 TEST(Resume, AnInterruptedProgramGoesOn) {
     const fs::path folder = fresh_folder("run");
     Program program(render(folder));

@@ -9,64 +9,17 @@ exit code 0 and the bits of the render that never stopped, and leaves no process
 per render.
 """
 import argparse
-import glob
-import json
-import os
 import pathlib
 import random
 import shutil
-import signal
 import subprocess
 import sys
 import tempfile
 import time
 
+from launched_render import DEADLINE, command, environment, faults_of, hashes, kill, started
+
 GUIDES = ("auto", "view", "ppg", "none", "grid")
-DEADLINE = 240
-
-
-def environment():
-    return {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
-
-
-def command(arguments, folder, guide, launched, ranks=1):
-    render = ["render", arguments.scene, "-D", "size=48", "--run-dir", str(folder), "--overwrite", "--threads", "1",
-              "--quiet", "--spp", "255", "--set", f"guiding.type={guide}", "--set", "farm.checkpoint_seconds=0.001", "--set",
-              "farm.heartbeat_seconds=0.2"]
-    return [arguments.treefarm, *(["launch", "-n", str(ranks), "--"] if launched else []), *render]
-
-
-def hashes(folder):
-    summary = json.loads((folder / "summary.json").read_text())
-    return summary["image_hash"], summary["tree_hash"], summary["state"]
-
-
-def started(folder):
-    """Processes of all attempts in this folder."""
-    wanted = f":{folder}/launch/status.json".encode() + b"\0"
-    found = []
-    for process in pathlib.Path("/proc").glob("[0-9]*"):
-        try:
-            variables = b"\0" + (process / "environ").read_bytes()
-        except OSError:
-            continue
-        at = variables.find(b"\0TREEFARM_ATTEMPT=")
-        if at >= 0 and variables[at:].split(b"\0")[1].endswith(wanted[:-1]):
-            found.append(int(process.name))
-    return found
-
-
-def leftovers(pid):
-    return [name for place in ("/dev/shm", os.environ.get("TMPDIR", "/tmp"))
-            for name in glob.glob(f"{place}/treefarm-launch-{pid}-*")]
-
-
-def kill(pids):
-    for pid in pids:
-        try:
-            os.kill(pid, signal.SIGKILL)
-        except ProcessLookupError:
-            pass
 
 
 def one(arguments, work, random, truths):
@@ -74,13 +27,13 @@ def one(arguments, work, random, truths):
     name = f"{guide} ranks {ranks} kills {kills}"
     if guide not in truths:
         truth = work / f"truth-{guide}"
-        subprocess.run(command(arguments, truth, guide, False), check=True, env=environment())
+        subprocess.run(command(arguments.treefarm, arguments.scene, truth, guide), check=True, env=environment())
         truths[guide] = hashes(truth)
     folder = work / "run"
     shutil.rmtree(folder, ignore_errors=True)
     begin = time.monotonic()
-    process = subprocess.Popen(command(arguments, folder, guide, True, ranks), env=environment(), stdout=subprocess.PIPE,
-                               stderr=subprocess.STDOUT, text=True)
+    process = subprocess.Popen(command(arguments.treefarm, arguments.scene, folder, guide, ranks), env=environment(),
+                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
     done = 0
     for _ in range(kills):
         time.sleep(random.uniform(0.1, 4.0))
@@ -95,16 +48,7 @@ def one(arguments, work, random, truths):
         kill([*started(folder), process.pid])
         return name, f"hangs: {process.communicate()[0]}", 0, done
     seconds = time.monotonic() - begin
-    faults = []
-    if process.returncode != 0:
-        faults.append(f"exit code {process.returncode}: {output}")
-    elif hashes(folder) != truths[guide]:
-        faults.append(f"{hashes(folder)} instead of {truths[guide]}")
-    if started(folder):
-        faults.append(f"processes {started(folder)} stay")
-    if leftovers(process.pid):
-        faults.append(f"{leftovers(process.pid)} stay")
-    return name, "; ".join(faults), seconds, done
+    return name, faults_of(process, output, folder, truths[guide]), seconds, done
 
 
 def main():

@@ -123,6 +123,45 @@ TEST(PassFilm, IsTheSameForAnyOrderAndCut) {
     }
 }
 
+TEST(PassFilm, GoesOnFromWhatHadCome) {
+    constexpr int kWidth = 7, kHeight = 5;
+    for (const std::uint32_t chunks : {1u, 3u}) {
+        std::vector<WorkUnit> units = cut_tiles(0, chunks, kWidth, kHeight, 2);
+        std::mt19937 engine(chunks);
+        std::shuffle(units.begin(), units.end(), engine);
+        const auto pixels_of = [&](const WorkUnit& unit) {
+            std::vector<PixelEstimate> pixels;
+            for (unsigned y = unit.y0; y < unit.y1; ++y)
+                for (unsigned x = unit.x0; x < unit.x1; ++x)
+                    pixels.push_back(make_blocks(chunks * kBlockSamples, y * kWidth + x)[unit.chunk]);
+            return pixels;
+        };
+        PassFilm whole(kWidth, kHeight, chunks);
+        for (const WorkUnit& unit : units)
+            whole.add(unit, pixels_of(unit));
+        for (std::size_t stop = 0; stop <= units.size(); stop += 5) {
+            PassFilm first(kWidth, kHeight, chunks), second(kWidth, kHeight, chunks);
+            DoneWork done(kWidth, kHeight, chunks);
+            for (std::size_t k = 0; k < stop; ++k) {
+                first.add(units[k], pixels_of(units[k]));
+                done.add(units[k]);
+            }
+            Bytes bytes = first.encode(done);
+            second.restore(done, bytes);
+            EXPECT_EQ(second.encode(done), bytes);
+            for (std::size_t k = stop; k < units.size(); ++k)
+                second.add(units[k], pixels_of(units[k]));
+            ASSERT_TRUE(second.complete());
+            for (std::size_t p = 0; p < whole.pixels().size(); ++p)
+                EXPECT_TRUE(same_bits(second.pixels()[p], whole.pixels()[p])) << "pixel " << p << ", " << stop;
+            bytes.push_back(0);
+            PassFilm third(kWidth, kHeight, chunks);
+            EXPECT_THROW(third.restore(done, bytes), FormatError);
+            EXPECT_THROW(third.restore(DoneWork(kWidth, kHeight, chunks + 1), {}), FormatError);
+        }
+    }
+}
+
 TEST(PassFilm, RefusesUnitsThatDoNotFit) {
     PassFilm film(4, 4, 1);
     const std::vector<PixelEstimate> pixels(4);

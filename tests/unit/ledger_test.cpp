@@ -290,5 +290,48 @@ TEST(Ledger, EveryAtomIsDoneOnceWhateverHappens) {
     }
 }
 
+TEST(Ledger, WhatAnEarlierLifeDidIsNotIssuedAndWhatWasDeadlyAlone) {
+    constexpr int kWidth = 61, kHeight = 47;
+    Ledger before(plan(2), kWidth, kHeight, 16);
+    DoneWork done(kWidth, kHeight, 2);
+    std::vector<int> marks(kWidth * kHeight * 2, 0);
+    for (int k = 0; k < 5; ++k) {
+        const auto units = before.issue(1, some(2, 8192));
+        for (const WorkUnit& unit : units)
+            done.add(unit);
+        cover(marks, kWidth, kHeight, units);
+        before.accept(1, units);
+    }
+    const std::vector<WorkUnit> deadly = before.issue(2, some(1));
+    before.reclaim(2, true);
+    before.issue(3, some(1));
+    before.reclaim(3, true);
+    ASSERT_EQ(before.deadly(), (std::vector<DeadlyUnit>{{deadly[0], 2}}));
+
+    Ledger after(plan(2), kWidth, kHeight, 9, done, before.deadly());
+    EXPECT_EQ(after.done(), before.done());
+    EXPECT_EQ(after.total(), before.total());
+    EXPECT_EQ(after.deadly(), before.deadly());
+    after.forgive(1);  // workers of this life have nothing to do with it
+    const std::vector<WorkUnit> first = after.issue(1, some(4));
+    EXPECT_EQ(first, deadly);
+    EXPECT_TRUE(after.has_suspect(1));
+    EXPECT_TRUE(cover(marks, kWidth, kHeight, first));
+    while (after.waiting() > 0) {
+        const auto units = after.issue(2, some(3));
+        EXPECT_TRUE(cover(marks, kWidth, kHeight, units));
+        EXPECT_EQ(after.accept(2, units), Verdict::accepted);
+    }
+    EXPECT_EQ(after.waiting_paths(), 0u);
+    EXPECT_EQ(after.done() + deadly[0].pixel_count(), after.total());
+    EXPECT_FALSE(after.complete());
+    after.reclaim(1, true);
+    EXPECT_EQ(after.deadliest().second, 3u) << "the third death, of all lives";
+    EXPECT_EQ(after.deadly()[0].deaths, 2u) << "the next life gives it one more try";
+    EXPECT_EQ(after.accept(3, after.issue(3, some(1))), Verdict::accepted);
+    EXPECT_TRUE(after.complete());
+    EXPECT_EQ(std::set<int>(marks.begin(), marks.end()), std::set<int>{1});
+}
+
 }  // namespace
 }  // namespace treefarm

@@ -36,10 +36,10 @@ Imath::V3d shift_of(const Scene& scene) {
 }  // namespace
 
 LoadedScene load_scene(const std::filesystem::path& path, const std::map<std::string, std::string>& defines,
-                       bool lenient, int width, int height, const std::string& sensor) {
+                       bool lenient, int width, int height, const std::string& sensor, const SceneLimits& limits) {
     require_xml(path);
     const auto read = [&](const Imath::V3d& shift) {
-        return read_mitsuba(path, defines, lenient, shift, {width, height}, sensor);
+        return read_mitsuba(path, defines, lenient, shift, {width, height}, sensor, limits);
     };
     SceneReading reading = read(Imath::V3d(0.0));
     // The image does not depend on where a scene stands, but its digits do: far from the origin it is read again.

@@ -9,6 +9,7 @@
 #include "common/config/setting.h"
 #include "common/scene/finding.h"
 #include "common/scene/model/scene.h"
+#include "common/scene/readers/scene_limits.h"
 #include "common/scene/warning.h"
 
 namespace treefarm {
@@ -23,9 +24,10 @@ struct LoadedScene {
 
 /// Reads a scene file by its extension: .xml is Mitsuba's format. A width or height above 0 replaces the film's; the
 /// camera's field of view follows the new shape of the film, as if the scene said so. `sensor` chooses one by its
-/// number from 0 on or its id; "": the file's own choice. Bad input throws InputError.
+/// number from 0 on or its id; "": the file's own choice. Bad input, and what is beyond the limits, throws InputError.
 LoadedScene load_scene(const std::filesystem::path& path, const std::map<std::string, std::string>& defines = {},
-                       bool lenient = false, int width = 0, int height = 0, const std::string& sensor = "");
+                       bool lenient = false, int width = 0, int height = 0, const std::string& sensor = "",
+                       const SceneLimits& limits = {});
 
 /// A scene for inspect(): before anything is repaired; what a render would refuse to read is left out.
 struct SceneToCheck {

@@ -8,6 +8,7 @@
 
 #include "common/math/vec.h"
 #include "common/scene/finding.h"
+#include "common/scene/readers/scene_limits.h"
 #include "common/scene/warning.h"
 
 namespace treefarm::mitsuba {
@@ -16,9 +17,12 @@ namespace treefarm::mitsuba {
 /// reading for `treefarm check` goes on after what it refuses, and collects findings.
 class Diagnostics {
   public:
-    explicit Diagnostics(bool lenient, bool checks = false) : lenient_(lenient), checks_(checks) {}
+    explicit Diagnostics(bool lenient, bool checks = false, SceneLimits limits = {})
+        : lenient_(lenient), checks_(checks), limits_(std::move(limits)) {}
 
     bool checks() const { return checks_; }
+    /// What the scene may read and take.
+    const SceneLimits& limits() const { return limits_; }
 
     /// Throws InputError, or, when lenient, warns that `instead` is done ("it is skipped") and returns.
     void unsupported(const Location& where, const std::string& what, const std::string& cure,
@@ -69,6 +73,7 @@ class Diagnostics {
 
   private:
     bool lenient_, checks_;
+    SceneLimits limits_;
     std::vector<Warning> warnings_, notes_;
     std::vector<Finding> findings_;
     std::set<std::string> seen_;

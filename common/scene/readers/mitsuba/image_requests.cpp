@@ -153,7 +153,9 @@ void ImageRequests::read(const std::vector<std::int32_t>& kept, Scene& scene, Di
         diagnostics.attempt([&] {
             if (loaded == nullptr || *loaded != request.path) {
                 loaded = nullptr;
-                file = read_stored_image(request.path);
+                // Again: names in material libraries were not held against it before.
+                diagnostics.limits().check_file(request.path, request.where);
+                file = read_stored_image(request.path, diagnostics.limits().image_pixels);
                 loaded = &request.path;
             }
             if (file.width > 65535 || file.height > 65535)

@@ -53,6 +53,7 @@ class Assignment {
                                                            " is not there: what it would colour is grey");
                 continue;
             }
+            diagnostics_.limits().check_file(path, properties_.where());
             for (const MtlMaterial& material : read_mtl(path, properties_.where("filename")))
                 if (known.insert(material.name).second) use(material, path.parent_path());
         }

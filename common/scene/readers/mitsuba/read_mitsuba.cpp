@@ -71,8 +71,8 @@ SceneReading read_mitsuba_to_check(const std::filesystem::path& path, const std:
 
 SceneReading read_mitsuba(const std::filesystem::path& path, const std::map<std::string, std::string>& defines,
                           bool lenient, const Imath::V3d& shift, const mitsuba::FilmSize& film_size,
-                          const std::string& sensor) {
-    return read(SceneDocument(path, defines), Diagnostics(lenient), film_size, sensor, shift);
+                          const std::string& sensor, const SceneLimits& limits) {
+    return read(SceneDocument(path, defines, limits), Diagnostics(lenient, false, limits), film_size, sensor, shift);
 }
 
 }  // namespace treefarm

@@ -10,6 +10,7 @@
 #include "common/scene/finding.h"
 #include "common/scene/model/scene.h"
 #include "common/scene/readers/mitsuba/sensor.h"
+#include "common/scene/readers/scene_limits.h"
 #include "common/scene/warning.h"
 
 namespace treefarm {
@@ -28,7 +29,7 @@ struct SceneReading {
 /// throws. `shift` is added to every position in the world before it becomes a float. `sensor`: as in choose_sensor().
 SceneReading read_mitsuba(const std::filesystem::path& path, const std::map<std::string, std::string>& defines,
                           bool lenient, const Imath::V3d& shift, const mitsuba::FilmSize& film_size = {},
-                          const std::string& sensor = "");
+                          const std::string& sensor = "", const SceneLimits& limits = {});
 
 /// Reads a Mitsuba scene for inspect(): parts that are refused
 /// are findings, and left out. Throws InputError only if there is no scene to look at: bad XML, no sensor.

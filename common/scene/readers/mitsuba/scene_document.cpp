@@ -18,7 +18,8 @@ constexpr int kMaxReferenceDepth = 100;
 /// Puts includes in place and replaces $name, in the order of the document: a <default> holds from where it stands.
 class Expander {
   public:
-    Expander(Parameters& parameters, FileSearch& files) : parameters_(parameters), files_(files) {}
+    Expander(Parameters& parameters, FileSearch& files, const SceneLimits& limits)
+        : parameters_(parameters), files_(files), limits_(limits) {}
 
     XmlElement read(const std::filesystem::path& path, const Location& asked_from, int version) {
         std::error_code error;
@@ -34,6 +35,7 @@ class Expander {
             throw InputError(asked_from, "the scene includes more than " + std::to_string(kMaxIncludes) + " files",
                              "include fewer files");
         open_files_.push_back(canonical);
+        limits_.check_file(path, asked_from.file.empty() ? Location{path.string()} : asked_from);
         XmlElement root = read_xml(path, asked_from);
         const bool outer_is_0_5 = is_0_5_, outer_is_older = is_older_;
         if (root.tag == "scene") {
@@ -116,6 +118,7 @@ class Expander {
 
     Parameters& parameters_;
     FileSearch& files_;
+    const SceneLimits& limits_;
     std::vector<std::filesystem::path> open_files_;
     std::size_t element_count_ = 0, file_count_ = 0;
     bool is_0_5_ = false, is_older_ = false;
@@ -130,12 +133,13 @@ bool is_object_tag(const std::string& tag) {
     return std::find(tags.begin(), tags.end(), tag) != tags.end();
 }
 
-SceneDocument::SceneDocument(const std::filesystem::path& path, const std::map<std::string, std::string>& defines) {
+SceneDocument::SceneDocument(const std::filesystem::path& path, const std::map<std::string, std::string>& defines,
+                             const SceneLimits& limits) {
     Parameters parameters(defines);
     FileSearch files(path.parent_path());
-    root_ = std::make_unique<XmlElement>(Expander(parameters, files).read(path, Location{}, 0));
+    root_ = std::make_unique<XmlElement>(Expander(parameters, files, limits).read(path, Location{}, 0));
     parameters.require_all_used(root_->where);
-    find_files(*root_, files);
+    find_files(*root_, files, limits);
     collect_ids(*root_);
     apply_aliases(*root_);
     std::map<const XmlElement*, bool> done;
@@ -158,15 +162,17 @@ const XmlElement& SceneDocument::resolve(const XmlElement& element) const {
 }
 
 /// After everything else was read: a <path> also holds for what stands before it.
-void SceneDocument::find_files(XmlElement& element, const FileSearch& files) const {
+void SceneDocument::find_files(XmlElement& element, const FileSearch& files, const SceneLimits& limits) const {
     const std::string* name = element.find("name");
     const bool is_value = element.tag == "string" && name != nullptr && *name == "filename";
     for (XmlAttribute& attribute : element.attributes)
-        if ((is_value && attribute.name == "value") || (element.tag == "spectrum" && attribute.name == "filename"))
-            attribute.value =
-                files.find(attribute.value, std::filesystem::path(element.where.file).parent_path()).string();
+        if ((is_value && attribute.name == "value") || (element.tag == "spectrum" && attribute.name == "filename")) {
+            const auto file = files.find(attribute.value, std::filesystem::path(element.where.file).parent_path());
+            limits.check_file(file, element.where);
+            attribute.value = file.string();
+        }
     for (XmlElement& child : element.children)
-        find_files(child, files);
+        find_files(child, files, limits);
 }
 
 void SceneDocument::collect_ids(const XmlElement& element) {

@@ -8,6 +8,7 @@
 
 #include "common/scene/readers/mitsuba/file_search.h"
 #include "common/scene/readers/mitsuba/xml_document.h"
+#include "common/scene/readers/scene_limits.h"
 
 namespace treefarm::mitsuba {
 
@@ -19,7 +20,8 @@ class SceneDocument {
   public:
     /// `defines` are values for $name from outside; they win over <default>. Cycles of includes or references, unknown
     /// and repeated ids, undefined $names and defines that the scene does not use throw InputError.
-    SceneDocument(const std::filesystem::path& path, const std::map<std::string, std::string>& defines);
+    SceneDocument(const std::filesystem::path& path, const std::map<std::string, std::string>& defines,
+                  const SceneLimits& limits = {});
 
     const XmlElement& root() const { return *root_; }
 
@@ -27,7 +29,7 @@ class SceneDocument {
     const XmlElement& resolve(const XmlElement& element) const;
 
   private:
-    void find_files(XmlElement& element, const FileSearch& files) const;
+    void find_files(XmlElement& element, const FileSearch& files, const SceneLimits& limits) const;
     void collect_ids(const XmlElement& element);
     void apply_alias(const XmlElement& alias);
     void apply_aliases(const XmlElement& element);

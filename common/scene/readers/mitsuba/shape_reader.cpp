@@ -89,6 +89,8 @@ bool ShapeReader::is_flat(const Part& part, const XmlElement& element, bool on_e
 }
 
 void ShapeReader::add(Part part, const Properties& properties, const XmlElement* emitter, std::int32_t group) {
+    if (const Mesh* mesh = std::get_if<Mesh>(&part.geometry)) triangles_ += mesh->triangle_count();
+    diagnostics_.limits().check_triangles(triangles_, properties.where());
     Shape shape;
     shape.geometry = std::move(part.geometry);
     shape.name = properties.id();

@@ -42,6 +42,7 @@ class ShapeReader {
     const SceneDocument& document_;
     Diagnostics& diagnostics_;
     std::map<const XmlElement*, std::int32_t> groups_;
+    std::uint64_t triangles_ = 0;  ///< so far
 };
 
 }  // namespace treefarm::mitsuba

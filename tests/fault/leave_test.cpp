@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+// Workers that are told to leave while a render goes on, as a batch system does before it takes a host away.
+#include "tests/fault/farm_fixture.h"
+
+namespace treefarm::test {
+namespace {
+
+class Leave : public FarmTest {
+  protected:
+    std::atomic<bool> told_ = false;
+
+    /// A worker is told to leave when it sends its `count`-th result.
+    void tell_at_result(std::size_t worker, int count) {
+        settings_[worker].told_to_leave = [this] { return told_.load(); };
+        faulty_[worker]->outgoing = [this, count, results = 0](Bytes& bytes) mutable {
+            if (is<Result>(bytes) && ++results == count) told_ = true;
+            return true;
+        };
+    }
+};
+
+TEST_F(Leave, OneOfThreeAtAnyMomentCostsNoBit) {
+    for (const int count : {1, 2, 3}) {
+        make_workers(3);
+        tell_at_result(1, count);
+        expect_truth(render());
+        EXPECT_TRUE(told_);
+        EXPECT_EQ(lost_, std::set<int>{2});
+        EXPECT_EQ(bad_messages_, 0u);
+        told_ = false;
+        faulty_.clear();
+    }
+}
+
+TEST_F(Leave, BeforeItHasAnything) {
+    make_workers(2);
+    told_ = true;
+    settings_[0].told_to_leave = [this] { return told_.load(); };
+    expect_truth(render());
+    EXPECT_EQ(lost_, std::set<int>{1});
+}
+
+TEST_F(Leave, WhatTakesTooLongIsGivenBack) {
+    job_.farm.leave_seconds = 0.05;
+    make_workers(2);
+    std::atomic<bool> given_back = false, never = false;
+    settings_[0].threads = 1;
+    settings_[0].told_to_leave = [this] { return told_.load(); };
+    renderers_[0] = [&](std::span<const std::uint8_t>, const Job& job) -> RenderUnit {
+        return [&, render = fake_renderer(job)](auto&... args) {
+            told_ = true;
+            for (int k = 0; k < 20'000 && !given_back; ++k)
+                std::this_thread::sleep_for(std::chrono::milliseconds(1));
+            render(args...);
+        };
+    };
+    renderers_[1] = make_patient(told_);
+    faulty_[0]->outgoing = [&](Bytes& bytes) {
+        if (is<Bye>(bytes)) given_back = true;
+        if (is<Result>(bytes)) never = true;
+        return true;
+    };
+    expect_truth(render());
+    EXPECT_TRUE(given_back);
+    EXPECT_FALSE(never) << "what was given back is not sent";
+    EXPECT_GT(reissued_, 0u);
+}
+
+TEST_F(Leave, TheLastOneEndsTheRenderWhichCanBeGoneOnWith) {
+    make_workers(1);
+    tell_at_result(0, 3);
+    std::optional<RenderState> last;
+    hooks_.on_last_state = [&](RenderState state) { last = std::move(state); };
+    try {
+        render({.gather = 20, .lost = 20, .dismiss = 20, .grace = 0.2});
+        FAIL() << "nobody is left";
+    } catch (const RunError& error) {
+        EXPECT_NE(std::string(error.what()).find("no worker is left"), std::string::npos) << error.what();
+    }
+    hooks_ = {};
+    ASSERT_TRUE(last);
+    faulty_.clear();
+    make_workers(2);
+    resumed_ = std::move(last);
+    expect_truth(render());
+}
+
+}  // namespace
+}  // namespace treefarm::test

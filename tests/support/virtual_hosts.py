@@ -1,0 +1,138 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Hosts that are namespaces of this machine: each with a network card of its own, its own /tmp, /dev/shm, process numbers and name.
+
+They hang on one switch, 10.78.0.0/24, host k at 10.78.0.(10 + k). Needs root, iproute2 and util-linux; why_not() says what is missing.
+Files outside /tmp and /dev/shm are shared, as by a network disk. A host ends with the object, or when it is crashed.
+"""
+import os
+import pathlib
+import shutil
+import signal
+import subprocess
+import time
+
+NETWORK = "10.78.0.0/24"
+
+
+def why_not():
+    """Why there can be no virtual hosts here; empty: there can."""
+    for program in ("ip", "unshare", "nsenter"):
+        if shutil.which(program) is None:
+            return f"there is no program {program}"
+    if os.geteuid() != 0:
+        return "only root may make network namespaces"
+    name = f"tfprobe{os.getpid()}"
+    made = subprocess.run(["ip", "netns", "add", name], capture_output=True, text=True)
+    if made.returncode != 0:
+        return f"network namespaces are not permitted: {made.stderr.strip()}"
+    subprocess.run(["ip", "netns", "del", name], check=True)
+    return ""
+
+
+def run(*words):
+    subprocess.run(words, check=True, capture_output=True)
+
+
+class VirtualHosts:
+    def __init__(self, folder, count):
+        """`folder`: outside /tmp, for a hosts file and the agent that Open MPI and launch use in place of ssh."""
+        self.folder = pathlib.Path(folder)
+        self.names = [f"vh{k}" for k in range(count)]
+        self.prefix = f"tf{os.getpid()}"
+        self.switch = f"{self.prefix}sw"
+        self.keepers, self.inits = [], []
+        self.hosts_file = self.folder / "etc-hosts"
+        self.hosts_file.write_text("127.0.0.1 localhost\n" + "".join(
+            f"10.78.0.{10 + k} {name}\n" for k, name in enumerate(self.names)))
+        self.agent = self.folder / "agent"
+        try:
+            self._make_switch()
+            for k in range(count):
+                self._make_host(k)
+            self._write_agent()
+        except BaseException:
+            self.close()
+            raise
+
+    def _make_switch(self):
+        run("ip", "netns", "add", self.switch)
+        run("ip", "-n", self.switch, "link", "add", "br0", "type", "bridge")
+        run("ip", "-n", self.switch, "link", "set", "br0", "up")
+
+    def _make_host(self, k):
+        space = f"{self.prefix}h{k}"
+        run("ip", "netns", "add", space)
+        run("ip", "-n", self.switch, "link", "add", f"port{k}", "type", "veth", "peer", "name", "eth0", "netns", space)
+        run("ip", "-n", self.switch, "link", "set", f"port{k}", "master", "br0", "up")
+        run("ip", "-n", space, "link", "set", "lo", "up")
+        run("ip", "-n", space, "addr", "add", f"10.78.0.{10 + k}/24", "dev", "eth0")
+        run("ip", "-n", space, "link", "set", "eth0", "up")
+        first = (f"hostname {self.names[k]} && mount -t tmpfs none /tmp && mount -t tmpfs none /dev/shm && "
+                 f"mount --bind {self.hosts_file} /etc/hosts && mount -t proc none /proc && echo ready && exec sleep infinity")
+        keeper = subprocess.Popen(["ip", "netns", "exec", space, "unshare", "--uts", "--mount", "--pid", "--fork", "--kill-child",
+                                   "sh", "-c", first], stdout=subprocess.PIPE, text=True, start_new_session=True)
+        self.keepers.append(keeper)
+        if keeper.stdout.readline() != "ready\n":
+            raise RuntimeError(f"host {self.names[k]} does not come up")
+        self.inits.append(int(pathlib.Path(f"/proc/{keeper.pid}/task/{keeper.pid}/children").read_text().split()[0]))
+
+    def _write_agent(self):
+        cases = "".join(f"{name}|10.78.0.{10 + k}) pid={self.inits[k]};;\n" for k, name in enumerate(self.names))
+        self.agent.write_text(f"""#!/bin/sh
+# usage: agent HOST COMMAND...: as ssh would, but into a virtual host
+case $1 in
+{cases}*) exit 255;;
+esac
+kill -0 $pid 2>/dev/null || exit 255
+shift
+exec nsenter -t $pid -n -u -m -p --wd="$PWD" -- /bin/sh -c "$*"
+""")
+        self.agent.chmod(0o755)
+
+    def hostfile(self, hosts=None):
+        path = self.folder / "hostfile"
+        path.write_text("".join(f"{name} slots=2\n" for name in hosts or self.names))
+        return path
+
+    def words(self, k, command):
+        """The command line that runs a command on host k. It sees the process numbers of the whole machine."""
+        return ["nsenter", "-t", str(self.inits[k]), "-n", "-u", "-m", f"--wd={os.getcwd()}", "--", *command]
+
+    def cut(self, k):
+        """Pulls the cable at the switch."""
+        run("ip", "-n", self.switch, "link", "set", f"port{k}", "down")
+
+    def plug(self, k):
+        run("ip", "-n", self.switch, "link", "set", f"port{k}", "up")
+
+    def shape(self, k, *discipline):
+        """Slows a host's link in both directions: ("tbf", "rate", "10mbit", ...) or ("netem", "delay", "20ms"). False where the kernel has
+        no such discipline."""
+        ends = (("-n", self.switch, f"port{k}"), ("-n", f"{self.prefix}h{k}", "eth0"))
+        return all(subprocess.run(["tc", flag, space, "qdisc", "replace", "dev", card, "root", *discipline],
+                                  capture_output=True).returncode == 0 for flag, space, card in ends)
+
+    def crash(self, k):
+        """All processes of the host end at once, and its network with them."""
+        self.cut(k)
+        os.kill(self.inits[k], signal.SIGKILL)
+        self.keepers[k].wait()
+
+    def close(self):
+        for init in self.inits:
+            try:
+                os.kill(init, signal.SIGKILL)
+            except ProcessLookupError:
+                pass
+        for keeper in self.keepers:
+            keeper.kill()
+            keeper.wait()
+        time.sleep(0.1)
+        for space in [self.switch, *(f"{self.prefix}h{k}" for k in range(len(self.names)))]:
+            subprocess.run(["ip", "netns", "del", space], capture_output=True)
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.close()
