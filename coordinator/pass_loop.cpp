@@ -140,7 +140,7 @@ class PassLoop {
 
     void show_begun() {
         note_begun();
-        if (hooks_.on_state) hooks_.on_state(state_);
+        if (state_.begun && hooks_.on_state) hooks_.on_state(state_);
         state_.begun.reset();
     }
 

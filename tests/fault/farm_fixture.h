@@ -97,15 +97,21 @@ class FaultyChannel final : public Channel {
     Filter outgoing, incoming;
     std::atomic<bool> cut{false};  ///< nothing passes in either direction
     std::atomic<int> nap_ms{0};    ///< the next rest takes so long, and the look after it sees nothing yet
+    /// For so long nothing passes in either direction; then all comes, in order: a cable that was pulled and plugged
+    /// in.
+    std::atomic<int> held_ms{0};
 
     int self() const override { return inner_.self(); }
     int peer_count() const override { return inner_.peer_count(); }
     void send(int peer, Payload payload) override {
         Bytes bytes = *payload;
         if (cut || (outgoing && !outgoing(bytes)) || cut) return;
-        inner_.send(peer, std::make_shared<const Bytes>(std::move(bytes)));
+        waiting_.emplace_back(peer, std::make_shared<const Bytes>(std::move(bytes)));
+        if (!holds()) deliver();
     }
     std::optional<Received> poll() override {
+        if (holds()) return std::nullopt;
+        deliver();
         if (cut || std::exchange(woken_, false)) return std::nullopt;
         auto message = inner_.poll();
         if (message && incoming && !incoming(message->bytes)) return std::nullopt;
@@ -124,8 +130,22 @@ class FaultyChannel final : public Channel {
     std::uint64_t bytes_received() const override { return inner_.bytes_received(); }
 
   private:
+    using Clock = std::chrono::steady_clock;
+
+    bool holds() {
+        if (const int pause = held_ms.exchange(0)) held_until_ = Clock::now() + std::chrono::milliseconds(pause);
+        return Clock::now() < held_until_;
+    }
+    void deliver() {
+        for (auto& [peer, payload] : waiting_)
+            if (!cut) inner_.send(peer, std::move(payload));
+        waiting_.clear();
+    }
+
     Channel& inner_;
     bool woken_ = false;
+    Clock::time_point held_until_{};
+    std::vector<std::pair<int, Payload>> waiting_;
 };
 
 template <class M>

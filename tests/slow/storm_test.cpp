@@ -7,7 +7,7 @@ namespace {
 TEST_F(FaultStorm, NineThousandFaults) {
     const Count count = storm(9000, 1000);
     std::cout << renders() << " renders in " << lives() << " lives: " << count.deaths << " deaths, " << count.stops
-              << " stops, " << count.losses << " spells of lost messages, " << count.leaves << " leaves, " << count.late
+              << " stops, " << count.cuts << " cut cables, " << count.leaves << " leaves, " << count.late
               << " late workers, " << count.crashes << " crashes of the coordinator\n";
 }
 
