@@ -59,7 +59,7 @@ Farm::Farm(Channel& channel, const Job& job, Bytes scene, std::uint64_t fingerpr
 
 void Farm::gather(const std::function<bool()>& interrupted) {
     const auto workers = static_cast<std::size_t>(channel_.peer_count() - 1);
-    const std::size_t expected = std::max<std::size_t>(1, workers - turn_.absent.size());
+    const std::size_t expected = std::max<std::size_t>(1, workers - turn_.absent.size() - turn_.left.size());
     if (turn_.number > 0) tell_workers(channel_, Rejoin{turn_.number});
     const Timer timer;
     while (roster_.members().size() < expected && timer.seconds() < limits_.gather && !interrupted())
@@ -71,7 +71,7 @@ void Farm::gather(const std::function<bool()>& interrupted) {
         log_->warn("going on with {} of {} workers; the others may join later", roster_.present_count(), expected);
     if (turn_.number > 0)  // nor need later jobs wait for those that did not come
         for (int peer = 1; peer < channel_.peer_count(); ++peer)
-            if (!roster_.find(peer)) turn_.absent.insert(peer);
+            if (!roster_.find(peer) && !turn_.left.contains(peer)) turn_.absent.insert(peer);
 }
 
 void Farm::begin_pass(const PassPlan& plan, const AnyModel& tree, Bytes encoded_tree, int width, int height,
@@ -229,7 +229,9 @@ bool Farm::may_come_back() const {
     for (int peer = 1; peer < channel_.peer_count(); ++peer) {
         const auto found = roster_.members().find(peer);
         const bool unknown = found == roster_.members().end();
-        if (unknown ? !turn_.absent.contains(peer) : found->second.state == MemberState::lost) return true;
+        if (unknown ? !turn_.absent.contains(peer) && !turn_.left.contains(peer)
+                    : found->second.state == MemberState::lost)
+            return true;
     }
     return false;
 }
@@ -324,12 +326,20 @@ void Farm::give_up(Member& member, MemberState state, const std::string& why) {
 std::set<int> Farm::lost_peers() const {
     std::set<int> lost = turn_.absent;
     for (const auto& [peer, member] : roster_.members()) {
-        if (member.state == MemberState::present || member.state == MemberState::refused)
+        if (member.state == MemberState::present || member.state == MemberState::refused ||
+            member.state == MemberState::left)
             lost.erase(peer);
         else
             lost.insert(peer);
     }
     return lost;
+}
+
+std::set<int> Farm::left_peers() const {
+    std::set<int> left = turn_.left;
+    for (const auto& [peer, member] : roster_.members())
+        if (member.state == MemberState::left) left.insert(peer);
+    return left;
 }
 
 std::uint64_t Farm::rays_traced() const {

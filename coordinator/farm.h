@@ -32,6 +32,7 @@ struct FarmLimits {
 struct JobTurn {
     std::uint32_t number = 0;  ///< 0: the only one; from 1 on: workers stay, and are told to join this one
     std::set<int> absent;      ///< peers that an earlier job lost: nobody waits for them
+    std::set<int> left{};      ///< peers that left an earlier job: they only wait to be dismissed
 };
 
 /// The workers, as the coordinator talks to them: who is there, who has what, what came back. One step() at a time,
@@ -73,6 +74,8 @@ class Farm {
     const Roster& roster() const { return roster_; }
     /// Peers that were given up, in this job or an earlier one, and are not back.
     std::set<int> lost_peers() const;
+    /// Peers that left, in this job or an earlier one.
+    std::set<int> left_peers() const;
     /// Sends heartbeats that are due: call it between long computations.
     void beat();
     /// Runs a computation of any length aside, while workers go on hearing from here. What it throws leaves this.

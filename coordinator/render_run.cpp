@@ -79,6 +79,7 @@ class RenderRun {
         outcome.state = end.state;
         outcome.missed_target = end.state == RunState::done && missed_target();
         outcome.lost_peers = farm_.lost_peers();
+        outcome.left_peers = farm_.left_peers();
         return outcome;
     }
 

@@ -53,6 +53,7 @@ PassChooser passes_of(const RenderRequest& request);
 struct RenderOutcome {
     RunState state = RunState::failed;
     bool missed_target = false;  ///< done, but the error is above budget.error
+    std::set<int> left_peers;    ///< workers that left in order
     std::set<int> lost_peers;    ///< workers that were given up, now or in an earlier job, and are not back
 };
 

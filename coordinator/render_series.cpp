@@ -13,6 +13,7 @@ RenderOutcome RenderSeries::render(RenderRequest& request, const std::filesystem
     request.turn = turn_;
     RenderOutcome outcome = run_render(channel_, request, interrupted_);
     turn_.absent = outcome.lost_peers;
+    turn_.left = outcome.left_peers;
     if (context_.life && outcome.state == RunState::done) context_.life->finish_render();
     return outcome;
 }

@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 constexpr double kSoon = 120;
 
 std::vector<std::string> render(const fs::path& folder) {
-    return {TREEFARM_PROGRAM, "render",        own_scene("cornell-box.xml"), "-D",    "size=48",   "--spp", "1000",
+    return {TREEFARM_PROGRAM, "render",        own_scene("cornell-box.xml"), "-D",    "size=48",   "--spp", "400",
             "--run-dir",      folder.string(), "--threads",                  "1"};
 }
 
