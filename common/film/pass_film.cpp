@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/film/pass_film.h"
 
+#include <array>
 #include <bit>
+#include <cstring>
 
 #include "common/base/error.h"
 
@@ -47,13 +49,21 @@ namespace {
 
 constexpr std::size_t kEstimateBytes = 2 * (sizeof(std::uint32_t) + 6 * sizeof(double));
 
+/// All its bytes at once: there are millions.
 void put(ByteWriter& writer, const PixelEstimate& pixel) {
+    static_assert(sizeof(Rgb64) == 3 * sizeof(double));
+    std::array<std::uint8_t, kEstimateBytes> bytes;
+    std::uint8_t* next = bytes.data();
+    const auto add = [&](const auto& value) {
+        std::memcpy(next, &value, sizeof value);
+        next += sizeof value;
+    };
     for (const Moments& half : pixel.half) {
-        writer.put(half.n);
-        for (const Rgb64& sum : {half.mean, half.m2})
-            for (const double value : {sum.x, sum.y, sum.z})
-                writer.put(value);
+        add(half.n);
+        add(half.mean);
+        add(half.m2);
     }
+    writer.put_bytes(bytes);
 }
 
 PixelEstimate get(ByteReader& reader) {

@@ -165,7 +165,7 @@ std::function<void()> CheckpointStore::prepare(const CheckpointOrigin& origin, R
         }
         unwritten_ = films;
     }
-    auto file = std::make_shared<const SectionFile>(SectionFile{++generation_, encode_state(origin, state)});
+    auto file = std::make_shared<const SectionFile>(SectionFile{++generation_, take_state(origin, state)});
     return [this, file, names = film_names(state), films = std::move(films)] { write_generation(*file, names, films); };
 }
 

@@ -2,6 +2,7 @@
 #include "coordinator/checkpoint/state_codec.h"
 
 #include <algorithm>
+#include <array>
 #include <cereal/types/array.hpp>
 #include <cereal/types/common.hpp>
 #include <cereal/types/map.hpp>
@@ -232,7 +233,10 @@ bool is_film_name(const std::string& name) {
            name.find_first_not_of("0123456789abcdef", 5) == 37;
 }
 
-std::vector<Section> encode_state(const CheckpointOrigin& origin, const RenderState& state) {
+namespace {
+
+/// All but the layers of a pass in hand.
+std::vector<Section> encode_fields(const CheckpointOrigin& origin, const RenderState& state) {
     // As it grows it would be copied, and lie in memory twice.
     const std::size_t room = state.aovs.requested() ? 64 + most_aov_bytes() * origin.pixels : 0;
     std::vector<Section> sections;  // a list in braces would copy each
@@ -244,13 +248,34 @@ std::vector<Section> encode_state(const CheckpointOrigin& origin, const RenderSt
     sections.push_back(section(kModel, state.tree.encode(), state.last_tree, state.tree_hash));
     sections.push_back(section(kLearner, state.learner));
     sections.push_back(section(kReports, state.reports));
-    if (!state.begun) return sections;
-    const BegunPass& begun = *state.begun;
-    sections.push_back(section(kBegun, begun));
-    sections.push_back({kBegunFilm, version_of(kBegunFilm), begun.film});
-    sections.push_back({kBegunAovs, version_of(kBegunAovs), begun.aovs});
-    sections.push_back({kBegunSplats, version_of(kBegunSplats), begun.splats});
-    sections.push_back({kBegunSums, version_of(kBegunSums), begun.sums});
+    if (state.begun) sections.push_back(section(kBegun, *state.begun));
+    return sections;
+}
+
+/// The layers of a pass in hand.
+std::array<std::pair<std::uint32_t, Bytes BegunPass::*>, 4> begun_layers() {
+    return {{{kBegunFilm, &BegunPass::film},
+             {kBegunAovs, &BegunPass::aovs},
+             {kBegunSplats, &BegunPass::splats},
+             {kBegunSums, &BegunPass::sums}}};
+}
+
+}  // namespace
+
+std::vector<Section> encode_state(const CheckpointOrigin& origin, const RenderState& state) {
+    std::vector<Section> sections = encode_fields(origin, state);
+    if (state.begun)
+        for (const auto& [tag, layer] : begun_layers())
+            sections.push_back({tag, version_of(tag), *state.begun.*layer});
+    return sections;
+}
+
+std::vector<Section> take_state(const CheckpointOrigin& origin, RenderState& state) {
+    std::vector<Section> sections = encode_fields(origin, state);
+    if (state.begun)
+        for (const auto& [tag, layer] : begun_layers())
+            sections.push_back({tag, version_of(tag), std::move(*state.begun.*layer)});
+    state.begun.reset();
     return sections;
 }
 
@@ -259,10 +284,8 @@ std::optional<BegunPass> decode_begun(const SectionFile& file, std::size_t pixel
     if (!file.has(kBegun)) return std::nullopt;
     BegunPass begun;
     read(file, kBegun, begun);
-    begun.film = file.at(kBegunFilm).bytes;
-    begun.aovs = file.at(kBegunAovs).bytes;
-    begun.splats = file.at(kBegunSplats).bytes;
-    begun.sums = file.at(kBegunSums).bytes;
+    for (const auto& [tag, layer] : begun_layers())
+        begun.*layer = file.at(tag, version_of(tag)).bytes;
     require(begun.plan.spp > 0 && has_possible_units(begun, pixels), "a pass in hand of another image");
     return begun;
 }

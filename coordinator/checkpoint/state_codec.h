@@ -26,6 +26,9 @@ struct CheckpointOrigin {
 /// Sections of a checkpoint. Films are named by their `stored`, which must be set, and lie in files of their own.
 std::vector<Section> encode_state(const CheckpointOrigin& origin, const RenderState& state);
 
+/// As encode_state(), but a pass in hand leaves the state: its layers, which may be gigabytes, are not copied.
+std::vector<Section> take_state(const CheckpointOrigin& origin, RenderState& state);
+
 CheckpointOrigin decode_origin(const SectionFile& file);
 
 /// The state without the pixels of its films. Throws FormatError for what encode_state() cannot have written for an

@@ -70,7 +70,8 @@ class VirtualHosts:
         first = (f"hostname {self.names[k]} && mount -t tmpfs none /tmp && mount -t tmpfs none /dev/shm && "
                  f"mount --bind {self.hosts_file} /etc/hosts && mount -t proc none /proc && echo ready && exec sleep infinity")
         keeper = subprocess.Popen(["ip", "netns", "exec", space, "unshare", "--uts", "--mount", "--pid", "--fork", "--kill-child",
-                                   "sh", "-c", first], stdout=subprocess.PIPE, text=True, start_new_session=True)
+                                   "sh", "-c", first], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True,
+                                  start_new_session=True)
         self.keepers.append(keeper)
         if keeper.stdout.readline() != "ready\n":
             raise RuntimeError(f"host {self.names[k]} does not come up")
@@ -95,8 +96,8 @@ exec nsenter -t $pid -n -u -m -p --wd="$PWD" -- /bin/sh -c "$*"
         return path
 
     def words(self, k, command):
-        """The command line that runs a command on host k. It sees the process numbers of the whole machine."""
-        return ["nsenter", "-t", str(self.inits[k]), "-n", "-u", "-m", f"--wd={os.getcwd()}", "--", *command]
+        """The command line that runs a command on host k."""
+        return ["nsenter", "-t", str(self.inits[k]), "-n", "-u", "-m", "-p", f"--wd={os.getcwd()}", "--", *command]
 
     def cut(self, k):
         """Pulls the cable at the switch."""
