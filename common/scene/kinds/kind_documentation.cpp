@@ -34,14 +34,20 @@ class DescribeFields {
     void choice(const char* name, auto, auto last) {
         add(name, "one of " + std::to_string(static_cast<int>(last) + 1));
     }
-    void rule(bool, const char* what, const char*) { rules_ += (rules_.empty() ? "" : "; ") + std::string(what); }
+    void rule(bool, const char* what, const char*) {
+        // The words of a shape's rule go on from its name.
+        const std::string text(what);
+        rules_ += (rules_.empty() ? "" : "; ") + (text.starts_with("has ") ? "it " + text : text);
+    }
 
     void fraction(const char* name, const auto& input) { add(name, textured(input) + ", 0 to 1"); }
     void anisotropy(const FloatInput& input) { add("anisotropy", textured(input) + ", 0 to 1"); }
     void number(const char* name, const auto& input, float least, float most) {
         add(name, textured(input) + ", " + number_text(least) + " to " + number_text(most));
     }
-    void together(const auto&, const auto&) { rule(true, "two colours add up to more than 1: they are scaled", ""); }
+    void together(const auto&, const auto&) {
+        rule(true, "not refused but scaled: two colours that add up to more than 1", "");
+    }
     void eta(float) { add("eta", "above 0"); }
     void metal(const Rgb&, const Rgb&) {
         add("eta", "colour, 0 to 1e6");
