@@ -42,7 +42,7 @@ AovRequest parse_entry(const std::string& entry, std::string& why) {
     if (colon != std::string::npos) {
         request.layer = trim(std::string_view(entry).substr(0, colon));
         if (!is_layer_name(request.layer))
-            why = in_quotes(request.layer) + " is no name of a layer: give letters, digits, \"_\", \"-\" and \".\"";
+            why = in_quotes(request.layer) + R"( is no name of a layer: give letters, digits, "_", "-" and ".")";
     }
     if (is_taken(request.layer)) why = "the image has a layer " + in_quotes(request.layer) + " in any case";
     return request;

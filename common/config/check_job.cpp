@@ -24,7 +24,7 @@ void check_job(const Job& job) {
         if (job.guiding.type != GuidingType::none && job.guiding.type != GuidingType::automatic)
             throw InputError(
                 Location{"guiding.type", 0, 0}, "nothing guides the estimator \"" + job.integrator.type + "\"",
-                std::string("set guiding.type = \"none\", or integrator.type = \"") + estimators()[0].type + "\"");
+                std::string(R"(set guiding.type = "none", or integrator.type = ")") + estimators()[0].type + "\"");
     }
     if (const Estimator* estimator = find_estimator(job.integrator.type); estimator && !estimator->sees_light)
         for (const AovRequest& request : aov_requests(job))

@@ -17,6 +17,7 @@ std::span<const EffectSwitch> effect_switches() {
         });
         std::sort(by_step.begin(), by_step.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
         std::vector<EffectSwitch> sorted;
+        sorted.reserve(by_step.size());
         for (auto& [step, effect] : by_step)
             sorted.push_back(std::move(effect));
         return sorted;

@@ -24,7 +24,7 @@ JobKey estimator_key() {
     std::string meaning = "how the image is estimated;";
     for (const Estimator& estimator : estimators()) {
         meaning += std::string(words.empty() ? " " : "; ") + estimator.type + ": " + estimator.meaning;
-        words.push_back({estimator.type, estimator.type});
+        words.emplace_back(estimator.type, estimator.type);
     }
     JobKey key = word_key(
         "integrator.type", "", [](auto& j) -> auto& { return j.integrator.type; }, std::move(words));
@@ -55,7 +55,7 @@ JobKey aovs_key() {
         range += (range.empty() ? "list of \"" : "\", \"") + std::string(kind.name);
     return {"output.aovs",
             ValueKind::text_list,
-            range + "\"; \"NAME:depth\" calls the layer NAME",
+            range + R"("; "NAME:depth" calls the layer NAME)",
             "layers of the image besides colour (docs/use/outputs.md)",
             [](Job& job, const std::string& text) {
                 std::string why, canonical;
@@ -162,7 +162,7 @@ std::vector<JobKey> make_job_keys() {
         "budget.spp", "1 to 2^30", "samples per pixel in all passes, unless `budget.seconds` or `budget.error` is set",
         [](auto& j) -> auto& { return j.budget.spp; }, 1, kMaxSpp));
     add(number_key(
-        "budget.seconds", "0, or 0.001 to 10^8; or with a unit in quotes: \"90s\", \"2min\", \"1h\"",
+        "budget.seconds", R"(0, or 0.001 to 10^8; or with a unit in quotes: "90s", "2min", "1h")",
         "seconds of rendering, from when the first worker asks for work until the last pass is whole; 0: no such "
         "budget",
         [](auto& j) -> auto& { return j.budget.seconds; },

@@ -4,6 +4,7 @@
 #include "common/scene/pack/scene_codec.h"
 #include "tests/fuzz/fuzz.h"
 #include "tests/support/every_kind.h"
+#include "tests/support/kind_scenes.h"
 
 using namespace treefarm;
 
@@ -28,7 +29,8 @@ std::vector<std::string> fuzz::seeds() {
         const Bytes bytes = encode_scene(scene);
         return std::string(bytes.begin(), bytes.end());
     };
-    Scene constant;
-    constant.emitters.push_back({ConstantEmitter{}, {}});
-    return {text(Scene{}), text(test::every_kind_scene()), text(constant)};
+    std::vector<std::string> seeds = {text(Scene{}), text(test::every_kind_scene())};
+    for (const Scene& scene : test::kind_scenes())
+        seeds.push_back(text(scene));
+    return seeds;
 }

@@ -10,6 +10,7 @@
 #include "common/plan/effect_table.h"
 #include "common/plan/policy_table.h"
 #include "common/protocol/fingerprint.h"
+#include "common/scene/kinds/kind_documentation.h"
 
 namespace treefarm {
 namespace {
@@ -45,6 +46,10 @@ TEST(Docs, ListEveryEffectAsTheProgramKnowsIt) {
 
 TEST(Docs, ListEveryTunedConstantAsTheProgramKnowsIt) {
     expect_page_holds("policy.md", policy_documentation());
+}
+
+TEST(Docs, ListEveryKindOfASceneAsTheProgramKnowsIt) {
+    expect_page_holds("scene.md", kind_documentation());
 }
 
 TEST(Docs, SayTheVersionOfTheProgram) {

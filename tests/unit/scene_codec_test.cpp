@@ -5,6 +5,7 @@
 
 #include "common/scene/readers/load.h"
 #include "tests/support/every_kind.h"
+#include "tests/support/kind_scenes.h"
 #include "tests/support/support.h"
 
 namespace treefarm {
@@ -87,12 +88,21 @@ TEST(SceneCodec, ShapesRoundTrip) {
     EXPECT_EQ(back.shapes[0].material, 1);
     EXPECT_EQ(back.shapes[0].where.text(), "b.xml:3:4");
     const auto& sphere = std::get<Sphere>(back.shapes[1].geometry);
+    EXPECT_EQ(sphere.center, Vec3(1, 2, 3));
+    EXPECT_EQ(sphere.radius, 4.0f);
     EXPECT_TRUE(sphere.flip_normals);
+    EXPECT_TRUE(sphere.mirrored);
     EXPECT_EQ(sphere.pole, Vec3(0, 1, 0));
     EXPECT_EQ(sphere.meridian, Vec3(0, 0, 1));
-    EXPECT_EQ(std::get<Disk>(back.shapes[2].geometry).half_v, Vec3(1, 3, 0));
+    const auto& disk = std::get<Disk>(back.shapes[2].geometry);
+    EXPECT_EQ(disk.center, Vec3(1, 1, 1));
+    EXPECT_EQ(disk.half_u, Vec3(2, 0, 0));
+    EXPECT_EQ(disk.half_v, Vec3(1, 3, 0));
+    EXPECT_TRUE(disk.mirrored);
     const auto& cylinder = std::get<Cylinder>(back.shapes[3].geometry);
+    EXPECT_EQ(cylinder.p0, Vec3(0, 0, 1));
     EXPECT_EQ(cylinder.p1, Vec3(0, 0, 4));
+    EXPECT_EQ(cylinder.radius, 2.0f);
     EXPECT_TRUE(cylinder.flip_normals);
     EXPECT_TRUE(cylinder.mirrored);
     EXPECT_EQ(cylinder.meridian, Vec3(0, 1, 0));
@@ -139,6 +149,75 @@ TEST(SceneCodec, EmittersCameraAndFilmRoundTrip) {
     Scene constant;
     constant.emitters.push_back({ConstantEmitter{Rgb(4, 5, 6)}, {}});
     EXPECT_EQ(std::get<ConstantEmitter>(decode_scene(encode_scene(constant)).emitters[0].kind).radiance, Rgb(4, 5, 6));
+}
+
+TEST(SceneCodec, EveryKindOfTheListsTravels) {
+    for (const Scene& scene : test::kind_scenes()) {
+        const Bytes bytes = encode_scene(scene);
+        const Scene back = decode_scene(bytes);
+        EXPECT_EQ(encode_scene(back), bytes);
+        EXPECT_EQ(back.shapes.back().geometry.index(), scene.shapes.back().geometry.index());
+        EXPECT_EQ(back.materials.back().bsdf.index(), scene.materials.back().bsdf.index());
+    }
+}
+
+/// Calls f for each number and flag of a kind of shape, by a reference that may be changed.
+template <class F>
+struct EachNumber : IgnoreFields {
+    F& f;
+    explicit EachNumber(F& call) : f(call) {}
+    void vector(auto& v) {
+        for (unsigned i = 0; i < v.dimensions(); ++i)
+            f(v[static_cast<int>(i)]);
+    }
+    void list(auto& values) {
+        for (auto& v : values)
+            vector(v);
+    }
+    void flag(const char*, bool& value) { f(value); }
+    void point(const char*, Vec3& v) { vector(v); }
+    void offset(const char*, Vec3& v) { vector(v); }
+    void axis(const char*, Vec3& v) { vector(v); }
+    void radius(float& value) { f(value); }
+    void transform(Imath::M44f& m) {
+        for (int row = 0; row < 4; ++row)
+            for (int column = 0; column < 3; ++column)
+                f(m[row][column]);
+    }
+    void vertices(std::vector<Vec3>& positions) { list(positions); }
+    void per_vertex(const char*, auto& values) { list(values); }
+    void attributes(std::vector<MeshAttribute>& attributes) {
+        for (MeshAttribute& attribute : attributes)
+            list(attribute.values);
+    }
+};
+
+/// Adds to a number, or turns a flag round.
+struct Change {
+    void operator()(float& number) const { number += 1.5f; }
+    void operator()(bool& flag) const { flag = !flag; }
+};
+
+TEST(SceneCodec, NoNumberOfAShapeIsLeftOut) {
+    const Bytes before = encode_scene(example());
+    for (std::size_t i = 0; i < example().shapes.size(); ++i) {
+        std::size_t count = 0;
+        const auto note = [&](auto&) { ++count; };
+        Scene scene = example();
+        visit_fields(scene.shapes[i].geometry, EachNumber(note));
+        for (std::size_t n = 0; n < count; ++n) {
+            scene = example();
+            std::size_t at = 0;
+            const auto change = [&](auto& value) {
+                if (at++ == n) Change()(value);
+            };
+            visit_fields(scene.shapes[i].geometry, EachNumber(change));
+            const Bytes bytes = encode_scene(scene);
+            EXPECT_NE(bytes, before) << "shape " << i << ", number " << n;
+            EXPECT_EQ(bytes.size(), before.size());
+            EXPECT_EQ(encode_scene(decode_scene(bytes)), bytes) << "shape " << i << ", number " << n;
+        }
+    }
 }
 
 TEST(SceneCodec, EmptySceneRoundTrip) {

@@ -132,6 +132,11 @@ TEST(TextureSet, Checkerboard) {
     EXPECT_EQ(set.gradient(0, {0.3f, 0.6f}), Vec2(0.0f));
 }
 
+/// The mesh as a set of textures wants it.
+Mesh arranged(const TextureSet& set, const Mesh& mesh) {
+    return std::get<Mesh>(set.arranged({{mesh, kNone, kNone, kNone, "", {}}})[0].geometry);
+}
+
 Mesh painted_square() {
     Mesh mesh;
     mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}};
@@ -147,8 +152,8 @@ TextureSet painted() {
 }
 
 TEST(TextureSet, AttributesOfAMeshAreInterpolatedOverTrianglesOrOneForEach) {
-    const Mesh mesh = painted_square();
     const TextureSet set = painted();
+    const Mesh mesh = arranged(set, painted_square());
     EXPECT_TRUE(set.reads_meshes());
     EXPECT_FALSE(nearest(Wrap::repeat, Wrap::repeat).reads_meshes());
     // a quarter of the way to vertex 0 (the second corner), half of it to vertex 1: the rest is vertex 2
@@ -160,9 +165,48 @@ TEST(TextureSet, AttributesOfAMeshAreInterpolatedOverTrianglesOrOneForEach) {
     EXPECT_EQ(set.eval(ColorInput(Rgb(2), 1), {Vec2(0.0f), &second}), Rgb(8, 10, 12));
 }
 
-TEST(TextureSet, TheGradientOfAnAttributeIsThatOfItsInterpolation) {
-    Mesh mesh = painted_square();
+TEST(TextureSet, AttributesAreNotLookedUpByName) {
+    // Names are resolved once: whatever a mesh calls its attributes afterwards, in whatever order it had them.
+    const TextureSet set({{MeshAttributeTexture{"face_wear"}, "", {}},
+                          {CheckerboardTexture{}, "", {}},
+                          {MeshAttributeTexture{"vertex_color"}, "", {}},
+                          {MeshAttributeTexture{"face_wear"}, "", {}}},
+                         {});
+    Mesh unasked = painted_square();
+    unasked.attributes.insert(unasked.attributes.begin(), MeshAttribute{"vertex_heat", std::vector<Rgb>(4, Rgb(9))});
+    Mesh turned = painted_square();
+    std::swap(turned.attributes[0], turned.attributes[1]);
+    for (Mesh mesh : {painted_square(), turned, unasked}) {
+        mesh = arranged(set, mesh);
+        EXPECT_EQ(mesh.attributes.size(), 2u);
+        for (MeshAttribute& attribute : mesh.attributes)
+            attribute.name = "renamed";
+        const MeshPoint first{&mesh, 0, 0.25f, 0.5f}, second{&mesh, 1, 0.25f, 0.25f};
+        for (const std::int32_t texture : {0, 3}) {
+            EXPECT_EQ(set.color(texture, {Vec2(7.0f), &first}), Rgb(1, 2, 3));
+            EXPECT_EQ(set.color(texture, {Vec2(7.0f), &second}), Rgb(4, 5, 6));
+        }
+        EXPECT_EQ(set.color(2, {Vec2(7.0f), &first}), Rgb(1, 2, 8));
+    }
+}
+
+TEST(TextureSet, AMeshWithoutAnAttributeIsBlackWhereItIsAskedFor) {
     const TextureSet set = painted();
+    Mesh mesh = painted_square();
+    mesh.attributes.erase(mesh.attributes.begin());
+    for (const bool has_another : {true, false}) {
+        if (!has_another) mesh.attributes.clear();
+        const Mesh here = arranged(set, mesh);
+        const MeshPoint point{&here, 1, 0.25f, 0.5f};
+        EXPECT_EQ(set.color(0, {Vec2(0.0f), &point}), Rgb(0.0f));
+        EXPECT_EQ(set.gradient(0, {Vec2(0.0f), &point}), Vec2(0.0f));
+        EXPECT_EQ(set.color(1, {Vec2(0.0f), &point}), has_another ? Rgb(4, 5, 6) : Rgb(0.0f));
+    }
+}
+
+TEST(TextureSet, TheGradientOfAnAttributeIsThatOfItsInterpolation) {
+    const TextureSet set = painted();
+    Mesh mesh = arranged(set, painted_square());
     for (const bool has_uvs : {false, true}) {
         if (has_uvs) mesh.uvs = {{0.125f, 0.25f}, {2.0f, 0.5f}, {0.5f, -1.0f}, {1.0f, 1.5f}};
         for (const std::uint32_t triangle : {0u, 1u}) {

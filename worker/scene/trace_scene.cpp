@@ -55,7 +55,7 @@ TraceScene::TraceScene(Scene&& scene, const std::vector<FloatInput>& opacity, co
       textures_(std::move(scene.textures), std::move(scene.images)),
       plain_diffuse_(traced_plainly(scene, job) ? diffuse_bsdfs(scene) : std::vector<PlainDiffuse>()),
       materials_(make_materials(scene, job, textures_)),
-      geometry_(std::move(scene.shapes), job.farm.isa, {opacity, &textures_}, job.farm.robust),
+      geometry_(textures_.arranged(std::move(scene.shapes)), job.farm.isa, {opacity, &textures_}, job.farm.robust),
       emitters_(scene.emitters, geometry_, bounds_, &textures_) {
     assert(effects_.lens == camera_.has_lens());
     assert(effects_.masks == geometry_.masked());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "worker/textures/texture_set.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
@@ -89,24 +90,30 @@ Rgb procedural(const CheckerboardTexture& board, const TexturePoint& point) {
 Rgb procedural(const BitmapTexture&, const TexturePoint&) {
     return Rgb(0.0f);  // looked up before
 }
+Rgb procedural(const MeshAttributeTexture&, const TexturePoint&) {
+    return Rgb(0.0f);  // interpolated before
+}
+
 /// The values of an attribute at the corners of a triangle; black without one, which check_mesh_attributes() rules out.
-std::array<Rgb, 3> corner_values(const MeshAttributeTexture& texture, const MeshPoint* at) {
-    const MeshAttribute* attribute = at && at->mesh ? at->mesh->find_attribute(texture.name) : nullptr;
-    if (!attribute) return {Rgb(0.0f), Rgb(0.0f), Rgb(0.0f)};
-    const std::vector<Rgb>& values = attribute->values;
-    if (attribute->is_of_faces()) return {values[at->triangle], values[at->triangle], values[at->triangle]};
+std::array<Rgb, 3> corner_values(const AttributeSlot& slot, const MeshPoint* at) {
+    constexpr std::array<Rgb, 3> kNothing{Rgb(0.0f), Rgb(0.0f), Rgb(0.0f)};
+    if (!at || !at->mesh || slot.place >= at->mesh->attributes.size()) return kNothing;
+    const std::vector<Rgb>& values = at->mesh->attributes[slot.place].values;
+    if (values.empty()) return kNothing;
+    if (slot.of_faces) return {values[at->triangle], values[at->triangle], values[at->triangle]};
     const std::uint32_t* corner = at->mesh->indices.data() + 3 * std::size_t(at->triangle);
     return {values[corner[0]], values[corner[1]], values[corner[2]]};
 }
-Rgb procedural(const MeshAttributeTexture& texture, const TexturePoint& point) {
-    const auto [a, b, c] = corner_values(texture, point.on_mesh);
+
+Rgb interpolated(const AttributeSlot& slot, const MeshPoint* at) {
+    const auto [a, b, c] = corner_values(slot, at);
     if (a == b && a == c) return a;
-    return a * (1.0f - point.on_mesh->b1 - point.on_mesh->b2) + b * point.on_mesh->b1 + c * point.on_mesh->b2;
+    return a * (1.0f - at->b1 - at->b2) + b * at->b1 + c * at->b2;
 }
 
 /// How what is linear over a triangle changes with its texture coordinates; 0 where these do not span a plane.
-Vec2 gradient_over(const MeshAttributeTexture& texture, const MeshPoint* at) {
-    const auto [a, b, c] = corner_values(texture, at);
+Vec2 gradient_over(const AttributeSlot& slot, const MeshPoint* at) {
+    const auto [a, b, c] = corner_values(slot, at);
     const double along1 = double(average(b)) - double(average(a)), along2 = double(average(c)) - double(average(a));
     if (along1 == 0.0 && along2 == 0.0) return Vec2(0.0f);
     if (at->mesh->uvs.empty()) return Vec2(float(along1), float(along2));
@@ -149,14 +156,38 @@ Rgb texel(const TextureImage& image, int x, int y) {
 
 TextureSet::TextureSet(std::vector<Texture> textures, std::vector<TextureImage> images)
     : textures_(std::move(textures)), images_(std::move(images)) {
-    for (const Texture& texture : textures_)
-        reads_meshes_ |= std::holds_alternative<MeshAttributeTexture>(texture.kind);
+    for (std::size_t i = 0; i < textures_.size(); ++i) {
+        const auto* texture = std::get_if<MeshAttributeTexture>(&textures_[i].kind);
+        if (!texture) continue;
+        reads_meshes_ = true;
+        const auto found = std::find(attribute_names_.begin(), attribute_names_.end(), texture->name);
+        const auto place = static_cast<std::uint32_t>(found - attribute_names_.begin());
+        if (found == attribute_names_.end()) attribute_names_.push_back(texture->name);
+        slots_.resize(textures_.size());
+        slots_[i] = {place, MeshAttribute::is_of_faces(texture->name)};
+    }
+}
+
+std::vector<Shape> TextureSet::arranged(std::vector<Shape> shapes) const {
+    for (Shape& shape : shapes) {
+        auto* mesh = std::get_if<Mesh>(&shape.geometry);
+        if (!mesh || mesh->attributes.empty()) continue;
+        std::vector<MeshAttribute> found = std::exchange(mesh->attributes, {});
+        for (const std::string& name : attribute_names_) {
+            const auto at = std::find_if(found.begin(), found.end(),
+                                         [&](const MeshAttribute& attribute) { return attribute.name == name; });
+            mesh->attributes.push_back(at == found.end() ? MeshAttribute{name, {}} : std::move(*at));
+        }
+    }
+    return shapes;
 }
 
 Rgb TextureSet::color(std::int32_t texture, const TexturePoint& at) const {
     const TextureKind& kind = textures_[static_cast<std::size_t>(texture)].kind;
     if (const auto* bitmap = std::get_if<BitmapTexture>(&kind))
         return look_up(images_[static_cast<std::size_t>(bitmap->image)], *bitmap, at.uv);
+    if (std::holds_alternative<MeshAttributeTexture>(kind))
+        return interpolated(slots_[static_cast<std::size_t>(texture)], at.on_mesh);
     return std::visit([&](const auto& other) { return procedural(other, at); }, kind);
 }
 
@@ -173,7 +204,8 @@ void TextureSet::prefetch(std::int32_t texture, const Vec2& uv) const {
 
 Vec2 TextureSet::gradient(std::int32_t texture, const TexturePoint& at) const {
     const TextureKind& kind = textures_[static_cast<std::size_t>(texture)].kind;
-    if (const auto* attribute = std::get_if<MeshAttributeTexture>(&kind)) return gradient_over(*attribute, at.on_mesh);
+    if (std::holds_alternative<MeshAttributeTexture>(kind))
+        return gradient_over(slots_[static_cast<std::size_t>(texture)], at.on_mesh);
     const auto* bitmap = std::get_if<BitmapTexture>(&kind);
     if (!bitmap) return Vec2(0.0f);  // a board has steps only
     const Vec2& uv = at.uv;

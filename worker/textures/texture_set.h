@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "common/scene/model/scene.h"
 
 namespace treefarm {
 
-/// A point of a mesh; barycentrics of the second and third vertex.
+/// A point of a mesh that TextureSet::arranged() has seen; barycentrics of the second and third vertex.
 struct MeshPoint {
     const Mesh* mesh = nullptr;
     std::uint32_t triangle = 0;
@@ -24,11 +25,21 @@ struct TexturePoint {
     TexturePoint(const Vec2& coordinates, const MeshPoint* point = nullptr) : uv(coordinates), on_mesh(point) {}
 };
 
+/// Where a texture finds the attribute that it is made of.
+struct AttributeSlot {
+    std::uint32_t place = 0;  ///< in Mesh::attributes
+    bool of_faces = false;
+};
+
 /// The textures of a scene, ready to be looked up. Immutable; any number of threads may ask.
 class TextureSet {
   public:
     TextureSet() = default;
     TextureSet(std::vector<Texture> textures, std::vector<TextureImage> images);
+
+    /// The shapes, with the attributes of each mesh where color() looks for them: it does not go by their names. A mesh
+    /// with attributes gets an empty one for each of the textures' names that it has none of.
+    std::vector<Shape> arranged(std::vector<Shape> shapes) const;
 
     /// Linear value of a texture at a point.
     Rgb color(std::int32_t texture, const TexturePoint& at) const;
@@ -57,6 +68,8 @@ class TextureSet {
   private:
     std::vector<Texture> textures_;
     std::vector<TextureImage> images_;
+    std::vector<AttributeSlot> slots_;          ///< per texture; empty unless some are made of attributes of meshes
+    std::vector<std::string> attribute_names_;  ///< per place in Mesh::attributes
     bool reads_meshes_ = false;
 };
 

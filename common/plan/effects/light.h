@@ -22,7 +22,7 @@ inline constexpr auto kLightEffects = std::tuple(
         {"kickstart", "light", "next event only in passes that start with fewer than 128 spp done",
          "`integrator.next_event` is kickstart", "no memory"},
         [](const auto& find) { return find.kickstart(); },
-        instead("set integrator.next_event = \"always\" or \"never\"")),
+        instead(R"(set integrator.next_event = "always" or "never")")),
 
     effect_of_kind({"area", "light", "surfaces that emit", "a shape has an emitter",
                     "128 bytes per emitter, 12 per emitting triangle"},

@@ -40,51 +40,86 @@ std::size_t drop_degenerate(Mesh& mesh) {
     return count - kept;
 }
 
-void check_points(const Shape& shape, std::initializer_list<Vec3> points, float margin = 0.0f) {
-    for (const Vec3& point : points)
-        if (!is_finite(point)) refuse(shape, "is not finite", "check its numbers and its transformation");
-    for (const Vec3& point : points)
-        if (is_too_far(point, margin)) refuse(shape, "has a coordinate beyond 1e18", "scale the scene down");
-}
-
-void check_radius(const Shape& shape, float radius) {
-    if (!std::isfinite(radius)) refuse(shape, "is not finite", "check its radius and its transformation");
-    if (!(radius > 0.0f)) refuse(shape, "has a radius that is not positive", "give a positive radius");
-}
-
-void check_axes(const Shape& shape, const Vec3& axis, const Vec3& meridian) {
-    if (!is_unit(axis) || !is_unit(meridian) || std::abs(dot(axis, meridian)) > 1e-3f)
-        refuse(shape, "has axes that are not at right angles", "check its transformation");
-}
-
+/// Checks the values of a kind of shape, as fields() names them, and what only its scene can tell.
 class ShapeCheck {
   public:
     ShapeCheck(Shape& shape, const std::vector<Box3>& groups, std::vector<Warning>& warnings)
         : shape_(shape), groups_(groups), warnings_(warnings) {}
 
-    void operator()(Mesh& mesh) const {
-        if (mesh.indices.size() % 3 != 0) refuse(shape_, "has indices that are no whole triangles", "");
-        for (const std::uint32_t index : mesh.indices)
-            if (index >= mesh.positions.size())
-                refuse(shape_,
-                       "uses vertex " + std::to_string(index + std::uint64_t{1}) + " of " +
-                           std::to_string(mesh.positions.size()),
-                       "repair the mesh");
-        for (std::size_t i = 0; i < mesh.positions.size(); ++i)
-            if (!is_finite(mesh.positions[i]))
+    void run() {
+        visit_fields(shape_.geometry, *this);
+        std::visit([this](auto& kind) { check_whole(kind); }, shape_.geometry);
+    }
+
+    void point(const char* name, const Vec3& value) const {
+        if (!is_finite(value))
+            refuse(shape_, std::string("is not finite (its ") + name + ")", "check its numbers and its transformation");
+        if (is_too_far(value)) refuse(shape_, "has a coordinate beyond 1e18", "scale the scene down");
+    }
+    void offset(const char* name, const Vec3& value) const { point(name, value); }
+    void axis(const char*, const Vec3& value) const {
+        if (!is_unit(value))
+            refuse(shape_, "has axes that are not unit vectors at right angles", "check its transformation");
+    }
+    void radius(float value) const {
+        if (!std::isfinite(value))
+            refuse(shape_, "is not finite (its radius)", "check its radius and its transformation");
+        if (!(value > 0.0f)) refuse(shape_, "has a radius that is not positive", "give a positive radius");
+        if (value > kFarthest) refuse(shape_, "has a coordinate beyond 1e18", "scale the scene down");
+    }
+    void flag(const char*, bool) const {}
+    void rule(bool holds, const char* what, const char* cure) const {
+        if (!holds) refuse(shape_, what, cure);
+    }
+    void group(std::int32_t index) const {
+        if (index < 0 || static_cast<std::size_t>(index) >= groups_.size() ||
+            groups_[static_cast<std::size_t>(index)].isEmpty())
+            refuse(shape_, "places a group that has no shapes", "give the group a shape");
+    }
+    void transform(const Imath::M44f& m) const {
+        const Imath::V3d rows[3] = {
+            {m[0][0], m[0][1], m[0][2]}, {m[1][0], m[1][1], m[1][2]}, {m[2][0], m[2][1], m[2][2]}};
+        if (m[0][3] != 0.0f || m[1][3] != 0.0f || m[2][3] != 0.0f || m[3][3] != 1.0f)
+            refuse(shape_, "has a transformation that is not affine", "its last row must be 0 0 0 1");
+        for (const Vec3& row : {Vec3(rows[0]), Vec3(rows[1]), Vec3(rows[2]), Vec3(m[3][0], m[3][1], m[3][2])})
+            point("transformation", row);
+        const double volume = rows[0].normalized().dot(rows[1].normalized().cross(rows[2].normalized()));
+        if (!(std::abs(volume) > 1e-6))
+            refuse(shape_, "has a transformation that flattens space", "give no scale of 0");
+        for (const Imath::V3d& row : rows)
+            if (!(row.length() > 1e-18)) refuse(shape_, "is scaled below 1e-18", "scale the scene up");
+    }
+    void vertices(const std::vector<Vec3>& positions) {
+        vertices_ = positions.size();
+        for (std::size_t i = 0; i < positions.size(); ++i)
+            if (!is_finite(positions[i]))
                 refuse(shape_, "has a vertex that is not finite (number " + std::to_string(i + 1) + ")",
                        "repair the mesh or its transformation");
-        if (std::any_of(mesh.positions.begin(), mesh.positions.end(), [](const Vec3& v) { return is_too_far(v); }))
+        if (std::any_of(positions.begin(), positions.end(), [](const Vec3& v) { return is_too_far(v); }))
             refuse(shape_, "has a coordinate beyond 1e18", "scale the scene down");
-        if (!mesh.normals.empty() && mesh.normals.size() != mesh.positions.size())
-            refuse(shape_, "has normals for some vertices only", "repair the mesh");
-        if (!mesh.uvs.empty() && mesh.uvs.size() != mesh.positions.size())
-            refuse(shape_, "has texture coordinates for some vertices only", "repair the mesh");
-        for (const Vec3& normal : mesh.normals)
-            if (!is_finite(normal)) refuse(shape_, "has a normal that is not finite", "repair the mesh");
-        for (const Vec2& uv : mesh.uvs)
-            if (!std::isfinite(uv.x) || !std::isfinite(uv.y))
-                refuse(shape_, "has a texture coordinate that is not finite", "repair the mesh");
+    }
+    void per_vertex(const char* name, const auto& values) const {
+        const std::string what(name);
+        if (!values.empty() && values.size() != vertices_)
+            refuse(shape_, "has " + what + "s for some vertices only", "repair the mesh");
+        for (const auto& value : values)
+            for (unsigned i = 0; i < value.dimensions(); ++i)
+                if (!std::isfinite(value[static_cast<int>(i)]))
+                    refuse(shape_, "has a " + what + " that is not finite", "repair the mesh");
+    }
+    void triangles(const std::vector<std::uint32_t>& indices) const {
+        if (indices.size() % 3 != 0) refuse(shape_, "has indices that are no whole triangles", "repair the mesh");
+        for (const std::uint32_t index : indices)
+            if (index >= vertices_)
+                refuse(shape_,
+                       "uses vertex " + std::to_string(index + std::uint64_t{1}) + " of " + std::to_string(vertices_),
+                       "repair the mesh");
+    }
+    void attributes(const auto&) const {}  // check_mesh_attributes() knows who asks for them
+
+  private:
+    /// What is left to check of a mesh whose indices are right: that there are triangles with area.
+    void check_whole(Mesh& mesh) {
         if (const std::size_t dropped = drop_degenerate(mesh); dropped > 0)
             warnings_.push_back(
                 {shape_.where, std::to_string(dropped) + " triangles of " +
@@ -92,54 +127,25 @@ class ShapeCheck {
                                    " have no area and were left out"});
         if (mesh.indices.empty()) refuse(shape_, "has no triangles", "repair or remove it");
     }
-    void operator()(const Sphere& sphere) const {
-        check_radius(shape_, sphere.radius);
-        check_points(shape_, {sphere.center}, sphere.radius);
-        check_axes(shape_, sphere.pole, sphere.meridian);
-    }
-    void operator()(const Disk& disk) const {
-        check_points(shape_, {disk.center, disk.half_u, disk.half_v, disk.center + disk.half_u + disk.half_v});
-        const float longest = std::max(disk.half_u.length(), disk.half_v.length());
-        const Vec3 normal = cross(disk.half_u * (1.0f / longest), disk.half_v * (1.0f / longest));
-        if (!(longest > 0.0f) || !(normal.length() > 1e-6f))
-            refuse(shape_, "has no area", "give its transformation no scale of 0");
-    }
-    void operator()(const Cylinder& cylinder) const {
-        check_radius(shape_, cylinder.radius);
-        check_points(shape_, {cylinder.p0, cylinder.p1}, cylinder.radius);
-        const float length = (cylinder.p1 - cylinder.p0).length();
-        if (!(length > 0.0f)) refuse(shape_, "has no length", "move p0 and p1 apart");
-        check_axes(shape_, (cylinder.p1 - cylinder.p0) * (1.0f / length), cylinder.meridian);
-    }
-    void operator()(const Instance& instance) const {
-        if (instance.group < 0 || static_cast<std::size_t>(instance.group) >= groups_.size() ||
-            groups_[static_cast<std::size_t>(instance.group)].isEmpty())
-            refuse(shape_, "places a group that has no shapes", "give the group a shape");
-        check_transform(instance.to_world);
+    /// What is left to check of an instance: that what it places stays near enough.
+    void check_whole(const Instance& instance) const {
         const Box3& box = groups_[static_cast<std::size_t>(instance.group)];
         for (int corner = 0; corner < 8; ++corner)
-            check_points(shape_, {Vec3(corner & 1 ? box.max.x : box.min.x, corner & 2 ? box.max.y : box.min.y,
-                                       corner & 4 ? box.max.z : box.min.z) *
-                                  instance.to_world});
+            point("place", Vec3(corner & 1 ? box.max.x : box.min.x, corner & 2 ? box.max.y : box.min.y,
+                                corner & 4 ? box.max.z : box.min.z) *
+                               instance.to_world);
+    }
+    /// What is left to check of a shape that a formula gives: that its surface stays near enough.
+    void check_whole(const auto& analytic) const {
+        const Box3 box = analytic.box();
+        if (is_too_far(box.min) || is_too_far(box.max))
+            refuse(shape_, "has a coordinate beyond 1e18", "scale the scene down");
     }
 
-  private:
-    void check_transform(const Imath::M44f& m) const {
-        const Imath::V3d rows[3] = {
-            {m[0][0], m[0][1], m[0][2]}, {m[1][0], m[1][1], m[1][2]}, {m[2][0], m[2][1], m[2][2]}};
-        if (m[0][3] != 0.0f || m[1][3] != 0.0f || m[2][3] != 0.0f || m[3][3] != 1.0f)
-            refuse(shape_, "has a transformation that is not affine", "its last row must be 0 0 0 1");
-        check_points(shape_, {Vec3(rows[0]), Vec3(rows[1]), Vec3(rows[2]), Vec3(m[3][0], m[3][1], m[3][2])});
-        const double volume = rows[0].normalized().dot(rows[1].normalized().cross(rows[2].normalized()));
-        if (!(std::abs(volume) > 1e-6))
-            refuse(shape_, "has a transformation that flattens space", "give no scale of 0");
-        for (const Imath::V3d& row : rows)
-            if (!(row.length() > 1e-18)) refuse(shape_, "is scaled below 1e-18", "scale the scene up");
-    }
-
-    const Shape& shape_;
+    Shape& shape_;
     const std::vector<Box3>& groups_;
     std::vector<Warning>& warnings_;
+    std::size_t vertices_ = 0;  ///< of the mesh that is checked
 };
 
 void check_links(const Shape& shape, std::size_t index, const Scene& scene) {
@@ -180,7 +186,7 @@ void check_shapes(Scene& scene, std::vector<Warning>& warnings) {
             if (shape.group != kNone && (shape.group < 0 || shape.group >= scene.group_count))
                 refuse(shape, "belongs to a group that does not exist", "");
             check_links(shape, i, scene);
-            std::visit(ShapeCheck(shape, groups, warnings), shape.geometry);
+            ShapeCheck(shape, groups, warnings).run();
             if (shape.group != kNone) groups[static_cast<std::size_t>(shape.group)].extendBy(own_box(shape));
         }
 }

@@ -6,9 +6,10 @@
 
 namespace treefarm {
 
-/// Kinds of materials, emitters and textures name each of their values once, in fields(self, visitor), in the order in
-/// which they are packed. Packing, range checks, `treefarm check`, use of textures and images and removal of what is
-/// unused follow from that. A visitor has, for what a value is, of any kind:
+/// Kinds of shapes, materials, emitters and textures name each of their values once, in fields(self, visitor), in the
+/// order in which they are packed. Packing, range checks, `treefarm check`, use of textures and images, removal of what
+/// is unused, docs/generated/scene.md and seeds for the fuzzer follow from that. A visitor has, for what a value is, of
+/// any kind:
 ///
 ///     flag(name, bool&)
 ///
@@ -34,6 +35,20 @@ namespace treefarm {
 ///     image(std::int32_t&)                        index of an image of three channels
 ///     shape(std::int32_t&)                        index of the shape that shines
 ///     rule(bool holds, what, cure)                a condition on values named before, and the words where it does not
+///
+/// of a shape:
+///
+///     point(name, Vec3&)                          a place
+///     offset(name, Vec3&)                         from one place to another
+///     axis(name, Vec3&)                           of unit length
+///     radius(float&)                              above 0
+///     rule(bool holds, what, cure)                as of an emitter; the words go on from "the shape"
+///     group(std::int32_t&)                        index of a group of shapes, which this one places
+///     transform(Imath::M44f&)                     affine, and can be inverted
+///     vertices(std::vector<Vec3>&)                places
+///     per_vertex(name, std::vector<Vec2 or Vec3>&)  one for each of the vertices, or none at all
+///     triangles(std::vector<std::uint32_t>&)      three indices of vertices for each
+///     attributes(std::vector<MeshAttribute>&)     what textures take from vertices and triangles
 ///
 /// of a texture:
 ///
@@ -68,6 +83,16 @@ struct IgnoreFields {
     void color(const char*, const auto&) {}
     void coordinates(const auto&) {}
     void mesh_attribute(const auto&) {}
+    void point(const char*, const auto&) {}
+    void offset(const char*, const auto&) {}
+    void axis(const char*, const auto&) {}
+    void radius(const auto&) {}
+    void group(const auto&) {}
+    void transform(const auto&) {}
+    void vertices(const auto&) {}
+    void per_vertex(const char*, const auto&) {}
+    void triangles(const auto&) {}
+    void attributes(const auto&) {}
 };
 
 /// Calls f for each image that a kind is made of, by a reference that may be changed.

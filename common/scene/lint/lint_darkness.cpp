@@ -47,34 +47,48 @@ V3d direction_of_cone(const LightCone& cone, double u, double v) {
     return (axis + (x * std::cos(2 * M_PI * v) + y * std::sin(2 * M_PI * v)) * spread).normalized();
 }
 
-/// A place on a surface with its normal; of meshes any triangle.
-std::optional<std::pair<V3d, V3d>> point_on(const Shape& shape, int i, double u, double v) {
-    if (const auto* mesh = std::get_if<Mesh>(&shape.geometry)) {
-        if (mesh->triangle_count() == 0) return std::nullopt;
-        const std::uint32_t* corner = &mesh->indices[3 * (static_cast<std::size_t>(i) * 7919 % mesh->triangle_count())];
-        const V3d a(mesh->positions[corner[0]]), ab = V3d(mesh->positions[corner[1]]) - a,
-                                                 ac = V3d(mesh->positions[corner[2]]) - a;
-        V3d normal = ab.cross(ac);
-        if (!(normal.length() > 0)) return std::nullopt;
-        if (!mesh->normals.empty() && normal.dot(V3d(mesh->normals[corner[0]])) < 0) normal = -normal;
-        if (u + v > 1) u = 1 - u, v = 1 - v;
-        return std::pair(a + ab * u + ac * v, normal.normalized());
-    }
-    if (const auto* sphere = std::get_if<Sphere>(&shape.geometry)) {
-        const V3d out = direction_of_sphere(u, v);
-        return std::pair(V3d(sphere->center) + out * double(sphere->radius), sphere->flip_normals ? -out : out);
-    }
-    if (const auto* disk = std::get_if<Disk>(&shape.geometry)) {
-        const V3d a(disk->half_u), b(disk->half_v);
-        return std::pair(V3d(disk->center) + (a * (2 * u - 1) + b * (2 * v - 1)) * 0.7, a.cross(b).normalized());
-    }
-    if (const auto* cylinder = std::get_if<Cylinder>(&shape.geometry)) {
-        const V3d axis(normalize(cylinder->p1 - cylinder->p0)), x(cylinder->meridian), y = axis.cross(x);
-        const V3d out = x * std::cos(2 * M_PI * u) + y * std::sin(2 * M_PI * u);
-        return std::pair(V3d(cylinder->p0) + V3d(cylinder->p1 - cylinder->p0) * v + out * double(cylinder->radius),
-                         cylinder->flip_normals ? -out : out);
-    }
+/// A point of a surface with its normal.
+using SurfacePoint = std::pair<V3d, V3d>;
+
+// Number i of a surface's points, drawn by (u, v) of the unit square: an overload for each kind of shape, or it does
+// not compile.
+
+/// A point of some triangle.
+std::optional<SurfacePoint> point_of(const Mesh& mesh, int i, double u, double v) {
+    if (mesh.triangle_count() == 0) return std::nullopt;
+    const std::uint32_t* corner = &mesh.indices[3 * (static_cast<std::size_t>(i) * 7919 % mesh.triangle_count())];
+    const V3d a(mesh.positions[corner[0]]), ab = V3d(mesh.positions[corner[1]]) - a,
+                                            ac = V3d(mesh.positions[corner[2]]) - a;
+    V3d normal = ab.cross(ac);
+    if (!(normal.length() > 0)) return std::nullopt;
+    if (!mesh.normals.empty() && normal.dot(V3d(mesh.normals[corner[0]])) < 0) normal = -normal;
+    if (u + v > 1) u = 1 - u, v = 1 - v;
+    return SurfacePoint(a + ab * u + ac * v, normal.normalized());
+}
+
+std::optional<SurfacePoint> point_of(const Sphere& sphere, int, double u, double v) {
+    const V3d out = direction_of_sphere(u, v);
+    return SurfacePoint(V3d(sphere.center) + out * double(sphere.radius), sphere.flip_normals ? -out : out);
+}
+
+std::optional<SurfacePoint> point_of(const Disk& disk, int, double u, double v) {
+    const V3d a(disk.half_u), b(disk.half_v);
+    return SurfacePoint(V3d(disk.center) + (a * (2 * u - 1) + b * (2 * v - 1)) * 0.7, a.cross(b).normalized());
+}
+
+std::optional<SurfacePoint> point_of(const Cylinder& cylinder, int, double u, double v) {
+    const V3d axis(normalize(cylinder.p1 - cylinder.p0)), x(cylinder.meridian), y = axis.cross(x);
+    const V3d out = x * std::cos(2 * M_PI * u) + y * std::sin(2 * M_PI * u);
+    return SurfacePoint(V3d(cylinder.p0) + V3d(cylinder.p1 - cylinder.p0) * v + out * double(cylinder.radius),
+                        cylinder.flip_normals ? -out : out);
+}
+
+std::optional<SurfacePoint> point_of(const Instance&, int, double, double) {
     return std::nullopt;
+}
+
+std::optional<SurfacePoint> point_on(const Shape& shape, int i, double u, double v) {
+    return std::visit([&](const auto& kind) { return point_of(kind, i, u, v); }, shape.geometry);
 }
 
 /// Counts of what some rays met.

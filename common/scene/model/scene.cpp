@@ -4,41 +4,6 @@
 #include <limits>
 
 namespace treefarm {
-namespace {
-
-/// Half the extent along each axis of a disk with these half axes.
-Vec3 ellipse_extent(const Vec3& u, const Vec3& v) {
-    Vec3 extent;
-    for (int i = 0; i < 3; ++i)
-        extent[i] = std::sqrt(u[i] * u[i] + v[i] * v[i]);
-    return extent;
-}
-
-void add(Box3& box, const Vec3& center, const Vec3& extent) {
-    box.extendBy(center - extent);
-    box.extendBy(center + extent);
-}
-
-}  // namespace
-
-Box3 own_box(const Shape& shape) {
-    Box3 box;
-    if (const auto* mesh = std::get_if<Mesh>(&shape.geometry)) {
-        for (const Vec3& position : mesh->positions)
-            box.extendBy(position);
-    } else if (const auto* sphere = std::get_if<Sphere>(&shape.geometry)) {
-        add(box, sphere->center, Vec3(sphere->radius));
-    } else if (const auto* disk = std::get_if<Disk>(&shape.geometry)) {
-        add(box, disk->center, ellipse_extent(disk->half_u, disk->half_v));
-    } else if (const auto* cylinder = std::get_if<Cylinder>(&shape.geometry)) {
-        const Vec3 axis = normalize(cylinder->p1 - cylinder->p0);
-        const Vec3 u = cylinder->meridian * cylinder->radius, v = cross(axis, u);
-        add(box, cylinder->p0, ellipse_extent(u, v));
-        add(box, cylinder->p1, ellipse_extent(u, v));
-    }
-    return box;
-}
-
 std::int32_t Scene::environment() const {
     for (std::size_t i = 0; i < emitters.size(); ++i)
         if (emitters[i].type() == LightType::environment) return static_cast<std::int32_t>(i);

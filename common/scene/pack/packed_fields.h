@@ -6,6 +6,7 @@
 
 #include "common/scene/kinds/fields.h"
 #include "common/scene/kinds/materials/roughness.h"
+#include "common/scene/kinds/shapes/mesh.h"
 #include "common/scene/pack/packed_values.h"
 
 namespace treefarm::packed {
@@ -53,6 +54,31 @@ class PutFields {
         put_vector(out_, uv.v_row);
     }
 
+    void point(const char*, const Vec3& value) { put_vector(out_, value); }
+    void offset(const char*, const Vec3& value) { put_vector(out_, value); }
+    void axis(const char*, const Vec3& value) { put_vector(out_, value); }
+    void radius(float value) { out_.put(value); }
+    void group(std::int32_t index) { out_.put(index); }
+    void transform(const Imath::M44f& m) {
+        if (m[0][3] != 0.0f || m[1][3] != 0.0f || m[2][3] != 0.0f || m[3][3] != 1.0f)
+            throw FormatError("scene: a transform is not affine: it has no packed form");
+        for (int row = 0; row < 4; ++row)
+            for (int column = 0; column < 3; ++column)
+                out_.put(m[row][column]);
+    }
+    void vertices(const std::vector<Vec3>& positions) { put_vectors(out_, positions); }
+    void per_vertex(const char*, const auto& values) { put_vectors(out_, values); }
+    void triangles(const std::vector<std::uint32_t>& indices) {
+        out_.put_array(std::span<const std::uint32_t>(indices));
+    }
+    void attributes(const std::vector<MeshAttribute>& attributes) {
+        if (attributes.empty()) return;
+        put_list(out_, attributes, [](ByteWriter& to, const MeshAttribute& attribute) {
+            to.put_string(attribute.name);
+            put_vectors(to, attribute.values);
+        });
+    }
+
   private:
     ByteWriter& out_;
 };
@@ -60,7 +86,8 @@ class PutFields {
 /// How many there are of what indices name.
 struct PackedCounts {
     std::size_t parts = 0;  ///< materials before the one that is read
-    std::size_t textures = 0, images = 0, shapes = 0;
+    std::size_t textures = 0, images = 0, shapes = 0, groups = 0;
+    bool with_attributes = false;  ///< the mesh that is read has some
 };
 
 /// Unpacks the values of a kind. Indices are held against what there is: no reader of a scene need look again.
@@ -106,9 +133,57 @@ class GetFields {
         uv.v_row = get_vector<Vec3>(in_);
     }
 
+    void point(const char*, Vec3& value) { value = get_vector<Vec3>(in_); }
+    void offset(const char*, Vec3& value) { value = get_vector<Vec3>(in_); }
+    void axis(const char*, Vec3& value) { value = get_vector<Vec3>(in_); }
+    void radius(float& value) { value = in_.get<float>(); }
+    void group(std::int32_t& index) { index = get_index(in_, counts_.groups, "group"); }
+    void transform(Imath::M44f& m) {
+        for (int row = 0; row < 4; ++row)
+            for (int column = 0; column < 3; ++column)
+                m[row][column] = in_.get<float>();
+    }
+    void vertices(std::vector<Vec3>& positions) {
+        positions = get_vectors<Vec3>(in_);
+        vertices_ = positions.size();
+    }
+    template <class V>
+    void per_vertex(const char* name, std::vector<V>& values) {
+        values = get_vectors<V>(in_);
+        if (!values.empty()) expect_count(values.size(), vertices_, name);
+    }
+    void triangles(std::vector<std::uint32_t>& indices) {
+        indices = in_.get_array<std::uint32_t>();
+        if (indices.size() % 3 != 0) throw FormatError("scene: a mesh's indices are no whole triangles");
+        for (const std::uint32_t index : indices)
+            if (index >= vertices_)
+                throw FormatError("scene: vertex " + std::to_string(index) + " of " + std::to_string(vertices_));
+        triangles_ = indices.size() / 3;
+    }
+    void attributes(std::vector<MeshAttribute>& attributes) {
+        if (!counts_.with_attributes) return;
+        get_list(in_, kMinAttributeBytes, attributes, [&] {
+            MeshAttribute attribute;
+            attribute.name = in_.get_string();
+            attribute.values = get_vectors<Rgb>(in_);
+            expect_count(attribute.values.size(), attribute.is_of_faces() ? triangles_ : vertices_, "attribute value");
+            return attribute;
+        });
+        if (attributes.empty()) throw FormatError("scene: a mesh has attributes, and none");
+    }
+
   private:
+    static constexpr std::size_t kMinAttributeBytes = 2;
+
+    static void expect_count(std::size_t found, std::size_t wanted, const char* of_what) {
+        if (found != wanted)
+            throw FormatError("scene: a mesh has " + std::to_string(found) + " " + of_what + "s, not " +
+                              std::to_string(wanted));
+    }
+
     ByteReader& in_;
     PackedCounts counts_;
+    std::size_t vertices_ = 0, triangles_ = 0;  ///< of the mesh that is read
 };
 
 /// The alternative of a variant that has this number, as it is by default. FormatError where there is none: "unknown

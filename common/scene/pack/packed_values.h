@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstring>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "common/base/bytes.h"
@@ -26,19 +28,23 @@ V get_vector(ByteReader& in) {
     return v;
 }
 
+/// Vectors that lie in memory as they are packed: their components in single precision, and nothing else.
 template <class V>
+concept PlainVector = std::is_standard_layout_v<V> && sizeof(V) == V::dimensions() * sizeof(float);
+
+/// A varint count, and the vectors' bytes in one piece: meshes are large.
+template <PlainVector V>
 void put_vectors(ByteWriter& out, const std::vector<V>& values) {
     out.put_varint(values.size());
-    for (const V& v : values)
-        put_vector(out, v);
+    const auto* bytes = reinterpret_cast<const std::uint8_t*>(values.data());
+    out.put_bytes({bytes, values.size() * sizeof(V)});
 }
 
-template <class V>
+template <PlainVector V>
 std::vector<V> get_vectors(ByteReader& in) {
-    const std::size_t count = in.get_count(V::dimensions() * sizeof(float));
-    std::vector<V> values(count);
-    for (V& v : values)
-        v = get_vector<V>(in);
+    std::vector<V> values(in.get_count(sizeof(V)));
+    const auto bytes = in.get_bytes(values.size() * sizeof(V));
+    if (!bytes.empty()) std::memcpy(static_cast<void*>(values.data()), bytes.data(), bytes.size());
     return values;
 }
 

@@ -89,6 +89,25 @@ void check_environments(const Scene& scene) {
     }
 }
 
+/// Adds up the bytes of a mesh's arrays.
+struct ArrayBytes : IgnoreFields {
+    std::size_t bytes = 0;
+    void vertices(const std::vector<Vec3>& list) { bytes += list.size() * sizeof(Vec3); }
+    void triangles(const std::vector<std::uint32_t>& list) { bytes += list.size() * sizeof(std::uint32_t); }
+    template <class V>
+    void per_vertex(const char*, const std::vector<V>& list) {
+        bytes += list.size() * sizeof(V);
+    }
+};
+
+/// Bytes of the arrays of all meshes: most of a large scene.
+std::size_t array_bytes(const Scene& scene) {
+    ArrayBytes arrays;
+    for (const Shape& shape : scene.shapes)
+        visit_fields(shape.geometry, arrays);
+    return arrays.bytes;
+}
+
 }  // namespace
 
 Bytes encode_scene(const Scene& scene) {
@@ -99,6 +118,7 @@ Bytes encode_scene(const Scene& scene) {
     put_list(out, scene.textures, put_texture);
     put_list(out, scene.materials, put_material);
     out.put(static_cast<std::uint32_t>(scene.group_count));
+    out.reserve(array_bytes(scene));  // once: what is written before need not be copied as it grows
     put_list(out, scene.shapes, put_shape);
     put_list(out, scene.emitters, put_emitter);
     const Camera& camera = scene.camera;

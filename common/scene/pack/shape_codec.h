@@ -6,12 +6,11 @@
 
 namespace treefarm::packed {
 
-///     shape    := kind:u8 (mesh | sphere | disk | cylinder | instance) material:i32 emitter:i32 group:i32 name
-///     location mesh     := positions normals uvs indices        each a count and its elements sphere   := center
-///     radius:f32 flip:u8 pole meridian disk     := center half_u half_v mirrored:u8 cylinder := p0 p1 radius:f32
-///     flip:u8 meridian mirrored:u8 instance := group:i32 to_world:f32[12]           the rows' first three columns; the
-///     fourth is 0 0 0
-///     1
+///     shape    := kind:u8 value* material:i32 emitter:i32 group:i32 name location
+///
+/// kind: its place in ShapeKind (kinds/shapes.h), or kMeshWithAttributes (shape_codec.cpp); values: as fields() of that
+/// kind names them. Lists of a mesh are a count and the bytes of its elements; attributes, each a name and a list,
+/// stand where there are some; a transform is the first three columns of its rows, since the fourth is 0 0 0 1.
 
 inline constexpr std::size_t kMinShapeBytes = 27;
 
