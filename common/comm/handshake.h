@@ -70,7 +70,7 @@ class DoorHandshake {
     void read_hello();
     [[noreturn]] void turn_away(JoinRefusal refusal);
 
-    const JoinTicket& ticket_;
+    const JoinTicket ticket_;
     const std::uint64_t fingerprint_;
     const JoinKey nonce_;
     Bytes got_;  ///< of the guest's first words

@@ -96,7 +96,11 @@ std::optional<Received> TcpChannel::poll() {
 
 bool TcpChannel::drained() {
     move(false);
-    return std::all_of(links_.begin(), links_.end(), [](const auto& entry) { return entry.second.link.unsent() == 0; });
+    return !has_unsent();
+}
+
+bool TcpChannel::has_unsent() const {
+    return std::any_of(links_.begin(), links_.end(), [](const auto& entry) { return entry.second.link.unsent() > 0; });
 }
 
 void TcpChannel::rest(double seconds) {
@@ -180,8 +184,7 @@ bool TcpChannel::see_to(Visitor& visitor, bool ready) {
         links_.emplace(next_peer_++, Guest{{std::move(visitor.socket), visitor.handshake.sending_key(),
                                             visitor.handshake.take_reader()},
                                            visitor.from,
-                                           0,
-                                           clock_()});
+                                           {}});
         return false;
     }
     if (why.empty() && clock_() - visitor.since > limits_.unproven_seconds) why = "it said too little for too long";
@@ -194,15 +197,14 @@ bool TcpChannel::see_to(Visitor& visitor, bool ready) {
 void TcpChannel::give_up_slow(Guest& guest) {
     const double now = clock_();
     const std::size_t unsent = guest.link.unsent();
-    if (unsent <= limits_.most_unsent) {
-        guest.looked = now;
-        guest.unsent_then = unsent;
-        return;
+    if (unsent <= limits_.most_unsent)
+        guest.behind.reset();
+    else if (!guest.behind)
+        guest.behind = {unsent, now};
+    else if (now - guest.behind->since >= limits_.unsent_seconds) {
+        if (unsent >= guest.behind->bytes) guest.link.close("it takes in less than it is sent");
+        guest.behind = {unsent, now};
     }
-    if (now - guest.looked < limits_.unsent_seconds) return;
-    if (unsent >= guest.unsent_then) guest.link.close("it takes in less than it is sent");
-    guest.looked = now;
-    guest.unsent_then = unsent;
 }
 
 void TcpChannel::warn(const std::string& text) {

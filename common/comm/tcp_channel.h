@@ -4,6 +4,7 @@
 #include <functional>
 #include <list>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -76,8 +77,11 @@ class TcpChannel final : public Channel {
     struct Guest {
         TcpLink link;
         std::string from;
-        std::size_t unsent_then = 0;  ///< bytes at the time `looked`
-        double looked = 0;
+        struct Behind {
+            std::size_t bytes;  ///< that were unsent then
+            double since;
+        };
+        std::optional<Behind> behind;
     };
 
     bool wait(double seconds, bool reading) const;

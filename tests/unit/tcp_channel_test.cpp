@@ -162,7 +162,7 @@ TEST_F(TcpChannelTest, AGuestThatClosesIsGoneAtOnceAndItsNumberToo) {
 
 TEST_F(TcpChannelTest, AGuestNoticesThatTheCoordinatorIsGone) {
     open();
-    const auto channel = guest();
+    auto channel = guest();
     door_->send(kFirst, payload(5));
     EXPECT_TRUE(door_->drained());
     std::thread closing([&] { door_->close(0.1); });
@@ -175,6 +175,7 @@ TEST_F(TcpChannelTest, AGuestNoticesThatTheCoordinatorIsGone) {
     }
     EXPECT_TRUE(heard);
     EXPECT_FALSE(channel->is_open(0));
+    channel.reset();  // the other end waits for that
     closing.join();
 }
 
