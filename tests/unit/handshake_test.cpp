@@ -222,9 +222,22 @@ TEST(Handshake, WhoSaysMuchAndProvesNothingIsCutOff) {
     DoorHandshake door(ticket(), kBuild, key_of(5));
     GuestHandshake guest(ticket(), kBuild, key_of(6));
     door.take(guest.hello());
-    EXPECT_THROW(door.take(Bytes(kMostUnprovenBytes)), FormatError);
-    DoorHandshake random(ticket(), kBuild, key_of(5));
-    EXPECT_THROW(random.take(bytes_of(8)), FormatError) << "by its first bytes";
+    Bytes frame(kFrameHeadBytes);
+    frame[1] = kMostUnprovenBytes >> 8;  // its length
+    door.take(frame);
+    const std::size_t left = kMostUnprovenBytes - guest.hello().size() - frame.size();
+    door.take(Bytes(left));
+    EXPECT_THROW(door.take(Bytes(1)), FormatError);
+}
+
+TEST(Handshake, AStrangerIsKnownByItsFirstBytes) {
+    for (const std::size_t wrong : {std::size_t{0}, std::size_t{3}, std::size_t{4}, std::size_t{7}}) {
+        DoorHandshake door(ticket(), kBuild, key_of(5));
+        Bytes begin(GuestHandshake(ticket(), kBuild, key_of(6)).hello());
+        begin.resize(8);
+        begin[wrong] ^= 1;
+        EXPECT_THROW(door.take(begin), FormatError) << wrong;
+    }
 }
 
 TEST(Handshake, MayComeByteByByte) {
