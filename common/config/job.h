@@ -144,8 +144,8 @@ struct Job {
         bool robust = false;  ///< rays neither slip through shared edges nor start behind corners
         bool memory_check = true;  ///< no render begins where a host has less memory than is expected to be taken
         bool join = false;         ///< workers may join while it runs (treefarm join)
-        int join_port = 0;         ///< that rank 0 listens at for them; 0: the kernel chooses
-        std::string join_address = "127.0.0.1";  ///< likewise
+        int join_port = 0;         ///< port of rank 0 to listen at; 0: the kernel chooses
+        std::string join_address = "127.0.0.1";  ///< address of rank 0 to listen at
     } farm;
 
     struct Output {
