@@ -326,6 +326,26 @@ TEST_F(TcpChannelTest, AGuestIsToldWhatToDo) {
     EXPECT_NE(why(door_->ticket()).find("nobody answers"), std::string::npos);
 }
 
+TEST(TcpLink, LastWordsAreHeardThoughNothingCanBeSaidAnyMore) {
+    int ends[2];
+    ASSERT_EQ(::socketpair(AF_UNIX, SOCK_STREAM, 0, ends), 0);
+    const JoinKey there{1}, back{2};
+    TcpLink link(Socket(ends[0]), there, {back, kMostFrameBytes});
+    {
+        TcpLink other(Socket(ends[1]), back, {there, kMostFrameBytes});
+        other.send(payload(100));
+        EXPECT_TRUE(other.write());
+    }
+    link.send(payload(1));
+    EXPECT_FALSE(link.write());
+    EXPECT_TRUE(link.is_open());
+    EXPECT_EQ(link.unsent(), 0u);
+    std::vector<std::uint8_t> scratch(64);
+    link.read(scratch);
+    EXPECT_EQ(link.take(), *payload(100));
+    EXPECT_FALSE(link.is_open());
+}
+
 TEST(MultiChannel, NumbersPeersOfBothInOneWay) {
     auto base = make_in_process_channels(3);
     MultiChannel channel(*base[0]);
