@@ -12,6 +12,7 @@
 #include "cli/compare.h"
 #include "cli/convert.h"
 #include "cli/inspect.h"
+#include "cli/join.h"
 #include "cli/keys.h"
 #include "cli/launch.h"
 #include "cli/option_values.h"
@@ -63,6 +64,7 @@ int run(int argc, char** argv) {
     add_render_command(app, launch, joined(argc, argv), exit_code);
     add_resume_command(app, launch, joined(argc, argv), exit_code);
     add_launch_command(app, launch, exit_code);
+    add_join_command(app, launch, exit_code);
     add_plan_command(app, launch, exit_code);
     add_check_command(app, launch, exit_code);
     add_compare_command(app, launch, exit_code);

@@ -14,6 +14,7 @@
 #include "common/base/host.h"
 #include "common/comm/in_process_channel.h"
 #include "common/comm/mpi_channel.h"
+#include "common/comm/multi_channel.h"
 #include "coordinator/farm.h"
 #include "coordinator/pulse.h"
 #include "worker/integrators/registry.h"
@@ -27,33 +28,30 @@ namespace {
 constexpr double kDismissSeconds = 5.0;
 constexpr double kFinalizeSeconds = 10.0;
 
-WorkerSettings worker_settings(unsigned threads) {
-    const Host host = this_host();
-    return {.threads = threads, .host = host.name, .fingerprint = this_build().hash(), .memory = host.available_bytes};
-}
-
 /// Coordinator and one worker in this process.
 int run_here(const FarmOptions& options, const Voice& voice, const FarmTask& task) {
     task.prepare();
     InterruptWatch watch;
     auto channels = make_in_process_channels(2);
+    MultiChannel channel(*channels[0]);
     std::thread worker(
-        [&channel = *channels[1], threads = options.threads > 0 ? options.threads : affinity_threads(), &voice] {
+        [&own = *channels[1], threads = options.threads > 0 ? options.threads : affinity_threads(), &voice] {
             const Log log = make_log("worker", {}, voice.console, voice.loudness);
             WorkerSettings settings = worker_settings(threads);
             settings.silence_seconds = 1e9;  // nobody is gone who is in the same process
             try {
-                run_worker(channel, settings, make_renderer, log);
+                run_worker(own, settings, make_renderer, log);
             } catch (const std::exception& error) {  // the coordinator notices the silence
                 log->error("{}", error.what());
             }
         });
     const auto send_away = [&] {
-        dismiss_workers(*channels[0], {}, kDismissSeconds);
+        dismiss_workers(channel, {}, kDismissSeconds);
+        channel.close();
         worker.join();
     };
     try {
-        const CoordinatorEnd end = task.coordinate(*channels[0], [&] { return watch.interrupted(); });
+        const CoordinatorEnd end = task.coordinate(channel, [&] { return watch.interrupted(); });
         send_away();
         return end.code;
     } catch (...) {
@@ -97,12 +95,15 @@ void prepare(const LaunchEnvironment& launch, MpiSession& session, const FarmTas
 }
 
 int coordinate(const LaunchEnvironment& launch, MpiSession& session, const FarmTask& task, InterruptWatch& watch) {
+    MultiChannel channel(session.channel());
     const CoordinatorEnd end = guarded([&] {
         prepare(launch, session, task, watch);
-        return task.coordinate(session.channel(), [&] { return watch.interrupted(); });
+        return task.coordinate(channel, [&] { return watch.interrupted(); });
     });
     if (launch.life) launch.life->end(end.code);
-    session.finish(dismiss_workers(session.channel(), end.lost, kDismissSeconds), end.code, kFinalizeSeconds);
+    const bool orderly = dismiss_workers(channel, end.lost, kDismissSeconds);
+    channel.close();
+    session.finish(orderly, end.code, kFinalizeSeconds);
     return end.code;
 }
 
@@ -144,10 +145,19 @@ std::string missing_processes(const LaunchEnvironment& launch, double seconds) {
 
 }  // namespace
 
-void add_farm_options(CLI::App& command, FarmOptions& options) {
+WorkerSettings worker_settings(unsigned threads) {
+    const Host host = this_host();
+    return {.threads = threads, .host = host.name, .fingerprint = this_build().hash(), .memory = host.available_bytes};
+}
+
+void add_voice_options(CLI::App& command, FarmOptions& options) {
     add_threads_option(command, options.threads, "tracing threads of each process (default: its processors)");
     command.add_flag("-q,--quiet", options.quiet, "only errors on the terminal");
     command.add_flag("-v,--verbose", options.verbose, "every figure of each pass on the terminal")->excludes("--quiet");
+}
+
+void add_farm_options(CLI::App& command, FarmOptions& options) {
+    add_voice_options(command, options);
     add_number_option(command, "--start-seconds", options.start_seconds, {1, 1e6, "seconds", "60"},
                       "under mpirun: in which all processes have to come together (default: 25)");
 }

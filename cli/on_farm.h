@@ -36,8 +36,14 @@ struct FarmOptions {
     double start_seconds = 25.0;  ///< in which all processes of an MPI job have to come together
 };
 
-/// --threads, --quiet, --verbose, --start-seconds
+/// --threads, --quiet, --verbose
+void add_voice_options(CLI::App& command, FarmOptions& options);
+/// These and --start-seconds.
 void add_farm_options(CLI::App& command, FarmOptions& options);
+
+/// A worker in this process, as the coordinator is told.
+struct WorkerSettings;
+WorkerSettings worker_settings(unsigned threads);
 
 /// The voice of this process: where it speaks, and how much it says.
 struct Voice {

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
 #include "common/comm/rest.h"
 #include "common/protocol/messages.h"
 #include "coordinator/farm.h"
@@ -6,17 +8,15 @@
 namespace treefarm {
 
 bool dismiss_workers(Channel& channel, const std::set<int>& lost, double patience) {
+    const std::vector<int> told = channel.peers();
     tell_workers(channel, Quit{});
     std::set<int> gone;
-    const auto count_gone = [&](bool lost_ones) {
-        int count = 0;
-        for (int peer = 1; peer < channel.peer_count(); ++peer)
-            count += gone.contains(peer) || (lost_ones && lost.contains(peer));
-        return count;
+    const auto are_gone = [&](const auto& is_excused) {
+        return std::all_of(told.begin(), told.end(),
+                           [&](int peer) { return gone.contains(peer) || !channel.is_open(peer) || is_excused(peer); });
     };
-    const int workers = channel.peer_count() - 1;
     const Timer timer;
-    while (count_gone(true) < workers && timer.seconds() < patience) {
+    while (!are_gone([&](int peer) { return lost.contains(peer); }) && timer.seconds() < patience) {
         if (const auto message = channel.poll()) {
             try {
                 if (std::holds_alternative<Bye>(decode(message->bytes))) gone.insert(message->peer);
@@ -26,7 +26,7 @@ bool dismiss_workers(Channel& channel, const std::set<int>& lost, double patienc
             rest(channel);
         }
     }
-    const bool orderly = count_gone(false) == workers;
+    const bool orderly = are_gone([&](int peer) { return channel.is_guest(peer); });
     tell_workers(channel, Leave{orderly});
     return orderly;
 }

@@ -58,9 +58,15 @@ Farm::Farm(Channel& channel, const Job& job, Bytes scene, std::uint64_t fingerpr
       roster_(std::max(limits.lost, kLostHeartbeats * job.farm.heartbeat_seconds)) {}
 
 void Farm::gather(const std::function<bool()>& interrupted) {
-    const auto workers = static_cast<std::size_t>(channel_.peer_count() - 1);
-    const std::size_t expected = std::max<std::size_t>(1, workers - turn_.absent.size() - turn_.left.size());
-    if (turn_.number > 0) tell_workers(channel_, Rejoin{turn_.number});
+    std::size_t expected = 0;  // guests come when they come
+    for (const int peer : channel_.peers())
+        expected += !channel_.is_guest(peer) && !turn_.absent.contains(peer) && !turn_.left.contains(peer);
+    expected = std::max<std::size_t>(1, expected);
+    if (turn_.number > 0) {
+        tell_workers(channel_, Rejoin{turn_.number});
+        for (const int peer : channel_.peers())
+            told_job_.insert(peer);
+    }
     const Timer timer;
     while (roster_.members().size() < expected && timer.seconds() < limits_.gather && !interrupted())
         step();
@@ -70,8 +76,9 @@ void Farm::gather(const std::function<bool()>& interrupted) {
     if (roster_.present_count() < expected)
         log_->warn("going on with {} of {} workers; the others may join later", roster_.present_count(), expected);
     if (turn_.number > 0)  // nor need later jobs wait for those that did not come
-        for (int peer = 1; peer < channel_.peer_count(); ++peer)
-            if (!roster_.find(peer) && !turn_.left.contains(peer)) turn_.absent.insert(peer);
+        for (const int peer : channel_.peers())
+            if (!channel_.is_guest(peer) && !roster_.find(peer) && !turn_.left.contains(peer))
+                turn_.absent.insert(peer);
 }
 
 void Farm::begin_pass(const PassPlan& plan, const AnyModel& tree, Bytes encoded_tree, int width, int height,
@@ -128,8 +135,14 @@ BlobName Farm::name_of(Blob blob) const {
     return {blob, turn_.number, blob == Blob::tree ? pass_->plan.index : 0};
 }
 
-void Farm::send_blob(Blob blob, std::uint64_t offset, std::span<const std::uint32_t> chain) {
-    send_along_chain(channel_, name_of(blob), blob == Blob::tree ? pass_->tree : scene_, offset, chain);
+/// Along a chain of those that can speak to each other, and to each guest directly.
+void Farm::send_blob(Blob blob, std::uint64_t offset, std::span<const std::uint32_t> peers) {
+    std::vector<std::uint32_t> chain, guests;
+    for (const std::uint32_t peer : peers)
+        (channel_.is_guest(static_cast<int>(peer)) ? guests : chain).push_back(peer);
+    const Bytes& bytes = blob == Blob::tree ? pass_->tree : scene_;
+    send_along_chain(channel_, name_of(blob), bytes, offset, chain);
+    send_to_each(channel_, name_of(blob), bytes, offset, guests);
 }
 
 /// Whether a peer may have a copy. One on its way takes memory here: nobody gets two at a time, however often he asks.
@@ -149,7 +162,8 @@ void Farm::serve_askers() {
         std::uint64_t offset = ~std::uint64_t{0};
         for (const auto& [peer, from] : askers.offsets) {
             const Member* member = roster_.find(peer);
-            if (!member || member->state != MemberState::present || !may_have_copy(blob, peer)) continue;
+            if (!member || member->state != MemberState::present) continue;
+            if (channel_.unsent(peer) > kChunkBytes || !may_have_copy(blob, peer)) continue;  // it may be on its way
             chain.push_back(static_cast<std::uint32_t>(peer));
             offset = std::min(offset, from);
         }
@@ -194,6 +208,8 @@ void Farm::watch_for_silence() {
     const double now = clock_.seconds();
     for (Member* member : roster_.overdue(now))
         give_up(*member, MemberState::lost, "was silent for too long");
+    for (Member* member : roster_.present())
+        if (!channel_.is_open(member->peer)) give_up(*member, MemberState::lost, "closed its connection");
     if (!scene_sent_ || roster_.present_count() > 0) {
         alone_since_.reset();
         return;
@@ -226,7 +242,8 @@ void Farm::watch_for_slowness() {
 }
 
 bool Farm::may_come_back() const {
-    for (int peer = 1; peer < channel_.peer_count(); ++peer) {
+    if (channel_.takes_guests()) return true;
+    for (const int peer : channel_.peers()) {
         const auto found = roster_.members().find(peer);
         const bool unknown = found == roster_.members().end();
         if (unknown ? !turn_.absent.contains(peer) && !turn_.left.contains(peer)
@@ -245,7 +262,7 @@ void Farm::beat() {
     const double now = clock_.seconds();
     if (now - last_beat_ < job_.farm.heartbeat_seconds) return;
     last_beat_ = now;
-    for (int peer = 1; peer < channel_.peer_count(); ++peer) {
+    for (const int peer : channel_.peers()) {
         const Member* member = roster_.find(peer);
         if (!member || member->state != MemberState::lost) tell(peer, Heartbeat{});
     }

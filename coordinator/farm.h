@@ -123,7 +123,7 @@ class Farm {
     void serve_all();
     void tell_end();
     BlobName name_of(Blob blob) const;
-    void send_blob(Blob blob, std::uint64_t offset, std::span<const std::uint32_t> chain);
+    void send_blob(Blob blob, std::uint64_t offset, std::span<const std::uint32_t> peers);
     bool may_have_copy(Blob blob, int peer);
     void serve_askers();
     std::vector<std::uint32_t> chain_of_present();
@@ -155,6 +155,7 @@ class Farm {
     double pass_began_ = 0, first_request_seconds_ = 0, broadcast_seconds_ = 0, last_beat_ = 0;
     double listened_ = 0;                                ///< when step() last looked for messages
     std::optional<double> alone_since_;                  ///< nobody has been there since
+    std::set<int> told_job_;                             ///< peers that were told to join this one
     std::map<std::pair<int, BlobName>, double> copied_;  ///< when a worker got a copy of its own
     /// Who asked for what, from which byte on, and since when somebody waits.
     struct Askers {
@@ -171,13 +172,14 @@ class Farm {
 template <class M>
 void tell_workers(Channel& channel, const M& message) {
     const auto payload = std::make_shared<const Bytes>(encode(message));
-    for (int peer = 1; peer < channel.peer_count(); ++peer)
+    for (const int peer : channel.peers())
         channel.send(peer, payload);
     channel.drained();  // they move only when they are looked at
 }
 
 /// Sends every worker away, those included that never said hello, and waits up to `patience` seconds for the good-byes
-/// of those not known as lost. Returns whether all went in order, so that the message layer can be shut down.
+/// of those not known as lost. Returns whether all but guests went in order, so that the message layer can be shut
+/// down.
 bool dismiss_workers(Channel& channel, const std::set<int>& lost, double patience);
 
 }  // namespace treefarm

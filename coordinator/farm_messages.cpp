@@ -78,7 +78,10 @@ Member* Farm::hear(int peer, std::uint64_t incarnation) {
 }
 
 void Farm::on(int peer, const Hello& m) {
-    if (m.job != turn_.number) return;  // of an earlier job; the answer to this one's rejoin is on its way
+    if (m.job != turn_.number) {  // of an earlier job; the answer to this one's rejoin is on its way
+        if (told_job_.insert(peer).second) tell(peer, Rejoin{turn_.number});
+        return;
+    }
     if (Member* earlier = roster_.find(peer)) {
         if (earlier->state == MemberState::barred) return;
         if (earlier->lives >= kMostLives) throw FormatError("a worker that begins anew for ever");

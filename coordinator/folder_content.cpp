@@ -19,9 +19,9 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-constexpr std::array<std::string_view, 12> kRunFiles = {"status.json",   "summary.json", "job.toml",    "resolved.toml",
-                                                        "plan.txt",      "plan.json",    "log.txt",     "passes.csv",
-                                                        "schedule.toml", "image.exr",    "preview.png", "tree.bin"};
+constexpr std::array<std::string_view, 13> kRunFiles = {
+    "status.json", "summary.json",  "job.toml",  "resolved.toml", "plan.txt", "plan.json", "log.txt",
+    "passes.csv",  "schedule.toml", "image.exr", "preview.png",   "tree.bin", "join"};
 
 bool has(const fs::path& path) {
     std::error_code error;

@@ -5,12 +5,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "common/base/hash.h"
 #include "common/plan/learning.h"
 #include "common/plan/plan_text.h"
 #include "common/scene/lint/lint.h"
 #include "common/scene/pack/scene_codec.h"
+#include "coordinator/guest_door.h"
 #include "coordinator/memory_check.h"
 #include "coordinator/pass_text.h"
 
@@ -36,6 +38,7 @@ class RenderRun {
   public:
     RenderRun(Channel& channel, const RenderRequest& request, const std::function<bool()>& interrupted)
         : request_(request),
+          channel_(channel),
           interrupted_(interrupted),
           scene_(encode_scene(request.scene)),
           directory_(request.job,
@@ -118,6 +121,7 @@ class RenderRun {
             log_->warn("no checkpoints (farm.checkpoint_seconds = 0): that of {} spp stays until the render is done",
                        state.spp());
         log_->debug("{} triangles", request_.scene.triangle_count());
+        door_.emplace(channel_, request_.job.farm, request_.fingerprint.hash(), directory_.path(), log_);
         enter(LifePhase::gather);
         farm_.gather(interrupted_);
         if (request_.resumed) {
@@ -312,6 +316,7 @@ class RenderRun {
     }
 
     const RenderRequest& request_;
+    Channel& channel_;
     const std::function<bool()>& interrupted_;
     Bytes scene_;
     const Timer clock_;
@@ -319,6 +324,7 @@ class RenderRun {
     const Log log_;
     Progress progress_;
     Farm farm_;
+    std::optional<GuestDoor> door_;
     bool reported_black_ = false;
     std::size_t pass_count_ = 0;      ///< 0: not known
     const std::uint32_t spp_before_;  ///< of what the render goes on with

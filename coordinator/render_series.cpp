@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "coordinator/render_series.h"
 
+#include <algorithm>
+
 namespace treefarm {
 
 RenderOutcome RenderSeries::render(RenderRequest& request, const std::filesystem::path& folder) {
@@ -16,6 +18,12 @@ RenderOutcome RenderSeries::render(RenderRequest& request, const std::filesystem
     turn_.left = outcome.left_peers;
     if (context_.life && outcome.state == RunState::done) context_.life->finish_render();
     return outcome;
+}
+
+bool RenderSeries::has_lost_all() const {
+    const std::vector<int> peers = channel_.peers();
+    return std::all_of(peers.begin(), peers.end(),
+                       [&](int peer) { return turn_.absent.contains(peer) || turn_.left.contains(peer); });
 }
 
 }  // namespace treefarm

@@ -34,9 +34,7 @@ class RenderSeries {
     /// Workers that were given up and are not back.
     const std::set<int>& lost_peers() const { return turn_.absent; }
     /// Nobody is left to render with.
-    bool has_lost_all() const {
-        return static_cast<int>(turn_.absent.size() + turn_.left.size()) >= channel_.peer_count() - 1;
-    }
+    bool has_lost_all() const;
 
   private:
     Channel& channel_;

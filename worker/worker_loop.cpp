@@ -85,6 +85,10 @@ class WorkerLoop {
                 fail(error.what());
             }
             beat();
+            if (!channel_.is_open(0)) {
+                log_->error("the coordinator closed the connection: leaving");
+                return WorkerEnd::orphaned;
+            }
             if (silence_.too_long(clock_.seconds())) {
                 log_->error("the coordinator has been silent for {:.0f} s: leaving", silence_.seconds());
                 return WorkerEnd::orphaned;

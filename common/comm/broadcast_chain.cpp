@@ -11,19 +11,36 @@ Payload as_payload(Bytes bytes) {
     return std::make_shared<const Bytes>(std::move(bytes));
 }
 
+/// Calls `send` with each piece, in order; they name `chain` as the rest of their way.
+template <class Send>
+void send_pieces(const BlobName& name, std::span<const std::uint8_t> bytes, std::uint64_t offset,
+                 std::vector<std::uint32_t> chain, std::size_t chunk_bytes, const Send& send) {
+    Chunk chunk{name.blob, name.job, name.epoch, bytes.size(), offset, std::move(chain), {}};
+    do {  // an empty blob is one empty chunk
+        const std::size_t count = std::min<std::size_t>(chunk_bytes, bytes.size() - chunk.offset);
+        const auto piece = bytes.subspan(chunk.offset, count);
+        chunk.bytes.assign(piece.begin(), piece.end());
+        send(as_payload(encode(chunk)));
+        chunk.offset += count;
+    } while (chunk.offset < bytes.size());
+}
+
 }  // namespace
 
 void send_along_chain(Channel& channel, const BlobName& name, std::span<const std::uint8_t> bytes, std::uint64_t offset,
                       std::span<const std::uint32_t> chain, std::size_t chunk_bytes) {
     if (chain.empty() || offset > bytes.size()) return;
-    Chunk chunk{name.blob, name.job, name.epoch, bytes.size(), offset, {chain.begin() + 1, chain.end()}, {}};
-    do {  // an empty blob is one empty chunk
-        const std::size_t count = std::min<std::size_t>(chunk_bytes, bytes.size() - chunk.offset);
-        const auto piece = bytes.subspan(chunk.offset, count);
-        chunk.bytes.assign(piece.begin(), piece.end());
-        channel.send(static_cast<int>(chain.front()), as_payload(encode(chunk)));
-        chunk.offset += count;
-    } while (chunk.offset < bytes.size());
+    send_pieces(name, bytes, offset, {chain.begin() + 1, chain.end()}, chunk_bytes,
+                [&](const Payload& piece) { channel.send(static_cast<int>(chain.front()), piece); });
+}
+
+void send_to_each(Channel& channel, const BlobName& name, std::span<const std::uint8_t> bytes, std::uint64_t offset,
+                  std::span<const std::uint32_t> peers, std::size_t chunk_bytes) {
+    if (peers.empty() || offset > bytes.size()) return;
+    send_pieces(name, bytes, offset, {}, chunk_bytes, [&](const Payload& piece) {
+        for (const std::uint32_t peer : peers)
+            channel.send(static_cast<int>(peer), piece);
+    });
 }
 
 void ChainReceiver::begin_job(std::uint32_t job) {

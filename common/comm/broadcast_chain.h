@@ -28,6 +28,10 @@ struct BlobName {
 void send_along_chain(Channel& channel, const BlobName& name, std::span<const std::uint8_t> bytes, std::uint64_t offset,
                       std::span<const std::uint32_t> chain, std::size_t chunk_bytes = kChunkBytes);
 
+/// Sends them to each of `peers` directly, every piece made once for all.
+void send_to_each(Channel& channel, const BlobName& name, std::span<const std::uint8_t> bytes, std::uint64_t offset,
+                  std::span<const std::uint32_t> peers, std::size_t chunk_bytes = kChunkBytes);
+
 /// A worker's end: forwards what it receives and assembles its own copy. A blob with a hole asks the coordinator for
 /// the rest, at once when a later piece shows the hole, or after a silence (see complain()).
 class ChainReceiver {

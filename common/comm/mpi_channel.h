@@ -8,9 +8,6 @@
 
 namespace treefarm {
 
-/// Longer messages are refused, and take no memory: what a worker sends is far shorter (worker_loop.cpp).
-inline constexpr std::size_t kLongestMessage = std::size_t{1} << 30;
-
 /// The message-passing layer of this process, from MPI_Init to its end. Only point-to-point messages are used after the
 /// start, and nothing ever blocks on a peer: Open MPI does not report a dead one (docs/design/protocol.md, "on MPI").
 class MpiSession {

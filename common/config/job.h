@@ -148,6 +148,9 @@ struct Job {
             "avx2";           ///< Embree's instruction set, the same on every worker: sse2, sse4.2, avx, avx2, avx512
         bool robust = false;  ///< rays neither slip through shared edges nor start behind corners
         bool memory_check = true;  ///< no render begins where a host has less memory than is expected to be taken
+        bool join = false;         ///< workers may join while it runs (treefarm join)
+        int join_port = 0;         ///< port of rank 0 to listen at; 0: the kernel chooses
+        std::string join_address = "127.0.0.1";  ///< address of rank 0 to listen at
     } farm;
 
     struct Output {

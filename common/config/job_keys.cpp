@@ -218,6 +218,15 @@ std::vector<JobKey> make_job_keys() {
     add(boolean_key(
         "farm.memory_check", "refuse to begin where a host has less memory than its processes are expected to take",
         [](auto& j) -> auto& { return j.farm.memory_check; }));
+    add(boolean_key(
+        "farm.join", "listen for workers that join while the render runs (docs/use/join.md)",
+        [](auto& j) -> auto& { return j.farm.join; }));
+    add(integer_key(
+        "farm.join_port", "0 to 65535", "port to listen at for them; 0: any that is free",
+        [](auto& j) -> auto& { return j.farm.join_port; }, 0, 65535));
+    add(text_key(
+        "farm.join_address", "address of this machine to listen at for them; 0.0.0.0 or :: for all that it has",
+        [](auto& j) -> auto& { return j.farm.join_address; }));
 
     add(text_key(
         "output.directory", "the run directory; empty: runs/<scene>-<time>",

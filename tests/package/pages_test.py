@@ -14,6 +14,7 @@ import shlex
 import subprocess
 import sys
 import tempfile
+import time
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs/use").glob("*.md"))]
@@ -71,6 +72,9 @@ def runnable(name, rest, work):
         arguments += ["--spp", "1", "--size", "16", "-o", f"{work}/inspect"]
     if name == "resume":  # a run that is done: it gets more samples each time
         arguments = [arguments[0], "--quiet", "--spp", str(next(SAMPLES))]
+    if name == "join":
+        arguments = [f"{work}/joined/join" if word == "join" else f"{work}/joined" if word == words["RUN_DIR"] else word
+                     for word in arguments]
     if name == "study":
         arguments += ["--dry-run", "--dir", f"{work}/study"]
     return arguments
@@ -83,6 +87,18 @@ def run(command, where):
         print(f"{where}: {shlex.join(command)}\nexit code {ended.returncode}\n{ended.stdout}{ended.stderr}")
         return False
     return True
+
+
+def run_joining(program, command, work, where):
+    """Joins a render that runs as long as that takes."""
+    folder = pathlib.Path(work) / "joined"
+    render = subprocess.Popen([program, "render", BOX, "--quiet", *SMALL, "--seconds", "3", "--set", "farm.join=true", "--run-dir",
+                               str(folder), "--overwrite"], cwd=ROOT, stdout=subprocess.DEVNULL)
+    end = time.monotonic() + 60
+    while not (folder / "join").exists() and render.poll() is None and time.monotonic() < end:
+        time.sleep(0.02)
+    joined = run(command, where)
+    return render.wait(timeout=300) == 0 and joined
 
 
 def main(program):
@@ -102,7 +118,8 @@ def main(program):
                     continue
                 start = [*shlex.split(mpirun), "--oversubscribe", "--bind-to", "none"] if mpirun else []
                 done += 1
-                failed += not run([*start, program, name, *arguments], f"{page.relative_to(ROOT)}:{number}")
+                command, where = [*start, program, name, *arguments], f"{page.relative_to(ROOT)}:{number}"
+                failed += not (run_joining(program, command, work, where) if name == "join" else run(command, where))
     print(f"{done} commands run, {failed} failed, {left_out} left out")
     sys.exit(1 if failed or done < 15 else 0)
 

@@ -79,7 +79,8 @@ const std::vector<Owner> kOwners = {
     {"mpi.h", "common/comm"},      {"mpi-ext.h", "common/comm"}, {"embree3/", "worker/geometry"},
     {"embree", "worker/geometry"}, {"Imf", "common/image"},      {"OpenEXR/", "common/image"},
     {"Iex", "common/image"},       {"stb/", "common/image"},     {"png.h", "common/image"},
-    {"jpeglib", "common/image"},   {"stb_", "common/image"},     {"CLI/", "cli"}};
+    {"jpeglib", "common/image"},   {"stb_", "common/image"},     {"CLI/", "cli"},
+    {"sodium", "common/comm"}};
 
 struct Include {
     std::string target;

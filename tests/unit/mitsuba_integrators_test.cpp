@@ -147,6 +147,7 @@ constexpr const char* kOwn[] = {
     "farm.update_seconds",
     "farm.isa",
     "farm.memory_check",
+    "farm.join",
 };
 
 /// A key is a parameter's, which the reader maps, or our own: a new one has to be decided on.

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "cli/launch.h"
+
+namespace CLI {
+class App;
+}
+
+namespace treefarm {
+
+/// treefarm join RUN_DIR: registers the subcommand. Its callback keeps the command alive and stores its exit code;
+/// InputError leaves CLI::App::parse.
+void add_join_command(CLI::App& app, const LaunchEnvironment& launch, int& exit_code);
+
+}  // namespace treefarm

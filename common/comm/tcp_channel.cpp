@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "common/comm/tcp_channel.h"
+
+#include <poll.h>
+#include <sys/socket.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <memory>
+#include <utility>
+
+#include "common/base/error.h"
+#include "common/base/host.h"
+#include "common/base/timer.h"
+
+namespace treefarm {
+
+namespace {
+
+constexpr std::size_t kScratchBytes = std::size_t{256} << 10;
+
+/// Lines about strangers; who knocks for ever fills no log.
+constexpr int kMostWarnings = 20;
+
+TcpChannel::Clock or_real(TcpChannel::Clock clock) {
+    if (clock) return clock;
+    return [timer = Timer()] { return timer.seconds(); };
+}
+
+bool is_everywhere(const std::string& address) {
+    return address == "0.0.0.0" || address == "::";
+}
+
+/// Sends a few bytes, which a fresh socket takes at once.
+bool send_at_once(const Socket& socket, const Bytes& bytes) {
+    return bytes.empty() || ::send(socket.fd(), bytes.data(), bytes.size(), MSG_NOSIGNAL | MSG_DONTWAIT) ==
+                                static_cast<ssize_t>(bytes.size());
+}
+
+}  // namespace
+
+TcpChannel::TcpChannel(const GuestOptions& options, int first_peer, const GuestLimits& limits, Clock clock)
+    : options_(options),
+      limits_(limits),
+      clock_(or_real(std::move(clock))),
+      first_peer_(first_peer),
+      next_peer_(first_peer),
+      listener_(listen_at(options.address, options.port)),
+      ticket_{draw_join_run(), is_everywhere(options.address) ? host_name() : options.address, listener_.port,
+              draw_join_key()},
+      scratch_(kScratchBytes) {}
+
+TcpChannel::~TcpChannel() = default;
+
+std::vector<int> TcpChannel::peers() const {
+    std::vector<int> peers;
+    for (const auto& [peer, guest] : links_)
+        peers.push_back(peer);
+    return peers;
+}
+
+std::size_t TcpChannel::unsent(int peer) const {
+    const auto found = links_.find(peer);
+    return found == links_.end() ? 0 : found->second.link.unsent();
+}
+
+void TcpChannel::send(int peer, Payload payload) {
+    const auto found = links_.find(peer);
+    if (found == links_.end()) return;
+    sent_ += payload->size();
+    TcpLink& link = found->second.link;
+    const bool idle = link.unsent() == 0;
+    link.send(std::move(payload));
+    if (idle) link.write();
+}
+
+std::optional<Received> TcpChannel::poll() {
+    const auto next = [&]() -> std::optional<Received> {
+        auto at = links_.upper_bound(last_heard_);
+        for (std::size_t k = 0; k < links_.size(); ++k, ++at) {
+            if (at == links_.end()) at = links_.begin();
+            if (auto message = at->second.link.take()) {
+                last_heard_ = at->first;
+                received_ += message->size();
+                return Received{at->first, std::move(*message)};
+            }
+        }
+        return std::nullopt;
+    };
+    if (auto message = next()) return message;
+    move(true);
+    return next();
+}
+
+bool TcpChannel::drained() {
+    move(false);
+    return !has_unsent();
+}
+
+bool TcpChannel::has_unsent() const {
+    return std::any_of(links_.begin(), links_.end(), [](const auto& entry) { return entry.second.link.unsent() > 0; });
+}
+
+void TcpChannel::rest(double seconds) {
+    wait(seconds, true);
+}
+
+/// Waits until something can be moved, at most so long; false if nothing can.
+bool TcpChannel::wait(double seconds, bool reading) const {
+    std::vector<pollfd> ready;
+    ready.push_back({listener_.socket.fd(), POLLIN, 0});
+    for (const Visitor& visitor : visitors_)
+        ready.push_back({visitor.socket.fd(), POLLIN, 0});
+    for (const auto& [peer, guest] : links_) {
+        const auto events = static_cast<short>((reading ? POLLIN : 0) | (guest.link.unsent() > 0 ? POLLOUT : 0));
+        if (events != 0) ready.push_back({guest.link.fd(), events, 0});
+    }
+    const double whole = std::floor(seconds);
+    const timespec time{static_cast<time_t>(whole), static_cast<long>((seconds - whole) * 1e9)};
+    return ::ppoll(ready.data(), ready.size(), &time, nullptr) > 0;
+}
+
+/// Does what can be done without waiting.
+void TcpChannel::move(bool reading) {
+    const bool ready = wait(0, reading);
+    if (ready) {
+        accept_all();
+        for (auto& [peer, guest] : links_) {
+            guest.link.write();
+            if (reading && !guest.link.has_message()) guest.link.read(scratch_);
+        }
+    }
+    for (auto& [peer, guest] : links_)
+        give_up_slow(guest);
+    std::erase_if(links_, [&](const auto& entry) {
+        const Guest& guest = entry.second;
+        if (guest.link.is_open() || guest.link.has_message()) return false;
+        if (guest.link.why_closed() != TcpLink::kFarewell)
+            warn("worker " + std::to_string(entry.first) + " at " + guest.from +
+                 " was cut off: " + guest.link.why_closed());
+        return true;
+    });
+    for (auto at = visitors_.begin(); at != visitors_.end();)
+        at = see_to(*at, ready) ? std::next(at) : visitors_.erase(at);
+}
+
+void TcpChannel::accept_all() {
+    while (auto accepted = accept_from(listener_.socket))
+        adopt(std::move(accepted->first), accepted->second);
+}
+
+void TcpChannel::adopt(Socket socket, const std::string& from) {
+    set_up(socket);
+    if (visitors_.size() >= limits_.most_unproven) {
+        send_at_once(socket, refusal_answer(JoinRefusal::crowded));
+        (void)::recv(socket.fd(), scratch_.data(), scratch_.size(), MSG_DONTWAIT);  // unread words destroy the answer
+        warn("a connection from " + from + " was closed: " + std::to_string(limits_.most_unproven) +
+             " others have proved nothing yet");
+        return;
+    }
+    visitors_.push_back({std::move(socket), from, clock_(), {ticket_, options_.fingerprint, draw_join_key()}});
+}
+
+/// Takes what a visitor says; what is wrong with it.
+std::string TcpChannel::hear(Visitor& visitor) {
+    const ssize_t count = ::recv(visitor.socket.fd(), scratch_.data(), kMostUnprovenBytes, MSG_DONTWAIT);
+    if (count == 0) return "it closed it itself";
+    if (count < 0) return errno == EAGAIN || errno == EINTR ? "" : std::strerror(errno);
+    try {
+        visitor.handshake.take(std::span(scratch_).first(static_cast<std::size_t>(count)));
+    } catch (const FormatError& error) {
+        return error.what();
+    }
+    return "";
+}
+
+/// Sees to a visitor, who may have said something if anybody is `ready`; false: it is none any more.
+bool TcpChannel::see_to(Visitor& visitor, bool ready) {
+    std::string why = ready ? hear(visitor) : "";
+    if (!send_at_once(visitor.socket, visitor.handshake.take_answer()) && why.empty()) why = "it takes no answer";
+    if (why.empty() && visitor.handshake.is_admitted()) {
+        links_.emplace(next_peer_++, Guest{{std::move(visitor.socket), visitor.handshake.sending_key(),
+                                            visitor.handshake.take_reader()},
+                                           visitor.from,
+                                           {}});
+        return false;
+    }
+    if (why.empty() && clock_() - visitor.since > limits_.unproven_seconds) why = "it said too little for too long";
+    if (why.empty()) return true;
+    warn("a connection from " + visitor.from + " was closed: " + why);
+    return false;
+}
+
+/// A guest that is behind, and gets no farther, costs memory.
+void TcpChannel::give_up_slow(Guest& guest) {
+    const double now = clock_();
+    const std::size_t unsent = guest.link.unsent();
+    if (unsent <= limits_.most_unsent)
+        guest.behind.reset();
+    else if (!guest.behind)
+        guest.behind = {unsent, now};
+    else if (now - guest.behind->since >= limits_.unsent_seconds) {
+        if (unsent >= guest.behind->bytes) guest.link.close("it takes in less than it is sent");
+        guest.behind = {unsent, now};
+    }
+}
+
+void TcpChannel::warn(const std::string& text) {
+    if (++warnings_ > kMostWarnings || !options_.warning) return;
+    options_.warning(text + (warnings_ == kMostWarnings ? "; further ones are not told" : ""));
+}
+
+void TcpChannel::close(double seconds) {
+    const double end = clock_() + seconds;
+    while (!drained() && clock_() < end)
+        wait(0.01, false);
+    for (auto& [peer, guest] : links_)
+        guest.link.end_sending();
+    while (!links_.empty() && clock_() < end) {
+        while (poll()) {  // of no use any more
+        }
+        wait(0.01, true);
+    }
+    links_.clear();
+    visitors_.clear();
+    listener_ = {};
+}
+
+}  // namespace treefarm

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+
+namespace treefarm {
+
+/// A socket, closed at the end.
+class Socket {
+  public:
+    Socket() = default;
+    explicit Socket(int fd) : fd_(fd) {}
+    Socket(Socket&& other) noexcept : fd_(std::exchange(other.fd_, -1)) {}
+    Socket& operator=(Socket&& other) noexcept {
+        std::swap(fd_, other.fd_);
+        return *this;
+    }
+    ~Socket();
+
+    int fd() const { return fd_; }
+    explicit operator bool() const { return fd_ >= 0; }
+
+  private:
+    int fd_ = -1;
+};
+
+/// A socket that listens, and its port.
+struct Listener {
+    Socket socket;
+    std::uint16_t port = 0;
+};
+
+/// Listens at an address of this machine; port 0: the kernel chooses one. Throws InputError that names the job's key.
+Listener listen_at(const std::string& address, std::uint16_t port);
+
+/// A connection that waits, set up as all are, and where it comes from. Nothing: none waits.
+std::optional<std::pair<Socket, std::string>> accept_from(const Socket& listener);
+
+/// Connects within so many seconds. Throws RunError that says why not.
+Socket connect_to(const std::string& address, std::uint16_t port, double seconds);
+
+/// Prepares a socket of any kind: it never blocks; over TCP small messages go out at once, and a peer that acknowledges
+/// nothing for 8 s is given up.
+void set_up(const Socket& socket);
+
+}  // namespace treefarm

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: Apache-2.0
+// treefarm join: whoever comes to a running render, or is killed again, it has the bits of one that was left alone.
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <fstream>
+#include <random>
+
+#include "common/comm/join_ticket.h"
+#include "tests/mpi/program.h"
+#include "tests/support/support.h"
+
+namespace treefarm::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kSoon = 180;  ///< seconds; what is meant is "not never"
+
+#ifdef NDEBUG
+const std::string kSpp = "2032";  // some seconds
+#else
+const std::string kSpp = "252";
+#endif
+
+std::vector<std::string> render(const fs::path& folder, const std::vector<std::string>& options = {},
+                                const std::string& spp = kSpp) {
+    return std::vector<std::string>{TREEFARM_PROGRAM,
+                                    "render",
+                                    own_scene("cornell-box.xml"),
+                                    "-D",
+                                    "size=64",
+                                    "--spp",
+                                    spp,
+                                    "--threads",
+                                    "1",
+                                    "--run-dir",
+                                    folder.string(),
+                                    "--set",
+                                    "farm.heartbeat_seconds=0.2",
+                                    "--set",
+                                    "farm.update_seconds=0.1"} +
+           options;
+}
+
+const std::vector<std::string> kJoinable = {"--set", "farm.join=true"};
+
+std::vector<std::string> join(const std::vector<std::string>& options) {
+    return std::vector<std::string>{TREEFARM_PROGRAM, "join", "--threads", "1"} + options;
+}
+
+const RunHashes& left_alone() {
+    static const RunHashes truth = [] {
+        const fs::path folder = fresh_folder("alone");
+        const Ending ending = Program(render(folder)).wait(kSoon);
+        EXPECT_EQ(ending.code, 0) << ending.output;
+        EXPECT_FALSE(fs::exists(folder / kTicketFileName)) << "nobody asked for it";
+        return hashes_of(folder);
+    }();
+    return truth;
+}
+
+/// Workers that take part, as status.json says.
+int workers_in(const fs::path& folder) {
+    std::ifstream file(folder / "status.json");
+    const nlohmann::json status = nlohmann::json::parse(file, nullptr, false);
+    return status.is_object() ? status.value("workers", 0) : 0;
+}
+
+int count(const std::string& text, const std::string& what) {
+    int found = 0;
+    for (std::size_t at = 0; (at = text.find(what, at)) != std::string::npos; ++at)
+        ++found;
+    return found;
+}
+
+/// Number of passes after which something happens.
+int draw_moment() {
+    static std::mt19937 random{std::random_device{}()};
+    const int passes = std::uniform_int_distribution<>(0, 3)(random);
+    ::testing::Test::RecordProperty("after_passes", passes);
+    return passes;
+}
+
+bool has_come_to(const fs::path& folder, int passes) {
+    return fs::exists(folder / kTicketFileName) && passes_done(folder) >= passes;
+}
+
+void expect_done(const fs::path& folder, const Ending& ending) {
+    EXPECT_FALSE(ending.timed_out) << ending.output;
+    EXPECT_EQ(ending.code, 0) << ending.output;
+    EXPECT_EQ(hashes_of(folder), left_alone());
+    EXPECT_FALSE(fs::exists(folder / kTicketFileName)) << "there is nothing to join any more";
+}
+
+TEST(Join, ARenderThatOthersJoinHasTheSameBits) {
+    for (const bool mpi : {true, false}) {
+        const fs::path folder = fresh_folder("run");
+        Program program((mpi ? mpirun(2) : std::vector<std::string>()) + render(folder, kJoinable));
+        const int moment = draw_moment();
+        ASSERT_TRUE(program.wait_until([&] { return has_come_to(folder, moment); }, kSoon));
+        Program guest(join({folder.string()}));
+        EXPECT_TRUE(program.wait_until([&] { return workers_in(folder) == 2; }, kSoon)) << moment;
+        expect_done(folder, program.wait(kSoon));
+        const Ending ending = guest.wait(kSoon);
+        EXPECT_EQ(ending.code, 0) << ending.output;
+        EXPECT_NE(ending.output.find("the render is over"), std::string::npos) << ending.output;
+        EXPECT_EQ(read_summary(folder)["farm"]["workers"].size(), 2u);
+    }
+}
+
+TEST(Join, OneOfTwoIsKilledAndNothingElseHappens) {
+    const fs::path folder = fresh_folder("run");
+    Program program(mpirun(2) + render(folder, kJoinable));
+    const int moment = draw_moment();
+    ASSERT_TRUE(program.wait_until([&] { return has_come_to(folder, moment); }, kSoon));
+    Program killed(join({folder.string()})), other(join({folder.string()}));
+    ASSERT_TRUE(program.wait_until([&] { return workers_in(folder) == 3; }, kSoon)) << moment;
+    killed.signal(SIGKILL);
+    const Ending ending = program.wait(kSoon);
+    expect_done(folder, ending);
+    EXPECT_EQ(count(ending.output, "closed its connection"), 1) << ending.output;
+    EXPECT_EQ(other.wait(kSoon).code, 0);
+    EXPECT_EQ(killed.wait(kSoon).code, 128 + SIGKILL);
+}
+
+TEST(Join, WhoeverMayNotIsToldWhatToDoAndDisturbsNobody) {
+    const fs::path folder = fresh_folder("run"), copy = fresh_folder("copy") / "join";
+    Program program(mpirun(2) + render(folder, kJoinable));
+    ASSERT_TRUE(program.wait_until([&] { return has_come_to(folder, 0); }, kSoon));
+    const auto refused = [](const std::vector<std::string>& options, const std::string& why) {
+        const Ending ending = Program(join(options)).wait(kSoon);
+        EXPECT_EQ(ending.code, 2) << ending.output;
+        EXPECT_EQ(count(ending.output, "\n"), 1) << ending.output;
+        EXPECT_NE(ending.output.find(why), std::string::npos) << ending.output;
+    };
+    JoinTicket ticket = read_ticket(folder / kTicketFileName);
+    ticket.secret[5] ^= 1;
+    write_ticket(copy, ticket);
+    refused({"--file", copy.string()}, "the secret of this ticket is not the run's");
+    ticket = read_ticket(folder / kTicketFileName);
+    ticket.run[5] ^= 1;
+    write_ticket(copy, ticket);
+    refused({"--file", copy.string()}, "another run answers there");
+    fs::permissions(copy, fs::perms::others_read, fs::perm_options::add);
+    refused({"--file", copy.string()}, "can be read by other users");
+    refused({"--file", copy.string(), folder.string()}, "is given beside a run directory");
+    refused({}, "does not know which run to join");
+    refused({copy.parent_path().string()}, "is no run directory");
+    const Ending ending = program.wait(kSoon);
+    expect_done(folder, ending);
+    EXPECT_EQ(count(ending.output, "the secret of this ticket is not the run's"), 1) << ending.output;
+    refused({folder.string()}, "is over");
+}
+
+TEST(Join, WhereNobodyCanListenNothingIsRendered) {
+    for (const auto& [set, why] : {std::pair("farm.join_address=192.0.2.1", "farm.join_address: "),
+                                   std::pair("farm.join_address=nowhere.invalid", "farm.join_address: ")}) {
+        const fs::path folder = fresh_folder("run");
+        const Ending ending =
+            Program(mpirun(2) + render(folder, kJoinable + std::vector<std::string>{"--set", set})).wait(kSoon);
+        EXPECT_EQ(ending.code, 2) << ending.output;
+        EXPECT_NE(ending.output.find(why), std::string::npos) << ending.output;
+        EXPECT_EQ(passes_done(folder), 0);
+    }
+}
+
+TEST(Join, AGuestOfARenderThatIsKilledLeaves) {
+    const fs::path folder = fresh_folder("run");
+    Program program(render(folder, kJoinable, "100000000"));
+    ASSERT_TRUE(program.wait_until([&] { return has_come_to(folder, 0); }, kSoon));
+    Program guest(join({folder.string()}));
+    ASSERT_TRUE(program.wait_until([&] { return workers_in(folder) == 2; }, kSoon));
+    program.signal(SIGKILL);
+    const Ending ending = guest.wait(kSoon);
+    EXPECT_EQ(ending.code, 1) << ending.output;
+    EXPECT_NE(ending.output.find("closed the connection"), std::string::npos) << ending.output;
+    const Ending late = Program(join({folder.string()})).wait(kSoon);
+    EXPECT_EQ(late.code, 2) << late.output;
+    EXPECT_NE(late.output.find("nobody answers"), std::string::npos) << late.output;
+}
+
+}  // namespace
+}  // namespace treefarm::test
