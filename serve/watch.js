@@ -79,7 +79,7 @@ function showPicture(box, view) {
 
 function progressBar(view) {
   const bar = make('progress', {max: 1});
-  if (known(view.fraction) && (view.fraction > 0 || !isLive(view))) bar.value = view.fraction;
+  if (!isLive(view) || view.fraction > 0) bar.value = known(view.fraction) ? view.fraction : 0;
   bar.setAttribute('aria-label', 'progress');
   return bar;
 }
@@ -94,10 +94,10 @@ function table(heads, rows) {
 function workersOf(view) {
   const farm = view.farm;
   if (!farm || farm.workers.length === 0) return null;
-  const heads = ['worker', 'host', 'state', 'threads', 'paths/s', 'idle', 'losses'].map(name => ({name, text: name === 'host' || name === 'state'}));
-  const rows = farm.workers.map(worker => [known(worker.worker) ? worker.worker : '', worker.host || '', badge(worker.state || 'unknown'),
-    known(worker.threads) ? worker.threads : '', worker.state === 'present' ? large(worker.paths_per_second) : '',
-    known(worker.idle_share) ? Math.round(100 * worker.idle_share) + ' %' : '', worker.losses || '']);
+  const heads = ['worker', 'state', 'paths/s', 'idle', 'losses', 'threads', 'host'].map(name => ({name, text: name === 'host' || name === 'state'}));
+  const rows = farm.workers.map(worker => [known(worker.worker) ? worker.worker : '', badge(worker.state || 'unknown'),
+    worker.state === 'present' ? large(worker.paths_per_second) : '', known(worker.idle_share) ? Math.round(100 * worker.idle_share) + ' %' : '',
+    worker.losses || '', known(worker.threads) ? worker.threads : '', worker.host || '']);
   const counts = [['reissued_units', 'units issued again'], ['copied_units', 'units copied for who was idle'],
     ['dropped_results', 'results too late to count'], ['bad_messages', 'bad messages']]
     .filter(([key]) => farm[key] > 0).map(([key, words]) => farm[key] + ' ' + words).join(' · ');
@@ -116,14 +116,19 @@ function passesOf(view) {
 
 // ---- error over time ----
 
-function ticks(low, high) {
-  const found = [];
-  for (let decade = Math.floor(Math.log10(low)); decade <= Math.ceil(Math.log10(high)); ++decade)
-    for (const step of high / low > 200 ? [1] : [1, 2, 5]) {
-      const value = step * Math.pow(10, decade);
-      if (value >= low * 0.999 && value <= high * 1.001) found.push(value);
-    }
-  return found;
+// Round values of a logarithmic axis, as fine as `most` allows.
+function ticks(low, high, most) {
+  let found = [];
+  for (const steps of [[1, 2, 5], [1, 3], [1]]) {
+    found = [];
+    for (let decade = Math.floor(Math.log10(low)); decade <= Math.ceil(Math.log10(high)); ++decade)
+      for (const step of steps) {
+        const value = step * Math.pow(10, decade);
+        if (value >= low * 0.999 && value <= high * 1.001) found.push(value);
+      }
+    if (found.length <= most) return found;
+  }
+  return found.filter((value, k) => k % Math.ceil(found.length / most) === 0);
 }
 
 function drawChart(box, view) {
@@ -154,11 +159,11 @@ function drawChart(box, view) {
   svg.setAttribute('viewBox', `0 0 ${width} ${height}`);
   svg.setAttribute('role', 'img');
   draw('title', {}, 'Relative error over seconds of rendering, both logarithmic');
-  for (const value of ticks(x0, x1)) {
+  for (const value of ticks(x0, x1, width / 65)) {
     draw('line', {class: 'grid', x1: x(value), x2: x(value), y1: top, y2: height - bottom});
     draw('text', {x: x(value), y: height - bottom + 15, 'text-anchor': 'middle'}, duration(value));
   }
-  for (const value of ticks(y0, y1)) {
+  for (const value of ticks(y0, y1, height / 28)) {
     draw('line', {class: 'grid', x1: left, x2: width - right, y1: y(value), y2: y(value)});
     draw('text', {x: left - 6, y: y(value) + 4, 'text-anchor': 'end'}, percent(value));
   }

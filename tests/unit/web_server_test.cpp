@@ -67,7 +67,7 @@ TEST(WebServer, WhatIsNoRequestEndsNothing) {
 TEST(WebServer, SlowClientsHurtNobody) {
     WebLimits limits;
     limits.threads = 2;
-    limits.waiting = 4;
+    limits.waiting = 16;
     limits.request_seconds = 0.5;
     Running running(limits);
     std::vector<std::unique_ptr<test::Client>> silent;
