@@ -13,9 +13,11 @@ import pathlib
 import re
 import shutil
 import signal
+import socket
 import subprocess
 import sys
 import tempfile
+import threading
 import time
 import urllib.error
 import urllib.request
@@ -64,6 +66,26 @@ class Server:
     def end(self):
         self.process.send_signal(signal.SIGINT)
         check(self.process.wait(30) == 0, f"treefarm serve ends with {self.process.returncode}")
+
+
+class Viewer(threading.Thread):
+    """Takes a connection as tev does, and takes its packets apart: length, operation, name."""
+
+    def __init__(self):
+        super().__init__(daemon=True)
+        self.listener = socket.create_server(("127.0.0.1", 0))
+        self.port = self.listener.getsockname()[1]
+        self.operations = []
+        self.wrong = ""
+
+    def run(self):
+        stream = self.listener.accept()[0].makefile("rb")
+        while head := stream.read(4):
+            packet = stream.read(int.from_bytes(head, "little") - 4)
+            if len(packet) < 3 or packet[0] not in (4, 6) or not packet[2:].startswith(b"treefarm run\0"):
+                self.wrong = f"packet {packet[:40]}"
+                return
+            self.operations.append(packet[0])
 
 
 def rank_process(mpirun, rank):
@@ -195,13 +217,17 @@ def main():
     browser = server = farm = None
     with tempfile.TemporaryDirectory() as folder:
         try:
+            viewer = Viewer()
+            viewer.start()
             farm = subprocess.Popen(
                 ["mpirun", "--oversubscribe", "--bind-to", "none", "--enable-recovery", "-n", "3", program, "render", scene,
                  "--spp", "1000000", "--threads", "1", "--set", "image.width=200", "--set", "image.height=200",
-                 "--run-dir", folder + "/run", "--quiet"],
+                 "--run-dir", folder + "/run", "--quiet", "--display-server", f"localhost:{viewer.port}"],
                 env={**os.environ, **MPI}, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
             server = Server(program, folder, "--port", "0")
             check_http(program, server)
+            wait_for(lambda: viewer.wrong or viewer.operations.count(6) > 2, "images at the display server")
+            check(not viewer.wrong and viewer.operations[0] == 4, f"the display server got {viewer.wrong or viewer.operations}")
             if driver:
                 browser = Browser(driver)
                 look_at(browser, server, farm.pid, folder_of_pictures)
