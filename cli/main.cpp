@@ -19,6 +19,7 @@
 #include "cli/plan.h"
 #include "cli/render.h"
 #include "cli/resume.h"
+#include "cli/serve.h"
 #include "cli/study.h"
 #include "cli/supervise.h"
 #include "cli/this_build.h"
@@ -65,6 +66,7 @@ int run(int argc, char** argv) {
     add_resume_command(app, launch, joined(argc, argv), exit_code);
     add_launch_command(app, launch, exit_code);
     add_join_command(app, launch, exit_code);
+    add_serve_command(app, launch, exit_code);
     add_plan_command(app, launch, exit_code);
     add_check_command(app, launch, exit_code);
     add_compare_command(app, launch, exit_code);

@@ -167,6 +167,12 @@ CLI::Option* add_threads_option(CLI::App& command, unsigned& threads, const std:
         ->type_name("N");
 }
 
+CLI::Option* add_display_option(CLI::App& command, std::string& server) {
+    return add_text_option(command, "--display-server", server,
+                           "HOST:PORT of a viewer that speaks tev's protocol: it shows the image while it renders")
+        ->type_name("HOST:PORT");
+}
+
 CLI::Option* add_number_option(CLI::App& command, const std::string& name, double& value, const NumberRange& range,
                                const std::string& help) {
     return command

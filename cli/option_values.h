@@ -53,6 +53,8 @@ CLI::Option* add_seconds_option(CLI::App& command, const std::string& name, std:
                                 const std::string& help);
 CLI::Option* add_error_option(CLI::App& command, std::optional<double>& error, const std::string& help);
 CLI::Option* add_threads_option(CLI::App& command, unsigned& threads, const std::string& help);
+/// --display-server
+CLI::Option* add_display_option(CLI::App& command, std::string& server);
 
 /// Any other whole number.
 template <class T>

@@ -75,6 +75,7 @@ void add_render_command(CLI::App& app, const LaunchEnvironment& launch, const st
     add_text_option(*command, "--run-dir", options->run_directory, "where results go (default: runs/<scene>-<time>)");
     command->add_flag("--overwrite", options->overwrite,
                       "replace the render that the folder holds, once this one is done");
+    add_display_option(*command, options->display_server);
     add_farm_options(*command, options->farm);
     add_text_option(*command, "--debug-sample", options->debug_sample,
                     "pass,x,y,sample: trace this sample and tell its story; pass,x0,y0,x1,y1,chunk: trace this tile");

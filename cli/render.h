@@ -28,10 +28,11 @@ struct RenderOptions {
     std::string sensor;                ///< --sensor
     std::string frames;                ///< --frames
     bool lenient = false;
-    std::string run_directory;  ///< --run-dir
-    bool overwrite = false;     ///< --overwrite
-    bool carry_model = false;   ///< --carry-model
-    bool reads_model = true;    ///< guiding.initial_model is still to be read
+    std::string run_directory;   ///< --run-dir
+    bool overwrite = false;      ///< --overwrite
+    bool carry_model = false;    ///< --carry-model
+    bool reads_model = true;     ///< guiding.initial_model is still to be read
+    std::string display_server;  ///< --display-server
     FarmOptions farm;
     std::string debug_sample;  ///< "pass,x,y,sample"
     std::string command;       ///< as it was typed

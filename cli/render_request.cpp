@@ -12,6 +12,7 @@
 #include "common/plan/policy_table.h"
 #include "common/plan/schedule_file.h"
 #include "common/scene/readers/load.h"
+#include "coordinator/display/display_server.h"
 
 namespace treefarm {
 
@@ -95,6 +96,7 @@ std::string shell_quoted(const std::string& word) {
 
 RenderRequest read_request(const RenderOptions& options) {
     require_scene_or_job(options.input);
+    if (!options.display_server.empty()) parse_display_server(options.display_server);  // before the scene is read
     const std::filesystem::path input(options.input);
     std::vector<Setting> file_layer;
     if (input.extension() == ".toml")
@@ -138,6 +140,7 @@ RenderRequest read_request(const RenderOptions& options) {
     request.command = options.command;
     request.debug_command = debug_command(options);
     request.fingerprint = this_build();
+    request.display_server = options.display_server;
     request.overwrite = options.overwrite;
     return request;
 }

@@ -88,6 +88,7 @@ RenderRequest read_resumed(const ResumeOptions& options) {
     as_render.error = options.error;
     as_render.set = options.set;
     as_render.command = options.command;
+    as_render.display_server = options.display_server;
     as_render.reads_model = false;  // the checkpoint has what became of it
     RenderRequest request = read_request(as_render);
     request.resumed = load(run, request);
@@ -125,6 +126,7 @@ void add_resume_command(CLI::App& app, const LaunchEnvironment& launch, const st
     add_seconds_option(*command, "--seconds", options->seconds, "seconds of rendering in all, those before included");
     add_error_option(*command, options->error, "stop at this RMSE / mean luminance: 0.05, or 5%");
     add_texts_option(*command, "--set", options->set, "key=value: a key of the job that its bits do not depend on");
+    add_display_option(*command, options->display_server);
     add_farm_options(*command, options->farm);
     command->footer(
         std::string("Job, scene and build have to be those of the render; processes, threads and budget are "

@@ -24,6 +24,7 @@ struct ResumeOptions {
     std::optional<double> seconds;     ///< --seconds: in all lives of the render
     std::optional<double> error;       ///< --error
     std::vector<std::string> set;      ///< --set key=value
+    std::string display_server;        ///< --display-server
     FarmOptions farm;
     std::string command;  ///< as it was typed
 };

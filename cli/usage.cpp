@@ -69,6 +69,7 @@ std::string input_of(const CLI::App& command) {
     if (name == "check") return "a scene (.xml)";
     if (name == "study") return "a study file (.toml)";
     if (name == "report") return "the folder of a study";
+    if (name == "serve") return "a run directory, or a folder that holds some";
     if (name == "launch") return "a command behind --";
     if (name == "inspect") return "the run directory of a guided render";
     if (name == "compare") return "an image and a reference (.exr)";

@@ -14,6 +14,7 @@ find_package(ZLIB REQUIRED)
 find_package(Boost 1.74 REQUIRED)  # headers of Boost.Math
 find_package(PNG REQUIRED)
 find_package(JPEG REQUIRED)
+pkg_check_modules(CPPHTTPLIB REQUIRED IMPORTED_TARGET cpp-httplib)
 pkg_check_modules(TOMLPLUSPLUS REQUIRED IMPORTED_TARGET tomlplusplus)
 pkg_check_modules(ZSTD REQUIRED IMPORTED_TARGET libzstd)
 pkg_check_modules(XXHASH REQUIRED IMPORTED_TARGET libxxhash)

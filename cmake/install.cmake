@@ -18,7 +18,7 @@ find_program(TREEFARM_HELP2MAN help2man)
 if(TREEFARM_HELP2MAN AND NOT TREEFARM_SANITIZE AND NOT TREEFARM_FUZZ)
     set(man ${PROJECT_BINARY_DIR}/man)
     set(pages)
-    foreach(command IN ITEMS "" render resume launch join plan check compare convert inspect study report keys)
+    foreach(command IN ITEMS "" render resume launch join serve plan check compare convert inspect study report keys)
         string(JOIN "-" name treefarm ${command})
         add_custom_command(OUTPUT ${man}/${name}.1 DEPENDS treefarm cmake/write_man_page.cmake VERBATIM
             COMMAND ${CMAKE_COMMAND} -DHELP2MAN=${TREEFARM_HELP2MAN} -DPROGRAM=$<TARGET_FILE:treefarm> -DCOMMAND=${command}

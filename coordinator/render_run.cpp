@@ -12,6 +12,7 @@
 #include "common/plan/plan_text.h"
 #include "common/scene/lint/lint.h"
 #include "common/scene/pack/scene_codec.h"
+#include "coordinator/display/live_display.h"
 #include "coordinator/guest_door.h"
 #include "coordinator/memory_check.h"
 #include "coordinator/pass_text.h"
@@ -47,6 +48,7 @@ class RenderRun {
                      request.plan, {folder_use(request), interrupted, request.resumed.get()}),
           log_(make_log("treefarm", directory_.log_file(), request.console, request.loudness)),
           progress_(request.console, request.job.budget, request.status_frame),
+          display_(request.display_server, "treefarm " + directory_.path().filename().string()),
           farm_(channel, request.plan.job, std::move(scene_), request.fingerprint.hash(), log_, {}, request.turn),
           spp_before_(request.resumed ? request.resumed->state.spp() : 0) {}
 
@@ -100,8 +102,10 @@ class RenderRun {
     /// Leaves what the render went on with as it was.
     void leave(const RunEnd& end) { directory_.leave(end.state, spp_before_, end.elapsed_seconds); }
 
-    /// Logs the news of files that could not be written.
+    /// Logs the news of files that could not be written, and of a viewer that shows nothing.
     void tell_news() {
+        for (const std::string& news : display_.take_news())
+            log_->warn("{}", news);
         for (const std::string& news : directory_.take_news()) {
             log_->warn("{}", news);
         }
@@ -141,12 +145,17 @@ class RenderRun {
             pass_count_ = progress.pass_count;
             progress_.update(progress);
             show_life(progress);
-            directory_.write_status(progress, elapsed);
-            directory_.write_preview(farm_.collector().pixels_so_far(), film.width, film.height, elapsed);
+            directory_.write_status(progress, elapsed, &farm_);
+            const auto pixels = farm_.collector().pixels_so_far();
+            directory_.write_preview(pixels, film.width, film.height, elapsed);
+            display_.show(pixels, film.width, film.height, elapsed);
             tell_news();
         };
         hooks.on_collected = [this] { enter(LifePhase::combine); };
-        hooks.on_result = [this](const RenderResult& so_far) { directory_.write_image(so_far); };
+        hooks.on_result = [this](const RenderResult& so_far) {
+            directory_.write_image(so_far);
+            display_.show(so_far);
+        };
         hooks.on_interruption = [this](const RenderResult& finished) {
             directory_.write_interruption(finished, &farm_, clock_.seconds());
         };
@@ -323,6 +332,7 @@ class RenderRun {
     RunDirectory directory_;
     const Log log_;
     Progress progress_;
+    LiveDisplay display_;
     Farm farm_;
     std::optional<GuestDoor> door_;
     bool reported_black_ = false;

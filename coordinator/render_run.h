@@ -32,6 +32,7 @@ struct RenderRequest {
                                 ///< appended
     Fingerprint fingerprint;    ///< of this process
     std::shared_ptr<SignOfLife> life;       ///< that a supervisor watches; nullptr: none does
+    std::string display_server;             ///< HOST:PORT of a viewer that speaks tev's protocol; "": none
     bool overwrite = false;                 ///< an earlier run in the folder may be replaced
     bool checkpoints = true;                ///< the render can be gone on with; false: it is one of many that are short
     std::optional<AnyModel> initial_model;  ///< that guides the first pass; nothing: the guide's first

@@ -152,10 +152,11 @@ void RunDirectory::put_text(const std::string& name, std::string text, Pace pace
         name, [this, name, text = std::move(text)] { write_text(name, text, Outlives::process); }, pace);
 }
 
-void RunDirectory::write_status(const RenderProgress& progress, double elapsed_seconds) {
+void RunDirectory::write_status(const RenderProgress& progress, double elapsed_seconds, const Farm* farm) {
     if (elapsed_seconds - last_status_ < kStatusSeconds) return;
     last_status_ = elapsed_seconds;
-    put_text("status.json", status_json(facts_, progress, elapsed_seconds), {});
+    put_text("status.json", status_json(facts_, progress, elapsed_seconds, farm, last_pass_ ? &*last_pass_ : nullptr),
+             {});
 }
 
 void RunDirectory::write_preview(std::span<const PixelEstimate> film, int width, int height, double elapsed_seconds) {
@@ -185,6 +186,7 @@ void RunDirectory::note_pass(const PassReport& report) {
 
 void RunDirectory::add_pass(const PassReport& report) {
     note_pass(report);
+    last_pass_ = report;
     put_text("passes.csv", passes_csv_, kPassPace);
     put_text("schedule.toml", write_schedule(passes_), kPassPace);
 }

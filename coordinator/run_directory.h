@@ -6,6 +6,7 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -49,8 +50,8 @@ class RunDirectory {
     /// constructor.
     void write_request();
 
-    /// status.json, at most once a second.
-    void write_status(const RenderProgress& progress, double elapsed_seconds);
+    /// status.json, at most once a second. `farm`: its workers are told of; nullptr: they are not.
+    void write_status(const RenderProgress& progress, double elapsed_seconds, const Farm* farm = nullptr);
     /// preview.png, at most once a second, and so seldom that it takes half a percent of the time: finished passes, and
     /// what has come of the pass in hand.
     void write_preview(std::span<const PixelEstimate> film, int width, int height, double elapsed_seconds);
@@ -106,7 +107,8 @@ class RunDirectory {
     RunFolder folder_;
     const std::string plan_text_, plan_json_;
     std::string passes_csv_;
-    std::vector<PassPlan> passes_;  ///< the finished ones
+    std::vector<PassPlan> passes_;         ///< the finished ones
+    std::optional<PassReport> last_pass_;  ///< of this life of the render
     double last_status_ = -1e9;
     double next_preview_ = 0;
     std::shared_ptr<const CombinedImage> newest_ = std::make_shared<CombinedImage>();  ///< for previews

@@ -3,6 +3,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "common/base/hash.h"
@@ -121,16 +122,40 @@ std::string text_of(const Json& json) {
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-Json farm_json(const Farm& farm) {
+/// A worker's part of the last finished pass in which its threads neither traced nor recorded; null where that is not
+/// known.
+Json idle_share(const Member& member, const PassReport* last) {
+    if (!last || !last->seconds.worker.contains(member.peer)) return nullptr;
+    const double all = last->seconds.all * member.hello.threads;
+    return all > 0 ? Json(std::clamp(1 - last->seconds.worker.at(member.peer) / all, 0.0, 1.0)) : Json();
+}
+
+/// Lives of a worker that ended while it was needed.
+std::uint32_t losses(const Member& member) {
+    return member.lives - (member.state == MemberState::present || member.state == MemberState::refused ? 1 : 0);
+}
+
+Json worker_json(const Member& member, const PassReport* last) {
+    const auto speed = member.speed.paths_per_second();
+    return {{"worker", member.peer},
+            {"host", member.hello.host},
+            {"threads", member.hello.threads},
+            {"state", member_state_name(member.state)},
+            {"losses", losses(member)},
+            {"paths_per_second", speed ? Json(*speed) : Json()},
+            {"rays", member.progress.rays},
+            {"idle_share", idle_share(member, last)},
+            {"bad_messages", member.bad_messages}};
+}
+
+/// `last`: the last finished pass, if there is one.
+Json farm_json(const Farm& farm, const PassReport* last) {
     Json workers = Json::array();
     for (const auto& [peer, member] : farm.roster().members())
-        workers.push_back({{"worker", peer},
-                           {"host", member.hello.host},
-                           {"threads", member.hello.threads},
-                           {"state", member_state_name(member.state)},
-                           {"bad_messages", member.bad_messages}});
+        workers.push_back(worker_json(member, last));
     return {{"workers", workers},
             {"reissued_units", farm.reissued_units()},
+            {"copied_units", farm.copied_units()},
             {"dropped_results", farm.dropped_results()},
             {"bad_messages", farm.bad_messages()}};
 }
@@ -157,7 +182,8 @@ const char* run_state_name(RunState state) {
     return "";
 }
 
-std::string status_json(const RunFacts& facts, const RenderProgress& progress, double elapsed_seconds) {
+std::string status_json(const RunFacts& facts, const RenderProgress& progress, double elapsed_seconds, const Farm* farm,
+                        const PassReport* last_pass) {
     const double left = progress.fraction > 0 ? elapsed_seconds * (1 - progress.fraction) / progress.fraction : 0.0;
     Json status = {{"state", run_state_name(RunState::running)},
                    {"pass", progress.pass},
@@ -169,7 +195,11 @@ std::string status_json(const RunFacts& facts, const RenderProgress& progress, d
                    {"seconds_left", left},
                    {"image_error", error_json(progress.error)},
                    {"workers", progress.workers},
-                   {"rays", progress.rays}};
+                   {"rays", progress.rays},
+                   {"run_seconds", progress.run_seconds}};
+    if (last_pass) status["halving"] = forecast_json(last_pass->halving);
+    if (last_pass && last_pass->target.relative_error > 0) status["target"] = forecast_json(last_pass->target);
+    if (farm) status["farm"] = farm_json(*farm, last_pass);
     add_writer(status, facts);
     return text_of(status);
 }
@@ -215,7 +245,7 @@ std::string summary_json(const Job& job, const RunFacts& facts, const RenderResu
     summary["passes"] = Json::array();
     for (const PassReport& report : result.passes)
         summary["passes"].push_back(pass_json(report));
-    if (farm) summary["farm"] = farm_json(*farm);
+    if (farm) summary["farm"] = farm_json(*farm, result.passes.empty() ? nullptr : &result.passes.back());
     return text_of(summary);
 }
 

@@ -36,8 +36,11 @@ struct RunEnd {
     std::string tree_file_hash;  ///< of tree.bin; "" without one
 };
 
-/// The files status.json and summary.json. What is no UTF-8 in names of files and hosts is replaced.
-std::string status_json(const RunFacts& facts, const RenderProgress& progress, double elapsed_seconds);
+/// The files status.json and summary.json. What is no UTF-8 in names of files and hosts is replaced. `farm`: its
+/// workers are told of; `last_pass`: the last that is finished, with the forecasts that it allows. Either may be
+/// nullptr.
+std::string status_json(const RunFacts& facts, const RenderProgress& progress, double elapsed_seconds,
+                        const Farm* farm = nullptr, const PassReport* last_pass = nullptr);
 /// The file status.json before the first pass, and after the last.
 std::string status_json(const RunFacts& facts, RunState state, std::uint32_t spp_done, double elapsed_seconds);
 std::string summary_json(const Job& job, const RunFacts& facts, const RenderResult& result, const Farm* farm,

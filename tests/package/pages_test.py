@@ -43,7 +43,7 @@ def value_replaced(arguments, option, value):
 
 def runnable(name, rest, work):
     """The arguments with which a command is run here; None: it is not."""
-    if LEFT_OUT.search(rest) or name in ("report",):
+    if LEFT_OUT.search(rest) or name in ("report", "serve"):
         return None
     if name == "launch":
         outer, _, inner = rest.partition("--")

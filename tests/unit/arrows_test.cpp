@@ -33,6 +33,7 @@ const std::map<std::string, int> kLevels = {{"common/base", 0},
                                             {"common/comm", 9},
                                             {"coordinator", 10},
                                             {"report", 10},
+                                            {"serve", 10},
                                             {"worker/textures", 10},
                                             {"worker/geometry", 11},
                                             {"worker/shading", 11},
@@ -80,7 +81,7 @@ const std::vector<Owner> kOwners = {
     {"embree", "worker/geometry"}, {"Imf", "common/image"},      {"OpenEXR/", "common/image"},
     {"Iex", "common/image"},       {"stb/", "common/image"},     {"png.h", "common/image"},
     {"jpeglib", "common/image"},   {"stb_", "common/image"},     {"CLI/", "cli"},
-    {"sodium", "common/comm"}};
+    {"sodium", "common/comm"},     {"httplib.h", "serve"}};
 
 struct Include {
     std::string target;
@@ -187,7 +188,7 @@ std::string check(const std::string& path, const std::string& line) {
 
 std::vector<fs::path> sources() {
     std::vector<fs::path> files;
-    for (const char* folder : {"common", "coordinator", "worker", "report", "cli", "bench"})
+    for (const char* folder : {"common", "coordinator", "worker", "report", "serve", "cli", "bench"})
         for (const auto& entry : fs::recursive_directory_iterator(kRoot / folder))
             if (entry.path().extension() == ".h" || entry.path().extension() == ".cpp") files.push_back(entry.path());
     std::sort(files.begin(), files.end());
@@ -260,6 +261,8 @@ TEST(Arrows, TheRulesCatchWhatTheyForbid) {
         {"common/guiding/regions/mixture.h", "#include \"common/guiding/sd_tree/sd_tree.h\""},
         {"common/guiding/lobes/lobes.h", "#include \"common/guiding/sd_tree/sd_tree.h\""},
         {"report/html.cpp", "#include \"coordinator/farm.h\""},
+        {"serve/site.cpp", "#include \"coordinator/farm.h\""},
+        {"cli/serve.cpp", "#include <httplib.h>"},
     };
     for (const auto& [file, include] : forbidden)
         EXPECT_NE(check(file, include), "") << file << ": " << include;
@@ -283,6 +286,7 @@ TEST(Arrows, TheRulesLetThroughWhatIsAllowed) {
         {"worker/guides/sd_tree_walk.h", "#include \"worker/integrators/path/path_walk.h\""},
         {"coordinator/collector.h", "#include \"common/guiding/any_guide.h\""},
         {"cli/render.cpp", "#include \"worker/worker.h\""},
+        {"serve/web_server.cpp", "#include <httplib.h>"},
         {"coordinator/pass_loop.cpp", "#include <chrono>"},
         {"common/metrics/z_test.cpp", "#include \"common/image/image.h\""},
         {"common/config/effect_switches.cpp", "#include \"common/plan/effects/table.h\""},

@@ -30,7 +30,7 @@ struct Command {
 /// Commands of all pages but frozen ones and the changelog, which speaks of the past.
 std::vector<Command> commands() {
     static const std::regex command(
-        R"(\btreefarm (?:(launch)\b([^#`|&;]*?)--(?= |$) *)?(render|plan|check|compare|convert|inspect|study|resume|join|report|keys)\b([^#`|&;]*))");
+        R"(\btreefarm (?:(launch)\b([^#`|&;]*?)--(?= |$) *)?(render|plan|check|compare|convert|inspect|study|resume|join|serve|report|keys)\b([^#`|&;]*))");
     std::vector<Command> found;
     for (const fs::path& page : test::markdown_pages()) {
         const std::string name = fs::relative(page, kRoot).string();

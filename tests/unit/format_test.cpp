@@ -19,7 +19,7 @@ constexpr int kMostLines = 400;
 
 std::vector<fs::path> sources() {
     std::vector<fs::path> files;
-    for (const char* folder : {"common", "coordinator", "worker", "report", "cli", "tests", "bench"}) {
+    for (const char* folder : {"common", "coordinator", "worker", "report", "serve", "cli", "tests", "bench"}) {
         if (!fs::exists(kRoot / folder)) continue;
         for (const auto& entry : fs::recursive_directory_iterator(kRoot / folder))
             if (entry.path().extension() == ".h" || entry.path().extension() == ".cpp") files.push_back(entry.path());

@@ -32,7 +32,7 @@ bool is_table(const std::string& text) {
     return first != std::string::npos && text[first] == '|';
 }
 
-constexpr std::array kFolders = {"common", "worker", "coordinator", "cli", "report", "bench", "tests"};
+constexpr std::array kFolders = {"common", "worker", "coordinator", "cli", "report", "serve", "bench", "tests"};
 
 /// A `///` comment's first line, without its mark.
 struct Comment {

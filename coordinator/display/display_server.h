@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+namespace treefarm {
+
+/// Where a viewer listens that speaks tev's protocol.
+struct DisplayServer {
+    std::string host;
+    std::string port;
+
+    std::string text() const;
+};
+
+/// "HOST:PORT" or "[IPv6]:PORT". Throws InputError, which names --display-server.
+DisplayServer parse_display_server(const std::string& text);
+
+}  // namespace treefarm

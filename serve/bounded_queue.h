@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <httplib.h>
+
+#include <condition_variable>
+#include <deque>
+#include <functional>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+namespace treefarm {
+
+/// Threads that answer requests, and a queue before them that does not grow without end: a task that finds it full is
+/// run by the caller at once.
+class BoundedQueue final : public httplib::TaskQueue {
+  public:
+    BoundedQueue(std::size_t threads, std::size_t waiting);
+    ~BoundedQueue() override { shutdown(); }
+
+    void enqueue(std::function<void()> task) override;
+    /// Ends the threads, once all tasks that wait are done.
+    void shutdown() override;
+
+  private:
+    void work();
+
+    const std::size_t most_;
+    std::mutex mutex_;
+    std::condition_variable changed_;
+    std::deque<std::function<void()>> tasks_;
+    bool ending_ = false;
+    std::vector<std::thread> threads_;
+};
+
+}  // namespace treefarm

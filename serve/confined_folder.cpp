@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "serve/confined_folder.h"
+
+#include <dirent.h>
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <memory>
+#include <string_view>
+#include <utility>
+
+namespace treefarm {
+
+namespace {
+
+/// A file descriptor that closes itself; -1: none.
+class Descriptor {
+  public:
+    explicit Descriptor(int number) : number_(number) {}
+    ~Descriptor() {
+        if (number_ >= 0) ::close(number_);
+    }
+    Descriptor(Descriptor&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
+    Descriptor& operator=(Descriptor&& other) noexcept {
+        std::swap(number_, other.number_);
+        return *this;
+    }
+    explicit operator bool() const { return number_ >= 0; }
+    int number() const { return number_; }
+    int release() { return std::exchange(number_, -1); }
+
+  private:
+    int number_;
+};
+
+/// Names of a path from the root on; nothing if it could lead elsewhere.
+std::optional<std::vector<std::string>> names_of(const std::string& path) {
+    std::vector<std::string> names;
+    if (path.empty()) return names;
+    if (path.find('\0') != std::string::npos) return std::nullopt;
+    for (std::size_t begin = 0; begin <= path.size();) {
+        const std::size_t end = std::min(path.find('/', begin), path.size());
+        const std::string name = path.substr(begin, end - begin);
+        if (name.empty() || name == "." || name == "..") return std::nullopt;
+        names.push_back(name);
+        begin = end + 1;
+    }
+    return names;
+}
+
+constexpr int kFolder = O_RDONLY | O_DIRECTORY | O_CLOEXEC;
+
+/// Opens what a path names, a link nowhere. The root itself may be one: it was named by who started the program.
+Descriptor open_within(const std::filesystem::path& root, const std::string& path, int flags) {
+    const auto names = names_of(path);
+    if (!names) return Descriptor(-1);
+    Descriptor at(::open(root.c_str(), kFolder));  // each time: a render makes its folder again where it vanished
+    for (std::size_t k = 0; k < names->size() && at; ++k) {
+        const bool is_last = k + 1 == names->size();
+        at = Descriptor(::openat(at.number(), (*names)[k].c_str(), (is_last ? flags : kFolder) | O_NOFOLLOW));
+    }
+    return at;
+}
+
+/// A plain file; O_NONBLOCK, so that a pipe in its place keeps nobody waiting.
+Descriptor open_file(const std::filesystem::path& root, const std::string& path, struct stat& facts) {
+    if (path.empty()) return Descriptor(-1);
+    Descriptor file = open_within(root, path, O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
+    if (file && (::fstat(file.number(), &facts) != 0 || !S_ISREG(facts.st_mode))) return Descriptor(-1);
+    return file;
+}
+
+/// Up to `size` bytes from `offset` on.
+std::string read_part(int file, std::size_t size, std::size_t offset) {
+    std::string text(size, '\0');
+    std::size_t done = 0;
+    while (done < size) {
+        const ssize_t got = ::pread(file, text.data() + done, size - done, static_cast<off_t>(offset + done));
+        if (got <= 0) break;  // it became shorter, or its disk is gone
+        done += static_cast<std::size_t>(got);
+    }
+    text.resize(done);
+    return text;
+}
+
+}  // namespace
+
+std::string FileVersion::text() const {
+    return std::to_string(inode) + "-" + std::to_string(nanoseconds) + "-" + std::to_string(bytes);
+}
+
+bool ConfinedFolder::is_folder(const std::string& path) const {
+    return static_cast<bool>(open_within(root_, path, kFolder));
+}
+
+std::optional<std::string> ConfinedFolder::read(const std::string& path, std::size_t most) const {
+    struct stat facts {};
+    const Descriptor file = open_file(root_, path, facts);
+    if (!file || static_cast<std::size_t>(facts.st_size) > most) return std::nullopt;
+    return read_part(file.number(), static_cast<std::size_t>(facts.st_size), 0);
+}
+
+std::optional<std::string> ConfinedFolder::read_end(const std::string& path, std::size_t most) const {
+    struct stat facts {};
+    const Descriptor file = open_file(root_, path, facts);
+    if (!file) return std::nullopt;
+    const std::size_t size = static_cast<std::size_t>(facts.st_size), part = std::min(size, most);
+    return read_part(file.number(), part, size - part);
+}
+
+std::optional<FileVersion> ConfinedFolder::version(const std::string& path) const {
+    struct stat facts {};
+    if (!open_file(root_, path, facts)) return std::nullopt;
+    return FileVersion{facts.st_ino, static_cast<std::uint64_t>(facts.st_size),
+                       facts.st_mtim.tv_sec * std::int64_t{1000000000} + facts.st_mtim.tv_nsec};
+}
+
+std::vector<std::string> ConfinedFolder::folders(const std::string& path, std::size_t most) const {
+    std::vector<std::string> names;
+    Descriptor folder = open_within(root_, path, kFolder);
+    if (!folder) return names;
+    const std::unique_ptr<DIR, int (*)(DIR*)> entries(::fdopendir(folder.number()), &::closedir);
+    if (!entries) return names;
+    folder.release();
+    for (const dirent* entry = ::readdir(entries.get()); entry && names.size() < most;
+         entry = ::readdir(entries.get())) {
+        const std::string_view name = entry->d_name;
+        if (name == "." || name == "..") continue;
+        struct stat facts {};
+        const bool known = entry->d_type != DT_UNKNOWN;
+        if (known ? entry->d_type == DT_DIR
+                  : ::fstatat(::dirfd(entries.get()), entry->d_name, &facts, AT_SYMLINK_NOFOLLOW) == 0 &&
+                        S_ISDIR(facts.st_mode))
+            names.emplace_back(name);
+    }
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
+std::string joined_path(const std::string& folder, const std::string& name) {
+    return folder.empty() || name.empty() ? folder + name : folder + "/" + name;
+}
+
+}  // namespace treefarm

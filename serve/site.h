@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <map>
+#include <mutex>
+#include <string>
+
+#include "common/base/timer.h"
+#include "serve/confined_folder.h"
+#include "serve/run_view.h"
+
+namespace treefarm {
+
+/// A request, as far as it matters here. Texts are decoded; what was not sent is empty.
+struct SiteRequest {
+    std::string method = "GET", path = "/";
+    std::map<std::string, std::string> parameters;
+    std::string host, authorization, cookie, if_none_match;
+};
+
+struct SiteResponse {
+    int status = 200;
+    std::string type = "text/plain; charset=utf-8";
+    std::string body;
+    std::map<std::string, std::string> headers;
+};
+
+/// Who is let in.
+struct SiteDoor {
+    std::string token;        ///< that is demanded; "": none is, but the Host header has to be of this machine
+    std::string cookie_name;  ///< under which a browser keeps it
+};
+
+/// What the page is made of: answers requests about the runs in a folder, or about the one run that it is. Reads files
+/// and changes none. Of the same answer no more than one is made in half a second, however many ask, so that readers
+/// cost a render nothing. May be used by several threads.
+class Site {
+  public:
+    Site(ConfinedFolder folder, SiteDoor door, std::function<Here()> here = this_place);
+
+    SiteResponse respond(const SiteRequest& request);
+
+  private:
+    struct Answer {
+        double made = 0;
+        std::string body;
+    };
+
+    SiteResponse let_in(const SiteRequest& request);
+    SiteResponse page() const;
+    SiteResponse status(const std::string& run);
+    SiteResponse metrics();
+    SiteResponse picture(const SiteRequest& request, const std::string& run) const;
+    std::string list() const;
+    std::string remembered(const std::string& name, const std::function<std::string()>& make);
+
+    const ConfinedFolder folder_;
+    const SiteDoor door_;
+    const std::function<Here()> here_;
+    const Timer clock_;
+    std::mutex mutex_;
+    std::map<std::string, Answer> answers_;
+};
+
+}  // namespace treefarm

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <httplib.h>
+
+#include <array>
+#include <atomic>
+#include <string>
+
+#include "common/base/timer.h"
+#include "serve/web_server.h"
+
+namespace treefarm {
+
+/// A client's connection with a time for the whole of a request and one for the whole of a response, however its bytes
+/// are spread over them: httplib's own times begin anew with each byte.
+class TimedStream final : public httplib::Stream {
+  public:
+    /// `stopping`: ends any wait once it is true. All must outlive the stream.
+    TimedStream(int socket, const WebLimits& limits, const std::atomic<bool>& stopping)
+        : socket_(socket), limits_(limits), stopping_(stopping) {}
+
+    bool is_readable() const override { return begin_ < end_; }
+    bool is_writable() const override { return true; }
+    ssize_t read(char* to, std::size_t size) override;
+    ssize_t write(const char* from, std::size_t size) override;
+    void get_remote_ip_and_port(std::string& ip, int& port) const override;
+    void get_local_ip_and_port(std::string& ip, int& port) const override;
+    socket_t socket() const override { return socket_; }
+
+    /// Says that no more comes, and takes in what is still on its way for a moment: closed at once, the connection
+    /// would be reset and the client might lose its response.
+    void end();
+
+  private:
+    bool wait(short events, const Timer& timer, double seconds) const;
+
+    const int socket_;
+    const WebLimits& limits_;
+    const std::atomic<bool>& stopping_;
+    Timer reading_, writing_;
+    bool wrote_ = false;
+    std::array<char, 4096> buffer_{};
+    std::size_t begin_ = 0, end_ = 0;  ///< of what waits in the buffer
+    std::size_t received_ = 0;
+};
+
+}  // namespace treefarm

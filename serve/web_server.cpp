@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "serve/web_server.h"
+
+#include <httplib.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <chrono>
+#include <cstring>
+#include <string_view>
+#include <thread>
+#include <utility>
+
+#include "common/base/error.h"
+#include "serve/bounded_queue.h"
+#include "serve/timed_stream.h"
+
+namespace treefarm {
+
+namespace {
+
+constexpr std::string_view kTooMany =
+    "HTTP/1.1 503 Service Unavailable\r\nRetry-After: 1\r\nContent-Length: 0\r\nConnection: close\r\n\r\n";
+
+SiteRequest site_request(const httplib::Request& request) {
+    SiteRequest asked;
+    asked.method = request.method;
+    asked.path = request.path;
+    for (const auto& [name, value] : request.params)
+        asked.parameters.try_emplace(name, value);
+    asked.host = request.get_header_value("Host");
+    asked.authorization = request.get_header_value("Authorization");
+    asked.cookie = request.get_header_value("Cookie");
+    asked.if_none_match = request.get_header_value("If-None-Match");
+    return asked;
+}
+
+void fill(httplib::Response& to, SiteResponse response) {
+    to.status = response.status;
+    for (const auto& [name, value] : response.headers)
+        to.set_header(name.c_str(), value);
+    if (response.status != 304) to.set_content(std::move(response.body), response.type.c_str());
+}
+
+std::string place(const std::string& address, int port) {
+    return (address.find(':') == std::string::npos ? address : "[" + address + "]") + ":" + std::to_string(port);
+}
+
+}  // namespace
+
+class WebServer::Server final : public httplib::Server {
+  public:
+    Server(Respond respond, const WebLimits& limits) : respond_(std::move(respond)), limits_(limits) {
+        new_task_queue = [this] { return new BoundedQueue(limits_.threads, limits_.waiting); };
+        // httplib shares a port with whoever has it by default.
+        set_socket_options([](socket_t socket) {
+            const int yes = 1;
+            setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
+        });
+        set_pre_routing_handler([this](const httplib::Request& request, httplib::Response& response) {
+            fill(response, respond_(site_request(request)));
+            return HandlerResponse::Handled;
+        });
+        set_exception_handler([](const httplib::Request&, httplib::Response& response, std::exception_ptr) {
+            response.status = 500;
+            response.set_content("something went wrong\n", "text/plain");
+        });
+    }
+    ~Server() override { end(); }
+
+    void begin() {
+        thread_ = std::thread([this] {
+            accepting_ = std::this_thread::get_id();
+            listen_after_bind();
+            ended_ = true;
+        });
+        while (!is_running() && !ended_)
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+
+    void end() {
+        stopping_ = true;
+        if (!thread_.joinable()) return;
+        httplib::Server::stop();
+        thread_.join();
+    }
+
+  private:
+    bool process_and_close_socket(socket_t socket) override {
+        if (std::this_thread::get_id() == accepting_.load()) {  // the queue is full
+            [[maybe_unused]] const ssize_t sent =
+                ::send(socket, kTooMany.data(), kTooMany.size(), MSG_DONTWAIT | MSG_NOSIGNAL);
+        } else {
+            TimedStream stream(socket, limits_, stopping_);
+            bool closed = false;
+            process_request(stream, true, closed, [](httplib::Request& request) {
+                request.headers.erase(
+                    "Accept-Encoding");  // to pack what is asked for each second costs more than it saves
+                request.headers.erase("Range");
+                request.ranges.clear();
+            });
+            stream.end();
+        }
+        ::close(socket);
+        return true;
+    }
+
+    const Respond respond_;
+    const WebLimits limits_;
+    std::atomic<bool> stopping_ = false, ended_ = false;
+    std::atomic<std::thread::id> accepting_;
+    std::thread thread_;
+};
+
+WebServer::WebServer(Respond respond, const WebLimits& limits)
+    : server_(std::make_unique<Server>(std::move(respond), limits)) {}
+
+WebServer::~WebServer() = default;
+
+int WebServer::bind(const std::string& address, int port) {
+    errno = 0;
+    const int got = port == 0 ? server_->bind_to_any_port(address) : (server_->bind_to_port(address, port) ? port : -1);
+    const int code = errno;
+    if (got > 0) return got;
+    const Location where{place(address, port), 0, 0};
+    if (code == EADDRINUSE)
+        throw InputError(where, "the port is in use", "name another with --port, or --port 0 for any that is free");
+    if (code == EACCES) throw InputError(where, "this port is the system's", "name one above 1023 with --port");
+    throw InputError(where, std::string("cannot be listened at: ") + (code ? std::strerror(code) : "no such address"),
+                     "name an address of this machine with --address, 0.0.0.0 for all of them");
+}
+
+void WebServer::start() {
+    server_->begin();
+}
+
+void WebServer::stop() {
+    server_->end();
+}
+
+}  // namespace treefarm
