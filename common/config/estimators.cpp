@@ -24,8 +24,8 @@ constexpr Estimator kEstimators[] = {
      .depth = 2,
      .sees_light = false},
     {.type = "light",
-     .meaning = "light tracing, paths from emitters that are connected to the camera: for caustics; what is seen in "
-                "mirrors, through smooth glass, or at infinity stays black",
+     .meaning = "light tracing, paths from emitters that are connected to the camera: for caustics of small lamps",
+     .misses = "what the camera sees in mirrors, through smooth glass or at infinity stays black",
      .from_lights = true},
 };
 

@@ -129,11 +129,9 @@ void SplatLog::add(std::uint32_t pixel, std::uint32_t sample, const Rgb& value, 
         const double whole = static_cast<double>(value[c]) * per_value_, quanta = std::min(whole, kMostQuanta);
         capped = capped || whole > kMostQuanta;
         entry.moments.sum[k] = rounded(quanta, bits[k]);
-        const double part = quanta - std::floor(quanta);
-        // Another number than the sum's: a square that knew how it was rounded would be no second moment. What rounding
-        // adds to the variance is in it.
+        // Another number than the sum's: a square that knew how it was rounded would be no second moment.
         const std::uint32_t other = scrambled(bits[3], static_cast<std::uint32_t>(c) + 1);
-        entry.moments.square[k] = rounded((quanta * quanta + part * (1.0 - part)) * kPerSquare, other);
+        entry.moments.square[k] = rounded(quanta * quanta * kPerSquare, other);
     }
     caps_.capped += capped ? 1 : 0;
     if (entry.moments.empty()) return;
