@@ -81,9 +81,9 @@ std::int16_t usual_splat_exponent(const Scene& scene) {
     const double radius2 = std::max(half.dot(half), 1e-30);
     const Imath::V3d to_scene = Imath::V3d(box.min) + half - Imath::V3d(scene.camera.origin);
     const double distance2 = std::max(to_scene.dot(to_scene), radius2);
-    const double of_film = static_cast<double>(scene.film.pixel_count()) /
-                           (double(scene.film.whole_width()) * double(scene.film.whole_height()));
-    const double splat = power(scene, radius2) / (2 * M_PI) * importance(scene.camera, distance2) * of_film;
+    const double per_window = double(scene.film.whole_width()) * double(scene.film.whole_height()) /
+                              static_cast<double>(scene.film.pixel_count());
+    const double splat = power(scene, radius2) / (2 * M_PI) * importance(scene.camera, distance2) * per_window;
     return splat_exponent(splat * kFiner * kOfExponent);
 }
 

@@ -238,7 +238,7 @@ TEST(PixelPicker, EveryPixelGetsItsFilter) {
                     if (!pick.found) continue;
                     EXPECT_TRUE(picker.reaches(x, y));
                     ASSERT_LT(pick.pixel, film.pixel_count());
-                    const double value = pick.weight * width * height * whole / static_cast<double>(film.pixel_count());
+                    const double value = pick.weight * width * height / whole * static_cast<double>(film.pixel_count());
                     sum[pick.pixel] += value / kSamples;
                     squares[pick.pixel] += value * value / kSamples;
                 }

@@ -33,13 +33,14 @@ Rendered render(const Scene& scene, Job job, const char* type, std::uint64_t see
 
 void expect_image_of_paths(const Scene& scene, const Job& job, const std::string& what, std::uint32_t light_spp = 60,
                            std::uint32_t path_spp = 60) {
-    const Rendered light = render(scene, job, "light", 31, light_spp), path = render(scene, job, "path", 32, path_spp);
+    const Rendered light = render(scene, job, "light", 31, light_spp),
+                   path = render(scene, job, "reference", 32, path_spp);
     ZTestOptions options;
     options.block = 8;
     const ZTestInput input{light.mean, path.mean, &light.variance, &path.variance};
     const BlockZTest blocks = block_z_test(input, options);
     EXPECT_TRUE(blocks.pass) << what << ": worst block z " << blocks.max_abs_z << " of " << blocks.limit;
-    EXPECT_LT(blocks.mean_z2, 2.0) << what;
+    EXPECT_LT(blocks.mean_z2, 3.0) << what;  // of nine blocks or more, whose channels go together
     for (const double z : blocks.image_z)
         EXPECT_LT(std::abs(z), 4.0) << what;
     double sum = 0, variance = 0;
@@ -282,15 +283,18 @@ TEST(Light, FurnaceHasTheExactMean) {
     }
 }
 
-/// What an image says of its own variance is what replicas show.
+/// What an image says of its own variance is what replicas show. Not the lamp's own pixels: on so small a film each
+/// gets a splat of every other path, where rare ones are expected.
 TEST(Light, VarianceIsThatOfReplicas) {
     Scene scene = test::cornell_box(1.0f, Vec3(0.0f));
     test::set_film(scene, 12, 12);
     constexpr int kReplicas = 40;
+    Job job;
+    job.integrator.hide_emitters = true;
     std::vector<Rgb64> sum(scene.film.pixel_count(), Rgb64(0.0)), squares = sum;
     double said = 0;
     for (int r = 0; r < kReplicas; ++r) {
-        const Rendered light = render(scene, {}, "light", 100 + static_cast<std::uint64_t>(r), 28);
+        const Rendered light = render(scene, job, "light", 100 + static_cast<std::uint64_t>(r), 28);
         for (std::size_t p = 0; p < sum.size(); ++p) {
             const Rgb64 mean(light.mean.pixels[p]);
             sum[p] += mean;

@@ -94,7 +94,7 @@ PixelPicker::PixelPicker(const Film& film, bool panoramic)
       y1_(film.crop.y + film.height),
       whole_width_(film.whole_width()),
       whole_height_(film.whole_height()),
-      of_film_(static_cast<double>(film.pixel_count()) / (whole_width_ * whole_height_)),
+      per_window_(whole_width_ * whole_height_ / static_cast<double>(film.pixel_count())),
       panoramic_(panoramic) {}
 
 bool PixelPicker::reaches(double x, double y) const {
@@ -128,7 +128,7 @@ PixelPicker::Axis PixelPicker::pick_along(double x, int begin, int end, std::uin
 PixelPick PixelPicker::pick_place(double x, double y, const Draw& random) const {
     const Axis column = pick_along(x, x0_, x1_, random[0]), row = pick_along(y, y0_, y1_, random[1]);
     PixelPick pick;
-    pick.weight = column.sum * row.sum * of_film_;
+    pick.weight = column.sum * row.sum * per_window_;
     pick.found = pick.weight > 0.0;
     if (pick.found)
         pick.pixel = static_cast<std::uint32_t>(row.pixel - y0_) * static_cast<std::uint32_t>(x1_ - x0_) +

@@ -53,7 +53,7 @@ class CameraImportance {
 struct PixelPick {
     bool found = false;
     std::uint32_t pixel = 0;  ///< among those that are rendered
-    double weight = 0;        ///< of the filters of all pixels together, and of the window in the film
+    double weight = 0;        ///< of the filters of all pixels together, and of the film over the window
 };
 
 /// Which pixel takes light that arrives at a point of the film: each with the probability of its filter there, of all
@@ -82,7 +82,7 @@ class PixelPicker {
     FilterSampler filter_;
     int x0_, y0_, x1_, y1_;  ///< the window on the whole film
     double whole_width_, whole_height_;
-    double of_film_;  ///< pixels of the window over those of the film
+    double per_window_;  ///< pixels of the film over those of the window: light paths are counted by these
     bool panoramic_;
 };
 
