@@ -14,7 +14,7 @@ namespace {
 /// What all ways of a BSDF from wo to wi, delta lobes, carry: the sum of f_cos, each with its role if `as_light`.
 double carried(const Bsdf& bsdf, const Vec3& wo, const Vec3& wi, bool as_light) {
     double sum = 0;
-    constexpr int kLobes = 4096;
+    constexpr int kLobes = 512;
     Vec3 last(0.0f);
     float last_pdf = -1;
     for (int i = 0; i < kLobes; ++i) {
