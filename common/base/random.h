@@ -21,6 +21,12 @@ enum class Stream : std::uint32_t {
     bootstrap,     ///< the interval of the estimated error; keyed by block and resample instead of pixel and sample
     candidate,     ///< further directions to choose among, and which is taken; keyed by vertex and candidate
     glass_split,   ///< whether the lesser way out of glass is followed, too
+    light_start,   ///< where a light path starts: which emitter, where on it
+    light_scatter,   ///< the direction in which light leaves an emitter (vertex 0) or a surface
+    light_roulette,  ///< survival of a light path
+    splat_round,     ///< stochastic rounding of a splat
+    lens_connect,    ///< the point of the lens that light paths are connected to
+    filter_pick,     ///< the pixel that a connection goes to
 };
 
 /// Names one camera path: the same key gives the same path on any machine, thread or rank.

@@ -26,6 +26,12 @@ void check_job(const Job& job) {
                 Location{"guiding.type", 0, 0}, "nothing guides the estimator \"" + job.integrator.type + "\"",
                 std::string(R"(set guiding.type = "none", or integrator.type = ")") + estimators()[0].type + "\"");
     }
+    if (const Estimator* estimator = find_estimator(job.integrator.type);
+        estimator && estimator->from_lights && !job.output.aovs.empty())
+        throw InputError(Location{"output.aovs", 0, 0},
+                         "the estimator \"" + job.integrator.type +
+                             "\" traces no ray from the camera, so it knows nothing of what is seen there",
+                         std::string("set output.aovs = \"\", or integrator.type = \"") + estimators()[0].type + "\"");
     if (const Estimator* estimator = find_estimator(job.integrator.type); estimator && !estimator->sees_light)
         for (const AovRequest& request : aov_requests(job))
             if (request.aov == Aov::direct || request.aov == Aov::indirect)

@@ -23,6 +23,10 @@ constexpr Estimator kEstimators[] = {
      .meaning = "ambient occlusion, the share of an even sky that the surface is open to",
      .depth = 2,
      .sees_light = false},
+    {.type = "light",
+     .meaning = "light tracing, paths from emitters that are connected to the camera: for caustics of small lamps",
+     .misses = "what the camera sees in mirrors, through smooth glass or at infinity stays black",
+     .from_lights = true},
 };
 
 }  // namespace

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "common/base/error.h"
+#include "common/config/estimators.h"
 #include "common/plan/effect_finder.h"
 #include "common/plan/effects/table.h"
 
@@ -22,6 +24,17 @@ void tell_forced_off(Effect& after, const Effect& before, const std::vector<Appr
     }
     after.reason = "forced off by effects." + by + " = false; without that: " + before.reason;
     after.where = before.where;
+}
+
+/// Splats are sums of what cannot be negative.
+void refuse_signed_splats(const Film& film, const Job& job) {
+    const Estimator* estimator = find_estimator(job.integrator.type);
+    if (!estimator || !estimator->from_lights || !film.is_signed()) return;
+    throw InputError(
+        Location{"integrator.type", 0, 0},
+        "the film's filter has negative lobes, and the estimator \"" + job.integrator.type +
+            "\" adds up light that is never negative",
+        std::string("use the filter box, tent or gaussian, or set integrator.type = \"") + estimators()[0].type + "\"");
 }
 
 }  // namespace
@@ -46,6 +59,7 @@ const Effect* EffectPlan::find(const std::string& name) const {
 
 EffectPlan plan_effects(Scene& scene, const Job& asked_job) {
     EffectPlan plan;
+    refuse_signed_splats(scene.film, asked_job);
     const std::vector<Effect> asked = find_effects(scene, resolve(asked_job, scene));
     plan.approximations = switch_effects_off(scene, asked_job);
     plan.job = resolve(asked_job, scene);

@@ -8,6 +8,7 @@
 #include "common/config/aov_list.h"
 #include "common/film/fold_passes.h"
 #include "common/film/pixel_estimate.h"
+#include "common/film/splat_film.h"
 #include "common/guiding/statistics/cell_sums.h"
 #include "common/plan/kernel.h"
 #include "common/plan/learning.h"
@@ -179,6 +180,12 @@ MemoryPlan expected_memory(const Scene& scene, const Resolved& job) {
     plan.worker.push_back({"textures", texture_bytes(scene), count_text(scene.images.size(), "images")});
     plan.worker.push_back({"emitters", emitters_bytes(scene), count_text(scene.emitters.size(), "emitters")});
     plan.worker.push_back({"tree", tree.guide_bytes() + tree.sum_bytes(), tree_text});
+    const auto sums_of_splats = [&](std::uint64_t copies) {
+        return MemoryItem{"splats", copies * pixels * 2 * sizeof(SplatMoments),
+                          count_text(2 * sizeof(SplatMoments), "bytes a pixel: sums, and their message")};
+    };
+    const bool splats = make_pass(job, 0, 0, 1, true).layers.splats.pixels > 0;
+    if (splats) plan.worker.push_back(sums_of_splats(2));
     const std::uint64_t scene_bytes = geometry_bytes(scene) + texture_bytes(scene);
     plan.coordinator.push_back({"scene", 2 * scene_bytes, "as values and packed for workers"});
     // Passes, the one in hand, the image; that of the pass before while it is written, its 12 channels and their file.
@@ -186,6 +193,7 @@ MemoryPlan expected_memory(const Scene& scene, const Resolved& job) {
         {"film",
          pixels * ((kept_passes(job) + 1) * sizeof(PixelEstimate) + 2 * 4 * sizeof(Rgb64) + 2 * 12 * sizeof(float)),
          count_text(pixels, "pixels, ") + passes_text(job)});
+    if (splats) plan.coordinator.push_back(sums_of_splats(2));
     const AovLayout aovs(aov_requests(job));
     const std::uint64_t sums = sizeof(double) * aovs.size() + (aovs.direct() ? sizeof(Rgb64) : 0);
     if (job.farm.checkpoint_seconds > 0)

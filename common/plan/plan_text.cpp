@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "common/config/estimators.h"
 #include "common/plan/effect_table.h"
 
 namespace treefarm {
@@ -84,6 +85,13 @@ Json memory_json(const std::vector<MemoryItem>& items, std::uint64_t total) {
     return json;
 }
 
+std::string estimator_section(const std::string& type) {
+    const Estimator* estimator = find_estimator(type);
+    std::string text = "\nestimator: " + type + "\n";
+    if (estimator && estimator->misses) text += std::string("  ") + estimator->misses + "\n";
+    return text;
+}
+
 }  // namespace
 
 std::string bytes_text(std::uint64_t bytes) {
@@ -120,7 +128,7 @@ std::string plan_text(const EffectPlan& plan, const std::string& scene) {
     for (const KernelUse& use : plan.kernels)
         kernels.push_back({use.kernel.name(), passes_text(use.passes)});
     if (kernels.empty())
-        text += "\nestimator: " + plan.job.integrator.type + "\n";
+        text += estimator_section(plan.job.integrator.type);
     else
         text += "\nkernels, of " + std::to_string(kKernelCount) + " in the program\n" + aligned(kernels);
     text += memory_section("each worker", plan.memory.worker, plan.memory.worker_bytes());

@@ -7,6 +7,7 @@
 #include "common/config/estimators.h"
 #include "common/config/job_keys.h"
 #include "common/plan/policy.h"
+#include "common/plan/splat_quantum.h"
 #include "common/scene/model/material_traits.h"
 #include "common/scene/uses/emitter_uses.h"
 
@@ -44,7 +45,7 @@ void resolve_estimator(Job& job) {
     job.guiding.type = GuidingType::none;
     job.guiding.splitting = job.guiding.candidates = 1;
     job.integrator.split_glass = false;
-    if (!estimator->sees_light) job.integrator.next_event = NextEvent::never;
+    if (!estimator->sees_light || estimator->from_lights) job.integrator.next_event = NextEvent::never;
     if (estimator->by_numbers)
         job.integrator.next_event = job.integrator.emitter_samples > 0 ? NextEvent::always : NextEvent::never;
     if (estimator->depth == 0) return;
@@ -61,7 +62,8 @@ SceneFacts facts_of(const Scene& scene) {
             scene.film.pixel_count(),
             is_plainly_diffuse(scene),
             scene_traits(scene).lobes.view_dependent(),
-            chooses_lights(scene)};
+            chooses_lights(scene),
+            usual_splat_exponent(scene)};
 }
 
 Resolved resolve(const Job& job, const SceneFacts& scene) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 
 #include "common/config/job.h"
@@ -13,9 +14,10 @@ namespace treefarm {
 struct SceneFacts {
     int whole_width = 512, whole_height = 512;  ///< of the film, a crop window apart, pixels
     std::size_t film_pixels = 512 * 512;
-    bool plainly_diffuse = false;  ///< no textures, lobes or tilted normals (material_traits.h)
-    bool view_dependent = false;   ///< a surface scatters otherwise by where it is seen from
-    bool chooses_lights = false;   ///< next event has more than one emitter, or an image, to choose from
+    bool plainly_diffuse = false;     ///< no textures, lobes or tilted normals (material_traits.h)
+    bool view_dependent = false;      ///< a surface scatters otherwise by where it is seen from
+    bool chooses_lights = false;      ///< next event has more than one emitter, or an image, to choose from
+    std::int16_t splat_exponent = 0;  ///< of the quantum of splats (splat_quantum.h)
 };
 
 SceneFacts facts_of(const Scene& scene);

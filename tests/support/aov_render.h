@@ -55,15 +55,20 @@ inline Layers render_layers(const Scene& scene, const std::string& aovs, const s
     for (PassPlan pass : plans) {
         pass.next_event = job.integrator.next_event == NextEvent::always;
         pass.kernel = kernel_of(resolved, pass, facts_of(tree));
+        const PassPlan planned = make_pass(resolved, pass.index, pass.first_sample, pass.spp, true);
+        pass.units = planned.units;
+        pass.layers = planned.layers;
         PassFilm film(width, height, pass.chunks);
+        SplatSums splats(pass.layers.splats);
         AovFilm layers(AovLayout(aov_requests(resolved)), width, height, pass.chunks);
         UnitOutput output;
         result.stats = {};
-        for (const WorkUnit& unit : cut_tiles(pass.index, pass.chunks, width, height, width)) {
-            output.begin(guide.regions().distribution_count());
+        for (const WorkUnit& unit : cut_pass(pass, width, height, width)) {
+            output.begin(guide.regions().distribution_count(), pass.layers.splats);
             renderer(pass, guide, unit, output);
-            film.add(unit, output.pixels);
-            layers.add(unit, output.aovs);
+            if (pass.layers.estimates) film.add(unit, output.pixels);
+            splats.add(output.splats.summed(), output.splats.caps());
+            if (pass.layers.estimates) layers.add(unit, output.aovs);
             result.stats.add(output.stats);
         }
         AovPixels whole = layers.take();
@@ -71,7 +76,8 @@ inline Layers render_layers(const Scene& scene, const std::string& aovs, const s
         result.direct = std::move(whole.direct);
         passes.emplace_back();
         passes.back().spp = pass.spp;
-        passes.back().pixels = film.pixels();
+        passes.back().pixels = develop(pass.layers.estimates ? film.pixels() : std::vector<PixelEstimate>(), splats,
+                                       pass.splatting_paths());
     }
     result.channels = sums.channels(combine_passes(passes, Combination::fixed, false), passes);
     result.pixels = std::move(passes.back().pixels);

@@ -39,17 +39,22 @@ LocalRender render_locally(const Scene& scene, const Job& asked) {
         const AnySampler guide(run.model);
         AnyAccumulator accumulator(pass.index, guide, job.guiding.directional_filter, pass.learn_mixture);
         PassFilm film(scene.film.width, scene.film.height, pass.chunks);
+        SplatSums splats(pass.layers.splats);
         TraceStats stats;
         UnitOutput output;
         for (const WorkUnit& unit : cut_pass(pass, scene.film.width, scene.film.height, job.farm.tile_size)) {
             output.begin(pass.record ? guide.regions().distribution_count() : 0, pass.layers.splats);
             render_unit(pass, guide, unit, output);
-            film.add(unit, output.pixels);
+            if (pass.layers.estimates) film.add(unit, output.pixels);
+            splats.add(output.splats.summed(), output.splats.caps());
             stats.add(output.stats);
             if (pass.record) accumulator.commit(output.log.records, output.log.counts, output.log.caps);
         }
         run.stats.push_back(stats);
-        PassResult shown = finished_pass(pass, before ? &*before : nullptr, film.pixels());
+        run.splat_caps.add(splats.caps());
+        std::vector<PixelEstimate> pixels = pass.layers.estimates ? film.pixels() : std::vector<PixelEstimate>();
+        PassResult shown = finished_pass(pass, before ? &*before : nullptr,
+                                         develop(std::move(pixels), splats, pass.splatting_paths()));
         before = pass;
         if (stats.probe_paths > 0) {
             probe.add(shown.pixels, stats, pass.index);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "common/film/combine.h"
+#include "common/film/splat_film.h"
 #include "common/film/trace_stats.h"
 #include "common/guiding/any_guide.h"
 #include "common/plan/budget.h"
@@ -18,6 +19,7 @@ struct LocalRender {
     std::vector<RenderHistory> states;  ///< after each pass; a sample takes a millisecond on this clock
     std::vector<TraceStats> stats;
     std::vector<double> guiding_gains;  ///< of probe passes
+    SplatCaps splat_caps;               ///< of all passes
     CombinedImage image;
     AnyModel model;  ///< that guided the last pass
     const SdTree& tree() const { return *model.get_if<SdTree>(); }

@@ -195,12 +195,33 @@ TEST(AovJob, WhoSeesNoLightHasNoDirectLight) {
     job.output.aovs = "albedo,sun:direct";
     for (const Estimator& estimator : estimators()) {
         job.integrator.type = estimator.type;
-        if (estimator.sees_light) {
+        if (estimator.sees_light && !estimator.from_lights) {
             EXPECT_NO_THROW(check_job(job)) << estimator.type;
         } else {
             EXPECT_THROW(check_job(job), InputError) << estimator.type;
         }
     }
+}
+
+/// Nothing is known of what the camera sees where no ray leaves it.
+TEST(AovJob, WhoComesFromTheLightsHasNoLayers) {
+    for (const Estimator& estimator : estimators())
+        for (const char* aovs : {"alpha", "spp"}) {
+            Job job;
+            job.integrator.type = estimator.type;
+            job.output.aovs = aovs;
+            if (!estimator.from_lights) {
+                EXPECT_NO_THROW(check_job(job)) << estimator.type;
+                continue;
+            }
+            try {
+                check_job(job);
+                ADD_FAILURE() << estimator.type << " took " << aovs;
+            } catch (const InputError& error) {
+                EXPECT_NE(std::string(error.what()).find("output.aovs"), std::string::npos) << error.what();
+                EXPECT_NE(std::string(error.what()).find("\"path\""), std::string::npos) << error.what();
+            }
+        }
 }
 
 TEST(AovPlan, MemoryIsNamedWhereLayersAreOn) {

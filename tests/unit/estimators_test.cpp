@@ -48,8 +48,8 @@ TEST(EstimatorList, SaysWhoTeachesATree) {
         PassPlan pass = plan_passes(resolved)[0];
         pass.kernel = kernel_of(resolved, pass, facts_of(tree));
         UnitOutput output;
-        output.begin(guide.regions().distribution_count());
-        make_renderer(encode_scene(scene), resolved)(pass, guide, {0, 0, 0, 8, 8, 0}, output);
+        output.begin(guide.regions().distribution_count(), pass.layers.splats);
+        make_renderer(encode_scene(scene), resolved)(pass, guide, cut_pass(pass, 8, 8, 8)[0], output);
         EXPECT_EQ(!output.log.records.empty(), estimator.guides) << estimator.type;
     }
 }

@@ -101,6 +101,30 @@ TEST(Estimators, UnguidedOnesLearnNothing) {
     }
 }
 
+/// What an estimator cannot find, or sum up, is said before it renders.
+TEST(Estimators, SayWhatTheyMissAndRefuse) {
+    for (const Estimator& estimator : estimators()) {
+        Scene scene = test::cornell_box(1.0f, Vec3(0.0f));
+        const std::string text = plan_text(plan_effects(scene, job_of(estimator.type)), "s.xml");
+        if (estimator.misses) {
+            EXPECT_NE(text.find(estimator.misses), std::string::npos) << text;
+        }
+        scene.film.filter = PixelFilter::lanczos;
+        scene.film.filter_radius = 3.0f;
+        if (!estimator.from_lights) {
+            EXPECT_NO_THROW(plan_effects(scene, job_of(estimator.type))) << estimator.type;
+            continue;
+        }
+        EXPECT_NE(estimator.misses, nullptr) << estimator.type;
+        try {
+            plan_effects(scene, job_of(estimator.type));
+            ADD_FAILURE() << estimator.type << " took a filter with negative lobes";
+        } catch (const InputError& error) {
+            EXPECT_NE(std::string(error.what()).find("box, tent or gaussian"), std::string::npos) << error.what();
+        }
+    }
+}
+
 /// The coordinator plans passes and adds up films, whatever renders them. A study's "reference" is an image.
 TEST(Estimators, TheCoordinatorNamesNone) {
     const std::filesystem::path room = std::filesystem::path(TREEFARM_SOURCE_DIR) / "coordinator";

@@ -219,6 +219,18 @@ TEST_F(MitsubaIntegrators, DirectLight) {
     EXPECT_NE(refusal(integrator("ao", property("float", "rayLength", "0")), "0.6.0"), "");
 }
 
+TEST_F(MitsubaIntegrators, LightTracing) {
+    for (const char* version : {"0.6.0", "3.0.0"}) {
+        const std::string depth = property("integer", version[0] == '0' ? "maxDepth" : "max_depth", "7");
+        const Job job = job_of(load_with_sensor(integrator("ptracer", depth), version));
+        EXPECT_EQ(job.integrator.type, "light");
+        EXPECT_EQ(job.integrator.max_depth, 7);
+    }
+    const std::string granularity =
+        property("integer", "granularity", "1000") + property("boolean", "bruteForce", "true");
+    EXPECT_EQ(refusal(integrator("ptracer", granularity), "0.6.0"), "");
+}
+
 /// A way to transport light leaves guiding to the job, and the log says so.
 TEST_F(MitsubaIntegrators, PathSaysNothingOfGuiding) {
     for (const char* type : {"path", "volpath"}) {

@@ -49,6 +49,7 @@ class CameraRays {
     }
 
     bool has_lens() const { return has_lens_; }
+    const Camera& camera() const { return camera_; }
 
   private:
     struct FilmPoint {

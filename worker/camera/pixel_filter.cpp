@@ -62,6 +62,18 @@ float FilterSampler::weight(std::uint32_t random) const {
     return !negative_.empty() && negative_[bin_of(random & 0x7fffffffu)] ? -weight_ : weight_;
 }
 
+float FilterSampler::value(float offset) const {
+    // Of a box each point belongs to one side: where boxes tile the film, to one pixel.
+    if (!(offset >= -radius_ && offset < radius_)) return 0.0f;
+    if (filter_ == PixelFilter::box) return 0.5f / radius_;
+    const float magnitude = std::abs(offset);
+    if (filter_ == PixelFilter::tent) return (1.0f - magnitude / radius_) / radius_;
+    const float bins = static_cast<float>(kBins) / radius_;
+    const std::uint32_t bin = std::min(static_cast<std::uint32_t>(magnitude * bins), kBins - 1);
+    const float density = static_cast<float>(cumulative_[bin + 1] - cumulative_[bin]) * 0x1p-32f * bins;
+    return !negative_.empty() && negative_[bin] ? -weight_ * density : weight_ * density;
+}
+
 float FilterSampler::sample(std::uint32_t random) const {
     if (filter_ == PixelFilter::box) return (2.0f * to_unit(random) - 1.0f) * radius_;
     const bool negative = random >> 31;

@@ -19,6 +19,11 @@ class FilterSampler {
     float sample(std::uint32_t random) const;
     /// Weight of the offset that sample() draws by this number, so that the filter's integral is 1.
     float weight(std::uint32_t random) const;
+    /// The filter along one axis at this offset: of integral 1, and where it has no negative lobes the density of
+    /// sample(), per pixel.
+    float value(float offset) const;
+    /// Beyond it, in pixels, the filter is 0.
+    float radius() const { return radius_; }
 
   private:
     static constexpr std::uint32_t kBins = 512;

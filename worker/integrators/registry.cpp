@@ -11,6 +11,7 @@
 #include "worker/integrators/ao/ao_integrator.h"
 #include "worker/integrators/direct/direct_integrator.h"
 #include "worker/integrators/first_hit/first_hit.h"
+#include "worker/integrators/light/light_integrator.h"
 #include "worker/integrators/normals/normals_integrator.h"
 #include "worker/integrators/path/path_integrator.h"
 #include "worker/integrators/reference/reference_integrator.h"
@@ -21,7 +22,7 @@ namespace {
 
 constexpr Integrator kIntegrators[] = {
     {"path", prepare_path}, {"reference", prepare_reference}, {"direct", prepare_direct}, {"normals", prepare_normals},
-    {"ao", prepare_ao},
+    {"ao", prepare_ao},     {"light", prepare_light},
 };
 
 /// Units come in messages, and a message may say anything.

@@ -40,6 +40,30 @@ double AreaLight::power(const LightScene& scene) const {
     return area * double(kPi) * double(average(mean));
 }
 
+Hit AreaLight::point(const LightScene& scene, const Draw& random, float& density) const {
+    const Vec2 u = {to_unit(random[2]), to_unit(random[3])};
+    std::uint32_t triangle = 0;
+    Hit hit;
+    if (sphere) {
+        const Vec3 normal = normalize(square_to_sphere(u));
+        hit = sphere_hit(*sphere, sphere->center + normal * sphere->radius, normal);
+        hit.shape = shape;
+    } else if (scene.geometry->triangle_count(shape) > 0) {
+        triangle = triangles.pick(random[1]);
+        const Vec2 b = square_to_triangle(u);
+        scene.geometry->set_triangle_point(hit, shape, triangle, b.x, b.y);
+    } else {
+        hit = uniform_point(*scene.geometry, shape, u);
+    }
+    density = point_density(triangle);
+    return hit;
+}
+
+Rgb AreaLight::radiance_at(const LightScene& scene, const Hit& hit) const {
+    const Rgb emitted = texture != kNone ? textured(scene, hit).rgb() : radiance;
+    return mask ? emitted * scene.geometry->opacity(hit) : emitted;
+}
+
 AreaLight::Channels AreaLight::textured(const LightScene& scene, const Hit& hit) const {
     const MeshPoint on_mesh = scene.textures->reads_meshes() ? scene.geometry->mesh_point(hit) : MeshPoint();
     const Rgb c = radiance * scene.textures->color(texture, {scene.geometry->uv(hit), &on_mesh});

@@ -113,6 +113,16 @@ struct AreaLight {
         return chosen * per_steradian(density, dot(to_light, to_light), std::abs(dot(hit.ng, wi)));
     }
 
+    /// A point that is uniform by area, whatever it is: random[1] chooses the triangle, [2] and [3] the place.
+    /// `density` becomes that per area, within this light.
+    Hit point(const LightScene& scene, const Draw& random, float& density) const;
+    /// Radiance that leaves a point of it on its front, with what a mask lets be there on average.
+    Rgb radiance_at(const LightScene& scene, const Hit& hit) const;
+    /// Density of point(), per area.
+    float point_density(std::uint32_t triangle) const {
+        return sphere ? sphere_area_density(sphere->radius) : area_density[triangle];
+    }
+
   private:
     /// Any shape but a sphere, uniformly by area.
     DirectSample sample_flat(const LightScene& scene, const Vec3& p, const Draw& random, const Vec3* front) const {

@@ -7,6 +7,7 @@
 #include "common/scene/model/emitter.h"
 #include "worker/lights/direct_sample.h"
 #include "worker/lights/directional.h"
+#include "worker/lights/emission_sample.h"
 #include "worker/lights/point.h"
 #include "worker/lights/projector.h"
 #include "worker/lights/spot.h"
@@ -14,8 +15,8 @@
 namespace treefarm {
 
 /// Every light without extent. Each names the kind of emitter that it is made from, which its constructor takes with
-/// the textures (nullptr: there are none), and says its power(scene_radius) and what reaches a place: sample(p,
-/// selection).
+/// the textures (nullptr: there are none), and says its power(scene_radius), what reaches a place: sample(p,
+/// selection), and what leaves it: emit(ball, random).
 using DeltaLightKind = std::variant<PointLight, SpotLight, DirectionalLight, ProjectorLight>;
 
 /// An emitter without extent: a closed set, no virtual call. Scattering never finds it; next event always does.
@@ -29,6 +30,10 @@ class DeltaLight {
 
     /// What reaches p; pdf is `selection`.
     DirectSample sample(const Vec3& p, float selection) const;
+
+    /// A ray that leaves it, as if it were the only light. random[0] and [1] choose the direction, or the place across
+    /// parallel light.
+    EmissionSample emit(const SceneBall& ball, const Draw& random) const;
 
   private:
     explicit DeltaLight(DeltaLightKind kind) : kind_(std::move(kind)) {}

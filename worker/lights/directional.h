@@ -5,6 +5,7 @@
 
 #include "common/scene/kinds/emitters/directional.h"
 #include "worker/lights/direct_sample.h"
+#include "worker/lights/emission_sample.h"
 #include "worker/textures/texture_set.h"
 
 namespace treefarm {
@@ -28,6 +29,10 @@ class DirectionalLight {
         sample.pdf = selection;
         sample.radiance = irradiance_;
         return sample;
+    }
+    EmissionSample emit(const SceneBall& ball, const Draw& random) const {
+        return emitted_across(ball, direction_, irradiance_, {to_unit(random[0]), to_unit(random[1])},
+                              EmissionFrom::parallel);
     }
 
   private:

@@ -32,7 +32,7 @@ double bounding_radius(const Box3& bounds) {
 
 Emitters::Emitters(const std::vector<Emitter>& emitters, const EmbreeScene& geometry, const Box3& bounds,
                    const TextureSet* textures)
-    : scene_{&geometry, textures}, light_of_shape_(geometry.shape_count(), kNone) {
+    : scene_{&geometry, textures}, light_of_shape_(geometry.shape_count(), kNone), ball_(bounds) {
     const double radius = bounding_radius(bounds);
     std::vector<double> power, delta_power;
     // Each kind of emitter is named by its type of light: a new one does not compile before there is a light for it.

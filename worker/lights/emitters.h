@@ -10,6 +10,7 @@
 #include "worker/lights/delta_light.h"
 #include "worker/lights/direct_sample.h"
 #include "worker/lights/discrete_table.h"
+#include "worker/lights/emission_sample.h"
 #include "worker/lights/environments.h"
 #include "worker/lights/light_batch.h"
 
@@ -71,6 +72,16 @@ class Emitters {
     float pdf_direct(const Vec3& p, const Vec3& wi, const Hit& hit,
                      const LightProbabilities* probabilities = nullptr) const;
 
+    /// A ray that leaves an emitter, chosen by power as next event does: the beginning of a light path. `place` chooses
+    /// where it starts, as the numbers of sample_direct() do, or the direction that it comes from if that is from
+    /// infinity; direction[0] and [1] its direction, or the place across that one. A scene without surfaces gets none.
+    EmissionSample emit(const Draw& place, const Draw& direction) const;
+    /// Densities with which emit() starts at a point of an area emitter into the unit direction `away`; zeros where
+    /// nothing shines.
+    EmissionDensity emission_density(const Hit& start, const Vec3& away) const;
+    /// Those of light from infinity that comes against the unit `direction`.
+    EmissionDensity emission_density(const Vec3& direction) const;
+
     /// Whether emitted() may be other than black on a shape.
     bool emits(std::uint32_t shape) const { return light_of_shape_[shape] != kNone; }
 
@@ -96,6 +107,8 @@ class Emitters {
     /// Returns its power.
     double add_area_light(const AreaEmitter& emitter);
     void select(std::vector<double> power);
+    EmissionSample emit_from_area(const AreaLight& light, const Draw& place, const Draw& direction) const;
+    EmissionSample emit_from_infinity(std::uint32_t entry, const Draw& place, const Draw& direction) const;
     /// Kept out of line, so that plain meshes pay nothing for the other kinds.
     [[gnu::noinline]] DirectSample sample_other(std::uint32_t entry, const Vec3& p, const Draw& random,
                                                 const LightProbabilities* probabilities, const Vec3* front) const;
@@ -125,6 +138,7 @@ class Emitters {
     DiscreteTable selection_;             ///< over area lights, delta lights, parts of environments
     LightClusters clusters_;              ///< of its entries
     Environments environments_;
+    SceneBall ball_;
     bool shines_from_infinity_ = false;
     bool has_spheres_ = false;  ///< among area lights
 };

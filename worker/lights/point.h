@@ -3,6 +3,7 @@
 
 #include "common/scene/kinds/emitters/point.h"
 #include "worker/lights/direct_sample.h"
+#include "worker/lights/emission_sample.h"
 #include "worker/textures/texture_set.h"
 
 namespace treefarm {
@@ -32,6 +33,10 @@ class PointLight {
     double power(double) const { return 4.0 * double(kPi) * double(average(intensity_)); }
     DirectSample sample(const Vec3& p, float selection) const {
         return sample_point(position_, intensity_, p, selection);
+    }
+    EmissionSample emit(const SceneBall&, const Draw& random) const {
+        const Vec3 direction = square_to_sphere({to_unit(random[0]), to_unit(random[1])});
+        return emitted_from_point(position_, normalize(direction), intensity_, kInvFourPi);
     }
 
   private:

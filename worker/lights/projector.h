@@ -47,6 +47,18 @@ class ProjectorLight {
         return sample;
     }
 
+    /// Uniform on the picture.
+    EmissionSample emit(const SceneBall&, const Draw& random) const {
+        const float u = to_unit(random[0]), v = to_unit(random[1]);
+        const Vec3 to =
+            axis_ + u_axis_ * ((u - 0.5f) / dot(u_axis_, u_axis_)) + v_axis_ * ((v - 0.5f) / dot(v_axis_, v_axis_));
+        const float length2 = dot(to, to), length = std::sqrt(length2), cos3 = 1.0f / (length * length2);
+        Rgb intensity = irradiance_ * (1.0f / cos3);
+        if (texture_ != kNone) intensity *= textures_->color(texture_, Vec2(u, v));
+        return emitted_from_point(position_, to * (1.0f / length), intensity,
+                                  1.0f / (static_cast<float>(area_) * cos3));
+    }
+
   private:
     Vec3 position_;
     Vec3 axis_;             ///< unit

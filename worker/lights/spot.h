@@ -5,9 +5,11 @@
 
 #include "common/base/error.h"
 #include "common/math/elementary.h"
+#include "common/math/frame.h"
 #include "common/scene/kinds/emitters/spot.h"
 #include "worker/lights/area_measure.h"
 #include "worker/lights/point.h"
+#include "worker/lights/sphere_cone.h"
 
 namespace treefarm {
 
@@ -45,6 +47,16 @@ class SpotLight {
         sample.radiance *= falloff(-sample.wi);
         if (textures_ && !is_black(sample.radiance)) sample.radiance *= projected(-sample.wi);
         return sample;
+    }
+
+    /// Uniform in the cone: what it brightens falls off in the weight.
+    EmissionSample emit(const SceneBall&, const Draw& random) const {
+        const float sine = sincos_turn(0.25f * kInvPi * cutoff_).sin, one_minus_cos = 2.0f * sine * sine;
+        const Vec3 local = square_to_cone({to_unit(random[0]), to_unit(random[1])}, one_minus_cos);
+        const Vec3 direction = normalize(Frame(axis_).to_world(local));
+        Rgb intensity = intensity_ * falloff(direction);
+        if (textures_ && !is_black(intensity)) intensity *= projected(direction);
+        return emitted_from_point(position_, direction, intensity, cone_pdf(one_minus_cos));
     }
 
   private:

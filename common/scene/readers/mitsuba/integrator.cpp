@@ -11,7 +11,7 @@
 namespace treefarm::mitsuba {
 namespace {
 
-constexpr std::array<std::string_view, 5> kIntegrators = {"path", "volpath", "direct", "ao", "guided_path"};
+constexpr std::array<std::string_view, 6> kIntegrators = {"path", "volpath", "direct", "ao", "ptracer", "guided_path"};
 
 /// How light is transported; whether something guides is the job's business.
 void read_path(IntegratorSettings& settings) {
@@ -43,6 +43,14 @@ void read_ambient_occlusion(IntegratorSettings& settings) {
     settings.read_flags();
 }
 
+/// Reads light tracing: the estimator is the scene's. How its work is cut, and whether paths wait for the sensor to be
+/// met by chance, does not change the image.
+void read_light_tracing(IntegratorSettings& settings) {
+    settings.set("integrator.type", "light", settings.properties().where());
+    settings.read_common();
+    settings.properties().ignore({"granularity", "brute_force"});
+}
+
 /// Reads an estimator of the same image by other means: how long paths are belongs to the image, the rest does not.
 void read_other(IntegratorSettings& settings, const std::string& type) {
     Properties& properties = settings.properties();
@@ -59,8 +67,8 @@ void read_other(IntegratorSettings& settings, const std::string& type) {
 
 /// Integrators of Mitsuba that converge to the image of a path tracer.
 bool is_other_estimator(const std::string& type) {
-    constexpr std::array<std::string_view, 12> kTypes = {"bdpt", "mlt",  "pssmlt", "erpt", "ptracer",   "photonmapper",
-                                                         "ppm",  "sppm", "vpl",    "prb",  "prb_basic", "prbvolpath"};
+    constexpr std::array<std::string_view, 11> kTypes = {"bdpt", "mlt", "pssmlt", "erpt",      "photonmapper", "ppm",
+                                                         "sppm", "vpl", "prb",    "prb_basic", "prbvolpath"};
     return std::find(kTypes.begin(), kTypes.end(), type) != kTypes.end();
 }
 
@@ -123,6 +131,8 @@ void read_integrator(const XmlElement& integrator, std::vector<Setting>& setting
         read_direct(reader);
     } else if (type == "ao") {
         read_ambient_occlusion(reader);
+    } else if (type == "ptracer") {
+        read_light_tracing(reader);
     } else if (is_path_tracer(type)) {
         diagnostics.note(integrator.where, "the integrator " + in_quotes(type) +
                                                " says how light is transported; whether paths are guided says the job "

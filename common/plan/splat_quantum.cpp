@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "common/plan/splat_quantum.h"
+
+#include <algorithm>
+#include <cmath>
+#include <variant>
+
+#include "common/film/splat_film.h"
+
+namespace treefarm {
+namespace {
+
+/// Bits by which the quantum is finer than a splat as it is expected.
+constexpr double kFiner = 0x1p-20;
+/// splat_exponent() has so many of them.
+constexpr double kOfExponent = 0x1p10;
+
+double length(const Vec3& v) {
+    const Imath::V3d d(v);
+    return std::sqrt(d.dot(d));
+}
+
+double area(const Mesh& mesh) {
+    double sum = 0;
+    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+        const Imath::V3d a(mesh.positions[mesh.indices[i]]), b(mesh.positions[mesh.indices[i + 1]]),
+            c(mesh.positions[mesh.indices[i + 2]]);
+        const Imath::V3d n = (b - a).cross(c - a);
+        sum += 0.5 * std::sqrt(n.dot(n));
+    }
+    return sum;
+}
+
+double area_of(const Shape& shape) {
+    if (const auto* mesh = std::get_if<Mesh>(&shape.geometry)) return area(*mesh);
+    if (const auto* s = std::get_if<Sphere>(&shape.geometry)) return 4 * M_PI * double(s->radius) * double(s->radius);
+    if (const auto* d = std::get_if<Disk>(&shape.geometry)) return M_PI * length(d->half_u % d->half_v);
+    if (const auto* c = std::get_if<Cylinder>(&shape.geometry))
+        return 2 * M_PI * double(c->radius) * length(c->p1 - c->p0);
+    return 0;
+}
+
+/// Watts that the emitters send into a ball of radius R about the surfaces, mean of the channels, by what each says of
+/// the radiance that it brings there.
+double power(const Scene& scene, double radius2) {
+    const LitScene lit{static_cast<float>(radius2), scene.images};
+    double sum = 0;
+    for (const Emitter& emitter : scene.emitters)
+        std::visit(
+            [&]<class Kind>(const Kind& kind) {
+                const auto scale = double(kind.radiance_scale(lit));
+                if constexpr (Kind::kTraits.type == LightType::area) {
+                    if (kind.shape != kNone)
+                        sum += M_PI * scale * area_of(scene.shapes[static_cast<std::size_t>(kind.shape)]);
+                } else if constexpr (Kind::kTraits.type == LightType::delta) {
+                    sum += (kind.cone() ? 4 * M_PI : M_PI) * scale * radius2;  // a point's intensity, or parallel light
+                } else {
+                    sum += M_PI * M_PI * scale * radius2;
+                }
+            },
+            emitter.kind);
+    return sum;
+}
+
+/// Camera importance at the middle of the film, per area that faces the camera at this distance.
+double importance(const Camera& camera, double distance2) {
+    if (camera.panoramic) return 1 / (2 * M_PI * M_PI * distance2);
+    const Imath::V3d middle = Imath::V3d(camera.corner) + (Imath::V3d(camera.across) + Imath::V3d(camera.down)) * 0.5;
+    const Imath::V3d n = Imath::V3d(camera.across).cross(Imath::V3d(camera.down));
+    if (camera.is_orthographic()) return 1 / std::abs(n.dot(Imath::V3d(camera.parallel)));
+    const double length2 = middle.dot(middle);
+    return length2 * std::sqrt(length2) / std::abs(middle.dot(n)) / distance2;
+}
+
+}  // namespace
+
+std::int16_t usual_splat_exponent(const Scene& scene) {
+    const Box3 box = scene.bounds();
+    if (box.isEmpty()) return 0;
+    const Imath::V3d half = (Imath::V3d(box.max) - Imath::V3d(box.min)) * 0.5;
+    const double radius2 = std::max(half.dot(half), 1e-30);
+    const Imath::V3d to_scene = Imath::V3d(box.min) + half - Imath::V3d(scene.camera.origin);
+    const double distance2 = std::max(to_scene.dot(to_scene), radius2);
+    const double per_window = double(scene.film.whole_width()) * double(scene.film.whole_height()) /
+                              static_cast<double>(scene.film.pixel_count());
+    const double splat = power(scene, radius2) / (2 * M_PI) * importance(scene.camera, distance2) * per_window;
+    return splat_exponent(splat * kFiner * kOfExponent);
+}
+
+}  // namespace treefarm

@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "worker/integrators/light/light_integrator.h"
+
+#include <array>
+
+#include "common/base/timer.h"
+#include "worker/camera/camera_importance.h"
+#include "worker/integrators/subpath/light_scatter.h"
+#include "worker/integrators/subpath/roulette.h"
+
+// The image is an integral over all paths from a lamp to the camera, and does not care from which end they are drawn. A
+// light path starts at an emitter, with the power that it has there over the density of start and direction, and
+// scatters on. At each vertex it is connected to a point of the lens: the light that goes there,
+//
+//     alpha F(in -> lens) g        alpha: power over the path's density,  F: scattering,  g: camera importance
+//
+// falls onto whatever pixel sees the vertex, if nothing lies between. So each path may bring something to any pixel,
+// and the mean over n paths per pixel is the image. A lamp that is seen directly is connected as well.
+
+namespace treefarm {
+
+namespace {
+
+/// What a job says of light paths.
+struct Rules {
+    int max_depth;  ///< edges of a path from lamp to lens; -1: no limit
+    bool strict_normals, hide_emitters;
+    Roulette roulette;
+
+    explicit Rules(const Job::Integrator& job)
+        : max_depth(job.max_depth),
+          strict_normals(job.strict_normals),
+          hide_emitters(job.hide_emitters),
+          roulette(Roulette::Rule::unguided, job.rr_depth) {}
+};
+
+/// What rays are connected to.
+struct Sensor {
+    CameraImportance importance;
+    PixelPicker pixels;
+
+    Sensor(const Camera& camera, const Film& film) : importance(camera, film), pixels(film, camera.panoramic) {}
+};
+
+/// Connections whose shadow rays wait for each other: many together are faster.
+class Connections {
+  public:
+    Connections(const EmbreeScene& geometry, UnitOutput& output) : geometry_(geometry), output_(output) {}
+
+    void add(const Ray& ray, std::uint32_t pixel, const Rgb& value, const PathKey& key, std::uint32_t vertex) {
+        rays_[count_] = ray;
+        splats_[count_++] = {value, key, pixel, vertex};
+        if (count_ == rays_.size()) flush();
+    }
+
+    /// Splats those that reach the camera.
+    void flush() {
+        geometry_.occluded({rays_.data(), count_}, hidden_.data());
+        output_.stats.shadow_rays += count_;
+        for (std::size_t i = 0; i < count_; ++i) {
+            if (hidden_[i]) continue;
+            const auto& [value, key, pixel, vertex] = splats_[i];
+            output_.splats.add(pixel, key.sample, value, draw(key, vertex, Stream::splat_round));
+            const bool same_path = lit_any_ && key.pixel == last_lit_.pixel && key.sample == last_lit_.sample;
+            if (!same_path) ++output_.stats.nonzero_paths;
+            lit_any_ = true;
+            last_lit_ = key;
+        }
+        count_ = 0;
+    }
+
+  private:
+    struct Splat {
+        Rgb value;
+        PathKey key;
+        std::uint32_t pixel, vertex;
+    };
+
+    const EmbreeScene& geometry_;
+    UnitOutput& output_;
+    std::array<Ray, EmbreeScene::kMostTogether> rays_;
+    std::array<Splat, EmbreeScene::kMostTogether> splats_;
+    std::array<bool, EmbreeScene::kMostTogether> hidden_{};
+    std::size_t count_ = 0;
+    PathKey last_lit_;  ///< the last path that splatted: its splats come one after the other
+    bool lit_any_ = false;
+};
+
+/// Traces light paths over one kind of surface: DiffuseSurface or GeneralSurface.
+template <class Surface>
+class LightTracer {
+  public:
+    LightTracer(const TraceScene& scene, const Sensor& sensor, const Rules& rules, UnitOutput& output)
+        : scene_(scene),
+          sensor_(sensor),
+          rules_(rules),
+          stats_(output.stats),
+          connections_(scene.geometry(), output),
+          arriving_(Surface::make_scratch(scene)),
+          leaving_(Surface::make_scratch(scene)) {}
+
+    /// Traces the light path of a key: each vertex has its own random numbers, the emitter 0, surfaces from 1 on.
+    void trace(const PathKey& key) {
+        ++stats_.paths;
+        const EmissionSample start =
+            scene_.emitters().emit(draw(key, 0, Stream::light_start), draw(key, 0, Stream::light_scatter));
+        const Draw lens = draw(key, 0, Stream::lens_connect);
+        if (start.from == EmissionFrom::surface && !rules_.hide_emitters) connect_lamp(start, key, lens);
+        if (!is_black(start.weight) && rules_.max_depth != 1) walk(start, key, lens);
+    }
+
+    void finish() { connections_.flush(); }
+
+  private:
+    void walk(const EmissionSample& start, const PathKey& key, const Draw& lens) {
+        Ray ray = start.ray;
+        Rgb throughput(1.0f);  // since it left the emitter
+        for (int depth = 1;; ++depth) {
+            const auto vertex = static_cast<std::uint32_t>(depth);
+            Hit hit;
+            ++stats_.rays;
+            if (!scene_.geometry().intersect(ray, hit)) return;
+            if (depth > 1 && !survives(throughput, depth - 1, draw(key, vertex - 1, Stream::light_roulette))) return;
+            scene_.geometry().keep_inside(hit, ray);
+            const Vec3 in = -ray.direction;
+            connect(hit, in, start.weight * throughput, key, vertex, lens);
+            if (depth + 1 == rules_.max_depth) return;
+            const Surface surface(scene_, hit, in, arriving_);
+            if (surface.black()) return;
+            ++stats_.vertices;
+            const LightStep step = scatter_light(scene_, hit, surface, in, rules_.strict_normals,
+                                                 draw(key, vertex, Stream::light_scatter), leaving_);
+            if (!step.goes_on) return;
+            throughput *= step.weight;
+            ray = {offset_origin(hit, step.direction), step.direction};
+        }
+    }
+
+    /// Russian roulette of a path that scattered at `depth`.
+    bool survives(Rgb& throughput, int depth, const Draw& random) const {
+        if (!rules_.roulette.plays(depth)) return true;
+        const float chance = rules_.roulette.survival(throughput);
+        if (!(to_unit(random[0]) < chance)) return false;
+        throughput *= 1.0f / chance;
+        return true;
+    }
+
+    /// Connects the emitter's own surface.
+    void connect_lamp(const EmissionSample& start, const PathKey& key, const Draw& lens) {
+        const FilmConnection to = sensor_.importance.connect(start.start.p, lens);
+        const float cosine = dot(start.start.ng, to.direction);
+        if (!to.seen || !(cosine > 0.0f)) return;
+        add(start.start, to, start.radiance, double(cosine) / double(start.place_pdf), key, 0);
+    }
+
+    /// Connects a vertex at which so much light arrives from `in`.
+    void connect(const Hit& hit, const Vec3& in, const Rgb& light, const PathKey& key, std::uint32_t vertex,
+                 const Draw& lens) {
+        const FilmConnection to = sensor_.importance.connect(hit.p, lens);
+        if (!to.seen || !sensor_.pixels.reaches(to.x, to.y)) return;
+        const LightScattering scattering =
+            light_scattering<Surface>(scene_, hit, in, to.direction, rules_.strict_normals, leaving_);
+        add(hit, to, light * scattering.f, 1.0, key, vertex);
+    }
+
+    /// Adds what a vertex sends to the camera, `factor` times the colour.
+    void add(const Hit& hit, const FilmConnection& to, const Rgb& colour, double factor, const PathKey& key,
+             std::uint32_t vertex) {
+        if (is_black(colour)) return;
+        const PixelPick pick = sensor_.pixels.pick(to.x, to.y, draw(key, vertex, Stream::filter_pick));
+        if (!pick.found) return;
+        Ray ray{offset_origin(hit, to.direction), Vec3(0.0f), 1.0f};
+        ray.direction = to.target - ray.origin;
+        // Closer than the offset: nothing fits between.
+        if (!(dot(ray.direction, to.direction) > 0.0f)) ray.length = -1.0f;
+        connections_.add(ray, pick.pixel, colour * static_cast<float>(factor * to.g * pick.weight), key, vertex);
+    }
+
+    const TraceScene& scene_;
+    const Sensor& sensor_;
+    const Rules rules_;
+    TraceStats& stats_;
+    Connections connections_;
+    typename Surface::Scratch arriving_, leaving_;  ///< of surfaces as light sees them, and as the camera does
+};
+
+}  // namespace
+
+RenderUnit prepare_light(std::shared_ptr<const TraceScene> scene, const Resolved& job) {
+    return [sensor = Sensor(scene->camera().camera(), scene->film()), scene = std::move(scene), job](
+               const PassPlan& pass, const AnySampler&, const WorkUnit& unit, UnitOutput& output) {
+        const double start = thread_cpu_seconds();
+        with_surface(*scene, [&]<class Surface>() {
+            LightTracer<Surface> tracer(*scene, sensor, Rules(job.integrator), output);
+            const std::uint64_t pixels = pass.layers.splats.pixels;
+            for (std::uint64_t path = unit.first; path < unit.first + unit.count; ++path)
+                tracer.trace({job.sampler.seed, static_cast<std::uint32_t>(path % pixels),
+                              pass.units.first_light_path + static_cast<std::uint32_t>(path / pixels)});
+            tracer.finish();
+        });
+        output.stats.trace_seconds += thread_cpu_seconds() - start;
+    };
+}
+
+}  // namespace treefarm

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+// Light paths begin here: what of Emitters emits rays.
+#include "worker/lights/emitters.h"
+
+namespace treefarm {
+
+EmissionSample Emitters::emit(const Draw& place, const Draw& direction) const {
+    if (selection_.empty() || !(ball_.radius > 0.0f)) return {};
+    const std::uint32_t entry = selection_.pick(place[0]);
+    if (entry < area_lights_.size()) return emit_from_area(area_lights_[entry], place, direction);
+    const std::size_t index = entry - area_lights_.size();
+    if (index >= delta_lights_.size()) return emit_from_infinity(entry, place, direction);
+    EmissionSample sample = delta_lights_[index].emit(ball_, direction);
+    sample.weight *= 1.0f / delta_selection_[index];
+    sample.place_pdf *= delta_selection_[index];
+    return sample;
+}
+
+EmissionSample Emitters::emit_from_area(const AreaLight& light, const Draw& place, const Draw& direction) const {
+    EmissionSample sample;
+    float density;
+    sample.start = light.point(scene_, place, density);
+    const Vec3 local = square_to_cosine_hemisphere({to_unit(direction[0]), to_unit(direction[1])});
+    sample.place_pdf = light.selection * density;
+    if (!(sample.place_pdf > 0.0f)) return sample;
+    sample.from = EmissionFrom::surface;
+    sample.radiance = light.radiance_at(scene_, sample.start);
+    // At the rim of the hemisphere: a cosine of 0 is as good as none.
+    if (!(local.z > 0.0f)) return sample;
+    const Vec3 away = normalize(Frame(sample.start.ng).to_world(local));
+    sample.ray = {offset_origin(sample.start, away), away};
+    sample.weight = sample.radiance * (kPi / sample.place_pdf);
+    sample.direction_pdf = cosine_hemisphere_pdf(local.z);
+    return sample;
+}
+
+EmissionSample Emitters::emit_from_infinity(std::uint32_t entry, const Draw& place, const Draw& direction) const {
+    EmissionSample sample;
+    environments_.sample(entry, place, [&]<class Light>(const typename Light::Sample& drawn) {
+        const float pdf = environments_.pdf_of<Light>(drawn, clusters_, nullptr);
+        if (!(pdf > 0.0f)) return;
+        sample = emitted_across(ball_, -drawn.direction, environments_.radiance(drawn.direction) * (1.0f / pdf),
+                                {to_unit(direction[0]), to_unit(direction[1])}, EmissionFrom::environment);
+        sample.place_pdf = pdf;
+    });
+    return sample;
+}
+
+EmissionDensity Emitters::emission_density(const Hit& start, const Vec3& away) const {
+    const std::int32_t index = light_of_shape_[start.shape];
+    const float cosine = dot(start.ng, away);
+    if (index == kNone || !(cosine > 0.0f) || !(ball_.radius > 0.0f)) return {};
+    const AreaLight& light = area_lights_[static_cast<std::size_t>(index)];
+    return {light.selection * light.point_density(start.primitive), cosine_hemisphere_pdf(cosine)};
+}
+
+EmissionDensity Emitters::emission_density(const Vec3& direction) const {
+    if (!(ball_.radius > 0.0f)) return {};
+    return {environments_.pdf(direction, clusters_, nullptr), 1.0f / ball_.section()};
+}
+
+}  // namespace treefarm

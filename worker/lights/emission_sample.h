@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+#include "common/base/random.h"
+#include "common/math/frame.h"
+#include "common/math/warp.h"
+#include "worker/geometry/hit.h"
+#include "worker/geometry/ray.h"
+
+namespace treefarm {
+
+/// The ball about all surfaces, through which light from infinity comes in.
+struct SceneBall {
+    Vec3 center{0.0f};
+    float radius = 0;  ///< 0: there are no surfaces, and nothing need be lit
+
+    SceneBall() = default;
+    /// Slightly larger than the box's, so that no rounding leaves a corner outside.
+    explicit SceneBall(const Box3& box) {
+        if (box.isEmpty()) return;
+        const Imath::V3d size = Imath::V3d(box.max) - Imath::V3d(box.min);
+        center = Vec3((Imath::V3d(box.max) + Imath::V3d(box.min)) * 0.5);
+        radius = static_cast<float>(0.5 * std::sqrt(size.dot(size)) * (1.0 + 0x1p-16));
+    }
+
+    /// Area of its cross-section.
+    float section() const { return kPi * radius * radius; }
+};
+
+/// What a light path starts from.
+enum class EmissionFrom : std::uint8_t {
+    nothing,
+    surface,      ///< an area emitter
+    point,        ///< a point, spot or projector
+    parallel,     ///< directional light
+    environment,  ///< what shines from infinity in many directions
+};
+
+/// A ray that leaves an emitter, with the densities of place and direction (docs/design/transport.md).
+struct EmissionSample {
+    EmissionFrom from = EmissionFrom::nothing;
+    Ray ray{Vec3(0.0f), Vec3(0.0f)};  ///< direction of length 1
+    Rgb weight{0.0f};    ///< emitted radiance or intensity, times the cosine, over all densities; its mean is the power
+    Rgb radiance{0.0f};  ///< of an area emitter: that leaves the point, in every direction of its front
+    Hit start;           ///< of an area emitter; of a point only its place
+    /// Surfaces: per area; environment: of the direction that light comes from, per steradian; otherwise a probability.
+    /// The choice of the emitter is in it.
+    float place_pdf = 0;
+    /// Per steradian; of what comes from infinity: of the place across the direction, per area.
+    float direction_pdf = 0;
+
+    bool from_infinity() const { return from == EmissionFrom::parallel || from == EmissionFrom::environment; }
+    /// Whether no scattered ray ever finds its start.
+    bool is_delta() const { return from == EmissionFrom::point || from == EmissionFrom::parallel; }
+
+    /// Density per area with which the ray meets a surface of that normal at `p`.
+    double next_pdf(const Vec3& p, const Vec3& ng) const {
+        const double cosine = std::abs(double(dot(ng, ray.direction)));
+        return double(direction_pdf) * cosine / (from_infinity() ? 1.0 : distance2(p));
+    }
+    /// Factor that turns a density per steradian at the next vertex `p` into one in the measure of place_pdf; 0 where
+    /// only sampling the emitter finds it.
+    double place_factor(const Vec3& p) const {
+        if (is_delta()) return 0.0;
+        return from_infinity() ? 1.0 : std::abs(double(dot(start.ng, ray.direction))) / distance2(p);
+    }
+
+  private:
+    double distance2(const Vec3& p) const {
+        const Imath::V3d d = Imath::V3d(p) - Imath::V3d(start.p);
+        return d.dot(d);
+    }
+};
+
+/// Densities of a ray that leaves an emitter, as EmissionSample has them.
+struct EmissionDensity {
+    float place = 0, direction = 0;
+};
+
+/// Light of a point that has this intensity (W / sr) in a direction drawn with density `pdf`.
+inline EmissionSample emitted_from_point(const Vec3& position, const Vec3& direction, const Rgb& intensity, float pdf) {
+    EmissionSample sample;
+    sample.from = EmissionFrom::point;
+    sample.ray = {position, direction};
+    sample.weight = intensity * (1.0f / pdf);
+    sample.start.p = position;
+    sample.place_pdf = 1.0f;
+    sample.direction_pdf = pdf;
+    return sample;
+}
+
+/// Light that comes in along a direction, uniform across the scene's ball. `irradiance`: on a surface that faces it.
+inline EmissionSample emitted_across(const SceneBall& ball, const Vec3& direction, const Rgb& irradiance, const Vec2& u,
+                                     EmissionFrom from) {
+    const Vec2 disk = square_to_disk(u);
+    const Frame frame(direction);
+    EmissionSample sample;
+    sample.from = from;
+    sample.ray = {ball.center + (frame.s * disk.x + frame.t * disk.y - direction) * ball.radius, direction};
+    sample.weight = irradiance * ball.section();
+    sample.place_pdf = 1.0f;
+    sample.direction_pdf = 1.0f / ball.section();
+    return sample;
+}
+
+}  // namespace treefarm
