@@ -14,16 +14,13 @@
 #include "common/config/job_reader.h"
 #include "common/protocol/fingerprint.h"
 #include "common/protocol/messages.h"
+#include "worker/appetite.h"
 #include "worker/silence_watch.h"
 #include "worker/tracer_pool.h"
 
 namespace treefarm {
 
 namespace {
-
-/// Units that a worker keeps per thread, so that none waits while more are under way: so many, and so many camera paths
-/// beside, since small units are done before an answer comes.
-constexpr std::size_t kUnitsPerThread = 3, kPathsPerThread = 8192;
 
 /// A tree or scene of which nothing was heard for so many heartbeats is asked for again.
 constexpr double kPatienceHeartbeats = 5.0;
@@ -33,8 +30,6 @@ constexpr double kSilentHeartbeats = 10.0;
 
 /// Where nothing is left, what was finished is sent at once, unless that was done so many seconds ago.
 constexpr double kLeastUpdateSeconds = 0.05;
-
-constexpr std::size_t kNeverAsked = ~std::size_t{0};
 
 /// Messages taken in before anything else is done again.
 constexpr int kMostLooks = 256;
@@ -64,7 +59,8 @@ class WorkerLoop {
           make_renderer_(make_renderer),
           log_(log),
           chain_(channel),
-          silence_(settings.silence_seconds) {}
+          silence_(settings.silence_seconds),
+          appetite_(settings.threads) {}
 
     WorkerEnd run() {
         say_hello();
@@ -169,10 +165,8 @@ class WorkerLoop {
     void on(const Work& m) {
         if (!pass_ || m.pass != pass_->plan().index || !pool_) return;  // of a life that was given up
         if (leaving_since_) return;                                     // given back by the good-bye
-        credit_ -= std::min(credit_, m.units.size());
-        nothing_left_ = m.units.empty() || m.alone;
-        if (nothing_left_ && clock_.seconds() - last_update_ > kLeastUpdateSeconds) send_bundle();
-        asked_at_ = kNeverAsked;
+        appetite_.receive(m.units.size(), m.units.empty() || m.alone);
+        if (appetite_.nothing_left() && clock_.seconds() - last_update_ > kLeastUpdateSeconds) send_bundle();
         pool_->add(m.units);
     }
 
@@ -221,7 +215,6 @@ class WorkerLoop {
     void end_pass() {
         if (pool_) pool_->cancel();
         pass_.reset();
-        credit_ = 0;
     }
 
     /// Does everything that becomes possible without a message.
@@ -318,9 +311,7 @@ class WorkerLoop {
         if (!coming_ || pass_task_job_ != job_number_ || built->plan().index != coming_->plan.index) return;
         coming_.reset();
         pass_ = std::move(built);
-        credit_ = 0;
-        asked_at_ = kNeverAsked;
-        nothing_left_ = false;
+        appetite_.begin();
         pool_->begin(pass_);
         last_update_ = clock_.seconds();
     }
@@ -328,7 +319,7 @@ class WorkerLoop {
     /// Sends finished units from time to time, and at the end. Without a unit for a moment is not the end: the more
     /// results, the less time has the coordinator to hand out work.
     void send_finished() {
-        const bool at_end = nothing_left_ && pool_->idle(), enough = pass_->bundle_bytes() >= kBundleBytes;
+        const bool at_end = appetite_.nothing_left() && pool_->idle(), enough = pass_->bundle_bytes() >= kBundleBytes;
         if (at_end || enough || clock_.seconds() - last_update_ >= job_.farm.update_seconds) send_bundle();
     }
 
@@ -340,26 +331,16 @@ class WorkerLoop {
         }
     }
 
-    /// Whether what is asked for need not come soon.
     bool well_stocked() const {
-        return pass_ && pool_ && !nothing_left_ && pass_->plan().has_long_units(job_.farm.tile_size) &&
-               pool_->queued() >= 2 * settings_.threads;
+        return pass_ && pool_ && appetite_.is_well_stocked(pass_->plan(), job_.farm.tile_size, pool_->queued());
     }
 
     void ask_for_work() {
-        const std::size_t per_thread =
-            kUnitsPerThread + kPathsPerThread / pass_->plan().unit_paths(job_.farm.tile_size);
-        const std::size_t depth = per_thread * settings_.threads;
-        const std::size_t queued = pool_->queued(), expected = queued + credit_;
-        const std::size_t more = depth - std::min(depth, expected);
-        // A coordinator that owes much of it, and sees how little is left here, gives some more.
-        const bool hungry = !nothing_left_ && queued < settings_.threads && queued < asked_at_;
-        if (!hungry && (more == 0 || (more < std::max<std::size_t>(1, settings_.threads / 2) && queued > 0))) return;
-        credit_ += more;
-        asked_at_ = queued;
-        const std::uint64_t paths_each = pass_->plan().units.tiles ? pass_->plan().unit_spp() : 1;
-        tell(Want{incarnation_, pass_->plan().index, static_cast<std::uint32_t>(more),
-                  paths_each * pool_->queued_weight()});
+        const PassPlan& plan = pass_->plan();
+        const auto more = appetite_.ask(plan, job_.farm.tile_size, pool_->queued());
+        if (!more) return;
+        const std::uint64_t paths_each = plan.units.tiles ? plan.unit_spp() : 1;
+        tell(Want{incarnation_, plan.index, static_cast<std::uint32_t>(*more), paths_each * pool_->queued_weight()});
     }
 
     void beat() {
@@ -399,17 +380,14 @@ class WorkerLoop {
     std::string job_text_;  ///< of job_; empty: none yet
     std::shared_ptr<const Bytes> scene_;
     std::uint64_t scene_hash_ = 0, coming_scene_hash_ = 0, coming_scene_bytes_ = 0;
-    bool keep_scene_ = false;
-    bool build_renderer_ = false;  ///< scene and job are there, and nothing was made of them yet
+    bool keep_scene_ = false, build_renderer_ = false;  ///< scene and job are there, nothing was made of them yet
     std::future<RenderUnit> renderer_task_;
     std::unique_ptr<TracerPool> pool_, retired_;
     std::optional<PassBegin> coming_;  ///< announced, its guide not yet built
     std::future<std::shared_ptr<PassWork>> pass_task_;
     std::uint32_t pass_task_job_ = 0;
     std::shared_ptr<PassWork> pass_;
-    std::size_t credit_ = 0;              ///< units asked for that have not come
-    std::size_t asked_at_ = kNeverAsked;  ///< units that were queued when more were asked for, and none have come since
-    bool nothing_left_ = false;           ///< the last work that came was none
+    Appetite appetite_;
 };
 
 }  // namespace
