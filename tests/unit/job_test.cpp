@@ -81,7 +81,7 @@ TEST(Job, WrittenJobReadsBackTheSame) {
     job.guiding.combination = Combination::fixed;
     job.budget = {1u << 30, 12.5, 0.03, 1u << 20, true};
     job.sampler.seed = 123456789012345678u;
-    job.farm = {17, true, 0.1, 2.25, 7.5, "sse4.2", true};
+    job.farm = {17, true, 0.1, 2.25, 7.5, 3.5, "sse4.2", true};
     job.output.directory = "runs/x";
     job.output.file = "y.exr";
     const std::string text = write_job(job);
