@@ -45,8 +45,8 @@ class CheckpointStore {
     /// `loaded`: what the render goes on from, or nullptr.
     explicit CheckpointStore(std::filesystem::path run, const LoadedCheckpoint* loaded = nullptr);
 
-    /// Takes what has to be written of a state, naming its films; a pass in hand leaves it. The result writes it, in any
-    /// thread, as often as it takes, and throws FileError.
+    /// Takes what has to be written of a state, naming its films; a pass in hand leaves it. The result writes it, in
+    /// any thread, as often as it takes, and throws FileError.
     std::function<void()> prepare(const CheckpointOrigin& origin, RenderState& state);
 
     /// Writes a checkpoint of the state now, one film after the other: it takes no memory for a copy of them all.

@@ -14,8 +14,17 @@ namespace fs = std::filesystem;
 constexpr double kSoon = 120;
 
 std::vector<std::string> render(const fs::path& folder) {
-    return {TREEFARM_PROGRAM, "render",        own_scene("cornell-box.xml"), "-D",    "size=48",   "--spp", "400",
-            "--run-dir",      folder.string(), "--threads",                  "1"};
+    return {TREEFARM_PROGRAM,
+            "render",
+            own_scene("cornell-box.xml"),
+            "-D",
+            "size=48",
+            "--spp",
+            "400",
+            "--run-dir",
+            folder.string(),
+            "--threads",
+            "1"};
 }
 
 TEST(Leave, AWorkerThatGetsSigtermLeavesAndTheImageIsTheSame) {
