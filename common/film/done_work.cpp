@@ -51,9 +51,7 @@ std::vector<WorkUnit> DoneWork::left_of_tile(const WorkUnit& tile) const {
     std::vector<WorkUnit> pieces;
     for (std::uint16_t y = tile.y0; y < tile.y1; ++y)
         for (std::uint16_t x = tile.x0; x < tile.x1;) {
-            const auto done = [&](std::uint16_t column) {
-                return has(std::size_t{y} * width_ + column, tile.chunk);
-            };
+            const auto done = [&](std::uint16_t column) { return has(std::size_t{y} * width_ + column, tile.chunk); };
             std::uint16_t end = x;
             while (end < tile.x1 && !done(end))
                 ++end;
@@ -104,8 +102,7 @@ std::size_t DoneWork::estimate_count() const {
     return count;
 }
 
-bool DoneWork::fits(std::size_t pixels, std::uint32_t chunks,
-                    const std::array<std::uint64_t, kUnitKinds>& ends) const {
+bool DoneWork::fits(std::size_t pixels, std::uint32_t chunks, const std::array<std::uint64_t, kUnitKinds>& ends) const {
     if (pixels_ != pixels || chunks_ != chunks || width_ == 0 || pixels_ % width_ != 0) return false;
     if (bits_.size() != (pixels_ * chunks_ + 63) / 64) return false;
     if (const std::size_t used = pixels_ * chunks_ % 64; used > 0 && bits_.back() >> used != 0) return false;

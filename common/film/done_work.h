@@ -30,8 +30,8 @@ class DoneWork {
 
     /// Whether a tile lies in the image.
     bool holds(const WorkUnit& tile) const {
-        return tile.x0 < tile.x1 && tile.y0 < tile.y1 && tile.x1 <= width_ && tile.y1 * std::uint64_t{width_} <= pixels_ &&
-               tile.chunk < chunks_;
+        return tile.x0 < tile.x1 && tile.y0 < tile.y1 && tile.x1 <= width_ &&
+               tile.y1 * std::uint64_t{width_} <= pixels_ && tile.chunk < chunks_;
     }
     bool empty() const { return weight_ == 0; }
     /// Sum of the weights of what was added.
