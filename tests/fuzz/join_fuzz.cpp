@@ -40,9 +40,11 @@ void feed(std::span<const std::uint8_t> bytes, const Take& take) {
 
 Bytes framed(const JoinKey& key, std::uint64_t sequence, std::span<const std::uint8_t> bytes, bool more) {
     const FrameHead head = frame_head(key, sequence, bytes, more);
-    Bytes all(head.begin(), head.end());
-    all.insert(all.end(), bytes.begin(), bytes.end());
-    return all;
+    ByteWriter all;
+    all.reserve(head.size() + bytes.size());
+    all.put_bytes(head);
+    all.put_bytes(bytes);
+    return all.take();
 }
 
 /// Who repeats what an honest guest said gets no farther: the nonce is another.

@@ -146,7 +146,7 @@ TEST(Join, WhoeverMayNotIsToldWhatToDoAndDisturbsNobody) {
     refused({"--file", copy.string()}, "can be read by other users");
     refused({"--file", copy.string(), folder.string()}, "is given beside a run directory");
     refused({}, "does not know which run to join");
-    refused({copy.parent_path().string()}, "is no run directory");
+    refused({fresh_folder("empty").string()}, "is no run directory");
     const Ending ending = program.wait(kSoon);
     expect_done(folder, ending);
     EXPECT_EQ(count(ending.output, "the secret of this ticket is not the run's"), 1) << ending.output;
