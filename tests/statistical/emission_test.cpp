@@ -185,7 +185,7 @@ int cell_of(const Vec3& p) {
 
 class EveryKind : public testing::TestWithParam<std::size_t> {};
 
-/// Of those whose power has a formula; what others bring to a surface is tested below.
+/// Emitters whose power has a formula; what others bring to a surface is tested below.
 TEST(EmissionPower, IsTheMeanWeight) {
     int compared = 0;
     for (const Case& given : cases()) {

@@ -16,7 +16,7 @@ struct FilmConnection {
     /// Camera importance: a point that faces the camera and sends radiance L to it brings L g dA to the film, uniform
     /// over the film, whose measure is 1. Per area.
     double g = 0;
-    /// Of the ray from the camera: its density per steradian, for a uniform film position; 0 of an orthographic one.
+    /// Density of the ray from the camera per steradian, for a uniform film position; 0 of an orthographic one.
     double direction_pdf = 0;
 };
 

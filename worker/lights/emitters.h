@@ -79,7 +79,7 @@ class Emitters {
     /// Densities with which emit() starts at a point of an area emitter into the unit direction `away`; zeros where
     /// nothing shines.
     EmissionDensity emission_density(const Hit& start, const Vec3& away) const;
-    /// Those of light from infinity that comes against the unit `direction`.
+    /// Densities of light from infinity that comes against the unit `direction`.
     EmissionDensity emission_density(const Vec3& direction) const;
 
     /// Whether emitted() may be other than black on a shape.
