@@ -132,7 +132,8 @@ Json idle_share(const Member& member, const PassReport* last) {
 
 /// Lives of a worker that ended while it was needed.
 std::uint32_t losses(const Member& member) {
-    return member.lives - (member.state == MemberState::present || member.state == MemberState::refused ? 1 : 0);
+    const bool is_lost = member.state == MemberState::lost || member.state == MemberState::barred;
+    return member.lives - (is_lost ? 0 : 1);
 }
 
 Json worker_json(const Member& member, const PassReport* last) {
