@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "common/base/error.h"
+#include "common/film/each_done.h"
 
 namespace treefarm {
 
@@ -77,52 +78,41 @@ void AovFilm::add(const WorkUnit& unit, const AovPixels& pixels) {
 }
 
 Bytes AovFilm::encode(const DoneWork& done) const {
-    const std::size_t row = layout_.size(), pixels = row == 0 ? 0 : values_.size() / row;
+    const std::size_t row = layout_.size();
     ByteWriter writer;
-    writer.reserve(row == 0 ? 0 : done.estimate_count() * row * sizeof(double));
     const auto put_row = [&](const double* values) {
         writer.put_bytes({reinterpret_cast<const std::uint8_t*>(values), row * sizeof(double)});
     };
-    for (std::uint32_t pixel = 0; pixel < pixels; ++pixel) {
-        const auto pending = pending_.find(pixel);
-        if (pending == pending_.end()) {
-            if (done.whole(pixel)) put_row(&values_[row * pixel]);
-            continue;
-        }
-        for (std::uint32_t chunk = 0; chunk < chunks_; ++chunk)
-            if (done.has(pixel, chunk)) put_row(&pending->second.chunks[row * chunk]);
+    if (row > 0) {
+        writer.reserve(done.estimate_count() * row * sizeof(double));
+        for_each_done(
+            done, [&](std::uint32_t pixel) { put_row(&values_[row * pixel]); },
+            [&](std::uint32_t pixel, std::uint32_t chunk) { put_row(&pending_.at(pixel).chunks[row * chunk]); });
     }
     if (layout_.direct()) writer.put_bytes(direct_.encode(done));
     return writer.take();
 }
 
 void AovFilm::restore(const DoneWork& done, std::span<const std::uint8_t> bytes) {
-    const std::size_t row = layout_.size(), pixels = row == 0 ? 0 : values_.size() / row;
-    ByteReader reader(bytes);
-    const std::size_t own = row == 0 ? 0 : done.estimate_count() * row * sizeof(double);
-    const std::span<const std::uint8_t> rows = reader.get_bytes(own);
-    if ((row > 0 && (done.pixel_count() != pixels || done.chunks() != chunks_)) ||
-        (!layout_.direct() && reader.remaining() > 0))
+    const std::size_t row = layout_.size();
+    if (row > 0 && (done.pixel_count() * row != values_.size() || done.chunks() != chunks_))
         throw FormatError("the AOVs of a pass in hand have another size");
+    ByteReader reader(bytes);
+    ByteReader rows(reader.get_bytes(row == 0 ? 0 : done.estimate_count() * row * sizeof(double)));
     if (layout_.direct()) direct_.restore(done, reader.get_rest());
-    const std::uint8_t* next = rows.data();
+    reader.expect_end();
+    if (row == 0) return;
     const auto get_row = [&](double* values) {
-        std::memcpy(values, next, row * sizeof(double));
-        next += row * sizeof(double);
+        std::memcpy(values, rows.get_bytes(row * sizeof(double)).data(), row * sizeof(double));
     };
-    for (std::uint32_t pixel = 0; pixel < pixels; ++pixel) {
-        if (done.whole(pixel)) {
-            get_row(&values_[row * pixel]);
-            continue;
-        }
-        for (std::uint32_t chunk = 0; chunk < chunks_; ++chunk) {
-            if (!done.has(pixel, chunk)) continue;
+    for_each_done(
+        done, [&](std::uint32_t pixel) { get_row(&values_[row * pixel]); },
+        [&](std::uint32_t pixel, std::uint32_t chunk) {
             Pending& pending = pending_[pixel];
             pending.chunks.resize(row * chunks_);
             get_row(&pending.chunks[row * chunk]);
             ++pending.arrived;
-        }
-    }
+        });
 }
 
 AovPixels AovFilm::take() {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/film/pass_film.h"
 
-#include <array>
 #include <bit>
-#include <cstring>
 
 #include "common/base/error.h"
+#include "common/film/each_done.h"
+#include "common/film/pixel_codec.h"
 
 namespace treefarm {
 
@@ -45,52 +45,12 @@ void PassFilm::add(const WorkUnit& unit, std::span<const PixelEstimate> pixels) 
     missing_ -= pixels.size();
 }
 
-namespace {
-
-constexpr std::size_t kEstimateBytes = 2 * (sizeof(std::uint32_t) + 6 * sizeof(double));
-
-/// All its bytes at once: there are millions.
-void put(ByteWriter& writer, const PixelEstimate& pixel) {
-    static_assert(sizeof(Rgb64) == 3 * sizeof(double));
-    std::array<std::uint8_t, kEstimateBytes> bytes;
-    std::uint8_t* next = bytes.data();
-    const auto add = [&](const auto& value) {
-        std::memcpy(next, &value, sizeof value);
-        next += sizeof value;
-    };
-    for (const Moments& half : pixel.half) {
-        add(half.n);
-        add(half.mean);
-        add(half.m2);
-    }
-    writer.put_bytes(bytes);
-}
-
-PixelEstimate get(ByteReader& reader) {
-    PixelEstimate pixel;
-    for (Moments& half : pixel.half) {
-        half.n = reader.get<std::uint32_t>();
-        for (Rgb64* sum : {&half.mean, &half.m2})
-            for (double* value : {&sum->x, &sum->y, &sum->z})
-                *value = reader.get<double>();
-    }
-    return pixel;
-}
-
-}  // namespace
-
 Bytes PassFilm::encode(const DoneWork& done) const {
     ByteWriter writer;
     writer.reserve(done.estimate_count() * kEstimateBytes);
-    for (std::uint32_t pixel = 0; pixel < pixels_.size(); ++pixel) {
-        const auto pending = pending_.find(pixel);
-        if (pending == pending_.end()) {
-            if (done.whole(pixel)) put(writer, pixels_[pixel]);
-            continue;
-        }
-        for (std::uint32_t chunk = 0; chunk < chunks_; ++chunk)
-            if (done.has(pixel, chunk)) put(writer, pending->second.chunks[chunk]);
-    }
+    for_each_done(
+        done, [&](std::uint32_t pixel) { put_estimate(writer, pixels_[pixel]); },
+        [&](std::uint32_t pixel, std::uint32_t chunk) { put_estimate(writer, pending_.at(pixel).chunks[chunk]); });
     return writer.take();
 }
 
@@ -99,21 +59,19 @@ void PassFilm::restore(const DoneWork& done, std::span<const std::uint8_t> bytes
         bytes.size() != done.estimate_count() * kEstimateBytes)
         throw FormatError("the film of a pass in hand has another size");
     ByteReader reader(bytes);
-    for (std::uint32_t pixel = 0; pixel < pixels_.size(); ++pixel) {
-        if (done.whole(pixel)) {
-            pixels_[pixel] = get(reader);
+    for_each_done(
+        done,
+        [&](std::uint32_t pixel) {
+            pixels_[pixel] = get_estimate(reader);
             missing_ -= chunks_;
-            continue;
-        }
-        for (std::uint32_t chunk = 0; chunk < chunks_; ++chunk) {
-            if (!done.has(pixel, chunk)) continue;
+        },
+        [&](std::uint32_t pixel, std::uint32_t chunk) {
             Pending& pending = pending_[pixel];
             pending.chunks.resize(chunks_);
-            pending.chunks[chunk] = get(reader);
+            pending.chunks[chunk] = get_estimate(reader);
             ++pending.arrived;
             --missing_;
-        }
-    }
+        });
 }
 
 }  // namespace treefarm

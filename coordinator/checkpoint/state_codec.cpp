@@ -9,6 +9,7 @@
 #include <cereal/types/optional.hpp>
 #include <utility>
 
+#include "common/film/pixel_codec.h"
 #include "common/protocol/archive.h"
 #include "common/protocol/plan_fields.h"
 
@@ -329,23 +330,20 @@ RenderState decode_state(const SectionFile& file, std::size_t pixels, std::span<
 
 Bytes encode_pixels(std::span<const PixelEstimate> pixels) {
     ByteWriter writer;
-    writer.reserve(pixels.size() * kStoredPixelBytes);
-    WriteArchive archive(writer);
+    writer.reserve(pixels.size() * kEstimateBytes);
     for (const PixelEstimate& pixel : pixels)
-        archive(pixel);
+        put_estimate(writer, pixel);
     return writer.take();
 }
 
 std::vector<PixelEstimate> decode_pixels(std::span<const std::uint8_t> bytes, std::size_t count) {
-    if (bytes.size() != count * kStoredPixelBytes)
+    if (bytes.size() != count * kEstimateBytes)
         throw FormatError("its film has " + std::to_string(bytes.size()) + " bytes, not those of " +
                           std::to_string(count) + " pixels");
     ByteReader reader(bytes);
-    ReadArchive archive(reader);
     std::vector<PixelEstimate> pixels(count);
     for (PixelEstimate& pixel : pixels)
-        archive(pixel);
-    reader.expect_end();
+        pixel = get_estimate(reader);
     return pixels;
 }
 

@@ -39,7 +39,6 @@ RenderState decode_state(const SectionFile& file, std::size_t pixels, std::span<
 bool is_film_name(const std::string& name);
 
 /// A film's file.
-inline constexpr std::size_t kStoredPixelBytes = 104;
 Bytes encode_pixels(std::span<const PixelEstimate> pixels);
 /// Throws FormatError where there are not so many pixels.
 std::vector<PixelEstimate> decode_pixels(std::span<const std::uint8_t> bytes, std::size_t pixels);

@@ -2,6 +2,7 @@
 #include <cstdlib>
 
 #include "common/base/error.h"
+#include "common/film/pixel_codec.h"
 #include "coordinator/checkpoint/state_codec.h"
 #include "tests/fuzz/fuzz.h"
 
@@ -38,7 +39,7 @@ RenderState small_state() {
     begun.done.add({1, 0, 0, 2, 1, 0});
     begun.done.add({.pass = 1, .kind = UnitKind::light_paths, .first = 3, .count = 4});
     begun.deadly = {{{1, 2, 1, 3, 2, 0}, 1}};
-    begun.film.resize(2 * kStoredPixelBytes);
+    begun.film.resize(2 * kEstimateBytes);
     state.begun = begun;
     return state;
 }

@@ -7,6 +7,7 @@
 
 #include "common/base/error.h"
 #include "common/config/aov_list.h"
+#include "common/film/pixel_codec.h"
 #include "common/plan/memory.h"
 #include "tests/support/test_scenes.h"
 
@@ -248,7 +249,7 @@ TEST_F(Checkpoints, TakeTheMemoryThatIsPlanned) {
                 EXPECT_NEAR(static_cast<double>(section.bytes.size()), bytes, 32.0) << aovs;
             }
     }
-    EXPECT_EQ(planned({}), 2 * pixels * kStoredPixelBytes) << "two films";
+    EXPECT_EQ(planned({}), 2 * pixels * kEstimateBytes) << "two films";
 }
 
 }  // namespace

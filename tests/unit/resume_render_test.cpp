@@ -78,12 +78,7 @@ class Stopped {
     }
 
     /// The passes that the job asks for after those of a state.
-    PassChooser passes(const RenderState& state) const {
-        std::vector<PassPlan> begun;
-        for (const PassReport& report : state.reports)
-            begun.push_back(report.plan);
-        return passes_of(job_, begun);
-    }
+    PassChooser passes(const RenderState& state) const { return passes_of(job_, state.plans()); }
 
     RenderResult go_on() const {
         RenderState state = written();
