@@ -11,29 +11,11 @@
 #include <string_view>
 #include <utility>
 
+#include "common/base/descriptor.h"
+
 namespace treefarm {
 
 namespace {
-
-/// A file descriptor that closes itself; -1: none.
-class Descriptor {
-  public:
-    explicit Descriptor(int number) : number_(number) {}
-    ~Descriptor() {
-        if (number_ >= 0) ::close(number_);
-    }
-    Descriptor(Descriptor&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
-    Descriptor& operator=(Descriptor&& other) noexcept {
-        std::swap(number_, other.number_);
-        return *this;
-    }
-    explicit operator bool() const { return number_ >= 0; }
-    int number() const { return number_; }
-    int release() { return std::exchange(number_, -1); }
-
-  private:
-    int number_;
-};
 
 /// Names of a path from the root on; nothing if it could lead elsewhere.
 std::optional<std::vector<std::string>> names_of(const std::string& path) {
@@ -59,7 +41,7 @@ Descriptor open_within(const std::filesystem::path& root, const std::string& pat
     Descriptor at(::open(root.c_str(), kFolder));  // each time: a render makes its folder again where it vanished
     for (std::size_t k = 0; k < names->size() && at; ++k) {
         const bool is_last = k + 1 == names->size();
-        at = Descriptor(::openat(at.number(), (*names)[k].c_str(), (is_last ? flags : kFolder) | O_NOFOLLOW));
+        at = Descriptor(::openat(at.fd(), (*names)[k].c_str(), (is_last ? flags : kFolder) | O_NOFOLLOW));
     }
     return at;
 }
@@ -68,7 +50,7 @@ Descriptor open_within(const std::filesystem::path& root, const std::string& pat
 Descriptor open_file(const std::filesystem::path& root, const std::string& path, struct stat& facts) {
     if (path.empty()) return Descriptor(-1);
     Descriptor file = open_within(root, path, O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
-    if (file && (::fstat(file.number(), &facts) != 0 || !S_ISREG(facts.st_mode))) return Descriptor(-1);
+    if (file && (::fstat(file.fd(), &facts) != 0 || !S_ISREG(facts.st_mode))) return Descriptor(-1);
     return file;
 }
 
@@ -99,7 +81,7 @@ std::optional<std::string> ConfinedFolder::read(const std::string& path, std::si
     struct stat facts {};
     const Descriptor file = open_file(root_, path, facts);
     if (!file || static_cast<std::size_t>(facts.st_size) > most) return std::nullopt;
-    return read_part(file.number(), static_cast<std::size_t>(facts.st_size), 0);
+    return read_part(file.fd(), static_cast<std::size_t>(facts.st_size), 0);
 }
 
 std::optional<std::string> ConfinedFolder::read_end(const std::string& path, std::size_t most) const {
@@ -107,7 +89,7 @@ std::optional<std::string> ConfinedFolder::read_end(const std::string& path, std
     const Descriptor file = open_file(root_, path, facts);
     if (!file) return std::nullopt;
     const std::size_t size = static_cast<std::size_t>(facts.st_size), part = std::min(size, most);
-    return read_part(file.number(), part, size - part);
+    return read_part(file.fd(), part, size - part);
 }
 
 std::optional<FileVersion> ConfinedFolder::version(const std::string& path) const {
@@ -121,7 +103,7 @@ std::vector<std::string> ConfinedFolder::folders(const std::string& path, std::s
     std::vector<std::string> names;
     Descriptor folder = open_within(root_, path, kFolder);
     if (!folder) return names;
-    const std::unique_ptr<DIR, int (*)(DIR*)> entries(::fdopendir(folder.number()), &::closedir);
+    const std::unique_ptr<DIR, int (*)(DIR*)> entries(::fdopendir(folder.fd()), &::closedir);
     if (!entries) return names;
     folder.release();
     for (const dirent* entry = ::readdir(entries.get()); entry && names.size() < most;

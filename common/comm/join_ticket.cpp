@@ -11,6 +11,7 @@
 #include <cstring>
 #include <sstream>
 
+#include "common/base/descriptor.h"
 #include "common/base/error.h"
 
 namespace treefarm {
@@ -50,21 +51,6 @@ bool from_base64(const std::string& text, std::array<std::uint8_t, N>& bytes) {
     throw InputError(Location{file, 0, 0}, what,
                      "name the run directory, or a copy of its file join, of a render with farm.join = true");
 }
-
-/// A file that is closed at the end.
-class File {
-  public:
-    File(const fs::path& path, int flags, mode_t mode = 0) : fd_(::open(path.c_str(), flags | O_CLOEXEC, mode)) {}
-    ~File() {
-        if (fd_ >= 0) ::close(fd_);
-    }
-    File(const File&) = delete;
-    File& operator=(const File&) = delete;
-    int fd() const { return fd_; }
-
-  private:
-    int fd_;
-};
 
 [[noreturn]] void fail(const fs::path& path) {
     throw RunError(path.string() + ": cannot be written: " + std::strerror(errno));
@@ -126,8 +112,8 @@ void write_ticket(const fs::path& path, const JoinTicket& ticket) {
     fs::path temporary = path;
     temporary += std::string(".tmp-") + letters;
     {
-        const File file(temporary, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW, 0600);
-        if (file.fd() < 0) fail(path);
+        const Descriptor file = Descriptor::open(temporary, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW, 0600);
+        if (!file) fail(path);
         // The umask may have taken from the owner, and some file systems give everybody everything.
         struct stat status {};
         const bool whole = ::fchmod(file.fd(), 0600) == 0 &&
@@ -150,9 +136,9 @@ void write_ticket(const fs::path& path, const JoinTicket& ticket) {
 }
 
 JoinTicket read_ticket(const fs::path& path) {
-    const File file(path, O_RDONLY | O_NONBLOCK);
+    const Descriptor file = Descriptor::open(path, O_RDONLY | O_NONBLOCK);
     struct stat status {};
-    if (file.fd() < 0 || ::fstat(file.fd(), &status) != 0)
+    if (!file || ::fstat(file.fd(), &status) != 0)
         refuse(path.string(), std::string("cannot be read: ") + std::strerror(errno));
     check_owner(path, status);
     std::string text(kMostTicketBytes, '\0');

@@ -9,11 +9,14 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <cstring>
 #include <memory>
 
 #include "common/base/error.h"
+#include "common/base/timer.h"
 
 namespace treefarm {
 
@@ -64,21 +67,23 @@ std::uint16_t port_of(const Socket& socket) {
 }
 
 /// Waits for a connection to come about; 0, or the errno that it failed with.
-int await_connection(const Socket& socket, double seconds) {
+int await_connection(const Socket& socket, double seconds, const std::function<bool()>& stopped) {
+    constexpr double kLookSeconds = 0.05;
+    const Timer timer;
     pollfd ready{socket.fd(), POLLOUT, 0};
-    const int count = ::poll(&ready, 1, static_cast<int>(seconds * 1000));
-    if (count == 0) return ETIMEDOUT;
-    if (count < 0) return errno;
+    for (int count = 0; count == 0;) {
+        const double left = seconds - timer.seconds();
+        if (left <= 0) return ETIMEDOUT;
+        if (stopped && stopped()) return ECANCELED;
+        count = ::poll(&ready, 1, static_cast<int>(std::ceil(1000 * std::min(left, kLookSeconds))));
+        if (count < 0) return errno;
+    }
     int error = 0;
     socklen_t length = sizeof error;
     return getsockopt(socket.fd(), SOL_SOCKET, SO_ERROR, &error, &length) == 0 ? error : errno;
 }
 
 }  // namespace
-
-Socket::~Socket() {
-    if (fd_ >= 0) ::close(fd_);
-}
 
 Listener listen_at(const std::string& address, std::uint16_t port) {
     std::string why;
@@ -113,7 +118,8 @@ std::optional<std::pair<Socket, std::string>> accept_from(const Socket& listener
     return std::pair(std::move(socket), name_of(address, length));
 }
 
-Socket connect_to(const std::string& address, std::uint16_t port, double seconds) {
+Socket connect_to(const std::string& address, std::uint16_t port, double seconds,
+                  const std::function<bool()>& stopped) {
     std::string why;
     const Addresses addresses = look_up(address, port, 0, why);
     for (const addrinfo* at = addresses.get(); at; at = at->ai_next) {
@@ -123,7 +129,7 @@ Socket connect_to(const std::string& address, std::uint16_t port, double seconds
             continue;
         }
         int error = ::connect(socket.fd(), at->ai_addr, at->ai_addrlen) == 0 ? 0 : errno;
-        if (error == EINPROGRESS) error = await_connection(socket, seconds);
+        if (error == EINPROGRESS) error = await_connection(socket, seconds, stopped);
         if (error == 0) {
             set_up(socket);
             return socket;

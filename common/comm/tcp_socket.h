@@ -2,30 +2,16 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
 
+#include "common/base/descriptor.h"
+
 namespace treefarm {
 
-/// A socket, closed at the end.
-class Socket {
-  public:
-    Socket() = default;
-    explicit Socket(int fd) : fd_(fd) {}
-    Socket(Socket&& other) noexcept : fd_(std::exchange(other.fd_, -1)) {}
-    Socket& operator=(Socket&& other) noexcept {
-        std::swap(fd_, other.fd_);
-        return *this;
-    }
-    ~Socket();
-
-    int fd() const { return fd_; }
-    explicit operator bool() const { return fd_ >= 0; }
-
-  private:
-    int fd_ = -1;
-};
+using Socket = Descriptor;
 
 /// A socket that listens, and its port.
 struct Listener {
@@ -39,8 +25,10 @@ Listener listen_at(const std::string& address, std::uint16_t port);
 /// A connection that waits, set up as all are, and where it comes from. Nothing: none waits.
 std::optional<std::pair<Socket, std::string>> accept_from(const Socket& listener);
 
-/// Connects within so many seconds. Throws RunError that says why not.
-Socket connect_to(const std::string& address, std::uint16_t port, double seconds);
+/// Connects within so many seconds, the look-up of the name not counted. `stopped`, if there is one, is asked now and
+/// then; true ends the wait. Throws RunError that says why not.
+Socket connect_to(const std::string& address, std::uint16_t port, double seconds,
+                  const std::function<bool()>& stopped = {});
 
 /// Prepares a socket of any kind: it never blocks; over TCP small messages go out at once, and a peer that acknowledges
 /// nothing for 8 s is given up.

@@ -10,6 +10,8 @@
 #include <cstring>
 #include <string>
 
+#include "common/base/descriptor.h"
+
 namespace treefarm {
 
 namespace fs = std::filesystem;
@@ -21,29 +23,6 @@ namespace {
                         "); check that the folder exists, is writable and has space",
                     error);
 }
-
-/// Closes on every way out.
-class Descriptor {
-  public:
-    Descriptor(const fs::path& path, int flags, mode_t mode = 0) : fd_(::open(path.c_str(), flags | O_CLOEXEC, mode)) {}
-    ~Descriptor() {
-        if (fd_ >= 0) ::close(fd_);
-    }
-    Descriptor(const Descriptor&) = delete;
-    Descriptor& operator=(const Descriptor&) = delete;
-
-    int get() const { return fd_; }
-    bool valid() const { return fd_ >= 0; }
-    /// A full network file system may report only here.
-    bool close() {
-        const int fd = fd_;
-        fd_ = -1;
-        return ::close(fd) == 0;
-    }
-
-  private:
-    int fd_;
-};
 
 using Pieces = std::span<const std::span<const std::uint8_t>>;
 
@@ -77,24 +56,24 @@ int write_whole(const fs::path& path, Pieces pieces, Outlives outlives, const fs
     const bool replaces = fs::exists(old);
     const auto mode = replaces ? static_cast<mode_t>(old.permissions() & fs::perms::all) : mode_t{0666};
     // O_EXCL opens neither a file nor a link that is there.
-    Descriptor file(path, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW, mode);
-    if (!file.valid()) return errno;
-    if (replaces) ::fchmod(file.get(), mode);  // some file systems have no permissions to set, which loses nothing
-    if (const int error = write_all(file.get(), pieces)) return error;
-    if (outlives == Outlives::power && ::fsync(file.get()) != 0) return errno;
+    Descriptor file = Descriptor::open(path, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW, mode);
+    if (!file) return errno;
+    if (replaces) ::fchmod(file.fd(), mode);  // some file systems have no permissions to set, which loses nothing
+    if (const int error = write_all(file.fd(), pieces)) return error;
+    if (outlives == Outlives::power && ::fsync(file.fd()) != 0) return errno;
     return file.close() ? 0 : errno;
 }
 
 /// The rename itself is durable once its folder is; some file systems refuse to sync a folder, which loses nothing.
 void sync_folder(const fs::path& file) {
     const fs::path folder = file.parent_path();
-    const Descriptor directory(folder.empty() ? fs::path(".") : folder, O_RDONLY | O_DIRECTORY);
-    if (directory.valid()) ::fsync(directory.get());
+    const Descriptor directory = Descriptor::open(folder.empty() ? fs::path(".") : folder, O_RDONLY | O_DIRECTORY);
+    if (directory) ::fsync(directory.fd());
 }
 
 void write_special(const fs::path& path, Pieces pieces) {
-    const Descriptor file(path, O_WRONLY);
-    const int error = file.valid() ? write_all(file.get(), pieces) : errno;
+    const Descriptor file = Descriptor::open(path, O_WRONLY);
+    const int error = file ? write_all(file.fd(), pieces) : errno;
     if (error != 0) fail(path, "write", error);
 }
 
@@ -124,8 +103,8 @@ void write_pieces_atomically(const fs::path& path, Pieces pieces, Outlives outli
 
 void make_durable(const fs::path& path) {
     {
-        const Descriptor file(path, O_RDONLY);
-        if (file.valid()) ::fsync(file.get());
+        const Descriptor file = Descriptor::open(path, O_RDONLY);
+        if (file) ::fsync(file.fd());
     }
     sync_folder(path);
 }

@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "common/film/splat_film.h"
+#include "common/scene/kinds/shape_area.h"
 
 namespace treefarm {
 namespace {
@@ -14,31 +15,6 @@ namespace {
 constexpr double kFiner = 0x1p-20;
 /// splat_exponent() has so many of them.
 constexpr double kOfExponent = 0x1p10;
-
-double length(const Vec3& v) {
-    const Imath::V3d d(v);
-    return std::sqrt(d.dot(d));
-}
-
-double area(const Mesh& mesh) {
-    double sum = 0;
-    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
-        const Imath::V3d a(mesh.positions[mesh.indices[i]]), b(mesh.positions[mesh.indices[i + 1]]),
-            c(mesh.positions[mesh.indices[i + 2]]);
-        const Imath::V3d n = (b - a).cross(c - a);
-        sum += 0.5 * std::sqrt(n.dot(n));
-    }
-    return sum;
-}
-
-double area_of(const Shape& shape) {
-    if (const auto* mesh = std::get_if<Mesh>(&shape.geometry)) return area(*mesh);
-    if (const auto* s = std::get_if<Sphere>(&shape.geometry)) return 4 * M_PI * double(s->radius) * double(s->radius);
-    if (const auto* d = std::get_if<Disk>(&shape.geometry)) return M_PI * length(d->half_u % d->half_v);
-    if (const auto* c = std::get_if<Cylinder>(&shape.geometry))
-        return 2 * M_PI * double(c->radius) * length(c->p1 - c->p0);
-    return 0;
-}
 
 /// Watts that the emitters send into a ball of radius R about the surfaces, mean of the channels, by what each says of
 /// the radiance that it brings there.
@@ -51,7 +27,7 @@ double power(const Scene& scene, double radius2) {
                 const auto scale = double(kind.radiance_scale(lit));
                 if constexpr (Kind::kTraits.type == LightType::area) {
                     if (kind.shape != kNone)
-                        sum += M_PI * scale * area_of(scene.shapes[static_cast<std::size_t>(kind.shape)]);
+                        sum += M_PI * scale * area_of(scene.shapes[static_cast<std::size_t>(kind.shape)].geometry);
                 } else if constexpr (Kind::kTraits.type == LightType::delta) {
                     sum += (kind.cone() ? 4 * M_PI : M_PI) * scale * radius2;  // a point's intensity, or parallel light
                 } else {

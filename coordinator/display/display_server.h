@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 namespace treefarm {
@@ -8,7 +9,7 @@ namespace treefarm {
 /// Where a viewer listens that speaks tev's protocol.
 struct DisplayServer {
     std::string host;
-    std::string port;
+    std::uint16_t port = 0;
 
     std::string text() const;
 };

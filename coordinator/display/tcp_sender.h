@@ -6,6 +6,8 @@
 #include <span>
 #include <string>
 
+#include "common/comm/tcp_socket.h"
+
 namespace treefarm {
 
 /// A connection that only sends, and waits for nobody longer than it was told to. Throws std::runtime_error with what
@@ -13,10 +15,8 @@ namespace treefarm {
 class TcpSender {
   public:
     /// Connects within `seconds`, the look-up of the name not counted. `stopping`: ends any wait once it is true.
-    TcpSender(const std::string& host, const std::string& port, double seconds, const std::atomic<bool>& stopping);
-    ~TcpSender();
-    TcpSender(const TcpSender&) = delete;
-    TcpSender& operator=(const TcpSender&) = delete;
+    TcpSender(const std::string& host, std::uint16_t port, double seconds, const std::atomic<bool>& stopping)
+        : socket_(connect_to(host, port, seconds, [&] { return stopping.load(); })), stopping_(stopping) {}
 
     /// Sends all bytes; gives up where none is taken for `seconds`.
     void send(std::span<const std::uint8_t> bytes, double seconds);
@@ -24,7 +24,7 @@ class TcpSender {
   private:
     void wait(double seconds);
 
-    int socket_ = -1;
+    Socket socket_;
     const std::atomic<bool>& stopping_;
 };
 

@@ -3,21 +3,17 @@
 
 #include "common/comm/handshake.h"
 #include "tests/fuzz/fuzz.h"
+#include "tests/support/join_keys.h"
 
 // What a stranger may send to the coordinator's door, and whoever answers to a guest: first words, answers and frames,
 // cut anywhere. Nobody is let in who does not have the secret, whatever is said.
 
 using namespace treefarm;
+using test::key_of;
 
 namespace {
 
 constexpr std::uint64_t kBuild = 7;
-
-JoinKey key_of(std::uint8_t value) {
-    JoinKey key;
-    key.fill(value);
-    return key;
-}
 
 JoinTicket ticket() {
     return {{1, 2, 3}, "localhost", 1, key_of(3)};

@@ -25,22 +25,7 @@ const std::string kSpp = "252";
 
 std::vector<std::string> render(const fs::path& folder, const std::vector<std::string>& options = {},
                                 const std::string& spp = kSpp) {
-    return std::vector<std::string>{TREEFARM_PROGRAM,
-                                    "render",
-                                    own_scene("cornell-box.xml"),
-                                    "-D",
-                                    "size=64",
-                                    "--spp",
-                                    spp,
-                                    "--threads",
-                                    "1",
-                                    "--run-dir",
-                                    folder.string(),
-                                    "--set",
-                                    "farm.heartbeat_seconds=0.2",
-                                    "--set",
-                                    "farm.update_seconds=0.1"} +
-           options;
+    return small_render(folder, spp, {"--set", "farm.heartbeat_seconds=0.2"}) + options;
 }
 
 const std::vector<std::string> kJoinable = {"--set", "farm.join=true"};

@@ -14,6 +14,8 @@
 #include <sstream>
 #include <thread>
 
+#include "tests/support/support.h"
+
 namespace treefarm::test {
 
 namespace {
@@ -130,6 +132,24 @@ std::vector<std::string> mpirun(int ranks, const std::vector<std::string>& flags
 std::vector<std::string> operator+(std::vector<std::string> a, const std::vector<std::string>& b) {
     a.insert(a.end(), b.begin(), b.end());
     return a;
+}
+
+std::vector<std::string> small_render(const std::filesystem::path& folder, const std::string& spp,
+                                      const std::vector<std::string>& options) {
+    return std::vector<std::string>{TREEFARM_PROGRAM,
+                                    "render",
+                                    own_scene("cornell-box.xml"),
+                                    "--run-dir",
+                                    folder.string(),
+                                    "-D",
+                                    "size=64",
+                                    "--spp",
+                                    spp,
+                                    "--threads",
+                                    "1",
+                                    "--set",
+                                    "farm.update_seconds=0.05"} +
+           options;
 }
 
 std::filesystem::path fresh_folder(const std::string& name) {

@@ -53,6 +53,10 @@ std::vector<std::string> mpirun(int ranks, const std::vector<std::string>& flags
 /// treefarm's arguments after mpirun's, or alone.
 std::vector<std::string> operator+(std::vector<std::string> a, const std::vector<std::string>& b);
 
+/// A render of the Cornell box, 64 x 64, by one thread a process.
+std::vector<std::string> small_render(const std::filesystem::path& folder, const std::string& spp,
+                                      const std::vector<std::string>& options = {});
+
 /// A fresh folder below TempDir.
 std::filesystem::path fresh_folder(const std::string& name);
 

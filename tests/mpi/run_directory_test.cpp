@@ -22,23 +22,6 @@ using Words = std::vector<std::string>;
 constexpr double kSoon = 120;  ///< seconds; what is meant is "not never"
 constexpr char kForever[] = "1000000";
 
-Words render(const fs::path& folder, const std::string& spp, const Words& options = {}) {
-    return Words{TREEFARM_PROGRAM,
-                 "render",
-                 own_scene("cornell-box.xml"),
-                 "--run-dir",
-                 folder.string(),
-                 "-D",
-                 "size=64",
-                 "--spp",
-                 spp,
-                 "--threads",
-                 "1",
-                 "--set",
-                 "farm.update_seconds=0.05"} +
-           options;
-}
-
 nlohmann::json read_json(const fs::path& path) {
     std::ifstream file(path);
     return nlohmann::json::parse(file, nullptr, false);
@@ -88,10 +71,10 @@ TEST(RunDirectory, ADiskThatFillsForAWhileChangesNothing) {
     const SmallDisk disk(4096);
     if (!disk.mounted()) GTEST_SKIP() << kNoDisk;
     const auto calm = fresh_folder("calm");
-    ASSERT_EQ(Program(render(calm, "508")).wait(kSoon).code, 0);
+    ASSERT_EQ(Program(small_render(calm, "508")).wait(kSoon).code, 0);
 
     const fs::path folder = disk.path() / "run";
-    Program program(render(folder, "508"));
+    Program program(small_render(folder, "508"));
     ASSERT_TRUE(program.wait_until([&] { return passes_done(folder) >= 1; }, kSoon));
     disk.fill();
     program.wait_until([] { return false; }, 2.5);
@@ -108,7 +91,7 @@ TEST(RunDirectory, ADiskThatStaysFullKeepsWhatFits) {
     const SmallDisk disk(4096);
     if (!disk.mounted()) GTEST_SKIP() << kNoDisk;
     const fs::path folder = disk.path() / "run", elsewhere = fresh_folder("elsewhere") / "box.exr";
-    Program program(render(folder, kForever, {"-o", elsewhere.string()}));
+    Program program(small_render(folder, kForever, {"-o", elsewhere.string()}));
     ASSERT_TRUE(program.wait_until([&] { return fs::exists(folder / "image.exr"); }, kSoon));
     disk.fill();
     const std::string kept = spp_of(folder / "image.exr");
@@ -132,7 +115,7 @@ TEST(RunDirectory, AnOutputFileThatCannotBeWrittenCostsOnlyItself) {
     const SmallDisk disk(64);
     if (!disk.mounted()) GTEST_SKIP() << kNoDisk;
     const auto folder = fresh_folder("run");
-    const Ending ending = Program(render(folder, "7", {"-o", (disk.path() / "box.exr").string()})).wait(kSoon);
+    const Ending ending = Program(small_render(folder, "7", {"-o", (disk.path() / "box.exr").string()})).wait(kSoon);
     EXPECT_EQ(ending.code, 1) << ending.output;
     const nlohmann::json summary = read_summary(folder);
     EXPECT_EQ(summary["state"], "failed");
@@ -143,7 +126,7 @@ TEST(RunDirectory, AnOutputFileThatCannotBeWrittenCostsOnlyItself) {
 
 TEST(RunDirectory, AFolderThatVanishesIsMadeAgain) {
     const auto folder = fresh_folder("run");
-    Program program(render(folder, kForever));
+    Program program(small_render(folder, kForever));
     ASSERT_TRUE(program.wait_until([&] { return passes_done(folder) >= 2; }, kSoon));
     const fs::path gone = folder.string() + "-gone";  // in one step: its writers are at work
     fs::rename(folder, gone);
@@ -159,7 +142,7 @@ TEST(RunDirectory, AFolderThatVanishesIsMadeAgain) {
 TEST(RunDirectory, AKilledRenderLeavesTheLastImage) {
     const auto folder = fresh_folder("run");
     {
-        Program program(render(folder, kForever));
+        Program program(small_render(folder, kForever));
         ASSERT_TRUE(
             program.wait_until([&] { return fs::exists(folder / "image.exr") && passes_done(folder) >= 3; }, kSoon));
         program.signal(SIGKILL);
@@ -187,7 +170,7 @@ TEST(RunDirectory, AKilledRenderLeavesTheLastImage) {
 
 TEST(RunDirectory, APreviewComesBeforeTheFirstPass) {
     const auto folder = fresh_folder("run");
-    Program program(render(folder, kForever, {"--set", "guiding.spp_unit=4096", "--set", "farm.tile_size=8"}));
+    Program program(small_render(folder, kForever, {"--set", "guiding.spp_unit=4096", "--set", "farm.tile_size=8"}));
     ASSERT_TRUE(program.wait_until(
         [&] {
             if (!fs::exists(folder / "preview.png")) return false;
@@ -205,7 +188,7 @@ TEST(RunDirectory, APreviewComesBeforeTheFirstPass) {
 TEST(RunDirectory, AReaderThatClosesEndsNothing) {
     const auto folder = fresh_folder("run");
     std::string command = "(";
-    for (const std::string& word : render(folder, "7"))
+    for (const std::string& word : small_render(folder, "7"))
         command += "'" + word + "' ";
     const Ending ending =
         Program(Words{"bash", "-c", command + "; echo $? > '" + folder.string() + "-code') 2>&1 | true"}).wait(kSoon);
@@ -218,7 +201,7 @@ TEST(RunDirectory, AReaderThatClosesEndsNothing) {
 TEST(RunDirectory, NohupKeepsARenderAlive) {
     const auto folder = fresh_folder("run");
     Words command = {"nohup"};
-    Program program(command + render(folder, kForever));
+    Program program(command + small_render(folder, kForever));
     ASSERT_TRUE(program.wait_until([&] { return passes_done(folder) >= 1; }, kSoon));
     program.signal(SIGHUP);
     const int before = passes_done(folder);

@@ -19,23 +19,6 @@ using Words = std::vector<std::string>;
 constexpr double kSoon = 120;  ///< seconds; what is meant is "not never"
 constexpr char kForever[] = "1000000";
 
-Words render(const fs::path& folder, const std::string& spp, const Words& options = {}) {
-    return Words{TREEFARM_PROGRAM,
-                 "render",
-                 own_scene("cornell-box.xml"),
-                 "--run-dir",
-                 folder.string(),
-                 "-D",
-                 "size=64",
-                 "--spp",
-                 spp,
-                 "--threads",
-                 "1",
-                 "--set",
-                 "farm.update_seconds=0.05"} +
-           options;
-}
-
 std::string read_text(const fs::path& path) {
     std::ifstream file(path, std::ios::binary);
     std::stringstream text;
@@ -49,15 +32,15 @@ std::string spp_of(const fs::path& image) {
 
 TEST(RunFolder, ARenderIsNotReplacedInSilence) {
     const auto folder = fresh_folder("run");
-    ASSERT_EQ(Program(render(folder, "7")).wait(kSoon).code, 0);
+    ASSERT_EQ(Program(small_render(folder, "7")).wait(kSoon).code, 0);
     const std::string image = read_text(folder / "image.exr");
-    const Ending refused = Program(render(folder, "3")).wait(kSoon);
+    const Ending refused = Program(small_render(folder, "3")).wait(kSoon);
     EXPECT_EQ(refused.code, 2) << refused.output;
     EXPECT_NE(refused.output.find("holds a render (done, 7 spp)"), std::string::npos) << refused.output;
     EXPECT_NE(refused.output.find("--overwrite"), std::string::npos) << refused.output;
     EXPECT_EQ(read_text(folder / "image.exr"), image);
 
-    Program broken(render(folder, kForever, {"--overwrite", "--set", "guiding.spp_unit=65536"}));
+    Program broken(small_render(folder, kForever, {"--overwrite", "--set", "guiding.spp_unit=65536"}));
     ASSERT_TRUE(broken.wait_until([&] { return fs::exists(folder / "previous" / "image.exr"); }, kSoon));
     broken.signal(SIGINT);
     const Ending ending = broken.wait(kSoon);
@@ -66,7 +49,7 @@ TEST(RunFolder, ARenderIsNotReplacedInSilence) {
     EXPECT_EQ(read_text(folder / "previous" / "image.exr"), image);
     EXPECT_FALSE(fs::exists(folder / "image.exr")) << "no image of another run beside this one's log";
 
-    ASSERT_EQ(Program(render(folder, "3", {"--overwrite"})).wait(kSoon).code, 0);
+    ASSERT_EQ(Program(small_render(folder, "3", {"--overwrite"})).wait(kSoon).code, 0);
     EXPECT_EQ(spp_of(folder / "image.exr"), "3");
     for (const char* name : {"previous", "previous-2"})
         EXPECT_FALSE(fs::exists(folder / name)) << name;
@@ -74,10 +57,10 @@ TEST(RunFolder, ARenderIsNotReplacedInSilence) {
 
 TEST(RunFolder, IsOneRendersAtATime) {
     const auto folder = fresh_folder("run");
-    Program first(render(folder, kForever));
+    Program first(small_render(folder, kForever));
     ASSERT_TRUE(first.wait_until([&] { return passes_done(folder) >= 1; }, kSoon));
     const std::string job = read_text(folder / "job.toml");
-    const Ending second = Program(render(folder, "7", {"--overwrite", "--set", "sampler.seed=2"})).wait(kSoon);
+    const Ending second = Program(small_render(folder, "7", {"--overwrite", "--set", "sampler.seed=2"})).wait(kSoon);
     EXPECT_EQ(second.code, 2) << second.output;
     EXPECT_NE(second.output.find("at work in this folder (process " + std::to_string(first.pid())), std::string::npos)
         << second.output;
@@ -130,7 +113,7 @@ TEST(RunFolder, AStudysFolderIsNotForRenders) {
     };
     ASSERT_EQ(study("one.toml", folder).code, 0);
     for (const Words& options : {Words{}, Words{"--overwrite"}}) {
-        const Ending refused = Program(render(folder, "3", options)).wait(kSoon);
+        const Ending refused = Program(small_render(folder, "3", options)).wait(kSoon);
         EXPECT_EQ(refused.code, 2) << refused.output;
         EXPECT_NE(refused.output.find("holds a study"), std::string::npos) << refused.output;
     }
@@ -142,7 +125,7 @@ TEST(RunFolder, AStudysFolderIsNotForRenders) {
     EXPECT_EQ(study("two.toml", folder, {"--overwrite"}).code, 0);
 
     const auto run = parent / "run";
-    ASSERT_EQ(Program(render(run, "3")).wait(kSoon).code, 0);
+    ASSERT_EQ(Program(small_render(run, "3")).wait(kSoon).code, 0);
     const Ending into_run = study("one.toml", run, {"--overwrite"});
     EXPECT_EQ(into_run.code, 2) << into_run.output;
     EXPECT_NE(into_run.output.find("holds a render (done, 3 spp)"), std::string::npos) << into_run.output;

@@ -4,15 +4,13 @@
 
 #include "common/metrics/z_test.h"
 #include "tests/support/chi_square.h"
-#include "tests/support/local_render.h"
+#include "tests/support/rendered.h"
 #include "tests/support/test_scenes.h"
 
 namespace treefarm {
 namespace {
 
-struct Rendered {
-    RgbImage mean, variance;
-};
+using test::Rendered;
 
 Rendered render(const Scene& scene, Job job, const char* type, std::uint64_t seed, std::uint32_t spp) {
     job.integrator.type = type;
@@ -22,13 +20,7 @@ Rendered render(const Scene& scene, Job job, const char* type, std::uint64_t see
     job.integrator.next_event = NextEvent::always;
     const test::LocalRender run = test::render_locally(scene, job);
     EXPECT_EQ(run.splat_caps, SplatCaps{}) << type;
-    Rendered rendered;
-    rendered.mean = rendered.variance = RgbImage(scene.film.width, scene.film.height);
-    for (std::size_t p = 0; p < rendered.mean.pixels.size(); ++p) {
-        rendered.mean.pixels[p] = Rgb(run.image.mean[p]);
-        rendered.variance.pixels[p] = Rgb(run.image.variance[p]);
-    }
-    return rendered;
+    return test::rendered(run, scene.film);
 }
 
 void expect_image_of_paths(const Scene& scene, const Job& job, const std::string& what, std::uint32_t light_spp = 60,

@@ -5,26 +5,17 @@
 #include "common/metrics/z_test.h"
 #include "common/scene/readers/load.h"
 #include "tests/support/chi_square.h"
-#include "tests/support/local_render.h"
+#include "tests/support/rendered.h"
 #include "tests/support/support.h"
 #include "tests/support/test_scenes.h"
 
 namespace treefarm {
 namespace {
 
-struct Rendered {
-    RgbImage mean, variance;
-};
+using test::Rendered;
 
 Rendered render(const Scene& scene, const Job& job) {
-    const test::LocalRender run = test::render_locally(scene, job);
-    Rendered rendered;
-    rendered.mean = rendered.variance = RgbImage(scene.film.width, scene.film.height);
-    for (std::size_t p = 0; p < rendered.mean.pixels.size(); ++p) {
-        rendered.mean.pixels[p] = Rgb(run.image.mean[p]);
-        rendered.variance.pixels[p] = Rgb(run.image.variance[p]);
-    }
-    return rendered;
+    return test::rendered(test::render_locally(scene, job), scene.film);
 }
 
 class OwnScenes : public testing::TestWithParam<const char*> {};

@@ -124,7 +124,7 @@ class Viewer {
         ::close(listening_);
     }
 
-    DisplayServer server() const { return {"127.0.0.1", std::to_string(port)}; }
+    DisplayServer server() const { return {"127.0.0.1", static_cast<std::uint16_t>(port)}; }
     /// Waits until the viewer's picture fulfils a condition.
     template <class Condition>
     bool wait_for(Condition condition) {

@@ -6,19 +6,16 @@
 #include <functional>
 
 #include "common/protocol/envelope.h"
+#include "tests/support/join_keys.h"
 
 // Frames and handshake as bytes: however they are cut, and whatever is done to them on the way.
 
 namespace treefarm {
 namespace {
 
-constexpr std::uint64_t kBuild = 7;
+using test::key_of;
 
-JoinKey key_of(std::uint8_t value) {
-    JoinKey key;
-    key.fill(value);
-    return key;
-}
+constexpr std::uint64_t kBuild = 7;
 
 JoinTicket ticket() {
     JoinTicket ticket{{}, "localhost", 1, key_of(3)};

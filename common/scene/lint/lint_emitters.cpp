@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/scene/kinds/shape_area.h"
 #include "common/scene/lint/lint.h"
 #include "common/scene/uses/emitter_uses.h"
 
@@ -22,37 +23,38 @@ bool before(const Front& front, const V3d& p) {
     return d.dot(front.normal) > 1e-6 * (d.length() + 1e-6 * p.length());
 }
 
-/// The fronts of an emitter that is flat, and its area: an overload for each kind of shape, or it does not compile.
-struct Fronts {
-    std::vector<Front> planes;  ///< none of what faces everywhere, or has no area
-    double area = 0;
-
-    void add(const Mesh& mesh) {
-        for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
-            const V3d a(mesh.positions[mesh.indices[3 * t]]), b(mesh.positions[mesh.indices[3 * t + 1]]),
-                c(mesh.positions[mesh.indices[3 * t + 2]]);
-            V3d normal = (b - a).cross(c - a);
-            const double twice = normal.length();
-            if (!(twice > 0)) continue;
-            area += 0.5 * twice;
-            if (!mesh.normals.empty() && normal.dot(V3d(mesh.normals[mesh.indices[3 * t]])) < 0) normal = -normal;
-            planes.push_back({a, normal * (1.0 / twice)});
-        }
+/// The fronts of an emitter that is flat, none of what faces everywhere, or has no area: an overload for each kind of
+/// shape, or it does not compile.
+std::vector<Front> fronts_of(const Mesh& mesh) {
+    std::vector<Front> fronts;
+    for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+        const V3d a(mesh.positions[mesh.indices[3 * t]]), b(mesh.positions[mesh.indices[3 * t + 1]]),
+            c(mesh.positions[mesh.indices[3 * t + 2]]);
+        V3d normal = (b - a).cross(c - a);
+        const double twice = normal.length();
+        if (!(twice > 0)) continue;
+        if (!mesh.normals.empty() && normal.dot(V3d(mesh.normals[mesh.indices[3 * t]])) < 0) normal = -normal;
+        fronts.push_back({a, normal * (1.0 / twice)});
     }
-    void add(const Disk& disk) {
-        const V3d normal = V3d(disk.half_u).cross(V3d(disk.half_v));
-        area = double(kPi) * normal.length();
-        if (area > 0) planes.push_back({V3d(disk.center), normal.normalized()});
-    }
-    void add(const Sphere& sphere) { area = 4 * double(kPi) * double(sphere.radius) * double(sphere.radius); }
-    void add(const Cylinder& cylinder) { area = 2 * double(kPi) * double(cylinder.radius) * double(cylinder.length()); }
-    void add(const Instance&) {}
-};
-
-Fronts fronts_of(const Shape& shape) {
-    Fronts fronts;
-    std::visit([&](const auto& kind) { fronts.add(kind); }, shape.geometry);
     return fronts;
+}
+
+std::vector<Front> fronts_of(const Disk& disk) {
+    const V3d normal = V3d(disk.half_u).cross(V3d(disk.half_v));
+    if (!(normal.length() > 0)) return {};
+    return {{V3d(disk.center), normal.normalized()}};
+}
+
+std::vector<Front> fronts_of(const Sphere&) {
+    return {};
+}
+
+std::vector<Front> fronts_of(const Cylinder&) {
+    return {};
+}
+
+std::vector<Front> fronts_of(const Instance&) {
+    return {};
 }
 
 /// Whether anything of the scene, or the camera, lies before one of the planes: the corners of boxes tell.
@@ -124,12 +126,12 @@ class EmitterLint : public IgnoreFields {
         if (const auto* mesh = std::get_if<Mesh>(&shape.geometry))
             for (const std::uint32_t i : mesh->indices)
                 if (i >= mesh->positions.size()) return;
-        const Fronts fronts = fronts_of(shape);
-        if (!(fronts.area > 0))
+        const std::vector<Front> fronts = std::visit([](const auto& kind) { return fronts_of(kind); }, shape.geometry);
+        if (!(area_of(shape.geometry) > 0))
             return add(error, "zero-area emitter", named("shape", shape.name) + " emits, but has no area",
                        "repair or remove it");
         // Large meshes face everywhere; flat ones are what is put the wrong way round.
-        if (!fronts.planes.empty() && fronts.planes.size() <= 1000 && !reaches_anything(scene_, shape, fronts.planes))
+        if (!fronts.empty() && fronts.size() <= 1000 && !reaches_anything(scene_, shape, fronts))
             add(warning, "unreachable emitter",
                 named("shape", shape.name) + " emits to a side on which there is nothing, not even the camera",
                 "turn it round");
