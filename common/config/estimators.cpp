@@ -26,7 +26,11 @@ constexpr Estimator kEstimators[] = {
     {.type = "light",
      .meaning = "light tracing, paths from emitters that are connected to the camera: for caustics of small lamps",
      .misses = "what the camera sees in mirrors, through smooth glass or at infinity stays black",
-     .from_lights = true},
+     .from = PathsFrom::lights},
+    {.type = "bidirectional",
+     .meaning =
+         "paths from the camera and from emitters, connected at all vertices: for caustics and lamps in fixtures",
+     .from = PathsFrom::both},
 };
 
 }  // namespace
@@ -39,6 +43,11 @@ const Estimator* find_estimator(std::string_view type) {
     const auto found = std::find_if(std::begin(kEstimators), std::end(kEstimators),
                                     [&](const Estimator& estimator) { return type == estimator.type; });
     return found == std::end(kEstimators) ? nullptr : found;
+}
+
+const Estimator& estimator_of(std::string_view type) {
+    const Estimator* const found = find_estimator(type);
+    return found ? *found : kEstimators[0];
 }
 
 }  // namespace treefarm

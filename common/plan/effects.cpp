@@ -28,8 +28,7 @@ void tell_forced_off(Effect& after, const Effect& before, const std::vector<Appr
 
 /// Splats are sums of what cannot be negative.
 void refuse_signed_splats(const Film& film, const Job& job) {
-    const Estimator* estimator = find_estimator(job.integrator.type);
-    if (!estimator || !estimator->from_lights || !film.is_signed()) return;
+    if (!estimator_of(job.integrator.type).splats() || !film.is_signed()) return;
     throw InputError(
         Location{"integrator.type", 0, 0},
         "the film's filter has negative lobes, and the estimator \"" + job.integrator.type +

@@ -86,10 +86,8 @@ Json memory_json(const std::vector<MemoryItem>& items, std::uint64_t total) {
 }
 
 std::string estimator_section(const std::string& type) {
-    const Estimator* estimator = find_estimator(type);
-    std::string text = "\nestimator: " + type + "\n";
-    if (estimator && estimator->misses) text += std::string("  ") + estimator->misses + "\n";
-    return text;
+    const char* const misses = estimator_of(type).misses;
+    return "\nestimator: " + type + "\n" + (misses ? std::string("  ") + misses + "\n" : "");
 }
 
 }  // namespace
