@@ -8,9 +8,18 @@ namespace treefarm {
 
 namespace {
 
+constexpr const char* kCausticsOfPoints =
+    "what mirrors, smooth glass and coats throw onto other surfaces from emitters without extent stays dark; "
+    "bidirectional and light find it";
+
 constexpr Estimator kEstimators[] = {
-    {.type = "path", .meaning = "unidirectional path tracing, guided or not", .guides = true},
-    {.type = "reference", .meaning = "unguided path tracing by the shortest code, to check others against"},
+    {.type = "path",
+     .meaning = "unidirectional path tracing, guided or not",
+     .misses_of_points = kCausticsOfPoints,
+     .guides = true},
+    {.type = "reference",
+     .meaning = "unguided path tracing by the shortest code, to check others against",
+     .misses_of_points = kCausticsOfPoints},
     {.type = "direct",
      .meaning = "light that comes straight from emitters to what the camera sees",
      .depth = 2,
@@ -30,6 +39,8 @@ constexpr Estimator kEstimators[] = {
     {.type = "bidirectional",
      .meaning =
          "paths from the camera and from emitters, connected at all vertices: for caustics and lamps in fixtures",
+     .misses_of_points = "what mirrors, smooth glass and coats throw from emitters without extent stays dark where the "
+                         "camera sees it in mirrors or through smooth glass",
      .from = PathsFrom::both},
 };
 

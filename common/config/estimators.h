@@ -20,10 +20,11 @@ struct Estimator {
     const char* type;              ///< value of integrator.type
     const char* meaning;           ///< for the table of keys
     const char* misses = nullptr;  ///< light that its image lacks, whatever the number of samples; nullptr: none
-    int depth = 0;                 ///< path edges that it follows at most; 0: as many as the job says
-    bool guides = false;           ///< a tree may guide its paths; the path kernels trace them
-    bool sees_light = true;        ///< false: its image does not depend on emitters
-    bool by_numbers = false;       ///< integrator.emitter_samples and bsdf_samples say how light is found
+    const char* misses_of_points = nullptr;  ///< where emitters without extent shine on mirrors or smooth glass
+    int depth = 0;                           ///< path edges that it follows at most; 0: as many as the job says
+    bool guides = false;                     ///< a tree may guide its paths; the path kernels trace them
+    bool sees_light = true;                  ///< false: its image does not depend on emitters
+    bool by_numbers = false;                 ///< integrator.emitter_samples and bsdf_samples say how light is found
     PathsFrom from = PathsFrom::camera;
 
     bool has_camera_paths() const { return from != PathsFrom::lights; }

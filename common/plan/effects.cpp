@@ -36,6 +36,20 @@ void refuse_signed_splats(const Film& film, const Job& job) {
         std::string("use the filter box, tent or gaussian, or set integrator.type = \"") + estimators()[0].type + "\"");
 }
 
+/// Light of the scene that the job's estimator never finds.
+std::vector<std::string> missed_light(const EffectPlan& plan) {
+    const Estimator& estimator = estimator_of(plan.job.integrator.type);
+    const auto is_on = [&](const char* name) {
+        const Effect* effect = plan.find(name);
+        return effect && effect->on;
+    };
+    std::vector<std::string> misses;
+    if (estimator.misses) misses.emplace_back(estimator.misses);
+    if (estimator.misses_of_points && is_on("delta_lights") && is_on("delta_reflection"))
+        misses.emplace_back(estimator.misses_of_points);
+    return misses;
+}
+
 }  // namespace
 
 std::vector<Effect> find_effects(const Scene& scene, const Resolved& job) {
@@ -66,6 +80,7 @@ EffectPlan plan_effects(Scene& scene, const Job& asked_job) {
     plan.effects = find_effects(scene, job);
     for (std::size_t i = 0; i < asked.size(); ++i)
         tell_forced_off(plan.effects[i], asked[i], plan.approximations);
+    plan.misses = missed_light(plan);
     const std::vector<PassPlan> passes = plan_passes(job);
     plan.width = scene.film.width;
     plan.height = scene.film.height;
