@@ -141,7 +141,8 @@ class BidirectionalTracer {
     double next_event_others(const CameraVertex& z, const DirectSample& light, double scatter, const Draw& random) {
         const EmissionDensity pdf = scene_.emitters().emission_density(light, random, rules_.delta_alone);
         // Densities of the place and of what is drawn from there, in the measures of next event's and per area.
-        double place = double(pdf.place) / double(light.pdf);
+        // Where only lights without extent are sampled, both ends are taken to choose them alike.
+        double place = rules_.delta_alone ? 1.0 : double(pdf.place) / double(light.pdf);
         double next = double(pdf.direction) * double(geometric_cosine(z.hit, light.wi));
         if (!light.at_infinity()) {
             const double distance2 = squared_distance(z.hit.p, light.on_light.p);
