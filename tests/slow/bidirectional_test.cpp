@@ -42,6 +42,7 @@ TEST(Bidirectional, IsPathTracingInEveryScene) {
                                  both = render(loaded.scene, job, "bidirectional", 124);
             ZTestOptions options;
             options.block = 8;
+            options.significance = 1e-4;  // of a hundred tests
             const ZTestInput input{both.mean, path.mean, &both.variance, &path.variance};
             const BlockZTest blocks = block_z_test(input, options);
             const std::string where = file.path().stem().string() + ", " + std::to_string(edges) + " edges";

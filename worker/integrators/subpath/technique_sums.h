@@ -15,9 +15,13 @@ class Heuristic {
     explicit Heuristic(MisHeuristic mis) : squares_(mis == MisHeuristic::power) {}
 
     /// m of a density, or of a quotient of densities; at most kMost.
-    double operator()(double pdf) const { return bounded(squares_ ? pdf * pdf : pdf); }
+    double operator()(double pdf) const {
+        if (!squares_) return bounded(pdf);
+        const double root = pdf < kRoot ? pdf : kRoot;
+        return root * root;
+    }
 
-    static constexpr double kMost = 1e150;
+    static constexpr double kMost = 1e150, kRoot = 1e75;
     static double bounded(double m) { return m < kMost ? m : kMost; }
 
   private:
