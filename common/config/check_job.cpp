@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/config/check_job.h"
 
+#include <algorithm>
 #include <set>
 
 #include "common/base/error.h"
@@ -18,9 +19,14 @@ void check_techniques(const Job& job) {
         throw InputError(Location{"integrator.mis", 0, 0},
                          "among many techniques equal weights would leave all the noise of the worst of them",
                          "set integrator.mis = \"balance\" or \"power\"");
-    if (job.bidirectional.weighted) return;
     std::string why;
     const std::vector<Technique> techniques = parse_techniques(job.bidirectional.techniques, why);
+    const auto is_light_image = [](const Technique& technique) { return technique.camera == 1; };
+    if (!job.bidirectional.light_image && std::any_of(techniques.begin(), techniques.end(), is_light_image))
+        throw InputError(Location{"bidirectional.techniques", 0, 0},
+                         "paths from lamps are not connected to the lens, so one of the techniques stays black",
+                         "set bidirectional.light_image = true, or name no technique with one vertex from the camera");
+    if (job.bidirectional.weighted) return;
     std::set<int> lengths;
     for (const Technique& technique : techniques)
         lengths.insert(technique.light + technique.camera);

@@ -180,6 +180,11 @@ TEST(Techniques, ThatCountLightTwiceAreRefused) {
     Job job = job_of("bidirectional");
     job.integrator.mis = MisHeuristic::equal;
     EXPECT_THROW(check_job(job), InputError);
+    job = job_of("bidirectional");
+    job.bidirectional.techniques = "1,2 2,1";
+    EXPECT_NO_THROW(check_job(job));
+    job.bidirectional.light_image = false;
+    EXPECT_THROW(check_job(job), InputError) << "2,1 would be black";
 }
 
 /// The coordinator plans passes and adds up films, whatever renders them. A study's "reference" is an image.
