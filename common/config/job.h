@@ -93,6 +93,12 @@ struct Job {
         bool split_glass = true;  ///< at the first surface: both ways out of smooth glass
     } integrator;
 
+    struct Bidirectional {
+        bool light_image = true;         ///< light paths are connected to the lens
+        std::string techniques = "all";  ///< of which the image is made (techniques.h)
+        bool weighted = true;            ///< techniques share the light that several find
+    } bidirectional;
+
     struct Effects {
         std::set<std::string> off;  ///< forced off, a listed approximation: names of effect_switches.h
     } effects;

@@ -40,17 +40,17 @@ void resolve_rules(Job::Guiding& guiding) {
 
 /// Takes away what the job's estimator does not use.
 void resolve_estimator(Job& job) {
-    const Estimator* estimator = find_estimator(job.integrator.type);
-    if (!estimator || estimator->guides) return;
+    const Estimator& estimator = estimator_of(job.integrator.type);
+    if (estimator.guides) return;
     job.guiding.type = GuidingType::none;
     job.guiding.splitting = job.guiding.candidates = 1;
     job.integrator.split_glass = false;
-    if (!estimator->sees_light || estimator->from_lights) job.integrator.next_event = NextEvent::never;
-    if (estimator->by_numbers)
+    if (!estimator.sees_light || !estimator.has_camera_paths()) job.integrator.next_event = NextEvent::never;
+    if (estimator.by_numbers)
         job.integrator.next_event = job.integrator.emitter_samples > 0 ? NextEvent::always : NextEvent::never;
-    if (estimator->depth == 0) return;
+    if (estimator.depth == 0) return;
     const int asked = job.integrator.max_depth;
-    job.integrator.max_depth = asked < 0 ? estimator->depth : std::min(asked, estimator->depth);
+    job.integrator.max_depth = asked < 0 ? estimator.depth : std::min(asked, estimator.depth);
     job.integrator.rr_depth = std::max(job.integrator.rr_depth, job.integrator.max_depth);
 }
 

@@ -45,6 +45,10 @@ EmissionSample DeltaLight::emit(const SceneBall& ball, const Draw& random) const
     return switch_visit(kind_, [&](const auto& light) { return light.emit(ball, random); });
 }
 
+float DeltaLight::direction_pdf(const SceneBall& ball, const Vec3& away) const {
+    return switch_visit(kind_, [&](const auto& light) { return light.direction_pdf(ball, away); });
+}
+
 DirectSample DeltaLight::sample(const Vec3& p, float selection) const {
     return switch_visit(kind_, [&](const auto& light) { return light.sample(p, selection); });
 }

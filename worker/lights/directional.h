@@ -34,6 +34,7 @@ class DirectionalLight {
         return emitted_across(ball, direction_, irradiance_, {to_unit(random[0]), to_unit(random[1])},
                               EmissionFrom::parallel);
     }
+    float direction_pdf(const SceneBall& ball, const Vec3&) const { return 1.0f / ball.section(); }
 
   private:
     Vec3 direction_;  ///< unit, along which it travels

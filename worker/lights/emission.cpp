@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Light paths begin here: what of Emitters emits rays.
+#include <cmath>
+
 #include "worker/lights/emitters.h"
 
 namespace treefarm {
@@ -57,6 +59,24 @@ EmissionDensity Emitters::emission_density(const Hit& start, const Vec3& away) c
 EmissionDensity Emitters::emission_density(const Vec3& direction) const {
     if (!(ball_.radius > 0.0f)) return {};
     return {environments_.pdf(direction, clusters_, nullptr), 1.0f / ball_.section()};
+}
+
+EmissionDensity Emitters::emission_density(const DirectSample& sample, const Draw& random, bool delta_alone) const {
+    if (!sample.delta)
+        return sample.from_environment ? emission_density(sample.wi) : emission_density(sample.on_light, -sample.wi);
+    if (!(ball_.radius > 0.0f)) return {};
+    const std::size_t light =
+        delta_alone ? delta_alone_.pick(random[0]) : selection_.pick(random[0]) - area_lights_.size();
+    return {delta_selection_[light], delta_lights_[light].direction_pdf(ball_, -sample.wi)};
+}
+
+double Emitters::next_event_pdf(const EmissionSample& start, const Vec3& p) const {
+    if (start.is_delta()) return double(start.place_pdf);
+    const Vec3 wi = -start.ray.direction;
+    if (start.from == EmissionFrom::environment) return double(pdf_environment(wi));
+    if (start.from != EmissionFrom::surface) return 0.0;
+    const double pdf = double(pdf_direct(p, wi, start.start)) * start.place_factor(p);
+    return std::isfinite(pdf) ? pdf : 0.0;  // it left along the surface
 }
 
 }  // namespace treefarm

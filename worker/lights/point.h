@@ -38,6 +38,7 @@ class PointLight {
         const Vec3 direction = square_to_sphere({to_unit(random[0]), to_unit(random[1])});
         return emitted_from_point(position_, normalize(direction), intensity_, kInvFourPi);
     }
+    float direction_pdf(const SceneBall&, const Vec3&) const { return kInvFourPi; }
 
   private:
     Vec3 position_;

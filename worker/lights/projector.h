@@ -58,6 +58,10 @@ class ProjectorLight {
         return emitted_from_point(position_, to * (1.0f / length), intensity,
                                   1.0f / (static_cast<float>(area_) * cos3));
     }
+    float direction_pdf(const SceneBall&, const Vec3& away) const {
+        const float cosine = dot(axis_, away);
+        return 1.0f / (static_cast<float>(area_) * (cosine * cosine * cosine));
+    }
 
   private:
     Vec3 position_;
