@@ -9,6 +9,7 @@
 #include "worker/geometry/primitive_points.h"
 #include "worker/lights/area_measure.h"
 #include "worker/lights/discrete_table.h"
+#include "worker/lights/light_bounds.h"
 #include "worker/lights/sphere_sample.h"
 
 namespace treefarm {
@@ -38,7 +39,7 @@ struct AreaLight {
     std::uint32_t shape = 0;
     const Sphere* sphere = nullptr;
     bool plain = false;               ///< a mesh without texture or mask
-    float selection = 0;              ///< probability that this light is chosen
+    float selection = 0;              ///< probability that this light is chosen by power
     DiscreteTable triangles;          ///< meshes
     std::vector<float> area_density;  ///< per triangle: per area, within this light; none for spheres
     std::vector<FlatTriangle> flat;   ///< of a plain mesh without shading normals that is not large
@@ -49,13 +50,18 @@ struct AreaLight {
     /// Throws RunError if it has a texture and there are none.
     AreaLight(const AreaEmitter& emitter, const LightScene& scene);
 
+    /// Its mean over the surface, masks aside.
+    Rgb mean_radiance(const LightScene& scene) const;
     /// Mean of the channels, in watts.
     double power(const LightScene& scene) const;
+
+    /// The place and the light of all its points.
+    LightBounds bounds(const LightScene& scene) const;
 
     /// Its radiance where a texture varies it.
     Channels textured(const LightScene& scene, const Hit& hit) const;
 
-    /// Whatever it is. random[1] chooses the triangle, [2] and [3] the place.
+    /// Whatever it is, as if there were no other light. random[1] chooses the triangle, [2] and [3] the place.
     DirectSample sample(const LightScene& scene, const Vec3& p, const Draw& random, const Vec3* front) const {
         if (sphere) return sample_sphere(scene, p, random, front);
         DirectSample sample = sample_flat(scene, p, random, front);
@@ -77,7 +83,7 @@ struct AreaLight {
             flat[triangle].set_point(hit, b.x, b.y);
         }
         if (front && !(dot(*front, hit.p - p) > 0.0f && dot(hit.ng, p - hit.p) > 0.0f)) return sample;
-        look_at(sample, p, radiance, selection, area_density[triangle]);
+        look_at(sample, p, radiance, area_density[triangle]);
         return sample;
     }
 
@@ -90,7 +96,7 @@ struct AreaLight {
         sample.on_light = sphere_hit(*sphere, drawn.p, drawn.normal);
         sample.on_light.shape = shape;
         sample.distance = drawn.distance;
-        sample.pdf = selection * drawn.pdf;
+        sample.pdf = drawn.pdf;
         // What a cone meets first is the outside, also where rounding has it beyond the rim.
         const bool shines = from_cone ? !sphere->flip_normals : dot(sample.on_light.ng, drawn.direction) < 0.0f;
         if (shines) sample.radiance = radiance;
@@ -98,9 +104,8 @@ struct AreaLight {
         return sample;
     }
 
-    /// Density per steradian of sample() for what is hit from p along wi, `factor` times its selection.
-    float pdf(const Vec3& p, const Vec3& wi, const Hit& hit, float factor) const {
-        const float chosen = selection * factor;
+    /// Density per steradian of sample() for what is hit from p along wi, where the light is chosen with this probability.
+    float pdf(const Vec3& p, const Vec3& wi, const Hit& hit, float chosen) const {
         float density;
         if (sphere) {
             const SphereCone cone = sphere_cone(*sphere, p);
@@ -129,7 +134,7 @@ struct AreaLight {
         if (scene.geometry->triangle_count(shape) > 0) return sample_mesh(scene, p, random, front);
         DirectSample sample;
         sample.on_light = uniform_point(*scene.geometry, shape, {to_unit(random[2]), to_unit(random[3])});
-        look_at(sample, p, radiance, selection, area_density[0]);
+        look_at(sample, p, radiance, area_density[0]);
         return sample;
     }
 

@@ -15,7 +15,7 @@
 namespace treefarm {
 
 /// Every light without extent. Each names the kind of emitter that it is made from, which its constructor takes with
-/// the textures (nullptr: there are none), and says its power(scene_radius), what reaches a place: sample(p,
+/// the textures (nullptr: there are none), and says its power(scene_radius), its bounds(), what reaches a place: sample(p,
 /// selection), and what leaves it: emit(ball, random).
 using DeltaLightKind = std::variant<PointLight, SpotLight, DirectionalLight, ProjectorLight>;
 
@@ -27,6 +27,9 @@ class DeltaLight {
 
     /// Mean of the channels of the power that it sends into a scene of that radius, in watts; of some an estimate.
     double power(double scene_radius) const;
+
+    /// What reaches places of it, about.
+    LightBounds bounds() const;
 
     /// What reaches p; pdf is `selection`.
     DirectSample sample(const Vec3& p, float selection) const;
