@@ -28,8 +28,7 @@ bool is_section(const std::string& name) {
     for (const auto& [effect, cure] : effects_without_switch())
         if (name == kEffectsPrefix + effect) throw InputError(where, name + " cannot be switched off by a key", cure);
     for (const auto& [old_name, new_name] : kRenamedKeys)
-        if (name == old_name)
-            throw InputError(where, in_quotes(name) + " is called " + new_name + " now", "set that");
+        if (name == old_name) throw InputError(where, in_quotes(name) + " is called " + new_name + " now", "set that");
     std::vector<std::string> names;
     for (const JobKey& key : job_keys())
         names.push_back(key.name);

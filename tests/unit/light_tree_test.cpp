@@ -120,7 +120,9 @@ void expect_draws_as_promised(const Choice& choice, const LightProbabilities* le
             }
             counts[pick.entry] += 1;
             ASSERT_GT(pick.probability, 0.0f);
-            if (k < 1000) { ASSERT_EQ(pick.probability, choice.probability(pick.entry, receiver)); }
+            if (k < 1000) {
+                ASSERT_EQ(pick.probability, choice.probability(pick.entry, receiver));
+            }
         }
         double sum = 0;
         for (std::uint32_t e = 0; e < entries; ++e) {
@@ -247,9 +249,9 @@ TEST(LightTree, OddPlacesAreDrawn) {
     std::vector<std::vector<LightBounds>> scenes(5);
     for (int i = 0; i < 300; ++i) {
         const auto x = static_cast<float>(i);
-        scenes[0].push_back(at({1, 2, 3}));                    // one place
-        scenes[1].push_back(at({x, 2 * x, -x}));               // a line
-        scenes[2].push_back(at({x, std::sqrt(x), 0}));         // a plane
+        scenes[0].push_back(at({1, 2, 3}));                       // one place
+        scenes[1].push_back(at({x, 2 * x, -x}));                  // a line
+        scenes[2].push_back(at({x, std::sqrt(x), 0}));            // a plane
         scenes[3].push_back(at({i % 2 ? 1e30f : -1e30f, x, 0}));  // far apart
         scenes[4].push_back(at({std::ldexp(1.0f, i % 120 - 60), 0, 0}));
         if (i % 3 == 0) scenes[2].back().amount = 0;

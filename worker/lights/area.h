@@ -104,7 +104,8 @@ struct AreaLight {
         return sample;
     }
 
-    /// Density per steradian of sample() for what is hit from p along wi, where the light is chosen with this probability.
+    /// Density per steradian of sample() for what is hit from p along wi, where the light is chosen with this
+    /// probability.
     float pdf(const Vec3& p, const Vec3& wi, const Hit& hit, float chosen) const {
         float density;
         if (sphere) {

@@ -15,8 +15,8 @@
 namespace treefarm {
 
 /// Every light without extent. Each names the kind of emitter that it is made from, which its constructor takes with
-/// the textures (nullptr: there are none), and says its power(scene_radius), its bounds(), what reaches a place: sample(p,
-/// selection), and what leaves it: emit(ball, random).
+/// the textures (nullptr: there are none), and says its power(scene_radius), its bounds(), what reaches a place:
+/// sample(p, selection), and what leaves it: emit(ball, random).
 using DeltaLightKind = std::variant<PointLight, SpotLight, DirectionalLight, ProjectorLight>;
 
 /// An emitter without extent: a closed set, no virtual call. Scattering never finds it; next event always does.

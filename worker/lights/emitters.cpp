@@ -139,10 +139,10 @@ DirectSample Emitters::sample_direct(const LightBatch& batch, std::uint32_t lane
     const std::uint32_t number = batch.number[lane];
     if (number == LightBatch::kAlone) return sample(chosen, receiver, random);
     const bool map = is_map(chosen.entry), by_cone = !map && batch.by_cone[lane];
-    DirectSample sample = map ? towards_infinity(batch.map.direction(number), receiver.normal())
-                              : area_lights_[chosen.entry].on_sphere(
-                                    scene_, by_cone ? batch.cones[number] : batch.spheres[number], by_cone,
-                                    receiver.normal());
+    DirectSample sample =
+        map ? towards_infinity(batch.map.direction(number), receiver.normal())
+            : area_lights_[chosen.entry].on_sphere(scene_, by_cone ? batch.cones[number] : batch.spheres[number],
+                                                   by_cone, receiver.normal());
     add_choice(sample, chosen);
     return sample;
 }

@@ -19,9 +19,9 @@
 namespace treefarm {
 
 /// All emitters of a scene: what they emit, and how next event samples them. Emitters are chosen by power, none less
-/// often than a thousandth of its even share, or as LightChoice says; points on meshes, disks and cylinders uniformly by area, spheres by the
-/// cone they fill, a constant environment uniformly over the sphere of directions, an image by its luminance.
-/// Immutable. `geometry` and `textures` must outlive it.
+/// often than a thousandth of its even share, or as LightChoice says; points on meshes, disks and cylinders uniformly
+/// by area, spheres by the cone they fill, a constant environment uniformly over the sphere of directions, an image by
+/// its luminance. Immutable. `geometry` and `textures` must outlive it.
 class Emitters {
   public:
     /// `bounds` is the box of the scene: it sets the power of what comes from infinity. Throws RunError if an emitter
@@ -39,8 +39,8 @@ class Emitters {
     /// environment's image [1] and [2] the texel, [3] the place about it. What comes from infinity has no radiance yet:
     /// environment() is to be asked once it is known to be seen. `probabilities`: what is learned at p of emitters;
     /// nullptr: nothing is. `front`: normal of a surface at p that reflects only; emitters behind it may be chosen less
-    /// often, or never; what is behind it, or turns its back on p, may be no sample then, where that is found out before
-    /// it costs much. nullptr: every sample has its density.
+    /// often, or never; what is behind it, or turns its back on p, may be no sample then, where that is found out
+    /// before it costs much. nullptr: every sample has its density.
     DirectSample sample_direct(const Vec3& p, const Draw& random, const LightProbabilities* probabilities = nullptr,
                                const Vec3* front = nullptr) const {
         return sample_direct(LightReceiver(p, probabilities, front), random);
@@ -79,9 +79,10 @@ class Emitters {
     }
     float pdf_direct(const LightReceiver& receiver, const Vec3& wi, const Hit& hit) const;
 
-    /// A ray that leaves an emitter, chosen by power whatever next event does: the beginning of a light path. `place` chooses
-    /// where it starts, as the numbers of sample_direct() do, or the direction that it comes from if that is from
-    /// infinity; direction[0] and [1] its direction, or the place across that one. A scene without surfaces gets none.
+    /// A ray that leaves an emitter, chosen by power whatever next event does: the beginning of a light path. `place`
+    /// chooses where it starts, as the numbers of sample_direct() do, or the direction that it comes from if that is
+    /// from infinity; direction[0] and [1] its direction, or the place across that one. A scene without surfaces gets
+    /// none.
     EmissionSample emit(const Draw& place, const Draw& direction) const;
     /// Densities with which emit() starts at a point of an area emitter into the unit direction `away`; zeros where
     /// nothing shines.
@@ -140,9 +141,9 @@ class Emitters {
     std::vector<AreaLight> area_lights_;
     std::vector<std::int32_t> light_of_shape_;
     std::vector<DeltaLight> delta_lights_;
-    DiscreteTable delta_alone_;           ///< over delta lights
-    DiscreteTable selection_;             ///< by power, over area lights, delta lights, parts of environments
-    LightChoice choice_;                  ///< of next event, over the same
+    DiscreteTable delta_alone_;  ///< over delta lights
+    DiscreteTable selection_;    ///< by power, over area lights, delta lights, parts of environments
+    LightChoice choice_;         ///< of next event, over the same
     Environments environments_;
     SceneBall ball_;
     bool shines_from_infinity_ = false;

@@ -194,7 +194,8 @@ inline Vec3 EnvironmentMap::Frame::direction(float u, float from_pole) const {
 DirectionCone EnvironmentMap::part_cone(int part) const {
     // A tent reaches one texel beyond the centre of the part's outer ones. Lines closer than the margin between.
     const EnvironmentPart& texels = parts_[static_cast<std::size_t>(part)].texels;
-    const auto width = static_cast<float>(texels.x1 - texels.x0 + 1), height = static_cast<float>(texels.y1 - texels.y0 + 1);
+    const auto width = static_cast<float>(texels.x1 - texels.x0 + 1),
+               height = static_cast<float>(texels.y1 - texels.y0 + 1);
     constexpr int kLines = 32;
     const auto at = [&](int i, int k) {
         const float u = static_cast<float>(texels.x0 - 1) + width * static_cast<float>(i) / kLines;

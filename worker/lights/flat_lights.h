@@ -14,7 +14,7 @@ struct LightPick {
     static constexpr std::uint32_t kNone = 0xffffffffu;
     std::uint32_t entry = kNone;
     float probability = 0;
-    std::uint8_t cluster = 0;        ///< that it is learned by
+    std::uint8_t cluster = 0;       ///< that it is learned by
     float cluster_probability = 1;  ///< with which one of the cluster was chosen
 };
 
@@ -27,8 +27,8 @@ class FlatLights {
     /// As many as there are clusters to learn by.
     static constexpr std::size_t kMost = kLightClusters;
 
-    /// `shares`: how often each is chosen where nothing is estimated; they sum to 1, and those without are never chosen.
-    /// At most kMost others.
+    /// `shares`: how often each is chosen where nothing is estimated; they sum to 1, and those without are never
+    /// chosen. At most kMost others.
     FlatLights(std::span<const LightBounds> bounds, std::span<const double> shares);
 
     /// Chooses by 32 random bits.

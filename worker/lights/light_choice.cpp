@@ -9,8 +9,8 @@ namespace treefarm {
 LightChoice::LightChoice(LightSelection how, std::span<const double> power, std::span<const LightBounds> bounds)
     : by_power_(how == LightSelection::power) {
     std::vector<double> weights(power.begin(), power.end());
-    const auto shining = static_cast<std::size_t>(
-        std::count_if(weights.begin(), weights.end(), [](double p) { return p > 0; }));
+    const auto shining =
+        static_cast<std::size_t>(std::count_if(weights.begin(), weights.end(), [](double p) { return p > 0; }));
     const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
     if (shining > 1 && by_place(how)) {
         by_place_ = true;

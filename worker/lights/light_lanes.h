@@ -38,8 +38,8 @@ inline constexpr float kLightUnit = 0x1p-31f;
 /// draws nothing: it adds no bias, since densities are the whole numbers.
 inline constexpr float kLightMargin = 1.0f - 0x1p-20f;
 
-/// Bounds of up to eight emitters or nodes, side by side, so that what they bring to a point is one loop of vector code.
-/// In the tree's own units: the scene's size and the sum of all amounts are about 1.
+/// Bounds of up to eight emitters or nodes, side by side, so that what they bring to a point is one loop of vector
+/// code. In the tree's own units: the scene's size and the sum of all amounts are about 1.
 struct LightLanes {
     static constexpr int kCount = 8;
     using Floats = float[kCount];

@@ -97,7 +97,8 @@ LightPick LightTree::probability(std::uint32_t entry, const LightReceiver& recei
     if (depth == 0) way.above = 0.0f;
     const Vec3 p = space_.place(receiver.p);
     while (depth > 0) {
-        const std::uint32_t lane = lanes[--depth], node = lane / LightLanes::kCount, of_node = lane % LightLanes::kCount;
+        const std::uint32_t lane = lanes[--depth], node = lane / LightLanes::kCount,
+                            of_node = lane % LightLanes::kCount;
         const LightWidths widths(nodes_[node], p, receiver);
         way.step(widths.probability(static_cast<int>(of_node)), links_[node].cluster[of_node]);
     }

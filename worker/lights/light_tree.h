@@ -83,10 +83,10 @@ class LightTree {
     LightSpace space_;
     std::vector<LightLanes> nodes_;
     std::vector<Link> links_;
-    std::vector<std::uint32_t> place_;          ///< of an entry: its lane, or kNowhere
-    std::vector<std::uint32_t> heads_;          ///< lane that a cluster begins with
+    std::vector<std::uint32_t> place_;           ///< of an entry: its lane, or kNowhere
+    std::vector<std::uint32_t> heads_;           ///< lane that a cluster begins with
     std::array<float, kLightClusters> fixed_{};  ///< share of a cluster among draws without an estimate
-    DiscreteTable shares_;                      ///< draws without an estimate
+    DiscreteTable shares_;                       ///< draws without an estimate
 };
 
 }  // namespace treefarm

@@ -78,7 +78,9 @@ std::uint32_t LightTreeBuilder::binary(Entries entries, int depth) {
     Box3 keys;
     for (const std::uint32_t entry : entries)
         keys.extendBy(key(entry));
-    const std::size_t left = entries.size() == 2 ? 1 : depth < kMostSplits ? split(entries, keys) : halve(entries, keys.majorAxis());
+    const std::size_t left = entries.size() == 2   ? 1
+                             : depth < kMostSplits ? split(entries, keys)
+                                                   : halve(entries, keys.majorAxis());
     const std::uint32_t first = binary(entries.first(left), depth + 1);
     return join(first, binary(entries.subspan(left), depth + 1));
 }
@@ -151,9 +153,8 @@ std::size_t LightTreeBuilder::split(Entries entries, const Box3& keys) {
         }
     }
     if (best_axis < 0) return halve(entries, keys.majorAxis());
-    const auto right = std::stable_partition(entries.begin(), entries.end(), [&](std::uint32_t entry) {
-        return bucket_of(entry, best_axis) < best_bucket;
-    });
+    const auto right = std::stable_partition(
+        entries.begin(), entries.end(), [&](std::uint32_t entry) { return bucket_of(entry, best_axis) < best_bucket; });
     return static_cast<std::size_t>(right - entries.begin());
 }
 
@@ -213,7 +214,8 @@ void LightTreeBuilder::cut() {
         const auto costliest = std::max_element(heads.begin(), heads.end(),
                                                 [&](std::uint32_t a, std::uint32_t b) { return cost[a] < cost[b]; });
         if (costliest == heads.end() || cost[*costliest] < 0) break;
-        const std::uint32_t child = tree_.nodes_[*costliest / LightLanes::kCount].child[*costliest % LightLanes::kCount];
+        const std::uint32_t child =
+            tree_.nodes_[*costliest / LightLanes::kCount].child[*costliest % LightLanes::kCount];
         const std::vector<std::uint32_t> below = lanes_of(child);
         if (heads.size() - 1 + below.size() > kLightClusters) {
             cost[*costliest] = -1.0;

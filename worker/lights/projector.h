@@ -37,9 +37,8 @@ class ProjectorLight {
         const double mean = texture_ != kNone ? double(luminance(mean_color(*textures_, texture_))) : 1.0;
         const double u = 0.25 / double(dot(u_axis_, u_axis_)), v = 0.25 / double(dot(v_axis_, v_axis_));
         const double to_corner = std::sqrt(1.0 + u + v);
-        LightBounds bounds =
-            LightBounds::in_box(Box3(position_, position_),
-                                double(luminance(irradiance_)) * mean * to_corner * to_corner * to_corner);
+        LightBounds bounds = LightBounds::in_box(
+            Box3(position_, position_), double(luminance(irradiance_)) * mean * to_corner * to_corner * to_corner);
         bounds.cone = {axis_, 2.0f * azimuth_turn(1.0f, static_cast<float>(std::sqrt(u + v)))};
         bounds.falloff = 0.0f;
         return bounds;

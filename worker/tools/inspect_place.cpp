@@ -174,8 +174,8 @@ class PlaceTracer {
         sums.sampled += static_cast<double>(pdf);
         if (!scattering.reflects) return;
         const Ray ray{offset_origin(place_.hit, d), d};
-        const EmitterHit emitter = intersect_emitter(
-            scene_, scatterer_.receiver(guide_.light_probabilities(guidance_.region)), ray);
+        const EmitterHit emitter =
+            intersect_emitter(scene_, scatterer_.receiver(guide_.light_probabilities(guidance_.region)), ray);
         if (!is_black(emitter.emitted)) {
             const double weight = double(mis_weight(mis_, pdf, emitter.light_pdf));
             count(scattering.f_cos, emitter.emitted, 1.0, weight, sums);

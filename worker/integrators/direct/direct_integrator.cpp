@@ -61,7 +61,9 @@ class DirectLight {
         if (is_black(light)) return Rgb(0.0f);
         // No emitter sample goes the way of a mirror.
         const float pdf = sample.delta ? std::numeric_limits<float>::infinity() : bsdfs_ * sample.pdf;
-        const float emitter = emitters_ > 0.0f ? emitters_ * emitter_pdf(scene_.emitters(), receiver_at(hit, surface), ray, arrival) : 0.0f;
+        const float emitter = emitters_ > 0.0f
+                                  ? emitters_ * emitter_pdf(scene_.emitters(), receiver_at(hit, surface), ray, arrival)
+                                  : 0.0f;
         return sample.f_cos * (1.0f / (bsdfs_ * sample.pdf)) * (light * weight(pdf, emitter));
     }
 

@@ -300,15 +300,12 @@ class PathWalk {
             next_event(smooth[i]);
     }
 
-    /// What is learned of emitters where the path is; nullptr: nothing.
-    const LightProbabilities* light_probabilities(const Path& path) const {
-        return !kConverts || (kGuided && path.probe) ? nullptr : guide_.light_probabilities(path.guidance.region);
-    }
-
     /// The place of a path, as next event chooses an emitter for it.
     LightReceiver receiver(const Path& path) const {
         const Vec3 front = path.surface->front();
-        return {path.hit.p, light_probabilities(path), path.surface->transmits() ? nullptr : &front};
+        const bool learned = kConverts && !(kGuided && path.probe);
+        return {path.hit.p, learned ? guide_.light_probabilities(path.guidance.region) : nullptr,
+                path.surface->transmits() ? nullptr : &front};
     }
 
     /// Samples an emitter; whether it is seen is asked for all paths of a step together.
@@ -328,7 +325,8 @@ class PathWalk {
         if (settings_.strict_normals && dot(surface.ng(), light.wi) * dot(surface.frame().n, light.wi) <= 0.0f) return;
         ++stats_.shadow_rays;
         const std::uint32_t vertex = kRecord ? recorders_[index].vertex_count() : 0;
-        pending_.add(path.hit, light, {index, vertex, !settings_.delta_alone && at.probabilities, path.guidance, path.throughput}, bsdf);
+        pending_.add(path.hit, light,
+                     {index, vertex, !settings_.delta_alone && at.probabilities, path.guidance, path.throughput}, bsdf);
     }
 
     static BsdfValue bsdf_value(const Surface& surface, const Vec3& wi) {

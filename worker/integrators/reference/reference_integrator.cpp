@@ -109,9 +109,8 @@ class PathTracer {
     Rgb next_event(const Hit& hit, const Surface& surface, const Draw& random) const {
         if (!rules_.next_event && !rules_.delta_alone) return Rgb(0.0f);
         const Emitters& emitters = scene_.emitters();
-        const DirectSample sample =
-            rules_.delta_alone ? emitters.sample_delta(hit.p, random)
-                               : emitters.sample_direct(receiver_at(hit, surface), random);
+        const DirectSample sample = rules_.delta_alone ? emitters.sample_delta(hit.p, random)
+                                                       : emitters.sample_direct(receiver_at(hit, surface), random);
         const LightAtSurface light = light_at_surface(scene_, hit, surface, sample, rules_.strict_normals, stats_);
         if (!(light.pdf > 0.0f)) return Rgb(0.0f);
         return light.reflected * (mis_weight(rules_.mis, light.pdf, light.bsdf_pdf) / light.pdf);

@@ -33,8 +33,7 @@ LightReceiver receiver_at(const Hit& hit, const Surface& surface) {
 
 /// Density with which emitter sampling at `from` finds what emits there, per steradian.
 inline float emitter_pdf(const Emitters& emitters, const LightReceiver& from, const Ray& ray, const Hit* arrival) {
-    return arrival ? emitters.pdf_direct(from, ray.direction, *arrival)
-                   : emitters.pdf_environment(from, ray.direction);
+    return arrival ? emitters.pdf_direct(from, ray.direction, *arrival) : emitters.pdf_environment(from, ray.direction);
 }
 
 /// A direction drawn from a surface's BSDF; its density is 0 if there is none.
