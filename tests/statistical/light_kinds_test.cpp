@@ -213,7 +213,6 @@ TEST(LightChoice, ChangesNoIntegral) {
                 sum += light;
                 sum2 += light * light;
                 if (s.delta || i >= 20000) continue;
-                if (!s.from_environment && s.on_light.shape == 1) continue;  // its cone knows more than the hit
                 const float pdf =
                     s.at_infinity() ? emitters.pdf_environment(at, s.wi) : emitters.pdf_direct(at, s.wi, s.on_light);
                 if (s.at_infinity()) {

@@ -67,7 +67,7 @@ TEST(Job, WrittenJobReadsBackTheSame) {
     job.scene.defines = {{"a", "1"}, {"with space", "\"quoted\""}};
     job.scene.lenient = true;
     job.image = {640, 360};
-    job.integrator = {"path", 12, 3, NextEvent::kickstart, MisHeuristic::balance, true, true};
+    job.integrator = {"path", 12, 3, NextEvent::kickstart, MisHeuristic::balance, LightSelection::even, true, true};
     job.guiding.type = GuidingType::none;
     job.guiding.preset = "paper";
     job.guiding.bsdf_fraction = 0.1f;
