@@ -106,6 +106,22 @@ TEST(LightDistribution, ImagesOfOddShapes) {
                                   std::to_string(width) + " x " + std::to_string(height));
 }
 
+/// A panel of `side` by `side` small squares that shines downwards.
+Mesh panel(int side, const Vec3& corner, float size) {
+    Mesh mesh;
+    const float step = size / static_cast<float>(side);
+    for (int i = 0; i < side * side; ++i)
+        test::append_quad(mesh, corner + Vec3(step * float(i % side), step * float(i / side), 0.0f), {0, step, 0},
+                          {step, 0, 0});
+    return mesh;
+}
+
+TEST(LightDistribution, PanelInPatches) {
+    expect_light_distribution(only(panel(20, {-1.5f, -1, 0.7f}, 3.0f)), Vec3(0.0f), "panel");
+    const TraceScene lights(only(panel(20, {-1.5f, -1, 0.7f}, 3.0f)), Job());
+    EXPECT_GT(lights.emitters().choice().node_count(), 8u) << "near patches are chosen more often than far ones";
+}
+
 /// Batches with gaps against samples drawn alone.
 void expect_batches_as_alone(LightSelection how, int more_lamps) {
     Scene scene = environment(37, 11, {{5, 3}, {36, 0}, {0, 10}}, 0.3f);
@@ -189,6 +205,7 @@ TEST(LightChoice, ChangesNoIntegral) {
         scene.emitters.push_back({DirectionalEmitter{Vec3(0, 0, -1), Rgb(0.7f)}, {}});
         for (int i = 0; i < lamps; ++i)
             add_shape(scene, quad({float(i % 5), 4, float(i % 7)}, {0, 0, 0.5f}, {0.5f, 0, 0}), kNone, Rgb(1.0f));
+        if (lamps > 0) add_shape(scene, panel(8, {-3, -3, 4}, 5.0f), kNone, Rgb(0.3f));
         LightProbabilities learned{};
         learned[0] = kLightProbabilityOne / 4;
         learned[2] = kLightProbabilityOne / 2;

@@ -9,7 +9,8 @@ EmissionSample Emitters::emit(const Draw& place, const Draw& direction) const {
     const std::uint32_t entry = selection_.pick(place[0]);
     if (entry < area_lights_.size()) return emit_from_area(area_lights_[entry], place, direction);
     const std::size_t index = entry - area_lights_.size();
-    if (index >= delta_lights_.size()) return emit_from_infinity(entry, place, direction);
+    if (index >= delta_lights_.size())
+        return emit_from_infinity(area_entries_ + static_cast<std::uint32_t>(index), place, direction);
     EmissionSample sample = delta_lights_[index].emit(ball_, direction);
     const float selection = selection_.probability(entry);
     sample.weight *= 1.0f / selection;

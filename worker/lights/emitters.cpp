@@ -21,6 +21,10 @@ DirectSample towards_infinity(const Vec3& direction, const Vec3* front) {
     return sample;
 }
 
+/// Area lights whose longest side is shorter than this share of the scene's radius are not cut.
+constexpr float kLeastCut = 1.0f / 32;
+constexpr std::uint32_t kNoLight = 0xffffffffu;
+
 double bounding_radius(const Box3& bounds) {
     if (bounds.isEmpty()) return 1.0;
     const Imath::V3d size = Imath::V3d(bounds.max) - Imath::V3d(bounds.min);
@@ -50,20 +54,11 @@ Emitters::Emitters(const std::vector<Emitter>& emitters, const EmbreeScene& geom
         std::visit([&](const auto& kind) { add(kind, emitter); }, emitter.kind);
     shines_from_infinity_ = environments_.shines();
     power.insert(power.end(), delta_power.begin(), delta_power.end());
-    std::vector<LightBounds> bounds;
-    if (LightChoice::by_place(how)) {
-        for (const AreaLight& light : area_lights_)
-            bounds.push_back(light.bounds(scene_));
-        for (const DeltaLight& light : delta_lights_)
-            bounds.push_back(light.bounds());
-    }
     // What crosses the scene's bounding sphere, as seen by a surface: pi L times its cross-section.
     const double from_infinity = double(kPi) * radius * radius * double(kPi);
-    environments_.for_each_part(from_infinity, [&](double of_part, const LightBounds& of_directions) {
-        power.push_back(of_part);
-        if (LightChoice::by_place(how)) bounds.push_back(of_directions);
-    });
-    select(std::move(power), how, bounds);
+    environments_.for_each_part(
+        [&](const auto& light, int part) { power.push_back(light.power(part, from_infinity)); });
+    select(std::move(power), how);
 }
 
 double Emitters::add_area_light(const AreaEmitter& emitter) {
@@ -76,7 +71,7 @@ double Emitters::add_area_light(const AreaEmitter& emitter) {
 }
 
 /// An emitter that is hardly ever chosen would be all noise where it is the only one that counts.
-void Emitters::select(std::vector<double> power, LightSelection how, std::span<const LightBounds> bounds) {
+void Emitters::select(std::vector<double> power, LightSelection how) {
     const auto shining = std::count_if(power.begin(), power.end(), [](double p) { return p > 0; });
     const double total = std::accumulate(power.begin(), power.end(), 0.0);
     const double least = shining > 0 ? 1e-3 * total / static_cast<double>(shining) : 0.0;
@@ -88,9 +83,39 @@ void Emitters::select(std::vector<double> power, LightSelection how, std::span<c
     std::uint32_t next = 0;
     for (AreaLight& light : area_lights_)
         light.selection = selection_.probability(next++);
-    next += static_cast<std::uint32_t>(delta_lights_.size());
-    environments_.choose(next, [&](std::uint32_t entry) { return selection_.probability(entry); });
-    choice_ = LightChoice(how, power, bounds);
+    area_entries_ = next;
+    if (LightChoice::by_place(how))
+        select_by_place(power, how);
+    else
+        choice_ = LightChoice(how, power, {});
+    const std::uint32_t others = static_cast<std::uint32_t>(delta_lights_.size());
+    environments_.choose(area_entries_ + others,
+                         [&](std::uint32_t entry) { return selection_.probability(entry - area_entries_ + next); });
+}
+
+void Emitters::select_by_place(std::span<const double> power, LightSelection how) {
+    std::vector<double> of_entry;
+    std::vector<LightBounds> bounds;
+    for (std::uint32_t i = 0; i < area_lights_.size(); ++i) {
+        AreaLight& light = area_lights_[i];
+        light.cut(scene_, ball_.radius * kLeastCut);
+        first_entry_.push_back(static_cast<std::uint32_t>(of_entry.size()));
+        for (std::uint32_t patch = 0; patch < light.patch_count(); ++patch) {
+            light_of_entry_.push_back(i);
+            of_entry.push_back(power[i] * light.share(patch));
+            bounds.push_back(light.bounds(scene_, patch));
+        }
+    }
+    area_entries_ = static_cast<std::uint32_t>(of_entry.size());
+    if (area_entries_ == area_lights_.size()) {
+        light_of_entry_.clear();
+        first_entry_.clear();
+    }
+    of_entry.insert(of_entry.end(), power.begin() + static_cast<std::ptrdiff_t>(area_lights_.size()), power.end());
+    for (const DeltaLight& light : delta_lights_)
+        bounds.push_back(light.bounds());
+    environments_.for_each_part([&](const auto& light, int part) { bounds.push_back(light.bounds(part)); });
+    choice_ = LightChoice(how, of_entry, bounds);
 }
 
 /// Adds what is known of the choice of its emitter.
@@ -101,9 +126,11 @@ static void add_choice(DirectSample& sample, const LightPick& chosen) {
 }
 
 inline DirectSample Emitters::sample(const LightPick& chosen, const LightReceiver& receiver, const Draw& random) const {
-    const bool plain = chosen.entry < area_lights_.size() && area_lights_[chosen.entry].plain;
-    DirectSample sample = plain ? area_lights_[chosen.entry].sample_mesh(scene_, receiver.p, random, receiver.normal())
-                                : sample_other(chosen, receiver, random);
+    const AreaEntry at = is_area(chosen.entry) ? area_entry(chosen.entry) : AreaEntry{kNoLight, 0};
+    const bool plain = at.light != kNoLight && area_lights_[at.light].plain;
+    DirectSample sample =
+        plain ? area_lights_[at.light].sample_mesh(scene_, at.patch, receiver.p, random, receiver.normal())
+              : sample_other(chosen, receiver, random);
     add_choice(sample, chosen);
     return sample;
 }
@@ -141,8 +168,8 @@ DirectSample Emitters::sample_direct(const LightBatch& batch, std::uint32_t lane
     const bool map = is_map(chosen.entry), by_cone = !map && batch.by_cone[lane];
     DirectSample sample =
         map ? towards_infinity(batch.map.direction(number), receiver.normal())
-            : area_lights_[chosen.entry].on_sphere(scene_, by_cone ? batch.cones[number] : batch.spheres[number],
-                                                   by_cone, receiver.normal());
+            : area_lights_[area_entry(chosen.entry).light].on_sphere(
+                  scene_, by_cone ? batch.cones[number] : batch.spheres[number], by_cone, receiver.normal());
     add_choice(sample, chosen);
     return sample;
 }
@@ -172,14 +199,15 @@ DirectSample Emitters::sample_delta(const Vec3& p, const Draw& random) const {
 }
 
 DirectSample Emitters::sample_other(const LightPick& chosen, const LightReceiver& receiver, const Draw& random) const {
-    if (chosen.entry >= area_lights_.size()) return sample_without_area(chosen, receiver, random);
-    return area_lights_[chosen.entry].sample(scene_, receiver.p, random, receiver.normal());
+    if (!is_area(chosen.entry)) return sample_without_area(chosen, receiver, random);
+    const auto [light, patch] = area_entry(chosen.entry);
+    return area_lights_[light].sample(scene_, patch, receiver.p, random, receiver.normal());
 }
 
 DirectSample Emitters::sample_without_area(const LightPick& chosen, const LightReceiver& receiver,
                                            const Draw& random) const {
     if (chosen.entry == LightPick::kNone) return {};
-    const std::size_t index = chosen.entry - area_lights_.size();
+    const std::size_t index = chosen.entry - area_entries_;
     if (index < delta_lights_.size()) return delta_lights_[index].sample(receiver.p, 1.0f);
     DirectSample sample;
     environments_.sample(chosen.entry, random, [&]<class Light>(const typename Light::Sample& drawn) {
@@ -192,8 +220,8 @@ DirectSample Emitters::sample_without_area(const LightPick& chosen, const LightR
 float Emitters::pdf_direct(const LightReceiver& receiver, const Vec3& wi, const Hit& hit) const {
     const std::int32_t index = light_of_shape_[hit.shape];
     if (index == kNone) return 0.0f;
-    return area_lights_[static_cast<std::size_t>(index)].pdf(
-        receiver.p, wi, hit, choice_.probability(static_cast<std::uint32_t>(index), receiver));
+    const auto light = static_cast<std::uint32_t>(index);
+    return area_lights_[light].pdf(receiver.p, wi, hit, choice_.probability(entry_of(light, hit), receiver));
 }
 
 }  // namespace treefarm

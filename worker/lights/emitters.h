@@ -118,7 +118,25 @@ class Emitters {
   private:
     /// Returns its power.
     double add_area_light(const AreaEmitter& emitter);
-    void select(std::vector<double> power, LightSelection how, std::span<const LightBounds> bounds);
+    void select(std::vector<double> power, LightSelection how);
+    /// Lets next event choose among patches of area lights and all others, of that power each, by place.
+    void select_by_place(std::span<const double> power, LightSelection how);
+
+    /// A patch of an area light.
+    struct AreaEntry {
+        std::uint32_t light, patch;
+    };
+    /// Whether next event's entry is one of them, and which.
+    bool is_area(std::uint32_t entry) const { return entry < area_entries_; }
+    AreaEntry area_entry(std::uint32_t entry) const {
+        if (light_of_entry_.empty()) return {entry, 0};
+        const std::uint32_t light = light_of_entry_[entry];
+        return {light, entry - first_entry_[light]};
+    }
+    /// Next event's entry of what was hit.
+    std::uint32_t entry_of(std::uint32_t light, const Hit& hit) const {
+        return light_of_entry_.empty() ? light : first_entry_[light] + area_lights_[light].patch_of(hit);
+    }
     EmissionSample emit_from_area(const AreaLight& light, const Draw& place, const Draw& direction) const;
     EmissionSample emit_from_infinity(std::uint32_t entry, const Draw& place, const Draw& direction) const;
     /// Kept out of line, so that plain meshes pay nothing for the other kinds.
@@ -130,20 +148,25 @@ class Emitters {
         return {&choice_, &receiver, known};
     }
     DirectSample sample(const LightPick& chosen, const LightReceiver& receiver, const Draw& random) const;
-    /// Whether an entry of the table is a part of the environment map.
+    /// Whether next event's entry is a part of the environment map.
     bool is_map(std::uint32_t entry) const { return environments_.is_map(entry); }
-    /// That of the table's entry, if it is a sphere.
+    /// That of next event's entry, if it is a sphere.
     const AreaLight* sphere_light(std::uint32_t entry) const {
-        return entry < area_lights_.size() && area_lights_[entry].sphere ? &area_lights_[entry] : nullptr;
+        if (!is_area(entry)) return nullptr;
+        const AreaLight& light = area_lights_[area_entry(entry).light];
+        return light.sphere ? &light : nullptr;
     }
 
     LightScene scene_;
     std::vector<AreaLight> area_lights_;
     std::vector<std::int32_t> light_of_shape_;
     std::vector<DeltaLight> delta_lights_;
-    DiscreteTable delta_alone_;  ///< over delta lights
-    DiscreteTable selection_;    ///< by power, over area lights, delta lights, parts of environments
-    LightChoice choice_;         ///< of next event, over the same
+    DiscreteTable delta_alone_;       ///< over delta lights
+    DiscreteTable selection_;         ///< by power, over area lights, delta lights, parts of environments
+    LightChoice choice_;              ///< of next event, over the same, but for area lights that are cut
+    std::uint32_t area_entries_ = 0;  ///< patches of area lights: next event's first entries
+    /// The light of each, and the first of each light; empty where none is cut.
+    std::vector<std::uint32_t> light_of_entry_, first_entry_;
     Environments environments_;
     SceneBall ball_;
     bool shines_from_infinity_ = false;

@@ -59,12 +59,12 @@ class Environments {
         return std::apply([](const auto&... light) { return (light.shines() || ...); }, lights_);
     }
 
-    /// Calls f(power, bounds) for each part of each light: the order in which choose() takes their probabilities.
+    /// Calls f(light, part) for each part of each light: the order in which choose() takes their probabilities.
     template <class F>
-    void for_each_part(double from_infinity, F&& f) const {
+    void for_each_part(F&& f) const {
         const auto each = [&](const auto& light) {
             for (int part = 0; part < light.part_count(); ++part)
-                f(light.power(part, from_infinity), light.bounds(part));
+                f(light, part);
         };
         std::apply([&](const auto&... light) { (each(light), ...); }, lights_);
     }
