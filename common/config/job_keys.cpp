@@ -152,6 +152,15 @@ std::vector<JobKey> make_job_keys() {
         [](auto& j) -> auto& { return j.integrator.mis; },
         std::vector<std::pair<std::string, MisHeuristic>>{
             {"power", MisHeuristic::power}, {"balance", MisHeuristic::balance}, {"equal", MisHeuristic::equal}}));
+    add(word_key(
+        "integrator.light_selection",
+        "how next event chooses among emitters: by power; all alike; tree: by an estimate of what each brings to the "
+        "point; learned: also by what next event has found in the region, tree where nothing is learned",
+        [](auto& j) -> auto& { return j.integrator.light_selection; },
+        std::vector<std::pair<std::string, LightSelection>>{{"power", LightSelection::power},
+                                                            {"even", LightSelection::even},
+                                                            {"tree", LightSelection::tree},
+                                                            {"learned", LightSelection::learned}}));
     add(boolean_key(
         "integrator.strict_normals", "drop light that geometric and shading normal disagree about",
         [](auto& j) -> auto& { return j.integrator.strict_normals; }));

@@ -75,8 +75,6 @@ Resolved resolve(const Job& job, const SceneFacts& scene) {
     const bool by_view = guiding.type == GuidingType::view;
     if (guiding.splitting == 0)
         guiding.splitting = by_view && guiding.roulette == GuidingRoulette::adjoint ? kPolicy.splitting.usual : 1;
-    if (guiding.light_selection == LightSelection::usual)
-        guiding.light_selection = by_view ? LightSelection::learned : LightSelection::power;
     const bool table = guiding.type == GuidingType::qtable;
     if (guiding.grid_halvings == 0) guiding.grid_halvings = table ? kQTableHalvings : kGridHalvings;
     if (guiding.bootstrap == kUsualBootstrap) guiding.bootstrap = table ? 1.0f : 0.0f;
@@ -84,8 +82,10 @@ Resolved resolve(const Job& job, const SceneFacts& scene) {
         guiding.spatial_threshold = usual_spatial_threshold(static_cast<double>(scene.film_pixels));
     resolved.guides = guiding.type != GuidingType::none;
     resolved.learns_views = by_view && scene.view_dependent;
-    resolved.learns_lights = resolved.guides && guiding.light_selection == LightSelection::learned &&
+    LightSelection& lights = resolved.integrator.light_selection;
+    resolved.learns_lights = resolved.guides && lights == LightSelection::learned &&
                              resolved.integrator.next_event != NextEvent::never && scene.chooses_lights;
+    if (lights == LightSelection::learned && !resolved.learns_lights) lights = LightSelection::tree;
     resolved.cells_follow_use = by_view && guiding.view_records == ViewRecords::product && guiding.learn_bsdf_fraction;
     return resolved;
 }

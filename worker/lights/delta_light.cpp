@@ -41,6 +41,10 @@ double DeltaLight::power(double scene_radius) const {
     return switch_visit(kind_, [&](const auto& light) { return light.power(scene_radius); });
 }
 
+LightBounds DeltaLight::bounds() const {
+    return switch_visit(kind_, [](const auto& light) { return light.bounds(); });
+}
+
 EmissionSample DeltaLight::emit(const SceneBall& ball, const Draw& random) const {
     return switch_visit(kind_, [&](const auto& light) { return light.emit(ball, random); });
 }

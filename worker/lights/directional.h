@@ -6,6 +6,7 @@
 #include "common/scene/kinds/emitters/directional.h"
 #include "worker/lights/direct_sample.h"
 #include "worker/lights/emission_sample.h"
+#include "worker/lights/light_bounds.h"
 #include "worker/textures/texture_set.h"
 
 namespace treefarm {
@@ -20,6 +21,9 @@ class DirectionalLight {
 
     double power(double scene_radius) const {
         return double(kPi) * scene_radius * scene_radius * double(average(irradiance_));
+    }
+    LightBounds bounds() const {
+        return LightBounds::from_infinity({-direction_, 0.0f}, double(luminance(irradiance_)));
     }
     DirectSample sample(const Vec3&, float selection) const {
         DirectSample sample;

@@ -11,10 +11,12 @@ EmissionSample Emitters::emit(const Draw& place, const Draw& direction) const {
     const std::uint32_t entry = selection_.pick(place[0]);
     if (entry < area_lights_.size()) return emit_from_area(area_lights_[entry], place, direction);
     const std::size_t index = entry - area_lights_.size();
-    if (index >= delta_lights_.size()) return emit_from_infinity(entry, place, direction);
+    if (index >= delta_lights_.size())
+        return emit_from_infinity(area_entries_ + static_cast<std::uint32_t>(index), place, direction);
     EmissionSample sample = delta_lights_[index].emit(ball_, direction);
-    sample.weight *= 1.0f / delta_selection_[index];
-    sample.place_pdf *= delta_selection_[index];
+    const float selection = selection_.probability(entry);
+    sample.weight *= 1.0f / selection;
+    sample.place_pdf *= selection;
     return sample;
 }
 
@@ -39,7 +41,7 @@ EmissionSample Emitters::emit_from_area(const AreaLight& light, const Draw& plac
 EmissionSample Emitters::emit_from_infinity(std::uint32_t entry, const Draw& place, const Draw& direction) const {
     EmissionSample sample;
     environments_.sample(entry, place, [&]<class Light>(const typename Light::Sample& drawn) {
-        const float pdf = environments_.pdf_of<Light>(drawn, clusters_, nullptr);
+        const float pdf = environments_.pdf_of<Light>(drawn, EntryProbabilities());
         if (!(pdf > 0.0f)) return;
         sample = emitted_across(ball_, -drawn.direction, environments_.radiance(drawn.direction) * (1.0f / pdf),
                                 {to_unit(direction[0]), to_unit(direction[1])}, EmissionFrom::environment);
@@ -58,7 +60,7 @@ EmissionDensity Emitters::emission_density(const Hit& start, const Vec3& away) c
 
 EmissionDensity Emitters::emission_density(const Vec3& direction) const {
     if (!(ball_.radius > 0.0f)) return {};
-    return {environments_.pdf(direction, clusters_, nullptr), 1.0f / ball_.section()};
+    return {environments_.pdf(direction, EntryProbabilities()), 1.0f / ball_.section()};
 }
 
 EmissionDensity Emitters::emission_density(const DirectSample& sample, const Draw& random, bool delta_alone) const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "common/base/error.h"
+#include "common/math/elementary.h"
 #include "common/scene/kinds/emitters/projector.h"
 #include "worker/lights/area_measure.h"
 #include "worker/lights/point.h"
@@ -29,6 +30,18 @@ class ProjectorLight {
     double power(double) const {
         const double mean = texture_ != kNone ? double(average(mean_color(*textures_, texture_))) : 1.0;
         return area_ * double(average(irradiance_)) * mean;
+    }
+
+    /// Brightest at the picture's corners.
+    LightBounds bounds() const {
+        const double mean = texture_ != kNone ? double(luminance(mean_color(*textures_, texture_))) : 1.0;
+        const double u = 0.25 / double(dot(u_axis_, u_axis_)), v = 0.25 / double(dot(v_axis_, v_axis_));
+        const double to_corner = std::sqrt(1.0 + u + v);
+        LightBounds bounds = LightBounds::in_box(
+            Box3(position_, position_), double(luminance(irradiance_)) * mean * to_corner * to_corner * to_corner);
+        bounds.cone = {axis_, 2.0f * azimuth_turn(1.0f, static_cast<float>(std::sqrt(u + v)))};
+        bounds.falloff = 0.0f;
+        return bounds;
     }
 
     DirectSample sample(const Vec3& p, float selection) const {

@@ -41,6 +41,16 @@ class SpotLight {
         return 4.0 * double(kPi) * double(sine) * double(sine) * double(average(intensity_)) * mean;
     }
 
+    /// A falloff that is linear in the angle lies below the cosine, within a quarter turn.
+    LightBounds bounds() const {
+        const double mean = textures_ ? double(luminance(mean_color(*textures_, texture_))) : 1.0;
+        LightBounds bounds = LightBounds::in_box(Box3(position_, position_), double(luminance(intensity_)) * mean);
+        const bool narrow = cutoff_ - beam_ <= 0.5f * kPi;
+        bounds.cone = {axis_, (narrow ? beam_ : cutoff_) * kInvPi};
+        bounds.falloff = narrow ? (cutoff_ - beam_) * kInvPi : 0.0f;
+        return bounds;
+    }
+
     DirectSample sample(const Vec3& p, float selection) const {
         DirectSample sample = sample_point(position_, intensity_, p, selection);
         if (!(sample.pdf > 0.0f)) return sample;
