@@ -17,6 +17,7 @@ EmissionSample Emitters::emit(const Draw& place, const Draw& direction) const {
     const float selection = selection_.probability(entry);
     sample.weight *= 1.0f / selection;
     sample.place_pdf *= selection;
+    sample.delta_light = static_cast<std::uint32_t>(index);
     return sample;
 }
 
@@ -63,21 +64,23 @@ EmissionDensity Emitters::emission_density(const Vec3& direction) const {
     return {environments_.pdf(direction, EntryProbabilities()), 1.0f / ball_.section()};
 }
 
-EmissionDensity Emitters::emission_density(const DirectSample& sample, const Draw& random, bool delta_alone) const {
+EmissionDensity Emitters::emission_density(const DirectSample& sample, const LightReceiver& receiver,
+                                           const Draw& random, bool delta_alone) const {
     if (!sample.delta)
         return sample.from_environment ? emission_density(sample.wi) : emission_density(sample.on_light, -sample.wi);
     if (!(ball_.radius > 0.0f)) return {};
-    const std::size_t light =
-        delta_alone ? delta_alone_.pick(random[0]) : selection_.pick(random[0]) - area_lights_.size();
-    return {delta_selection_[light], delta_lights_[light].direction_pdf(ball_, -sample.wi)};
+    const std::uint32_t light =
+        delta_alone ? delta_alone_.pick(random[0]) : choice_.pick(random, receiver).entry - area_entries_;
+    const auto entry = static_cast<std::uint32_t>(area_lights_.size()) + light;
+    return {selection_.probability(entry), delta_lights_[light].direction_pdf(ball_, -sample.wi)};
 }
 
-double Emitters::next_event_pdf(const EmissionSample& start, const Vec3& p) const {
-    if (start.is_delta()) return double(start.place_pdf);
+double Emitters::next_event_pdf(const EmissionSample& start, const LightReceiver& receiver) const {
     const Vec3 wi = -start.ray.direction;
-    if (start.from == EmissionFrom::environment) return double(pdf_environment(wi));
+    if (start.is_delta()) return double(choice_.probability(area_entries_ + start.delta_light, receiver));
+    if (start.from == EmissionFrom::environment) return double(pdf_environment(receiver, wi));
     if (start.from != EmissionFrom::surface) return 0.0;
-    const double pdf = double(pdf_direct(p, wi, start.start)) * start.place_factor(p);
+    const double pdf = double(pdf_direct(receiver, wi, start.start)) * start.place_factor(receiver.p);
     return std::isfinite(pdf) ? pdf : 0.0;  // it left along the surface
 }
 

@@ -89,11 +89,13 @@ class Emitters {
     EmissionDensity emission_density(const Hit& start, const Vec3& away) const;
     /// Densities of light from infinity that comes against the unit `direction`.
     EmissionDensity emission_density(const Vec3& direction) const;
-    /// Densities with which emit() starts where next event ended, which drew `sample` by these numbers; `delta_alone`:
-    /// by sample_delta().
-    EmissionDensity emission_density(const DirectSample& sample, const Draw& random, bool delta_alone) const;
-    /// Density with which sample_direct() at p finds the start of a light path, in the measure of its place_pdf.
-    double next_event_pdf(const EmissionSample& start, const Vec3& p) const;
+    /// Densities with which emit() starts where next event ended, which drew `sample` at `receiver` by these numbers;
+    /// `delta_alone`: by sample_delta().
+    EmissionDensity emission_density(const DirectSample& sample, const LightReceiver& receiver, const Draw& random,
+                                     bool delta_alone) const;
+    /// Density with which sample_direct() at `receiver` finds the start of a light path, in the measure of its
+    /// place_pdf.
+    double next_event_pdf(const EmissionSample& start, const LightReceiver& receiver) const;
 
     /// Whether emitted() may be other than black on a shape.
     bool emits(std::uint32_t shape) const { return light_of_shape_[shape] != kNone; }

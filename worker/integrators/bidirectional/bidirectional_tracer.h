@@ -48,7 +48,8 @@ class BidirectionalTracer {
         Rgb throughput{1.0f};
         float spread = 1.0f;  ///< product of eta^2: refraction takes it from the radiance, and gives it back on leaving
         Departure from{};     ///< the vertex that the ray left
-        TechniqueSums sums{};  ///< of that vertex
+        TechniqueSums sums{};      ///< of that vertex
+        LightReceiver receiver{};  ///< that vertex, as next event chose an emitter there
     };
 
     /// Follows the camera's path, connects its vertices, and returns what it meets by itself.
@@ -113,7 +114,7 @@ class BidirectionalTracer {
             arrival ? emitters.emission_density(*arrival, -direction) : emitters.emission_density(direction);
         double next_event = 0.0;
         if (rules_.next_event) {
-            next_event = double(emitter_pdf(emitters, path.from.p, path.ray, arrival));
+            next_event = double(emitter_pdf(emitters, path.receiver, path.ray, arrival));
             if (arrival)
                 next_event *= double(geometric_cosine(*arrival, direction)) / squared_distance(path.from.p, arrival->p);
         }
@@ -125,8 +126,8 @@ class BidirectionalTracer {
     void next_event(const CameraVertex& z, const Draw& random) {
         if ((!rules_.next_event && !rules_.delta_alone) || !rules_.techniques.has(1, z.depth + 1)) return;
         const Emitters& emitters = scene_.emitters();
-        const DirectSample light =
-            rules_.delta_alone ? emitters.sample_delta(z.hit.p, random) : emitters.sample_direct(z.hit.p, random);
+        const DirectSample light = rules_.delta_alone ? emitters.sample_delta(z.hit.p, random)
+                                                      : emitters.sample_direct(receiver_at(z.hit, z.surface), random);
         if (!(light.pdf > 0.0f) || light.black()) return;
         const BsdfValue bsdf = scattering(z, light.wi);
         if (is_black(bsdf.f_cos)) return;
@@ -139,7 +140,8 @@ class BidirectionalTracer {
 
     /// All other techniques' part in such a path, against next event's.
     double next_event_others(const CameraVertex& z, const DirectSample& light, double scatter, const Draw& random) {
-        const EmissionDensity pdf = scene_.emitters().emission_density(light, random, rules_.delta_alone);
+        const EmissionDensity pdf =
+            scene_.emitters().emission_density(light, receiver_at(z.hit, z.surface), random, rules_.delta_alone);
         // Densities of the place and of what is drawn from there, in the measures of next event's and per area.
         // Where only lights without extent are sampled, both ends are taken to choose them alike.
         double place = rules_.delta_alone ? 1.0 : double(pdf.place) / double(light.pdf);
@@ -220,6 +222,7 @@ class BidirectionalTracer {
         path.from = {z.hit.p, double(geometric_cosine(z.hit, direction)), sample.delta ? 1.0 : double(sample.pdf),
                      sample.delta ? 1.0 : reverse(z, direction), sample.delta};
         path.sums = z.sums;
+        path.receiver = receiver_at(z.hit, z.surface);
         path.ray = {offset_origin(z.hit, direction), direction};
         return true;
     }

@@ -59,15 +59,15 @@ class LightSubpath {
             scene_.geometry().keep_inside(vertex.hit, ray);
             vertex.in = -ray.direction;
             vertex.light = start.weight * throughput;
+            const Surface& surface = vertex.surface.emplace(scene_, vertex.hit, vertex.in, vertex.scratch);
+            if (surface.black()) return;
             if (depth == 1) {
-                vertex.sums = first_sums(start, vertex.hit);
+                vertex.sums = first_sums(start, vertex.hit, surface);
             } else {
                 const DrawnEdge edge = edge_to(from, vertex.hit, vertex.in);
                 if (!(edge.pdf > 0.0)) return;
                 vertex.sums = vertices_[static_cast<std::size_t>(count_ - 1)].sums.after(edge, rules_.heuristic);
             }
-            const Surface& surface = vertex.surface.emplace(scene_, vertex.hit, vertex.in, vertex.scratch);
-            if (surface.black()) return;
             ++count_;
             ++stats_.vertices;
             if (!rules_.goes_on(depth + 1)) return;
@@ -82,13 +82,16 @@ class LightSubpath {
     }
 
     /// Techniques that draw the emitter by next event, or find it by chance, where this path began there.
-    TechniqueSums first_sums(const EmissionSample& start, const Hit& hit) const {
+    TechniqueSums first_sums(const EmissionSample& start, const Hit& hit, const Surface& surface) const {
         const Heuristic& m = rules_.heuristic;
         const double pdf = double(start.place_pdf) * start.next_pdf(hit.p, hit.ng);
         if (!(pdf > 0.0)) return {};
-        const bool sampled = rules_.next_event || start.is_delta();
-        return {sampled ? m(scene_.emitters().next_event_pdf(start, hit.p) / pdf) : 0.0,
-                m(start.place_factor(hit.p) / pdf)};
+        double sampled = 0.0;
+        if (rules_.next_event)
+            sampled = scene_.emitters().next_event_pdf(start, receiver_at(hit, surface));
+        else if (start.is_delta())
+            sampled = double(start.place_pdf);  // as BidirectionalTracer has it
+        return {m(sampled / pdf), m(start.place_factor(hit.p) / pdf)};
     }
 
     /// Russian roulette of a path that scattered at `depth`.
