@@ -14,6 +14,7 @@
 #include "common/plan/learning.h"
 #include "common/plan/schedule.h"
 #include "common/plan/texture_mean.h"
+#include "common/scene/uses/emitter_uses.h"
 
 namespace treefarm {
 namespace {
@@ -66,6 +67,29 @@ std::uint64_t emitters_bytes(const Scene& scene) {
     return bytes;
 }
 
+/// Of what next event chooses among by place: emitters, patches of meshes, parts of images.
+struct LightParts {
+    std::uint64_t count = 0;
+    std::uint64_t cut_triangles = 0;  ///< of meshes in patches
+};
+LightParts light_parts(const Scene& scene) {
+    constexpr std::uint64_t kFewTriangles = 16, kPatchTriangles = 8, kMostPatches = 128, kImageParts = 8;
+    LightParts parts;
+    for (const Emitter& emitter : scene.emitters) {
+        std::uint64_t count = 1;
+        for_each_image(emitter, [&](std::int32_t) { count = kImageParts; });
+        if (const auto* area = std::get_if<AreaEmitter>(&emitter.kind); area && area->shape != kNone) {
+            const auto* mesh = std::get_if<Mesh>(&scene.shapes[static_cast<std::size_t>(area->shape)].geometry);
+            if (const std::uint64_t triangles = mesh ? mesh->triangle_count() : 0; triangles > kFewTriangles) {
+                count = std::min(triangles / kPatchTriangles, kMostPatches);
+                parts.cut_triangles += triangles;
+            }
+        }
+        parts.count += count;
+    }
+    return parts;
+}
+
 /// What next event chooses emitters by, besides their tables.
 MemoryItem emitter_item(const Scene& scene, const Resolved& job) {
     const std::uint64_t count = scene.emitters.size();
@@ -78,10 +102,11 @@ MemoryItem emitter_item(const Scene& scene, const Resolved& job) {
     }
     item.formula += ", chosen by what they bring to a point";
     if (how == LightSelection::learned) item.formula += " and what regions learn";
-    if (count <= static_cast<std::uint64_t>(kLightClusters)) return item;
-    item.bytes += count * kLightTreeBytes;
-    item.formula += "; their hierarchy is built in about " +
-                    std::to_string(std::max<std::uint64_t>(count * kLightTreeMicroseconds / 1000, 1)) + " ms";
+    const LightParts parts = light_parts(scene);
+    if (parts.count <= static_cast<std::uint64_t>(kLightClusters)) return item;
+    item.bytes += parts.count * kLightTreeBytes + parts.cut_triangles * kPatchTriangleBytes;
+    item.formula += "; a hierarchy of at most " + count_text(parts.count, "parts, built in about ") +
+                    std::to_string(std::max<std::uint64_t>(parts.count * kLightTreeMicroseconds / 1000, 1)) + " ms";
     return item;
 }
 

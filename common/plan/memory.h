@@ -42,7 +42,7 @@ struct TreeSize {
 inline constexpr std::uint64_t kEmitterBytes = 128;
 /// Bytes and microseconds that the hierarchy takes for each of many emitters, about
 /// (bench/log/2026-11-27-light-tree.md).
-inline constexpr std::uint64_t kLightTreeBytes = 180, kLightTreeMicroseconds = 10;
+inline constexpr std::uint64_t kLightTreeBytes = 180, kLightTreeMicroseconds = 10, kPatchTriangleBytes = 18;
 /// Embree's hierarchy over triangles, and over other shapes with their geometry objects, measured
 /// (docs/generated/effects.md).
 inline constexpr std::uint64_t kHierarchyBytesPerTriangle = 67;

@@ -148,6 +148,40 @@ TEST(LightTree, DrawsAsOftenAsItSays) {
             expect_draws_as_promised({some_lights(count, std::uint32_t(count)), false}, probabilities, 4);
 }
 
+TEST(LightTree, ManyPointsTogetherChooseWhatEachDoes) {
+    const LightProbabilities learned = some_probabilities();
+    for (const std::size_t count : {2u, 5u, 8u, 9u, 13u}) {
+        const std::vector<LightBounds> lights = some_lights(count, 40 + std::uint32_t(count));
+        const FlatLights flat(lights, shares_of(lights));
+        Numbers numbers(14);
+        FlatBatch batch;
+        for (const std::uint32_t points : {kDrawBatch, 1u, 13u}) {
+            batch.clear();
+            std::vector<LightReceiver> receivers;
+            std::vector<std::uint32_t> bits;
+            for (std::uint32_t i = 0; i < points; ++i) {
+                Vec3 normal;
+                receivers.push_back(some_receiver(numbers, int(i), i % 2 ? &learned : nullptr, normal));
+                bits.push_back(numbers.bits());
+                batch.add(kDrawBatch - 1 - i, receivers[i], bits[i]);
+            }
+            flat.pick(batch);
+            for (std::uint32_t i = 0; i < points; ++i) {
+                const LightPick one = flat.pick(bits[i], receivers[i]), together = flat.picked(batch, i);
+                ASSERT_EQ(one.entry, together.entry);
+                ASSERT_EQ(one.probability, together.probability);
+                ASSERT_EQ(one.cluster, together.cluster);
+                LightReceiver known = receivers[i];
+                LightWidthStore widths;
+                batch.copy_widths(kDrawBatch - 1 - i, widths.data(), flat.count());
+                known.widths = widths.data();
+                for (std::uint32_t e = 0; e < lights.size(); ++e)
+                    ASSERT_EQ(flat.probability(e, known), flat.probability(e, receivers[i]));
+            }
+        }
+    }
+}
+
 /// What a light that its bounds describe well brings to a point, by one of its points and directions.
 double contribution(const LightBounds& light, const LightReceiver& receiver, Numbers& numbers) {
     const Vec3 u = numbers.point();

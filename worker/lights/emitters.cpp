@@ -142,19 +142,36 @@ DirectSample Emitters::sample_direct(const LightReceiver& receiver, const Draw& 
 
 void Emitters::choose(LightBatch& batch, std::uint32_t lane, const LightReceiver& receiver, const Draw& random) const {
     batch.receiver[lane] = receiver;
-    const LightPick chosen = batch.chosen[lane] = choice_.pick(random, receiver);
+    batch.random[lane] = random;
+    if (choice_.flat()) return batch.flat.add(lane, receiver, random[0]);
+    batch.chosen[lane] = choice_.pick(random, receiver);
+    file(batch, lane);
+}
+
+void Emitters::file(LightBatch& batch, std::uint32_t lane) const {
+    const LightPick& chosen = batch.chosen[lane];
+    const Draw& random = batch.random[lane];
     std::uint32_t number = LightBatch::kAlone;
     if (is_map(chosen.entry)) {
         number = batch.map.add(static_cast<int>(environments_.map_part(chosen.entry)), random);
     } else if (const AreaLight* light = sphere_light(chosen.entry)) {
-        batch.by_cone[lane] = light->by_cone && has_cone(*light->sphere, receiver.p);
-        number = batch.by_cone[lane] ? batch.cones.add(*light->sphere, receiver.p, random)
-                                     : batch.spheres.add(*light->sphere, receiver.p, random);
+        const Vec3& p = batch.receiver[lane].p;
+        batch.by_cone[lane] = light->by_cone && has_cone(*light->sphere, p);
+        number = batch.by_cone[lane] ? batch.cones.add(*light->sphere, p, random)
+                                     : batch.spheres.add(*light->sphere, p, random);
     }
     batch.number[lane] = static_cast<std::uint8_t>(number);
 }
 
 void Emitters::draw(LightBatch& batch) const {
+    if (const FlatLights* few = choice_.flat()) {
+        few->pick(batch.flat);
+        for (std::uint32_t point = 0; point < batch.flat.count; ++point) {
+            const std::uint32_t lane = batch.flat.lane_of[point];
+            batch.chosen[lane] = few->picked(batch.flat, point);
+            file(batch, lane);
+        }
+    }
     if (has_map()) environments_.map().map().sample(batch.map);
     batch.cones.draw();
     batch.spheres.draw();

@@ -48,13 +48,21 @@ class Emitters {
     DirectSample sample_direct(const LightReceiver& receiver, const Draw& random) const;
 
     /// Whether there is a gain in drawing many together.
-    bool draws_together() const { return has_spheres_ || has_map(); }
+    bool draws_together() const { return has_spheres_ || has_map() || choice_.flat(); }
     // The same for many: clear the batch, choose() for all lanes that may sample, draw(), and sample_direct() for those
     // that do, each with the numbers of its choice. A density from the environment map is still to be
     // asked for, as radiance is: 1 stands for it.
     void choose(LightBatch& batch, std::uint32_t lane, const LightReceiver& receiver, const Draw& random) const;
     void draw(LightBatch& batch) const;
     DirectSample sample_direct(const LightBatch& batch, std::uint32_t lane, const Draw& random) const;
+    /// Keeps what was found out of emitters where a lane chose one, so that densities there need not find out again; in
+    /// `storage`, which must last as long as `receiver`.
+    void keep(const LightBatch& batch, std::uint32_t lane, LightReceiver& receiver, LightWidthStore& storage) const {
+        const FlatLights* const few = choice_.flat();
+        if (!few) return;
+        batch.flat.copy_widths(lane, storage.data(), few->count());
+        receiver.widths = storage.data();
+    }
     /// Whether some may be of an environment map.
     bool has_map() const { return environments_.map().shines(); }
     /// Radiance from infinity against a direction of such a sample.
@@ -155,6 +163,8 @@ class Emitters {
         return {&choice_, &receiver, known};
     }
     DirectSample sample(const LightPick& chosen, const LightReceiver& receiver, const Draw& random) const;
+    /// Asks for what is drawn together of the emitter that a lane has chosen.
+    void file(LightBatch& batch, std::uint32_t lane) const;
     /// Whether next event's entry is a part of the environment map.
     bool is_map(std::uint32_t entry) const { return environments_.is_map(entry); }
     /// That of next event's entry, if it is a sphere.

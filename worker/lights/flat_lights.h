@@ -5,6 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "common/base/random_batch.h"
+#include "common/math/vector_batch.h"
 #include "worker/lights/light_space.h"
 
 namespace treefarm {
@@ -20,6 +22,43 @@ struct LightPick {
 
 /// How many draw from what is not estimated, and may be wrong in no way: half by power, half evenly.
 inline constexpr float kDefensive = 0.125f;
+
+/// Points at which few emitters are chosen together: add() each, then FlatLights::pick().
+struct FlatBatch {
+    static constexpr std::size_t kMostLights = kLightClusters;
+    template <class T>
+    using Points = std::array<T, kDrawBatch>;
+
+    void clear() { count = 0; }
+    /// Asks for a choice by 32 random bits, for a lane of the caller's.
+    void add(std::uint32_t lane, const LightReceiver& receiver, std::uint32_t random) {
+        x[count] = receiver.p.x;
+        y[count] = receiver.p.y;
+        z[count] = receiver.p.z;
+        nx[count] = receiver.front.x;
+        ny[count] = receiver.front.y;
+        nz[count] = receiver.front.z;
+        one_sided[count] = receiver.one_sided;
+        learned[count] = receiver.probabilities;
+        bits[count] = random >> 1;
+        of_lane[lane] = static_cast<std::uint8_t>(count);
+        lane_of[count++] = static_cast<std::uint8_t>(lane);
+    }
+    /// Writes the probabilities of all emitters at a lane's point, in units of kLightUnit.
+    void copy_widths(std::uint32_t lane, std::int32_t* to, std::size_t lights) const {
+        for (std::size_t k = 0; k < lights; ++k)
+            to[k] = widths[k][of_lane[lane]];
+    }
+
+    std::uint32_t count = 0;
+    alignas(64) Points<float> x{}, y{}, z{}, nx{}, ny{}, nz{};
+    Points<std::uint32_t> one_sided{}, bits{};
+    Points<std::uint32_t> chosen{};       ///< lane of FlatLights
+    Points<std::int32_t> chosen_width{};  ///< its probability
+    std::array<Points<std::int32_t>, kMostLights> widths{};
+    Points<const LightProbabilities*> learned{};
+    Points<std::uint8_t> of_lane{}, lane_of{};
+};
 
 /// A choice among few emitters by what each brings to a point: all are looked at, and each is a cluster of its own.
 class FlatLights {
@@ -45,14 +84,34 @@ class FlatLights {
         return {entry_[lane], probability, static_cast<std::uint8_t>(lane), probability};
     }
 
+    /// Chooses for all points of a batch: each what pick() chooses, to the bit.
+    void pick(FlatBatch& batch) const;
+    /// That of the batch's point.
+    LightPick picked(const FlatBatch& batch, std::uint32_t point) const {
+        const std::uint32_t lane = batch.chosen[point];
+        if (lane >= count_) return {};
+        const float probability = static_cast<float>(batch.chosen_width[point]) * kLightUnit;
+        return {entry_[lane], probability, static_cast<std::uint8_t>(lane), probability};
+    }
+
     /// Probability with which pick() chooses an entry.
     float probability(std::uint32_t entry, const LightReceiver& receiver) const {
         const std::size_t lane = lane_[entry];
-        return lane < kLanes ? Widths(*this, receiver).probability(lane) : 0.0f;
+        if (lane >= kLanes) return 0.0f;
+        if (receiver.widths) return static_cast<float>(receiver.widths[lane]) * kLightUnit;
+        return Widths(*this, receiver).probability(lane);
     }
+    std::size_t count() const { return count_; }
 
   private:
     static constexpr std::size_t kLanes = 16;
+    static constexpr float kOne = static_cast<float>(kLightWhole) * kLightMargin;
+    static constexpr float kLearned = kOne * (1.0f - kDefensive) / static_cast<float>(kLightProbabilityOne);
+
+    /// What is left to estimates, in units of kLightUnit.
+    static float estimated_part(const LightProbabilities* learned) {
+        return learned ? kLearned * static_cast<float>((*learned)[0]) : kOne * (1.0f - kDefensive);
+    }
 
     /// Probabilities of all lanes, in units of kLightUnit.
     struct Widths {
@@ -67,10 +126,8 @@ class FlatLights {
                 lights.lanes_[1].estimate(p, receiver, brings[1]);
                 total += sum_of(brings[1]);
             }
-            constexpr float kOne = static_cast<float>(kLightWhole) * kLightMargin;
-            constexpr float kLearned = kOne * (1.0f - kDefensive) / static_cast<float>(kLightProbabilityOne);
             const LightProbabilities* learned = receiver.probabilities;
-            const float estimated = learned ? kLearned * static_cast<float>((*learned)[0]) : kOne * (1.0f - kDefensive);
+            const float estimated = estimated_part(learned);
             const float scale = total > kLeastLight ? estimated / total : 0.0f;
             for (std::size_t block = 0; block * LightLanes::kCount < lights.count_; ++block)
                 for (std::size_t k = 0; k < LightLanes::kCount; ++k)

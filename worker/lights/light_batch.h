@@ -18,6 +18,8 @@ struct LightBatch {
 
     std::array<LightPick, kDrawBatch> chosen;        ///< of each lane
     std::array<LightReceiver, kDrawBatch> receiver;  ///< the place that it is chosen for
+    std::array<Draw, kDrawBatch> random;             ///< the numbers that it is chosen by
+    FlatBatch flat;                                  ///< where few are chosen together
     std::array<std::uint8_t, kDrawBatch> number;     ///< in the batch of its kind
     EnvironmentBatch map;
     SphereBatch<sample_by_cone> cones;
@@ -25,6 +27,7 @@ struct LightBatch {
     std::array<bool, kDrawBatch> by_cone;  ///< which of the two, where it is a sphere
 
     void clear() {
+        flat.clear();
         map.clear();
         cones.clear();
         spheres.clear();

@@ -40,6 +40,8 @@ class LightChoice {
         return by_place_ ? probability_by_place(entry, receiver) : table_.probability(entry);
     }
 
+    /// The choice among few, which many points make together; nullptr where it is another.
+    const FlatLights* flat() const { return flat_ ? &*flat_ : nullptr; }
     /// Nodes and bytes of the hierarchy; 0 where there is none.
     std::size_t node_count() const { return tree_ ? tree_->node_count() : 0; }
     std::size_t bytes() const { return tree_ ? tree_->bytes() : 0; }

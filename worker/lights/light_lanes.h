@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 
@@ -17,6 +18,8 @@ struct LightReceiver {
     Vec3 front{0.0f};        ///< unit normal of a surface that reflects only, on the side that is looked at
     bool one_sided = false;  ///< whether `front` says what cannot light it
     const LightProbabilities* probabilities = nullptr;  ///< learned there; nullptr: nothing is
+    /// What was found out of few emitters when one was chosen here (FlatLights): nullptr: it is to be found out again.
+    const std::int32_t* widths = nullptr;
 
     LightReceiver() : p(0.0f) {}
     explicit LightReceiver(const Vec3& point) : p(point) {}
@@ -31,12 +34,20 @@ struct LightReceiver {
     const Vec3* normal() const { return one_sided ? &front : nullptr; }
 };
 
+/// What LightReceiver::widths points to.
+using LightWidthStore = std::array<std::int32_t, kLightClusters>;
+
 /// Whole numbers that probabilities are counted in: what draws, and what says how likely a draw was, agree to the bit.
 inline constexpr std::uint32_t kLightWhole = std::uint32_t{1} << 31;
 inline constexpr float kLightUnit = 0x1p-31f;
 /// By which probabilities are scaled down, so that no rounding makes their sum exceed the whole. What is left over
 /// draws nothing: it adds no bias, since densities are the whole numbers.
 inline constexpr float kLightMargin = 1.0f - 0x1p-20f;
+
+/// Bounds of one emitter or node, as LightLanes has them.
+struct LightLane {
+    float x, y, z, radius2, axis_x, axis_y, axis_z, cone_cos, cone_sin, falloff_cos, amount;
+};
 
 /// Bounds of up to eight emitters or nodes, side by side, so that what they bring to a point is one loop of vector
 /// code. In the tree's own units: the scene's size and the sum of all amounts are about 1.
@@ -54,6 +65,11 @@ struct LightLanes {
 
     static constexpr std::uint32_t kLeaf = 0x80000000u;
 
+    LightLane operator[](int k) const {
+        return {x[k],      y[k],        z[k],        radius2[k],     axis_x[k], axis_y[k],
+                axis_z[k], cone_cos[k], cone_sin[k], falloff_cos[k], amount[k]};
+    }
+
     void set(int lane, const LightBounds& bounds, const Imath::V3d& origin, double scale, double per_amount);
 
     /// Estimates of the irradiance at p that each brings: amount times an upper bound of both cosines over the squared
@@ -69,39 +85,44 @@ inline float sum_of(const LightLanes::Floats& f) {
 /// Estimates below this are none: their quotients would leave the range of float.
 inline constexpr float kLeastLight = 1e-30f, kMostLight = 1e30f;
 
+/// What an emitter with these bounds brings to p: LightLanes::estimate(). Everything by value, so that it becomes
+/// vector code over emitters as well as over points, of the same bits.
+[[gnu::always_inline]] inline float light_estimate(const LightLane l, float px, float py, float pz, float nx, float ny,
+                                                   float nz, bool one_sided) {
+    const float vx = l.x - px, vy = l.y - py, vz = l.z - pz;
+    const float d2 = vx * vx + vy * vy + vz * vz, r2 = l.radius2;
+    const bool far = r2 < 0.0f, inside = d2 <= r2;
+    const float inverse = 1.0f / std::sqrt(std::max(d2, kLeastNormal));
+    const float wx = select(far, l.axis_x, vx * inverse), wy = select(far, l.axis_y, vy * inverse),
+                wz = select(far, l.axis_z, vz * inverse);
+    // The half angle that its extent fills as seen from p.
+    const float sin2 = std::min(std::max(r2 * inverse * inverse, 0.0f), 1.0f);
+    const float wide_sin = select(far, l.cone_sin, std::sqrt(sin2)),
+                wide_cos = select(far, l.cone_cos, std::sqrt(1.0f - sin2));
+    const auto nearer = [&](float cosine, float sine) {  // by that half angle
+        return select(cosine >= wide_cos, 1.0f, cosine * wide_cos + sine * wide_sin);
+    };
+    const float at_p = nx * wx + ny * wy + nz * wz;
+    const float received = select(one_sided, nearer(at_p, std::sqrt(std::max(1.0f - at_p * at_p, 0.0f))), 1.0f);
+
+    const float off = -(l.axis_x * wx + l.axis_y * wy + l.axis_z * wz);
+    const float off_sin = std::sqrt(std::max(1.0f - off * off, 0.0f));
+    const bool beyond = off < l.cone_cos;
+    const float beyond_cos = select(beyond, off * l.cone_cos + off_sin * l.cone_sin, 1.0f),
+                beyond_sin = select(beyond, off_sin * l.cone_cos - off * l.cone_sin, 0.0f);
+    const float emission_cos = nearer(beyond_cos, beyond_sin);
+    const float emitted = select(far, 1.0f, select(emission_cos > l.falloff_cos, emission_cos, 0.0f));
+
+    const float cosines = select(inside, 1.0f, std::max(emitted, 0.0f) * std::max(received, 0.0f));
+    const float distance2 = select(far, 1.0f, std::max(std::max(d2, r2), kLeastNormal));
+    const float light = l.amount * cosines / distance2;
+    return select(light >= 0.0f, std::min(light, kMostLight), 0.0f);
+}
+
 inline void LightLanes::estimate(const Vec3& p, const LightReceiver& receiver, Floats& brings) const {
     const Vec3 n = receiver.front;
-    const bool one_sided = receiver.one_sided;
-    for (int k = 0; k < kCount; ++k) {
-        const float vx = x[k] - p.x, vy = y[k] - p.y, vz = z[k] - p.z;
-        const float d2 = vx * vx + vy * vy + vz * vz, r2 = radius2[k];
-        const bool far = r2 < 0.0f, inside = d2 <= r2;
-        const float inverse = 1.0f / std::sqrt(std::max(d2, kLeastNormal));
-        const float wx = select(far, axis_x[k], vx * inverse), wy = select(far, axis_y[k], vy * inverse),
-                    wz = select(far, axis_z[k], vz * inverse);
-        // The half angle that its extent fills as seen from p.
-        const float sin2 = std::min(std::max(r2 * inverse * inverse, 0.0f), 1.0f);
-        const float wide_sin = select(far, cone_sin[k], std::sqrt(sin2)),
-                    wide_cos = select(far, cone_cos[k], std::sqrt(1.0f - sin2));
-        const auto nearer = [&](float cosine, float sine) {  // by that half angle
-            return select(cosine >= wide_cos, 1.0f, cosine * wide_cos + sine * wide_sin);
-        };
-        const float at_p = n.x * wx + n.y * wy + n.z * wz;
-        const float received = select(one_sided, nearer(at_p, std::sqrt(std::max(1.0f - at_p * at_p, 0.0f))), 1.0f);
-
-        const float off = -(axis_x[k] * wx + axis_y[k] * wy + axis_z[k] * wz);
-        const float off_sin = std::sqrt(std::max(1.0f - off * off, 0.0f));
-        const bool beyond = off < cone_cos[k];
-        const float beyond_cos = select(beyond, off * cone_cos[k] + off_sin * cone_sin[k], 1.0f),
-                    beyond_sin = select(beyond, off_sin * cone_cos[k] - off * cone_sin[k], 0.0f);
-        const float emission_cos = nearer(beyond_cos, beyond_sin);
-        const float emitted = select(far, 1.0f, select(emission_cos > falloff_cos[k], emission_cos, 0.0f));
-
-        const float cosines = select(inside, 1.0f, std::max(emitted, 0.0f) * std::max(received, 0.0f));
-        const float distance2 = select(far, 1.0f, std::max(std::max(d2, r2), kLeastNormal));
-        const float light = amount[k] * cosines / distance2;
-        brings[k] = select(light >= 0.0f, std::min(light, kMostLight), 0.0f);
-    }
+    for (int k = 0; k < kCount; ++k)
+        brings[k] = light_estimate((*this)[k], p.x, p.y, p.z, n.x, n.y, n.z, receiver.one_sided);
 }
 
 /// Probabilities of a node's lanes, in units of kLightUnit.

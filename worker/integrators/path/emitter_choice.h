@@ -32,6 +32,11 @@ class EmitterChoice {
         emitters_.choose(batch_, lane, receiver, draws_[lane]);
     }
     void draw() { emitters_.draw(batch_); }
+    /// Keeps what the choice of this step has found out, for a density that may be asked for there (Emitters::keep()).
+    void keep(std::uint32_t lane, LightReceiver& receiver, LightWidthStore& storage) const {
+        if (together_) [[unlikely]]
+            emitters_.keep(batch_, lane, receiver, storage);
+    }
 
     /// A next-event sample as of Emitters::sample_direct(), or sample_delta() where next event is for those alone.
     DirectSample sample(const LightReceiver& receiver, std::uint32_t lane) const {

@@ -22,9 +22,10 @@ struct PathState {
     float scatter_pdf;           ///< infinite after a delta lobe: next event cannot have found what it hits
     float spread;                ///< product of eta^2: what refraction took from the throughput and gives back later
     LightReceiver scatter_from;  ///< the place, as next event chose an emitter there
-    bool probe;                  ///< unguided in a pass that probes whether guiding pays
-    int first_exponent;          ///< of the quanta where the camera's ray arrived: how bright it is there
-    std::uint16_t origin;        ///< the group's camera path that it is part of
+    LightWidthStore scatter_widths;  ///< of scatter_from
+    bool probe;                      ///< unguided in a pass that probes whether guiding pays
+    int first_exponent;              ///< of the quanta where the camera's ray arrived: how bright it is there
+    std::uint16_t origin;            ///< the group's camera path that it is part of
     SplitBudget split_budget;
     Unsplit unsplit;
     bool was_split_off;  ///< has just left another: its ray has arrived, and what it met is accounted for

@@ -202,7 +202,6 @@ class PathWalk {
             emission_.from_emitter(path, recorder);
         if (path.depth == settings_.max_depth) return end("depth limit");
         if (path.depth == 1) return true;
-
         if (settings_.roulette.plays(path.depth - 1)) {
             const float chance = survival<kGuided>(path, guide_, settings_);
             const bool survives = to_unit(roulette_draws_.word[0][path.lane]) < chance;
@@ -269,6 +268,7 @@ class PathWalk {
         observer_.scatter(s, path.throughput);
         path.scatter_pdf = s.pdf;
         path.scatter_from = receiver(path);
+        if (surface.smooth()) emitters_.keep(path.lane, path.scatter_from, path.scatter_widths);
         // One question for what is rare: the same bits say that a lobe may be delta, or refract.
         const bool rare = Surface::kGeneral && surface.delta_or_transmitting();
         if constexpr (Surface::kTransmits)
