@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "common/base/error.h"
+#include "common/comm/run_key.h"
 
 namespace treefarm {
 
@@ -69,9 +70,11 @@ LaunchEnvironment read_launch_environment() {
     launch.one_host = here && all && std::string_view(here) == all;
     if (!launch.under_mpi && !isatty(STDIN_FILENO)) find_lone_tasks(launch);  // a person has a shell, not many tasks
     launch.terminal = read_terminal(launch.under_mpi);
-    if (const char* text = std::getenv(kAttemptVariable); text && launch.rank == 0)
-        if (const LifeAttempt attempt = parse_attempt(text); !attempt.name.empty())
-            launch.life = std::make_shared<SignOfLife>(attempt);
+    if (const char* text = std::getenv(kAttemptVariable))
+        if (const LifeAttempt attempt = parse_attempt(text); !attempt.name.empty()) {
+            launch.key_file = attempt.file.parent_path() / kRunKeyName;
+            if (launch.rank == 0) launch.life = std::make_shared<SignOfLife>(attempt);
+        }
     return launch;
 }
 

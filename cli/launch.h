@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <filesystem>
 #include <memory>
 #include <string>
 
@@ -20,6 +21,7 @@ struct LaunchEnvironment {
     bool by_slurm = false;   ///< they were started by srun
     TerminalKind terminal;   ///< standard error; nothing is drawn through mpirun
     std::shared_ptr<SignOfLife> life;  ///< of a coordinator that treefarm launch started; else nullptr
+    std::filesystem::path key_file;    ///< of processes that treefarm launch started; else empty
 };
 LaunchEnvironment read_launch_environment();
 

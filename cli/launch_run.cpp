@@ -27,6 +27,7 @@
 #include "common/base/error.h"
 #include "common/base/host.h"
 #include "common/base/timer.h"
+#include "common/comm/run_key.h"
 #include "coordinator/folder_content.h"
 #include "coordinator/launch/supervisor.h"
 
@@ -142,7 +143,11 @@ class LaunchRun {
             note("processes of the attempt cannot be killed");
         temporary_.empty();
         shared_memory_.empty();
+        std::error_code none;
+        std::filesystem::remove(key_file(), none);
     }
+
+    std::filesystem::path key_file() const { return folder_.own() / kRunKeyName; }
 
     void start(int number) {
         sweep();
@@ -154,6 +159,7 @@ class LaunchRun {
         const std::vector<std::string> command = start_command(plan, words);
         note("attempt " + std::to_string(number) + ": " + joined(command));
         const LifeAttempt attempt{name_of(number), folder_.life_file()};
+        write_run_key(key_file());
         child_ = std::make_unique<ChildProcess>(command, std::string(kAttemptVariable) + "=" + attempt_text(attempt));
     }
 

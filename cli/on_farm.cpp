@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <optional>
 #include <thread>
 
 #include "cli/interrupt.h"
@@ -15,6 +16,7 @@
 #include "common/comm/in_process_channel.h"
 #include "common/comm/mpi_channel.h"
 #include "common/comm/multi_channel.h"
+#include "common/comm/run_key.h"
 #include "coordinator/farm.h"
 #include "coordinator/pulse.h"
 #include "worker/integrators/registry.h"
@@ -134,6 +136,28 @@ int work(MpiSession& session, const FarmOptions& options, const Voice& voice, In
     }
 }
 
+/// The secret that treefarm launch left for its processes, where this host sees it.
+std::optional<JoinKey> run_key(const LaunchEnvironment& launch) {
+    if (launch.key_file.empty()) return std::nullopt;
+    try {
+        return read_run_key(launch.key_file);
+    } catch (const InputError& error) {
+        std::fprintf(stderr, "treefarm: rank %d: %s\n", launch.rank, error.what());
+        return std::nullopt;
+    }
+}
+
+/// Says what nothing guards, where it goes over a network.
+void tell_trust(const LaunchEnvironment& launch, const MpiSession& session, const Voice& voice) {
+    if (session.is_sealed()) return;
+    const Log log = make_log("coordinator", {}, voice.console, voice.loudness);
+    if (!launch.key_file.empty())
+        log->warn("not all processes can read {}: messages are not authenticated, and the network is trusted",
+                  launch.key_file.string());
+    else if (!launch.one_host)
+        log->info("messages between hosts are not authenticated: the network is trusted (treefarm launch makes a key)");
+}
+
 std::string missing_processes(const LaunchEnvironment& launch, double seconds) {
     const std::string all = launch.size > 0 ? "the " + std::to_string(launch.size) : "all";
     char limit[32] = "";
@@ -179,8 +203,9 @@ int run_processes(const LaunchEnvironment& launch, const FarmOptions& options, c
     }
     if (launch.one_host) skip_network_search();
     InterruptWatch watch;  // before MPI starts its threads
-    MpiSession session(options.start_seconds, missing_processes(launch, options.start_seconds));
+    MpiSession session(options.start_seconds, missing_processes(launch, options.start_seconds), run_key(launch));
     if (launch.life) launch.life->begin();
+    if (session.size() > 1 && session.rank() == 0) tell_trust(launch, session, voice);
     if (session.size() > 1)
         return session.rank() == 0 ? coordinate(launch, session, task, watch) : work(session, options, voice, watch);
     const int code = guarded([&]() -> CoordinatorEnd { return {run_here(options, voice, task), {}}; }).code;

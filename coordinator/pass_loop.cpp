@@ -123,7 +123,7 @@ class PassLoop {
 
     /// Collects the results of a pass; false if it was interrupted.
     bool collect(const PassPlan& plan, const NextPass& chosen, PassReport& report) {
-        collecting_ = Collecting{chosen.memory, report.seconds.all};
+        collecting_ = Collecting{chosen.memory, report.seconds.all, kept_value()};
         while (!farm_.pass_complete()) {
             if (hooks_.interrupted && hooks_.interrupted()) return false;
             farm_.step();
@@ -138,10 +138,21 @@ class PassLoop {
         return true;
     }
 
+    /// A state that says no more than the one on disk would look to a supervisor as if the render got on.
     void show_begun() {
+        const std::uint64_t value = kept_value();
+        if (value == std::exchange(collecting_->kept, value)) return;
         note_begun();
         if (state_.begun && hooks_.on_state) hooks_.on_state(state_);
         state_.begun.reset();
+    }
+
+    /// Changes with what is worth keeping of the pass in hand.
+    std::uint64_t kept_value() const {
+        std::uint64_t value = farm_.ledger().done();
+        for (const DeadlyUnit& unit : farm_.ledger().deadly())
+            value += unit.deaths;
+        return value;
     }
 
     CollectedPass collected(const PassPlan& plan) {
@@ -266,6 +277,7 @@ class PassLoop {
     struct Collecting {
         BudgetMemory memory;  ///< NextPass::memory
         double before;        ///< seconds that earlier lives of the render collected
+        std::uint64_t kept;   ///< kept_value() of the newest state that was offered or gone on from
         Timer clock{};
     };
     std::optional<Collecting> collecting_;

@@ -17,6 +17,25 @@ bool is_known(const ErrorForecast& forecast) {
            std::isfinite(forecast.seconds);
 }
 
+/// What is decided on guiding, and why.
+std::string guiding_text(Guiding verdict, const GuidingGain& gain) {
+    const auto factor = [](double quieter) {
+        return fmt::format("{:.2g} times {}", std::max(quieter, 1 / quieter), quieter < 1 ? "the noise" : "less noise");
+    };
+    switch (verdict) {
+        case Guiding::loses:
+            return fmt::format(
+                "unguided from here on: guiding makes {} at equal cost, but for the worst 1 % of the pixels",
+                factor(gain.bulk));
+        case Guiding::pays:
+            return fmt::format("guided to the end: unguided samples find only {:.0f} % of the light evenly",
+                               100 * gain.coverage);
+        case Guiding::open:
+            break;
+    }
+    return fmt::format("guiding makes {} at equal cost", factor(gain.all));
+}
+
 /// "half of it in about 1:10"; empty where nobody knows, or nothing is left to do.
 std::string outlook_text(const PassReport& r) {
     const bool asked = r.target.relative_error > 0;
@@ -44,11 +63,7 @@ std::string pass_summary(const PassReport& r, std::size_t pass_count) {
     text += fmt::format(", {:.1f} % of paths see light", 100 * r.nonzero_share());
     if (r.tree.regions > 1)
         text += fmt::format("; tree {} nodes, {:.1f} MB", r.tree.nodes, 1e-6 * static_cast<double>(r.tree.memory));
-    if (r.guiding_gain.all > 0)
-        text += fmt::format("; guided samples are worth {:.3g} unguided ones{}", r.guiding_gain.all,
-                            r.guiding == Guiding::loses  ? ": unguided from here on"
-                            : r.guiding == Guiding::pays ? ", which hardly find the light: guided to the end"
-                                                         : "");
+    if (r.guiding_gain.all > 0) text += "; " + guiding_text(r.guiding, r.guiding_gain);
     if (r.plan.split && !r.splitting) text += "; splitting paths does not pay: none is split from here on";
     for (const ErrorForecast& forecast : {r.halving, r.target})
         if (is_known(forecast))

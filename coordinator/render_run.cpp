@@ -219,18 +219,19 @@ class RenderRun {
         directory_.add_pass(pass);
         log_->info("{}", pass_line(pass, pass_count_));
         log_->debug("{}", pass_summary(pass, pass_count_));
+        const std::string name = pass_name(pass.plan.index, 0);
         for (const InvalidSample& sample : pass.stats.first_invalid)
             log_->warn("radiance ({}, {}, {}) counts as black; reproduce with: {} {},{},{},{}{}", sample.rgb[0],
                        sample.rgb[1], sample.rgb[2], request_.debug_command, sample.pass, sample.x, sample.y,
                        sample.sample, replay_options());
         if (pass.stats.invalid_samples > pass.stats.first_invalid.size())
-            log_->warn("{} invalid samples in pass {} in all", pass.stats.invalid_samples, pass.plan.index);
+            log_->warn("{} invalid samples in {} in all", pass.stats.invalid_samples, name);
         if (pass.caps.capped_records > 0 || pass.caps.saturated_cells > 0 || pass.caps.outside_positions > 0)
-            log_->warn("pass {}: {} records capped, {} cells saturated, {} positions outside the tree", pass.plan.index,
+            log_->warn("{}: {} records capped, {} cells saturated, {} positions outside the tree", name,
                        pass.caps.capped_records, pass.caps.saturated_cells, pass.caps.outside_positions);
         if (pass.splat_caps != SplatCaps{} || pass.saturated_splats > 0)
-            log_->warn("pass {}: {} capped splats, {} saturated sums of splats, {} splats that are no radiance",
-                       pass.plan.index, pass.splat_caps.capped, pass.saturated_splats, pass.splat_caps.rejected);
+            log_->warn("{}: {} capped splats, {} saturated sums of splats, {} splats that are no radiance", name,
+                       pass.splat_caps.capped, pass.saturated_splats, pass.splat_caps.rejected);
     }
 
     /// Says, once, what in the scene makes an image black.

@@ -51,6 +51,12 @@ FrameHead frame_head(const JoinKey& key, std::uint64_t sequence, std::span<const
     return head;
 }
 
+bool is_head_of(const FrameHead& head, const JoinKey& key, std::uint64_t sequence,
+                std::span<const std::uint8_t> bytes) {
+    const FrameHead right = frame_head(key, sequence, bytes, false);
+    return sodium_memcmp(head.data(), right.data(), right.size()) == 0;
+}
+
 void FrameReader::feed(std::span<const std::uint8_t> bytes) {
     for (;;) {
         if (head_bytes_ < head_.size()) {

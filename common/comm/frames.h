@@ -29,6 +29,9 @@ using FrameHead = std::array<std::uint8_t, kFrameHeadBytes>;
 /// What goes before the bytes of frame number `sequence`.
 FrameHead frame_head(const JoinKey& key, std::uint64_t sequence, std::span<const std::uint8_t> bytes, bool more);
 
+/// Whether a head is that of a message in one part. Takes as long whatever differs.
+bool is_head_of(const FrameHead& head, const JoinKey& key, std::uint64_t sequence, std::span<const std::uint8_t> bytes);
+
 /// Makes messages of what arrives, however it is cut.
 class FrameReader {
   public:

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "common/comm/keyed_hash.h"
 #include "common/protocol/envelope.h"
 
 namespace treefarm {
@@ -18,16 +19,8 @@ constexpr std::size_t kHelloBytes = 4 + 4 + 4 + 8 + sizeof(JoinRun) + 2 * sizeof
 constexpr std::size_t kRefusalBytes = 5;
 constexpr std::size_t kAnswerBytes = kRefusalBytes + 2 * sizeof(JoinKey);
 
-/// BLAKE2b under the secret of a purpose and bytes.
-JoinKey keyed_hash(const JoinKey& secret, const std::string& purpose, std::span<const std::uint8_t> bytes) {
-    ByteWriter writer;
-    writer.put_string("treefarm join: " + purpose);
-    writer.put_bytes(bytes);
-    const Bytes text = writer.take();
-    JoinKey hash;
-    static_assert(sizeof hash <= crypto_generichash_BYTES_MAX && sizeof hash >= crypto_generichash_BYTES_MIN);
-    crypto_generichash(hash.data(), hash.size(), text.data(), text.size(), secret.data(), secret.size());
-    return hash;
+JoinKey keyed(const JoinKey& secret, const std::string& purpose, std::span<const std::uint8_t> bytes) {
+    return keyed_hash(secret, "join: " + purpose, bytes);
 }
 
 bool equal(std::span<const std::uint8_t> a, std::span<const std::uint8_t> b) {
@@ -42,7 +35,7 @@ Bytes both(std::span<const std::uint8_t> hello, std::span<const std::uint8_t> an
 }
 
 SessionKeys session_keys(const JoinKey& secret, const Bytes& said) {
-    return {keyed_hash(secret, "key to the guest", said), keyed_hash(secret, "key to the coordinator", said)};
+    return {keyed(secret, "key to the guest", said), keyed(secret, "key to the coordinator", said)};
 }
 
 }  // namespace
@@ -101,14 +94,13 @@ void DoorHandshake::read_hello() {
     if (!equal(reader.get_bytes(sizeof(JoinRun)), ticket_.run)) turn_away(JoinRefusal::run);
     reader.get_bytes(sizeof(JoinKey));
     const auto said = std::span(got_).first(kHelloBytes - sizeof(JoinKey));
-    if (!equal(reader.get_bytes(sizeof(JoinKey)), keyed_hash(ticket_.secret, "guest", said)))
-        turn_away(JoinRefusal::secret);
+    if (!equal(reader.get_bytes(sizeof(JoinKey)), keyed(ticket_.secret, "guest", said))) turn_away(JoinRefusal::secret);
     if (fingerprint != fingerprint_) turn_away(JoinRefusal::build);
 
     Bytes answer = refusal_answer(JoinRefusal::none);
     answer.insert(answer.end(), nonce_.begin(), nonce_.end());
     const Bytes words = both(got_, answer);
-    const JoinKey proof = keyed_hash(ticket_.secret, "coordinator", words);
+    const JoinKey proof = keyed(ticket_.secret, "coordinator", words);
     answer.insert(answer.end(), proof.begin(), proof.end());
     answer_ = std::move(answer);
     keys_ = session_keys(ticket_.secret, words);
@@ -135,7 +127,7 @@ GuestHandshake::GuestHandshake(const JoinTicket& ticket, std::uint64_t fingerpri
     writer.put_bytes(ticket.run);
     writer.put_bytes(nonce);
     hello_ = writer.take();
-    const JoinKey proof = keyed_hash(ticket.secret, "guest", hello_);
+    const JoinKey proof = keyed(ticket.secret, "guest", hello_);
     hello_.insert(hello_.end(), proof.begin(), proof.end());
 }
 
@@ -154,7 +146,7 @@ void GuestHandshake::take(std::span<const std::uint8_t> bytes) {
         if (refusal_ != JoinRefusal::none || got_.size() < kAnswerBytes) return;
         reader.get_bytes(sizeof(JoinKey));
         const Bytes words = both(hello_, std::span(got_).first(kAnswerBytes - sizeof(JoinKey)));
-        if (!equal(reader.get_bytes(sizeof(JoinKey)), keyed_hash(secret_, "coordinator", words)))
+        if (!equal(reader.get_bytes(sizeof(JoinKey)), keyed(secret_, "coordinator", words)))
             throw FormatError("what answers there does not have the run's secret");
         keys_ = session_keys(secret_, words);
         reader_.emplace(keys_.to_guest, kMostFrameBytes);

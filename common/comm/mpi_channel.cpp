@@ -19,6 +19,7 @@
 #include "common/base/timer.h"
 #include "common/comm/idle_pause.h"
 #include "common/comm/launcher_watch.h"
+#include "common/comm/sealed_channel.h"
 
 namespace treefarm {
 
@@ -203,6 +204,19 @@ int count_workers_on_host(MPI_Comm communicator) {
     return workers;
 }
 
+/// Nonces of all processes, where each has the secret; else none. Collective: only at the start.
+std::vector<JoinKey> exchange_nonces(MPI_Comm communicator, int size, bool has_secret) {
+    const int mine = has_secret;
+    int all = 0;
+    check(MPI_Allreduce(&mine, &all, 1, MPI_INT, MPI_MIN, communicator), "MPI_Allreduce", -1);
+    if (!all) return {};
+    const JoinKey own = draw_join_key();
+    std::vector<JoinKey> nonces(static_cast<std::size_t>(size));
+    check(MPI_Allgather(own.data(), sizeof own, MPI_BYTE, nonces.data(), sizeof own, MPI_BYTE, communicator),
+          "MPI_Allgather", -1);
+    return nonces;
+}
+
 /// Leaves the process after some last act, unless it is told in time that all went well.
 class Deadline {
   public:
@@ -239,9 +253,11 @@ class MpiSession::Impl {
     MPI_Comm communicator = MPI_COMM_NULL;
     int workers_on_host = 0;
     std::unique_ptr<MpiChannel> channel;
+    std::unique_ptr<SealedChannel> sealed;
 };
 
-MpiSession::MpiSession(double patience, const std::string& complaint) : impl_(std::make_unique<Impl>()) {
+MpiSession::MpiSession(double patience, const std::string& complaint, const std::optional<JoinKey>& secret)
+    : impl_(std::make_unique<Impl>()) {
     const Deadline deadline(patience, 1, [&complaint] {
         end_launcher_that_stays(kLauncherPatienceAtStart, complaint);
         (void)!::write(STDERR_FILENO, complaint.data(), complaint.size());
@@ -253,6 +269,8 @@ MpiSession::MpiSession(double patience, const std::string& complaint) : impl_(st
     check(MPI_Comm_set_errhandler(impl_->communicator, MPI_ERRORS_RETURN), "MPI_Comm_set_errhandler", -1);
     impl_->workers_on_host = count_workers_on_host(impl_->communicator);
     impl_->channel = std::make_unique<MpiChannel>(impl_->communicator);
+    const std::vector<JoinKey> nonces = exchange_nonces(impl_->communicator, size(), secret.has_value());
+    if (!nonces.empty()) impl_->sealed = std::make_unique<SealedChannel>(*impl_->channel, *secret, nonces);
 }
 
 MpiSession::~MpiSession() = default;
@@ -269,13 +287,18 @@ int MpiSession::workers_on_host() const {
     return impl_->workers_on_host;
 }
 
+bool MpiSession::is_sealed() const {
+    return impl_->sealed != nullptr;
+}
+
 Channel& MpiSession::channel() {
+    if (impl_->sealed) return *impl_->sealed;
     return *impl_->channel;
 }
 
 void MpiSession::finish(bool orderly, int exit_code, double patience) {
     const Timer timer;
-    Channel& channel = *impl_->channel;
+    Channel& channel = *impl_->channel;  // nobody reads what still comes
     const double drain_seconds = orderly ? patience : std::min(patience, kDisorderlyDrainSeconds);
     while (!channel.drained() && timer.seconds() < drain_seconds) {
         channel.poll();  // what still arrives is of no use any more

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "coordinator/pass_text.h"
+
 namespace treefarm {
 
 namespace {
@@ -30,9 +32,9 @@ std::string life_place(const std::optional<LifeStatus>& status) {
         case LifePhase::end:
             return "writing the result";
         case LifePhase::pass:
-            return fmt::format("pass {}", status->pass);
+            return pass_name(status->pass, 0);
         case LifePhase::combine:
-            return fmt::format("combining pass {}", status->pass);
+            return "combining " + pass_name(status->pass, 0);
     }
     return "";
 }

@@ -164,6 +164,19 @@ TEST_F(Resume, CheckpointsWithinAPassAreMadeWhileItGoesOn) {
     }
 }
 
+TEST_F(Resume, ACheckpointWithinAPassSaysMoreThanTheOneBefore) {
+    const auto last = static_cast<std::uint32_t>(truth().passes.size() - 1);
+    stop_within(last, 0.4);
+    std::uint64_t before = load().state.begun->done.weight();
+    hooks_.state_due = [] { return true; };
+    hooks_.on_state = [&](RenderState& state) {
+        if (!state.begun) return;
+        EXPECT_GT(state.begun->done.weight(), before);
+        before = state.begun->done.weight();
+    };
+    expect_truth(go_on(2, 1));
+}
+
 TEST_F(Resume, WhatCannotBeUsedOfAPassIsTracedAgain) {
     stop_within(2, 0.0);
     RenderState state = load().state;

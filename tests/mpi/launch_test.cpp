@@ -284,24 +284,46 @@ TEST(Launch, WhatAlwaysDiesEndsWithOneLineThatSaysWhatToDo) {
     expect_nothing_left(folder);
 }
 
+TEST(Launch, ItsProcessesShareASecretWhereTheyAllSeeIt) {
+    const fs::path folder = fresh_folder("run"), key = folder / "launch/key";
+    Program program(launch(3) + render(folder));
+    ASSERT_TRUE(program.wait_until([&] { return passes_done(folder) >= 1; }, kSoon));
+    EXPECT_EQ(fs::status(key).permissions(), fs::perms::owner_read | fs::perms::owner_write);
+    const Ending sealed = program.wait(kSoon);
+    EXPECT_EQ(sealed.code, 0) << sealed.output;
+    EXPECT_EQ(sealed.output.find("authenticated"), std::string::npos) << sealed.output;
+    EXPECT_EQ(hashes_of(folder), never_stopped());
+    EXPECT_FALSE(fs::exists(key));
+
+    const fs::path other = fresh_folder("run");
+    const std::string script = "rm " + (other / "launch/key").string() + "\nexec mpirun \"$@\"\n";
+    const Ending open = Program(launch(2, {"--mpirun", false_mpirun(script).string()}) + render(other)).wait(kSoon);
+    EXPECT_EQ(open.code, 0) << open.output;
+    EXPECT_NE(open.output.find("launch/key: messages are not authenticated"), std::string::npos) << open.output;
+    EXPECT_EQ(hashes_of(other), never_stopped());
+}
+
 TEST(Launch, DeathsAtOnePlaceNameIt) {
     const fs::path folder = fresh_folder("run");
-    Program program(launch(1, {"--restarts", "1"}) + render(folder, kEndless));
-    std::thread killer([&] {  // in the middle of each attempt's first pass that is not kept
-        std::uint64_t dead = 0;
-        while (program.running()) {
-            const nlohmann::json life = nlohmann::json::parse(text_of(folder / "launch/status.json"), nullptr, false);
-            if (life.is_object() && life["pass"].get<int>() >= 9 && life["pid"].get<std::uint64_t>() != dead) {
-                dead = life["pid"];
-                kill(static_cast<pid_t>(dead), SIGKILL);
-            }
-            std::this_thread::sleep_for(std::chrono::milliseconds(50));
-        }
-    });
-    killer.join();
+    Program begun(plain(folder, kEndless));
+    ASSERT_TRUE(begun.wait_until([&] { return passes_done(folder) >= 9; }, kSoon));  // the next one takes seconds
+    begun.signal(SIGINT);
+    ASSERT_EQ(begun.wait(kSoon).code, 3);
+    const std::vector<std::string> keeping_nothing = {"resume", folder.string(), "--threads",
+                                                      "1",      "--set",         "farm.checkpoint_seconds=3600"};
+    Program program(launch(1, {"--restarts", "1"}) + keeping_nothing);
+    for (std::uint64_t dead = 0; program.running(); std::this_thread::sleep_for(std::chrono::milliseconds(50))) {
+        const nlohmann::json life = nlohmann::json::parse(text_of(folder / "launch/status.json"), nullptr, false);
+        if (!life.is_object() || life["phase"] != "pass" || life["pid"] == dead) continue;
+        dead = life["pid"];
+        kill(static_cast<pid_t>(dead), SIGKILL);
+    }
     const Ending ending = program.wait(1);
     EXPECT_EQ(ending.code, 1) << ending.output;
-    EXPECT_NE(ending.output.find("all of which ended there; kept in " + folder.string() + ": "), std::string::npos)
+    EXPECT_NE(ending.output.find("in pass 10 on "), std::string::npos) << ending.output;
+    EXPECT_NE(ending.output.find("given up after 2 attempts in a row that brought nothing, all of which ended there; "
+                                 "kept in "),
+              std::string::npos)
         << ending.output;
     EXPECT_NE(ending.output.find("go on with treefarm launch -n 1 -- resume " + folder.string()), std::string::npos);
 }

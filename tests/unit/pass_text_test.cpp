@@ -93,6 +93,22 @@ TEST(PassText, WhatIsNotKnownIsNotSaid) {
     EXPECT_NE(pass_summary(first, 7).find("stuv 2, ttuv"), std::string::npos);
 }
 
+TEST(PassText, TheVerdictOnGuidingSaysWhy) {
+    PassReport report = sixth_pass();
+    report.guiding_gain = {.all = 0.5, .bulk = 0.4, .coverage = 0.31};
+    EXPECT_NE(pass_summary(report, 7).find("; guiding makes 2 times the noise at equal cost;"), std::string::npos);
+    report.guiding_gain.all = 3;
+    EXPECT_NE(pass_summary(report, 7).find("; guiding makes 3 times less noise at equal cost;"), std::string::npos);
+    report.guiding = Guiding::pays;
+    EXPECT_NE(pass_summary(report, 7).find("guided to the end: unguided samples find only 31 % of the light evenly"),
+              std::string::npos);
+    report.guiding = Guiding::loses;
+    EXPECT_NE(
+        pass_summary(report, 7).find("unguided from here on: guiding makes 2.5 times the noise at equal cost, but "
+                                     "for the worst 1 % of the pixels"),
+        std::string::npos);
+}
+
 TEST(PassText, TheSummaryEndsInWhatIsLeftToDo) {
     PassReport report;
     report.error = known(0.1, 2);

@@ -21,7 +21,7 @@ TEST(Supervisor, PausesGrowAndDeathsAtOnePlaceEndItAndNameIt) {
     EXPECT_EQ(world.end->code, 1);
     EXPECT_TRUE(world.end->resumable);
     EXPECT_EQ(world.end->words,
-              "the render's processes are gone in pass 7 on node1; given up after 6 attempts in a row that brought "
+              "the render's processes are gone in pass 8 on node1; given up after 6 attempts in a row that brought "
               "nothing, all of which ended there");
     const std::vector<double>& at = world.starts;
     EXPECT_LT(at[1] - at[0], at[3] - at[2]);
@@ -37,7 +37,7 @@ TEST(Supervisor, DeathsAtSeveralPlacesNameTheLast) {
     world.step();
     ASSERT_TRUE(world.end);
     EXPECT_EQ(world.end->words,
-              "the render's processes are gone in pass 4 on node1; given up after 2 attempts in a row that brought "
+              "the render's processes are gone in pass 5 on node1; given up after 2 attempts in a row that brought "
               "nothing");
 }
 
@@ -157,7 +157,7 @@ TEST(Supervisor, OneThatEndsInOrderWhenItIsEndedForItsSilenceGoesOn) {
     world.pass(3);
     EXPECT_FALSE(world.end);
     EXPECT_EQ(world.attempt, 2);
-    EXPECT_EQ(world.last_said(), "no sign of life for 31 s in pass 2 on node1; again in 1 s");
+    EXPECT_EQ(world.last_said(), "no sign of life for 31 s in pass 3 on node1; again in 1 s");
 }
 
 TEST(Supervisor, ARenderThatWasDoneBeforeItsSilenceIsDone) {

@@ -160,7 +160,7 @@ TEST(Supervisor, OneThatIsGoneWithoutAResultIsStartedAtOnce) {
     world.die();
     world.pass(3);
     EXPECT_EQ(world.attempt, 2);
-    EXPECT_EQ(world.last_said(), "the render's processes are gone in pass 2 on node1; again in 1 s");
+    EXPECT_EQ(world.last_said(), "the render's processes are gone in pass 3 on node1; again in 1 s");
 }
 
 TEST(Supervisor, AFailedRenderIsTriedAgain) {
