@@ -21,10 +21,10 @@ class Writer:
 
     RENAMED = {"fovAxis": "fov_axis", "toWorld": "to_world", "intIOR": "int_ior", "extIOR": "ext_ior"}
 
-    def __init__(self, version, comment):
+    def __init__(self, version, comment, script="make_rooms.py"):
         self.version = version
         self.lines = ['<?xml version="1.0" encoding="utf-8"?>', f"<!-- {comment}",
-                      "     Written by make_rooms.py: change it there. -->", f'<scene version="{version}">']
+                      f"     Written by {script}: change it there. -->", f'<scene version="{version}">']
         self.depth = 1
 
     def name(self, name):
@@ -212,27 +212,55 @@ def write_exr(path, pixels):
     path.write_bytes(header + table + body)
 
 
-def write_lathe(path, profile, segments, what):
+def write_lathe(path, profile, segments, what, script="make_rooms.py"):
     """An OBJ mesh: (radius, height) turned about the y axis, smooth, fronts outside where the profile runs upwards."""
-    lines = [f"# {what}, written by make_rooms.py"]
-    count = len(profile)
-    for k in range(segments):
-        angle = 2 * math.pi * k / segments
-        for radius, height in profile:
-            lines.append(f"v {radius * math.cos(angle):.4f} {height:.4f} {radius * math.sin(angle):.4f}")
-    for k in range(segments):
-        angle = 2 * math.pi * k / segments
-        for i in range(count):
-            (r0, h0), (r1, h1) = profile[max(i - 1, 0)], profile[min(i + 1, count - 1)]
-            nr, ny = h1 - h0, r0 - r1
-            length = math.hypot(nr, ny)
-            lines.append(f"vn {nr / length * math.cos(angle):.4f} {ny / length:.4f} {nr / length * math.sin(angle):.4f}")
-    for k in range(segments):
-        for i in range(count - 1):
-            a, b = k * count + i + 1, (k + 1) % segments * count + i + 1
-            corners = [(a, a + 1, b + 1), (a, b + 1, b)]
-            for t, corner in enumerate(corners):
-                radii = [profile[(c - 1) % count][0] for c in corner]
-                if sum(r == 0 for r in radii) < 2:  # none without area at the poles
-                    lines.append("f " + " ".join(f"{c}//{c}" for c in corner))
+    write_turned(path, [profile], segments, what, script)
+
+
+def write_turned(path, profiles, segments, what, script):
+    """Several profiles in one mesh, each smooth in itself: an edge is where one ends and the next begins."""
+    lines = [f"# {what}, written by {script}"]
+    angles = [2 * math.pi * k / segments for k in range(segments)]
+    for profile in profiles:
+        for angle in angles:
+            for radius, height in profile:
+                lines.append(f"v {radius * math.cos(angle):.4f} {height:.4f} {radius * math.sin(angle):.4f}")
+    for profile in profiles:
+        for angle in angles:
+            for i in range(len(profile)):
+                (r0, h0), (r1, h1) = profile[max(i - 1, 0)], profile[min(i + 1, len(profile) - 1)]
+                nr, ny = h1 - h0, r0 - r1
+                length = math.hypot(nr, ny)
+                lines.append(
+                    f"vn {nr / length * math.cos(angle):.4f} {ny / length:.4f} {nr / length * math.sin(angle):.4f}")
+    first = 1
+    for profile in profiles:
+        count = len(profile)
+        for k in range(segments):
+            for i in range(count - 1):
+                a, b = first + k * count + i, first + (k + 1) % segments * count + i
+                corners = [(a, a + 1, b + 1), (a, b + 1, b)]
+                for corner in corners:
+                    radii = [profile[(c - first) % count][0] for c in corner]
+                    if sum(r == 0 for r in radii) < 2:  # none without area at the poles
+                        lines.append("f " + " ".join(f"{c}//{c}" for c in corner))
+        first += segments * count
+    path.write_text("\n".join(lines) + "\n")
+
+
+def write_torus(path, radius, thickness, around, across, what, script):
+    """An OBJ mesh about the z axis, smooth: `around` by `across` quadrangles."""
+    lines = [f"# {what}, written by {script}"]
+    angles = [(2 * math.pi * i / around, 2 * math.pi * j / across) for i in range(around) for j in range(across)]
+    for u, v in angles:
+        r = radius + thickness * math.cos(v)
+        lines.append(f"v {r * math.cos(u):.4f} {r * math.sin(u):.4f} {thickness * math.sin(v):.4f}")
+    for u, v in angles:
+        lines.append(f"vn {math.cos(v) * math.cos(u):.4f} {math.cos(v) * math.sin(u):.4f} {math.sin(v):.4f}")
+    for i in range(around):
+        for j in range(across):
+            a, b = i * across, (i + 1) % around * across
+            c, d = j + 1, (j + 1) % across + 1
+            lines += ["f " + " ".join(f"{k}//{k}" for k in corner)
+                      for corner in ((a + c, b + c, b + d), (a + c, b + d, a + d))]
     path.write_text("\n".join(lines) + "\n")
