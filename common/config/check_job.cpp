@@ -1,11 +1,71 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/config/check_job.h"
 
+#include <algorithm>
+#include <set>
+
 #include "common/base/error.h"
 #include "common/config/aov_list.h"
 #include "common/config/estimators.h"
+#include "common/config/techniques.h"
 
 namespace treefarm {
+
+namespace {
+
+/// What of many techniques together gives no image of the light.
+void check_techniques(const Job& job) {
+    if (job.integrator.mis == MisHeuristic::equal)
+        throw InputError(Location{"integrator.mis", 0, 0},
+                         "among many techniques equal weights would leave all the noise of the worst of them",
+                         "set integrator.mis = \"balance\" or \"power\"");
+    std::string why;
+    const std::vector<Technique> techniques = parse_techniques(job.bidirectional.techniques, why);
+    const auto is_light_image = [](const Technique& technique) { return technique.camera == 1; };
+    if (!job.bidirectional.light_image && std::any_of(techniques.begin(), techniques.end(), is_light_image))
+        throw InputError(Location{"bidirectional.techniques", 0, 0},
+                         "paths from lamps are not connected to the lens, so one of the techniques stays black",
+                         "set bidirectional.light_image = true, or name no technique with one vertex from the camera");
+    if (job.bidirectional.weighted) return;
+    std::set<int> lengths;
+    for (const Technique& technique : techniques)
+        lengths.insert(technique.light + technique.camera);
+    if (techniques.empty() || lengths.size() < techniques.size())
+        throw InputError(Location{"bidirectional.weighted", 0, 0},
+                         "light would count once for every technique that finds it",
+                         "set bidirectional.weighted = true, or name one technique of a length in "
+                         "bidirectional.techniques, for instance \"1,2\"");
+}
+
+/// What of a job its estimator cannot do.
+void check_estimator(const Job& job, const Estimator& estimator) {
+    const std::string name = "the estimator \"" + job.integrator.type + "\"";
+    const std::string usual = std::string("integrator.type = \"") + estimators()[0].type + "\"";
+    if (estimator.by_numbers && job.integrator.emitter_samples + job.integrator.bsdf_samples == 0)
+        throw InputError(Location{"integrator.emitter_samples", 0, 0},
+                         "neither emitters nor BSDFs are sampled: there is no light",
+                         "set integrator.emitter_samples or integrator.bsdf_samples to 1 or more");
+    if (!estimator.guides && job.guiding.type != GuidingType::none && job.guiding.type != GuidingType::automatic)
+        throw InputError(Location{"guiding.type", 0, 0}, "nothing guides " + name,
+                         "set guiding.type = \"none\", or " + usual);
+    if (!estimator.has_camera_paths() && !job.output.aovs.empty())
+        throw InputError(Location{"output.aovs", 0, 0},
+                         name + " traces no ray from the camera, so it knows nothing of what is seen there",
+                         "set output.aovs = \"\", or " + usual);
+    for (const AovRequest& request : aov_requests(job)) {
+        if (request.aov != Aov::direct && request.aov != Aov::indirect) continue;
+        if (!estimator.sees_light)
+            throw InputError(Location{"output.aovs", 0, 0}, name + " sees no light, direct or indirect",
+                             "leave \"" + aov_text(request) + "\" out of output.aovs");
+        if (estimator.splats())
+            throw InputError(Location{"output.aovs", 0, 0},
+                             name + " does not tell direct light from indirect: a path brings some to any pixel",
+                             "leave \"" + aov_text(request) + "\" out of output.aovs, or set " + usual);
+    }
+    if (estimator.from == PathsFrom::both) check_techniques(job);
+}
+
+}  // namespace
 
 void check_job(const Job& job) {
     const int max_depth = job.integrator.max_depth, rr_depth = job.integrator.rr_depth;
@@ -15,29 +75,7 @@ void check_job(const Job& job) {
             "paths without a depth limit play roulette from depth " + std::to_string(rr_depth) +
                 " only: in a closed scene they would not end",
             "set integrator.max_depth, or integrator.rr_depth to at most " + std::to_string(kLatestRoulette));
-    if (const Estimator* estimator = find_estimator(job.integrator.type);
-        estimator && estimator->by_numbers && job.integrator.emitter_samples + job.integrator.bsdf_samples == 0)
-        throw InputError(Location{"integrator.emitter_samples", 0, 0},
-                         "neither emitters nor BSDFs are sampled: there is no light",
-                         "set integrator.emitter_samples or integrator.bsdf_samples to 1 or more");
-    if (const Estimator* estimator = find_estimator(job.integrator.type); estimator && !estimator->guides) {
-        if (job.guiding.type != GuidingType::none && job.guiding.type != GuidingType::automatic)
-            throw InputError(
-                Location{"guiding.type", 0, 0}, "nothing guides the estimator \"" + job.integrator.type + "\"",
-                std::string(R"(set guiding.type = "none", or integrator.type = ")") + estimators()[0].type + "\"");
-    }
-    if (const Estimator* estimator = find_estimator(job.integrator.type);
-        estimator && estimator->from_lights && !job.output.aovs.empty())
-        throw InputError(Location{"output.aovs", 0, 0},
-                         "the estimator \"" + job.integrator.type +
-                             "\" traces no ray from the camera, so it knows nothing of what is seen there",
-                         std::string("set output.aovs = \"\", or integrator.type = \"") + estimators()[0].type + "\"");
-    if (const Estimator* estimator = find_estimator(job.integrator.type); estimator && !estimator->sees_light)
-        for (const AovRequest& request : aov_requests(job))
-            if (request.aov == Aov::direct || request.aov == Aov::indirect)
-                throw InputError(Location{"output.aovs", 0, 0},
-                                 "the estimator \"" + job.integrator.type + "\" sees no light, direct or indirect",
-                                 "leave \"" + aov_text(request) + "\" out of output.aovs");
+    check_estimator(job, estimator_of(job.integrator.type));
     if (job.guiding.target == GuidingTarget::variance &&
         (job.guiding.bootstrap > 0.0f || job.guiding.type == GuidingType::qtable))
         throw InputError(Location{"guiding.target", 0, 0},

@@ -8,9 +8,18 @@ namespace treefarm {
 
 namespace {
 
+constexpr const char* kCausticsOfPoints =
+    "what mirrors, smooth glass and coats throw onto other surfaces from emitters without extent stays dark; "
+    "bidirectional and light find it";
+
 constexpr Estimator kEstimators[] = {
-    {.type = "path", .meaning = "unidirectional path tracing, guided or not", .guides = true},
-    {.type = "reference", .meaning = "unguided path tracing by the shortest code, to check others against"},
+    {.type = "path",
+     .meaning = "unidirectional path tracing, guided or not",
+     .misses_of_points = kCausticsOfPoints,
+     .guides = true},
+    {.type = "reference",
+     .meaning = "unguided path tracing by the shortest code, to check others against",
+     .misses_of_points = kCausticsOfPoints},
     {.type = "direct",
      .meaning = "light that comes straight from emitters to what the camera sees",
      .depth = 2,
@@ -26,7 +35,13 @@ constexpr Estimator kEstimators[] = {
     {.type = "light",
      .meaning = "light tracing, paths from emitters that are connected to the camera: for caustics of small lamps",
      .misses = "what the camera sees in mirrors, through smooth glass or at infinity stays black",
-     .from_lights = true},
+     .from = PathsFrom::lights},
+    {.type = "bidirectional",
+     .meaning =
+         "paths from the camera and from emitters, connected at all vertices: for caustics and lamps in fixtures",
+     .misses_of_points = "what mirrors, smooth glass and coats throw from emitters without extent stays dark where the "
+                         "camera sees it in mirrors or through smooth glass",
+     .from = PathsFrom::both},
 };
 
 }  // namespace
@@ -39,6 +54,11 @@ const Estimator* find_estimator(std::string_view type) {
     const auto found = std::find_if(std::begin(kEstimators), std::end(kEstimators),
                                     [&](const Estimator& estimator) { return type == estimator.type; });
     return found == std::end(kEstimators) ? nullptr : found;
+}
+
+const Estimator& estimator_of(std::string_view type) {
+    const Estimator* const found = find_estimator(type);
+    return found ? *found : kEstimators[0];
 }
 
 }  // namespace treefarm

@@ -144,13 +144,6 @@ std::vector<JobKey> guiding_keys() {
     add(integer_key(
         "guiding.candidate_depth", "1 and more", "vertices from the camera that draw so many; deeper ones draw one",
         [](auto& j) -> auto& { return j.guiding.candidate_depth; }, 1, kMaxInt));
-    add(word_key(
-        "guiding.light_selection",
-        "how next event chooses among emitters: by power, or as learned per region; usual: learned where guiding.type "
-        "is view or auto",
-        [](auto& j) -> auto& { return j.guiding.light_selection; },
-        std::vector<std::pair<std::string, LightSelection>>{
-            {"usual", LightSelection::usual}, {"power", LightSelection::power}, {"learned", LightSelection::learned}}));
     add(word_key("guiding.spatial_filter",
                  "which region a record goes to; stochastic: that of its position moved by up to half a region",
                  [](auto& j) -> auto& { return j.guiding.spatial_filter; },

@@ -49,9 +49,10 @@ enum class Rule : std::uint8_t {
 
 /// How next event chooses among a scene's emitters.
 enum class LightSelection : std::uint8_t {
-    usual,    ///< as the type says: learned in view and auto, by power in ppg
     power,    ///< by power, everywhere the same
-    learned,  ///< per region, by what next event found there
+    even,     ///< all alike
+    tree,     ///< by an estimate of what each brings to the point
+    learned,  ///< and per region, by what next event found there
 };
 
 /// How guided paths end.
@@ -85,6 +86,7 @@ struct Job {
         int rr_depth = 5;           ///< roulette from this depth on
         NextEvent next_event = NextEvent::always;
         MisHeuristic mis = MisHeuristic::balance;
+        LightSelection light_selection = LightSelection::learned;  ///< where nothing learns: tree
         bool strict_normals = false;  ///< drop light that geometric and shading normal disagree about
         bool hide_emitters = false;   ///< the camera does not see emitters directly
         int emitter_samples = 1;      ///< per surface that the camera sees, where the estimator goes by numbers
@@ -92,6 +94,12 @@ struct Job {
         float ao_distance = 0;    ///< scene units; 0: by the scene's size
         bool split_glass = true;  ///< at the first surface: both ways out of smooth glass
     } integrator;
+
+    struct Bidirectional {
+        bool light_image = true;         ///< light paths are connected to the lens
+        std::string techniques = "all";  ///< of which the image is made (techniques.h)
+        bool weighted = true;            ///< techniques share the light that several find
+    } bidirectional;
 
     struct Effects {
         std::set<std::string> off;  ///< forced off, a listed approximation: names of effect_switches.h
@@ -111,7 +119,6 @@ struct Job {
         Rule splitting_rule = Rule::usual;  ///< usual: while_it_pays where splitting is 0
         int candidates = 1;                 ///< directions drawn at a guided vertex, of which one is taken
         int candidate_depth = 1;            ///< up to which depth
-        LightSelection light_selection = LightSelection::usual;
         ViewRecords view_records = ViewRecords::product;
         int view_threshold = 4000;            ///< c of the split rule of views
         double spatial_threshold = 0;         ///< c of the spatial split rule; 0: as the film says

@@ -11,6 +11,7 @@
 #include "common/config/job_key_makers.h"
 #include "common/config/parse_text.h"
 #include "common/config/quantities.h"
+#include "common/config/techniques.h"
 
 namespace treefarm {
 namespace {
@@ -75,6 +76,27 @@ JobKey aovs_key() {
             }};
 }
 
+/// The techniques of bidirectional paths that are shown.
+JobKey techniques_key() {
+    return {"bidirectional.techniques",
+            ValueKind::text,
+            "\"all\", or pairs of vertices from lamp and camera, as \"0,3 1,2\"",
+            "techniques of which the image is made, each with its part of the light: their images add up to the whole",
+            [](Job& job, const std::string& text) {
+                std::string why;
+                const std::vector<Technique> techniques = parse_techniques(text, why);
+                if (why.empty()) job.bidirectional.techniques = techniques_text(techniques);
+                return why.empty();
+            },
+            [](const Job& job) { return job.bidirectional.techniques; },
+            {},
+            [](const std::string& text) {
+                std::string why;
+                parse_techniques(text, why);
+                return why;
+            }};
+}
+
 std::vector<JobKey> make_job_keys() {
     std::vector<JobKey> keys;
     const auto add = [&](JobKey key) { keys.push_back(std::move(key)); };
@@ -130,6 +152,15 @@ std::vector<JobKey> make_job_keys() {
         [](auto& j) -> auto& { return j.integrator.mis; },
         std::vector<std::pair<std::string, MisHeuristic>>{
             {"power", MisHeuristic::power}, {"balance", MisHeuristic::balance}, {"equal", MisHeuristic::equal}}));
+    add(word_key(
+        "integrator.light_selection",
+        "how next event chooses among emitters: by power; all alike; tree: by an estimate of what each brings to the "
+        "point; learned: also by what next event has found in the region, tree where nothing is learned",
+        [](auto& j) -> auto& { return j.integrator.light_selection; },
+        std::vector<std::pair<std::string, LightSelection>>{{"power", LightSelection::power},
+                                                            {"even", LightSelection::even},
+                                                            {"tree", LightSelection::tree},
+                                                            {"learned", LightSelection::learned}}));
     add(boolean_key(
         "integrator.strict_normals", "drop light that geometric and shading normal disagree about",
         [](auto& j) -> auto& { return j.integrator.strict_normals; }));
@@ -151,6 +182,15 @@ std::vector<JobKey> make_job_keys() {
         "integrator.ao_distance", "0 and more",
         "ao: how far away something darkens, in scene units; 0: a quarter of the diagonal of the scene's box",
         [](auto& j) -> auto& { return j.integrator.ao_distance; }, [](float v) { return v >= 0.0f; }));
+
+    add(boolean_key(
+        "bidirectional.light_image", "paths from lamps are connected to the lens, too",
+        [](auto& j) -> auto& { return j.bidirectional.light_image; }));
+    add(techniques_key());
+    add(boolean_key(
+        "bidirectional.weighted",
+        "techniques share the light that several find; false: each shows all that it finds, to compare them",
+        [](auto& j) -> auto& { return j.bidirectional.weighted; }));
 
     for (const EffectSwitch& effect : effect_switches())
         add(effect_key(effect));

@@ -22,7 +22,7 @@ std::span<const Setting> preset_settings(const std::string& preset) {
         {"guiding.splitting", "1", {}},
         {"guiding.splitting_rule", "always", {}},
         {"guiding.candidates", "1", {}},
-        {"guiding.light_selection", "power", {}},
+        {"integrator.light_selection", "power", {}},
         {"integrator.split_glass", "false", {}},
     };
     // With what PPG's authors added to their program for the course "Path Guiding in Production" (SIGGRAPH 2019,
@@ -43,7 +43,7 @@ std::span<const Setting> preset_settings(const std::string& preset) {
         {"guiding.splitting", "1", {}},
         {"guiding.splitting_rule", "always", {}},
         {"guiding.candidates", "1", {}},
-        {"guiding.light_selection", "power", {}},
+        {"integrator.light_selection", "power", {}},
         {"integrator.split_glass", "false", {}},
     };
     // The thesis' program is that of paper but for these: they come later and win.

@@ -3,12 +3,18 @@
 
 #include <algorithm>
 #include <string_view>
+#include <utility>
 
 #include "common/config/effect_switches.h"
 #include "common/config/parse_text.h"
 
 namespace treefarm {
 namespace {
+
+/// Keys of earlier versions.
+constexpr std::pair<const char*, const char*> kRenamedKeys[] = {
+    {"guiding.light_selection", "integrator.light_selection"},
+};
 
 /// A section is the beginning of some key's name: "scene", "scene.defines".
 bool is_section(const std::string& name) {
@@ -21,6 +27,8 @@ bool is_section(const std::string& name) {
 [[noreturn]] void refuse_key(const std::string& name, const Location& where) {
     for (const auto& [effect, cure] : effects_without_switch())
         if (name == kEffectsPrefix + effect) throw InputError(where, name + " cannot be switched off by a key", cure);
+    for (const auto& [old_name, new_name] : kRenamedKeys)
+        if (name == old_name) throw InputError(where, in_quotes(name) + " is called " + new_name + " now", "set that");
     std::vector<std::string> names;
     for (const JobKey& key : job_keys())
         names.push_back(key.name);

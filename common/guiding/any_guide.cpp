@@ -63,7 +63,7 @@ void AnyModel::set_learns_lights(bool learns) {
         [&](RegionModel& regions) {
             if (!learns) regions.light_probabilities.clear();
             if (learns && !regions.learns_lights())
-                regions.light_probabilities.assign(regions.leaf_count(), kChoiceByPower);
+                regions.light_probabilities.assign(regions.leaf_count(), kNothingLearned);
         },
         model_);
 }

@@ -28,13 +28,26 @@ void tell_forced_off(Effect& after, const Effect& before, const std::vector<Appr
 
 /// Splats are sums of what cannot be negative.
 void refuse_signed_splats(const Film& film, const Job& job) {
-    const Estimator* estimator = find_estimator(job.integrator.type);
-    if (!estimator || !estimator->from_lights || !film.is_signed()) return;
+    if (!estimator_of(job.integrator.type).splats() || !film.is_signed()) return;
     throw InputError(
         Location{"integrator.type", 0, 0},
         "the film's filter has negative lobes, and the estimator \"" + job.integrator.type +
             "\" adds up light that is never negative",
         std::string("use the filter box, tent or gaussian, or set integrator.type = \"") + estimators()[0].type + "\"");
+}
+
+/// Light of the scene that the job's estimator never finds.
+std::vector<std::string> missed_light(const EffectPlan& plan) {
+    const Estimator& estimator = estimator_of(plan.job.integrator.type);
+    const auto is_on = [&](const char* name) {
+        const Effect* effect = plan.find(name);
+        return effect && effect->on;
+    };
+    std::vector<std::string> misses;
+    if (estimator.misses) misses.emplace_back(estimator.misses);
+    if (estimator.misses_of_points && is_on("delta_lights") && is_on("delta_reflection"))
+        misses.emplace_back(estimator.misses_of_points);
+    return misses;
 }
 
 }  // namespace
@@ -67,6 +80,7 @@ EffectPlan plan_effects(Scene& scene, const Job& asked_job) {
     plan.effects = find_effects(scene, job);
     for (std::size_t i = 0; i < asked.size(); ++i)
         tell_forced_off(plan.effects[i], asked[i], plan.approximations);
+    plan.misses = missed_light(plan);
     const std::vector<PassPlan> passes = plan_passes(job);
     plan.width = scene.film.width;
     plan.height = scene.film.height;

@@ -40,6 +40,7 @@ struct EffectPlan {
     bool passes_guessed = false;  ///< the budget leaves spp and passes open: figures are for these
     std::size_t triangles = 0;
     std::vector<Effect> effects;
+    std::vector<std::string> misses;  ///< light that the estimator never finds in this scene
     std::vector<Approximation> approximations;
     std::vector<KernelUse> kernels;
     MemoryPlan memory;

@@ -53,7 +53,7 @@ bool fits(const PassPlan& pass, bool plainly_diffuse, const TreeFacts& tree) {
 
 std::vector<KernelUse> kernels_of(const Resolved& job) {
     std::vector<KernelUse> uses;
-    if (const Estimator* estimator = find_estimator(job.integrator.type); estimator && !estimator->guides) return uses;
+    if (!estimator_of(job.integrator.type).guides) return uses;
     for (const PassPlan& pass : plan_passes(job)) {
         const bool is_trained = pass.index > 0 || !job.guiding.initial_model.empty();
         const TreeFacts facts{is_trained, job.learns_views, has_plain_kernels(guide_kind(job))};

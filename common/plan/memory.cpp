@@ -66,6 +66,25 @@ std::uint64_t emitters_bytes(const Scene& scene) {
     return bytes;
 }
 
+/// What next event chooses emitters by, besides their tables.
+MemoryItem emitter_item(const Scene& scene, const Resolved& job) {
+    const std::uint64_t count = scene.emitters.size();
+    MemoryItem item{"emitters", emitters_bytes(scene), count_text(count, "emitters")};
+    const LightSelection how = job.integrator.light_selection;
+    if (job.integrator.next_event == NextEvent::never || !job.scene_facts.chooses_lights) return item;
+    if (how == LightSelection::power || how == LightSelection::even) {
+        item.formula += how == LightSelection::power ? ", chosen by power" : ", all chosen alike";
+        return item;
+    }
+    item.formula += ", chosen by what they bring to a point";
+    if (how == LightSelection::learned) item.formula += " and what regions learn";
+    if (count <= static_cast<std::uint64_t>(kLightClusters)) return item;
+    item.bytes += count * kLightTreeBytes;
+    item.formula += "; their hierarchy is built in about " +
+                    std::to_string(std::max<std::uint64_t>(count * kLightTreeMicroseconds / 1000, 1)) + " ms";
+    return item;
+}
+
 /// Images of finished passes that the coordinator keeps.
 std::uint64_t kept_passes(const Resolved& job) {
     if (job.budget.strict) return 1;  // each replaces the one before
@@ -178,7 +197,7 @@ MemoryPlan expected_memory(const Scene& scene, const Resolved& job) {
     plan.worker.push_back(
         {"materials", scene.materials.size() * sizeof(Material), count_text(scene.materials.size(), "materials")});
     plan.worker.push_back({"textures", texture_bytes(scene), count_text(scene.images.size(), "images")});
-    plan.worker.push_back({"emitters", emitters_bytes(scene), count_text(scene.emitters.size(), "emitters")});
+    plan.worker.push_back(emitter_item(scene, job));
     plan.worker.push_back({"tree", tree.guide_bytes() + tree.sum_bytes(), tree_text});
     const auto sums_of_splats = [&](std::uint64_t copies) {
         return MemoryItem{"splats", copies * pixels * 2 * sizeof(SplatMoments),

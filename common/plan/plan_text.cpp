@@ -6,7 +6,6 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "common/config/estimators.h"
 #include "common/plan/effect_table.h"
 
 namespace treefarm {
@@ -85,13 +84,6 @@ Json memory_json(const std::vector<MemoryItem>& items, std::uint64_t total) {
     return json;
 }
 
-std::string estimator_section(const std::string& type) {
-    const Estimator* estimator = find_estimator(type);
-    std::string text = "\nestimator: " + type + "\n";
-    if (estimator && estimator->misses) text += std::string("  ") + estimator->misses + "\n";
-    return text;
-}
-
 }  // namespace
 
 std::string bytes_text(std::uint64_t bytes) {
@@ -128,9 +120,12 @@ std::string plan_text(const EffectPlan& plan, const std::string& scene) {
     for (const KernelUse& use : plan.kernels)
         kernels.push_back({use.kernel.name(), passes_text(use.passes)});
     if (kernels.empty())
-        text += estimator_section(plan.job.integrator.type);
+        text += "\nestimator: " + plan.job.integrator.type + "\n";
     else
         text += "\nkernels, of " + std::to_string(kKernelCount) + " in the program\n" + aligned(kernels);
+    if (!plan.misses.empty()) text += "\nlight that is not found\n";
+    for (const std::string& missed : plan.misses)
+        text += "  " + missed + "\n";
     text += memory_section("each worker", plan.memory.worker, plan.memory.worker_bytes());
     text += memory_section("coordinator", plan.memory.coordinator, plan.memory.coordinator_bytes());
     if (!plan.warnings.empty()) text += "\nwarnings\n";
@@ -156,6 +151,7 @@ std::string plan_json(const EffectPlan& plan, const std::string& scene) {
                                    {"reason", effect.reason},
                                    {"where", location_json(effect.where)},
                                    {"bytes", effect.bytes}});
+    json["misses"] = plan.misses;
     json["approximations"] = Json::array();
     for (const Approximation& approximation : plan.approximations)
         json["approximations"].push_back({{"effect", approximation.effect},

@@ -61,7 +61,7 @@ struct Policy {
         double product_cells = 0.5;
         double free_cells = 1 << 16;
         double least_use = 0.5;
-        double lights_by_power = 0.2;
+        double lights_unlearned = 0.2;
         double lights_prior_vertices = 128.0;
         double least_bsdf_fraction = 0.05;
         double mixture_prior_records = 64.0;

@@ -112,8 +112,9 @@ constexpr std::array kEntries = {
     entry("learning.free_cells", kLearning.free_cells, "as many cells of views are never too many", kViews),
     entry("learning.least_use", kLearning.least_use,
           "of a region's cells, what is left where the BSDF is sampled instead", kTree),
-    entry("learning.lights_by_power", kLearning.lights_by_power,
-          "what stays of the choice of emitters by power: one that was never seen may be seen yet", kLights),
+    entry("learning.lights_unlearned", kLearning.lights_unlearned,
+          "what stays of the choice of emitters without what is learned: one that was never seen may be seen yet",
+          kLights),
     entry("learning.lights_prior_vertices", kLearning.lights_prior_vertices,
           "the parent's choice of emitters counts as much as so many vertices", kLights),
     entry("learning.least_bsdf_fraction", kLearning.least_bsdf_fraction,
@@ -185,7 +186,7 @@ constexpr Sensitivity kSensitivities[] = {
     {"splitting.least_share", "1.00, 0.98"},      {"walk.adjoint_window", "0.99, 1.02"},
     {"walk.unguided_most", "0.98, 1.13"},         {"walk.candidate_fair", "1.00, 1.00"},
     {"learning.spatial_threshold", "0.97, 1.03"}, {"learning.product_cells", "1.00, 1.00"},
-    {"learning.lights_by_power", "0.97, 1.05"},   {"learning.mixture_prior_records", "0.99, 0.99"},
+    {"learning.lights_unlearned", "0.97, 1.05"},  {"learning.mixture_prior_records", "0.99, 0.99"},
     {"schedule.kickstart_spp", "1.00, 1.00"},
 };  // bench/log/2026-11-26-policy.md
 

@@ -40,17 +40,17 @@ void resolve_rules(Job::Guiding& guiding) {
 
 /// Takes away what the job's estimator does not use.
 void resolve_estimator(Job& job) {
-    const Estimator* estimator = find_estimator(job.integrator.type);
-    if (!estimator || estimator->guides) return;
+    const Estimator& estimator = estimator_of(job.integrator.type);
+    if (estimator.guides) return;
     job.guiding.type = GuidingType::none;
     job.guiding.splitting = job.guiding.candidates = 1;
     job.integrator.split_glass = false;
-    if (!estimator->sees_light || estimator->from_lights) job.integrator.next_event = NextEvent::never;
-    if (estimator->by_numbers)
+    if (!estimator.sees_light || !estimator.has_camera_paths()) job.integrator.next_event = NextEvent::never;
+    if (estimator.by_numbers)
         job.integrator.next_event = job.integrator.emitter_samples > 0 ? NextEvent::always : NextEvent::never;
-    if (estimator->depth == 0) return;
+    if (estimator.depth == 0) return;
     const int asked = job.integrator.max_depth;
-    job.integrator.max_depth = asked < 0 ? estimator->depth : std::min(asked, estimator->depth);
+    job.integrator.max_depth = asked < 0 ? estimator.depth : std::min(asked, estimator.depth);
     job.integrator.rr_depth = std::max(job.integrator.rr_depth, job.integrator.max_depth);
 }
 
@@ -75,8 +75,6 @@ Resolved resolve(const Job& job, const SceneFacts& scene) {
     const bool by_view = guiding.type == GuidingType::view;
     if (guiding.splitting == 0)
         guiding.splitting = by_view && guiding.roulette == GuidingRoulette::adjoint ? kPolicy.splitting.usual : 1;
-    if (guiding.light_selection == LightSelection::usual)
-        guiding.light_selection = by_view ? LightSelection::learned : LightSelection::power;
     const bool table = guiding.type == GuidingType::qtable;
     if (guiding.grid_halvings == 0) guiding.grid_halvings = table ? kQTableHalvings : kGridHalvings;
     if (guiding.bootstrap == kUsualBootstrap) guiding.bootstrap = table ? 1.0f : 0.0f;
@@ -84,8 +82,10 @@ Resolved resolve(const Job& job, const SceneFacts& scene) {
         guiding.spatial_threshold = usual_spatial_threshold(static_cast<double>(scene.film_pixels));
     resolved.guides = guiding.type != GuidingType::none;
     resolved.learns_views = by_view && scene.view_dependent;
-    resolved.learns_lights = resolved.guides && guiding.light_selection == LightSelection::learned &&
+    LightSelection& lights = resolved.integrator.light_selection;
+    resolved.learns_lights = resolved.guides && lights == LightSelection::learned &&
                              resolved.integrator.next_event != NextEvent::never && scene.chooses_lights;
+    if (lights == LightSelection::learned && !resolved.learns_lights) lights = LightSelection::tree;
     resolved.cells_follow_use = by_view && guiding.view_records == ViewRecords::product && guiding.learn_bsdf_fraction;
     return resolved;
 }

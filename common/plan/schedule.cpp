@@ -93,11 +93,13 @@ PassPlan make_pass(const Resolved& job, std::uint32_t index, std::uint32_t first
     const bool is_long = spp >= static_cast<std::uint32_t>(job.guiding.initial_model_spp);
     set_record(pass, job, job.guides && !last && is_long);
     cut_into_units(pass, job.farm.tile_size);
-    if (const Estimator* estimator = find_estimator(job.integrator.type); estimator && estimator->from_lights) {
+    const Estimator& estimator = estimator_of(job.integrator.type);
+    if (!estimator.has_camera_paths()) {
         pass.units = {.tiles = false, .light_paths = spp, .first_light_path = first_sample};
         pass.layers.estimates = false;
-        pass.layers.splats = {static_cast<std::uint32_t>(job.scene_facts.film_pixels), job.scene_facts.splat_exponent};
     }
+    if (estimator.splats())
+        pass.layers.splats = {static_cast<std::uint32_t>(job.scene_facts.film_pixels), job.scene_facts.splat_exponent};
     return pass;
 }
 

@@ -13,7 +13,7 @@ namespace {
 const SdTree& small_tree() {
     static const SdTree tree = [] {
         SdTree grown = test::random_view_tree(2, 2000, 500, 500, 1);
-        grown.light_probabilities.assign(grown.region_count(), kChoiceByPower);
+        grown.light_probabilities.assign(grown.region_count(), kNothingLearned);
         return grown;
     }();
     return tree;

@@ -151,15 +151,23 @@ TEST(Resume, AProgramThatIsInterruptedWithinItsFirstPassKeepsWhatItHas) {
     EXPECT_EQ(hashes_of(folder), truth);
 }
 
-/// Passes of light paths, whose films are sums of splats.
-TEST(Resume, AKilledRenderOfLightPathsGoesOn) {
-    const std::vector<std::string> options = {"--spp", "508", "--set", "integrator.type=light"};
-    const fs::path whole = fresh_folder("whole-light");
+/// A render that was killed, of passes whose films are sums of splats.
+void expect_that_splats_go_on(const std::string& type, const char* spp) {
+    const std::vector<std::string> options = {"--spp", spp, "--set", "integrator.type=" + type};
+    const fs::path whole = fresh_folder("whole-" + type);
     EXPECT_EQ(Program(render(whole, options)).wait(kSoon).code, 0);
     const fs::path folder = broken_off(options);
     ASSERT_FALSE(fs::exists(folder / "summary.json")) << "it was done before it could be killed";
     EXPECT_EQ(resumed(3, folder, {"--threads", "2"}), 0);
     EXPECT_EQ(hashes_of(folder), hashes_of(whole));
+}
+
+TEST(Resume, AKilledRenderOfLightPathsGoesOn) {
+    expect_that_splats_go_on("light", "508");
+}
+
+TEST(Resume, AKilledRenderFromBothEndsGoesOn) {
+    expect_that_splats_go_on("bidirectional", "124");
 }
 
 TEST(Resume, AnInterruptedProgramGoesOn) {

@@ -124,9 +124,10 @@ TEST(SameBits, Ranks3OverTcp) {
 TEST(SameBits, Estimators) {
     for (const Estimator& estimator : estimators()) {
         if (estimator.guides) continue;
-        const char* const aovs = estimator.from_lights  ? ""
-                                 : estimator.sees_light ? kAovs
-                                                        : "albedo,normal,position,shape,alpha,spp";
+        const char* const aovs = !estimator.has_camera_paths() ? ""
+                                 : estimator.sees_light && !estimator.splats()
+                                     ? kAovs
+                                     : "albedo,normal,position,shape,alpha,spp";
         const auto render = [&](const std::vector<std::string>& launcher, const char* threads, const char* tile) {
             return render_scene(launcher,
                                 {own_scene("glossy-room.xml"), "--set", "image.width=72", "--set", "image.height=60",

@@ -247,7 +247,9 @@ TEST_P(EveryKind, RaysBringWhatNextEventFinds) {
 /// Densities that a sample says are those that are asked for, and next event's from where the ray arrives.
 TEST_P(EveryKind, DensitiesAgree) {
     const Case given = cases()[GetParam()];
-    const TraceScene scene(given.scene, Job());
+    Job job;
+    job.integrator.light_selection = LightSelection::power;  // as emission does
+    const TraceScene scene(given.scene, job);
     const Emitters& emitters = scene.emitters();
     int compared = 0;
     for (std::uint32_t i = 0; i < 3000; ++i) {

@@ -80,7 +80,7 @@ TEST_P(GuidedAgainstUnguided, AgreesInEveryBlock) {
     job.guiding.spp_unit = GetParam().spp_unit;
     job.guiding.candidates = GetParam().candidates;
     job.guiding.candidate_depth = GetParam().candidate_depth;
-    job.guiding.light_selection = GetParam().light_selection;
+    job.integrator.light_selection = GetParam().light_selection;
     job.guiding.splitting = GetParam().splitting;
     job.integrator.next_event = GetParam().next_event;
     const Estimate guided = render(scene, job);
@@ -102,6 +102,7 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"cornell-box.xml", NextEvent::never, MisHeuristic::balance, 1, 1, 1, LightSelection::power, 32},
         Case{"door-ajar.xml", NextEvent::always, MisHeuristic::power, 1, 2, 8, LightSelection::power, 8},
         Case{"features.xml", NextEvent::always, MisHeuristic::power, 1, 1, 1, LightSelection::learned, 32},
+        Case{"features.xml", NextEvent::always, MisHeuristic::balance, 1, 1, 1, LightSelection::power},
         Case{"cornell-box.xml", NextEvent::never, MisHeuristic::balance, 1, 1, 1, LightSelection::power, 1,
              GuidingType::grid},
         Case{"features.xml", NextEvent::kickstart, MisHeuristic::balance, 1, 2, 8, LightSelection::learned, 4,

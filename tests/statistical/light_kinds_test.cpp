@@ -106,21 +106,42 @@ TEST(LightDistribution, ImagesOfOddShapes) {
                                   std::to_string(width) + " x " + std::to_string(height));
 }
 
+/// A panel of `side` by `side` small squares that shines downwards.
+Mesh panel(int side, const Vec3& corner, float size) {
+    Mesh mesh;
+    const float step = size / static_cast<float>(side);
+    for (int i = 0; i < side * side; ++i)
+        test::append_quad(mesh, corner + Vec3(step * float(i % side), step * float(i / side), 0.0f), {0, step, 0},
+                          {step, 0, 0});
+    return mesh;
+}
+
+TEST(LightDistribution, PanelInPatches) {
+    expect_light_distribution(only(panel(20, {-1.5f, -1, 0.7f}, 3.0f)), Vec3(0.0f), "panel");
+    const TraceScene lights(only(panel(20, {-1.5f, -1, 0.7f}, 3.0f)), Job());
+    EXPECT_GT(lights.emitters().choice().node_count(), 8u) << "near patches are chosen more often than far ones";
+}
+
 /// Batches with gaps against samples drawn alone.
-TEST(LightBatch, IsItsSamplesToTheBit) {
+void expect_batches_as_alone(LightSelection how, int more_lamps) {
     Scene scene = environment(37, 11, {{5, 3}, {36, 0}, {0, 10}}, 0.3f);
     add_shape(scene, quad({-1, -1, -1}, {2, 0, 0}, {0, 2, 0}), kNone, Rgb(3.0f));
     add_shape(scene, Sphere{Vec3(0, 0, 0.5f), 0.5f}, kNone, Rgb(1.0f, 2.0f, 3.0f));
     add_shape(scene, Sphere{Vec3(0, 0, 0), 4.0f, true}, kNone, Rgb(0.1f));
     scene.emitters.push_back({PointEmitter{Vec3(3, 0, 0), Rgb(1.5f)}, {}});
     scene.emitters.push_back({ConstantEmitter{Rgb(0.2f)}, {}});
-    const TraceScene lights(scene, Job());
+    for (int i = 0; i < more_lamps; ++i)
+        add_shape(scene, quad({float(i), 4, float(i % 7)}, {0, 0, 0.5f}, {0.5f, 0, 0}), kNone, Rgb(float(1 + i % 3)));
+    Job job;
+    job.integrator.light_selection = how;
+    const TraceScene lights(scene, job);
     const Emitters& emitters = lights.emitters();
     ASSERT_TRUE(emitters.draws_together());
+    EXPECT_EQ(emitters.choice().node_count() > 0, more_lamps > 0 && LightChoice::by_place(how));
     LightProbabilities learned{};
     learned[0] = kLightProbabilityOne / 2;
     learned[1] = kLightProbabilityOne / 8;
-    learned[static_cast<std::size_t>(emitters.clusters().count())] = 3 * kLightProbabilityOne / 8;
+    learned[4] = 3 * kLightProbabilityOne / 8;
     const Vec3 front = normalize(Vec3(1, 1, 1));
     int from_map = 0, on_lamp = 0, from_inside = 0, others = 0;
     LightBatch batch;
@@ -128,17 +149,19 @@ TEST(LightBatch, IsItsSamplesToTheBit) {
         const LightProbabilities* const probabilities = round % 2 == 0 ? nullptr : &learned;
         const auto random = [&](std::uint32_t lane) { return draw({6, round, lane}, 1, Stream::light); };
         const auto point = [&](std::uint32_t lane) { return Vec3(0.2f, 0.1f, 0.05f * static_cast<float>(lane) - 2); };
+        const auto receiver = [&](std::uint32_t lane) {
+            return LightReceiver(point(lane), probabilities, lane % 3 == 0 ? &front : nullptr);
+        };
         const auto skipped = [&](std::uint32_t lane) { return (lane + round) % 5 == 0; };
         batch.clear();
         for (std::uint32_t lane = 0; lane < kDrawBatch; ++lane)
-            if (!skipped(lane)) emitters.choose(batch, lane, point(lane), random(lane), probabilities);
+            if (!skipped(lane)) emitters.choose(batch, lane, receiver(lane), random(lane));
         emitters.draw(batch);
         for (std::uint32_t lane = 0; lane < kDrawBatch; ++lane) {
             if (skipped(lane)) continue;
-            const Vec3* const seen_from = lane % 3 == 0 ? &front : nullptr;
-            DirectSample a = emitters.sample_direct(point(lane), batch, lane, random(lane), probabilities, seen_from);
-            if (a.pdf > 0.0f) a.pdf = emitters.environment_pdf(batch, lane, a.pdf, probabilities);
-            const DirectSample b = emitters.sample_direct(point(lane), random(lane), probabilities, seen_from);
+            DirectSample a = emitters.sample_direct(batch, lane, random(lane));
+            if (a.pdf > 0.0f) a.pdf = emitters.environment_pdf(batch, lane, a.pdf);
+            const DirectSample b = emitters.sample_direct(receiver(lane), random(lane));
             ASSERT_EQ(a.pdf, b.pdf);
             ASSERT_EQ(a.from_environment, b.from_environment);
             ASSERT_EQ(a.delta, b.delta);
@@ -163,6 +186,67 @@ TEST(LightBatch, IsItsSamplesToTheBit) {
     EXPECT_GT(others, 200);
 }
 
+TEST(LightBatch, IsItsSamplesToTheBit) {
+    expect_batches_as_alone(LightSelection::power, 0);
+    expect_batches_as_alone(LightSelection::learned, 0);
+    expect_batches_as_alone(LightSelection::learned, 30);
+}
+
+/// Integrals of light over directions agree however emitters are chosen, and densities are those of the samples.
+TEST(LightChoice, ChangesNoIntegral) {
+    for (const int lamps : {0, 30}) {
+        Scene scene = environment(37, 11, {{5, 3}, {36, 0}}, 0.3f);
+        add_shape(scene, quad({-1, -1, 3}, {0, 2, 0}, {2, 0, 0}), kNone, Rgb(1.0f));
+        add_shape(scene, Sphere{Vec3(3, 0, 0), 0.7f, false}, kNone, Rgb(2.0f));
+        add_shape(scene, Sphere{Vec3(0, 0, 0), 9.0f, true}, kNone, Rgb(0.01f));
+        scene.emitters.push_back({ConstantEmitter{Rgb(0.2f)}, {}});
+        scene.emitters.push_back({PointEmitter{Vec3(0, 0, 2), Rgb(1.0f)}, {}});
+        scene.emitters.push_back({SpotEmitter{Vec3(0, 1, 2), Vec3(0, 0, -1), Rgb(6.0f), 0.8f, 0.4f}, {}});
+        scene.emitters.push_back({DirectionalEmitter{Vec3(0, 0, -1), Rgb(0.7f)}, {}});
+        for (int i = 0; i < lamps; ++i)
+            add_shape(scene, quad({float(i % 5), 4, float(i % 7)}, {0, 0, 0.5f}, {0.5f, 0, 0}), kNone, Rgb(1.0f));
+        if (lamps > 0) add_shape(scene, panel(8, {-3, -3, 4}, 5.0f), kNone, Rgb(0.3f));
+        LightProbabilities learned{};
+        learned[0] = kLightProbabilityOne / 4;
+        learned[2] = kLightProbabilityOne / 2;
+        learned[3] = kLightProbabilityOne / 4;
+        const Vec3 p(0.1f, 0.2f, -0.3f), front = normalize(Vec3(0.3f, 0.2f, 1.0f));
+        std::vector<std::pair<double, double>> results;
+        for (const LightSelection how :
+             {LightSelection::power, LightSelection::even, LightSelection::tree, LightSelection::learned}) {
+            Job job;
+            job.integrator.light_selection = how;
+            const TraceScene lights(scene, job);
+            const Emitters& emitters = lights.emitters();
+            const LightReceiver at(p, how == LightSelection::learned ? &learned : nullptr, &front);
+            double sum = 0, sum2 = 0;
+            constexpr std::uint32_t kSamples = 100000;
+            for (std::uint32_t i = 0; i < kSamples; ++i) {
+                const DirectSample s = emitters.sample_direct(at, draw({21, i, std::uint32_t(how)}, 1, Stream::light));
+                if (!(s.pdf > 0.0f)) continue;
+                const float cosine = std::max(dot(front, s.wi), 0.0f);
+                const Rgb radiance = s.from_environment ? emitters.environment(s.wi) : s.radiance;
+                const double light = double(average(radiance)) * double(cosine) / double(s.pdf);
+                sum += light;
+                sum2 += light * light;
+                if (s.delta || i >= 20000) continue;
+                const float pdf =
+                    s.at_infinity() ? emitters.pdf_environment(at, s.wi) : emitters.pdf_direct(at, s.wi, s.on_light);
+                if (s.at_infinity()) {
+                    ASSERT_NEAR(s.pdf / pdf, 1.0f, 2e-3f);  // the map finds the texel again
+                } else {
+                    ASSERT_EQ(s.pdf, pdf) << "both sides agree to the bit";
+                }
+            }
+            const double mean = sum / kSamples;
+            results.emplace_back(mean, (sum2 / kSamples - mean * mean) / kSamples);
+        }
+        for (const auto& [mean, variance] : results)
+            EXPECT_LT(std::abs(mean - results[0].first), 4 * std::sqrt(variance + results[0].second)) << lamps;
+        EXPECT_LT(results[2].second, 0.7 * results[0].second) << "the hierarchy is worth its while";
+    }
+}
+
 TEST(LightChoice, IsByPower) {
     Scene scene;
     add_shape(scene, quad({-1, -1, -1}, {2, 0, 0}, {0, 2, 0}), kNone, Rgb(3.0f));
@@ -177,7 +261,9 @@ TEST(LightChoice, IsByPower) {
                                        4 * M_PI * 1.5, 2 * M_PI * (1 - std::cos(0.6)) * 6,
                                        M_PI * 3 * 0.7, M_PI * M_PI * 3 * 0.2};
     const double total = std::accumulate(power.begin(), power.end(), 0.0);
-    const TraceScene lights(scene, Job());
+    Job job;
+    job.integrator.light_selection = LightSelection::power;
+    const TraceScene lights(scene, job);
     const Vec3 p(0.2f, 0.1f, -0.3f);
     constexpr std::uint32_t kSamples = 100000;
     std::vector<double> counts(power.size()), expected;

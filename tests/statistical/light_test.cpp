@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Light tracing against path tracing, where both find all light, and against what is known exactly.
+// Light tracing and bidirectional path tracing against path tracing, where all find all light, and against what is
+// known exactly.
 #include <gtest/gtest.h>
 
 #include "common/metrics/z_test.h"
@@ -12,36 +13,42 @@ namespace {
 
 using test::Rendered;
 
-Rendered render(const Scene& scene, Job job, const char* type, std::uint64_t seed, std::uint32_t spp) {
+Rendered render(const Scene& scene, Job job, const char* type, std::uint64_t seed, std::uint32_t spp,
+                bool next_event = true) {
     job.integrator.type = type;
     job.sampler.seed = seed;
     job.budget.spp = spp;
     job.guiding.type = GuidingType::none;
-    job.integrator.next_event = NextEvent::always;
+    job.integrator.next_event = next_event ? NextEvent::always : NextEvent::never;
     const test::LocalRender run = test::render_locally(scene, job);
     EXPECT_EQ(run.splat_caps, SplatCaps{}) << type;
     return test::rendered(run, scene.film);
 }
 
-void expect_image_of_paths(const Scene& scene, const Job& job, const std::string& what, std::uint32_t light_spp = 60,
-                           std::uint32_t path_spp = 60) {
-    const Rendered light = render(scene, job, "light", 31, light_spp),
-                   path = render(scene, job, "reference", 32, path_spp);
+/// Whether an image is the paths', as far as both are known. `noise`: of its mean, at most.
+void expect_same_image(const Rendered& image, const Rendered& path, const std::string& what, double noise = 0.02) {
     ZTestOptions options;
     options.block = 8;
-    const ZTestInput input{light.mean, path.mean, &light.variance, &path.variance};
+    const ZTestInput input{image.mean, path.mean, &image.variance, &path.variance};
     const BlockZTest blocks = block_z_test(input, options);
     EXPECT_TRUE(blocks.pass) << what << ": worst block z " << blocks.max_abs_z << " of " << blocks.limit;
     EXPECT_LT(blocks.mean_z2, 3.0) << what;  // of nine blocks or more, whose channels go together
     for (const double z : blocks.image_z)
         EXPECT_LT(std::abs(z), 4.0) << what;
     double sum = 0, variance = 0;
-    for (std::size_t p = 0; p < light.mean.pixels.size(); ++p) {
-        sum += double(average(light.mean.pixels[p]));
-        variance += double(average(light.variance.pixels[p]));
+    for (std::size_t p = 0; p < image.mean.pixels.size(); ++p) {
+        sum += double(average(image.mean.pixels[p]));
+        variance += double(average(image.variance.pixels[p]));
     }
     EXPECT_GT(sum, 0.0) << what << ": black";
-    EXPECT_LT(std::sqrt(variance), 0.02 * sum) << what << ": too noisy to tell";
+    EXPECT_LT(std::sqrt(variance), noise * sum) << what << ": too noisy to tell";
+}
+
+void expect_image_of_paths(const Scene& scene, const Job& job, const std::string& what, std::uint32_t light_spp = 60,
+                           std::uint32_t path_spp = 60) {
+    const Rendered path = render(scene, job, "reference", 32, path_spp);
+    expect_same_image(render(scene, job, "light", 31, light_spp), path, what + ", light");
+    expect_same_image(render(scene, job, "bidirectional", 33, light_spp / 2), path, what + ", bidirectional", 0.04);
 }
 
 Scene small(Scene scene, int width = 32, int height = 32) {
@@ -50,7 +57,7 @@ Scene small(Scene scene, int width = 32, int height = 32) {
 }
 
 /// Each length of paths alone, as all up to it.
-TEST(LightAgainstPath, OfEachLength) {
+TEST(LightsAgainstPath, OfEachLength) {
     for (int depth = 1; depth <= 4; ++depth) {
         Job job;
         job.integrator.max_depth = depth;
@@ -58,12 +65,12 @@ TEST(LightAgainstPath, OfEachLength) {
     }
 }
 
-TEST(LightAgainstPath, AtAnyScaleAndPlaceWithoutLimit) {
+TEST(LightsAgainstPath, AtAnyScaleAndPlaceWithoutLimit) {
     for (const auto& [scale, offset] : {std::pair(1.0f, 0.0f), {1e-4f, 0.0f}, {1e5f, 0.0f}, {1.0f, 1e3f}})
         expect_image_of_paths(small(test::cornell_box(scale, Vec3(offset))), {}, "scale " + std::to_string(scale));
 }
 
-TEST(LightAgainstPath, LampsHiddenFromTheCamera) {
+TEST(LightsAgainstPath, LampsHiddenFromTheCamera) {
     Job job;
     job.integrator.hide_emitters = true;
     expect_image_of_paths(small(test::cornell_box(1.0f, Vec3(0.0f))), job, "hidden");
@@ -105,7 +112,7 @@ Scene studio() {
     return scene;
 }
 
-TEST(LightAgainstPath, EveryKindOfEmitter) {
+TEST(LightsAgainstPath, EveryKindOfEmitter) {
     Job job;
     job.integrator.hide_emitters = true;  // what is seen at infinity light tracing does not find
     const auto with = [&](const std::string& what, auto&& add) {
@@ -178,7 +185,7 @@ std::int32_t add_glass(Scene& scene, float eta, float alpha = 0) {
 }
 
 /// A glass block above what the camera sees: light refracts in and out.
-TEST(LightAgainstPath, ThroughGlassThatTheCameraDoesNotSee) {
+TEST(LightsAgainstPath, ThroughGlassThatTheCameraDoesNotSee) {
     for (const float alpha : {0.0f, 0.2f}) {
         Scene scene = floor_and_lamp();
         test::add_shape(scene, test::box({-0.8f, 1.2f, -0.8f}, {0.8f, 1.8f, 0.8f}, false),
@@ -191,7 +198,7 @@ TEST(LightAgainstPath, ThroughGlassThatTheCameraDoesNotSee) {
 }
 
 /// The camera is under water: there radiance is eta^2 of what it was, and power is not.
-TEST(LightAgainstPath, UnderWater) {
+TEST(LightsAgainstPath, UnderWater) {
     for (const float alpha : {0.0f, 0.3f}) {
         Scene scene = floor_and_lamp();
         test::add_shape(scene, test::quad({-4, 1, -4}, {0, 0, 8}, {8, 0, 0}), add_glass(scene, 1.33f, alpha), Rgb(0.0f),
@@ -204,7 +211,7 @@ TEST(LightAgainstPath, UnderWater) {
 }
 
 /// A ball of few triangles with shading normals, and a floor whose normals lean: between the two cosines lies a factor.
-TEST(LightAgainstPath, ShadingNormals) {
+TEST(LightsAgainstPath, ShadingNormals) {
     for (const bool strict : {false, true}) {
         Scene scene = floor_and_lamp();
         auto& floor = std::get<Mesh>(scene.shapes[0].geometry);
@@ -220,7 +227,7 @@ TEST(LightAgainstPath, ShadingNormals) {
     }
 }
 
-TEST(LightAgainstPath, EveryKindOfCameraAndFilter) {
+TEST(LightsAgainstPath, EveryKindOfCameraAndFilter) {
     const auto with = [](const std::string& what, auto&& change) {
         Scene scene = test::cornell_box(1.0f, Vec3(0.0f));
         test::set_film(scene, 24, 24);
@@ -259,25 +266,99 @@ TEST(LightAgainstPath, EveryKindOfCameraAndFilter) {
     });
 }
 
+/// Whether the image's mean is that.
+void expect_mean(const Rendered& image, double exact, const std::string& what, double noise = 0.02) {
+    double mean = 0, variance = 0;
+    const auto count = static_cast<double>(image.mean.pixels.size());
+    for (std::size_t p = 0; p < image.mean.pixels.size(); ++p) {
+        mean += double(image.mean.pixels[p].x) / count;
+        variance += double(image.variance.pixels[p].x) / (count * count);
+    }
+    EXPECT_NEAR(mean, exact, 4 * std::sqrt(variance) + 1e-5 * exact) << what;
+    EXPECT_LT(std::sqrt(variance), noise * exact) << what << ": nothing was tested";
+}
+
+/// Every technique on its own: what comes over so many edges is the albedo to their number less one.
+TEST(Bidirectional, FurnaceByEachTechnique) {
+    const float albedo = 0.8f;
+    const Scene scene = test::furnace(albedo, 1.0f, 2.0f, Vec3(0.3f, -0.2f, 0.1f));
+    for (int edges = 1; edges <= 4; ++edges)
+        for (int light = 0; light <= edges; ++light) {
+            if (edges == 1 && light == 1) continue;  // a lamp is not connected to the lens
+            Job job;
+            job.integrator.max_depth = edges;
+            job.bidirectional.techniques = std::to_string(light) + "," + std::to_string(edges + 1 - light);
+            job.bidirectional.weighted = false;
+            expect_mean(render(scene, job, "bidirectional", 7, 252), std::pow(double(albedo), edges - 1),
+                        job.bidirectional.techniques, 0.04);
+        }
+}
+
+/// Every technique on its own finds the light that next event alone finds.
+TEST(Bidirectional, EachTechniqueFindsAllLightOfItsLength) {
+    const Scene scene = small(test::cornell_box(1.0f, Vec3(0.0f)), 24, 24);
+    const auto image = [&](int light, int camera, std::uint32_t spp) {
+        Job job;
+        job.integrator.max_depth = light + camera - 1;
+        job.bidirectional.techniques = std::to_string(light) + "," + std::to_string(camera);
+        job.bidirectional.weighted = false;
+        return render(scene, job, "bidirectional", 50 + static_cast<std::uint64_t>(light), spp);
+    };
+    for (int edges = 2; edges <= 4; ++edges) {
+        const Rendered next_event = image(1, edges, 124);
+        for (int light = 0; light <= edges; ++light)
+            if (light != 1)
+                expect_same_image(image(light, edges + 1 - light, 252), next_event,
+                                  std::to_string(light) + "," + std::to_string(edges + 1 - light), 0.08);
+    }
+}
+
+/// Weighted, they add up to the image, as every heuristic has it and whichever there are.
+TEST(Bidirectional, WeightedTechniquesAddUp) {
+    Scene scene = studio();
+    test::add_shape(scene, Sphere{Vec3(-0.5f, 2.2f, -0.6f), 0.3f, false}, kNone, Rgb(8, 7, 6));
+    scene.emitters.push_back({PointEmitter{{-0.8f, 2.0f, -0.5f}, Rgb(1.0f)}, {}});
+    Job job;
+    job.integrator.max_depth = 4;
+    const Rendered path = render(scene, job, "reference", 61, 60);
+    for (const MisHeuristic mis : {MisHeuristic::balance, MisHeuristic::power})
+        for (const bool light_image : {true, false})
+            for (const bool next_event : {true, false}) {
+                Job other = job;
+                other.integrator.mis = mis;
+                other.bidirectional.light_image = light_image;
+                const std::string what =
+                    std::to_string(int(mis)) + std::to_string(light_image) + std::to_string(next_event);
+                expect_same_image(render(scene, other, "bidirectional", 62, 60, next_event), path, what);
+            }
+    Rendered sum = path;
+    std::fill(sum.mean.pixels.begin(), sum.mean.pixels.end(), Rgb(0.0f));
+    std::fill(sum.variance.pixels.begin(), sum.variance.pixels.end(), Rgb(0.0f));
+    for (int edges = 1; edges <= 4; ++edges)
+        for (int light = 0; light <= edges; ++light) {
+            if (edges == 1 && light == 1) continue;
+            job.bidirectional.techniques = std::to_string(light) + "," + std::to_string(edges + 1 - light);
+            const Rendered part =
+                render(scene, job, "bidirectional", 70 + static_cast<std::uint64_t>(9 * edges + light), 28);
+            for (std::size_t p = 0; p < sum.mean.pixels.size(); ++p) {
+                sum.mean.pixels[p] += part.mean.pixels[p];
+                sum.variance.pixels[p] += part.variance.pixels[p];
+            }
+        }
+    expect_same_image(sum, path, "sum");
+}
+
 TEST(Light, FurnaceHasTheExactMean) {
     for (const float albedo : {0.5f, 0.8f}) {
         const Scene scene = test::furnace(albedo, 1.0f, 2.0f, Vec3(0.3f, -0.2f, 0.1f));
-        const Rendered light = render(scene, {}, "light", 5, 508);
-        double mean = 0, variance = 0;
-        const auto count = static_cast<double>(light.mean.pixels.size());
-        for (std::size_t p = 0; p < light.mean.pixels.size(); ++p) {
-            mean += double(light.mean.pixels[p].x) / count;
-            variance += double(light.variance.pixels[p].x) / (count * count);
-        }
-        const double exact = 1.0 / (1.0 - double(albedo));
-        EXPECT_NEAR(mean, exact, 4 * std::sqrt(variance) + 1e-5 * exact) << albedo;
-        EXPECT_LT(std::sqrt(variance), 0.02 * exact);
+        expect_mean(render(scene, {}, "light", 5, 508), 1.0 / (1.0 - double(albedo)), std::to_string(albedo));
+        expect_mean(render(scene, {}, "bidirectional", 6, 124), 1.0 / (1.0 - double(albedo)), std::to_string(albedo));
     }
 }
 
 /// What an image says of its own variance is what replicas show. Not the lamp's own pixels: on so small a film each
 /// gets a splat of every other path, where rare ones are expected.
-TEST(Light, VarianceIsThatOfReplicas) {
+void expect_variance_of_replicas(const char* type) {
     Scene scene = test::cornell_box(1.0f, Vec3(0.0f));
     test::set_film(scene, 12, 12);
     constexpr int kReplicas = 40;
@@ -286,19 +367,27 @@ TEST(Light, VarianceIsThatOfReplicas) {
     std::vector<Rgb64> sum(scene.film.pixel_count(), Rgb64(0.0)), squares = sum;
     double said = 0;
     for (int r = 0; r < kReplicas; ++r) {
-        const Rendered light = render(scene, job, "light", 100 + static_cast<std::uint64_t>(r), 28);
+        const Rendered image = render(scene, job, type, 100 + static_cast<std::uint64_t>(r), 28);
         for (std::size_t p = 0; p < sum.size(); ++p) {
-            const Rgb64 mean(light.mean.pixels[p]);
+            const Rgb64 mean(image.mean.pixels[p]);
             sum[p] += mean;
             squares[p] += mean * mean;
-            said += double(average(light.variance.pixels[p])) / kReplicas;
+            said += double(average(image.variance.pixels[p])) / kReplicas;
         }
     }
     double shown = 0;
     for (std::size_t p = 0; p < sum.size(); ++p)
         for (int c = 0; c < 3; ++c)
             shown += (squares[p][c] - sum[p][c] * sum[p][c] / kReplicas) / (3 * (kReplicas - 1));
-    EXPECT_NEAR(said / shown, 1.0, 0.15);
+    EXPECT_NEAR(said / shown, 1.0, 0.15) << type;
+}
+
+TEST(Light, VarianceIsThatOfReplicas) {
+    expect_variance_of_replicas("light");
+}
+
+TEST(Bidirectional, VarianceIsThatOfReplicas) {
+    expect_variance_of_replicas("bidirectional");
 }
 
 }  // namespace

@@ -36,7 +36,7 @@ void expect_light_distribution(const Scene& scene, const Vec3& p, const std::str
     const auto density = [&](const Vec3& d) -> double {
         Hit hit;
         if (!lights.geometry().intersect({p, d}, hit))
-            return is_black(lights.emitters().environment(d)) ? 0.0 : lights.emitters().pdf_environment(d);
+            return is_black(lights.emitters().environment(d)) ? 0.0 : lights.emitters().pdf_environment(p, d);
         if (-dot(hit.ng, d) < min_cosine) return 0.0;
         return is_black(lights.emitters().emitted(hit, -d)) ? 0.0 : lights.emitters().pdf_direct(p, d, hit);
     };
@@ -69,7 +69,7 @@ Irradiance irradiance(const Scene& scene, const Vec3& p, const Vec3& n, std::uin
                     double(mis_weight(MisHeuristic::power, pdf, emitters.pdf_direct(p, wi, hit)));
         else
             both += double(average(emitters.environment(wi))) * M_PI *
-                    double(mis_weight(MisHeuristic::power, pdf, emitters.pdf_environment(wi)));
+                    double(mis_weight(MisHeuristic::power, pdf, emitters.pdf_environment(p, wi)));
         sums[0] += light;
         sums[1] += light * light;
         sums[2] += both;

@@ -195,7 +195,7 @@ TEST(AovJob, WhoSeesNoLightHasNoDirectLight) {
     job.output.aovs = "albedo,sun:direct";
     for (const Estimator& estimator : estimators()) {
         job.integrator.type = estimator.type;
-        if (estimator.sees_light && !estimator.from_lights) {
+        if (estimator.sees_light && !estimator.splats()) {
             EXPECT_NO_THROW(check_job(job)) << estimator.type;
         } else {
             EXPECT_THROW(check_job(job), InputError) << estimator.type;
@@ -210,7 +210,7 @@ TEST(AovJob, WhoComesFromTheLightsHasNoLayers) {
             Job job;
             job.integrator.type = estimator.type;
             job.output.aovs = aovs;
-            if (!estimator.from_lights) {
+            if (estimator.has_camera_paths()) {
                 EXPECT_NO_THROW(check_job(job)) << estimator.type;
                 continue;
             }

@@ -155,7 +155,7 @@ class CheckCommand : public test::MitsubaFixture {
             {"<shape type=\"rectangle\"><transform name=\"toWorld\"><translate z=\"200\"/></transform>" + kLamp +
                  "</shape>",
              "unreachable emitter", "warning", "there is nothing, not even the camera"},
-            {"<integrator type=\"bdpt\"/>", "reader", "warning", ""},
+            {"<integrator type=\"mlt\"/>", "reader", "warning", ""},
             {"<emitter type=\"constant\"><rgb name=\"radiance\" value=\"0\"/></emitter>", "black emitter", "warning",
              ""},
             {"<shape type=\"rectangle\"><transform name=\"toWorld\"><scale value=\"0.00001\"/></transform></shape>",

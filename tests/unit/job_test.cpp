@@ -67,7 +67,7 @@ TEST(Job, WrittenJobReadsBackTheSame) {
     job.scene.defines = {{"a", "1"}, {"with space", "\"quoted\""}};
     job.scene.lenient = true;
     job.image = {640, 360};
-    job.integrator = {"path", 12, 3, NextEvent::kickstart, MisHeuristic::balance, true, true};
+    job.integrator = {"path", 12, 3, NextEvent::kickstart, MisHeuristic::balance, LightSelection::even, true, true};
     job.guiding.type = GuidingType::none;
     job.guiding.preset = "paper";
     job.guiding.bsdf_fraction = 0.1f;
@@ -157,7 +157,7 @@ TEST(Job, TheImprovedProgramLeavesNextEventToTheScene) {
     EXPECT_EQ(job.guiding.spp_unit, 1);
     EXPECT_EQ(job.guiding.combination, Combination::inverse_variance);
     EXPECT_EQ(job.guiding.roulette, GuidingRoulette::constant);
-    EXPECT_EQ(job.guiding.light_selection, LightSelection::power);
+    EXPECT_EQ(job.integrator.light_selection, LightSelection::power);
     EXPECT_EQ(job.guiding.candidates, 1);
     EXPECT_EQ(job.guiding.splitting, 1);
     EXPECT_EQ(job.integrator.mis, MisHeuristic::power);
@@ -203,6 +203,11 @@ TEST(Job, UnknownKeySuggestsTheNearest) {
               "job.toml:2:1: unknown key \"integrator.max_depht\"; did you mean integrator.max_depth?");
     EXPECT_NE(message_of("[zzz]\nqqqqqqqqqqq = 3\n").find("job.toml:1:"), std::string::npos);
     EXPECT_NE(message_of("budget = 3\n").find("unknown key \"budget\""), std::string::npos);
+}
+
+TEST(Job, ARenamedKeySaysItsNewName) {
+    EXPECT_EQ(message_of("[guiding]\nlight_selection = \"power\"\n"),
+              "job.toml:2:1: \"guiding.light_selection\" is called integrator.light_selection now; set that");
 }
 
 TEST(Job, WrongTypesAndRanges) {

@@ -29,7 +29,7 @@ TEST(LightProbabilities, IsProportionalToTheRootOfTheSecondMoments) {
     Moments moments{};
     moments[1] = 4.0;
     moments[3] = 36.0;
-    const LightProbabilities probabilities = learned_probabilities(moments, 1e9, kChoiceByPower);
+    const LightProbabilities probabilities = learned_probabilities(moments, 1e9, kNothingLearned);
     EXPECT_EQ(sum(probabilities), kLightProbabilityOne);
     EXPECT_NEAR(part(probabilities, 3) / part(probabilities, 1), 3.0, 0.01);
     EXPECT_NEAR(part(probabilities, 1) + part(probabilities, 3), 0.8, 0.001)
@@ -57,7 +57,7 @@ TEST(LightProbabilities, AnyMomentsMakeProbabilities) {
             Moments moments{};
             for (std::size_t c = 0; c < moments.size(); ++c)
                 moments[c] = scale * double(c % 4);
-            EXPECT_EQ(sum(learned_probabilities(moments, vertices, kChoiceByPower)), kLightProbabilityOne) << scale;
+            EXPECT_EQ(sum(learned_probabilities(moments, vertices, kNothingLearned)), kLightProbabilityOne) << scale;
         }
 }
 

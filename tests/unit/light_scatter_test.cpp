@@ -5,8 +5,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
+#include <random>
+#include <vector>
 
 #include "tests/support/bsdf_samples.h"
+#include "worker/integrators/subpath/technique_sums.h"
 
 namespace treefarm {
 namespace {
@@ -95,6 +99,110 @@ TEST(LightScatter, TiltedMirrors) {
     expect_roles({"tilted", {tilted}, {BlackBsdf{}}}, 0.2f);
     tilted.shadow_alpha2 = 0.4f;
     expect_roles({"tilted, with its shadows", {tilted}, {BlackBsdf{}}}, 0.2f);
+}
+
+/// Densities along one path of k edges, from vertex 0 on the lamp to vertex k on the lens.
+struct PathDensities {
+    int k;
+    std::vector<double> onwards, backwards;  ///< per steradian, at each vertex, to the next one and the one before
+    std::vector<double> to_next, to_before;  ///< turn them into densities per area there
+    std::vector<bool> delta;
+    double place, next_event, film;  ///< of the lamp's point either way; of vertex k - 1 from the lens
+
+    template <class Random>
+    PathDensities(int edges, Random&& random) : k(edges), delta(static_cast<std::size_t>(edges) + 1, false) {
+        const auto number = [&] { return std::exp(std::uniform_real_distribution<double>(-12, 12)(random)); };
+        for (int i = 0; i <= k; ++i) {
+            delta[at(i)] = i > 0 && i < k && std::uniform_int_distribution<int>(0, 3)(random) == 0;
+            for (auto* values : {&onwards, &backwards})
+                values->push_back(delta[at(i)] ? 1.0 : number());
+            to_next.push_back(number());
+            to_before.push_back(number());
+        }
+        place = number();
+        next_event = number();
+        film = number();
+    }
+    static std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+    /// Of vertex i per area, from the lamp's side and from the camera's.
+    double from_lamp(int i) const { return i == 0 ? place : onwards[at(i - 1)] * to_next[at(i - 1)]; }
+    double from_lens(int i) const { return i == k - 1 ? film : backwards[at(i + 1)] * to_before[at(i + 1)]; }
+    /// Of the whole path by the technique that draws its first s vertices from the lamp; 0 where there is none.
+    double of_technique(int s) const {
+        if ((s > 1 && delta[at(s - 1)]) || (s > 0 && s < k && delta[at(s)])) return 0.0;
+        double pdf = 1.0;
+        for (int i = 0; i < k; ++i)
+            pdf *= i >= s ? from_lens(i) : s == 1 ? next_event : from_lamp(i);
+        return pdf;
+    }
+    /// The sums of a subpath at vertex i.
+    TechniqueSums sums_from_lamp(int i, const Heuristic& m) const {
+        if (i == 1) {
+            const double pdf = place * from_lamp(1);
+            return {m(next_event / pdf), m(to_before[1] / pdf)};
+        }
+        return sums_from_lamp(i - 1, m).after({from_lamp(i), to_before[at(i)], backwards[at(i - 1)], delta[at(i - 1)]},
+                                              m);
+    }
+    TechniqueSums sums_from_lens(int i, const Heuristic& m) const {
+        if (i == k - 1) return {m(1.0 / film), 0.0};
+        return sums_from_lens(i + 1, m).after({from_lens(i), to_next[at(i)], onwards[at(i + 1)], delta[at(i + 1)]}, m);
+    }
+    /// What bidirectional path tracing weighs the technique by.
+    double weight(int s, const Heuristic& m) const {
+        double others = 0;
+        if (s == 0) return technique_weight(sums_from_lens(0, m).sum(next_event, place * onwards[0], m));
+        if (s == 1) {
+            const double reach = place * from_lamp(1) / next_event;
+            others = m(from_lens(0) / next_event) + sums_from_lens(1, m).sum(reach, reach * onwards[1], m);
+            return technique_weight(others);
+        }
+        const double y_from_z = from_lens(s - 1), z_from_y = s < k ? from_lamp(s) : 0.0;
+        others = sums_from_lamp(s - 1, m).sum(y_from_z, y_from_z * backwards[at(s - 1)], m);
+        if (s < k) others += sums_from_lens(s, m).sum(z_from_y, z_from_y * onwards[at(s)], m);
+        return technique_weight(others);
+    }
+};
+
+/// The sums that walks carry along give what the densities of whole paths give, and the weights sum to one.
+TEST(TechniqueSums, AreTheDensitiesOfWholePaths) {
+    std::mt19937 random(7);
+    for (const MisHeuristic mis : {MisHeuristic::balance, MisHeuristic::power}) {
+        const Heuristic m(mis);
+        for (int i = 0; i < 20000; ++i) {
+            const PathDensities path(2 + i % 7, random);
+            double sum = 0, all = 0;
+            for (int s = 0; s <= path.k; ++s)
+                all += m(path.of_technique(s));
+            for (int s = 0; s <= path.k; ++s) {
+                const double pdf = path.of_technique(s);
+                if (!(pdf > 0.0)) continue;
+                const double weight = path.weight(s, m);
+                ASSERT_NEAR(weight, m(pdf) / all, 1e-9) << "technique " << s << " of " << path.k << " edges";
+                sum += weight;
+            }
+            ASSERT_NEAR(sum, 1.0, 1e-9);
+        }
+    }
+}
+
+/// Densities as of long glass paths: no weight is no number.
+TEST(TechniqueSums, StayNumbersWhateverTheDensities) {
+    const double extremes[] = {0.0, 1e-300, 1e-30, 1.0, 1e30, 1e300, std::numeric_limits<double>::infinity()};
+    for (const MisHeuristic mis : {MisHeuristic::balance, MisHeuristic::power}) {
+        const Heuristic m(mis);
+        for (const double pdf : extremes)
+            for (const double back : extremes)
+                for (const double reverse : extremes)
+                    for (const bool delta : {false, true}) {
+                        TechniqueSums sums{m(1e200), m(1e-200)};
+                        for (int i = 0; i < 200; ++i)
+                            sums = sums.after({std::max(pdf, 1e-300), back, reverse, delta}, m);
+                        const double weight = technique_weight(sums.sum(pdf, pdf * reverse, m));
+                        ASSERT_TRUE(weight >= 0.0 && weight <= 1.0) << pdf << " " << back << " " << reverse;
+                    }
+    }
 }
 
 }  // namespace

@@ -69,7 +69,7 @@ TEST(Emitters, WithoutLightThereIsNoSample) {
     const Lights lights(scene);
     EXPECT_FALSE(lights.emitters.can_sample());
     EXPECT_EQ(lights.emitters.sample_direct(Vec3(0, 0, 1), random_draw(0)).pdf, 0.0f);
-    EXPECT_EQ(lights.emitters.pdf_environment(Vec3(0, 0, 1)), 0.0f);
+    EXPECT_EQ(lights.emitters.pdf_environment(Vec3(0, 0, 1), Vec3(0, 0, 1)), 0.0f);
 }
 
 TEST(Emitters, AreChosenByPower) {
@@ -129,7 +129,7 @@ TEST(Emitters, DensityOfAHitIsThatOfTheSample) {
         ASSERT_NEAR(s.wi.length(), 1.0f, 1e-5f);
         if (s.at_infinity()) {
             // Of an image, a texel's gradient times the rounding of the direction.
-            ASSERT_NEAR(s.pdf, lights.emitters.pdf_environment(s.wi), 1e-3f * s.pdf);
+            ASSERT_NEAR(s.pdf, lights.emitters.pdf_environment(p, s.wi), 1e-3f * s.pdf);
             continue;
         }
         ASSERT_EQ(s.pdf, lights.emitters.pdf_direct(p, s.wi, s.on_light));

@@ -101,6 +101,13 @@ constexpr Mapped kAmbientOcclusion[] = {
     {"float", "rayLength", "-1", "integrator.ao_distance", "0"},
 };
 
+/// Parameters of bidirectional path tracing that choose techniques.
+constexpr Mapped kBidirectional[] = {
+    {"boolean", "lightImage", "false", "bidirectional.light_image", "false"},
+    {"boolean", "sampleDirect", "false", "integrator.next_event", "never"},
+    {"boolean", "sampleDirect", "true", "integrator.next_event", "always"},
+};
+
 /// Parameters of every sampler.
 constexpr Mapped kSampler[] = {
     {"integer", "sampleCount", "9", "budget.spp", "9"},
@@ -120,6 +127,9 @@ constexpr const char* kOwn[] = {
     "effects.",
     "output.",
     "integrator.mis",
+    "bidirectional.techniques",
+    "bidirectional.weighted",
+    "integrator.light_selection",
     "integrator.split_glass",
     "guiding.preset",
     "scene.root",
@@ -134,7 +144,6 @@ constexpr const char* kOwn[] = {
     "guiding.rule",
     "guiding.view_",
     "guiding.candidate",
-    "guiding.light_selection",
     "guiding.target",
     "guiding.roulette",
     "guiding.splitting",
@@ -153,9 +162,10 @@ constexpr const char* kOwn[] = {
 /// A key is a parameter's, which the reader maps, or our own: a new one has to be decided on.
 TEST_F(MitsubaIntegrators, EveryKeyIsAParametersOrOurOwn) {
     std::set<std::string> mapped;
-    for (const auto table : {std::span<const Mapped>(kGuidedPath), std::span<const Mapped>(kPath),
-                             std::span<const Mapped>(kDirect), std::span<const Mapped>(kAmbientOcclusion),
-                             std::span<const Mapped>(kSampler), std::span<const Mapped>(kScene)})
+    for (const auto table :
+         {std::span<const Mapped>(kGuidedPath), std::span<const Mapped>(kPath), std::span<const Mapped>(kDirect),
+          std::span<const Mapped>(kAmbientOcclusion), std::span<const Mapped>(kBidirectional),
+          std::span<const Mapped>(kSampler), std::span<const Mapped>(kScene)})
         for (const Mapped& row : table)
             mapped.insert(row.key);
     for (const JobKey& key : job_keys()) {
@@ -189,6 +199,8 @@ TEST_F(MitsubaIntegrators, WhatHasAKeyIsNotRefused) {
             expect(mapped, "direct", version);
     for (const Mapped& mapped : kAmbientOcclusion)
         expect(mapped, "ao", "0.6.0");
+    for (const Mapped& mapped : kBidirectional)
+        expect(mapped, "bdpt", "0.6.0");
     for (const Mapped& mapped : kPath)
         for (const char* type : {"path", "volpath", "guided_path", "bdpt"})
             for (const char* version : {"0.6.0", "3.0.0"})
@@ -229,6 +241,15 @@ TEST_F(MitsubaIntegrators, LightTracing) {
     const std::string granularity =
         property("integer", "granularity", "1000") + property("boolean", "bruteForce", "true");
     EXPECT_EQ(refusal(integrator("ptracer", granularity), "0.6.0"), "");
+}
+
+TEST_F(MitsubaIntegrators, FromBothEnds) {
+    for (const char* version : {"0.6.0", "3.0.0"}) {
+        const Job job = job_of(load_with_sensor(integrator("bdpt", ""), version));
+        EXPECT_EQ(job.integrator.type, "bidirectional");
+        EXPECT_TRUE(job.bidirectional.light_image);
+        EXPECT_EQ(job.integrator.next_event, NextEvent::always);
+    }
 }
 
 /// A way to transport light leaves guiding to the job, and the log says so.

@@ -80,8 +80,8 @@ TEST_F(MitsubaPublished, OtherIntegratorsOfTheSameImage) {
         return job;
     };
     const Job job = read(
-        "<integrator type=\"bdpt\"><integer name=\"maxDepth\" value=\"9\"/>"
-        "<boolean name=\"lightImage\" value=\"true\"/></integrator>");
+        "<integrator type=\"mlt\"><integer name=\"maxDepth\" value=\"9\"/>"
+        "<boolean name=\"twoStage\" value=\"true\"/></integrator>");
     EXPECT_EQ(job.integrator.max_depth, 9);
     EXPECT_EQ(job.guiding.type, Job().guiding.type) << "how to trace is the job's business";
     EXPECT_EQ(read("<integrator type=\"vpl\"/>").integrator.max_depth, 5);

@@ -162,7 +162,7 @@ TEST_F(Mitsuba, IntegratorsBecomeSettings) {
 
 TEST_F(Mitsuba, LenientReadingApproximatesAndWarns) {
     const std::string body =
-        "<sensor type=\"perspective\"/><integrator type=\"bdpt\"/><medium type=\"homogeneous\" id=\"fog\"/>"
+        "<sensor type=\"perspective\"/><integrator type=\"mlt\"/><medium type=\"homogeneous\" id=\"fog\"/>"
         "<bsdf type=\"hair\" id=\"unused\"/>"
         "<bsdf type=\"hk\" id=\"old\"><float name=\"thickness\" value=\"15\"/></bsdf>"
         "<bsdf type=\"twosided\" id=\"both\"><bsdf type=\"irawan\"/></bsdf>"

@@ -71,7 +71,7 @@ TEST_P(OwnScenes, TheReferenceIsTheUnguidedWalk) {
 
 INSTANTIATE_TEST_SUITE_P(Scenes, OwnScenes,
                          testing::Values("caustic", "cornell-box", "diffuse-room", "door-ajar", "glossy-room",
-                                         "matte-room", "mixed-room", "white-furnace"),
+                                         "matte-room", "mixed-room", "softboxes", "white-furnace"),
                          [](const auto& info) {
                              std::string name = info.param;
                              std::erase(name, '-');
@@ -97,6 +97,26 @@ TEST(Reference, IsTheUnguidedWalkWithEveryKindOfLight) {
         Job job = unguided(60);
         job.integrator.next_event = next_event;
         expect_same_bits(scene, job, "all kinds of light");
+    }
+}
+
+/// However emitters are chosen: among few, and among so many that they have a hierarchy.
+TEST(Reference, ChoosesEmittersAsTheWalk) {
+    for (const int lamps : {3, 60}) {
+        Scene scene = test::cornell_box(1.0f, Vec3(0.0f));
+        test::set_film(scene, 16, 16);
+        scene.emitters.push_back({ConstantEmitter{Rgb(0.1f)}, {}});
+        for (int i = 0; i < lamps; ++i) {
+            const Vec3 corner(0.05f + 0.08f * static_cast<float>(i % 10), 0.9f,
+                              0.05f + 0.1f * static_cast<float>(i / 10));
+            test::add_shape(scene, test::quad(corner, {0.03f, 0, 0}, {0, 0, 0.03f}), 0,
+                            Rgb(static_cast<float>(1 + i % 7)));
+        }
+        for (const LightSelection how : {LightSelection::power, LightSelection::even, LightSelection::tree}) {
+            Job job = unguided(12);
+            job.integrator.light_selection = how;
+            expect_same_bits(scene, job, std::to_string(lamps) + " lamps");
+        }
     }
 }
 

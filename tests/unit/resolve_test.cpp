@@ -37,7 +37,7 @@ TEST(Resolve, NothingIsLeftToTheProgram) {
     EXPECT_EQ(job.guiding.rule, Rule::while_it_pays);
     EXPECT_EQ(job.guiding.splitting, 8);
     EXPECT_EQ(job.guiding.splitting_rule, Rule::while_it_pays);
-    EXPECT_EQ(job.guiding.light_selection, LightSelection::learned);
+    EXPECT_EQ(job.integrator.light_selection, LightSelection::learned);
     EXPECT_NEAR(job.guiding.spatial_threshold, 2000 / std::sqrt(8.0), 1e-9);
     EXPECT_EQ(job.image.width, 64);
     EXPECT_TRUE(job.guides && job.learns_views && job.learns_lights && job.cells_follow_use);
@@ -66,9 +66,12 @@ TEST(Resolve, WhatASceneDoesNotCallForIsNotLearned) {
     const Resolved job = resolve(Job(), facts);
     EXPECT_FALSE(job.learns_views || job.learns_lights);
     EXPECT_FALSE(resolve(with({{"integrator.next_event", "never"}}), glossy()).learns_lights);
-    EXPECT_FALSE(resolve(with({{"guiding.type", "ppg"}}), glossy()).learns_lights);
-    EXPECT_TRUE(
-        resolve(with({{"guiding.type", "ppg"}, {"guiding.light_selection", "learned"}}), glossy()).learns_lights);
+    EXPECT_FALSE(resolve(with({{"integrator.light_selection", "tree"}}), glossy()).learns_lights);
+    EXPECT_TRUE(resolve(with({{"guiding.type", "ppg"}}), glossy()).learns_lights);
+    EXPECT_FALSE(resolve(with({{"guiding.preset", "paper"}}), glossy()).learns_lights);
+    EXPECT_EQ(resolve(with({{"guiding.type", "none"}}), glossy()).integrator.light_selection, LightSelection::tree);
+    EXPECT_EQ(resolve(with({{"guiding.preset", "thesis"}}), glossy()).integrator.light_selection,
+              LightSelection::power);
     EXPECT_FALSE(resolve(with({{"guiding.type", "none"}}), glossy()).guides);
 }
 

@@ -9,6 +9,7 @@
 #include "common/plan/resolve.h"
 #include "common/scene/pack/scene_codec.h"
 #include "worker/integrators/ao/ao_integrator.h"
+#include "worker/integrators/bidirectional/bidirectional_integrator.h"
 #include "worker/integrators/direct/direct_integrator.h"
 #include "worker/integrators/first_hit/first_hit.h"
 #include "worker/integrators/light/light_integrator.h"
@@ -21,8 +22,13 @@ namespace treefarm {
 namespace {
 
 constexpr Integrator kIntegrators[] = {
-    {"path", prepare_path}, {"reference", prepare_reference}, {"direct", prepare_direct}, {"normals", prepare_normals},
-    {"ao", prepare_ao},     {"light", prepare_light},
+    {"path", prepare_path},
+    {"reference", prepare_reference},
+    {"direct", prepare_direct},
+    {"normals", prepare_normals},
+    {"ao", prepare_ao},
+    {"light", prepare_light},
+    {"bidirectional", prepare_bidirectional},
 };
 
 /// Units come in messages, and a message may say anything.

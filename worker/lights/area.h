@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "common/base/random.h"
@@ -8,7 +9,9 @@
 #include "worker/geometry/embree_scene.h"
 #include "worker/geometry/primitive_points.h"
 #include "worker/lights/area_measure.h"
+#include "worker/lights/area_patches.h"
 #include "worker/lights/discrete_table.h"
+#include "worker/lights/light_bounds.h"
 #include "worker/lights/sphere_sample.h"
 
 namespace treefarm {
@@ -38,8 +41,9 @@ struct AreaLight {
     std::uint32_t shape = 0;
     const Sphere* sphere = nullptr;
     bool plain = false;               ///< a mesh without texture or mask
-    float selection = 0;              ///< probability that this light is chosen
+    float selection = 0;              ///< probability that this light is chosen by power
     DiscreteTable triangles;          ///< meshes
+    AreaPatches patches;              ///< of next event; uncut unless cut() was called
     std::vector<float> area_density;  ///< per triangle: per area, within this light; none for spheres
     std::vector<FlatTriangle> flat;   ///< of a plain mesh without shading normals that is not large
     const Mask* mask = nullptr;
@@ -49,23 +53,38 @@ struct AreaLight {
     /// Throws RunError if it has a texture and there are none.
     AreaLight(const AreaEmitter& emitter, const LightScene& scene);
 
+    /// Its mean over the surface, masks aside.
+    Rgb mean_radiance(const LightScene& scene) const;
     /// Mean of the channels, in watts.
     double power(const LightScene& scene) const;
+
+    /// Cuts a mesh into patches, if that is worth its while.
+    void cut(const LightScene& scene, float least_extent);
+    /// How many next event chooses among: 1 where it is uncut.
+    std::uint32_t patch_count() const { return std::max(patches.count(), 1u); }
+    /// Share of a patch in its power.
+    double share(std::uint32_t patch) const { return patches.count() > 0 ? patches.share(patch) : 1.0; }
+    /// The patch of what was hit.
+    std::uint32_t patch_of(const Hit& hit) const { return patches.count() > 0 ? patches.patch_of(hit.primitive) : 0; }
+    /// The place and the light of a patch's points.
+    LightBounds bounds(const LightScene& scene, std::uint32_t patch) const;
 
     /// Its radiance where a texture varies it.
     Channels textured(const LightScene& scene, const Hit& hit) const;
 
-    /// Whatever it is. random[1] chooses the triangle, [2] and [3] the place.
-    DirectSample sample(const LightScene& scene, const Vec3& p, const Draw& random, const Vec3* front) const {
+    /// Whatever it is, as if there were no other light or patch. random[1] chooses the triangle, [2] and [3] the place.
+    DirectSample sample(const LightScene& scene, std::uint32_t patch, const Vec3& p, const Draw& random,
+                        const Vec3* front) const {
         if (sphere) return sample_sphere(scene, p, random, front);
-        DirectSample sample = sample_flat(scene, p, random, front);
+        DirectSample sample = sample_flat(scene, patch, p, random, front);
         shine(scene, sample);
         return sample;
     }
 
     /// A mesh, without what texture and mask make of its radiance.
-    DirectSample sample_mesh(const LightScene& scene, const Vec3& p, const Draw& random, const Vec3* front) const {
-        const std::uint32_t triangle = triangles.pick(random[1]);
+    DirectSample sample_mesh(const LightScene& scene, std::uint32_t patch, const Vec3& p, const Draw& random,
+                             const Vec3* front) const {
+        const std::uint32_t triangle = patches.count() > 0 ? patches.pick(patch, random[1]) : triangles.pick(random[1]);
         const Vec2 b = square_to_triangle({to_unit(random[2]), to_unit(random[3])});
         DirectSample sample;
         Hit& hit = sample.on_light;
@@ -77,7 +96,7 @@ struct AreaLight {
             flat[triangle].set_point(hit, b.x, b.y);
         }
         if (front && !(dot(*front, hit.p - p) > 0.0f && dot(hit.ng, p - hit.p) > 0.0f)) return sample;
-        look_at(sample, p, radiance, selection, area_density[triangle]);
+        look_at(sample, p, radiance, next_event_density()[triangle]);
         return sample;
     }
 
@@ -90,7 +109,7 @@ struct AreaLight {
         sample.on_light = sphere_hit(*sphere, drawn.p, drawn.normal);
         sample.on_light.shape = shape;
         sample.distance = drawn.distance;
-        sample.pdf = selection * drawn.pdf;
+        sample.pdf = drawn.pdf;
         // What a cone meets first is the outside, also where rounding has it beyond the rim.
         const bool shines = from_cone ? !sphere->flip_normals : dot(sample.on_light.ng, drawn.direction) < 0.0f;
         if (shines) sample.radiance = radiance;
@@ -98,16 +117,16 @@ struct AreaLight {
         return sample;
     }
 
-    /// Density per steradian of sample() for what is hit from p along wi, `factor` times its selection.
-    float pdf(const Vec3& p, const Vec3& wi, const Hit& hit, float factor) const {
-        const float chosen = selection * factor;
+    /// Density per steradian of sample() for what is hit from p along wi, where its patch is chosen with this
+    /// probability.
+    float pdf(const Vec3& p, const Vec3& wi, const Hit& hit, float chosen) const {
         float density;
         if (sphere) {
             const SphereCone cone = sphere_cone(*sphere, p);
             if (cone.outside && by_cone) return chosen * cone.pdf();
             density = sphere_area_density(sphere->radius);
         } else {
-            density = area_density[hit.primitive];
+            density = next_event_density()[hit.primitive];
         }
         const Vec3 to_light = hit.p - p;
         return chosen * per_steradian(density, dot(to_light, to_light), std::abs(dot(hit.ng, wi)));
@@ -124,12 +143,18 @@ struct AreaLight {
     }
 
   private:
+    /// Per triangle: per area, within its patch.
+    const std::vector<float>& next_event_density() const {
+        return patches.count() > 0 ? patches.density() : area_density;
+    }
+
     /// Any shape but a sphere, uniformly by area.
-    DirectSample sample_flat(const LightScene& scene, const Vec3& p, const Draw& random, const Vec3* front) const {
-        if (scene.geometry->triangle_count(shape) > 0) return sample_mesh(scene, p, random, front);
+    DirectSample sample_flat(const LightScene& scene, std::uint32_t patch, const Vec3& p, const Draw& random,
+                             const Vec3* front) const {
+        if (scene.geometry->triangle_count(shape) > 0) return sample_mesh(scene, patch, p, random, front);
         DirectSample sample;
         sample.on_light = uniform_point(*scene.geometry, shape, {to_unit(random[2]), to_unit(random[3])});
-        look_at(sample, p, radiance, selection, area_density[0]);
+        look_at(sample, p, radiance, area_density[0]);
         return sample;
     }
 

@@ -17,15 +17,15 @@ inline float sphere_area_density(float radius) {
     return kInvFourPi / (radius * radius);
 }
 
-/// Completes a sample whose point on the light is chosen with density `selection * area_density` per area.
-inline void look_at(DirectSample& sample, const Vec3& p, const Rgb& radiance, float selection, float area_density) {
+/// Completes a sample whose point on the light is chosen with density `area_density` per area.
+inline void look_at(DirectSample& sample, const Vec3& p, const Rgb& radiance, float area_density) {
     const Vec3 to_light = sample.on_light.p - p;
     const float distance2 = dot(to_light, to_light);
     if (!(distance2 > 0.0f)) return;
     sample.distance = std::sqrt(distance2);
     sample.wi = to_light * (1.0f / sample.distance);
     const float cosine = -dot(sample.on_light.ng, sample.wi);
-    sample.pdf = selection * per_steradian(area_density, distance2, std::abs(cosine));
+    sample.pdf = per_steradian(area_density, distance2, std::abs(cosine));
     if (cosine > 0.0f) sample.radiance = radiance;
 }
 

@@ -41,8 +41,16 @@ double DeltaLight::power(double scene_radius) const {
     return switch_visit(kind_, [&](const auto& light) { return light.power(scene_radius); });
 }
 
+LightBounds DeltaLight::bounds() const {
+    return switch_visit(kind_, [](const auto& light) { return light.bounds(); });
+}
+
 EmissionSample DeltaLight::emit(const SceneBall& ball, const Draw& random) const {
     return switch_visit(kind_, [&](const auto& light) { return light.emit(ball, random); });
+}
+
+float DeltaLight::direction_pdf(const SceneBall& ball, const Vec3& away) const {
+    return switch_visit(kind_, [&](const auto& light) { return light.direction_pdf(ball, away); });
 }
 
 DirectSample DeltaLight::sample(const Vec3& p, float selection) const {

@@ -18,7 +18,7 @@ struct DirectSample {
     bool delta = false;
     bool from_environment = false;  ///< radiance is still to be asked for: Emitters::environment()
 
-    std::uint8_t cluster = 0;       ///< of emitters (light_clusters.h)
+    std::uint8_t cluster = 0;       ///< of emitters (light_tree.h)
     float cluster_probability = 1;  ///< with which it was chosen
 
     bool at_infinity() const { return std::isinf(distance); }

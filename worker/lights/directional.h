@@ -6,6 +6,7 @@
 #include "common/scene/kinds/emitters/directional.h"
 #include "worker/lights/direct_sample.h"
 #include "worker/lights/emission_sample.h"
+#include "worker/lights/light_bounds.h"
 #include "worker/textures/texture_set.h"
 
 namespace treefarm {
@@ -21,6 +22,9 @@ class DirectionalLight {
     double power(double scene_radius) const {
         return double(kPi) * scene_radius * scene_radius * double(average(irradiance_));
     }
+    LightBounds bounds() const {
+        return LightBounds::from_infinity({-direction_, 0.0f}, double(luminance(irradiance_)));
+    }
     DirectSample sample(const Vec3&, float selection) const {
         DirectSample sample;
         sample.delta = true;
@@ -34,6 +38,7 @@ class DirectionalLight {
         return emitted_across(ball, direction_, irradiance_, {to_unit(random[0]), to_unit(random[1])},
                               EmissionFrom::parallel);
     }
+    float direction_pdf(const SceneBall& ball, const Vec3&) const { return 1.0f / ball.section(); }
 
   private:
     Vec3 direction_;  ///< unit, along which it travels

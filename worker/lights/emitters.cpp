@@ -21,6 +21,10 @@ DirectSample towards_infinity(const Vec3& direction, const Vec3* front) {
     return sample;
 }
 
+/// Area lights whose longest side is shorter than this share of the scene's radius are not cut.
+constexpr float kLeastCut = 1.0f / 32;
+constexpr std::uint32_t kNoLight = 0xffffffffu;
+
 double bounding_radius(const Box3& bounds) {
     if (bounds.isEmpty()) return 1.0;
     const Imath::V3d size = Imath::V3d(bounds.max) - Imath::V3d(bounds.min);
@@ -30,10 +34,10 @@ double bounding_radius(const Box3& bounds) {
 
 }  // namespace
 
-Emitters::Emitters(const std::vector<Emitter>& emitters, const EmbreeScene& geometry, const Box3& bounds,
-                   const TextureSet* textures)
-    : scene_{&geometry, textures}, light_of_shape_(geometry.shape_count(), kNone), ball_(bounds) {
-    const double radius = bounding_radius(bounds);
+Emitters::Emitters(const std::vector<Emitter>& emitters, const EmbreeScene& geometry, const Box3& box,
+                   const TextureSet* textures, LightSelection how)
+    : scene_{&geometry, textures}, light_of_shape_(geometry.shape_count(), kNone), ball_(box) {
+    const double radius = bounding_radius(box);
     std::vector<double> power, delta_power;
     // Each kind of emitter is named by its type of light: a new one does not compile before there is a light for it.
     const auto add = [&]<class Kind>(const Kind& kind, const Emitter& emitter) {
@@ -52,8 +56,9 @@ Emitters::Emitters(const std::vector<Emitter>& emitters, const EmbreeScene& geom
     power.insert(power.end(), delta_power.begin(), delta_power.end());
     // What crosses the scene's bounding sphere, as seen by a surface: pi L times its cross-section.
     const double from_infinity = double(kPi) * radius * radius * double(kPi);
-    environments_.for_each_power(from_infinity, [&](double of_part) { power.push_back(of_part); });
-    select(std::move(power));
+    environments_.for_each_part(
+        [&](const auto& light, int part) { power.push_back(light.power(part, from_infinity)); });
+    select(std::move(power), how);
 }
 
 double Emitters::add_area_light(const AreaEmitter& emitter) {
@@ -66,7 +71,7 @@ double Emitters::add_area_light(const AreaEmitter& emitter) {
 }
 
 /// An emitter that is hardly ever chosen would be all noise where it is the only one that counts.
-void Emitters::select(std::vector<double> power) {
+void Emitters::select(std::vector<double> power, LightSelection how) {
     const auto shining = std::count_if(power.begin(), power.end(), [](double p) { return p > 0; });
     const double total = std::accumulate(power.begin(), power.end(), 0.0);
     const double least = shining > 0 ? 1e-3 * total / static_cast<double>(shining) : 0.0;
@@ -78,44 +83,73 @@ void Emitters::select(std::vector<double> power) {
     std::uint32_t next = 0;
     for (AreaLight& light : area_lights_)
         light.selection = selection_.probability(next++);
-    for (std::size_t i = 0; i < delta_lights_.size(); ++i)
-        delta_selection_.push_back(selection_.probability(next++));
-    environments_.choose(next, [&](std::uint32_t entry) { return selection_.probability(entry); });
-    clusters_ = LightClusters(selection_);
+    area_entries_ = next;
+    if (LightChoice::by_place(how))
+        select_by_place(power, how);
+    else
+        choice_ = LightChoice(how, power, {});
+    const std::uint32_t others = static_cast<std::uint32_t>(delta_lights_.size());
+    environments_.choose(area_entries_ + others,
+                         [&](std::uint32_t entry) { return selection_.probability(entry - area_entries_ + next); });
+}
+
+void Emitters::select_by_place(std::span<const double> power, LightSelection how) {
+    std::vector<double> of_entry;
+    std::vector<LightBounds> bounds;
+    for (std::uint32_t i = 0; i < area_lights_.size(); ++i) {
+        AreaLight& light = area_lights_[i];
+        light.cut(scene_, ball_.radius * kLeastCut);
+        first_entry_.push_back(static_cast<std::uint32_t>(of_entry.size()));
+        for (std::uint32_t patch = 0; patch < light.patch_count(); ++patch) {
+            light_of_entry_.push_back(i);
+            of_entry.push_back(power[i] * light.share(patch));
+            bounds.push_back(light.bounds(scene_, patch));
+        }
+    }
+    area_entries_ = static_cast<std::uint32_t>(of_entry.size());
+    if (area_entries_ == area_lights_.size()) {
+        light_of_entry_.clear();
+        first_entry_.clear();
+    }
+    of_entry.insert(of_entry.end(), power.begin() + static_cast<std::ptrdiff_t>(area_lights_.size()), power.end());
+    for (const DeltaLight& light : delta_lights_)
+        bounds.push_back(light.bounds());
+    environments_.for_each_part([&](const auto& light, int part) { bounds.push_back(light.bounds(part)); });
+    choice_ = LightChoice(how, of_entry, bounds);
 }
 
 /// Adds what is known of the choice of its emitter.
-static void add_choice(DirectSample& sample, const LightClusters::Choice& choice) {
-    if (!sample.from_environment) sample.pdf *= choice.factor;  // the environment has it in its density
-    sample.cluster = choice.cluster;
-    sample.cluster_probability = choice.probability;
+static void add_choice(DirectSample& sample, const LightPick& chosen) {
+    if (!sample.from_environment) sample.pdf *= chosen.probability;  // the environment has it in its density
+    sample.cluster = chosen.cluster;
+    sample.cluster_probability = chosen.cluster_probability;
 }
 
-inline DirectSample Emitters::sample(const ChosenEmitter& chosen, const Vec3& p, const Draw& random,
-                                     const LightProbabilities* probabilities, const Vec3* front) const {
-    const bool plain = chosen.entry < area_lights_.size() && area_lights_[chosen.entry].plain;
-    DirectSample sample = plain ? area_lights_[chosen.entry].sample_mesh(scene_, p, random, front)
-                                : sample_other(chosen.entry, p, random, probabilities, front);
-    add_choice(sample, chosen.cluster);
+inline DirectSample Emitters::sample(const LightPick& chosen, const LightReceiver& receiver, const Draw& random) const {
+    const AreaEntry at = is_area(chosen.entry) ? area_entry(chosen.entry) : AreaEntry{kNoLight, 0};
+    const bool plain = at.light != kNoLight && area_lights_[at.light].plain;
+    DirectSample sample =
+        plain ? area_lights_[at.light].sample_mesh(scene_, at.patch, receiver.p, random, receiver.normal())
+              : sample_other(chosen, receiver, random);
+    add_choice(sample, chosen);
     return sample;
 }
 
-DirectSample Emitters::sample_direct(const Vec3& p, const Draw& random, const LightProbabilities* probabilities,
-                                     const Vec3* front) const {
-    if (selection_.empty()) return {};
-    return sample(choose(random, probabilities), p, random, probabilities, front);
+DirectSample Emitters::sample_direct(const LightReceiver& receiver, const Draw& random) const {
+    if (choice_.empty()) return {};
+    return sample(choice_.pick(random, receiver), receiver, random);
 }
 
-void Emitters::choose(LightBatch& batch, std::uint32_t lane, const Vec3& p, const Draw& random,
-                      const LightProbabilities* probabilities) const {
-    const ChosenEmitter chosen = batch.chosen[lane] = choose(random, probabilities);
+void Emitters::choose(LightBatch& batch, std::uint32_t lane, const LightReceiver& receiver, const Draw& random) const {
+    batch.receiver[lane] = receiver;
+    const LightPick chosen = batch.chosen[lane] = choice_.pick(random, receiver);
     std::uint32_t number = LightBatch::kAlone;
     if (is_map(chosen.entry)) {
         number = batch.map.add(static_cast<int>(environments_.map_part(chosen.entry)), random);
     } else if (const AreaLight* light = sphere_light(chosen.entry)) {
-        batch.by_cone[lane] = light->by_cone && has_cone(*light->sphere, p);
-        number = batch.by_cone[lane] ? batch.cones.add(*light->sphere, p, random)
-                                     : batch.spheres.add(*light->sphere, p, random);
+        batch.by_cone[lane] = light->by_cone && has_cone(*light->sphere, receiver.p);
+        number = batch.by_cone[lane] ? batch.cones.add(*light->sphere, receiver.p, random)
+                                     : batch.spheres.add(*light->sphere, receiver.p, random);
     }
     batch.number[lane] = static_cast<std::uint8_t>(number);
 }
@@ -126,22 +160,25 @@ void Emitters::draw(LightBatch& batch) const {
     batch.spheres.draw();
 }
 
-DirectSample Emitters::sample_direct(const Vec3& p, const LightBatch& batch, std::uint32_t lane, const Draw& random,
-                                     const LightProbabilities* probabilities, const Vec3* front) const {
-    const ChosenEmitter& chosen = batch.chosen[lane];
+DirectSample Emitters::sample_direct(const LightBatch& batch, std::uint32_t lane, const Draw& random) const {
+    const LightPick& chosen = batch.chosen[lane];
+    const LightReceiver& receiver = batch.receiver[lane];
     const std::uint32_t number = batch.number[lane];
-    if (number == LightBatch::kAlone) return sample(chosen, p, random, probabilities, front);
+    if (number == LightBatch::kAlone) return sample(chosen, receiver, random);
     const bool map = is_map(chosen.entry), by_cone = !map && batch.by_cone[lane];
-    DirectSample sample = map ? towards_infinity(batch.map.direction(number), front)
-                              : area_lights_[chosen.entry].on_sphere(
-                                    scene_, by_cone ? batch.cones[number] : batch.spheres[number], by_cone, front);
-    add_choice(sample, chosen.cluster);
+    DirectSample sample =
+        map ? towards_infinity(batch.map.direction(number), receiver.normal())
+            : area_lights_[area_entry(chosen.entry).light].on_sphere(
+                  scene_, by_cone ? batch.cones[number] : batch.spheres[number], by_cone, receiver.normal());
+    add_choice(sample, chosen);
     return sample;
 }
 
-float Emitters::environment_pdf(const LightBatch& batch, std::uint32_t lane, float pdf,
-                                const LightProbabilities* probabilities) const {
-    return is_map(batch.chosen[lane].entry) ? map_pdf(batch.map[batch.number[lane]], probabilities) : pdf;
+float Emitters::environment_pdf(const LightBatch& batch, std::uint32_t lane, float pdf) const {
+    const LightPick& chosen = batch.chosen[lane];
+    if (!is_map(chosen.entry)) return pdf;
+    return environments_.pdf_of<MapLight>(batch.map[batch.number[lane]],
+                                          probabilities_at(batch.receiver[lane], chosen));
 }
 
 Rgb Emitters::environment(const LightBatch& batch, std::uint32_t lane, const Vec3& direction) const {
@@ -161,34 +198,30 @@ DirectSample Emitters::sample_delta(const Vec3& p, const Draw& random) const {
     return delta_lights_[chosen].sample(p, delta_alone_.probability(chosen));
 }
 
-DirectSample Emitters::sample_other(std::uint32_t entry, const Vec3& p, const Draw& random,
-                                    const LightProbabilities* probabilities, const Vec3* front) const {
-    if (entry >= area_lights_.size()) return sample_without_area(entry, p, random, probabilities, front);
-    return area_lights_[entry].sample(scene_, p, random, front);
+DirectSample Emitters::sample_other(const LightPick& chosen, const LightReceiver& receiver, const Draw& random) const {
+    if (!is_area(chosen.entry)) return sample_without_area(chosen, receiver, random);
+    const auto [light, patch] = area_entry(chosen.entry);
+    return area_lights_[light].sample(scene_, patch, receiver.p, random, receiver.normal());
 }
 
-DirectSample Emitters::sample_without_area(std::uint32_t entry, const Vec3& p, const Draw& random,
-                                           const LightProbabilities* probabilities, const Vec3* front) const {
-    const std::size_t index = entry - area_lights_.size();
-    if (index < delta_lights_.size()) return delta_lights_[index].sample(p, delta_selection_[index]);
+DirectSample Emitters::sample_without_area(const LightPick& chosen, const LightReceiver& receiver,
+                                           const Draw& random) const {
+    if (chosen.entry == LightPick::kNone) return {};
+    const std::size_t index = chosen.entry - area_entries_;
+    if (index < delta_lights_.size()) return delta_lights_[index].sample(receiver.p, 1.0f);
     DirectSample sample;
-    environments_.sample(entry, random, [&]<class Light>(const typename Light::Sample& drawn) {
-        sample = towards_infinity(drawn.direction, front);
-        if (sample.pdf > 0.0f) sample.pdf = environments_.pdf_of<Light>(drawn, clusters_, probabilities);
+    environments_.sample(chosen.entry, random, [&]<class Light>(const typename Light::Sample& drawn) {
+        sample = towards_infinity(drawn.direction, receiver.normal());
+        if (sample.pdf > 0.0f) sample.pdf = environments_.pdf_of<Light>(drawn, probabilities_at(receiver, chosen));
     });
     return sample;
 }
 
-float Emitters::map_pdf(const EnvironmentSample& drawn, const LightProbabilities* probabilities) const {
-    return environments_.pdf_of<MapLight>(drawn, clusters_, probabilities);
-}
-
-float Emitters::pdf_direct(const Vec3& p, const Vec3& wi, const Hit& hit,
-                           const LightProbabilities* probabilities) const {
+float Emitters::pdf_direct(const LightReceiver& receiver, const Vec3& wi, const Hit& hit) const {
     const std::int32_t index = light_of_shape_[hit.shape];
     if (index == kNone) return 0.0f;
-    const float factor = clusters_.factor(probabilities, static_cast<std::uint32_t>(index));
-    return area_lights_[static_cast<std::size_t>(index)].pdf(p, wi, hit, factor);
+    const auto light = static_cast<std::uint32_t>(index);
+    return area_lights_[light].pdf(receiver.p, wi, hit, choice_.probability(entry_of(light, hit), receiver));
 }
 
 }  // namespace treefarm

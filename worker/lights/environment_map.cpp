@@ -121,6 +121,7 @@ EnvironmentMap::EnvironmentMap(const EnvironmentEmitter& emitter, const TextureI
     mean_ = double(scale_) * sum / (sines * static_cast<double>(frame_.width));
     const double whole = std::accumulate(row_weights.begin(), row_weights.end(), 0.0);
     if (!(whole > 0)) mean_ = 0;
+    mean_luminance_ = mean_ > 0 ? double(scale_) * whole / (sines * static_cast<double>(frame_.width)) : 0.0;
     for (const EnvironmentPart& part : grid.parts(kMostParts))
         add_part(part, whole, row_weights);
 }
@@ -181,6 +182,38 @@ inline EnvironmentMap::Sample EnvironmentMap::Frame::locate(int x, int y, std::u
     const Vec3 direction = x_axis * (polar.sin * azimuth.sin) + y_axis * polar.cos - z_axis * (polar.sin * azimuth.cos);
     return {direction * (1.0f / std::sqrt(dot(direction, direction))), footprint(u, from_pole - margin),
             std::abs(polar.sin)};
+}
+
+inline Vec3 EnvironmentMap::Frame::direction(float u, float from_pole) const {
+    const float turn = (u + 0.5f) / static_cast<float>(width);
+    const SinCos polar = sincos_turn(0.5f * from_pole / half_turn);
+    const SinCos azimuth = sincos_turn(turn - std::floor(turn));
+    return normalize(x_axis * (polar.sin * azimuth.sin) + y_axis * polar.cos - z_axis * (polar.sin * azimuth.cos));
+}
+
+DirectionCone EnvironmentMap::part_cone(int part) const {
+    // A tent reaches one texel beyond the centre of the part's outer ones. Lines closer than the margin between.
+    const EnvironmentPart& texels = parts_[static_cast<std::size_t>(part)].texels;
+    const auto width = static_cast<float>(texels.x1 - texels.x0 + 1),
+               height = static_cast<float>(texels.y1 - texels.y0 + 1);
+    constexpr int kLines = 32;
+    const auto at = [&](int i, int k) {
+        const float u = static_cast<float>(texels.x0 - 1) + width * static_cast<float>(i) / kLines;
+        const float row = static_cast<float>(texels.y0 - 1) + height * static_cast<float>(k) / kLines + frame_.margin;
+        return frame_.direction(u, std::clamp(row, 0.0f, frame_.half_turn));
+    };
+    Imath::V3d sum(0.0);
+    for (int i = 0; i <= kLines; ++i)
+        for (int k = 0; k <= kLines; ++k)
+            sum += Imath::V3d(at(i, k));
+    if (!(sum.dot(sum) > 1e-6)) return DirectionCone::all();
+    DirectionCone cone{normalize(Vec3(sum)), 0.0f};
+    for (int i = 0; i <= kLines; ++i)
+        for (int k = 0; k <= kLines; ++k)
+            cone.half_turns = std::max(cone.half_turns, half_turns_between(cone.axis, at(i, k)));
+    const float step = std::max(2.0f * width / static_cast<float>(frame_.width), height / frame_.half_turn) / kLines;
+    cone.half_turns = std::min(cone.half_turns + step, 1.0f);
+    return cone;
 }
 
 EnvironmentMap::Footprint EnvironmentMap::footprint(const Vec3& d, float& sine) const {

@@ -9,6 +9,7 @@
 #include "common/scene/model/emitter.h"
 #include "worker/lights/environment_batch.h"
 #include "worker/lights/environment_parts.h"
+#include "worker/lights/light_bounds.h"
 #include "worker/textures/texture_set.h"
 
 namespace treefarm {
@@ -54,11 +55,31 @@ class EnvironmentMap {
     /// Draws from a part that was chosen: random[1] picks the row, [2] the column, [3] the point. Not from one without
     /// weight.
     Sample sample(int part, const Draw& random) const;
+    /// A direction as if it had been drawn.
+    Sample towards(const Vec3& direction) const {
+        float sine;
+        const Footprint found = footprint(direction, sine);
+        return {direction, found, sine};
+    }
+    /// Calls f(part) for each part that a density there depends on; some may come twice.
+    template <class F>
+    void for_each_part(const Footprint& p, F&& f) const {
+        const int first = part_of(p.x0, p.y0);
+        f(first);
+        if (parts_[static_cast<std::size_t>(first)].texels.holds(p.x1, p.y1)) return;
+        f(part_of(p.x1, p.y0));
+        f(part_of(p.x0, p.y1));
+        f(part_of(p.x1, p.y1));
+    }
     /// Samples for all that a batch was asked for.
     void sample(EnvironmentBatch& batch) const;
 
     /// Mean over all directions, of the channels' mean: W / (m^2 sr).
     double mean_radiance() const { return mean_; }
+    /// The mean of the luminance.
+    double mean_luminance() const { return mean_luminance_; }
+    /// A cone of all directions that a part is drawn in.
+    DirectionCone part_cone(int part) const;
     bool black() const { return !(mean_ > 0); }
 
   private:
@@ -105,13 +126,15 @@ class EnvironmentMap {
 
         /// In texels from the centre of the first one; u at most one and a half outside [0, width).
         Footprint footprint(float u, float v) const;
+        /// The unit direction of a column, and a row by how many rows of texels it lies from the pole.
+        Vec3 direction(float u, float from_pole) const;
         /// Where a direction goes whose texel is this one, by the bits of its tents.
         Sample locate(int x, int y, std::uint32_t tent_bits) const;
     };
     Frame frame_;
     float scale_;
     bool clean_ = false;  ///< no texel is negative, infinite or not a number
-    double mean_ = 0;
+    double mean_ = 0, mean_luminance_ = 0;
     std::vector<Part> parts_;
     float density_scale_;                 ///< from a texel's probability to a density times sin(theta)
     std::vector<std::uint32_t> columns_;  ///< per row: begin of each texel's share of 2^31 within it, and their end

@@ -8,41 +8,39 @@
 #include <utility>
 
 #include "worker/lights/constant.h"
-#include "worker/lights/light_clusters.h"
+#include "worker/lights/light_choice.h"
 #include "worker/lights/map_light.h"
 
 namespace treefarm {
 
-/// How much likelier next event has learned to choose each part of a light than by power alone.
-struct PartFactors {
-    const LightClusters* clusters;
-    const LightProbabilities* probabilities;  ///< nullptr: all by power
-    std::uint32_t first;                      ///< entry of part 0 in the table that emitters are chosen by
+/// Probability of each part of a light where a density is asked for.
+struct PartProbabilities {
+    const EntryProbabilities& of;
+    std::uint32_t first;  ///< entry of part 0 in the table that emitters are chosen by
 
-    bool even() const { return probabilities == nullptr; }
-    float operator()(int part) const {
-        return clusters->factor(probabilities, first + static_cast<std::uint32_t>(part));
-    }
+    bool by_power() const { return of.by_power(); }
+    float operator()(int part) const { return of(first + static_cast<std::uint32_t>(part)); }
 };
 
 /// What a light from infinity must say: the kind of emitter that it is made from; the parts of it that are chosen for
-/// themselves, each with its power (`from_infinity` times its mean radiance) and then the probability of that choice;
+/// themselves, each with its power (`from_infinity` times its mean radiance), its bounds and the probability by power;
 /// whether it shines; its radiance against a direction; a sample of a part; and the density with which a direction is
 /// sampled, of all its parts together, per steradian.
 template <class Light>
 concept EnvironmentLight = requires(Light& light, const Light& given, const typename Light::Kind& kind,
                                     const TextureSet* textures, const Draw& random, const Vec3& direction,
-                                    const typename Light::Sample& drawn, const PartFactors& factors) {
+                                    const typename Light::Sample& drawn, const PartProbabilities& probabilities) {
     light.add(kind, textures);
     light.choose(0, 0.0f);
     { given.part_count() } -> std::same_as<int>;
     { given.power(0, 0.0) } -> std::same_as<double>;
+    { given.bounds(0) } -> std::same_as<LightBounds>;
     { given.shines() } -> std::same_as<bool>;
     { given.radiance(direction) } -> std::same_as<Rgb>;
     { given.sample(0, random) } -> std::same_as<typename Light::Sample>;
     { drawn.direction } -> std::convertible_to<Vec3>;
-    { given.pdf(direction, factors) } -> std::same_as<float>;
-    { given.pdf(drawn, factors) } -> std::same_as<float>;
+    { given.pdf(direction, probabilities) } -> std::same_as<float>;
+    { given.pdf(drawn, probabilities) } -> std::same_as<float>;
 };
 
 /// Everything that shines from infinity. A kind more is a line in `Lights`, at its end: all else follows, and without
@@ -61,16 +59,16 @@ class Environments {
         return std::apply([](const auto&... light) { return (light.shines() || ...); }, lights_);
     }
 
-    /// Calls f(power) for each part of each light: the order in which choose() takes their probabilities.
+    /// Calls f(light, part) for each part of each light: the order in which choose() takes their probabilities.
     template <class F>
-    void for_each_power(double from_infinity, F&& f) const {
+    void for_each_part(F&& f) const {
         const auto each = [&](const auto& light) {
             for (int part = 0; part < light.part_count(); ++part)
-                f(light.power(part, from_infinity));
+                f(light, part);
         };
         std::apply([&](const auto&... light) { (each(light), ...); }, lights_);
     }
-    /// `probability(entry)` of each part, from entry `first` on.
+    /// `probability(entry)` by power of each part, from entry `first` on.
     template <class F>
     void choose(std::uint32_t first, F&& probability) {
         std::size_t number = 0;
@@ -99,14 +97,13 @@ class Environments {
     }
 
     /// Density of sample() for a direction.
-    float pdf(const Vec3& direction, const LightClusters& clusters, const LightProbabilities* probabilities) const {
-        return density<void>(direction, direction, clusters, probabilities);
+    float pdf(const Vec3& direction, const EntryProbabilities& probabilities) const {
+        return density<void>(direction, direction, probabilities);
     }
     /// That of a sample of one light.
     template <class Light>
-    float pdf_of(const typename Light::Sample& drawn, const LightClusters& clusters,
-                 const LightProbabilities* probabilities) const {
-        return density<Light>(drawn.direction, drawn, clusters, probabilities);
+    float pdf_of(const typename Light::Sample& drawn, const EntryProbabilities& probabilities) const {
+        return density<Light>(drawn.direction, drawn, probabilities);
     }
 
     /// Calls f.operator()<Light>(sample) with a sample of the part that has this entry.
@@ -158,14 +155,13 @@ class Environments {
 
     /// The sum of densities, where `Light` knows its part of it by what was drawn.
     template <class Light, class Drawn>
-    float density(const Vec3& direction, const Drawn& drawn, const LightClusters& clusters,
-                  const LightProbabilities* probabilities) const {
+    float density(const Vec3& direction, const Drawn& drawn, const EntryProbabilities& probabilities) const {
         const auto of_light = [&]<class Other>(const Other& light, std::uint32_t first) {
-            const PartFactors factors{&clusters, probabilities, first};
+            const PartProbabilities parts{probabilities, first};
             if constexpr (std::is_same_v<Other, Light>)
-                return light.pdf(drawn, factors);
+                return light.pdf(drawn, parts);
             else
-                return light.pdf(direction, factors);
+                return light.pdf(direction, parts);
         };
         float sum = of_light(std::get<0>(lights_), first_[0]);
         const auto more = [&](const auto& light, std::uint32_t first) {

@@ -5,6 +5,7 @@
 
 #include "common/base/error.h"
 #include "worker/lights/environment_map.h"
+#include "worker/lights/light_bounds.h"
 
 namespace treefarm {
 
@@ -25,28 +26,33 @@ class MapLight {
     double power(int part, double from_infinity) const {
         return from_infinity * map_->mean_radiance() * map_->part_weight(part);
     }
+    LightBounds bounds(int part) const {
+        const double mean = map_->mean_luminance() * map_->part_weight(part);
+        return LightBounds::from_infinity(map_->part_cone(part), 4.0 * double(kPi) * mean);
+    }
     void choose(int part, float probability) { parts_[static_cast<std::size_t>(part)] = probability; }
 
     bool shines() const { return static_cast<bool>(map_); }
     Rgb radiance(const Vec3& direction) const { return map_->radiance(direction); }
     Sample sample(int part, const Draw& random) const { return map_->sample(part, random); }
-    /// `drawn`: a direction, or a sample of it.
-    float pdf(const auto& drawn, const auto& factors) const { return map_->pdf(drawn, choice(factors)); }
+    float pdf(const Vec3& direction, const auto& probabilities) const {
+        return probabilities.by_power() ? map_->pdf(direction, parts_) : pdf(map_->towards(direction), probabilities);
+    }
+    float pdf(const Sample& drawn, const auto& probabilities) const {
+        if (probabilities.by_power()) return map_->pdf(drawn, parts_);
+        if (map_->black()) return 0.0f;
+        EnvironmentMap::PartChoice choice{};
+        map_->for_each_part(drawn.footprint,
+                            [&](int part) { choice[static_cast<std::size_t>(part)] = probabilities(part); });
+        return map_->pdf(drawn, choice);
+    }
 
     /// What draws many together asks.
     const EnvironmentMap& map() const { return *map_; }
 
   private:
-    EnvironmentMap::PartChoice choice(const auto& factors) const {
-        if (factors.even()) return parts_;
-        EnvironmentMap::PartChoice choice = parts_;
-        for (int part = 0; part < map_->part_count(); ++part)
-            choice[static_cast<std::size_t>(part)] *= factors(part);
-        return choice;
-    }
-
     std::unique_ptr<EnvironmentMap> map_;
-    EnvironmentMap::PartChoice parts_{};  ///< probability that each is chosen
+    EnvironmentMap::PartChoice parts_{};  ///< probability that each is chosen by power
 };
 
 }  // namespace treefarm

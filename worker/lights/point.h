@@ -4,6 +4,7 @@
 #include "common/scene/kinds/emitters/point.h"
 #include "worker/lights/direct_sample.h"
 #include "worker/lights/emission_sample.h"
+#include "worker/lights/light_bounds.h"
 #include "worker/textures/texture_set.h"
 
 namespace treefarm {
@@ -31,6 +32,9 @@ class PointLight {
     PointLight(const PointEmitter& point, const TextureSet*) : position_(point.position), intensity_(point.intensity) {}
 
     double power(double) const { return 4.0 * double(kPi) * double(average(intensity_)); }
+    LightBounds bounds() const {
+        return LightBounds::in_box(Box3(position_, position_), double(luminance(intensity_)));
+    }
     DirectSample sample(const Vec3& p, float selection) const {
         return sample_point(position_, intensity_, p, selection);
     }
@@ -38,6 +42,7 @@ class PointLight {
         const Vec3 direction = square_to_sphere({to_unit(random[0]), to_unit(random[1])});
         return emitted_from_point(position_, normalize(direction), intensity_, kInvFourPi);
     }
+    float direction_pdf(const SceneBall&, const Vec3&) const { return kInvFourPi; }
 
   private:
     Vec3 position_;

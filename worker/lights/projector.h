@@ -2,6 +2,7 @@
 #pragma once
 
 #include "common/base/error.h"
+#include "common/math/elementary.h"
 #include "common/scene/kinds/emitters/projector.h"
 #include "worker/lights/area_measure.h"
 #include "worker/lights/point.h"
@@ -31,6 +32,18 @@ class ProjectorLight {
         return area_ * double(average(irradiance_)) * mean;
     }
 
+    /// Brightest at the picture's corners.
+    LightBounds bounds() const {
+        const double mean = texture_ != kNone ? double(luminance(mean_color(*textures_, texture_))) : 1.0;
+        const double u = 0.25 / double(dot(u_axis_, u_axis_)), v = 0.25 / double(dot(v_axis_, v_axis_));
+        const double to_corner = std::sqrt(1.0 + u + v);
+        LightBounds bounds = LightBounds::in_box(
+            Box3(position_, position_), double(luminance(irradiance_)) * mean * to_corner * to_corner * to_corner);
+        bounds.cone = {axis_, 2.0f * azimuth_turn(1.0f, static_cast<float>(std::sqrt(u + v)))};
+        bounds.falloff = 0.0f;
+        return bounds;
+    }
+
     DirectSample sample(const Vec3& p, float selection) const {
         DirectSample sample = sample_point(position_, irradiance_, p, selection);
         if (!(sample.pdf > 0.0f)) return sample;
@@ -57,6 +70,10 @@ class ProjectorLight {
         if (texture_ != kNone) intensity *= textures_->color(texture_, Vec2(u, v));
         return emitted_from_point(position_, to * (1.0f / length), intensity,
                                   1.0f / (static_cast<float>(area_) * cos3));
+    }
+    float direction_pdf(const SceneBall&, const Vec3& away) const {
+        const float cosine = dot(axis_, away);
+        return 1.0f / (static_cast<float>(area_) * (cosine * cosine * cosine));
     }
 
   private:

@@ -41,6 +41,16 @@ class SpotLight {
         return 4.0 * double(kPi) * double(sine) * double(sine) * double(average(intensity_)) * mean;
     }
 
+    /// A falloff that is linear in the angle lies below the cosine, within a quarter turn.
+    LightBounds bounds() const {
+        const double mean = textures_ ? double(luminance(mean_color(*textures_, texture_))) : 1.0;
+        LightBounds bounds = LightBounds::in_box(Box3(position_, position_), double(luminance(intensity_)) * mean);
+        const bool narrow = cutoff_ - beam_ <= 0.5f * kPi;
+        bounds.cone = {axis_, (narrow ? beam_ : cutoff_) * kInvPi};
+        bounds.falloff = narrow ? (cutoff_ - beam_) * kInvPi : 0.0f;
+        return bounds;
+    }
+
     DirectSample sample(const Vec3& p, float selection) const {
         DirectSample sample = sample_point(position_, intensity_, p, selection);
         if (!(sample.pdf > 0.0f)) return sample;
@@ -51,15 +61,22 @@ class SpotLight {
 
     /// Uniform in the cone: what it brightens falls off in the weight.
     EmissionSample emit(const SceneBall&, const Draw& random) const {
-        const float sine = sincos_turn(0.25f * kInvPi * cutoff_).sin, one_minus_cos = 2.0f * sine * sine;
+        const float one_minus_cos = cone();
         const Vec3 local = square_to_cone({to_unit(random[0]), to_unit(random[1])}, one_minus_cos);
         const Vec3 direction = normalize(Frame(axis_).to_world(local));
         Rgb intensity = intensity_ * falloff(direction);
         if (textures_ && !is_black(intensity)) intensity *= projected(direction);
         return emitted_from_point(position_, direction, intensity, cone_pdf(one_minus_cos));
     }
+    float direction_pdf(const SceneBall&, const Vec3&) const { return cone_pdf(cone()); }
 
   private:
+    /// 1 - cos of the cutoff.
+    float cone() const {
+        const float sine = sincos_turn(0.25f * kInvPi * cutoff_).sin;
+        return 2.0f * sine * sine;
+    }
+
     /// Linear in the angle from the axis, which comes from its sine and cosine: a narrow spot's cosines all round to 1.
     float falloff(const Vec3& away) const {
         const Vec3 across = cross(axis_, away);

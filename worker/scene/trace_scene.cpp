@@ -56,7 +56,7 @@ TraceScene::TraceScene(Scene&& scene, const std::vector<FloatInput>& opacity, co
       plain_diffuse_(traced_plainly(scene, job) ? diffuse_bsdfs(scene) : std::vector<PlainDiffuse>()),
       materials_(make_materials(scene, job, textures_)),
       geometry_(textures_.arranged(std::move(scene.shapes)), job.farm.isa, {opacity, &textures_}, job.farm.robust),
-      emitters_(scene.emitters, geometry_, bounds_, &textures_) {
+      emitters_(scene.emitters, geometry_, bounds_, &textures_, job.integrator.light_selection) {
     assert(effects_.lens == camera_.has_lens());
     assert(effects_.masks == geometry_.masked());
     assert(effects_.environment || !emitters_.shines_from_infinity());

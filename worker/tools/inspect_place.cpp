@@ -34,6 +34,13 @@ class Scatterer {
 
     const Surface& surface() const { return *surface_; }
 
+    /// The place, as next event chooses an emitter for it.
+    LightReceiver receiver(const LightProbabilities* learned) const {
+        if (!surface_) return {place_.hit.p, learned, place_.normal ? &place_.hit.ns : nullptr};
+        const Vec3 front = surface_->front();
+        return {place_.hit.p, learned, surface_->transmits() ? nullptr : &front};
+    }
+
     Scattering toward(const Vec3& d) const {
         if (!surface_) {
             if (!place_.normal) return {Rgb(1.0f), 0.25f / kPi, true};
@@ -59,16 +66,15 @@ struct EmitterHit {
     float light_pdf = 0;  ///< of next event
 };
 
-EmitterHit intersect_emitter(const TraceScene& scene, const Vec3& from, const Ray& ray,
-                             const LightProbabilities* probabilities) {
+EmitterHit intersect_emitter(const TraceScene& scene, const LightReceiver& from, const Ray& ray) {
     const Emitters& emitters = scene.emitters();
     Hit hit;
     if (!scene.geometry().intersect(ray, hit)) {
         if (!emitters.shines_from_infinity()) return {};
-        return {emitters.environment(ray.direction), emitters.pdf_environment(ray.direction, probabilities)};
+        return {emitters.environment(ray.direction), emitters.pdf_environment(from, ray.direction)};
     }
     if (!emitters.emits(hit.shape)) return {};
-    return {emitters.emitted(hit, -ray.direction), emitters.pdf_direct(from, ray.direction, hit, probabilities)};
+    return {emitters.emitted(hit, -ray.direction), emitters.pdf_direct(from, ray.direction, hit)};
 }
 
 template <class Surface>
@@ -169,7 +175,7 @@ class PlaceTracer {
         if (!scattering.reflects) return;
         const Ray ray{offset_origin(place_.hit, d), d};
         const EmitterHit emitter =
-            intersect_emitter(scene_, place_.hit.p, ray, guide_.light_probabilities(guidance_.region));
+            intersect_emitter(scene_, scatterer_.receiver(guide_.light_probabilities(guidance_.region)), ray);
         if (!is_black(emitter.emitted)) {
             const double weight = double(mis_weight(mis_, pdf, emitter.light_pdf));
             count(scattering.f_cos, emitter.emitted, 1.0, weight, sums);

@@ -10,7 +10,7 @@ namespace treefarm {
 namespace {
 
 /// Whole numbers in proportion to `parts`, whose sum is 1, that sum to kLightProbabilityOne: what rounding leaves goes
-/// to the choice by power.
+/// to the choice without.
 LightProbabilities rounded(const std::array<double, kLightClusters + 1>& parts) {
     LightProbabilities probabilities{};
     std::uint32_t rest = kLightProbabilityOne;
@@ -33,7 +33,7 @@ LightProbabilities learned_probabilities(std::span<const double, kLightClusters>
     const double trust = vertices / (vertices + kPolicy.learning.lights_prior_vertices);
     std::array<double, kLightClusters + 1> parts{};
     for (std::size_t c = 0; c < kLightClusters; ++c)
-        parts[c + 1] = trust * (1 - kPolicy.learning.lights_by_power) * std::sqrt(moments[c]) / total +
+        parts[c + 1] = trust * (1 - kPolicy.learning.lights_unlearned) * std::sqrt(moments[c]) / total +
                        (1 - trust) * double(prior[c + 1]) / kLightProbabilityOne;
     return rounded(parts);
 }

@@ -12,8 +12,8 @@
 
 namespace treefarm {
 
-/// The light share of an untaught region: next event chooses among the scene's emitters by power alone.
-inline constexpr LightProbabilities kChoiceByPower = {kLightProbabilityOne};
+/// The light share of an untaught region: next event chooses among all emitters, as where nothing is learned.
+inline constexpr LightProbabilities kNothingLearned = {kLightProbabilityOne};
 
 /// The coordinator's memory of what next event found in each region, from pass to pass (docs/design/guiding.md,
 /// "Choosing emitters").

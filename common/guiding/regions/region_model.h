@@ -10,8 +10,8 @@
 
 namespace treefarm {
 
-/// How next event chooses an emitter in a region, in parts of kLightProbabilityOne, to which they sum: [0] by power
-/// among all of them, [c + 1] among those of cluster c (worker/lights/light_clusters.h).
+/// How next event chooses an emitter in a region, in parts of kLightProbabilityOne, to which they sum: [0] among all
+/// of them, as where nothing is learned, [c + 1] among those of cluster c (worker/lights/light_tree.h).
 inline constexpr int kLightClusters = 15;
 inline constexpr std::uint16_t kLightProbabilityOne = 1 << 15;
 using LightProbabilities = std::array<std::uint16_t, kLightClusters + 1>;
@@ -36,7 +36,7 @@ struct RegionModel {
     std::vector<std::int16_t> quantum_exponent;  ///< per region: records are counted in units of 2^e
     std::vector<float> bsdf_fraction;  ///< per region: probability of sampling the BSDF rather than the guide, (0, 1]
 
-    /// Per region; empty: emitters are chosen by power, and nothing is learned.
+    /// Per region; empty: nothing is learned of emitters.
     std::vector<LightProbabilities> light_probabilities;
     /// Per region: mean of the records L / p, the integral of radiance over directions; 0: nothing is known. Empty:
     /// nothing asks for it (path_recorder.h).

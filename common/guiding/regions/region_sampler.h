@@ -29,7 +29,7 @@ class RegionSampler {
 
     /// Whether next event learns how to choose emitters.
     bool learns_lights() const { return !light_probabilities_.empty(); }
-    /// How next event chooses emitters in a region: nullptr, by power.
+    /// What is learned of emitters in a region; nullptr: nothing.
     const LightProbabilities* light_probabilities(std::uint32_t region) const {
         return light_probabilities_.empty() ? nullptr : &light_probabilities_[region];
     }

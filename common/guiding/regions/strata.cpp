@@ -34,7 +34,7 @@ std::uint32_t begin_even_regions(RegionModel& model, const Box3& bounds, const F
     add_nodes(model, settings.grid_halvings, regions);
     model.quantum_exponent.assign(regions, quantum_exponent_for(settings.radiance_scale));
     model.bsdf_fraction.assign(regions, settings.bsdf_fraction);
-    if (settings.with_lights) model.light_probabilities.assign(regions, kChoiceByPower);
+    if (settings.with_lights) model.light_probabilities.assign(regions, kNothingLearned);
     return regions;
 }
 

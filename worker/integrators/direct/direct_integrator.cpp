@@ -42,7 +42,7 @@ class DirectLight {
     static std::uint32_t vertex(int sample) { return 1u + static_cast<std::uint32_t>(sample); }
 
     Rgb emitter_sample(const Hit& hit, const Surface& surface, const Draw& random) const {
-        const DirectSample sample = scene_.emitters().sample_direct(hit.p, random);
+        const DirectSample sample = scene_.emitters().sample_direct(receiver_at(hit, surface), random);
         const LightAtSurface light = light_at_surface(scene_, hit, surface, sample, job_.strict_normals, stats_);
         if (is_black(light.reflected)) return Rgb(0.0f);
         return light.reflected * (weight(emitters_ * light.pdf, bsdfs_ * light.bsdf_pdf) / (emitters_ * light.pdf));
@@ -61,7 +61,9 @@ class DirectLight {
         if (is_black(light)) return Rgb(0.0f);
         // No emitter sample goes the way of a mirror.
         const float pdf = sample.delta ? std::numeric_limits<float>::infinity() : bsdfs_ * sample.pdf;
-        const float emitter = emitters_ > 0.0f ? emitters_ * emitter_pdf(scene_.emitters(), hit.p, ray, arrival) : 0.0f;
+        const float emitter = emitters_ > 0.0f
+                                  ? emitters_ * emitter_pdf(scene_.emitters(), receiver_at(hit, surface), ray, arrival)
+                                  : 0.0f;
         return sample.f_cos * (1.0f / (bsdfs_ * sample.pdf)) * (light * weight(pdf, emitter));
     }
 

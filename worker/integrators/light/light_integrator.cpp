@@ -4,9 +4,9 @@
 #include <array>
 
 #include "common/base/timer.h"
-#include "worker/camera/camera_importance.h"
 #include "worker/integrators/subpath/light_scatter.h"
 #include "worker/integrators/subpath/roulette.h"
+#include "worker/integrators/subpath/sensor.h"
 
 // The image is an integral over all paths from a lamp to the camera, and does not care from which end they are drawn. A
 // light path starts at an emitter, with the power that it has there over the density of start and direction, and
@@ -32,14 +32,6 @@ struct Rules {
           strict_normals(job.strict_normals),
           hide_emitters(job.hide_emitters),
           roulette(Roulette::Rule::unguided, job.rr_depth) {}
-};
-
-/// What rays are connected to.
-struct Sensor {
-    CameraImportance importance;
-    PixelPicker pixels;
-
-    Sensor(const Camera& camera, const Film& film) : importance(camera, film), pixels(film, camera.panoramic) {}
 };
 
 /// Connections whose shadow rays wait for each other: many together are faster.
@@ -169,11 +161,8 @@ class LightTracer {
         if (is_black(colour)) return;
         const PixelPick pick = sensor_.pixels.pick(to.x, to.y, draw(key, vertex, Stream::filter_pick));
         if (!pick.found) return;
-        Ray ray{offset_origin(hit, to.direction), Vec3(0.0f), 1.0f};
-        ray.direction = to.target - ray.origin;
-        // Closer than the offset: nothing fits between.
-        if (!(dot(ray.direction, to.direction) > 0.0f)) ray.length = -1.0f;
-        connections_.add(ray, pick.pixel, colour * static_cast<float>(factor * to.g * pick.weight), key, vertex);
+        connections_.add(ray_to_lens(hit, to), pick.pixel, colour * static_cast<float>(factor * to.g * pick.weight),
+                         key, vertex);
     }
 
     const TraceScene& scene_;

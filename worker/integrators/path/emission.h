@@ -25,14 +25,14 @@ class Emission {
     [[gnu::noinline]] void from_emitter(Path& path, PathRecorder<G>* recorder) const {
         const Emitters& emitters = scene_.emitters();
         add(path, recorder, emitters.emitted(path.hit, -path.ray.direction),
-            [&] { return emitters.pdf_direct(path.scatter_point, path.ray.direction, path.hit, path.scatter_lights); });
+            [&] { return emitters.pdf_direct(path.scatter_from, path.ray.direction, path.hit); });
     }
 
     [[gnu::noinline]] void from_infinity(Path& path, PathRecorder<G>* recorder) const {
         assert(scene_.effects().environment);
         const Emitters& emitters = scene_.emitters();
         add(path, recorder, emitters.environment(path.ray.direction),
-            [&] { return emitters.pdf_environment(path.ray.direction, path.scatter_lights); });
+            [&] { return emitters.pdf_environment(path.scatter_from, path.ray.direction); });
     }
 
   private:

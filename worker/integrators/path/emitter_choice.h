@@ -28,39 +28,35 @@ class EmitterChoice {
     bool any() const { return needed_; }
     bool together() const { return together_; }
     void clear() { batch_.clear(); }
-    void choose(std::uint32_t lane, const Vec3& p, const LightProbabilities* probabilities) {
-        emitters_.choose(batch_, lane, p, draws_[lane], probabilities);
+    void choose(std::uint32_t lane, const LightReceiver& receiver) {
+        emitters_.choose(batch_, lane, receiver, draws_[lane]);
     }
     void draw() { emitters_.draw(batch_); }
 
     /// A next-event sample as of Emitters::sample_direct(), or sample_delta() where next event is for those alone.
-    DirectSample sample(const Vec3& p, std::uint32_t lane, const LightProbabilities* probabilities,
-                        const Vec3* front) const {
+    DirectSample sample(const LightReceiver& receiver, std::uint32_t lane) const {
         if (special_) [[unlikely]]
-            return sample_specially(p, lane, probabilities, front);
-        return emitters_.sample_direct(p, draws_[lane], probabilities, front);
+            return sample_specially(receiver.p, lane);
+        return emitters_.sample_direct(receiver, draws_[lane]);
     }
     /// Completes the samples from infinity among `lights`, of those numbers that are seen, by radiance and missing
-    /// density; lane_of(light) has drawn one, by share_of(light). All together: the others then have no test for it,
-    /// nor a call to save registers for.
-    template <class Lights, class LaneOf, class ProbabilitiesOf>
-    void shine_from_infinity(Lights& lights, std::span<const std::uint8_t> seen, LaneOf lane_of,
-                             ProbabilitiesOf probabilities_of) const {
+    /// density; lane_of(light) has drawn one. All together: the others then have no test for it, nor a call to save
+    /// registers for.
+    template <class Lights, class LaneOf>
+    void shine_from_infinity(Lights& lights, std::span<const std::uint8_t> seen, LaneOf lane_of) const {
         if (emitters_.shines_from_infinity()) [[unlikely]]
-            add_infinity(lights, seen, lane_of, probabilities_of);
+            add_infinity(lights, seen, lane_of);
     }
 
   private:
     /// Out of line: most scenes pay one test for it.
-    [[gnu::noinline]] DirectSample sample_specially(const Vec3& p, std::uint32_t lane,
-                                                    const LightProbabilities* probabilities, const Vec3* front) const {
+    [[gnu::noinline]] DirectSample sample_specially(const Vec3& p, std::uint32_t lane) const {
         if (delta_alone_) return emitters_.sample_delta(p, draws_[lane]);
-        return emitters_.sample_direct(p, batch_, lane, draws_[lane], probabilities, front);
+        return emitters_.sample_direct(batch_, lane, draws_[lane]);
     }
 
-    template <class Lights, class LaneOf, class ProbabilitiesOf>
-    [[gnu::noinline]] void add_infinity(Lights& lights, std::span<const std::uint8_t> seen, LaneOf lane_of,
-                                        ProbabilitiesOf probabilities_of) const {
+    template <class Lights, class LaneOf>
+    [[gnu::noinline]] void add_infinity(Lights& lights, std::span<const std::uint8_t> seen, LaneOf lane_of) const {
         if (together_ && emitters_.has_map())
             for (const std::uint8_t i : seen)
                 emitters_.prefetch_environment(batch_, lane_of(lights[i]));
@@ -69,8 +65,7 @@ class EmitterChoice {
             if (!light.from_environment) continue;
             light.radiance =
                 together_ ? emitters_.environment(batch_, lane_of(light), light.wi) : emitters_.environment(light.wi);
-            if (together_)
-                light.pdf = emitters_.environment_pdf(batch_, lane_of(light), light.pdf, probabilities_of(light));
+            if (together_) light.pdf = emitters_.environment_pdf(batch_, lane_of(light), light.pdf);
         }
     }
 

@@ -7,6 +7,7 @@
 #include "worker/geometry/embree_scene.h"
 #include "worker/integrators/path/scatter_sample.h"
 #include "worker/integrators/path/split_paths.h"
+#include "worker/lights/light_lanes.h"
 
 namespace treefarm {
 
@@ -18,13 +19,12 @@ struct PathState {
     int depth;             ///< edges so far
     Ray ray;
     Rgb radiance, throughput;
-    float scatter_pdf;  ///< infinite after a delta lobe: next event cannot have found what it hits
-    float spread;       ///< product of eta^2: what refraction took from the throughput and gives back later
-    Vec3 scatter_point;
-    const LightProbabilities* scatter_lights;  ///< how next event chose an emitter there
-    bool probe;                                ///< unguided in a pass that probes whether guiding pays
-    int first_exponent;                        ///< of the quanta where the camera's ray arrived: how bright it is there
-    std::uint16_t origin;                      ///< the group's camera path that it is part of
+    float scatter_pdf;           ///< infinite after a delta lobe: next event cannot have found what it hits
+    float spread;                ///< product of eta^2: what refraction took from the throughput and gives back later
+    LightReceiver scatter_from;  ///< the place, as next event chose an emitter there
+    bool probe;                  ///< unguided in a pass that probes whether guiding pays
+    int first_exponent;          ///< of the quanta where the camera's ray arrived: how bright it is there
+    std::uint16_t origin;        ///< the group's camera path that it is part of
     SplitBudget split_budget;
     Unsplit unsplit;
     bool was_split_off;  ///< has just left another: its ray has arrived, and what it met is accounted for
@@ -49,10 +49,10 @@ struct PathState {
         was_split_off = false;
         first_exponent = 0;
         ray = from_camera;
-        radiance = scatter_point = Rgb(0.0f);
+        radiance = Rgb(0.0f);
         throughput = Rgb(1.0f);
         scatter_pdf = 0.0f;
-        scatter_lights = nullptr;
+        scatter_from = {};
         spread = 1.0f;
         guidance = G::unguided();
     }

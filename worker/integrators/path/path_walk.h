@@ -268,8 +268,7 @@ class PathWalk {
         path.throughput *= path.weight;
         observer_.scatter(s, path.throughput);
         path.scatter_pdf = s.pdf;
-        path.scatter_point = path.hit.p;
-        path.scatter_lights = light_probabilities(path);
+        path.scatter_from = receiver(path);
         // One question for what is rare: the same bits say that a lobe may be delta, or refract.
         const bool rare = Surface::kGeneral && surface.delta_or_transmitting();
         if constexpr (Surface::kTransmits)
@@ -294,30 +293,31 @@ class PathWalk {
             const Path& path = paths_[alive_[i]];
             if (!path.surface->smooth()) continue;
             smooth[count++] = alive_[i];
-            emitters_.choose(path.lane, path.hit.p, light_probabilities(path));
+            emitters_.choose(path.lane, receiver(path));
         }
         emitters_.draw();
         for (std::uint32_t i = 0; i < count; ++i)
             next_event(smooth[i]);
     }
 
-    /// How next event chooses an emitter where the path is: nullptr, by power.
-    const LightProbabilities* light_probabilities(const Path& path) const {
-        return !kConverts || (kGuided && path.probe) ? nullptr : guide_.light_probabilities(path.guidance.region);
+    /// The place of a path, as next event chooses an emitter for it.
+    LightReceiver receiver(const Path& path) const {
+        const Vec3 front = path.surface->front();
+        const bool learned = kConverts && !(kGuided && path.probe);
+        return {path.hit.p, learned ? guide_.light_probabilities(path.guidance.region) : nullptr,
+                path.surface->transmits() ? nullptr : &front};
     }
 
     /// Samples an emitter; whether it is seen is asked for all paths of a step together.
     void next_event(std::uint8_t index) {
         const Path& path = paths_[index];
         const Surface& surface = *path.surface;
-        const LightProbabilities* const probabilities = settings_.delta_alone ? nullptr : light_probabilities(path);
-        const Vec3 front = surface.front();
-        const DirectSample light =
-            emitters_.sample(path.hit.p, path.lane, probabilities, surface.transmits() ? nullptr : &front);
+        const LightReceiver at = receiver(path);
+        const DirectSample light = emitters_.sample(at, path.lane);
         if (!(light.pdf > 0.0f) || light.black()) return;
         BsdfValue bsdf;
         if (surface.evaluate_late()) {
-            if (!surface.transmits() && !(dot(front, light.wi) > 0.0f)) return;
+            if (at.one_sided && !(dot(at.front, light.wi) > 0.0f)) return;
         } else {
             bsdf = bsdf_value(surface, light.wi);
             if (is_black(bsdf.f_cos)) return;
@@ -325,7 +325,8 @@ class PathWalk {
         if (settings_.strict_normals && dot(surface.ng(), light.wi) * dot(surface.frame().n, light.wi) <= 0.0f) return;
         ++stats_.shadow_rays;
         const std::uint32_t vertex = kRecord ? recorders_[index].vertex_count() : 0;
-        pending_.add(path.hit, light, {index, vertex, probabilities != nullptr, path.guidance, path.throughput}, bsdf);
+        pending_.add(path.hit, light,
+                     {index, vertex, !settings_.delta_alone && at.probabilities, path.guidance, path.throughput}, bsdf);
     }
 
     static BsdfValue bsdf_value(const Surface& surface, const Vec3& wi) {
@@ -353,9 +354,8 @@ class PathWalk {
         }
         if constexpr (kConverts) light_directions_.convert();
         if constexpr (kGuided) light_directions_.prefetch(guide_);
-        emitters_.shine_from_infinity(
-            pending_, {seen.data(), count}, [&](const PendingLight<G>& light) { return paths_[light.from.path].lane; },
-            [&](const PendingLight<G>& light) { return light_probabilities(paths_[light.from.path]); });
+        emitters_.shine_from_infinity(pending_, {seen.data(), count},
+                                      [&](const PendingLight<G>& light) { return paths_[light.from.path].lane; });
         if constexpr (kGuided) light_directions_.prefetch_more(guide_);
         for (std::uint32_t i = 0; i < count; ++i)
             add_light(pending_[seen[i]], light_directions_[i]);

@@ -53,7 +53,7 @@ struct Rules {
 struct Path {
     Ray ray;
     Rgb throughput{1.0f};
-    Vec3 from{0.0f};           ///< the vertex that the ray left
+    LightReceiver from = {};   ///< the vertex that the ray left
     float scatter_pdf = 0.0f;  ///< of the ray's direction there; infinite: nothing else could have found it
     float spread = 1.0f;  ///< product of eta^2: refraction takes it from the radiance, and gives it back on leaving
 };
@@ -109,8 +109,8 @@ class PathTracer {
     Rgb next_event(const Hit& hit, const Surface& surface, const Draw& random) const {
         if (!rules_.next_event && !rules_.delta_alone) return Rgb(0.0f);
         const Emitters& emitters = scene_.emitters();
-        const DirectSample sample =
-            rules_.delta_alone ? emitters.sample_delta(hit.p, random) : emitters.sample_direct(hit.p, random);
+        const DirectSample sample = rules_.delta_alone ? emitters.sample_delta(hit.p, random)
+                                                       : emitters.sample_direct(receiver_at(hit, surface), random);
         const LightAtSurface light = light_at_surface(scene_, hit, surface, sample, rules_.strict_normals, stats_);
         if (!(light.pdf > 0.0f)) return Rgb(0.0f);
         return light.reflected * (mis_weight(rules_.mis, light.pdf, light.bsdf_pdf) / light.pdf);
@@ -126,7 +126,7 @@ class PathTracer {
         path.scatter_pdf = sample.delta ? kInfinity : sample.pdf;
         if constexpr (Surface::kTransmits)
             if (sample.wi.z < 0.0f) path.spread *= surface.eta2();
-        path.from = hit.p;
+        path.from = receiver_at(hit, surface);
         path.ray = {offset_origin(hit, direction), direction};
         return true;
     }

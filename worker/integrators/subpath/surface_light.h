@@ -24,9 +24,16 @@ inline Rgb emitted(const Emitters& emitters, const Ray& ray, const Hit* arrival)
     return arrival ? emitters.emitted(*arrival, -ray.direction) : emitters.environment(ray.direction);
 }
 
+/// A point of a surface that light of emitters is wanted at.
+template <class Surface>
+LightReceiver receiver_at(const Hit& hit, const Surface& surface) {
+    const Vec3 front = surface.front();
+    return {hit.p, nullptr, surface.transmits() ? nullptr : &front};
+}
+
 /// Density with which emitter sampling at `from` finds what emits there, per steradian.
-inline float emitter_pdf(const Emitters& emitters, const Vec3& from, const Ray& ray, const Hit* arrival) {
-    return arrival ? emitters.pdf_direct(from, ray.direction, *arrival) : emitters.pdf_environment(ray.direction);
+inline float emitter_pdf(const Emitters& emitters, const LightReceiver& from, const Ray& ray, const Hit* arrival) {
+    return arrival ? emitters.pdf_direct(from, ray.direction, *arrival) : emitters.pdf_environment(from, ray.direction);
 }
 
 /// A direction drawn from a surface's BSDF; its density is 0 if there is none.

@@ -11,7 +11,8 @@
 namespace treefarm::mitsuba {
 namespace {
 
-constexpr std::array<std::string_view, 6> kIntegrators = {"path", "volpath", "direct", "ao", "ptracer", "guided_path"};
+constexpr std::array<std::string_view, 7> kIntegrators = {"path",    "volpath", "direct",     "ao",
+                                                          "ptracer", "bdpt",    "guided_path"};
 
 /// How light is transported; whether something guides is the job's business.
 void read_path(IntegratorSettings& settings) {
@@ -51,6 +52,17 @@ void read_light_tracing(IntegratorSettings& settings) {
     settings.properties().ignore({"granularity", "brute_force"});
 }
 
+/// Reads bidirectional path tracing. Which techniques it has does not change the image, but its noise.
+void read_bidirectional(IntegratorSettings& settings) {
+    settings.set("integrator.type", "bidirectional", settings.properties().where());
+    settings.read_boolean("light_image", "bidirectional.light_image");
+    if (settings.properties().has("sample_direct")) {
+        const bool samples = settings.properties().boolean("sample_direct", true);
+        settings.set_by("sample_direct", "integrator.next_event", samples ? "always" : "never");
+    }
+    settings.read_common();
+}
+
 /// Reads an estimator of the same image by other means: how long paths are belongs to the image, the rest does not.
 void read_other(IntegratorSettings& settings, const std::string& type) {
     Properties& properties = settings.properties();
@@ -67,8 +79,8 @@ void read_other(IntegratorSettings& settings, const std::string& type) {
 
 /// Integrators of Mitsuba that converge to the image of a path tracer.
 bool is_other_estimator(const std::string& type) {
-    constexpr std::array<std::string_view, 11> kTypes = {"bdpt", "mlt", "pssmlt", "erpt",      "photonmapper", "ppm",
-                                                         "sppm", "vpl", "prb",    "prb_basic", "prbvolpath"};
+    constexpr std::array<std::string_view, 10> kTypes = {"mlt",  "pssmlt", "erpt", "photonmapper", "ppm",
+                                                         "sppm", "vpl",    "prb",  "prb_basic",    "prbvolpath"};
     return std::find(kTypes.begin(), kTypes.end(), type) != kTypes.end();
 }
 
@@ -133,6 +145,8 @@ void read_integrator(const XmlElement& integrator, std::vector<Setting>& setting
         read_ambient_occlusion(reader);
     } else if (type == "ptracer") {
         read_light_tracing(reader);
+    } else if (type == "bdpt") {
+        read_bidirectional(reader);
     } else if (is_path_tracer(type)) {
         diagnostics.note(integrator.where, "the integrator " + in_quotes(type) +
                                                " says how light is transported; whether paths are guided says the job "

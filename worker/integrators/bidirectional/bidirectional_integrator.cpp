@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "worker/integrators/bidirectional/bidirectional_integrator.h"
+
+#include "worker/integrators/bidirectional/bidirectional_tracer.h"
+#include "worker/integrators/sample_loop.h"
+
+// A path of k edges from lamp to lens has k + 1 vertices. A technique (s, t) draws s of them from the lamp and t from
+// the camera, s + t = k + 1, and connects the two ends:
+//
+//     (0, t)  the camera's path meets the lamp by chance         (s, 1)  a vertex of the light path is seen by the lens
+//     (1, t)  next event: a point is drawn on a lamp             (s, t)  two vertices see each other
+//
+// Each finds all light of that many edges on its own, but for what has no density: a point is never met, a mirror never
+// connected. For one sample a subpath is traced from either end, and all pairs are connected. What a technique brings
+// is weighed by how likely it was to draw this path against all the others (multiple importance sampling), so that what
+// some find hardly ever the others find for them. The weights of one path's techniques sum to one: the mean of many
+// samples is the image. Only (s, 1) brings light to other pixels than the sample's own: the film has splats for it.
+
+namespace treefarm {
+
+RenderUnit prepare_bidirectional(std::shared_ptr<const TraceScene> scene, const Resolved& job) {
+    return [sensor = Sensor(scene->camera().camera(), scene->film()), scene = std::move(scene), job](
+               const PassPlan& pass, const AnySampler&, const WorkUnit& unit, UnitOutput& output) {
+        with_surface(*scene, [&]<class Surface>() {
+            BidirectionalTracer<Surface> tracer(*scene, sensor, BidirectionalRules(*scene, job, pass), output);
+            render_samples(*scene, job, pass, unit, output,
+                           [&](const PathKey& key, const Ray& ray) { return tracer.radiance(key, ray); });
+        });
+    };
+}
+
+}  // namespace treefarm

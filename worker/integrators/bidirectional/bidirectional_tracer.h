@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "worker/integrators/bidirectional/light_subpath.h"
+#include "worker/integrators/bidirectional/sample_connections.h"
+#include "worker/integrators/subpath/sensor.h"
+
+namespace treefarm {
+
+/// Traces samples over one kind of surface: DiffuseSurface or GeneralSurface.
+template <class Surface>
+class BidirectionalTracer {
+  public:
+    BidirectionalTracer(const TraceScene& scene, const Sensor& sensor, const BidirectionalRules& rules,
+                        UnitOutput& output)
+        : scene_(scene),
+          sensor_(sensor),
+          rules_(rules),
+          stats_(output.stats),
+          connections_(scene.geometry(), output),
+          light_(scene, rules_, output.stats),
+          scratch_(Surface::make_scratch(scene)),
+          other_(Surface::make_scratch(scene)) {}
+
+    /// Radiance along a ray of the camera, by the random numbers of `key`; what else the sample finds is splatted.
+    Rgb radiance(const PathKey& key, const Ray& camera_ray) {
+        const Draw camera = draw(key, 0, Stream::camera), lens{camera[2], camera[3], 0, 0};  // the ray's own point
+        light_.trace(key);
+        if (rules_.light_image) connect_to_lens(key, lens);
+        const Rgb met = walk(key, camera_ray, lens);
+        return met + connections_.finish(key);
+    }
+
+  private:
+    /// A vertex of the camera's path: z_(depth).
+    struct CameraVertex {
+        const Hit& hit;
+        const Surface& surface;
+        Vec3 to_before;  ///< unit
+        Rgb throughput;  ///< of light that leaves it, to the camera
+        TechniqueSums sums;
+        int depth;
+    };
+
+    /// Where the camera's path is, and what it carries there.
+    struct Path {
+        Ray ray;
+        Rgb throughput{1.0f};
+        float spread = 1.0f;  ///< product of eta^2: refraction takes it from the radiance, and gives it back on leaving
+        Departure from{};     ///< the vertex that the ray left
+        TechniqueSums sums{};  ///< of that vertex
+    };
+
+    /// Follows the camera's path, connects its vertices, and returns what it meets by itself.
+    Rgb walk(const PathKey& key, const Ray& camera_ray, const Draw& lens) {
+        Path path{camera_ray};
+        Rgb met(0.0f);
+        for (int depth = 1;; ++depth) {
+            const auto number = static_cast<std::uint32_t>(depth);
+            Hit hit;
+            const bool found = scene_.geometry().intersect(path.ray, hit);
+            ++stats_.rays;
+            const Vec3 to_before = -path.ray.direction;
+            DrawnEdge edge;
+            if (depth > 1) edge = found ? edge_to(path.from, hit, to_before) : edge_to_infinity(path.from);
+            if (depth > 1 && !(edge.pdf > 0.0)) return met;
+            const TechniqueSums sums = depth > 1 ? path.sums.after(edge, rules_.heuristic)
+                                       : found   ? first_sums(hit, to_before, lens)
+                                                 : TechniqueSums{};
+            add(met, path.throughput, emission(path, sums, found ? &hit : nullptr, depth));
+
+            if (!found || !rules_.goes_on(depth)) return met;
+            if (depth > 1 && !survives(path, depth - 1, draw(key, number - 1, Stream::roulette))) return met;
+
+            scene_.geometry().keep_inside(hit, path.ray);
+            const Surface surface(scene_, hit, to_before, scratch_);
+            if (surface.black()) return met;
+            if (rules_.strict_normals && !normals_agree(surface, to_before, surface.wo().z)) return met;
+            ++stats_.vertices;
+
+            const CameraVertex vertex{hit, surface, to_before, path.throughput, sums, depth};
+            if (surface.smooth()) {
+                next_event(vertex, draw(key, number, Stream::light));
+                for (int i = 0; i < light_.size() && rules_.goes_on(depth + i + 1); ++i)
+                    connect(light_[i], vertex, i + 2);
+            }
+            if (!scatter(path, vertex, draw(key, number, Stream::scatter))) return met;
+        }
+    }
+
+    /// Adds T light to the sum: nothing where it is dark, however large T is.
+    static void add(Rgb& sum, const Rgb& throughput, const Rgb& light) {
+        if (!is_black(light)) sum += throughput * light;
+    }
+
+    /// Where the camera's path met its first surface the light path would be seen by the lens.
+    TechniqueSums first_sums(const Hit& hit, const Vec3& to_lens, const Draw& lens) const {
+        const FilmConnection at = sensor_.importance.connect(hit.p, lens);
+        const double pdf = at.g * sensor_.per_window * double(geometric_cosine(hit, to_lens));
+        if (!rules_.light_image || !at.seen || !(pdf > 0.0)) return {};
+        return {rules_.heuristic(1.0 / pdf), 0.0};
+    }
+
+    /// (0, t): what the path's ray has met emits.
+    Rgb emission(const Path& path, const TechniqueSums& sums, const Hit* arrival, int depth) const {
+        if (!rules_.techniques.has(0, depth + 1)) return Rgb(0.0f);
+        const Rgb light = emitted(scene_.emitters(), path.ray, arrival);
+        if (depth == 1) return rules_.hide_emitters ? Rgb(0.0f) : light;
+        if (is_black(light)) return light;
+        const Emitters& emitters = scene_.emitters();
+        const Vec3& direction = path.ray.direction;
+        const EmissionDensity pdf =
+            arrival ? emitters.emission_density(*arrival, -direction) : emitters.emission_density(direction);
+        double next_event = 0.0;
+        if (rules_.next_event) {
+            next_event = double(emitter_pdf(emitters, path.from.p, path.ray, arrival));
+            if (arrival)
+                next_event *= double(geometric_cosine(*arrival, direction)) / squared_distance(path.from.p, arrival->p);
+        }
+        const double others = sums.sum(next_event, double(pdf.place) * double(pdf.direction), rules_.heuristic);
+        return light * static_cast<float>(rules_.weight(others));
+    }
+
+    /// (1, t): what the surface scatters of a sampled emitter's light.
+    void next_event(const CameraVertex& z, const Draw& random) {
+        if ((!rules_.next_event && !rules_.delta_alone) || !rules_.techniques.has(1, z.depth + 1)) return;
+        const Emitters& emitters = scene_.emitters();
+        const DirectSample light =
+            rules_.delta_alone ? emitters.sample_delta(z.hit.p, random) : emitters.sample_direct(z.hit.p, random);
+        if (!(light.pdf > 0.0f) || light.black()) return;
+        const BsdfValue bsdf = scattering(z, light.wi);
+        if (is_black(bsdf.f_cos)) return;
+        const Rgb radiance = light.from_environment ? emitters.environment(light.wi) : light.radiance;
+        const Rgb value = z.throughput * bsdf.f_cos * radiance;
+        if (is_black(value)) return;
+        const double weight = rules_.weight(next_event_others(z, light, double(bsdf.pdf), random));
+        connections_.add(shadow_ray(z.hit, light), value * static_cast<float>(weight / double(light.pdf)));
+    }
+
+    /// All other techniques' part in such a path, against next event's.
+    double next_event_others(const CameraVertex& z, const DirectSample& light, double scatter, const Draw& random) {
+        const EmissionDensity pdf = scene_.emitters().emission_density(light, random, rules_.delta_alone);
+        // Densities of the place and of what is drawn from there, in the measures of next event's and per area.
+        // Where only lights without extent are sampled, both ends are taken to choose them alike.
+        double place = rules_.delta_alone ? 1.0 : double(pdf.place) / double(light.pdf);
+        double next = double(pdf.direction) * double(geometric_cosine(z.hit, light.wi));
+        if (!light.at_infinity()) {
+            const double distance2 = squared_distance(z.hit.p, light.on_light.p);
+            next /= distance2;
+            if (!light.delta) place *= distance2 / double(geometric_cosine(light.on_light, light.wi));
+        }
+        const double met = light.delta ? 0.0 : rules_.heuristic(scatter / double(light.pdf));
+        return met + z.sums.sum(place * next, place * next * reverse(z, light.wi), rules_.heuristic);
+    }
+
+    /// (s, t): a vertex of the light path sends its light to one of the camera's.
+    void connect(const LightVertex<Surface>& y, const CameraVertex& z, int s) {
+        if (!rules_.techniques.has(s, z.depth + 1) || !y.surface->smooth()) return;
+        const double distance2 = squared_distance(y.hit.p, z.hit.p);
+        if (!(distance2 > 0.0)) return;
+        const Vec3 to_y = Vec3((Imath::V3d(y.hit.p) - Imath::V3d(z.hit.p)) * (1.0 / std::sqrt(distance2)));
+        const BsdfValue at_z = scattering(z, to_y);
+        if (is_black(at_z.f_cos)) return;
+        const LightScattering at_y =
+            light_scattering<Surface>(scene_, y.hit, y.in, -to_y, rules_.strict_normals, other_);
+        const Rgb value = z.throughput * at_z.f_cos * (y.light * at_y.f);
+        if (is_black(value)) return;
+        const double y_from_z = double(at_z.pdf) * double(geometric_cosine(y.hit, to_y)) / distance2;
+        const double from_y = double(y.surface->bsdf().value(y.surface->wo(), y.surface->frame().to_local(-to_y)).pdf);
+        const double z_from_y = from_y * double(geometric_cosine(z.hit, to_y)) / distance2;
+        const double others = y.sums.sum(y_from_z, y_from_z * double(at_y.reverse_pdf), rules_.heuristic) +
+                              z.sums.sum(z_from_y, z_from_y * reverse(z, to_y), rules_.heuristic);
+        const auto factor = static_cast<float>(rules_.weight(others) / distance2);
+        connections_.add(ray_between(z.hit, y.hit, to_y), value * factor);
+    }
+
+    /// (s, 1): the lens sees vertices of the light path.
+    void connect_to_lens(const PathKey& key, const Draw& lens) {
+        for (int i = 0; i < light_.size(); ++i) {
+            const LightVertex<Surface>& y = light_[i];
+            if (!rules_.techniques.has(i + 2, 1) || !y.surface->smooth()) continue;
+            const FilmConnection to = sensor_.importance.connect(y.hit.p, lens);
+            if (!to.seen || !sensor_.pixels.reaches(to.x, to.y)) continue;
+            const LightScattering scattering =
+                light_scattering<Surface>(scene_, y.hit, y.in, to.direction, rules_.strict_normals, other_);
+            const Rgb value = y.light * scattering.f;
+            if (is_black(value)) continue;
+            const auto vertex = static_cast<std::uint32_t>(i + 1);
+            const PixelPick pick = sensor_.pixels.pick(to.x, to.y, draw(key, vertex, Stream::filter_pick));
+            if (!pick.found) continue;
+            const double pdf = to.g * sensor_.per_window * double(geometric_cosine(y.hit, to.direction));
+            const double weight =
+                rules_.weight(y.sums.sum(pdf, pdf * double(scattering.reverse_pdf), rules_.heuristic));
+            connections_.add_splat(ray_to_lens(y.hit, to), value * static_cast<float>(weight * to.g * pick.weight),
+                                   pick.pixel, vertex);
+        }
+    }
+
+    /// Scattering from a unit direction in world space to the vertex before.
+    BsdfValue scattering(const CameraVertex& z, const Vec3& from) const {
+        const Vec3 wi = z.surface.frame().to_local(from);
+        const BsdfValue bsdf = z.surface.bsdf().value(z.surface.wo(), wi);
+        return rules_.strict_normals && !normals_agree(z.surface, from, wi.z) ? BsdfValue{} : bsdf;
+    }
+
+    /// Density with which a light path that comes from a direction goes on to the vertex before, where anybody asks.
+    double reverse(const CameraVertex& z, const Vec3& from) {
+        return z.sums.beyond > 0.0 ? scatter_pdf<Surface>(scene_, z.hit, from, z.to_before, other_) : 0.0;
+    }
+
+    /// The path goes on in a direction drawn from the BSDF. False if there is none.
+    bool scatter(Path& path, const CameraVertex& z, const Draw& random) {
+        const BsdfSample sample = sample_bsdf(z.surface, random);
+        if (!(sample.pdf > 0.0f) || is_black(sample.f_cos)) return false;
+        const Vec3 direction = z.surface.frame().to_world(sample.wi);
+        if (rules_.strict_normals && !normals_agree(z.surface, direction, sample.wi.z)) return false;
+        path.throughput *= sample.f_cos * (1.0f / sample.pdf);
+        if constexpr (Surface::kTransmits)
+            if (sample.wi.z < 0.0f) path.spread *= z.surface.eta2();
+        path.from = {z.hit.p, double(geometric_cosine(z.hit, direction)), sample.delta ? 1.0 : double(sample.pdf),
+                     sample.delta ? 1.0 : reverse(z, direction), sample.delta};
+        path.sums = z.sums;
+        path.ray = {offset_origin(z.hit, direction), direction};
+        return true;
+    }
+
+    /// Russian roulette of a path that scattered at `depth`. What refraction has taken does not count against it.
+    bool survives(Path& path, int depth, const Draw& random) const {
+        if (!rules_.roulette.plays(depth)) return true;
+        const float chance = rules_.roulette.survival(path.throughput, path.spread);
+        if (!(to_unit(random[0]) < chance)) return false;
+        path.throughput *= 1.0f / chance;
+        return true;
+    }
+
+    const TraceScene& scene_;
+    const Sensor& sensor_;
+    const BidirectionalRules rules_;
+    TraceStats& stats_;
+    SampleConnections connections_;
+    LightSubpath<Surface> light_;
+    typename Surface::Scratch scratch_, other_;  ///< of the camera's surface, and of one that is seen from elsewhere
+};
+
+}  // namespace treefarm

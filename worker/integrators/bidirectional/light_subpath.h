@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <deque>
+#include <optional>
+
+#include "worker/integrators/bidirectional/edge.h"
+#include "worker/integrators/bidirectional/rules.h"
+
+namespace treefarm {
+
+/// A surface that a light path has met, as it can be connected.
+template <class Surface>
+struct LightVertex {
+    Hit hit;
+    Vec3 in{0.0f};    ///< unit, towards where the light comes from
+    Rgb light{0.0f};  ///< that arrives, over the density of the path
+    TechniqueSums sums;
+    typename Surface::Scratch scratch;
+    std::optional<Surface> surface;  ///< as the light path draws from it
+
+    explicit LightVertex(const TraceScene& scene) : scratch(Surface::make_scratch(scene)) {}
+};
+
+/// The light subpath of a sample: y1, y2, ... that are not black; the emitter, y0, is no vertex of its own, since next
+/// event connects emitters better.
+template <class Surface>
+class LightSubpath {
+  public:
+    using Vertex = LightVertex<Surface>;
+
+    LightSubpath(const TraceScene& scene, const BidirectionalRules& rules, TraceStats& stats)
+        : scene_(scene), rules_(rules), stats_(stats), scratch_(Surface::make_scratch(scene)) {}
+
+    /// Traces that of a key: each vertex has its own random numbers, the emitter 0, surfaces from 1 on.
+    void trace(const PathKey& key) {
+        count_ = 0;
+        if (!rules_.goes_on(1)) return;
+        const EmissionSample start =
+            scene_.emitters().emit(draw(key, 0, Stream::light_start), draw(key, 0, Stream::light_scatter));
+        if (!is_black(start.weight)) walk(start, key);
+    }
+
+    int size() const { return count_; }
+    /// Vertex y_(i + 1).
+    const Vertex& operator[](int i) const { return vertices_[static_cast<std::size_t>(i)]; }
+
+  private:
+    void walk(const EmissionSample& start, const PathKey& key) {
+        Ray ray = start.ray;
+        Rgb throughput(1.0f);  // since it left the emitter
+        Departure from;
+        for (int depth = 1;; ++depth) {
+            const auto number = static_cast<std::uint32_t>(depth);
+            Vertex& vertex = room();
+            ++stats_.rays;
+            if (!scene_.geometry().intersect(ray, vertex.hit)) return;
+            if (depth > 1 && !survives(throughput, depth - 1, draw(key, number - 1, Stream::light_roulette))) return;
+            scene_.geometry().keep_inside(vertex.hit, ray);
+            vertex.in = -ray.direction;
+            vertex.light = start.weight * throughput;
+            if (depth == 1) {
+                vertex.sums = first_sums(start, vertex.hit);
+            } else {
+                const DrawnEdge edge = edge_to(from, vertex.hit, vertex.in);
+                if (!(edge.pdf > 0.0)) return;
+                vertex.sums = vertices_[static_cast<std::size_t>(count_ - 1)].sums.after(edge, rules_.heuristic);
+            }
+            const Surface& surface = vertex.surface.emplace(scene_, vertex.hit, vertex.in, vertex.scratch);
+            if (surface.black()) return;
+            ++count_;
+            ++stats_.vertices;
+            if (!rules_.goes_on(depth + 1)) return;
+            const LightStep step = scatter_light(scene_, vertex.hit, surface, vertex.in, rules_.strict_normals,
+                                                 draw(key, number, Stream::light_scatter), scratch_);
+            if (!step.goes_on) return;
+            throughput *= step.weight;
+            from = {vertex.hit.p, double(geometric_cosine(vertex.hit, step.direction)),
+                    step.delta ? 1.0 : double(step.pdf), step.delta ? 1.0 : double(step.reverse_pdf), step.delta};
+            ray = {offset_origin(vertex.hit, step.direction), step.direction};
+        }
+    }
+
+    /// Techniques that draw the emitter by next event, or find it by chance, where this path began there.
+    TechniqueSums first_sums(const EmissionSample& start, const Hit& hit) const {
+        const Heuristic& m = rules_.heuristic;
+        const double pdf = double(start.place_pdf) * start.next_pdf(hit.p, hit.ng);
+        if (!(pdf > 0.0)) return {};
+        const bool sampled = rules_.next_event || start.is_delta();
+        return {sampled ? m(scene_.emitters().next_event_pdf(start, hit.p) / pdf) : 0.0,
+                m(start.place_factor(hit.p) / pdf)};
+    }
+
+    /// Russian roulette of a path that scattered at `depth`.
+    bool survives(Rgb& throughput, int depth, const Draw& random) const {
+        if (!rules_.roulette.plays(depth)) return true;
+        const float chance = rules_.roulette.survival(throughput);
+        if (!(to_unit(random[0]) < chance)) return false;
+        throughput *= 1.0f / chance;
+        return true;
+    }
+
+    /// The vertex after the last one: vertices stay where they are, since surfaces point to their hits.
+    Vertex& room() {
+        if (static_cast<std::size_t>(count_) == vertices_.size()) vertices_.emplace_back(scene_);
+        return vertices_[static_cast<std::size_t>(count_)];
+    }
+
+    const TraceScene& scene_;
+    const BidirectionalRules& rules_;
+    TraceStats& stats_;
+    typename Surface::Scratch scratch_;  ///< of surfaces as the other walk sees them
+    std::deque<Vertex> vertices_;        ///< memory is kept
+    int count_ = 0;
+};
+
+}  // namespace treefarm

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "worker/camera/camera_importance.h"
+#include "worker/geometry/hit.h"
+#include "worker/geometry/ray.h"
+
+namespace treefarm {
+
+/// The film and lens that light paths are connected to.
+struct Sensor {
+    CameraImportance importance;
+    PixelPicker pixels;
+    double
+        per_window;  ///< pixels of the whole film over those that are rendered: rays of the camera are as much denser
+
+    Sensor(const Camera& camera, const Film& film)
+        : importance(camera, film),
+          pixels(film, camera.panoramic),
+          per_window(static_cast<double>(film.whole_width()) * film.whole_height() /
+                     static_cast<double>(film.pixel_count())) {}
+};
+
+/// The ray from a surface to the lens, whose occlusion hides the surface from it.
+inline Ray ray_to_lens(const Hit& hit, const FilmConnection& to) {
+    Ray ray{offset_origin(hit, to.direction), Vec3(0.0f), 1.0f};
+    ray.direction = to.target - ray.origin;
+    // Closer than the offset: nothing fits between.
+    if (!(dot(ray.direction, to.direction) > 0.0f)) ray.length = -1.0f;
+    return ray;
+}
+
+}  // namespace treefarm
