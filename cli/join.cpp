@@ -1,15 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/join.h"
 
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <cstdlib>
+#include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <memory>
+#include <nlohmann/json.hpp>
+#include <thread>
 
 #include "cli/interrupt.h"
 #include "cli/on_farm.h"
 #include "cli/option_values.h"
 #include "cli/refuse.h"
 #include "common/base/error.h"
+#include "common/base/timer.h"
 #include "common/comm/join_ticket.h"
 #include "common/comm/tcp_channel.h"
 #include "worker/integrators/registry.h"
@@ -21,20 +34,22 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// For a render to come back, whose connection was lost.
+constexpr double kReturnSeconds = 60;
+/// Between two attempts, at first and at most.
+constexpr double kFirstPause = 0.5, kLongestPause = 10;
+
 struct JoinOptions {
     std::string run;   ///< the run directory
     std::string file;  ///< --file
+    int workers = 1;   ///< -n
+    std::optional<double> wait_seconds;
     FarmOptions farm;
 };
 
 /// The ticket's file; refuses a run directory without one with what is known of the run.
 fs::path ticket_file(const JoinOptions& options) {
-    if (!options.file.empty() && !options.run.empty())
-        refuse("--file", "is given beside a run directory, and either says which run to join", "leave one away");
     if (!options.file.empty()) return options.file;
-    if (options.run.empty())
-        refuse("join", "does not know which run to join",
-               "name its run directory, or a copy of its file join by --file");
     const fs::path run = options.run;
     if (fs::exists(run / kTicketFileName)) return run / kTicketFileName;
     if (!fs::exists(run / "job.toml"))
@@ -45,23 +60,145 @@ fs::path ticket_file(const JoinOptions& options) {
            "start it with --set farm.join=true");
 }
 
-int join(const LaunchEnvironment& launch, const JoinOptions& options) {
-    const JoinTicket ticket = read_ticket(ticket_file(options));
-    ignore_broken_pipes();
-    const unsigned threads = options.farm.threads > 0 ? options.farm.threads : affinity_threads();
-    const WorkerSettings settings = worker_settings(threads);
-    const std::unique_ptr<Channel> channel = join_run(ticket, settings.fingerprint);
-    const Voice voice = make_voice(launch, options.farm);
-    const Log log = make_log("joined worker", {}, voice.console, voice.loudness);
-    std::vector<std::string> warnings;
-    warn_if_crowded(options.farm.threads, warnings);
-    for (const std::string& warning : warnings)
-        log->warn("{}", warning);
-    log->info("joined the render at {} port {} with {} threads", ticket.address, ticket.port, threads);
-    const WorkerEnd end = run_worker(*channel, settings, make_renderer, log);
-    if (end == WorkerEnd::orphaned) return 1;
-    log->info("the render is over");
+/// A render that will not come back.
+bool is_done(const JoinOptions& options) {
+    std::ifstream file(fs::path(options.run) / "summary.json", std::ios::binary);
+    const auto summary = nlohmann::json::parse(file, nullptr, false);
+    return !options.run.empty() && summary.is_object() && summary.value("state", "") == "done";
+}
+
+/// A worker that joins a run, and again after each loss of its connection.
+class Guest {
+  public:
+    Guest(const JoinOptions& options, unsigned threads, const Voice& voice, const std::string& name)
+        : options_(options),
+          settings_(worker_settings(threads)),
+          log_(make_log(name, {}, voice.console, voice.loudness)) {}
+
+    /// The exit code.
+    int run() {
+        std::unique_ptr<Channel> channel = knock(options_.wait_seconds.value_or(0.0));
+        for (;;) {
+            InterruptWatch watch;  // not before: nothing has to be given back while it knocks for the first time
+            settings_.told_to_leave = [&] { return told_ = told_ || watch.interrupted(); };
+            const bool lost = run_worker(*channel, settings_, make_renderer, log_) == WorkerEnd::orphaned;
+            channel.reset();
+            if (told_) return end("left the render, as it was told");
+            if (is_done(options_) || !(lost || options_.wait_seconds)) return end("the render is over");
+            const double patience = options_.wait_seconds.value_or(kReturnSeconds);
+            log_->info("waiting {:.3g} s for the render to come back", patience);
+            try {
+                channel = knock(patience);
+            } catch (const InputError& error) {
+                if (is_done(options_)) return end("the render is over");
+                log_->error("{}", error.what());
+                return 1;
+            }
+            if (!channel) return end("left, as it was told");
+        }
+    }
+
+  private:
+    std::unique_ptr<Channel> knock_once() {
+        const JoinTicket ticket = read_ticket(ticket_file(options_));
+        std::unique_ptr<Channel> channel = join_run(ticket, settings_.fingerprint);
+        log_->info("joined the render at {} port {} with {} threads", ticket.address, ticket.port, settings_.threads);
+        return channel;
+    }
+
+    /// Throws InputError where nobody lets it in for so long; nothing where it is told to leave meanwhile.
+    std::unique_ptr<Channel> knock(double patience) {
+        const Timer timer;
+        for (double pause = kFirstPause;; pause = std::min(2 * pause, kLongestPause)) {
+            try {
+                return knock_once();
+            } catch (const InputError&) {
+                if (timer.seconds() + pause > patience) throw;
+            }
+            if (rest(pause)) return nullptr;
+        }
+    }
+
+    int end(const char* words) const {
+        log_->info("{}", words);
+        return 0;
+    }
+
+    /// Waits; true if it is told to leave meanwhile.
+    bool rest(double seconds) {
+        const Timer timer;
+        while (!told_ && timer.seconds() < seconds) {
+            told_ = settings_.told_to_leave && settings_.told_to_leave();
+            std::this_thread::sleep_for(std::chrono::milliseconds(50));
+        }
+        return told_;
+    }
+
+    const JoinOptions& options_;
+    WorkerSettings settings_;
+    const Log log_;
+    bool told_ = false;
+};
+
+/// Starts processes that each are a worker, and waits for them. Returns the number of the worker that this process is;
+/// 0: it is the one that has waited, and `code` the worst of their exit codes.
+int as_many(int workers, int& code) {
+    std::vector<pid_t> processes;
+    const pid_t parent = getpid();
+    for (int k = 1; k <= workers; ++k) {
+        const pid_t process = fork();
+        if (process < 0) throw RunError(std::string("cannot start a worker: ") + std::strerror(errno));
+        if (process == 0) {
+            prctl(PR_SET_PDEATHSIG, SIGTERM);
+            if (getppid() != parent) std::_Exit(1);  // it died before we asked to be told
+            return k;
+        }
+        processes.push_back(process);
+    }
+    InterruptWatch watch;
+    bool told = false;
+    while (!processes.empty()) {
+        if (!told && watch.interrupted()) {
+            told = true;
+            for (const pid_t process : processes)
+                ::kill(process, SIGTERM);
+        }
+        std::erase_if(processes, [&](pid_t process) {
+            int status = 0;
+            if (waitpid(process, &status, WNOHANG) != process) return false;
+            code = std::max(code, WIFEXITED(status) ? WEXITSTATUS(status) : 1);
+            return true;
+        });
+        std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    }
     return 0;
+}
+
+void check(const JoinOptions& options) {
+    if (!options.file.empty() && !options.run.empty())
+        refuse("--file", "is given beside a run directory, and either says which run to join", "leave one away");
+    if (options.file.empty() && options.run.empty())
+        refuse("join", "does not know which run to join",
+               "name its run directory, or a copy of its file join by --file");
+    if (!options.wait_seconds) read_ticket(ticket_file(options));  // now rather than once from each process
+}
+
+int join(const LaunchEnvironment& launch, const JoinOptions& options) {
+    check(options);
+    ignore_broken_pipes();
+    const unsigned workers = static_cast<unsigned>(options.workers);
+    const unsigned threads =
+        options.farm.threads > 0 ? options.farm.threads : std::max(1u, affinity_threads() / workers);
+    int code = 0;
+    const int number = workers > 1 ? as_many(options.workers, code) : 1;
+    if (number == 0) return code;
+    const Voice voice = make_voice(launch, options.farm);
+    const std::string name = "joined worker" + (workers > 1 ? " " + std::to_string(number) : "");
+    std::vector<std::string> warnings;
+    if (number == 1) warn_if_crowded(threads * workers, warnings);
+    for (const std::string& warning : warnings)
+        make_log(name, {}, voice.console, voice.loudness)->warn("{}", warning);
+    return Guest(options, threads, voice, name).run();
 }
 
 }  // namespace
@@ -71,11 +208,17 @@ void add_join_command(CLI::App& app, const LaunchEnvironment& launch, int& exit_
     CLI::App* command = app.add_subcommand("join", "Works for a render that runs, from this or another machine");
     command->add_option("run", options->run, "run directory of a render with farm.join = true");
     add_text_option(*command, "--file", options->file, "a copy of that folder's file join, where no disk is shared");
+    add_integer_option(*command, "-n", options->workers, {1, 1024, "workers", "2"},
+                       "processes that each are a worker, as for each processor's memory; they share the processors "
+                       "(default: 1)");
+    add_seconds_option(*command, "--wait", options->wait_seconds,
+                       "how long to wait for a render that is not there yet, or has gone without being done "
+                       "(default: not for one that is not there, 60 s for one that has gone)");
     add_voice_options(*command, options->farm);
     command->footer(std::string("treefarm render scene.xml --run-dir RUN_DIR --set farm.join=true\n") +
                     "treefarm join RUN_DIR\n" +
-                    "Exit codes: 0 the render is over, 1 the connection was lost, 2 bad usage, or the render did not "
-                    "let it in");
+                    "Exit codes: 0 the render is over, or this worker was told to leave, 1 the connection was lost, 2 "
+                    "bad usage, or the\nrender did not let it in");
     command->callback([options, launch, &exit_code] { exit_code = join(launch, *options); });
 }
 

@@ -37,10 +37,16 @@ bool has_pmix() {
     return words_of({"srun", "--mpi=list"}, kSeconds).find("pmix") != std::string::npos;
 }
 
-/// Tasks that the allocation was asked for.
+int number_in(const char* name) {
+    const char* const text = std::getenv(name);
+    return text ? std::atoi(text) : 0;
+}
+
+/// Tasks that the allocation was asked for; else a worker for each of its nodes, and rank 0.
 int slurm_tasks() {
-    const char* const tasks = std::getenv("SLURM_NTASKS");
-    return tasks ? std::max(1, std::atoi(tasks)) : 1;
+    if (const int tasks = number_in("SLURM_NTASKS"); tasks > 0) return tasks;
+    const int nodes = number_in("SLURM_JOB_NUM_NODES");
+    return nodes > 1 ? nodes + 1 : 1;
 }
 
 void check_mpirun(const std::string& mpirun) {
@@ -85,8 +91,7 @@ StartPlan LaunchPlanner::plan(const Places& places) const {
     plan.temporary = places.temporary;
     plan.shared_memory = places.shared_memory;
     plan.processes = options_.processes > 0 ? options_.processes : is_set("SLURM_JOB_ID") ? slurm_tasks() : 1;
-    const char* const nodes = std::getenv("SLURM_JOB_NUM_NODES");
-    plan.one_host = !(is_set("SLURM_JOB_ID") && nodes && std::atoi(nodes) > 1);
+    plan.one_host = !(is_set("SLURM_JOB_ID") && number_in("SLURM_JOB_NUM_NODES") > 1);
     if (hosts_) use_hosts(places, plan);
     return plan;
 }

@@ -61,6 +61,7 @@ void read_render(const CLI::App& command, LaunchedCommand& launched) {
     launched.scene = options.input.ends_with(".toml") ? value_of(settings, "scene.file") : options.input;
     launched.folder = options.run_directory.empty() ? value_of(settings, "output.directory") : options.run_directory;
     launched.farm_options = farm_options(command);
+    launched.goes_on = command.get_option("--resume")->count() > 0;
 }
 
 void read_resume(const CLI::App& command, LaunchedCommand& launched) {
@@ -93,7 +94,7 @@ void add_commands(CLI::App& app, int& no_code) {
 }  // namespace
 
 Words LaunchedCommand::again(bool has_checkpoint) const {
-    if (kind != Kind::render) return words;  // it goes on with what is there
+    if (kind != Kind::render || goes_on) return words;
     if (has_checkpoint) {
         Words resume = {"resume", folder.string()};
         resume.insert(resume.end(), farm_options.begin(), farm_options.end());

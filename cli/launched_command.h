@@ -15,6 +15,7 @@ struct LaunchedCommand {
     std::filesystem::path folder;           ///< where results go; empty: a render that names none
     std::string scene;                      ///< of a render, for the name of a folder
     std::vector<std::string> farm_options;  ///< of the words, what a resume takes, too
+    bool goes_on = false;                   ///< the words themselves go on with what is there
 
     /// Its words for the first attempt, or for one that died before it had the folder.
     std::vector<std::string> first() const { return words; }

@@ -118,7 +118,8 @@ int work(MpiSession& session, const FarmOptions& options, const Voice& voice, In
     warn_if_crowded(asked, warnings);
     if (affinity_threads() < host_processors() / static_cast<unsigned>(std::max(1, session.workers_on_host())))
         warnings.push_back("bound to " + std::to_string(affinity_threads()) + " of " +
-                           std::to_string(host_processors()) + " processors; start mpirun with --bind-to none");
+                           std::to_string(host_processors()) +
+                           " processors; start mpirun with --bind-to none, srun with --cpu-bind=none");
     for (const std::string& warning : warnings)
         log->warn("{}", warning);
     try {

@@ -10,6 +10,7 @@
 #include "cli/render_shot.h"
 #include "cli/resume.h"
 #include "common/base/reading_notice.h"
+#include "coordinator/folder_content.h"
 
 namespace treefarm {
 
@@ -29,21 +30,29 @@ int debug(const LaunchEnvironment& launch, const RenderOptions& options) {
 }  // namespace
 
 int render_on_farm(const LaunchEnvironment& launch, const FarmOptions& farm, const std::string& name,
-                   const std::function<RenderRequest()>& read) {
+                   const std::function<RenderRequest()>& read, const GoOn& go_on) {
     if (is_separate_world(launch)) return 2;
     RenderRequest request;
+    std::optional<int> there;
     FarmTask task;
     const Voice voice = make_voice(launch, farm);
     task.prepare = [&] {
         if (launch.life) launch.life->enter(LifePhase::scene);
         const ReadingNotice notice(voice.console, name);
         request = read();
+        if (go_on) there = go_on(request);
         warn_if_crowded(farm.threads, request.warnings);
         request.console = voice.console;
         request.loudness = voice.loudness;
         request.life = launch.life;
     };
     task.coordinate = [&](Channel& channel, const std::function<bool()>& interrupted) -> CoordinatorEnd {
+        if (there) {
+            make_log("treefarm", {}, voice.console, voice.loudness)
+                ->info("{} holds this render already: {}", request.job.output.directory,
+                       render_words(request.job.output.directory));
+            return {*there, {}};
+        }
         const RenderOutcome outcome = run_render(channel, request, interrupted);
         return {exit_code_of(outcome.state, outcome.missed_target), outcome.lost_peers};
     };
@@ -75,6 +84,8 @@ void add_render_command(CLI::App& app, const LaunchEnvironment& launch, const st
     add_text_option(*command, "--run-dir", options->run_directory, "where results go (default: runs/<scene>-<time>)");
     command->add_flag("--overwrite", options->overwrite,
                       "replace the render that the folder holds, once this one is done");
+    command->add_flag("--resume", options->resume,
+                      "go on with what the folder holds of this very render, if anything; what is done stays");
     add_display_option(*command, options->display_server);
     add_farm_options(*command, options->farm);
     add_text_option(*command, "--debug-sample", options->debug_sample,
@@ -91,8 +102,8 @@ void add_render_command(CLI::App& app, const LaunchEnvironment& launch, const st
         else if (!options->debug_sample.empty())
             exit_code = debug(launch, *options);
         else
-            exit_code =
-                render_on_farm(launch, options->farm, std::filesystem::path(options->input).stem().string(), read);
+            exit_code = render_on_farm(launch, options->farm, std::filesystem::path(options->input).stem().string(),
+                                       read, options->resume ? GoOn(go_on_in_folder) : GoOn());
     });
 }
 

@@ -30,6 +30,7 @@ struct RenderOptions {
     bool lenient = false;
     std::string run_directory;   ///< --run-dir
     bool overwrite = false;      ///< --overwrite
+    bool resume = false;         ///< --resume
     bool carry_model = false;    ///< --carry-model
     bool reads_model = true;     ///< guiding.initial_model is still to be read
     std::string display_server;  ///< --display-server
@@ -43,10 +44,13 @@ struct RenderOptions {
 void add_render_command(CLI::App& app, const LaunchEnvironment& launch, const std::string& command_line,
                         int& exit_code);
 
+/// Lets a request that was read go on with what lies in its folder. Returns the exit code where its result is there.
+using GoOn = std::function<std::optional<int>(RenderRequest&)>;
+
 /// Renders what `read` gives on all processes of the job, whatever its part in it; `name` is for the time in which it
 /// is read. Returns the exit code.
 int render_on_farm(const LaunchEnvironment& launch, const FarmOptions& farm, const std::string& name,
-                   const std::function<RenderRequest()>& read);
+                   const std::function<RenderRequest()>& read, const GoOn& go_on = {});
 
 /// Reads job and scene. The job's layers, each over the one before: defaults, the scene file's integrator and sampler,
 /// the job file, the command line. Throws InputError.

@@ -7,6 +7,7 @@
 #include <memory>
 #include <utility>
 
+#include "cli/exit_code.h"
 #include "cli/option_values.h"
 #include "cli/refuse.h"
 #include "cli/render.h"
@@ -74,6 +75,19 @@ bool has_written(const fs::path& run, const RenderRequest& request, std::uint32_
     return holds_result(run) && record.spp == spp && (output.empty() || fs::exists(output));
 }
 
+/// Goes on from what was loaded. Throws InputError where nothing is left to do.
+void go_on_from(std::shared_ptr<LoadedCheckpoint> checkpoint, const fs::path& run, RenderRequest& request) {
+    request.resumed = std::move(checkpoint);
+    const LoadedCheckpoint& loaded = *request.resumed;
+    if (request.schedule.empty() && !has_new_budget(loaded, request.job)) request.schedule = loaded.origin.schedule;
+    for (const std::string& warning : loaded.warnings)
+        request.warnings.push_back(warning);
+    const std::uint32_t spp = loaded.state.spp();
+    if (!loaded.state.begun && !passes_of(request)(loaded.state.history).pass && has_written(run, request, spp))
+        refuse(run, "is done (" + std::to_string(spp) + " spp)",
+               "add samples with --spp N above that, or --seconds or --error beyond what it has");
+}
+
 }  // namespace
 
 RenderRequest read_resumed(const ResumeOptions& options) {
@@ -91,17 +105,29 @@ RenderRequest read_resumed(const ResumeOptions& options) {
     as_render.display_server = options.display_server;
     as_render.reads_model = false;  // the checkpoint has what became of it
     RenderRequest request = read_request(as_render);
-    request.resumed = load(run, request);
-    const LoadedCheckpoint& loaded = *request.resumed;
-    if (!has_new_budget(loaded, request.job)) request.schedule = loaded.origin.schedule;
-    if (request.job.output.file.empty()) request.job.output.file = loaded.origin.output_file;
-    for (const std::string& warning : loaded.warnings)
-        request.warnings.push_back(warning);
-    const std::uint32_t spp = loaded.state.spp();
-    if (!loaded.state.begun && !passes_of(request)(loaded.state.history).pass && has_written(run, request, spp))
-        refuse(run, "is done (" + std::to_string(spp) + " spp)",
-               "add samples with --spp N above that, or --seconds or --error beyond what it has");
+    auto loaded = load(run, request);
+    if (request.job.output.file.empty()) request.job.output.file = loaded->origin.output_file;
+    go_on_from(std::move(loaded), run, request);
     return request;
+}
+
+std::optional<int> go_on_in_folder(RenderRequest& request) {
+    const fs::path run = request.job.output.directory;
+    if (run.empty()) refuse("--resume", "does not know in which folder to go on", "name it with --run-dir");
+    if (holds_result_of(run, request) && restore_output(run, request.job.output.file)) {
+        FrameRecord record;
+        read_figures(run, record);
+        return exit_code_of(RunState::done, record.missed_target);
+    }
+    if (fs::exists(run / kCheckpointFolder)) try {
+            go_on_from(load(run, request), run, request);
+        } catch (const InputError&) {
+            if (!request.overwrite) throw;
+            request.resumed = nullptr;
+        }
+    // What was broken off and cannot go on is begun again.
+    request.overwrite = request.overwrite || !holds_result(run);
+    return std::nullopt;
 }
 
 std::shared_ptr<LoadedCheckpoint> find_checkpoint(const fs::path& run, const RenderRequest& request) {

@@ -37,6 +37,11 @@ void add_resume_command(CLI::App& app, const LaunchEnvironment& launch, const st
 /// go on from there to the same bits; nothing has been written then.
 RenderRequest read_resumed(const ResumeOptions& options);
 
+/// Lets a request go on with what the folder that it names holds of it: from its newest usable checkpoint, or from the
+/// start where there is none. Returns the exit code where its result is there, and has its output file made if that is
+/// missing. Throws InputError where the folder holds a checkpoint of another render, and overwriting is not asked for.
+std::optional<int> go_on_in_folder(RenderRequest& request);
+
 /// The newest usable checkpoint of this very render in a run directory; nullptr where there is none.
 std::shared_ptr<LoadedCheckpoint> find_checkpoint(const std::filesystem::path& run, const RenderRequest& request);
 

@@ -43,8 +43,11 @@ void Farm::take(const Received& received) {
                        },
                        [&](const Failure& m) { on(peer, m); },
                        [&](const Bye& m) {
-                           if (Member* member = hear(peer, m.incarnation))
+                           if (Member* member = hear(peer, m.incarnation)) {
                                give_up(*member, MemberState::left, "leaves, as it was told");
+                               // Processes of mpirun stay to its end: it would end all others with them.
+                               if (channel_.is_guest(peer)) tell(peer, Leave{true});
+                           }
                        },
                        [&](const auto&) { throw FormatError("a message that the coordinator sends, not receives"); },
                    },

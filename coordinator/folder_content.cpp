@@ -69,6 +69,19 @@ bool holds_nothing(const fs::path& folder) {
     return true;
 }
 
+/// Frames of a shot that were rendered one by one, as a queue does it.
+bool holds_frames(const fs::path& folder) {
+    constexpr std::string_view kStart = "frame.";
+    std::error_code error;
+    for (const auto& entry : fs::directory_iterator(folder, error)) {
+        const std::string name = entry.path().filename().string();
+        if (name.starts_with(kStart) && parse_unsigned(std::string_view(name).substr(kStart.size())) &&
+            entry.is_directory(error) && folder_content(entry.path()) == FolderContent::render)
+            return true;
+    }
+    return false;
+}
+
 }  // namespace
 
 std::span<const std::string_view> run_file_names() {
@@ -96,6 +109,7 @@ FolderContent folder_content(const fs::path& folder) {
     if (has(folder / "shot.json")) return FolderContent::shot;
     if (has(folder / "passes.csv") || !text_of(read_object(folder / "status.json"), "state").empty())
         return FolderContent::render;
+    if (holds_frames(folder)) return FolderContent::shot;
     return holds_nothing(folder) ? FolderContent::nothing : FolderContent::other;
 }
 

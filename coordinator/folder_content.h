@@ -14,7 +14,7 @@ enum class FolderContent {
     nothing,
     render,  ///< a run directory
     study,   ///< what treefarm study writes
-    shot,    ///< what treefarm render --frames writes
+    shot,    ///< what treefarm render --frames writes, or frames that were rendered one by one
     other    ///< none of ours
 };
 FolderContent folder_content(const std::filesystem::path& folder);

@@ -59,9 +59,12 @@ Words mpirun_words(const StartPlan& plan) {
     return words;
 }
 
-/// -K0: a task that dies ends no other.
+/// -K0: a task that dies ends no other. A worker is one process with a thread for each processor of its node: bound to
+/// one, it would use one, and rank 0 needs none of its own. Variables go along even where sbatch was told
+/// --export=NONE.
 Words srun_words(const StartPlan& plan) {
-    Words words = {"srun", "--mpi=pmix", "-n", std::to_string(plan.processes)};
+    Words words = {"srun", "--mpi=pmix", "-n", std::to_string(plan.processes), "--cpu-bind=none", "--overcommit"};
+    words.push_back("--export=ALL" + (plan.network.empty() ? "" : ",OMPI_MCA_btl_tcp_if_include=" + plan.network));
     if (plan.recovery) add(words, {"-K0", "--no-kill"});
     return words;
 }

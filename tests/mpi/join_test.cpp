@@ -138,6 +138,39 @@ TEST(Join, WhoeverMayNotIsToldWhatToDoAndDisturbsNobody) {
     refused({folder.string()}, "is over");
 }
 
+TEST(Join, AGuestThatIsToldToLeaveGivesBackWhatItHas) {
+    const fs::path folder = fresh_folder("run");
+    Program program(render(folder, kJoinable));
+    ASSERT_TRUE(program.wait_until([&] { return has_come_to(folder, 0); }, kSoon));
+    Program two(join({"-n", "2", folder.string()}));
+    ASSERT_TRUE(program.wait_until([&] { return workers_in(folder) == 3; }, kSoon));
+    two.signal(SIGTERM);
+    const Ending left = two.wait(kSoon);
+    EXPECT_EQ(left.code, 0) << left.output;
+    EXPECT_EQ(count(left.output, "left the render, as it was told"), 2) << left.output;
+    const Ending ending = program.wait(kSoon);
+    expect_done(folder, ending);
+    EXPECT_EQ(count(ending.output, "leaves, as it was told"), 2) << ending.output;
+    EXPECT_EQ(ending.output.find("closed its connection"), std::string::npos) << ending.output;
+}
+
+TEST(Join, AGuestComesBackToARenderThatWasStartedAgain) {
+    const fs::path folder = fresh_folder("run");
+    const std::vector<std::string> command = render(folder, kJoinable + std::vector<std::string>{"--resume"});
+    auto first = std::make_unique<Program>(command);
+    Program guest(join({folder.string(), "--wait", "30"}));  // before there is anything to join
+    ASSERT_TRUE(first->wait_until([&] { return workers_in(folder) == 2 && passes_done(folder) >= 1; }, kSoon));
+    first->signal(SIGKILL);
+    first->wait(kSoon);
+    Program second(command);
+    EXPECT_TRUE(second.wait_until([&] { return workers_in(folder) == 2; }, kSoon));
+    expect_done(folder, second.wait(kSoon));
+    const Ending ending = guest.wait(kSoon);
+    EXPECT_EQ(ending.code, 0) << ending.output;
+    EXPECT_EQ(count(ending.output, "joined the render at"), 2) << ending.output;
+    EXPECT_NE(ending.output.find("the render is over"), std::string::npos) << ending.output;
+}
+
 TEST(Join, WhereNobodyCanListenNothingIsRendered) {
     for (const auto& [set, why] : {std::pair("farm.join_address=192.0.2.1", "farm.join_address: "),
                                    std::pair("farm.join_address=nowhere.invalid", "farm.join_address: ")}) {
@@ -154,12 +187,13 @@ TEST(Join, AGuestOfARenderThatIsKilledLeaves) {
     const fs::path folder = fresh_folder("run");
     Program program(render(folder, kJoinable, "100000000"));
     ASSERT_TRUE(program.wait_until([&] { return has_come_to(folder, 0); }, kSoon));
-    Program guest(join({folder.string()}));
+    Program guest(join({folder.string(), "--wait", "1"}));
     ASSERT_TRUE(program.wait_until([&] { return workers_in(folder) == 2; }, kSoon));
     program.signal(SIGKILL);
     const Ending ending = guest.wait(kSoon);
     EXPECT_EQ(ending.code, 1) << ending.output;
     EXPECT_NE(ending.output.find("closed the connection"), std::string::npos) << ending.output;
+    EXPECT_NE(ending.output.find("waiting 1 s for the render to come back"), std::string::npos) << ending.output;
     const Ending late = Program(join({folder.string()})).wait(kSoon);
     EXPECT_EQ(late.code, 2) << late.output;
     EXPECT_NE(late.output.find("nobody answers"), std::string::npos) << late.output;

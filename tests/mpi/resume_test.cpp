@@ -269,5 +269,43 @@ TEST(Resume, TheImageGoesWhereTheRenderWouldHavePutIt) {
     EXPECT_TRUE(fs::exists(image));
 }
 
+/// As a queue does that tries again.
+TEST(RenderResume, TheSameCommandBeginsGoesOnAndIsDone) {
+    const fs::path folder = fresh_folder("run"), image = fresh_folder("out") / "box.exr";
+    const std::vector<std::string> command = render(folder, {"--spp", "255", "--resume", "-o", image.string()});
+    kill_after(command, 1, folder, 0.0);
+    const Ending ending = Program(mpirun(3) + command).wait(kSoon);
+    EXPECT_EQ(ending.code, 0) << ending.output;
+    EXPECT_NE(ending.output.find("going on with"), std::string::npos) << ending.output;
+    EXPECT_EQ(hashes_of(folder), never_stopped());
+    const nlohmann::json before = read_summary(folder);
+    fs::remove(image);
+    for (const int ranks : {1, 3}) {
+        const Ending again = Program(launcher(ranks) + command).wait(kSoon);
+        EXPECT_EQ(again.code, 0) << again.output;
+        EXPECT_NE(again.output.find("holds this render already: done, 255 spp"), std::string::npos) << again.output;
+        EXPECT_EQ(read_summary(folder), before) << "rendered again: its seconds differ";
+        EXPECT_TRUE(fs::exists(image));
+    }
+}
+
+TEST(RenderResume, AnotherRenderIsNeitherGoneOnWithNorReplaced) {
+    const fs::path folder = broken_off();
+    const Ending other = Program(render(folder, {"--spp", "255", "--resume", "--set", "sampler.seed=3"})).wait(kSoon);
+    EXPECT_EQ(other.code, 2) << other.output;
+    EXPECT_NE(other.output.find("sampler.seed was \"0\", is \"3\""), std::string::npos) << other.output;
+    ASSERT_EQ(Program(render(folder, {"--spp", "255", "--resume"})).wait(kSoon).code, 0);
+    EXPECT_EQ(hashes_of(folder), never_stopped());
+    const Ending more = Program(render(folder, {"--spp", "600", "--resume"})).wait(kSoon);
+    EXPECT_EQ(more.code, 0) << more.output;
+    EXPECT_EQ(read_summary(folder)["spp"], 600);
+    const Ending fewer = Program(render(folder, {"--spp", "100", "--resume"})).wait(kSoon);
+    EXPECT_EQ(fewer.code, 2) << fewer.output;
+    EXPECT_NE(fewer.output.find("is done (600 spp)"), std::string::npos) << fewer.output;
+    const Ending nowhere = Program({TREEFARM_PROGRAM, "render", own_scene("cornell-box.xml"), "--resume"}).wait(kSoon);
+    EXPECT_EQ(nowhere.code, 2);
+    EXPECT_NE(nowhere.output.find("name it with --run-dir"), std::string::npos) << nowhere.output;
+}
+
 }  // namespace
 }  // namespace treefarm::test

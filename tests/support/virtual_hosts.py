@@ -4,14 +4,28 @@
 They hang on one switch, 10.78.0.0/24, host k at 10.78.0.(10 + k). Needs root, iproute2 and util-linux; why_not() says what is missing.
 Files outside /tmp and /dev/shm are shared, as by a network disk. A host ends with the object, or when it is crashed.
 """
+import json
 import os
 import pathlib
 import shutil
 import signal
+import socket
 import subprocess
+import sys
+import threading
 import time
 
 NETWORK = "10.78.0.0/24"
+
+AGENT = """#!{python} -IS
+# usage: agent HOST COMMAND...: as ssh would, but into a virtual host
+import json, os, socket, sys
+door = socket.socket(socket.AF_UNIX)
+door.connect("{door}")
+place = os.getcwd()
+socket.send_fds(door, [json.dumps([sys.argv[1], place, " ".join(sys.argv[2:])]).encode()], [0, 1, 2])
+sys.exit((door.recv(1) or bytes([255]))[0])
+"""
 
 
 def why_not():
@@ -34,13 +48,15 @@ def run(*words):
 
 
 class VirtualHosts:
-    def __init__(self, folder, count):
+    def __init__(self, folder, count, names=None):
         """`folder`: outside /tmp, for a hosts file and the agent that Open MPI and launch use in place of ssh."""
         self.folder = pathlib.Path(folder)
-        self.names = [f"vh{k}" for k in range(count)]
+        self.names = names or [f"vh{k}" for k in range(count)]
         self.prefix = f"tf{os.getpid()}"
         self.switch = f"{self.prefix}sw"
         self.keepers, self.inits = [], []
+        self.door = None
+        self.environment = dict(os.environ)  # of what the agent starts, as a login would have it
         self.hosts_file = self.folder / "etc-hosts"
         self.hosts_file.write_text("127.0.0.1 localhost\n" + "".join(
             f"10.78.0.{10 + k} {name}\n" for k, name in enumerate(self.names)))
@@ -78,26 +94,59 @@ class VirtualHosts:
         self.inits.append(int(pathlib.Path(f"/proc/{keeper.pid}/task/{keeper.pid}/children").read_text().split()[0]))
 
     def _write_agent(self):
-        cases = "".join(f"{name}|10.78.0.{10 + k}) pid={self.inits[k]};;\n" for k, name in enumerate(self.names))
-        self.agent.write_text(f"""#!/bin/sh
-# usage: agent HOST COMMAND...: as ssh would, but into a virtual host
-case $1 in
-{cases}*) exit 255;;
-esac
-kill -0 $pid 2>/dev/null || exit 255
-shift
-exec nsenter -t $pid -n -u -m -p --wd="$PWD" -- /bin/sh -c "$*"
-""")
+        """A process of one host cannot see those of another: who asks for a host is let in from outside."""
+        self.door = socket.socket(socket.AF_UNIX)
+        self.door.bind(str(self.folder / "door"))
+        self.door.listen(64)
+        threading.Thread(target=self._let_in, daemon=True).start()
+        self.agent.write_text(AGENT.format(python=sys.executable, door=self.folder / "door"))
         self.agent.chmod(0o755)
+
+    def _let_in(self):
+        while True:
+            try:
+                visitor, _ = self.door.accept()
+            except OSError:
+                return
+            threading.Thread(target=self._serve, args=(visitor,), daemon=True).start()
+
+    def _serve(self, visitor):
+        """Runs what a visitor asks for, with its input and output; it ends where the visitor does."""
+        with visitor:
+            text, files, _, _ = socket.recv_fds(visitor, 1 << 20, 3)
+            name, place, command = json.loads(text)
+            code = 255
+            if name in self.names and self.is_up(self.names.index(name)):
+                process = subprocess.Popen(self.words(self.names.index(name), ["/bin/sh", "-c", command], place), env=self.environment,
+                                           stdin=files[0], stdout=files[1], stderr=files[2])
+                threading.Thread(target=self._watch, args=(visitor, process), daemon=True).start()
+                code = process.wait()
+            for file in files:
+                os.close(file)
+            try:
+                visitor.sendall(bytes([code % 256]))
+            except OSError:
+                pass
+
+    @staticmethod
+    def _watch(visitor, process):
+        try:
+            if visitor.recv(1) == b"":
+                process.terminate()
+        except OSError:
+            pass
+
+    def is_up(self, k):
+        return self.keepers[k].poll() is None
 
     def hostfile(self, hosts=None):
         path = self.folder / "hostfile"
         path.write_text("".join(f"{name} slots=2\n" for name in hosts or self.names))
         return path
 
-    def words(self, k, command):
-        """The command line that runs a command on host k."""
-        return ["nsenter", "-t", str(self.inits[k]), "-n", "-u", "-m", "-p", f"--wd={os.getcwd()}", "--", *command]
+    def words(self, k, command, place=None):
+        """The command line that runs a command on host k, in this folder or `place`."""
+        return ["nsenter", "-t", str(self.inits[k]), "-n", "-u", "-m", "-p", f"--wd={place or os.getcwd()}", "--", *command]
 
     def cut(self, k):
         """Pulls the cable at the switch."""
@@ -120,6 +169,9 @@ exec nsenter -t $pid -n -u -m -p --wd="$PWD" -- /bin/sh -c "$*"
         self.keepers[k].wait()
 
     def close(self):
+        if self.door:
+            self.door.shutdown(socket.SHUT_RDWR)
+            self.door.close()
         for init in self.inits:
             try:
                 os.kill(init, signal.SIGKILL)

@@ -73,7 +73,11 @@ TEST(StartCommand, MpirunKnowsTheHostsOfAnAllocation) {
 
 TEST(StartCommand, SlurmStartsByPmix) {
     StartPlan plan{.starter = Starter::srun, .program = "/bin/treefarm", .processes = 9};
-    EXPECT_EQ(command(plan), " srun --mpi=pmix -n 9 -K0 --no-kill /bin/treefarm render x.xml ");
+    EXPECT_EQ(command(plan),
+              " srun --mpi=pmix -n 9 --cpu-bind=none --overcommit --export=ALL -K0 --no-kill /bin/treefarm render "
+              "x.xml ");
+    plan.network = "10.0.0.0/24";
+    EXPECT_TRUE(has(command(plan), " --export=ALL,OMPI_MCA_btl_tcp_if_include=10.0.0.0/24 ")) << command(plan);
 }
 
 const char* const kHosts = "# ours\nnode1 slots=2\n\nnode2.cluster.org slots=4 max-slots=8  # large\n  node3\n";

@@ -122,6 +122,16 @@ TEST(RunFolder, StudiesAndOtherFilesAreNeverReplaced) {
     EXPECT_EQ(read(other / "job.toml"), "mine");
 }
 
+TEST(RunFolder, FramesThatWereRenderedOneByOneAreAShot) {
+    const fs::path folder = fresh_folder();
+    write(folder / "frame.0007.exr", "image");
+    write(folder / "frame.x" / "passes.csv", "pass");
+    EXPECT_EQ(folder_content(folder), FolderContent::other);
+    write_run(folder / "frame.0007", "seventh");
+    EXPECT_EQ(folder_content(folder), FolderContent::shot);
+    EXPECT_NE(refusal(folder, true).find("holds a shot"), std::string::npos);
+}
+
 TEST(RunFolder, IsOnePrograms) {
     const fs::path folder = fresh_folder();
     const RunFolder run(job_in(folder), FolderUse::fresh, {});
