@@ -246,9 +246,8 @@ class WorkerLoop {
         coming_.reset();
     }
 
-    /// Sends what was begun once it is done, and says good-bye, which gives back the rest. The process stays until it
-    /// is dismissed, which a guest is at once, or killed: mpirun ends the whole job where one of its processes ends
-    /// before the others.
+    /// Sends what was begun once it is done, and says good-bye, which gives back the rest. Stays until it is dismissed,
+    /// as a guest is at once, or killed: mpirun ends the whole job where one of its processes ends before the others.
     void leave() {
         const bool is_late = clock_.seconds() - *leaving_since_ > job_.farm.leave_seconds;
         if (has_left_ || (pool_ && !pool_->idle() && !is_late)) return;
