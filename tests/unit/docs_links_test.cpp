@@ -165,14 +165,14 @@ std::set<fs::path> pages_within(int clicks, const fs::path& page) {
 TEST(DocsLinks, AStrangersQuestionsAreTwoClicksAway) {
     const auto pages = pages_within(2, kRoot / "README.md");
     for (const char* answer : {
-             "## Eight machines with a hostfile",  // on 8 nodes?
-             "# A scene from Blender",             // my Blender scene?
-             "# Units, coordinates, colours",      // where are units and coordinates defined?
-             "## A BSDF",                          // how do I add a BSDF?
-             "**Guiding is given up below",        // which constant decides that guiding is given up?
-             "# Words that are ours",              // what is a quantum?
-             "# The log of what was measured",     // where does that figure come from?
-             "| `guiding.type` |",                 // which keys are there?
+             "## Machines with ssh",            // on 8 nodes?
+             "# A scene from Blender",          // my Blender scene?
+             "# Units, coordinates, colours",   // where are units and coordinates defined?
+             "## A BSDF",                       // how do I add a BSDF?
+             "**Guiding is given up below",     // which constant decides that guiding is given up?
+             "# Words that are ours",           // what is a quantum?
+             "# The log of what was measured",  // where does that figure come from?
+             "| `guiding.type` |",              // which keys are there?
          }) {
         const bool found = std::any_of(pages.begin(), pages.end(), [&](const fs::path& page) {
             return fs::exists(page) && text_of(page).find(answer) != std::string::npos;
