@@ -138,18 +138,18 @@ def killed_at_limit(bench):
 
 
 def preempted(bench):
-    words, truth = bench.words_for(20)
+    words, truth = bench.words_for(60)
     folder = bench.work / "preempted"
     job = bench.submit(folder, words, "--nodes=3")
     bench.wait_for_pass(job, folder)
     urgent = bench.slurm.submit("--partition=urgent", "--nodes=3", "--exclusive", "--output=/dev/null", "--wrap", "sleep 2")
     result = bench.ends_as(job, folder, truth, 1)
-    return result if bench.slurm.states(urgent) == ["COMPLETED"] else f"FAILED: urgent job {bench.slurm.facts(urgent)}"
+    return result if bench.slurm.wait(urgent, 60) == ["COMPLETED"] else f"FAILED: urgent job {bench.slurm.facts(urgent)}; {result}"
 
 
 def cancelled(bench):
     """It is not requeued, and a second job goes on with the folder."""
-    words, truth = bench.words_for(20)
+    words, truth = bench.words_for(60)
     folder = bench.work / "cancelled"
     job = bench.submit(folder, words, "--nodes=3")
     bench.wait_for_pass(job, folder)
@@ -164,7 +164,7 @@ def cancelled(bench):
 
 
 def node_lost(bench):
-    words, truth = bench.words_for(20)
+    words, truth = bench.words_for(60)
     folder = bench.work / "node"
     job = bench.submit(folder, words, "--nodes=2", "--nodelist=s1,s2")
     bench.wait_for_pass(job, folder)
