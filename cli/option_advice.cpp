@@ -20,7 +20,8 @@ struct Foreign {
 const std::vector<Foreign>& foreign_options() {
     static const std::vector<Foreign> table = {
         {{"--resume", "--continue", "--restart", "--checkpoint"},
-         "treefarm resume RUN_DIR goes on with a render; treefarm study goes on where it was"},
+         "treefarm resume RUN_DIR goes on with a render, as treefarm render ... --run-dir RUN_DIR --resume does; "
+         "treefarm study goes on where it was"},
         {{"--denoise", "--denoiser", "--denoising", "--oidn"},
          "there is no denoiser in this version; image.exr holds what one needs of noise (variance.*, halfA.*, "
          "halfB.*)"},

@@ -67,7 +67,7 @@ std::uint64_t emitters_bytes(const Scene& scene) {
     return bytes;
 }
 
-/// Of what next event chooses among by place: emitters, patches of meshes, parts of images.
+/// Numbers of what next event chooses among by place: emitters, patches of meshes, parts of images.
 struct LightParts {
     std::uint64_t count = 0;
     std::uint64_t cut_triangles = 0;  ///< of meshes in patches

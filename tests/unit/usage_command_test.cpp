@@ -119,7 +119,7 @@ TEST(Usage, UnknownOptionsNameTheNearest) {
 TEST(Usage, WhatOtherRenderersHaveIsAnsweredByWhatThereIs) {
     for (const auto& [option, text] :
          std::vector<std::pair<std::string, std::string>>{{"--frame-start 1", "write --frames 1-24 -D name=%d"},
-                                                          {"--resume", "treefarm resume RUN_DIR"},
+                                                          {"--continue", "treefarm resume RUN_DIR"},
                                                           {"--denoise", "no denoiser in this version"},
                                                           {"--crop 0,0,8,8", "crop_offset_x"},
                                                           {"--camera 1", "--sensor N"},
