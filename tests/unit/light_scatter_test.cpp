@@ -128,7 +128,7 @@ struct PathDensities {
     /// Of vertex i per area, from the lamp's side and from the camera's.
     double from_lamp(int i) const { return i == 0 ? place : onwards[at(i - 1)] * to_next[at(i - 1)]; }
     double from_lens(int i) const { return i == k - 1 ? film : backwards[at(i + 1)] * to_before[at(i + 1)]; }
-    /// Of the whole path by the technique that draws its first s vertices from the lamp; 0 where there is none.
+    /// Density of the whole path by the technique that draws its first s vertices from the lamp; 0: there is none.
     double of_technique(int s) const {
         if ((s > 1 && delta[at(s - 1)]) || (s > 0 && s < k && delta[at(s)])) return 0.0;
         double pdf = 1.0;
