@@ -25,6 +25,8 @@ Job small_job(std::uint64_t seed) {
     job.integrator.max_depth = 6;
     job.integrator.hide_emitters = true;   // else a few pixels along the lamp's edge are the whole error
     job.guiding.spatial_threshold = 1000;  // a fine tree for a small image
+    // What is learned of emitters quietens each pass: a forecast then says "at most", which is not what is judged here.
+    job.integrator.light_selection = LightSelection::tree;
     return job;
 }
 
@@ -219,7 +221,7 @@ void expect_unbiased(bool strict) {
     const Scene scene = small_scene(16);
     const auto job = [strict](std::uint64_t seed) {
         Job j = small_job(seed);
-        j.budget.error = 0.30;  // some runs reach it in 31 spp, others do not
+        j.budget.error = 0.22;  // some runs reach it in 31 spp, others do not
         j.budget.strict = strict;
         return j;
     };

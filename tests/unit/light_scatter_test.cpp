@@ -125,7 +125,7 @@ struct PathDensities {
     }
     static std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-    /// Of vertex i per area, from the lamp's side and from the camera's.
+    /// Density of vertex i per area, from the lamp's side and from the camera's.
     double from_lamp(int i) const { return i == 0 ? place : onwards[at(i - 1)] * to_next[at(i - 1)]; }
     double from_lens(int i) const { return i == k - 1 ? film : backwards[at(i + 1)] * to_before[at(i + 1)]; }
     /// Density of the whole path by the technique that draws its first s vertices from the lamp; 0: there is none.
