@@ -63,10 +63,10 @@ void FlatLights::pick(FlatBatch& b) const {
     for (std::size_t k = 0; k < count_; ++k)
         for (std::uint32_t i = 0; i < points; ++i) {
             const auto width = static_cast<std::uint32_t>(b.widths[k][i]);
-            const std::uint32_t begin = end[i];
+            const std::uint32_t beyond = b.bits[i] - end[i];  // huge where the bits lie before
             end[i] += width;
             b.chosen[i] += end[i] <= b.bits[i];
-            b.chosen_width[i] = (begin <= b.bits[i]) & (b.bits[i] < end[i]) ? b.widths[k][i] : b.chosen_width[i];
+            b.chosen_width[i] = beyond < width ? b.widths[k][i] : b.chosen_width[i];
         }
 }
 

@@ -80,7 +80,7 @@ std::uint32_t LightTreeBuilder::binary(Entries entries, int depth) {
         keys.extendBy(key(entry));
     const std::size_t left = entries.size() == 2   ? 1
                              : depth < kMostSplits ? split(entries, keys)
-                                                   : halve(entries, keys.majorAxis());
+                                                   : halve(entries, static_cast<int>(keys.majorAxis()));
     const std::uint32_t first = binary(entries.first(left), depth + 1);
     return join(first, binary(entries.subspan(left), depth + 1));
 }
@@ -152,7 +152,7 @@ std::size_t LightTreeBuilder::split(Entries entries, const Box3& keys) {
             best_bucket = static_cast<int>(b);
         }
     }
-    if (best_axis < 0) return halve(entries, keys.majorAxis());
+    if (best_axis < 0) return halve(entries, static_cast<int>(keys.majorAxis()));
     const auto right = std::stable_partition(
         entries.begin(), entries.end(), [&](std::uint32_t entry) { return bucket_of(entry, best_axis) < best_bucket; });
     return static_cast<std::size_t>(right - entries.begin());
