@@ -37,9 +37,13 @@ bool may_change_on_resume(const std::string& key) {
 }
 
 std::string first_difference(const Job& before, const Job& now) {
-    for (const JobKey& key : job_keys())
-        if (key.stored() && !may_change_on_resume(key.name) && key.print(before) != key.print(now))
-            return key.name + " was \"" + key.print(before) + "\", is \"" + key.print(now) + "\"";
+    // What follows from another key is named only where that one is the same.
+    const auto follows = [](const JobKey& key) { return key.name == "integrator.light_selection"; };
+    for (const bool following : {false, true})
+        for (const JobKey& key : job_keys())
+            if (follows(key) == following && key.stored() && !may_change_on_resume(key.name) &&
+                key.print(before) != key.print(now))
+                return key.name + " was \"" + key.print(before) + "\", is \"" + key.print(now) + "\"";
     if (before.scene.defines != now.scene.defines) return "scene.defines";
     return "";
 }
