@@ -9,17 +9,13 @@
 #include <string_view>
 #include <thread>
 
+#include "cli/environment.h"
 #include "common/base/error.h"
 #include "common/comm/run_key.h"
 
 namespace treefarm {
 
 namespace {
-
-int number_in(const char* name) {
-    const char* const text = std::getenv(name);
-    return text ? std::atoi(text) : 0;
-}
 
 bool is_set(const char* name) {
     return std::getenv(name) != nullptr;

@@ -9,6 +9,7 @@
 #include <iterator>
 #include <numeric>
 
+#include "cli/environment.h"
 #include "cli/host_probe.h"
 #include "common/base/error.h"
 #include "common/base/host.h"
@@ -35,11 +36,6 @@ std::vector<HostLine> read_hostfile(const std::string& file) {
 bool has_pmix() {
     constexpr double kSeconds = 10.0;
     return words_of({"srun", "--mpi=list"}, kSeconds).find("pmix") != std::string::npos;
-}
-
-int number_in(const char* name) {
-    const char* const text = std::getenv(name);
-    return text ? std::atoi(text) : 0;
 }
 
 /// Tasks that the allocation was asked for; else a worker for each of its nodes, and rank 0.

@@ -149,7 +149,7 @@ std::optional<JoinKey> run_key(const LaunchEnvironment& launch) {
 
 /// Says what nothing guards, where it goes over a network.
 void tell_trust(const LaunchEnvironment& launch, const MpiSession& session, const Voice& voice) {
-    if (session.is_sealed()) return;
+    if (session.size() == 1 || session.rank() != 0 || session.is_sealed()) return;
     const Log log = make_log("coordinator", {}, voice.console, voice.loudness);
     if (!launch.key_file.empty())
         log->warn("not all processes can read {}: messages are not authenticated, and the network is trusted",
@@ -205,7 +205,7 @@ int run_processes(const LaunchEnvironment& launch, const FarmOptions& options, c
     InterruptWatch watch;  // before MPI starts its threads
     MpiSession session(options.start_seconds, missing_processes(launch, options.start_seconds), run_key(launch));
     if (launch.life) launch.life->begin();
-    if (session.size() > 1 && session.rank() == 0) tell_trust(launch, session, voice);
+    tell_trust(launch, session, voice);
     if (session.size() > 1)
         return session.rank() == 0 ? coordinate(launch, session, task, watch) : work(session, options, voice, watch);
     const int code = guarded([&]() -> CoordinatorEnd { return {run_here(options, voice, task), {}}; }).code;

@@ -54,7 +54,7 @@ std::optional<Received> SealedChannel::poll() {
 }
 
 /// Whether the bytes are a head; what it says is checked with the message.
-bool SealedChannel::take_head(Peer& peer, const Bytes& bytes) const {
+bool SealedChannel::take_head(Peer& peer, const Bytes& bytes) {
     if (bytes.size() != kFrameHeadBytes) return false;
     std::copy(bytes.begin(), bytes.end(), peer.head.emplace().begin());
     return true;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <map>
 #include <optional>
 #include <span>
 #include <vector>
@@ -17,8 +16,8 @@ namespace treefarm {
 /// afterwards is that of a lost one.
 class SealedChannel final : public Channel {
   public:
-    /// `base` outlives this. `nonces`: of all peers, by number, drawn for this session; whoever changes them on their
-    /// way gets a session whose messages all fail.
+    /// `base` outlives this. `nonces`: of all peers, by number, drawn for each session anew; whoever changes them on
+    /// their way gets one whose messages all fail.
     SealedChannel(Channel& base, const JoinKey& secret, std::span<const JoinKey> nonces);
 
     int self() const override { return base_.self(); }
@@ -42,7 +41,7 @@ class SealedChannel final : public Channel {
         bool broken = false;
     };
 
-    bool take_head(Peer& peer, const Bytes& bytes) const;
+    static bool take_head(Peer& peer, const Bytes& bytes);
 
     Channel& base_;
     std::vector<Peer> peers_;

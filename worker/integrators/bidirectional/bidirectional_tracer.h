@@ -71,7 +71,9 @@ class BidirectionalTracer {
             add(met, path.throughput, emission(path, sums, found ? &hit : nullptr, depth));
 
             if (!found || !rules_.goes_on(depth)) return met;
-            if (depth > 1 && !survives(path, depth - 1, draw(key, number - 1, Stream::roulette))) return met;
+            if (depth > 1 && !rules_.roulette.spares(path.throughput, path.spread, depth - 1,
+                                                     to_unit(draw(key, number - 1, Stream::roulette)[0])))
+                return met;
 
             scene_.geometry().keep_inside(hit, path.ray);
             const Surface surface(scene_, hit, to_before, scratch_);
@@ -224,15 +226,6 @@ class BidirectionalTracer {
         path.sums = z.sums;
         path.receiver = receiver_at(z.hit, z.surface);
         path.ray = {offset_origin(z.hit, direction), direction};
-        return true;
-    }
-
-    /// Russian roulette of a path that scattered at `depth`. What refraction has taken does not count against it.
-    bool survives(Path& path, int depth, const Draw& random) const {
-        if (!rules_.roulette.plays(depth)) return true;
-        const float chance = rules_.roulette.survival(path.throughput, path.spread);
-        if (!(to_unit(random[0]) < chance)) return false;
-        path.throughput *= 1.0f / chance;
         return true;
     }
 

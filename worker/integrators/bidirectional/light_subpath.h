@@ -55,7 +55,9 @@ class LightSubpath {
             Vertex& vertex = room();
             ++stats_.rays;
             if (!scene_.geometry().intersect(ray, vertex.hit)) return;
-            if (depth > 1 && !survives(throughput, depth - 1, draw(key, number - 1, Stream::light_roulette))) return;
+            if (depth > 1 && !rules_.roulette.spares(throughput, 1.0f, depth - 1,
+                                                     to_unit(draw(key, number - 1, Stream::light_roulette)[0])))
+                return;
             scene_.geometry().keep_inside(vertex.hit, ray);
             vertex.in = -ray.direction;
             vertex.light = start.weight * throughput;
@@ -92,15 +94,6 @@ class LightSubpath {
         else if (start.is_delta())
             sampled = double(start.place_pdf);  // as BidirectionalTracer has it
         return {m(sampled / pdf), m(start.place_factor(hit.p) / pdf)};
-    }
-
-    /// Russian roulette of a path that scattered at `depth`.
-    bool survives(Rgb& throughput, int depth, const Draw& random) const {
-        if (!rules_.roulette.plays(depth)) return true;
-        const float chance = rules_.roulette.survival(throughput);
-        if (!(to_unit(random[0]) < chance)) return false;
-        throughput *= 1.0f / chance;
-        return true;
     }
 
     /// The vertex after the last one: vertices stay where they are, since surfaces point to their hits.

@@ -112,7 +112,9 @@ class LightTracer {
             Hit hit;
             ++stats_.rays;
             if (!scene_.geometry().intersect(ray, hit)) return;
-            if (depth > 1 && !survives(throughput, depth - 1, draw(key, vertex - 1, Stream::light_roulette))) return;
+            if (depth > 1 && !rules_.roulette.spares(throughput, 1.0f, depth - 1,
+                                                     to_unit(draw(key, vertex - 1, Stream::light_roulette)[0])))
+                return;
             scene_.geometry().keep_inside(hit, ray);
             const Vec3 in = -ray.direction;
             connect(hit, in, start.weight * throughput, key, vertex, lens);
@@ -126,15 +128,6 @@ class LightTracer {
             throughput *= step.weight;
             ray = {offset_origin(hit, step.direction), step.direction};
         }
-    }
-
-    /// Russian roulette of a path that scattered at `depth`.
-    bool survives(Rgb& throughput, int depth, const Draw& random) const {
-        if (!rules_.roulette.plays(depth)) return true;
-        const float chance = rules_.roulette.survival(throughput);
-        if (!(to_unit(random[0]) < chance)) return false;
-        throughput *= 1.0f / chance;
-        return true;
     }
 
     /// Connects the emitter's own surface.

@@ -77,7 +77,10 @@ class PathTracer {
             add(sum, path.throughput, emission(path, found ? &hit : nullptr, depth));
 
             if (!found || depth == rules_.max_depth) return sum;
-            if (depth > 1 && !survives(path, depth - 1, draw(key, vertex - 1, Stream::roulette))) return sum;
+            // Russian roulette, of where the path scattered last. What refraction has taken does not count against it.
+            if (depth > 1 && !rules_.roulette.spares(path.throughput, path.spread, depth - 1,
+                                                     to_unit(draw(key, vertex - 1, Stream::roulette)[0])))
+                return sum;
 
             scene_.geometry().keep_inside(hit, path.ray);
             const Surface surface(scene_, hit, -path.ray.direction, scratch_);
@@ -128,15 +131,6 @@ class PathTracer {
             if (sample.wi.z < 0.0f) path.spread *= surface.eta2();
         path.from = receiver_at(hit, surface);
         path.ray = {offset_origin(hit, direction), direction};
-        return true;
-    }
-
-    /// Russian roulette of a path that scattered at `depth`. What refraction has taken does not count against it.
-    bool survives(Path& path, int depth, const Draw& random) const {
-        if (!rules_.roulette.plays(depth)) return true;
-        const float chance = rules_.roulette.survival(path.throughput, path.spread);
-        if (!(to_unit(random[0]) < chance)) return false;
-        path.throughput *= 1.0f / chance;
         return true;
     }
 

@@ -42,6 +42,16 @@ class Roulette {
         return kPolicy.walk.guided_survival;
     }
 
+    /// Plays for a path that scattered at `depth`, with a number from [0, 1): false ends it, and one that goes on is
+    /// weighed up. `scale` as in survival().
+    bool spares(Rgb& throughput, float scale, int depth, float random) const {
+        if (!plays(depth)) return true;
+        const float chance = survival(throughput, scale);
+        if (!(random < chance)) return false;
+        throughput *= 1.0f / chance;
+        return true;
+    }
+
     /// Number of paths, at most `most`, as which one goes on that is expected to carry several times what its first
     /// vertex does: each of them carries at least the policy's share of that. 1 but by the adjoint rule.
     std::uint32_t splitting(const Rgb& throughput, float scale, float brightness, std::uint32_t most) const {
