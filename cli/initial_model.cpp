@@ -62,6 +62,8 @@ void read_initial_model(RenderRequest& request) {
         teacher != passes.rend() ? static_cast<int>(teacher->spp) : before.guiding.initial_model_spp;
     request.initial_model = std::move(stored.model);
     request.initial_model->set_learns_lights(resolved.learns_lights);
+    request.initial_model->set_decides_next_event(resolved.guides && resolved.decides_next_event);
+    request.initial_model->set_image({});
 }
 
 }  // namespace treefarm

@@ -206,7 +206,7 @@ class PassLoop {
             ended_with_ = state_.tree;
         }
         const Timer timer;
-        learn(state_, job_, plan, next.pass, farm_.collector().sums(), report.refine);
+        learn(state_, job_, plan, next.pass, farm_.collector().sums(), report.price, report.refine);
         report.seconds.refine = timer.seconds();
     }
 

@@ -46,6 +46,9 @@ std::vector<Column> columns() {
         column("spp", [](R r) { return r.plan.spp; }),
         column("spp_done", [](R r) { return r.spp_done; }),
         column("next_event", [](R r) { return r.plan.next_event ? 1 : 0; }),
+        column("next_event_n", [](R r) { return r.next_event_samples(); }),
+        column("next_event_low", [](R r) { return r.refine.next_event.low; }),
+        column("next_event_saved", [](R r) { return r.refine.next_event.saved; }),
         column("record", [](R r) { return r.plan.record ? 1 : 0; }),
         column("workers", [](R r) { return r.workers; }),
         column("threads", [](R r) { return r.threads; }),
@@ -134,6 +137,13 @@ TreeFigures tree_figures(const AnyModel& model, std::uint64_t encoded_bytes) {
                         model.cost()};
     figures.memory = size.guide_bytes() + size.sum_bytes();
     return figures;
+}
+
+double PassReport::next_event_samples() const {
+    if (!plan.next_event) return 0.0;
+    const NextEventSums& sums = stats.next_event;
+    if (sums[kNextEventAsked] == 0) return 1.0;
+    return static_cast<double>(sums[kNextEventDrawn]) / static_cast<double>(sums[kNextEventAsked]);
 }
 
 double PassReport::nonzero_share() const {

@@ -65,6 +65,7 @@ struct PassReport {
     Guiding guiding = Guiding::open;  ///< what is known with this pass
     SplittingGain splitting_gain;     ///< of a guided pass that taught and may split
     bool splitting = true;            ///< whether it may pay, with this pass
+    NextEventPrice price;             ///< by which next event was decided on after this pass; of a pass just finished
     double run_seconds = 0;           ///< since the first worker asked for work, with this pass
     ErrorForecast halving;            ///< until the error is half of this
     ErrorForecast target;             ///< until it is budget.error; its relative_error is 0 where there is none
@@ -75,6 +76,8 @@ struct PassReport {
     std::uint64_t splat_bytes = 0, saturated_splats = 0;
     RefineReport refine;  ///< of the tree that this pass taught
 
+    /// Light samples per vertex that might have had one.
+    double next_event_samples() const;
     double nonzero_share() const;
     double core_seconds() const;  ///< of the workers' threads, tracing and recording
     /// Core-seconds until the image has unit variance, at this pass's stuv and speed.

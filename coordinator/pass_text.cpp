@@ -36,6 +36,15 @@ std::string guiding_text(Guiding verdict, const GuidingGain& gain) {
     return fmt::format("guiding makes {} at equal cost", factor(gain.all));
 }
 
+/// What is decided on next event, and why; empty where that is to sample an emitter at nearly each vertex.
+std::string next_event_text(const NextEventVerdict& verdict) {
+    if (verdict.saved > 0.98) return "";
+    return fmt::format(
+        "; next event: hardly asked on {:.0f} % of the vertices, where it finds nearly nothing; saves about {:.0f} % of "
+        "the work",
+        100 * verdict.low, 100 * (1 - verdict.saved));
+}
+
 /// "half of it in about 1:10"; empty where nobody knows, or nothing is left to do.
 std::string outlook_text(const PassReport& r) {
     const bool asked = r.target.relative_error > 0;
@@ -64,6 +73,7 @@ std::string pass_summary(const PassReport& r, std::size_t pass_count) {
     if (r.tree.regions > 1)
         text += fmt::format("; tree {} nodes, {:.1f} MB", r.tree.nodes, 1e-6 * static_cast<double>(r.tree.memory));
     if (r.guiding_gain.all > 0) text += "; " + guiding_text(r.guiding, r.guiding_gain);
+    text += next_event_text(r.refine.next_event);
     if (r.plan.split && !r.splitting) text += "; splitting paths does not pay: none is split from here on";
     for (const ErrorForecast& forecast : {r.halving, r.target})
         if (is_known(forecast))

@@ -8,7 +8,9 @@
 #include "common/base/hash.h"
 #include "common/config/aov_list.h"
 #include "common/film/fold_passes.h"
+#include "common/film/image_levels.h"
 #include "common/plan/learning.h"
+#include "common/plan/policy.h"
 
 namespace treefarm {
 
@@ -44,6 +46,26 @@ void judge_splitting(RenderState& state, const Resolved& job, PassReport& report
     if (job.guiding.splitting_rule == Rule::while_it_pays && !splitting_may_pay(report.plan, report.splitting_gain))
         state.history.splitting = false;
     report.splitting = state.history.splitting;
+}
+
+/// What the next pass is told of the image, and how often it samples emitters where nothing guides it.
+void judge_next_event(RenderState& state, const Resolved& job, const CombinedImage& image, std::size_t width,
+                      PassReport& report) {
+    if (!job.decides_next_event || !report.plan.next_event || !report.plan.layers.estimates) return;
+    ImageLevels levels = image_levels(image.mean, width);
+    const TraceStats& stats = report.stats;
+    const auto count = [](std::uint64_t n) { return static_cast<double>(n); };
+    const double ray_cost = report.plan.guided ? kPolicy.guiding.ray_cost : 1.0;
+    const double rays = ray_cost * count(stats.rays) +
+                        kPolicy.next_event.sample_cost * count(stats.next_event[kNextEventDrawn]) +
+                        kPolicy.next_event.shadow_ray_cost * count(stats.shadow_rays);
+    const double paths = count(stats.paths);
+    report.price = {relative_variance(state.films.back().pixels, levels, width), paths > 0 ? rays / paths : 0, paths};
+    ImageFacts facts{static_cast<std::uint32_t>(levels.columns), std::move(levels.inverse_levels),
+                     state.tree.regions().image.next_event};
+    if (!report.plan.guided)
+        report.refine.next_event = state.image_next_event.learn(stats.next_event, report.price, facts.next_event);
+    state.tree.set_image(std::move(facts));
 }
 
 }  // namespace
@@ -100,14 +122,19 @@ void describe_image(const RenderState& state, const Resolved& job, DevelopedStat
 void judge(RenderState& state, const Resolved& job, const CombinedImage& image, std::size_t width, PassReport& report) {
     judge_guiding(state, image, width, report);
     judge_splitting(state, job, report);
+    judge_next_event(state, job, image, width, report);
 }
 
 void learn(RenderState& state, const Resolved& job, const PassPlan& pass, const std::optional<PassPlan>& coming,
-           const CellSums& sums, RefineReport& report) {
+           const CellSums& sums, const NextEventPrice& price, RefineReport& report) {
     if (!pass.record) return;
     const std::uint32_t done = pass.first_sample + pass.spp;
     const PassPlan next = coming ? *coming : make_pass(job, pass.index + 1, done, pass.spp, false);
-    state.tree = state.learner.learn(state.tree, sums, refine_settings(job, pass, next), pass.learn_mixture, report);
+    RefineSettings settings = refine_settings(job, pass, next);
+    settings.next_event = price;
+    ImageFacts image = state.tree.regions().image;
+    state.tree = state.learner.learn(state.tree, sums, settings, pass.learn_mixture, report);
+    state.tree.set_image(std::move(image));
     state.last_tree = next.last_tree;
 }
 

@@ -10,6 +10,7 @@
 #include "common/film/combine.h"
 #include "common/film/guiding_probe.h"
 #include "common/guiding/any_guide.h"
+#include "common/guiding/regions/next_event.h"
 #include "common/plan/budget.h"
 #include "coordinator/begun_pass.h"
 #include "coordinator/pass_report.h"
@@ -28,6 +29,7 @@ struct RenderState {
     AnyModel tree;                  ///< guides the next pass
     std::optional<bool> last_tree;  ///< whether it was refined as the last one; nothing: it is the first
     AnyLearner learner;
+    ImageNextEventLearner image_next_event;
     std::vector<PassReport> reports;  ///< of finished passes
     std::uint64_t tree_hash = 0;      ///< of the encoded tree that guided the last of them
     std::optional<BegunPass> begun;   ///< the pass after them, as far as it is, where the state goes on within it
@@ -65,11 +67,12 @@ void add_film(RenderState& state, const Resolved& job, CollectedPass pass);
 void combine_films(RenderState& state, const Resolved& job, DevelopedState& developed);
 /// The other figures of the combined image, the last pass's variance among them, in threads of their own.
 void describe_image(const RenderState& state, const Resolved& job, DevelopedState& developed, PassVariance& last_pass);
-/// Verdicts on guiding and splitting, by the pass's figures and the image with it. Sets the report's.
+/// Verdicts on guiding, splitting and, where nothing guides, next event, by the pass's figures and the image with it.
+/// Sets the report's.
 void judge(RenderState& state, const Resolved& job, const CombinedImage& image, std::size_t width, PassReport& report);
 /// The tree of the coming pass, by what the pass recorded. Without a coming one, as for a pass that goes on doubling:
 /// whoever continues an ended render needs it.
 void learn(RenderState& state, const Resolved& job, const PassPlan& pass, const std::optional<PassPlan>& coming,
-           const CellSums& sums, RefineReport& report);
+           const CellSums& sums, const NextEventPrice& price, RefineReport& report);
 
 }  // namespace treefarm

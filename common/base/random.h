@@ -27,6 +27,7 @@ enum class Stream : std::uint32_t {
     splat_round,     ///< stochastic rounding of a splat
     lens_connect,    ///< the point of the lens that light paths are connected to
     filter_pick,     ///< the pixel that a connection goes to
+    light_count,     ///< whether next event samples an emitter at a vertex, where it does not at each
 };
 
 /// Names one camera path: the same key gives the same path on any machine, thread or rank.

@@ -17,6 +17,7 @@ enum class NextEvent : std::uint8_t {
     always,
     kickstart,  ///< only in passes that start with fewer than 128 spp done: it teaches the tree, then guiding takes
                 ///< over
+    automatic,  ///< always, but at as few vertices as finished passes show to be enough
 };
 
 /// Weights of multiple importance sampling between next event and scattering (Veach 1997).
@@ -84,7 +85,7 @@ struct Job {
         std::string type = "path";  ///< the estimator (config/estimators.h)
         int max_depth = -1;         ///< path edges from the camera; 1 sees emitters only; -1: no limit
         int rr_depth = 5;           ///< roulette from this depth on
-        NextEvent next_event = NextEvent::always;
+        NextEvent next_event = NextEvent::automatic;
         MisHeuristic mis = MisHeuristic::balance;
         LightSelection light_selection = LightSelection::learned;  ///< where nothing learns: tree
         bool strict_normals = false;  ///< drop light that geometric and shading normal disagree about

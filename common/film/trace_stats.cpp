@@ -21,6 +21,8 @@ void TraceStats::add(const TraceStats& other) {
     probe_rays += other.probe_rays;
     split_path_rays += other.split_path_rays;
     invalid_samples += other.invalid_samples;
+    for (std::size_t i = 0; i < kNextEventSums; ++i)
+        add_saturating(next_event[i], other.next_event[i]);
     splitting.add(other.splitting);
     for (const InvalidSample& sample : other.first_invalid)
         if (first_invalid.size() < kMaxReported) first_invalid.push_back(sample);

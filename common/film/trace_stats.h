@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "common/math/next_event_sums.h"
+
 namespace treefarm {
 
 /// A sample that the film's door refused: NaN, infinite or negative radiance. It counts as black.
@@ -45,6 +47,7 @@ struct TraceStats {
     std::uint64_t probe_paths = 0, probe_rays = 0;  ///< of them, of unguided paths in a probe pass
     std::uint64_t split_path_rays = 0;              ///< of them, of split paths that paths left where they were split
     std::uint64_t invalid_samples = 0;
+    NextEventSums next_event{};  ///< where it is decided; moments where nothing is recorded by region
     SplittingSums splitting;
     std::vector<InvalidSample> first_invalid;          ///< at most kMaxReported of them, to reproduce
     double trace_seconds = 0;                          ///< thread-seconds in the tile renderer

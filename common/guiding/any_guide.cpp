@@ -68,6 +68,19 @@ void AnyModel::set_learns_lights(bool learns) {
         model_);
 }
 
+void AnyModel::set_decides_next_event(bool decides) {
+    std::visit(
+        [&](RegionModel& regions) {
+            if (!decides) regions.next_event.clear();
+            if (decides && !regions.decides_next_event()) regions.next_event.assign(regions.leaf_count(), 0);
+        },
+        model_);
+}
+
+void AnyModel::set_image(ImageFacts image) {
+    std::visit([&](RegionModel& regions) { regions.image = std::move(image); }, model_);
+}
+
 ModelFigures AnyModel::figures() const {
     return visit([]<class G>(const auto& model) { return G::figures(model); });
 }
@@ -87,7 +100,8 @@ SumsShape AnyModel::sums_shape(bool with_mixture) const {
             with_mixture,
             static_cast<std::uint32_t>(size.views),
             regions().learns_lights(),
-            visit([]<class G>(const auto&) { return counts_visits<typename G::Sampler>(); })};
+            visit([]<class G>(const auto&) { return counts_visits<typename G::Sampler>(); }),
+            regions().decides_next_event()};
 }
 
 TreeStatistics AnyModel::statistics(std::uint64_t encoded_bytes) const {
@@ -151,8 +165,9 @@ Result with_accumulator(Accumulators& accumulators, Use use) {
 }  // namespace
 
 void AnyAccumulator::commit(std::span<const Record> records, std::span<const std::uint32_t> counts,
-                            const UpdateCaps& caps) {
-    with_accumulator<void>(accumulator_, [&](auto& accumulator) { accumulator.commit(records, counts, caps); });
+                            const UpdateCaps& caps, std::span<const NextEventSums> next_event) {
+    with_accumulator<void>(accumulator_,
+                           [&](auto& accumulator) { accumulator.commit(records, counts, caps, next_event); });
 }
 
 CellSums AnyAccumulator::take() {

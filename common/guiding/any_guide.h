@@ -53,6 +53,9 @@ class AnyModel {
     void set_pass(std::uint32_t pass);
     /// Lets next event learn how to choose emitters, from a choice by power on where it has not, or forgets that.
     void set_learns_lights(bool learns);
+    /// Lets next event be decided by region, from always on where it was not, or forgets that.
+    void set_decides_next_event(bool decides);
+    void set_image(ImageFacts image);
     ModelFigures figures() const;
     /// About the bytes of the form that workers sample from.
     SamplerCost cost() const;
@@ -124,7 +127,8 @@ class AnyAccumulator {
   public:
     AnyAccumulator(std::uint32_t pass, const AnySampler& guide, DirectionalFilter filter, bool with_mixture);
 
-    void commit(std::span<const Record> records, std::span<const std::uint32_t> counts, const UpdateCaps& caps);
+    void commit(std::span<const Record> records, std::span<const std::uint32_t> counts, const UpdateCaps& caps,
+                std::span<const NextEventSums> next_event = {});
     CellSums take();
     void give_back(CellSums cleared);
 

@@ -18,6 +18,8 @@ const char* next_event_name(NextEvent next_event) {
             return "always";
         case NextEvent::kickstart:
             return "kickstart";
+        case NextEvent::automatic:
+            return "auto";
     }
     return "";
 }

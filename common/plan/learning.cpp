@@ -37,7 +37,9 @@ AnyModel first_model(const Resolved& job, const Box3& bounds, float radiance_sca
     first.view_fraction = job.guiding.learn_bsdf_fraction ? 0.0f : 1.0f - job.guiding.bsdf_fraction;
     first.with_lights = job.learns_lights;
     first.grid_halvings = job.guiding.grid_halvings;
-    return AnyModel::first(guide_kind(job), bounds, first);
+    AnyModel model = AnyModel::first(guide_kind(job), bounds, first);
+    model.set_decides_next_event(job.guides && job.decides_next_event);
+    return model;
 }
 
 AnyModel first_model(const Resolved& job, const Scene& scene) {

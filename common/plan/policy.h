@@ -29,6 +29,18 @@ struct Policy {
         double probe_evenly = 3.0;
     } guiding;
 
+    /// How often next event samples emitters ("auto").
+    struct NextEvent {
+        double least_vertices = 512.0;
+        double standard_errors = 2.0;
+        double least_gain = 0.03;
+        double sample_cost = 0.15;
+        double shadow_ray_cost = 0.75;
+        double least_rest = 0.02;
+        double least_level = 0.1;
+        std::size_t level_block = 8;
+    } next_event;
+
     /// Splitting: as how many paths one goes on, and when that is given up.
     struct Splitting {
         int usual = 8;

@@ -38,6 +38,15 @@ void resolve_rules(Job::Guiding& guiding) {
         guiding.splitting_rule = guiding.splitting == 0 ? Rule::while_it_pays : Rule::always;
 }
 
+/// Whether finished passes may decide on next event: publications did not, and what is decided is right for the balance
+/// heuristic of one direction and light samples. Weights that were set beforehand ask for passes that were, too.
+bool may_decide_next_event(const Job& job) {
+    return estimator_of(job.integrator.type).guides && job.guiding.preset.empty() && !job.budget.strict &&
+           job.integrator.mis == MisHeuristic::balance && job.guiding.candidates == 1 &&
+           job.guiding.target == GuidingTarget::radiance &&
+           job.guiding.combination == Combination::inverse_variance;
+}
+
 /// Takes away what the job's estimator does not use.
 void resolve_estimator(Job& job) {
     const Estimator& estimator = estimator_of(job.integrator.type);
@@ -72,6 +81,9 @@ Resolved resolve(const Job& job, const SceneFacts& scene) {
     resolved.image = {scene.whole_width, scene.whole_height};
     resolve_estimator(resolved);
     resolve_rules(guiding);
+    NextEvent& next_event = resolved.integrator.next_event;
+    if (next_event == NextEvent::automatic && !may_decide_next_event(resolved)) next_event = NextEvent::always;
+    resolved.decides_next_event = next_event == NextEvent::automatic;
     const bool by_view = guiding.type == GuidingType::view;
     if (guiding.splitting == 0)
         guiding.splitting = by_view && guiding.roulette == GuidingRoulette::adjoint ? kPolicy.splitting.usual : 1;

@@ -30,6 +30,7 @@ struct Resolved : Job {
     bool guides = false;            ///< a tree is learned, and guides paths
     bool learns_views = false;      ///< the tree has a view-dependent part
     bool learns_lights = false;     ///< regions learn how next event chooses among emitters
+    bool decides_next_event = false;  ///< finished passes say how often emitters are sampled
     bool cells_follow_use = false;  ///< regions get fewer cells where the BSDF is sampled rather than their tree
 };
 

@@ -89,7 +89,7 @@ PassPlan make_pass(const Resolved& job, std::uint32_t index, std::uint32_t first
     pass.guided = job.guides;
     const bool kickstart =
         job.integrator.next_event == NextEvent::kickstart && first_sample < kPolicy.schedule.kickstart_spp;
-    set_next_event(pass, job, kickstart || job.integrator.next_event == NextEvent::always);
+    set_next_event(pass, job, kickstart || job.integrator.next_event == NextEvent::always || job.decides_next_event);
     const bool is_long = spp >= static_cast<std::uint32_t>(job.guiding.initial_model_spp);
     set_record(pass, job, job.guides && !last && is_long);
     cut_into_units(pass, job.farm.tile_size);

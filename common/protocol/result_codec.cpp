@@ -85,6 +85,8 @@ void write_stats(ByteWriter& writer, const TraceStats& s) {
           s.split_path_rays, s.invalid_samples, s.splitting.split_mean, s.splitting.unsplit_mean,
           s.splitting.split_variance, s.splitting.unsplit_variance})
         writer.put_varint(count);
+    for (const std::uint64_t sum : s.next_event)
+        writer.put_varint(sum);
     writer.put(s.trace_seconds);
     writer.put(s.splat_seconds);
     for (const double seconds : s.phase_seconds)
@@ -109,6 +111,8 @@ TraceStats read_stats(ByteReader& reader) {
           &s.split_path_rays, &s.invalid_samples, &s.splitting.split_mean, &s.splitting.unsplit_mean,
           &s.splitting.split_variance, &s.splitting.unsplit_variance})
         *count = reader.get_varint();
+    for (std::uint64_t& sum : s.next_event)
+        sum = reader.get_varint();
     s.trace_seconds = reader.get<double>();
     s.splat_seconds = reader.get<double>();
     for (double& seconds : s.phase_seconds)

@@ -98,7 +98,7 @@ void serialize(Archive& a, InvalidSample& s) {
 template <class Archive>
 void serialize(Archive& a, TraceStats& s) {
     a(s.paths, s.nonzero_paths, s.rays, s.shadow_rays, s.vertices, s.records, s.probe_paths, s.probe_rays,
-      s.split_path_rays, s.invalid_samples, s.splitting, s.first_invalid, s.trace_seconds, s.splat_seconds,
+      s.split_path_rays, s.invalid_samples, s.next_event, s.splitting, s.first_invalid, s.trace_seconds, s.splat_seconds,
       s.phase_seconds);
 }
 
@@ -141,7 +141,7 @@ void serialize(Archive& a, SplatCaps& c) {
 template <class Archive>
 void serialize(Archive& a, RefineReport& r) {
     a(r.spatial_depth_capped, r.directional_depth_capped, r.memory_capped, r.spatial_depth, r.directional_depth,
-      r.mean_cells, r.views_capped);
+      r.mean_cells, r.views_capped, r.next_event.saved, r.next_event.low);
 }
 
 template <class Archive>
@@ -182,7 +182,7 @@ constexpr std::uint32_t kOrigin = section_tag("IDNT"), kHistory = section_tag("F
                         kBegunSplats = section_tag("PSPL"), kBegunSums = section_tag("PSUM");
 
 constexpr std::uint32_t version_of(std::uint32_t tag) {
-    return tag == kHistory ? 2 : 1;
+    return tag == kHistory || tag == kLearner || tag == kReports || tag == kBegun ? 2 : 1;
 }
 
 /// `room`: bytes that it may take at the most, where they are many.
@@ -247,7 +247,7 @@ std::vector<Section> encode_fields(const CheckpointOrigin& origin, const RenderS
     sections.push_back(section(kProbes, state.probe, state.set_aside));
     sections.push_back(section_with_room(room, kAovs, state.aovs));
     sections.push_back(section(kModel, state.tree.encode(), state.last_tree, state.tree_hash));
-    sections.push_back(section(kLearner, state.learner));
+    sections.push_back(section(kLearner, state.learner, state.image_next_event));
     sections.push_back(section(kReports, state.reports));
     if (state.begun) sections.push_back(section(kBegun, *state.begun));
     return sections;
@@ -307,7 +307,7 @@ RenderState decode_state(const SectionFile& file, std::size_t pixels, std::span<
     Bytes tree;
     read(file, kModel, tree, state.last_tree, state.tree_hash);
     state.tree = AnyModel::decode(tree);
-    read(file, kLearner, state.learner);
+    read(file, kLearner, state.learner, state.image_next_event);
     read(file, kReports, state.reports);
     require(state.history.guiding <= Guiding::loses, "an unknown verdict on guiding");
     state.begun = decode_begun(file, pixels);

@@ -53,7 +53,7 @@ inline Layers render_layers(const Scene& scene, const std::string& aovs, const s
     AovSums sums(aov_requests(resolved), scene.film.pixel_count());
     std::vector<PassResult> passes;
     for (PassPlan pass : plans) {
-        pass.next_event = job.integrator.next_event == NextEvent::always;
+        pass.next_event = job.integrator.next_event == NextEvent::always || resolved.decides_next_event;
         pass.kernel = kernel_of(resolved, pass, facts_of(tree));
         const PassPlan planned = make_pass(resolved, pass.index, pass.first_sample, pass.spp, true);
         pass.units = planned.units;

@@ -5,6 +5,7 @@
 
 #include "common/guiding/regions/first_model.h"
 #include "common/guiding/regions/light_probabilities.h"
+#include "common/guiding/regions/next_event.h"
 #include "common/guiding/regions/mixture.h"
 #include "common/guiding/regions/region_sampler.h"
 #include "common/guiding/regions/strata.h"
@@ -55,11 +56,12 @@ class GridLearner {
     /// Lists what it remembers, for a checkpoint.
     template <class Archive>
     void serialize(Archive& archive) {
-        archive(lights_, mixture_);
+        archive(lights_, next_event_, mixture_);
     }
 
   private:
     LightLearner lights_;
+    NextEventLearner next_event_;
     MixtureLearner mixture_;
 };
 

@@ -32,7 +32,7 @@ std::vector<std::uint32_t> strata_of(const QTableModel& model) {
 
 QTableSampler::QTableSampler(const QTableModel& model) : RegionSampler(model), strata_(strata_of(model)), q_(model.q) {}
 
-QTableModel QTableLearner::learn(const QTableModel& model, const CellSums& sums, const RefineSettings&,
+QTableModel QTableLearner::learn(const QTableModel& model, const CellSums& sums, const RefineSettings& settings,
                                  bool learn_mixture, RefineReport& report) {
     const std::size_t cells = model.q.size();
     if (sums.cells().size() != cells || sums.visits().size() != cells || sums.counts().size() != model.leaf_count())
@@ -54,6 +54,7 @@ QTableModel QTableLearner::learn(const QTableModel& model, const CellSums& sums,
         next.quantum_exponent[r] = learned_exponent(recorded, sums.counts()[r], model.quantum_exponent[r]);
     }
     if (model.learns_lights()) lights_.learn(model, sums, report.origins, next);
+    if (model.decides_next_event()) next_event_.learn(model, sums, settings.next_event, report, next);
     if (learn_mixture) mixture_.learn(model, sums, report.origins, next);
     return next;
 }

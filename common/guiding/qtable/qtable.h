@@ -6,6 +6,7 @@
 
 #include "common/guiding/regions/first_model.h"
 #include "common/guiding/regions/light_probabilities.h"
+#include "common/guiding/regions/next_event.h"
 #include "common/guiding/regions/mixture.h"
 #include "common/guiding/regions/region_sampler.h"
 #include "common/guiding/regions/strata.h"
@@ -63,12 +64,13 @@ class QTableLearner {
     /// Lists what it remembers, for a checkpoint.
     template <class Archive>
     void serialize(Archive& archive) {
-        archive(visits_, lights_, mixture_);
+        archive(visits_, lights_, next_event_, mixture_);
     }
 
   private:
     std::vector<double> visits_;  ///< per cell, those of earlier passes at less weight; empty: none
     LightLearner lights_;
+    NextEventLearner next_event_;
     MixtureLearner mixture_;
 };
 

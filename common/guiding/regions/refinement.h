@@ -9,6 +9,20 @@
 
 namespace treefarm {
 
+/// What a pass costs and how noisy it is: by these a decision on next event weighs noise against rays.
+struct NextEventPrice {
+    double variance = 0;  ///< of a camera sample, relative to the square of its block's light
+    double rays = 0;      ///< of a camera sample, in closest-hit rays; at 0 nothing is decided
+    double paths = 0;     ///< camera samples of the pass
+};
+
+/// What was decided on next event: variance times cost over that of one sample at every vertex, both as predicted; and
+/// how often emitters are sampled.
+struct NextEventVerdict {
+    double saved = 1;  ///< 1 where nothing is decided
+    double low = 0;    ///< part of the vertices with the least samples
+};
+
 /// How a guide learns between passes; each takes of it what it has.
 struct RefineSettings {
     double spatial_threshold =
@@ -25,6 +39,7 @@ struct RefineSettings {
     bool views_record_alone = false;  ///< what views recorded is missing in their regions' counts
     double view_cells = std::numeric_limits<double>::infinity();  ///< at most so many of T2 for each of T1,
     double least_view_cells = 0;                                  ///< unless they are fewer than this
+    NextEventPrice next_event{};
 };
 
 /// Where a region of the refined tree comes from: the region of the old tree, halved so many times.
@@ -48,6 +63,7 @@ struct RefineReport {
     int directional_depth = 0;
     double mean_cells = 0;           ///< per region
     std::uint64_t views_capped = 0;  ///< views that would have split beyond kMaxViewDepth or RefineSettings::view_cells
+    NextEventVerdict next_event{};
     std::vector<RegionOrigin> origins;     ///< per region of the refined tree
     std::vector<ViewOrigin> view_origins;  ///< per view of the refined tree
 };

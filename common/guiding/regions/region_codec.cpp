@@ -5,6 +5,7 @@
 #include <cstdlib>
 
 #include "common/guiding/regions/region_model.h"
+#include "common/math/next_event_sums.h"
 
 namespace treefarm {
 namespace {
@@ -12,7 +13,7 @@ namespace {
 /// No tree of 2^31 cells needs more; a claim above it is a broken or hostile message.
 constexpr std::uint64_t kMaxRawBytes = std::uint64_t{1} << 34;
 /// Bits of what a model has besides.
-constexpr int kHasLights = 1, kHasFlux = 2;
+constexpr int kHasLights = 1, kHasFlux = 2, kHasNextEvent = 4, kHasImage = 8;
 constexpr int kCompressionLevel = 1;  // fast: a broadcast waits for it
 
 void write_nodes(ByteWriter& out, const RegionModel& model) {
@@ -92,20 +93,39 @@ std::uint32_t read_regions(ByteReader& in, RegionModel& model) {
 }
 
 void write_optional(ByteWriter& out, const RegionModel& model) {
-    const int present = (model.light_probabilities.empty() ? 0 : kHasLights) | (model.flux.empty() ? 0 : kHasFlux);
+    const bool has_image = model.image != ImageFacts{};
+    const int present = (model.light_probabilities.empty() ? 0 : kHasLights) | (model.flux.empty() ? 0 : kHasFlux) |
+                        (model.next_event.empty() ? 0 : kHasNextEvent) | (has_image ? kHasImage : 0);
     out.put(static_cast<std::uint8_t>(present));
     for (const LightProbabilities& probabilities : model.light_probabilities)
         for (const std::uint16_t part : probabilities)
             out.put(part);
     for (const float flux : model.flux)
         out.put(flux);
+    for (const std::uint8_t code : model.next_event)
+        out.put(code);
+    if (!has_image) return;
+    out.put_varint(model.image.columns);
+    out.put(model.image.next_event);
+    out.put_array(std::span<const float>(model.image.inverse_levels));
 }
+
+namespace {
+
+std::uint8_t read_next_event(ByteReader& in) {
+    const auto code = in.get<std::uint8_t>();
+    if (code >= kNextEventSamples.size()) throw FormatError("a decision on next event is out of range");
+    return code;
+}
+
+}  // namespace
 
 void read_optional(ByteReader& in, RegionModel& model, std::uint32_t regions) {
     const auto present = in.get<std::uint8_t>();
-    if ((present & ~(kHasLights | kHasFlux)) != 0) throw FormatError("what a tree has learned is malformed");
+    if ((present & ~(kHasLights | kHasFlux | kHasNextEvent | kHasImage)) != 0) throw FormatError("what a tree has learned is malformed");
     const std::size_t bytes =
-        (present & kHasLights ? sizeof(LightProbabilities) : 0) + (present & kHasFlux ? sizeof(float) : 0);
+        (present & kHasLights ? sizeof(LightProbabilities) : 0) + (present & kHasFlux ? sizeof(float) : 0) +
+        (present & kHasNextEvent ? 1 : 0);
     if (bytes != 0 && regions > in.remaining() / bytes) throw FormatError("what a tree has learned is cut short");
     if (present & kHasLights) model.light_probabilities.resize(regions);
     for (LightProbabilities& probabilities : model.light_probabilities) {
@@ -119,6 +139,15 @@ void read_optional(ByteReader& in, RegionModel& model, std::uint32_t regions) {
         flux = in.get<float>();
         if (!(flux >= 0.0f && std::isfinite(flux))) throw FormatError("a region's flux is out of range");
     }
+    if (present & kHasNextEvent) model.next_event.resize(regions);
+    for (std::uint8_t& code : model.next_event)
+        code = read_next_event(in);
+    if (!(present & kHasImage)) return;
+    model.image.columns = static_cast<std::uint32_t>(in.get_varint());
+    model.image.next_event = read_next_event(in);
+    model.image.inverse_levels = in.get_array<float>();
+    for (const float level : model.image.inverse_levels)
+        if (!(level >= 0.0f && std::isfinite(level))) throw FormatError("the light of a block is out of range");
 }
 
 Bytes pack_model(std::uint32_t magic, std::uint8_t version, const Bytes& raw) {

@@ -16,6 +16,16 @@ inline constexpr int kLightClusters = 15;
 inline constexpr std::uint16_t kLightProbabilityOne = 1 << 15;
 using LightProbabilities = std::array<std::uint16_t, kLightClusters + 1>;
 
+/// What is known of the image before a pass, for decisions that hold for all of it. Empty in a first pass, and where
+/// nothing is decided.
+struct ImageFacts {
+    std::uint32_t columns = 0;          ///< of the blocks
+    std::vector<float> inverse_levels;  ///< one over the light of each block of pixels (levels_of()), row by row
+    std::uint8_t next_event = 0;        ///< where no region says it: code of kNextEventSamples
+
+    bool operator==(const ImageFacts&) const = default;
+};
+
 /// What all guides share: a binary tree over a cube of space, axes cycling x, y, z, midpoint splits, whose leaves are
 /// the regions, and what is learned of each besides directions. Plain values, frozen for a pass; node and region
 /// indices mean the same on every rank. Regions are numbered in depth-first order. A guide's model is this and its own
@@ -42,9 +52,14 @@ struct RegionModel {
     /// nothing asks for it (path_recorder.h).
     std::vector<float> flux;
 
+    /// Per region: code of kNextEventSamples. Empty: nothing is decided, one sample per vertex.
+    std::vector<std::uint8_t> next_event;
+    ImageFacts image;
+
     /// Regions, by the nodes.
     std::uint32_t leaf_count() const { return static_cast<std::uint32_t>((nodes.size() + 1) / 2); }
     bool learns_lights() const { return !light_probabilities.empty(); }
+    bool decides_next_event() const { return !next_event.empty(); }
     bool operator==(const RegionModel&) const = default;
 };
 
@@ -69,7 +84,7 @@ float learned_flux(double total, std::uint64_t records, std::int16_t exponent, f
 /// throws FormatError, but for how many exponents and fractions there are: returns the number of regions instead.
 void write_regions(ByteWriter& out, const RegionModel& model);
 std::uint32_t read_regions(ByteReader& in, RegionModel& model);
-/// What only some jobs learn: the choice of emitters, flux.
+/// What only some jobs learn: the choice of emitters, flux, how often next event is asked.
 void write_optional(ByteWriter& out, const RegionModel& model);
 void read_optional(ByteReader& in, RegionModel& model, std::uint32_t regions);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/guiding/regions/region_sampler.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "common/math/elementary.h"
@@ -43,6 +44,10 @@ RegionSampler::RegionSampler(const RegionModel& model)
       extent_(model.extent),
       light_probabilities_(model.light_probabilities),
       flux_(model.flux),
+      next_event_(model.next_event),
+      image_(model.image),
+      thins_next_event_(model.image.next_event != 0 || std::any_of(model.next_event.begin(), model.next_event.end(),
+                                                                  [](std::uint8_t code) { return code != 0; })),
       region_depth_(model.leaf_count()) {
     for (int depth = 0; depth <= kMaxSpatialDepth; ++depth)
         for (int axis = 0; axis < 3; ++axis)
@@ -129,7 +134,7 @@ void RegionSampler::regions(const VectorBatch& positions, std::uint32_t count,
 std::size_t RegionSampler::region_bytes() const {
     return treelets_.size() * sizeof(treelets_[0]) + top_.size() * 4 + quantum_exponent_.size() * 2 +
            bsdf_fraction_.size() * 4 + light_probabilities_.size() * sizeof(LightProbabilities) + flux_.size() * 4 +
-           region_depth_.size();
+           region_depth_.size() + next_event_.size() + image_.inverse_levels.size() * 4;
 }
 
 }  // namespace treefarm

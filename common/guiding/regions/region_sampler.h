@@ -7,7 +7,9 @@
 
 #include "common/base/random.h"
 #include "common/guiding/regions/region_model.h"
+#include "common/math/next_event_sums.h"
 #include "common/math/vector_batch.h"
+#include "common/plan/policy.h"
 
 namespace treefarm {
 
@@ -32,6 +34,21 @@ class RegionSampler {
     /// What is learned of emitters in a region; nullptr: nothing.
     const LightProbabilities* light_probabilities(std::uint32_t region) const {
         return light_probabilities_.empty() ? nullptr : &light_probabilities_[region];
+    }
+
+    /// Light samples per vertex of a region, and of an image that nothing guides.
+    float next_event(std::uint32_t region) const {
+        return next_event_.empty() ? 1.0f : kNextEventSamples[next_event_[region]];
+    }
+    float image_next_event() const { return kNextEventSamples[image_.next_event]; }
+    bool decides_next_event() const { return !next_event_.empty(); }
+    /// Whether any vertex may have fewer light samples than one.
+    bool thins_next_event() const { return thins_next_event_; }
+    /// Whether the image is known, by which light is judged; one over the light about a pixel of it.
+    bool knows_image() const { return !image_.inverse_levels.empty(); }
+    float inverse_level(std::uint32_t x, std::uint32_t y) const {
+        const std::size_t block = std::size_t{y} / kLevelBlock * image_.columns + x / kLevelBlock;
+        return block < image_.inverse_levels.size() ? image_.inverse_levels[block] : 0.0f;
     }
 
     /// Integral of the radiance that a region has learned, over directions; 0: nothing is known of it.
@@ -66,6 +83,7 @@ class RegionSampler {
 
   private:
     static constexpr std::uint32_t kLeafFlag = 0x80000000u;
+    static constexpr std::uint32_t kLevelBlock = static_cast<std::uint32_t>(kPolicy.next_event.level_block);
 
     std::uint32_t build_treelet(const RegionModel& model, std::uint32_t node, int depth);
     void build_top();
@@ -78,6 +96,9 @@ class RegionSampler {
     std::vector<std::uint32_t> top_;  ///< the entries that kTopBits treelets lead to, or the leaf before
     std::vector<LightProbabilities> light_probabilities_;
     std::vector<float> flux_;
+    std::vector<std::uint8_t> next_event_;
+    ImageFacts image_;
+    bool thins_next_event_ = false;
     std::vector<std::uint8_t> region_depth_;                ///< halvings from the cube to the region
     std::array<Vec3, kMaxSpatialDepth + 1> region_size_{};  ///< per depth, in scene units
 };

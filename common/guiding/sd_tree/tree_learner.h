@@ -3,6 +3,7 @@
 
 #include "common/guiding/regions/light_probabilities.h"
 #include "common/guiding/regions/mixture.h"
+#include "common/guiding/regions/next_event.h"
 #include "common/guiding/sd_tree/refine.h"
 #include "common/guiding/sd_tree/view_mixture.h"
 
@@ -19,11 +20,12 @@ class TreeLearner {
     /// Lists what it remembers, for a checkpoint.
     template <class Archive>
     void serialize(Archive& archive) {
-        archive(lights_, mixture_, views_);
+        archive(lights_, next_event_, mixture_, views_);
     }
 
   private:
     LightLearner lights_;
+    NextEventLearner next_event_;
     MixtureLearner mixture_;
     ViewLearner views_;
 };

@@ -30,7 +30,8 @@ double view_gain(const MixtureHistogram& histogram, double others) {
 
 std::vector<ViewAdvice> ViewLearner::judge(const SdTree& tree, const CellSums& sums, bool last_update) {
     const std::uint32_t regions = tree.region_count(), views = tree.view_count();
-    if (sums.shape() != SumsShape(regions, tree.cell_count(), true, views, !tree.light_probabilities.empty()))
+    if (sums.shape() != SumsShape(regions, tree.cell_count(), true, views, !tree.light_probabilities.empty(), false,
+                                  tree.decides_next_event()))
         throw RunError("the sums to learn the mixture from belong to another tree");
     views_.resize(views);
     std::vector<ViewAdvice> advice(views);

@@ -48,8 +48,10 @@ class CellAccumulator {
                     bool with_mixture = false)
         : guide_(guide), filter_(filter), with_mixture_(with_mixture), sums_(pass, shape()) {}
 
-    /// Adds a unit's records and the vertex counts per distribution. Thread-safe.
-    void commit(std::span<const Record> records, std::span<const std::uint32_t> counts, const UpdateCaps& caps);
+    /// Adds a unit's records, the vertex counts per distribution and the sums of direct light per region, where it is
+    /// decided. Thread-safe.
+    void commit(std::span<const Record> records, std::span<const std::uint32_t> counts, const UpdateCaps& caps,
+                std::span<const NextEventSums> next_event = {});
 
     /// Hands out the sums and starts again from zero. No commit may be in flight.
     CellSums take();
@@ -101,7 +103,8 @@ class CellAccumulator {
                 with_mixture_,
                 guide_.distribution_count() - regions,
                 guide_.learns_lights(),
-                kCountsVisits};
+                kCountsVisits,
+                guide_.decides_next_event()};
     }
 
     const Sampler& guide_;
@@ -191,7 +194,7 @@ void CellAccumulator<Sampler>::add_to_cell(std::uint32_t cell, std::uint64_t qua
 
 template <class Sampler>
 void CellAccumulator<Sampler>::commit(std::span<const Record> records, std::span<const std::uint32_t> counts,
-                                      const UpdateCaps& caps) {
+                                      const UpdateCaps& caps, std::span<const NextEventSums> next_event) {
     const std::size_t distributions = counts.size();
     const RecordOrder order = order_by_distribution(records, distributions);
 
@@ -205,6 +208,8 @@ void CellAccumulator<Sampler>::commit(std::span<const Record> records, std::span
         const std::lock_guard lock(stripe_locks_[stripe]);
         for (std::size_t d = begin; d < stop; ++d)
             if (counts[d] != 0) sums_.add_count(static_cast<std::uint32_t>(d), counts[d]);
+        for (std::size_t d = begin; d < std::min(stop, next_event.size()); ++d)
+            if (next_event[d][kNextEventAsked] != 0) sums_.add_next_event(static_cast<std::uint32_t>(d), next_event[d]);
         for (const std::size_t after = order.records.size() - order.ends[stop - 1]; rest.size() > after;) {
             const std::size_t count = std::min<std::size_t>(BoxBlock::kRecords, rest.size() - after);
             gather(records, rest, count, block);

@@ -59,7 +59,8 @@ CellSums::CellSums(std::uint32_t pass, const SumsShape& shape)
       visits_(shape.with_visits ? shape.cells : 0),
       counts_(shape.regions + shape.views),
       mixture_(shape.mixture_begin(shape.regions + shape.views)),
-      lights_(shape.light_sums()) {}
+      lights_(shape.light_sums()),
+      next_event_(shape.next_event_sums()) {}
 
 bool CellSums::add_light(std::uint32_t region, int cluster, std::uint64_t quanta) {
     return add_saturating(lights_[std::size_t{region} * kLightClusters + static_cast<std::size_t>(cluster)], quanta);
@@ -77,6 +78,8 @@ void CellSums::add(const CellSums& other) {
         if (!add_saturating(mixture_[m], other.mixture_[m])) ++caps_.saturated_cells;
     for (std::size_t l = 0; l < lights_.size(); ++l)
         if (!add_saturating(lights_[l], other.lights_[l])) ++caps_.saturated_cells;
+    for (std::size_t n = 0; n < next_event_.size(); ++n)
+        add_saturating(next_event_[n], other.next_event_[n]);
     caps_.add(other.caps_);
 }
 
@@ -86,6 +89,7 @@ void CellSums::clear() {
     std::fill(visits_.begin(), visits_.end(), 0);
     std::fill(mixture_.begin(), mixture_.end(), 0);
     std::fill(lights_.begin(), lights_.end(), 0);
+    std::fill(next_event_.begin(), next_event_.end(), 0);
     caps_ = {};
 }
 
@@ -104,12 +108,14 @@ Bytes CellSums::encode() const {
     write_sparse(out, mixture_);
     write_sparse(out, lights_);
     if (shape_.with_visits) write_sparse(out, visits_);
+    if (shape_.with_next_event) write_sparse(out, next_event_);
     return out.take();
 }
 
 std::uint64_t CellSums::merge_encoded(std::span<const std::uint8_t> update) {
     // Two readings: the first only checks, so that a bad message changes nothing.
-    const auto read = [&](auto&& on_count, auto&& on_cell, auto&& on_mixture, auto&& on_light, auto&& on_visits) {
+    const auto read = [&](auto&& on_count, auto&& on_cell, auto&& on_mixture, auto&& on_light, auto&& on_visits,
+                          auto&& on_next_event) {
         ByteReader in(update);
         const std::uint64_t pass = in.get_varint(), cells = in.get_varint(), distributions = in.get_varint();
         const std::uint64_t bins = in.get_varint(), lights = in.get_varint();
@@ -127,11 +133,12 @@ std::uint64_t CellSums::merge_encoded(std::span<const std::uint8_t> update) {
         read_sparse(in, mixture_.size(), "mixture bin", on_mixture);
         read_sparse(in, lights_.size(), "cluster of emitters", on_light);
         if (shape_.with_visits) read_sparse(in, visits_.size(), "visited cell", on_visits);
+        if (shape_.with_next_event) read_sparse(in, next_event_.size(), "sum of direct light", on_next_event);
         in.expect_end();
         return caps;
     };
     const auto ignore = [](std::uint64_t, std::uint64_t) {};
-    read(ignore, ignore, ignore, ignore, ignore);
+    read(ignore, ignore, ignore, ignore, ignore, ignore);
     std::uint64_t touched = 0;
     const UpdateCaps caps =
         read([&](std::uint64_t distribution, std::uint64_t count) { counts_[distribution] += count; },
@@ -147,7 +154,8 @@ std::uint64_t CellSums::merge_encoded(std::span<const std::uint8_t> update) {
              },
              [&](std::uint64_t cell, std::uint64_t visits) {
                  if (!add_saturating(visits_[cell], visits)) ++caps_.saturated_cells;
-             });
+             },
+             [&](std::uint64_t index, std::uint64_t sum) { add_saturating(next_event_[index], sum); });
     caps_.add(caps);
     return touched;
 }

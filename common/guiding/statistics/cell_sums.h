@@ -12,6 +12,7 @@
 #include "common/base/prefetch.h"
 #include "common/guiding/regions/region_model.h"
 #include "common/math/elementary.h"
+#include "common/math/next_event_sums.h"
 
 namespace treefarm {
 
@@ -58,18 +59,21 @@ struct SumsShape {
     bool with_mixture = false;  ///< mixture histograms: kMixtureBins more sums per distribution
     bool with_lights = false;   ///< sums of emitters: kLightClusters more sums per region
     bool with_visits = false;   ///< records per cell that count: one more sum per cell
+    bool with_next_event = false;  ///< sums of direct light: kNextEventSums more per region
 
     SumsShape() = default;
     SumsShape(std::uint32_t region_count, std::uint32_t cell_count, bool mixture = false, std::uint32_t view_count = 0,
-              bool lights = false, bool visits = false)
+              bool lights = false, bool visits = false, bool next_event = false)
         : regions(region_count),
           views(view_count),
           cells(cell_count),
           with_mixture(mixture),
           with_lights(lights),
-          with_visits(visits) {}
+          with_visits(visits),
+          with_next_event(next_event) {}
     bool operator==(const SumsShape&) const = default;
     std::size_t light_sums() const { return with_lights ? std::size_t{regions} * kLightClusters : 0; }
+    std::size_t next_event_sums() const { return with_next_event ? std::size_t{regions} * kNextEventSums : 0; }
     /// Index of a distribution's first mixture bin; that of the distribution after the last is the number of bins.
     std::size_t mixture_begin(std::uint32_t distribution) const {
         return with_mixture ? std::size_t{distribution} * kMixtureBins : 0;
@@ -98,6 +102,11 @@ class CellSums {
         if (!shape_.with_lights) return {};
         return {lights_.data() + std::size_t{region} * kLightClusters, kLightClusters};
     }
+    /// Direct light of a region; empty where nothing is decided on it.
+    std::span<const std::uint64_t> next_event(std::uint32_t region) const {
+        if (!shape_.with_next_event) return {};
+        return {next_event_.data() + std::size_t{region} * kNextEventSums, kNextEventSums};
+    }
     /// Records per cell that count; empty where that is not asked for.
     const LargeTable<std::uint64_t>& visits() const { return visits_; }
     const SumsShape& shape() const { return shape_; }
@@ -112,6 +121,10 @@ class CellSums {
     }
     void add_visit(std::uint32_t cell) { ++visits_[cell]; }
     bool add_light(std::uint32_t region, int cluster, std::uint64_t quanta);
+    void add_next_event(std::uint32_t region, const NextEventSums& sums) {
+        for (std::size_t i = 0; i < kNextEventSums; ++i)
+            add_saturating(next_event_[std::size_t{region} * kNextEventSums + i], sums[i]);
+    }
     bool add_mixture(std::uint32_t distribution, std::uint8_t bin, std::uint64_t quanta) {
         return add_saturating(mixture_[shape_.mixture_begin(distribution) + bin], quanta);
     }
@@ -141,6 +154,7 @@ class CellSums {
     std::vector<std::uint64_t> counts_;
     std::vector<std::uint64_t> mixture_;
     std::vector<std::uint64_t> lights_;
+    std::vector<std::uint64_t> next_event_;
     UpdateCaps caps_;
 };
 

@@ -3,6 +3,7 @@
 
 #include <cassert>
 
+#include "worker/integrators/path/next_event_counts.h"
 #include "worker/integrators/path/path_recorder.h"
 #include "worker/integrators/path/path_settings.h"
 #include "worker/integrators/path/path_state.h"
@@ -17,8 +18,9 @@ class Emission {
   public:
     using Path = PathState<G, Surface>;
 
-    Emission(const TraceScene& scene, const PathSettings& settings, Observer& observer)
-        : scene_(scene), settings_(settings), observer_(observer) {}
+    Emission(const TraceScene& scene, const PathSettings& settings, Observer& observer,
+             const NextEventCounts<kRecord>& counts)
+        : scene_(scene), settings_(settings), observer_(observer), counts_(counts) {}
 
     // Rare, and out of line: what emitters may be (textured, an image) costs other vertices nothing, not a register.
 
@@ -42,18 +44,22 @@ class Emission {
         if (is_black(emitted) || (path.depth == 1 && settings_.hide_emitters)) return;
         float light_pdf = 0.0f, weight = 1.0f;
         if (settings_.next_event && path.depth > 1) {
-            light_pdf = next_event_pdf();
+            light_pdf = next_event_pdf() * path.scatter_light_samples;
             weight = mis_weight(settings_.mis, path.scatter_pdf, light_pdf);
         }
         const Rgb weighted = emitted * weight;
         if constexpr (kRecord) recorder->add_emission(weighted);
         observer_.emission(emitted, light_pdf, weight, path.throughput * weighted);
-        path.radiance += path.throughput * weighted;
+        const Rgb carried = path.throughput * weighted;
+        path.radiance += carried;
+        if (settings_.count_next_event && path.depth > 1) [[unlikely]]
+            counts_.emission(path, carried, light_pdf);
     }
 
     const TraceScene& scene_;
     const PathSettings& settings_;
     Observer& observer_;
+    const NextEventCounts<kRecord>& counts_;
 };
 
 }  // namespace treefarm

@@ -24,7 +24,9 @@ class PathKernel {
     /// `log` is where records go.
     PathKernel(const TraceScene& scene, const typename G::Sampler& guide, const PathSettings& settings,
                TraceStats& stats, RecordLog* log = nullptr)
-        : stats_(stats), log_(log), walk_(scene, guide, settings, stats) {
+        : stats_(stats),
+          log_(log),
+          walk_(scene, guide, settings, stats, log ? std::span(log->next_event) : std::span<NextEventSums>()) {
         assert(log || !kRecord);
         std::iota(slots_.begin(), slots_.end(), std::uint8_t{0});
     }
@@ -34,8 +36,10 @@ class PathKernel {
     bool full() const { return count_ == kGroup; }
 
     /// Adds a camera path; the kernel must not be full.
-    void add(const PathKey& key, const Ray& ray) {
+    /// `inverse_level`: one over the light about the pixel; 0: not known.
+    void add(const PathKey& key, const Ray& ray, float inverse_level = 0.0f) {
         assert(!full());
+        inverse_levels_[count_] = inverse_level;
         keys_[count_] = key;
         rays_[count_++] = ray;
     }
@@ -114,6 +118,7 @@ class PathKernel {
                 Path& path = walk_[slot];
                 path.begin(keys_[number], rays_[number]);
                 path.origin = static_cast<std::uint16_t>(number);
+                path.inverse_level = inverse_levels_[number];
                 path.probe = kGuided && walk_.settings().is_probe(path.key.pixel);
                 stats_.probe_paths += path.probe;
                 if constexpr (kRecord) walk_.recorder(slot).begin_path();
@@ -139,6 +144,7 @@ class PathKernel {
                 Path& path = walk_[slot];
                 path.begin(keys_[way.origin], way.ray);
                 path.origin = way.origin;
+                path.inverse_level = inverse_levels_[way.origin];
                 path.probe = kGuided && walk_.settings().is_probe(path.key.pixel);
                 if constexpr (kInherits) {
                     path.split_budget = splitting_states_[way.origin].split_budget;
@@ -167,6 +173,7 @@ class PathKernel {
                 static_cast<std::uint32_t>(split_paths.size()),
                 [&](std::uint32_t number, std::uint8_t slot) {
                     walk_[slot].begin(keys_[split_paths[number].origin], split_paths[number]);
+                    walk_[slot].inverse_level = inverse_levels_[split_paths[number].origin];
                     if constexpr (kRecord) walk_.recorder(slot).begin_path();
                     walk_.observer().split_path(split_paths[number]);
                 },
@@ -198,6 +205,7 @@ class PathKernel {
     std::array<std::uint8_t, kBatch> slots_;
     std::array<PathKey, kGroup> keys_;
     std::array<Ray, kGroup> rays_;
+    std::array<float, kGroup> inverse_levels_;
     std::array<Rgb, kGroup> radiance_;
     std::array<SplittingState, kInherits ? kGroup : 0> splitting_states_;
     std::array<float, kCompares ? kGroup : 0> unsplit_;

@@ -15,6 +15,9 @@ struct PathSettings {
     int max_depth;
     bool next_event;   ///< a flag, not a kernel of its own: one predictable branch per vertex
     bool delta_alone;  ///< no next event, but for the lights that nothing else finds
+    bool thin_next_event;   ///< some vertices have fewer light samples than one
+    bool count_next_event;  ///< for whoever decides how many
+    bool delta_lights;      ///< among others: they are sampled always
     MisHeuristic mis;
     bool strict_normals;
     bool hide_emitters;
@@ -42,6 +45,10 @@ struct PathSettings {
         : max_depth(job.integrator.max_depth),
           next_event(pass.next_event && scene.emitters().can_sample()),
           delta_alone(!pass.next_event && scene.emitters().has_delta_lights()),
+          thin_next_event(next_event && guide.thins_next_event()),
+          count_next_event(next_event && job.decides_next_event && guide.knows_image() &&
+                           (!pass.record || guide.decides_next_event())),
+          delta_lights(scene.emitters().has_delta_lights()),
           mis(job.integrator.mis),
           strict_normals(job.integrator.strict_normals),
           hide_emitters(job.integrator.hide_emitters),

@@ -21,6 +21,9 @@ struct PathState {
     Rgb radiance, throughput;
     float scatter_pdf;           ///< infinite after a delta lobe: next event cannot have found what it hits
     float spread;                ///< product of eta^2: what refraction took from the throughput and gives back later
+    float scatter_light_samples;   ///< of next event at the vertex that the ray left
+    std::uint32_t scatter_region;  ///< of that vertex
+    float inverse_level;           ///< one over the light about the pixel; 0: not known
     LightReceiver scatter_from;  ///< the place, as next event chose an emitter there
     LightWidthStore scatter_widths;  ///< of scatter_from
     bool probe;                      ///< unguided in a pass that probes whether guiding pays
@@ -37,6 +40,8 @@ struct PathState {
     typename G::Guidance guidance;                        ///< where the guide is used
     [[no_unique_address]] typename G::Outgoing outgoing;  ///< what the guide keeps of where light leaves to
     std::optional<Surface> surface;
+    float light_samples;    ///< of next event here, on average
+    bool samples_emitters;  ///< by chance or always
     std::uint8_t lane;  ///< its slot in what the batch has drawn
     typename G::Scatter scatter;
     Rgb weight;  ///< f |cos| over the density of the sampled direction
@@ -53,6 +58,10 @@ struct PathState {
         radiance = Rgb(0.0f);
         throughput = Rgb(1.0f);
         scatter_pdf = 0.0f;
+        scatter_light_samples = 1.0f;
+        scatter_region = 0;
+        light_samples = 1.0f;
+        samples_emitters = true;
         scatter_from = {};
         spread = 1.0f;
         guidance = G::unguided();

@@ -34,7 +34,8 @@ class PathWalk {
     using Path = PathState<G, Surface>;
     using Recorder = PathRecorder<G>;
 
-    PathWalk(const TraceScene& scene, const typename G::Sampler& guide, const PathSettings& settings, TraceStats& stats)
+    PathWalk(const TraceScene& scene, const typename G::Sampler& guide, const PathSettings& settings, TraceStats& stats,
+             std::span<NextEventSums> direct_light = {})
         : scene_(scene),
           guide_(guide),
           settings_(settings),
@@ -44,7 +45,8 @@ class PathWalk {
           emitters_(scene.emitters(), settings),
           directions_(guide, settings),
           direction_records_(guide, settings),
-          emission_(scene, settings_, observer_) {
+          counts_(stats, direct_light),
+          emission_(scene, settings_, observer_, counts_) {
         recorders_.fill(Recorder({settings.target, settings.view_records, settings.bootstrap}));
     }
 
@@ -186,6 +188,8 @@ class PathWalk {
         const std::uint64_t seed = paths_[alive_[0]].key.seed;
         directions_.draw_numbers(seed, keys, paths_, {alive_.data(), alive});
         emitters_.draw_numbers(seed, keys, alive);
+        if (settings_.thin_next_event) [[unlikely]]
+            draw_batch(seed, keys, alive, 0, Stream::light_count, count_draws_);
         if (depth > 1 && settings_.roulette.plays(depth - 1))
             draw_batch(seed, keys, alive, ~0u, Stream::roulette, roulette_draws_);  // of the vertex before
         if constexpr (kRecord) direction_records_.draw_numbers(seed, keys, alive);
@@ -250,7 +254,10 @@ class PathWalk {
         if (kGuided && path.probe) path.guidance.sample_bsdf_alone();
         if constexpr (kRecord)
             if (surface.smooth() && !guide_.contains(hit.p)) recorders_[index].add_outside();
-        if (emitters_.any() && !emitters_.together() && surface.smooth()) next_event(index);
+        if (emitters_.any() && surface.smooth()) {
+            ask(path);
+            if (!emitters_.together() && samples_emitter(path)) next_event(index);
+        }
         return true;
     }
 
@@ -268,7 +275,9 @@ class PathWalk {
         observer_.scatter(s, path.throughput);
         path.scatter_pdf = s.pdf;
         path.scatter_from = receiver(path);
-        if (surface.smooth()) emitters_.keep(path.lane, path.scatter_from, path.scatter_widths);
+        path.scatter_light_samples = path.light_samples;
+        if constexpr (kConverts) path.scatter_region = path.guidance.region;
+        if (surface.smooth() && samples_emitter(path)) emitters_.keep(path.lane, path.scatter_from, path.scatter_widths);
         // One question for what is rare: the same bits say that a lobe may be delta, or refract.
         const bool rare = Surface::kGeneral && surface.delta_or_transmitting();
         if constexpr (Surface::kTransmits)
@@ -291,13 +300,33 @@ class PathWalk {
         emitters_.clear();
         for (std::uint32_t i = 0; i < alive; ++i) {
             const Path& path = paths_[alive_[i]];
-            if (!path.surface->smooth()) continue;
+            if (!path.surface->smooth() || !samples_emitter(path)) continue;
             smooth[count++] = alive_[i];
             emitters_.choose(path.lane, receiver(path));
         }
         emitters_.draw();
         for (std::uint32_t i = 0; i < count; ++i)
             next_event(smooth[i]);
+    }
+
+    /// Decides how many light samples a vertex has, and tosses for one. Where there are delta lights, only once it is
+    /// known that the emitter is none.
+    void ask(Path& path) {
+        path.light_samples = 1.0f;
+        path.samples_emitters = true;
+        if (settings_.thin_next_event) [[unlikely]] {
+            if constexpr (kConverts)
+                path.light_samples = guide_.next_event(path.guidance.region);
+            else
+                path.light_samples = guide_.image_next_event();
+            path.samples_emitters = to_unit(count_draws_.word[0][path.lane]) < path.light_samples;
+        }
+        if (settings_.count_next_event && !settings_.delta_lights) [[unlikely]]
+            count_asked(path);
+    }
+    bool samples_emitter(const Path& path) const { return path.samples_emitters || settings_.delta_lights; }
+    [[gnu::noinline]] void count_asked(const Path& path) {
+        if (!path.probe) counts_.asked(path.guidance.region, path.samples_emitters);
     }
 
     /// The place of a path, as next event chooses an emitter for it.
@@ -314,6 +343,10 @@ class PathWalk {
         const Surface& surface = *path.surface;
         const LightReceiver at = receiver(path);
         const DirectSample light = emitters_.sample(at, path.lane);
+        if (settings_.delta_lights && !light.delta && settings_.next_event) [[unlikely]] {
+            if (settings_.count_next_event) count_asked(path);
+            if (!path.samples_emitters) return;
+        }
         if (!(light.pdf > 0.0f) || light.black()) return;
         BsdfValue bsdf;
         if (surface.evaluate_late()) {
@@ -324,9 +357,13 @@ class PathWalk {
         }
         if (settings_.strict_normals && dot(surface.ng(), light.wi) * dot(surface.frame().n, light.wi) <= 0.0f) return;
         ++stats_.shadow_rays;
+        if (settings_.count_next_event && !light.delta && !path.probe) [[unlikely]]
+            counts_.traced(path.guidance.region);
         const std::uint32_t vertex = kRecord ? recorders_[index].vertex_count() : 0;
         pending_.add(path.hit, light,
-                     {index, vertex, !settings_.delta_alone && at.probabilities, path.guidance, path.throughput}, bsdf);
+                     {index, vertex, light.delta ? 1.0f : path.light_samples, !settings_.delta_alone && at.probabilities,
+                      path.guidance, path.throughput},
+                     bsdf);
     }
 
     static BsdfValue bsdf_value(const Surface& surface, const Vec3& wi) {
@@ -366,11 +403,15 @@ class PathWalk {
         float scatter_pdf = light.delta ? 0.0f : light.bsdf_pdf;
         if constexpr (kGuided)
             if (!light.delta) scatter_pdf = G::pdf(guide_, light.from.guidance, light.bsdf_pdf, direction);
-        const float weight = mis_weight(settings_.mis, light.pdf, scatter_pdf);
-        const Rgb reflected = light.f_cos * light.radiance * (weight / light.pdf);
+        const float light_pdf = light.pdf * light.from.light_samples;
+        const float weight = mis_weight(settings_.mis, light_pdf, scatter_pdf);
+        const Rgb reflected = light.f_cos * light.radiance * (weight / light_pdf);
         Path& path = paths_[light.from.path];
-        path.radiance += light.from.throughput * reflected;
-        observer_.next_event(light, scatter_pdf, weight, light.from.throughput * reflected);
+        const Rgb carried = light.from.throughput * reflected;
+        path.radiance += carried;
+        if (settings_.count_next_event && !light.delta) [[unlikely]]
+            counts_.light(path, light.from.guidance.region, carried, scatter_pdf, light_pdf, light.from.light_samples);
+        observer_.next_event(light, scatter_pdf, weight, carried);
         if constexpr (kRecord)
             record_light(light, reflected, weight, direction, path, guide_, settings_, recorders_[light.from.path]);
     }
@@ -386,7 +427,7 @@ class PathWalk {
     EndedPaths ended_;
     GlassSplits glass_;
     SplitPaths split_paths_;
-    DrawBatch roulette_draws_;
+    DrawBatch roulette_draws_, count_draws_;
     EmitterChoice emitters_;
     DirectionChoice<G, Surface, kGuided, kConverts> directions_;
     typename G::LightBatch light_directions_;
@@ -394,6 +435,7 @@ class PathWalk {
     std::array<Recorder, kRecord ? kBatch : 0> recorders_;
     DirectionRecords<G> direction_records_;
     [[no_unique_address]] Observer observer_;
+    NextEventCounts<kRecord> counts_;
     Emission<G, Surface, kRecord, Observer> emission_;
 };
 

@@ -19,6 +19,7 @@ template <class G>
 struct LightSeeker {
     std::uint32_t path;    ///< of the batch
     std::uint32_t vertex;  ///< vertices that the path has recorded before this one
+    float light_samples;   ///< there, on average
     bool learned_choice;   ///< the emitter was chosen by what is learned of this region
     typename G::Guidance guidance;
     Rgb throughput;
@@ -47,7 +48,8 @@ struct PendingLight {
     /// Record from which the choice of emitters learns, of a sample that brought `reflected`.
     Record record(const RegionSampler& guide, float reflected) const {
         const std::uint32_t region = from.guidance.region;
-        return light_record(region, guide.quantum_exponent(region), cluster, cluster_probability, reflected);
+        return light_record(region, guide.quantum_exponent(region), cluster, cluster_probability * from.light_samples,
+                            reflected);
     }
 };
 

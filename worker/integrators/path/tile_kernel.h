@@ -56,7 +56,8 @@ void render_with(const TileJob& tile) {
     while (!start.done()) {
         kernel.clear();
         while (!kernel.full() && !start.done()) {
-            kernel.add(key(start), scene.camera().generate(start.x, start.y, key(start)));
+            kernel.add(key(start), scene.camera().generate(start.x, start.y, key(start)),
+                       settings.count_next_event ? guide.inverse_level(start.x, start.y) : 0.0f);
             start.advance();
         }
         kernel.trace();

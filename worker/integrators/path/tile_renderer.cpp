@@ -32,7 +32,9 @@ void render_unit(const TraceScene& scene, const Resolved& job, const PassPlan& p
     const double start = thread_cpu_seconds();
     pixels.clear();
     pixels.reserve(unit.pixel_count());
-    log.begin(pass.record ? guide.regions().distribution_count() : 0);
+    const RegionSampler& regions = guide.regions();
+    log.begin(pass.record ? regions.distribution_count() : 0,
+              pass.record && regions.decides_next_event() ? regions.region_count() : 0);
     const TileJob tile{scene, job, pass, guide, unit, pixels, log, stats};
     kernel(pass.kernel, guide.kind()).render(tile);
     stats.trace_seconds += thread_cpu_seconds() - start;

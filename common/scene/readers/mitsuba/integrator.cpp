@@ -16,7 +16,7 @@ constexpr std::array<std::string_view, 7> kIntegrators = {"path",    "volpath", 
 
 /// How light is transported; whether something guides is the job's business.
 void read_path(IntegratorSettings& settings) {
-    settings.set("integrator.next_event", "always", settings.properties().where());
+    settings.set("integrator.next_event", "auto", settings.properties().where());
     settings.read_common();
 }
 

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "common/film/image_levels.h"
+
+#include <algorithm>
+
+#include "common/film/trimmed_mean.h"
+#include "common/plan/policy.h"
+
+namespace treefarm {
+
+float ImageLevels::at(std::size_t pixel, std::size_t width) const {
+    constexpr std::size_t kBlock = kPolicy.next_event.level_block;
+    return inverse_levels[pixel / width / kBlock * columns + pixel % width / kBlock];
+}
+
+ImageLevels image_levels(std::span<const Rgb64> image, std::size_t width) {
+    constexpr std::size_t kBlock = kPolicy.next_event.level_block;
+    ImageLevels levels;
+    if (image.empty()) return levels;
+    levels.columns = (width + kBlock - 1) / kBlock;
+    const std::size_t rows = ((image.size() + width - 1) / width + kBlock - 1) / kBlock;
+    std::vector<double> sums(rows * levels.columns), counts(sums.size());
+    double all = 0;
+    for (std::size_t p = 0; p < image.size(); ++p) {
+        const std::size_t block = p / width / kBlock * levels.columns + p % width / kBlock;
+        const double y = luminance(image[p]);
+        sums[block] += y;
+        counts[block] += 1;
+        all += y;
+    }
+    const double least = kPolicy.next_event.least_level * all / static_cast<double>(image.size());
+    if (!(least > 0)) return levels;
+    for (std::size_t b = 0; b < sums.size(); ++b)
+        levels.inverse_levels.push_back(static_cast<float>(1.0 / std::max(sums[b] / counts[b], least)));
+    return levels;
+}
+
+double relative_variance(std::span<const PixelEstimate> pixels, const ImageLevels& levels, std::size_t width) {
+    if (levels.inverse_levels.empty()) return 0;
+    std::vector<double> variances;
+    variances.reserve(pixels.size());
+    for (std::size_t p = 0; p < pixels.size(); ++p) {
+        const Moments whole = pixels[p].whole();
+        if (whole.n < 2) continue;
+        const auto inverse = static_cast<double>(levels.at(p, width));
+        variances.push_back(luminance(whole.sample_variance()) * inverse * inverse);
+    }
+    return variances.empty() ? 0 : trimmed_mean(variances);
+}
+
+}  // namespace treefarm

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "common/guiding/regions/next_event.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/plan/policy.h"
+
+namespace treefarm {
+namespace {
+
+constexpr auto& kPolicyOf = kPolicy.next_event;
+constexpr std::size_t kChoices = kNextEventSamples.size();
+
+/// Second moment of the region's direct light at a choice, in sums over the evidence.
+double moment(const NextEventEvidence& e, std::size_t choice) {
+    return e[kNextEventMoments + choice];
+}
+
+double rays(const NextEventEvidence& e, std::size_t choice) {
+    const double drawn = e[kNextEventDrawn];
+    const double traced = drawn > 0 ? e[kNextEventTraced] / drawn : 1.0;
+    return e[kNextEventAsked] * static_cast<double>(kNextEventSamples[choice]) *
+           (kPolicyOf.sample_cost + kPolicyOf.shadow_ray_cost * traced);
+}
+
+/// What a change from one choice to another may turn out worse than it looks, by chance.
+double doubt(const NextEventEvidence& e, std::size_t from, std::size_t to) {
+    const double all = moment(e, kChoices - 1) - moment(e, 0);
+    const double part = std::abs(moment(e, to) - moment(e, from));
+    return all > 0 ? kPolicyOf.standard_errors * std::sqrt(e[kNextEventSpread]) * std::min(part / all, 1.0) : 0.0;
+}
+
+std::size_t best_choice(const NextEventEvidence& e, std::size_t now, double lambda) {
+    const auto price = [&](std::size_t choice) { return moment(e, choice) + lambda * rays(e, choice); };
+    std::size_t best = now;
+    double least = price(now) * (1 - kPolicyOf.least_gain);
+    for (std::size_t choice = 0; choice < kChoices; ++choice) {
+        if (choice == now) continue;
+        const double cost = price(choice) + (choice > now ? doubt(e, now, choice) : 0.0);
+        if (cost < least) {
+            least = cost;
+            best = choice;
+        }
+    }
+    return best;
+}
+
+void add_halved(NextEventEvidence& evidence, std::span<const std::uint64_t> fresh) {
+    for (std::size_t i = 0; i < kNextEventSums; ++i)
+        evidence[i] = 0.5 * evidence[i] + static_cast<double>(fresh[i]) * next_event_unit(i);
+}
+
+}  // namespace
+
+NextEventVerdict decide_next_event(std::span<const NextEventEvidence> evidence, double paths,
+                                   const NextEventPrice& price, std::span<std::uint8_t> codes) {
+    constexpr int kRounds = 8;
+    if (!(price.rays > 0 && price.variance > 0 && paths > 0)) return {};
+    double variance = price.variance, cost = price.rays;
+    for (int round = 0; round < kRounds; ++round) {
+        const double lambda = variance / cost;
+        double variance_change = 0, cost_change = 0;
+        bool changed = false;
+        for (std::size_t r = 0; r < codes.size(); ++r) {
+            const NextEventEvidence& e = evidence[r];
+            if (e[kNextEventAsked] < kPolicyOf.least_vertices) continue;
+            const std::size_t now = codes[r], best = best_choice(e, now, lambda);
+            if (best == now) continue;
+            variance_change += moment(e, best) - moment(e, now);
+            cost_change += rays(e, best) - rays(e, now);
+            codes[r] = static_cast<std::uint8_t>(best);
+            changed = true;
+        }
+        if (!changed) break;
+        // Second moments bound variances from above: so much of the whole cannot have been theirs.
+        variance = std::max(variance + variance_change / paths, kPolicyOf.least_rest * variance);
+        cost = std::max(cost + cost_change / paths, kPolicyOf.least_rest * cost);
+    }
+    double always_variance = variance, always_cost = cost, asked = 0, low = 0;
+    for (std::size_t r = 0; r < codes.size(); ++r) {
+        const NextEventEvidence& e = evidence[r];
+        asked += e[kNextEventAsked];
+        if (codes[r] + 1u == kChoices) low += e[kNextEventAsked];
+        always_variance += (moment(e, 0) - moment(e, codes[r])) / paths;
+        always_cost += (rays(e, 0) - rays(e, codes[r])) / paths;
+    }
+    const double always = std::max(always_variance, kPolicyOf.least_rest * variance) * always_cost;
+    return {always > 0 ? variance * cost / always : 1.0, asked > 0 ? low / asked : 0.0};
+}
+
+void NextEventLearner::learn(const RegionModel& tree, const CellSums& sums, const NextEventPrice& price,
+                             RefineReport& report, RegionModel& next) {
+    const std::uint32_t regions = tree.leaf_count();
+    if (!sums.shape().with_next_event || sums.shape().regions != regions || tree.next_event.size() != regions)
+        throw RunError("the sums to decide next event by belong to another tree");
+    evidence_.resize(regions);
+    for (std::uint32_t r = 0; r < regions; ++r)
+        add_halved(evidence_[r], sums.next_event(r));
+    paths_ = 0.5 * paths_ + price.paths;
+    std::vector<std::uint8_t> codes = tree.next_event;
+    report.next_event = decide_next_event(evidence_, paths_, price, codes);
+    std::vector<NextEventEvidence> inherited;
+    inherited.reserve(report.origins.size());
+    next.next_event.clear();
+    for (const RegionOrigin& origin : report.origins) {
+        next.next_event.push_back(codes[origin.region]);
+        inherited.push_back(evidence_[origin.region]);
+        for (double& sum : inherited.back())
+            sum = std::ldexp(sum, -origin.halvings);
+    }
+    evidence_ = std::move(inherited);
+}
+
+NextEventVerdict ImageNextEventLearner::learn(const NextEventSums& sums, const NextEventPrice& price,
+                                              std::uint8_t& code) {
+    add_halved(evidence_, sums);
+    paths_ = 0.5 * paths_ + price.paths;
+    return decide_next_event({&evidence_, 1}, paths_, price, {&code, 1});
+}
+
+}  // namespace treefarm

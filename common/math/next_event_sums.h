@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+namespace treefarm {
+
+/// Numbers n of light samples per vertex that next event may have: below 1 it is a probability. Codes are indices.
+inline constexpr std::array<float, 3> kNextEventSamples = {1.0f, 0.25f, 0.0625f};
+
+/// What is counted of next event, in whole numbers. From kNextEventMoments on a sum per n: the second moment that
+/// direct light would have with it, relative to the square of the light about the pixel.
+enum NextEventSum : std::size_t {
+    kNextEventAsked,   ///< vertices at which an emitter with extent may be sampled
+    kNextEventDrawn,   ///< of them, where one was
+    kNextEventTraced,  ///< of them, where a shadow ray was needed
+    kNextEventMoments,
+    kNextEventSpread = kNextEventMoments + kNextEventSamples.size(),  ///< squares of the last moment less the first
+    kNextEventSums,
+};
+using NextEventSums = std::array<std::uint64_t, kNextEventSums>;
+
+/// What one unit of a sum stands for.
+inline constexpr double next_event_unit(std::size_t sum) {
+    return sum < kNextEventMoments ? 1.0 : sum < kNextEventSpread ? 0x1p-16 : 0x1p-8;
+}
+
+/// Adds a sum to another; sums stay at the largest number that there is.
+inline void add_saturating(std::uint64_t& sum, std::uint64_t value) {
+    sum = value <= ~sum ? sum + value : ~std::uint64_t{0};
+}
+
+/// Adds a value to a sum in its units, up or down by `random`, uniform bits, so that the expectation is exact; at most
+/// 2^40 units.
+inline void add_rounded(NextEventSums& sums, std::size_t sum, double value, std::uint32_t random) {
+    constexpr double kMost = 0x1p40;
+    const double units = value / next_event_unit(sum) + static_cast<double>(random) * 0x1p-32;
+    if (units >= 1.0) add_saturating(sums[sum], static_cast<std::uint64_t>(std::min(units, kMost)));
+}
+
+/// Adds a sample of direct light that brought `relative` to its pixel, over the light about it, by the balance
+/// heuristic of one scattered direction and `n` samples of emitters, with these densities. Each sum's expectation is
+/// the second moment with its own n, whatever `n` was: the integral of the squared contribution over the density of
+/// both (Grittmann et al. 2022, "Efficiency-aware multiple importance sampling").
+inline void add_direct_light(NextEventSums& sums, float relative, float scatter_pdf, float light_pdf, float n,
+                             std::uint32_t random) {
+    const double square = static_cast<double>(relative) * static_cast<double>(relative);
+    const double s = static_cast<double>(scatter_pdf), l = static_cast<double>(light_pdf);
+    const double density = s + static_cast<double>(n) * l;
+    if (!(square > 0.0 && density > 0.0 && std::isfinite(square) && std::isfinite(density))) return;
+    double first = 0, last = 0;
+    for (std::size_t choice = 0; choice < kNextEventSamples.size(); ++choice) {
+        last = square * density / (s + static_cast<double>(kNextEventSamples[choice]) * l);
+        if (choice == 0) first = last;
+        add_rounded(sums, kNextEventMoments + choice, last, random);
+    }
+    add_rounded(sums, kNextEventSpread, (last - first) * (last - first), random);
+}
+
+}  // namespace treefarm
