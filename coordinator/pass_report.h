@@ -62,6 +62,7 @@ struct PassReport {
     PassVariance variance;
     ErrorEstimate error;              ///< of the image with this pass
     GuidingGain guiding_gain;         ///< of a guided pass that taught, since the first probe pass
+    GuidingWorth guiding_worth;       ///< of a guided pass that knows what unguided samples would be
     Guiding guiding = Guiding::open;  ///< what is known with this pass
     SplittingGain splitting_gain;     ///< of a guided pass that taught and may split
     bool splitting = true;            ///< whether it may pay, with this pass

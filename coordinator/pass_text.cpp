@@ -18,22 +18,13 @@ bool is_known(const ErrorForecast& forecast) {
 }
 
 /// What is decided on guiding, and why.
-std::string guiding_text(Guiding verdict, const GuidingGain& gain) {
-    const auto factor = [](double quieter) {
-        return fmt::format("{:.2g} times {}", std::max(quieter, 1 / quieter), quieter < 1 ? "the noise" : "less noise");
-    };
-    switch (verdict) {
-        case Guiding::loses:
-            return fmt::format(
-                "unguided from here on: guiding makes {} at equal cost, but for the worst 1 % of the pixels",
-                factor(gain.bulk));
-        case Guiding::pays:
-            return fmt::format("guided to the end: unguided samples find only {:.0f} % of the light evenly",
-                               100 * gain.coverage);
-        case Guiding::open:
-            break;
-    }
-    return fmt::format("guiding makes {} at equal cost", factor(gain.all));
+std::string guiding_text(Guiding verdict, const GuidingWorth& w) {
+    const double noise = w.unguided_variance / w.guided_variance, cost = w.guided_cost / w.unguided_cost;
+    const double error = std::exp(w.error);
+    return fmt::format(
+        "{}: an unguided sample would be {:.2g} times as noisy (between {:.2g} and {:.2g}), a guided one costs {:.2g} "
+        "times as much; asked again after each pass",
+        verdict == Guiding::loses ? "unguided" : "guided", noise, noise / error, noise * error, cost);
 }
 
 /// What is decided on next event, and why; empty where that is to sample an emitter at nearly each vertex.
@@ -72,7 +63,7 @@ std::string pass_summary(const PassReport& r, std::size_t pass_count) {
     text += fmt::format(", {:.1f} % of paths see light", 100 * r.nonzero_share());
     if (r.tree.regions > 1)
         text += fmt::format("; tree {} nodes, {:.1f} MB", r.tree.nodes, 1e-6 * static_cast<double>(r.tree.memory));
-    if (r.guiding_gain.all > 0) text += "; " + guiding_text(r.guiding, r.guiding_gain);
+    if (r.guiding_worth.worth > 0) text += "; " + guiding_text(r.guiding, r.guiding_worth);
     text += next_event_text(r.refine.next_event);
     if (r.plan.split && !r.splitting) text += "; splitting paths does not pay: none is split from here on";
     for (const ErrorForecast& forecast : {r.halving, r.target})

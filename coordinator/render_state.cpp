@@ -29,16 +29,36 @@ std::uint64_t hash_aovs(const std::vector<AovChannel>& channels) {
     return hash_bytes({reinterpret_cast<const std::uint8_t*>(hashes.data()), hashes.size() * sizeof(std::uint64_t)});
 }
 
-/// Judges guiding by one image-wide number: a decision, not a weight, so no pixel is biased by its own samples.
-void judge_guiding(RenderState& state, const CombinedImage& image, std::size_t width, PassReport& report) {
-    if (report.plan.guided && report.plan.record) {
-        report.guiding_gain =
-            state.probe.gain(state.films.back().pixels, report.stats, report.plan.index, image.mean, width);
-        Guiding& verdict = state.history.guiding;
-        if (verdict == Guiding::open) verdict = treefarm::judge_guiding(report.plan, report.guiding_gain);
-        if (verdict == Guiding::loses) state.set_aside.put_back(state.films);
+ImageLevels levels_of(const RegionModel& model) {
+    return {model.image.columns, model.image.inverse_levels};
+}
+
+/// Judges guiding by one image-wide number: a decision, not a weight, so no pixel is biased by its own samples. Guided
+/// passes say what unguided ones would be like; where those were noisier, they have the last word.
+void judge_guiding(RenderState& state, const Resolved& job, std::size_t width, double cost, PassReport& report) {
+    Guiding& verdict = state.history.guiding;
+    GuidingMemory& memory = state.guiding_memory;
+    const auto& policy = kPolicy.guiding;
+    if (job.guiding.rule == Rule::while_it_pays && report.plan.layers.estimates) {
+        const std::span<const PixelEstimate> pixels = state.films.back().pixels;
+        const ImageLevels levels = levels_of(state.tree.regions());
+        const bool may_change = report.plan.index >= memory.changed;
+        if (report.plan.guided && report.plan.record) {
+            report.guiding_worth = guiding_worth(report.stats.unguided, pixels, levels, width, cost);
+            if (report.guiding_worth.worth > 0) memory.last = report.guiding_worth;
+            if (may_change) verdict = treefarm::judge_guiding(report.plan, report.guiding_worth, memory.mistrust);
+        } else if (!report.plan.guided && memory.last.worth > 0) {
+            const double noisier = mean_variance(pixels, levels, width) / memory.last.unguided_variance;
+            report.guiding_worth = memory.last;
+            if (may_change && noisier > policy.mistrusted && noisier * memory.last.worth > policy.taking_up) {
+                memory.mistrust = noisier;
+                verdict = Guiding::open;
+            }
+        }
+        // Never two changes in two passes.
+        if ((verdict == Guiding::open) != report.plan.guided) memory.changed = report.plan.index + 2;
     }
-    report.guiding = state.history.guiding;
+    report.guiding = verdict;
 }
 
 void judge_splitting(RenderState& state, const Resolved& job, PassReport& report) {
@@ -48,23 +68,30 @@ void judge_splitting(RenderState& state, const Resolved& job, PassReport& report
     report.splitting = state.history.splitting;
 }
 
-/// What the next pass is told of the image, and how often it samples emitters where nothing guides it.
-void judge_next_event(RenderState& state, const Resolved& job, const CombinedImage& image, std::size_t width,
-                      PassReport& report) {
-    if (!job.decides_next_event || !report.plan.next_event || !report.plan.layers.estimates) return;
-    ImageLevels levels = image_levels(image.mean, width);
+/// Cost of a camera sample, in closest-hit rays of unguided paths.
+double sample_cost(const PassReport& report) {
     const TraceStats& stats = report.stats;
     const auto count = [](std::uint64_t n) { return static_cast<double>(n); };
-    const double ray_cost = report.plan.guided ? kPolicy.guiding.ray_cost : 1.0;
-    const double rays = ray_cost * count(stats.rays) +
+    if (stats.paths == 0) return 0;
+    const double rays = (report.plan.guided ? kPolicy.guiding.ray_cost : 1.0) * count(stats.rays) +
                         kPolicy.next_event.sample_cost * count(stats.next_event[kNextEventDrawn]) +
                         kPolicy.next_event.shadow_ray_cost * count(stats.shadow_rays);
-    const double paths = count(stats.paths);
-    report.price = {relative_variance(state.films.back().pixels, levels, width), paths > 0 ? rays / paths : 0, paths};
+    return rays / count(stats.paths);
+}
+
+/// What the next pass is told of the image, and how often it samples emitters where nothing guides it.
+void judge_next_event(RenderState& state, const Resolved& job, const CombinedImage& image, std::size_t width,
+                      double cost, PassReport& report) {
+    if (!job.decides_next_event && job.guiding.rule != Rule::while_it_pays) return;
+    if (!report.plan.layers.estimates) return;
+    ImageLevels levels = image_levels(image.mean, width);
+    report.price = {relative_variance(state.films.back().pixels, levels, width), cost,
+                    static_cast<double>(report.stats.paths)};
     ImageFacts facts{static_cast<std::uint32_t>(levels.columns), std::move(levels.inverse_levels),
                      state.tree.regions().image.next_event};
-    if (!report.plan.guided)
-        report.refine.next_event = state.image_next_event.learn(stats.next_event, report.price, facts.next_event);
+    if (job.decides_next_event && !report.plan.guided)
+        report.refine.next_event =
+            state.image_next_event.learn(report.stats.next_event, report.price, facts.next_event);
     state.tree.set_image(std::move(facts));
 }
 
@@ -88,11 +115,6 @@ std::vector<PassPlan> RenderState::plans() const {
 void add_film(RenderState& state, const Resolved& job, CollectedPass pass) {
     const PassPlan* const before = state.reports.empty() ? nullptr : &state.reports.back().plan;
     PassResult result = finished_pass(pass.plan, before, std::move(pass.pixels));
-    if (pass.stats.probe_paths > 0) {
-        state.probe.add(result.pixels, pass.stats, pass.plan.index);
-        // An image of one pass alone has nothing better for them.
-        if (!shows_last_tree_only(job)) state.set_aside.take_out(result.pixels, pass.plan.index, state.films.size());
-    }
     show(std::move(result), job, state.films);
     if (state.aovs.requested()) state.aovs.add(pass.aovs, pass.plan.spp);
     if (const std::optional<std::size_t> first = fold_passes(state.films)) state.set_aside.follow_fold(*first);
@@ -120,9 +142,10 @@ void describe_image(const RenderState& state, const Resolved& job, DevelopedStat
 }
 
 void judge(RenderState& state, const Resolved& job, const CombinedImage& image, std::size_t width, PassReport& report) {
-    judge_guiding(state, image, width, report);
+    const double cost = sample_cost(report);
+    judge_guiding(state, job, width, cost, report);
     judge_splitting(state, job, report);
-    judge_next_event(state, job, image, width, report);
+    judge_next_event(state, job, image, width, cost, report);
 }
 
 void learn(RenderState& state, const Resolved& job, const PassPlan& pass, const std::optional<PassPlan>& coming,

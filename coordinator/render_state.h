@@ -17,6 +17,18 @@
 
 namespace treefarm {
 
+/// What is remembered of verdicts on guiding, from pass to pass.
+struct GuidingMemory {
+    double mistrust = 1;               ///< how many times as noisy unguided passes were as guided ones had said
+    std::uint32_t changed = 0;         ///< number of the first pass after the last change; 0: none
+    GuidingWorth last;                 ///< of the last guided pass
+
+    template <class Archive>
+    void serialize(Archive& archive) {
+        archive(mistrust, changed, last);
+    }
+};
+
 /// A render between two passes, or within one, as a value: whatever decides a later bit, and the reports of the passes
 /// so far. Nothing else outlives a pass, so who has it can go on, here or elsewhere, as if nothing had happened
 /// (docs/design/checkpoint.md).
@@ -26,6 +38,7 @@ struct RenderState {
     AovSums aovs;
     GuidingProbe probe;
     ProbesSetAside set_aside;
+    GuidingMemory guiding_memory;
     AnyModel tree;                  ///< guides the next pass
     std::optional<bool> last_tree;  ///< whether it was refined as the last one; nothing: it is the first
     AnyLearner learner;

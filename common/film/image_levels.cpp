@@ -2,11 +2,28 @@
 #include "common/film/image_levels.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include "common/film/trimmed_mean.h"
 #include "common/plan/policy.h"
 
 namespace treefarm {
+namespace {
+
+std::vector<double> variances(std::span<const PixelEstimate> pixels, const ImageLevels& levels, std::size_t width) {
+    std::vector<double> found;
+    if (levels.inverse_levels.empty()) return found;
+    found.reserve(pixels.size());
+    for (std::size_t p = 0; p < pixels.size(); ++p) {
+        const Moments whole = pixels[p].whole();
+        if (whole.n < 2) continue;
+        const auto inverse = static_cast<double>(levels.at(p, width));
+        found.push_back(luminance(whole.sample_variance()) * inverse * inverse);
+    }
+    return found;
+}
+
+}  // namespace
 
 float ImageLevels::at(std::size_t pixel, std::size_t width) const {
     constexpr std::size_t kBlock = kPolicy.next_event.level_block;
@@ -35,17 +52,14 @@ ImageLevels image_levels(std::span<const Rgb64> image, std::size_t width) {
     return levels;
 }
 
+double mean_variance(std::span<const PixelEstimate> pixels, const ImageLevels& levels, std::size_t width) {
+    const std::vector<double> found = variances(pixels, levels, width);
+    return found.empty() ? 0 : std::accumulate(found.begin(), found.end(), 0.0) / static_cast<double>(found.size());
+}
+
 double relative_variance(std::span<const PixelEstimate> pixels, const ImageLevels& levels, std::size_t width) {
-    if (levels.inverse_levels.empty()) return 0;
-    std::vector<double> variances;
-    variances.reserve(pixels.size());
-    for (std::size_t p = 0; p < pixels.size(); ++p) {
-        const Moments whole = pixels[p].whole();
-        if (whole.n < 2) continue;
-        const auto inverse = static_cast<double>(levels.at(p, width));
-        variances.push_back(luminance(whole.sample_variance()) * inverse * inverse);
-    }
-    return variances.empty() ? 0 : trimmed_mean(variances);
+    std::vector<double> found = variances(pixels, levels, width);
+    return found.empty() ? 0 : trimmed_mean(std::move(found));
 }
 
 }  // namespace treefarm

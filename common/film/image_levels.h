@@ -19,8 +19,10 @@ struct ImageLevels {
 };
 ImageLevels image_levels(std::span<const Rgb64> image, std::size_t width);
 
-/// Variance of one sample, relative to the square of the light about its pixel: the mean over the pixels but for the
-/// worst 0.1 % of them. 0: not known.
+/// Variance of one sample, relative to the square of the light about its pixel: the mean over the pixels. 0: not
+/// known.
+double mean_variance(std::span<const PixelEstimate> pixels, const ImageLevels& levels, std::size_t width);
+/// As mean_variance(), without the worst 0.1 % of the pixels: what a single firefly does not change.
 double relative_variance(std::span<const PixelEstimate> pixels, const ImageLevels& levels, std::size_t width);
 
 }  // namespace treefarm

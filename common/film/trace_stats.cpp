@@ -24,6 +24,7 @@ void TraceStats::add(const TraceStats& other) {
     for (std::size_t i = 0; i < kNextEventSums; ++i)
         add_saturating(next_event[i], other.next_event[i]);
     splitting.add(other.splitting);
+    unguided.add(other.unguided);
     for (const InvalidSample& sample : other.first_invalid)
         if (first_invalid.size() < kMaxReported) first_invalid.push_back(sample);
     trace_seconds += other.trace_seconds;

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "common/film/guiding_worth.h"
 #include "common/math/next_event_sums.h"
 
 namespace treefarm {
@@ -49,6 +50,7 @@ struct TraceStats {
     std::uint64_t invalid_samples = 0;
     NextEventSums next_event{};  ///< where it is decided; moments where nothing is recorded by region
     SplittingSums splitting;
+    UnguidedSums unguided;  ///< where a guided pass asks whether it pays
     std::vector<InvalidSample> first_invalid;          ///< at most kMaxReported of them, to reproduce
     double trace_seconds = 0;                          ///< thread-seconds in the tile renderer
     double splat_seconds = 0;                          ///< thread-seconds adding records to the tree's sums

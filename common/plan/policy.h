@@ -24,6 +24,12 @@ struct Policy {
         std::uint32_t probe_passes = 4;
         std::uint64_t probe_pixels = 2048;
         std::size_t least_probe_pixels = 64;
+        double mistrusted = 2.0;
+        double giving_up = 0.9;
+        double giving_up_early = 0.65;
+        double giving_up_errors = 1.3;
+        double taking_up = 1.1;
+        std::uint32_t least_settled_spp = 16;
         std::size_t probe_block = 8;
         double probe_floor = 0.1;
         double probe_evenly = 3.0;

@@ -53,9 +53,7 @@ void set_guiding(PassPlan& pass, const Resolved& job, Guiding guiding) {
         pass.guided = false;
         set_record(pass, job, false);
     }
-    pass.probe = guiding == Guiding::open && pass.record && pass.index > 0 &&
-                 pass.index <= kPolicy.guiding.probe_passes && pass.spp >= kPolicy.guiding.least_probe_spp &&
-                 pass.guided;
+    pass.probe = false;  // guided samples tell of unguided ones themselves
 }
 
 Guiding judge_guiding(const PassPlan& pass, const GuidingGain& gain) {
@@ -65,6 +63,14 @@ Guiding judge_guiding(const PassPlan& pass, const GuidingGain& gain) {
                                                                                        : kPolicy.guiding.winning_few);
     const double losing = pass.next_event ? kPolicy.guiding.losing_bulk : kPolicy.guiding.losing_bulk_alone;
     return gain.bulk >= losing * std::min(gain.coverage, 1.0) || wins_by_few ? Guiding::open : Guiding::loses;
+}
+
+Guiding judge_guiding(const PassPlan& pass, const GuidingWorth& worth, double mistrust) {
+    const auto& policy = kPolicy.guiding;
+    if (!(worth.worth > 0) || pass.spp < policy.least_judged_spp) return Guiding::open;
+    const double bar = pass.spp < policy.least_settled_spp ? policy.giving_up_early : policy.giving_up;
+    const double most = worth.worth * mistrust * std::exp(policy.giving_up_errors * worth.error);
+    return most < bar ? Guiding::loses : Guiding::open;
 }
 
 void set_splitting(PassPlan& pass, const Resolved& job, bool pays) {

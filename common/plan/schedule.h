@@ -7,6 +7,7 @@
 
 #include "common/film/develop.h"
 #include "common/film/guiding_probe.h"
+#include "common/film/guiding_worth.h"
 #include "common/film/splitting_gain.h"
 #include "common/film/work_unit.h"
 #include "common/plan/kernel_choice.h"
@@ -102,6 +103,11 @@ void set_guiding(PassPlan& pass, const Resolved& job, Guiding guiding);
 /// Verdict after a guided pass that taught, with this gain. Short passes have to say loudly that guiding does not pay:
 /// it gets better with each. Where unguided samples hardly find the light it does, and probes tell no more.
 Guiding judge_guiding(const PassPlan& pass, const GuidingGain& gain);
+
+/// Verdict after a guided pass, by what its samples tell of unguided ones, times the factor by which unguided passes
+/// were noisier than such samples had said. Guided is what stays where nobody knows: it loses at most its cost, while
+/// unguided paths may lose without bound.
+Guiding judge_guiding(const PassPlan& pass, const GuidingWorth& worth, double mistrust);
 
 /// guiding.splitting_rule "while_it_pays": no path is split any more once that was found not to pay.
 void set_splitting(PassPlan& pass, const Resolved& job, bool pays);

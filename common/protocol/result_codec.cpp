@@ -87,6 +87,10 @@ void write_stats(ByteWriter& writer, const TraceStats& s) {
         writer.put_varint(count);
     for (const std::uint64_t sum : s.next_event)
         writer.put_varint(sum);
+    for (const auto* moments : {&s.unguided.guided, &s.unguided.unguided})
+        for (const std::uint64_t moment : *moments)
+            writer.put_varint(moment);
+    writer.put_varint(s.unguided.cost);
     writer.put(s.trace_seconds);
     writer.put(s.splat_seconds);
     for (const double seconds : s.phase_seconds)
@@ -113,6 +117,10 @@ TraceStats read_stats(ByteReader& reader) {
         *count = reader.get_varint();
     for (std::uint64_t& sum : s.next_event)
         sum = reader.get_varint();
+    for (auto* moments : {&s.unguided.guided, &s.unguided.unguided})
+        for (std::uint64_t& moment : *moments)
+            moment = reader.get_varint();
+    s.unguided.cost = reader.get_varint();
     s.trace_seconds = reader.get<double>();
     s.splat_seconds = reader.get<double>();
     for (double& seconds : s.phase_seconds)

@@ -98,7 +98,8 @@ void serialize(Archive& a, InvalidSample& s) {
 template <class Archive>
 void serialize(Archive& a, TraceStats& s) {
     a(s.paths, s.nonzero_paths, s.rays, s.shadow_rays, s.vertices, s.records, s.probe_paths, s.probe_rays,
-      s.split_path_rays, s.invalid_samples, s.next_event, s.splitting, s.first_invalid, s.trace_seconds, s.splat_seconds,
+      s.split_path_rays, s.invalid_samples, s.next_event, s.unguided.guided, s.unguided.unguided,
+      s.unguided.cost, s.splitting, s.first_invalid, s.trace_seconds, s.splat_seconds,
       s.phase_seconds);
 }
 
@@ -110,6 +111,11 @@ void serialize(Archive& a, PassVariance& v) {
 template <class Archive>
 void serialize(Archive& a, GuidingGain& g) {
     a(g.all, g.bulk, g.coverage);
+}
+
+template <class Archive>
+void serialize(Archive& a, GuidingWorth& w) {
+    a(w.worth, w.error, w.known, w.unguided_variance, w.guided_variance, w.unguided_cost, w.guided_cost);
 }
 
 template <class Archive>
@@ -146,7 +152,7 @@ void serialize(Archive& a, RefineReport& r) {
 
 template <class Archive>
 void serialize(Archive& a, PassReport& r) {
-    a(r.plan, r.spp_done, r.workers, r.threads, r.seconds, r.stats, r.variance, r.error, r.guiding_gain, r.guiding,
+    a(r.plan, r.spp_done, r.workers, r.threads, r.seconds, r.stats, r.variance, r.error, r.guiding_gain, r.guiding_worth, r.guiding,
       r.splitting_gain, r.splitting, r.run_seconds, r.halving, r.target, r.tree, r.update_bytes, r.touched_cells,
       r.caps, r.splat_caps, r.splat_bytes, r.saturated_splats, r.refine);
 }
@@ -182,7 +188,7 @@ constexpr std::uint32_t kOrigin = section_tag("IDNT"), kHistory = section_tag("F
                         kBegunSplats = section_tag("PSPL"), kBegunSums = section_tag("PSUM");
 
 constexpr std::uint32_t version_of(std::uint32_t tag) {
-    return tag == kHistory || tag == kLearner || tag == kReports || tag == kBegun ? 2 : 1;
+    return tag == kHistory || tag == kLearner || tag == kProbes || tag == kReports || tag == kBegun ? 2 : 1;
 }
 
 /// `room`: bytes that it may take at the most, where they are many.
@@ -244,7 +250,7 @@ std::vector<Section> encode_fields(const CheckpointOrigin& origin, const RenderS
     sections.push_back(section(kOrigin, origin));
     sections.push_back(section(kHistory, state.history));
     sections.push_back(section(kFilms, state.films));
-    sections.push_back(section(kProbes, state.probe, state.set_aside));
+    sections.push_back(section(kProbes, state.probe, state.set_aside, state.guiding_memory));
     sections.push_back(section_with_room(room, kAovs, state.aovs));
     sections.push_back(section(kModel, state.tree.encode(), state.last_tree, state.tree_hash));
     sections.push_back(section(kLearner, state.learner, state.image_next_event));
@@ -302,7 +308,7 @@ RenderState decode_state(const SectionFile& file, std::size_t pixels, std::span<
     state.aovs = AovSums(aovs, pixels);
     read(file, kHistory, state.history);
     read(file, kFilms, state.films);
-    read(file, kProbes, state.probe, state.set_aside);
+    read(file, kProbes, state.probe, state.set_aside, state.guiding_memory);
     read(file, kAovs, state.aovs);
     Bytes tree;
     read(file, kModel, tree, state.last_tree, state.tree_hash);

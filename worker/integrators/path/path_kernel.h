@@ -62,6 +62,9 @@ class PathKernel {
     /// Luminance that path `path` would have without splitting, and the exponent of the power of two to count both in:
     /// that of the records of the region where the camera's ray arrived. For guided paths that record.
     float unsplit(std::uint32_t path) const { return unsplit_[path]; }
+    /// What path `path` tells of unguided ones, where the pass asks; of a guided pass that records.
+    const UnguidedTell& unguided(std::uint32_t path) const { return unguided_[path]; }
+    float inverse_level(std::uint32_t path) const { return inverse_levels_[path]; }
     int first_exponent(std::uint32_t path) const { return first_exponents_[path]; }
     Observer& observer() { return walk_.observer(); }
     PhaseClock& clock() { return walk_.clock(); }
@@ -129,6 +132,7 @@ class PathKernel {
                 if constexpr (kCompares) {
                     unsplit_[number] = path.unsplit.of(luminance(path.radiance));
                     first_exponents_[number] = path.first_exponent;
+                    unguided_[number] = {path.twin.moment(), path.twin.cost()};
                 }
                 if constexpr (kInherits) splitting_states_[number] = {path.split_budget, path.first_exponent};
             });
@@ -157,8 +161,13 @@ class PathKernel {
             },
             [&](std::uint32_t, const Path& path) {
                 Rgb& radiance = radiance_[path.origin];
-                if constexpr (kCompares)
+                if constexpr (kCompares) {
                     unsplit_[path.origin] += path.unsplit.of(luminance(path.radiance)) - luminance(radiance);
+                    // Both ways are of one sample: its square has their product, too.
+                    const float level = path.inverse_level;
+                    const float first = luminance(radiance) * level, both = luminance(path.radiance) * level;
+                    unguided_[path.origin].add(path.twin, 2.0f * first * (both - first));
+                }
                 radiance = path.radiance;
             });
         walk_.glass_splits().clear();
@@ -169,6 +178,7 @@ class PathKernel {
         while (!walk_.split_paths().empty()) {
             const std::span<const SplitPath> split_paths = walk_.split_paths().next(numbers_);
             split_radiance_.resize(split_paths.size());
+            if constexpr (kCompares) split_tells_.resize(split_paths.size());
             walk(
                 static_cast<std::uint32_t>(split_paths.size()),
                 [&](std::uint32_t number, std::uint8_t slot) {
@@ -179,11 +189,15 @@ class PathKernel {
                 },
                 [&](std::uint32_t number, const Path& path) {
                     split_radiance_[number] = path.radiance;
+                    if constexpr (kCompares) split_tells_[number] = {path.twin.moment(), path.twin.cost()};
                     stats_.split_path_rays += static_cast<std::uint32_t>(path.depth - split_paths[number].depth);
                 });
             // In their own order: the one in which they ended depends on what else walked.
             for (std::size_t i = 0; i < split_paths.size(); ++i)
                 radiance_[split_paths[i].origin] += split_radiance_[i];
+            if constexpr (kCompares)
+                for (std::size_t i = 0; i < split_paths.size(); ++i)
+                    unguided_[split_paths[i].origin].add(split_tells_[i]);
         }
     }
 
@@ -210,8 +224,10 @@ class PathKernel {
     std::array<SplittingState, kInherits ? kGroup : 0> splitting_states_;
     std::array<float, kCompares ? kGroup : 0> unsplit_;
     std::array<int, kCompares ? kGroup : 0> first_exponents_;
+    std::array<UnguidedTell, kCompares ? kGroup : 0> unguided_;
     std::array<std::uint8_t, kGroup> numbers_;  ///< of split paths so far
     std::vector<Rgb> split_radiance_;           ///< radiance of each
+    std::vector<UnguidedTell> split_tells_;
 };
 
 }  // namespace treefarm

@@ -29,6 +29,13 @@ std::uint32_t splitting(const PathState<G, Surface>& path, const RegionSampler& 
     return settings.roulette.splitting(path.throughput, spread, brightness(path, guide, settings), settings.splitting);
 }
 
+/// Probability with which the unguided path that a guided one might have been goes on from there.
+template <class G, class Surface>
+float unguided_survival(const PathState<G, Surface>& path, const PathSettings& settings) {
+    const float spread = Surface::kTransmits ? path.spread : 1.0f;
+    return settings.unguided_roulette.survival(path.throughput * path.twin.ratio(), spread);
+}
+
 /// Probability that a path goes on from where it has arrived.
 template <bool kGuided, class G, class Surface>
 float survival(const PathState<G, Surface>& path, const RegionSampler& guide, const PathSettings& settings) {

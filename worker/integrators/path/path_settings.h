@@ -17,6 +17,7 @@ struct PathSettings {
     bool delta_alone;  ///< no next event, but for the lights that nothing else finds
     bool thin_next_event;   ///< some vertices have fewer light samples than one
     bool count_next_event;  ///< for whoever decides how many
+    bool twin;              ///< guided paths tell what unguided ones would be like
     bool delta_lights;      ///< among others: they are sampled always
     MisHeuristic mis;
     bool strict_normals;
@@ -48,6 +49,8 @@ struct PathSettings {
           thin_next_event(next_event && guide.thins_next_event()),
           count_next_event(next_event && job.decides_next_event && guide.knows_image() &&
                            (!pass.record || guide.decides_next_event())),
+          twin(pass.guided && pass.record && guide.trained() && guide.knows_image() &&
+               job.guiding.rule == Rule::while_it_pays),
           delta_lights(scene.emitters().has_delta_lights()),
           mis(job.integrator.mis),
           strict_normals(job.integrator.strict_normals),

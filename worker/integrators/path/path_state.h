@@ -7,6 +7,7 @@
 #include "worker/geometry/embree_scene.h"
 #include "worker/integrators/path/scatter_sample.h"
 #include "worker/integrators/path/split_paths.h"
+#include "worker/integrators/path/unguided_twin.h"
 #include "worker/lights/light_lanes.h"
 
 namespace treefarm {
@@ -24,6 +25,8 @@ struct PathState {
     float scatter_light_samples;   ///< of next event at the vertex that the ray left
     std::uint32_t scatter_region;  ///< of that vertex
     float inverse_level;           ///< one over the light about the pixel; 0: not known
+    float scatter_bsdf_pdf;        ///< that scattering would have had unguided; infinite after a delta lobe
+    UnguidedTwin twin;             ///< where PathSettings::twin asks for it
     LightReceiver scatter_from;  ///< the place, as next event chose an emitter there
     LightWidthStore scatter_widths;  ///< of scatter_from
     bool probe;                      ///< unguided in a pass that probes whether guiding pays
@@ -59,6 +62,8 @@ struct PathState {
         throughput = Rgb(1.0f);
         scatter_pdf = 0.0f;
         scatter_light_samples = 1.0f;
+        scatter_bsdf_pdf = 0.0f;
+        twin = {};
         scatter_region = 0;
         light_samples = 1.0f;
         samples_emitters = true;
@@ -73,13 +78,14 @@ struct PathState {
         depth = 1;
         ray = from_surface;
         throughput = carried;
-        scatter_pdf = std::numeric_limits<float>::infinity();
+        scatter_pdf = scatter_bsdf_pdf = std::numeric_limits<float>::infinity();
         spread = eta2;
     }
 
     /// One of the paths that this path goes on as, from where its ray has arrived.
     SplitPath split_off() const {
-        return {origin, split_budget, depth, ray, embree_hit, throughput, spread, first_exponent};
+        return {origin,     split_budget, depth,          ray,             embree_hit,
+                throughput, spread,       first_exponent, twin.split_off()};
     }
 
     /// Goes on as one that the path of this key was split into; it adds to a radiance of its own.
@@ -93,6 +99,7 @@ struct PathState {
         origin = split.origin;
         split_budget = split.split_budget;
         was_split_off = true;
+        twin = split.twin;
         probe = false;
         found = true;
         embree_hit = split.embree_hit;

@@ -90,7 +90,10 @@ class PathWalk {
             ++path.depth;
             if (kGuided && path.was_split_off) continue;
             ++stats_.rays;
-            if constexpr (kGuided) stats_.probe_rays += path.probe;
+            if constexpr (kGuided) {
+                stats_.probe_rays += path.probe;
+                if (settings_.twin) path.twin.add_cost(1.0f);
+            }
             observer_.ray(path.ray);
             queries[count++] = {&path.ray, &path.embree_hit, &path.found};
         }
@@ -211,6 +214,8 @@ class PathWalk {
             const bool survives = to_unit(roulette_draws_.word[0][path.lane]) < chance;
             observer_.roulette(chance, survives);
             if (!survives) return end("roulette");
+            if constexpr (kGuided)
+                if (settings_.twin) path.twin.step(chance, unguided_survival(path, settings_));
             path.throughput *= 1.0f / chance;
             if constexpr (kRecord) recorder->survive(chance);
         }
@@ -225,6 +230,7 @@ class PathWalk {
         paths = path.split_budget.split(paths);
         path.unsplit.split(paths, luminance(path.radiance));
         path.throughput *= 1.0f / static_cast<float>(paths);
+        path.twin.split(static_cast<float>(paths));
         observer_.split(paths, path.throughput);
         for (std::uint32_t i = 1; i < paths; ++i)
             split_paths_.leave(path.split_off());
@@ -274,6 +280,8 @@ class PathWalk {
         path.throughput *= path.weight;
         observer_.scatter(s, path.throughput);
         path.scatter_pdf = s.pdf;
+        if constexpr (kGuided)
+            if (settings_.twin) follow_twin(path);
         path.scatter_from = receiver(path);
         path.scatter_light_samples = path.light_samples;
         if constexpr (kConverts) path.scatter_region = path.guidance.region;
@@ -286,6 +294,13 @@ class PathWalk {
         if (rare && s.delta) path.scatter_pdf = std::numeric_limits<float>::infinity();
         path.ray = {offset_origin(path.hit, s.world), s.world};
         return true;
+    }
+
+    /// The densities of the direction that a path takes, guided and not. Ways out of glass are the same of both.
+    void follow_twin(Path& path) {
+        const auto& s = path.scatter;
+        if (!s.delta || s.effective_pdf == s.pdf) path.twin.step(s.pdf, s.bsdf_pdf);
+        path.scatter_bsdf_pdf = s.delta ? std::numeric_limits<float>::infinity() : s.bsdf_pdf;
     }
 
     bool end(const char* why) {
@@ -357,6 +372,8 @@ class PathWalk {
         }
         if (settings_.strict_normals && dot(surface.ng(), light.wi) * dot(surface.frame().n, light.wi) <= 0.0f) return;
         ++stats_.shadow_rays;
+        if constexpr (kGuided)
+            if (settings_.twin) paths_[index].twin.add_cost(static_cast<float>(kPolicy.next_event.shadow_ray_cost));
         if (settings_.count_next_event && !light.delta && !path.probe) [[unlikely]]
             counts_.traced(path.guidance.region);
         const std::uint32_t vertex = kRecord ? recorders_[index].vertex_count() : 0;
@@ -409,6 +426,13 @@ class PathWalk {
         Path& path = paths_[light.from.path];
         const Rgb carried = light.from.throughput * reflected;
         path.radiance += carried;
+        if constexpr (kGuided)
+            if (settings_.twin) {
+                const float bsdf_pdf = light.delta ? 0.0f : light.bsdf_pdf;
+                const float twin_weight = mis_weight(settings_.mis, light_pdf, bsdf_pdf) / light_pdf;
+                path.twin.add(luminance(light.from.throughput * (light.f_cos * light.radiance)) * twin_weight *
+                              path.inverse_level);
+            }
         if (settings_.count_next_event && !light.delta) [[unlikely]]
             counts_.light(path, light.from.guidance.region, carried, scatter_pdf, light_pdf, light.from.light_samples);
         observer_.next_event(light, scatter_pdf, weight, carried);

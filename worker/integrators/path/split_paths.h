@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "worker/geometry/embree_scene.h"
+#include "worker/integrators/path/unguided_twin.h"
 
 namespace treefarm {
 
@@ -53,6 +54,7 @@ struct SplitPath {
     Rgb throughput;
     float spread;
     int first_exponent;
+    UnguidedTwin twin;
 
     /// Random numbers of split paths begin beyond those of any path: its number says where.
     std::uint32_t first_vertex() const {

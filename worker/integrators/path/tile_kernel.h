@@ -52,12 +52,15 @@ void render_with(const TileJob& tile) {
     };
     std::vector<PixelEstimate> blocks;
     PairedSamples pairs;
+    UnguidedBlock tells;
+    std::size_t group = 0;  // of the pixel that `tells` is about
     UnitCursor start(pass, unit), end(pass, unit);
     while (!start.done()) {
         kernel.clear();
         while (!kernel.full() && !start.done()) {
             kernel.add(key(start), scene.camera().generate(start.x, start.y, key(start)),
-                       settings.count_next_event ? guide.inverse_level(start.x, start.y) : 0.0f);
+                       settings.count_next_event || settings.twin ? guide.inverse_level(static_cast<std::uint32_t>(start.x),
+                                                                                      static_cast<std::uint32_t>(start.y)) : 0.0f);
             start.advance();
         }
         kernel.trace();
@@ -66,6 +69,8 @@ void render_with(const TileJob& tile) {
             if (end.sample % kBlockSamples == 0) {
                 blocks.emplace_back();
                 pairs.finish(stats.splitting);
+                if (settings.twin) tells.finish(group, stats.unguided);
+                group = pixel_group(static_cast<std::uint32_t>(end.x), static_cast<std::uint32_t>(end.y));
             }
             Rgb radiance = kernel.radiance(i);
             refuse_invalid(radiance, unit, end.x, end.y, end.sample, stats);
@@ -76,6 +81,11 @@ void render_with(const TileJob& tile) {
                 const double scale = std::ldexp(1.0, -radiance_exponent(record, settings.target));
                 pairs.add(scale * luminance(radiance), scale * kernel.unsplit(i));
             }
+            if constexpr (kGuided && kRecord)
+                if (settings.twin && is_radiance(kernel.radiance(i)))
+                    tells.add(static_cast<double>(luminance(radiance) * kernel.inverse_level(i)),
+                              static_cast<double>(kernel.unguided(i).moment),
+                              static_cast<double>(kernel.unguided(i).cost));
             if (end.advance()) {
                 pixels.push_back(reduce_blocks(blocks));
                 blocks.clear();
@@ -85,6 +95,7 @@ void render_with(const TileJob& tile) {
         stats.paths += kernel.count();
     }
     pairs.finish(stats.splitting);
+    if (settings.twin) tells.finish(group, stats.unguided);
 }
 
 /// Kernels of a guide for a kind of surface.
