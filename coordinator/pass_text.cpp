@@ -31,7 +31,8 @@ std::string guiding_text(Guiding verdict, const GuidingWorth& w) {
 std::string next_event_text(const NextEventVerdict& verdict) {
     if (verdict.saved > 0.98) return "";
     return fmt::format(
-        "; next event: hardly asked on {:.0f} % of the vertices, where it finds nearly nothing; saves about {:.0f} % of "
+        "; next event: hardly asked on {:.0f} % of the vertices, where it finds nearly nothing; saves about {:.0f} % "
+        "of "
         "the work",
         100 * verdict.low, 100 * (1 - verdict.saved));
 }

@@ -19,9 +19,9 @@ namespace treefarm {
 
 /// What is remembered of verdicts on guiding, from pass to pass.
 struct GuidingMemory {
-    double mistrust = 1;               ///< how many times as noisy unguided passes were as guided ones had said
-    std::uint32_t changed = 0;         ///< number of the first pass after the last change; 0: none
-    GuidingWorth last;                 ///< of the last guided pass
+    double mistrust = 1;        ///< how many times as noisy unguided passes were as guided ones had said
+    std::uint32_t changed = 0;  ///< number of the first pass after the last change; 0: none
+    GuidingWorth last;          ///< of the last guided pass
 
     template <class Archive>
     void serialize(Archive& archive) {

@@ -15,8 +15,7 @@ void PassWork::deliver(const WorkUnit& unit, UnitOutput& output) {
     const std::shared_lock bundle(bundle_);
     if (accumulator_) {
         const double start = thread_cpu_seconds();
-        accumulator_->commit(output.log.records, output.log.counts, output.log.caps,
-                             output.log.next_event);
+        accumulator_->commit(output.log.records, output.log.counts, output.log.caps, output.log.next_event);
         output.stats.splat_seconds += thread_cpu_seconds() - start;
     }
     if (!output.splats.empty()) add_splats(output.splats);

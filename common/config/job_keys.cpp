@@ -146,9 +146,10 @@ std::vector<JobKey> make_job_keys() {
         "when emitters are sampled directly; kickstart: in passes that start with fewer than 128 spp done; auto: at "
         "every vertex, a quarter or a sixteenth of them, as finished passes show",
         [](auto& j) -> auto& { return j.integrator.next_event; },
-        std::vector<std::pair<std::string, NextEvent>>{
-            {"always", NextEvent::always}, {"never", NextEvent::never}, {"kickstart", NextEvent::kickstart},
-            {"auto", NextEvent::automatic}}));
+        std::vector<std::pair<std::string, NextEvent>>{{"always", NextEvent::always},
+                                                       {"never", NextEvent::never},
+                                                       {"kickstart", NextEvent::kickstart},
+                                                       {"auto", NextEvent::automatic}}));
     add(word_key(
         "integrator.mis", "heuristic that weighs next event against scattering (Veach 1997); equal: half and half",
         [](auto& j) -> auto& { return j.integrator.mis; },

@@ -57,8 +57,8 @@ GuidingWorth guiding_worth(const UnguidedSums& sums, std::span<const PixelEstima
     for (std::size_t g = 0; g < kGroups; ++g) {
         const double moment = static_cast<double>(sums.guided[g]) * UnguidedSums::kMomentUnit / samples;
         guided[g] = std::max(moment - means[g], 0.0) * samples / (samples - 1);
-        unguided[g] = static_cast<double>(sums.unguided[g]) * UnguidedSums::kMomentUnit / samples -
-                      (moment - guided[g]);
+        unguided[g] =
+            static_cast<double>(sums.unguided[g]) * UnguidedSums::kMomentUnit / samples - (moment - guided[g]);
         all_guided += guided[g];
         all_unguided += unguided[g];
     }
@@ -70,8 +70,7 @@ GuidingWorth guiding_worth(const UnguidedSums& sums, std::span<const PixelEstima
     worth.guided_variance = all_guided / count;
     worth.unguided_variance = std::max(all_unguided / count, kLeast * std::max(worth.guided_variance, kLeast));
     if (!(worth.guided_variance > 0 && guided_cost > 0 && worth.unguided_cost > 0)) return {};
-    worth.worth =
-        worth.unguided_variance * worth.unguided_cost / (worth.guided_variance * worth.guided_cost);
+    worth.worth = worth.unguided_variance * worth.unguided_cost / (worth.guided_variance * worth.guided_cost);
     // The spread of the logarithm, by leaving groups out.
     double sum = 0, squares = 0, weight = 0, weights = 0;
     for (std::size_t g = 0; g < kGroups; ++g) {

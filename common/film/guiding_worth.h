@@ -45,13 +45,13 @@ class UnguidedBlock {
 
 /// Variance times cost of unguided samples over that of guided ones: above 1 guiding pays.
 struct GuidingWorth {
-    double worth = 0;  ///< 0: not known
-    double error = 0;  ///< standard error of its logarithm
-    double known = 0;  ///< pixel groups that it rests on, as many as would weigh alike
+    double worth = 0;                                   ///< 0: not known
+    double error = 0;                                   ///< standard error of its logarithm
+    double known = 0;                                   ///< pixel groups that it rests on, as many as would weigh alike
     double unguided_variance = 0, guided_variance = 0;  ///< of a sample
     double unguided_cost = 0, guided_cost = 0;          ///< of a sample, in rays
 
-    double low() const;   ///< by one standard error
+    double low() const;  ///< by one standard error
     double high() const;
 };
 

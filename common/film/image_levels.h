@@ -12,8 +12,8 @@ namespace treefarm {
 /// The light about each pixel of an image, by which its noise is judged: the mean luminance of its block of 8 x 8
 /// pixels, at least a tenth of the image's. Without that floor a corner lit through a keyhole would be all that counts.
 struct ImageLevels {
-    std::size_t columns = 0;             ///< of blocks
-    std::vector<float> inverse_levels;   ///< one over the light of each block, row by row; empty: the image is black
+    std::size_t columns = 0;            ///< of blocks
+    std::vector<float> inverse_levels;  ///< one over the light of each block, row by row; empty: the image is black
 
     float at(std::size_t pixel, std::size_t width) const;
 };

@@ -50,7 +50,7 @@ struct TraceStats {
     std::uint64_t invalid_samples = 0;
     NextEventSums next_event{};  ///< where it is decided; moments where nothing is recorded by region
     SplittingSums splitting;
-    UnguidedSums unguided;  ///< where a guided pass asks whether it pays
+    UnguidedSums unguided;                             ///< where a guided pass asks whether it pays
     std::vector<InvalidSample> first_invalid;          ///< at most kMaxReported of them, to reproduce
     double trace_seconds = 0;                          ///< thread-seconds in the tile renderer
     double splat_seconds = 0;                          ///< thread-seconds adding records to the tree's sums

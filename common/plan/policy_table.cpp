@@ -26,9 +26,11 @@ constexpr const char* kBudgets = "bench/log/2026-11-25-error.md";
 constexpr const char* kError = "bench/log/2026-11-25-error.md";
 constexpr const char* kProgram2017 = "the program of Mueller et al. 2017";
 constexpr const char* kProgram2019 = "the program of Mueller et al. 2019";
+constexpr const char* kDecisions = "bench/log/2026-11-27-decisions.md";
 constexpr const char* kGuess = "chosen, not measured";
 
 constexpr Policy::Guiding kGuiding = kPolicy.guiding;
+constexpr Policy::NextEvent kNextEvent = kPolicy.next_event;
 constexpr Policy::Splitting kSplitting = kPolicy.splitting;
 constexpr Policy::Walk kWalk = kPolicy.walk;
 constexpr Policy::Learning kLearning = kPolicy.learning;
@@ -65,12 +67,39 @@ constexpr std::array kEntries = {
     entry("guiding.probe_pixels", kGuiding.probe_pixels,
           "pixels that a probing pass renders unguided, within 1/128 and 1/8 of the film", kAuto),
     entry("guiding.least_probe_pixels", kGuiding.least_probe_pixels, "fewer pixels tell nothing", kGuess),
+    entry("guiding.mistrusted", kGuiding.mistrusted,
+          "unguided passes that are so many times as noisy as guided samples had said are believed instead",
+          kDecisions),
+    entry("guiding.giving_up", kGuiding.giving_up,
+          "paths are unguided where variance times cost of unguided samples over that of guided ones is below this",
+          kDecisions),
+    entry("guiding.giving_up_early", kGuiding.giving_up_early, "in passes shorter than least_settled_spp", kDecisions),
+    entry("guiding.giving_up_errors", kGuiding.giving_up_errors, "by so many standard errors", kDecisions),
+    entry("guiding.taking_up", kGuiding.taking_up, "and guided again where it is above this", kDecisions),
+    entry("guiding.least_settled_spp", kGuiding.least_settled_spp, "trees of shorter passes still get much better, spp",
+          kDecisions),
     entry("guiding.probe_block", kGuiding.probe_block,
           "side of the blocks of pixels that a pixel's level is taken from, pixels", kGuess),
     entry("guiding.probe_floor", kGuiding.probe_floor,
           "darker blocks count as bright as this share of the image's mean", kGuess),
     entry("guiding.probe_evenly", kGuiding.probe_evenly,
           "what counts of a pixel for the coverage, at most, over its block's mean", kGuess),
+    entry("next_event.least_vertices", kNextEvent.least_vertices,
+          "regions that know fewer vertices decide as the one that they came from", kDecisions),
+    entry("next_event.standard_errors", kNextEvent.standard_errors,
+          "by how many standard errors fewer light samples must win", kDecisions),
+    entry("next_event.least_gain", kNextEvent.least_gain, "and by this share of the region's own noise and cost",
+          kDecisions),
+    entry("next_event.sample_cost", kNextEvent.sample_cost, "cost of a light sample without its ray, in rays",
+          kDecisions),
+    entry("next_event.shadow_ray_cost", kNextEvent.shadow_ray_cost, "cost of a shadow ray and its weights, in rays",
+          kDecisions),
+    entry("next_event.least_rest", kNextEvent.least_rest,
+          "part of all noise or cost that no decision is believed to take away", kGuess),
+    entry("next_event.least_level", kNextEvent.least_level,
+          "darker blocks count as bright as this share of the image's mean", kDecisions),
+    entry("next_event.level_block", kNextEvent.level_block, "side of the blocks that noise is relative to, pixels",
+          kGuess),
     entry("splitting.usual", kSplitting.usual, "as how many paths one may go on (guiding.splitting = 0)", kSplits),
     entry("splitting.least_share", kSplitting.least_share,
           "of what the first vertex sends to the camera, what each path of a split is expected to carry at least",

@@ -43,8 +43,7 @@ void resolve_rules(Job::Guiding& guiding) {
 bool may_decide_next_event(const Job& job) {
     return estimator_of(job.integrator.type).guides && job.guiding.preset.empty() && !job.budget.strict &&
            job.integrator.mis == MisHeuristic::balance && job.guiding.candidates == 1 &&
-           job.guiding.target == GuidingTarget::radiance &&
-           job.guiding.combination == Combination::inverse_variance;
+           job.guiding.target == GuidingTarget::radiance && job.guiding.combination == Combination::inverse_variance;
 }
 
 /// Takes away what the job's estimator does not use.

@@ -27,11 +27,11 @@ SceneFacts facts_of(const Scene& scene);
 /// gives it back, so it can be written as a job (resolved.toml) and sent to workers.
 struct Resolved : Job {
     SceneFacts scene_facts;
-    bool guides = false;            ///< a tree is learned, and guides paths
-    bool learns_views = false;      ///< the tree has a view-dependent part
-    bool learns_lights = false;     ///< regions learn how next event chooses among emitters
+    bool guides = false;              ///< a tree is learned, and guides paths
+    bool learns_views = false;        ///< the tree has a view-dependent part
+    bool learns_lights = false;       ///< regions learn how next event chooses among emitters
     bool decides_next_event = false;  ///< finished passes say how often emitters are sampled
-    bool cells_follow_use = false;  ///< regions get fewer cells where the BSDF is sampled rather than their tree
+    bool cells_follow_use = false;    ///< regions get fewer cells where the BSDF is sampled rather than their tree
 };
 
 /// The only place that knows what a setting left to the program means (docs/generated/jobs.md). Pure.

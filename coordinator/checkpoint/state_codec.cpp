@@ -98,9 +98,8 @@ void serialize(Archive& a, InvalidSample& s) {
 template <class Archive>
 void serialize(Archive& a, TraceStats& s) {
     a(s.paths, s.nonzero_paths, s.rays, s.shadow_rays, s.vertices, s.records, s.probe_paths, s.probe_rays,
-      s.split_path_rays, s.invalid_samples, s.next_event, s.unguided.guided, s.unguided.unguided,
-      s.unguided.cost, s.splitting, s.first_invalid, s.trace_seconds, s.splat_seconds,
-      s.phase_seconds);
+      s.split_path_rays, s.invalid_samples, s.next_event, s.unguided.guided, s.unguided.unguided, s.unguided.cost,
+      s.splitting, s.first_invalid, s.trace_seconds, s.splat_seconds, s.phase_seconds);
 }
 
 template <class Archive>
@@ -152,9 +151,9 @@ void serialize(Archive& a, RefineReport& r) {
 
 template <class Archive>
 void serialize(Archive& a, PassReport& r) {
-    a(r.plan, r.spp_done, r.workers, r.threads, r.seconds, r.stats, r.variance, r.error, r.guiding_gain, r.guiding_worth, r.guiding,
-      r.splitting_gain, r.splitting, r.run_seconds, r.halving, r.target, r.tree, r.update_bytes, r.touched_cells,
-      r.caps, r.splat_caps, r.splat_bytes, r.saturated_splats, r.refine);
+    a(r.plan, r.spp_done, r.workers, r.threads, r.seconds, r.stats, r.variance, r.error, r.guiding_gain,
+      r.guiding_worth, r.guiding, r.splitting_gain, r.splitting, r.run_seconds, r.halving, r.target, r.tree,
+      r.update_bytes, r.touched_cells, r.caps, r.splat_caps, r.splat_bytes, r.saturated_splats, r.refine);
 }
 
 template <class Archive>

@@ -48,7 +48,7 @@ LocalRender render_locally(const Scene& scene, const Job& asked) {
             if (pass.layers.estimates) film.add(unit, output.pixels);
             splats.add(output.splats.summed(), output.splats.caps());
             stats.add(output.stats);
-            if (pass.record) 
+            if (pass.record)
                 accumulator.commit(output.log.records, output.log.counts, output.log.caps, output.log.next_event);
         }
         run.stats.push_back(stats);

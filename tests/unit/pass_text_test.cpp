@@ -95,18 +95,30 @@ TEST(PassText, WhatIsNotKnownIsNotSaid) {
 
 TEST(PassText, TheVerdictOnGuidingSaysWhy) {
     PassReport report = sixth_pass();
-    report.guiding_gain = {.all = 0.5, .bulk = 0.4, .coverage = 0.31};
-    EXPECT_NE(pass_summary(report, 7).find("; guiding makes 2 times the noise at equal cost;"), std::string::npos);
-    report.guiding_gain.all = 3;
-    EXPECT_NE(pass_summary(report, 7).find("; guiding makes 3 times less noise at equal cost;"), std::string::npos);
-    report.guiding = Guiding::pays;
-    EXPECT_NE(pass_summary(report, 7).find("guided to the end: unguided samples find only 31 % of the light evenly"),
-              std::string::npos);
-    report.guiding = Guiding::loses;
+    report.guiding_worth = {.worth = 6,
+                            .error = std::log(1.5),
+                            .known = 20,
+                            .unguided_variance = 18,
+                            .guided_variance = 2,
+                            .unguided_cost = 3,
+                            .guided_cost = 4.5};
     EXPECT_NE(
-        pass_summary(report, 7).find("unguided from here on: guiding makes 2.5 times the noise at equal cost, but "
-                                     "for the worst 1 % of the pixels"),
-        std::string::npos);
+        pass_summary(report, 7).find("; guided: an unguided sample would be 9 times as noisy (between 6 and 14), a "
+                                     "guided one costs 1.5 times as much; asked again after each pass;"),
+        std::string::npos)
+        << pass_summary(report, 7);
+    report.guiding = Guiding::loses;
+    EXPECT_NE(pass_summary(report, 7).find("; unguided: an unguided sample"), std::string::npos);
+}
+
+TEST(PassText, NextEventIsSpokenOfWhereItIsSaved) {
+    PassReport report = sixth_pass();
+    report.refine.next_event = {0.99, 0.4};
+    EXPECT_EQ(pass_summary(report, 7).find("next event"), std::string::npos);
+    report.refine.next_event = {0.69, 0.62};
+    EXPECT_NE(pass_summary(report, 7).find("next event: hardly asked on 62 % of the vertices, where it finds nearly "
+                                           "nothing; saves about 31 % of the work"),
+              std::string::npos);
 }
 
 TEST(PassText, TheSummaryEndsInWhatIsLeftToDo) {

@@ -40,7 +40,7 @@ struct RecordLog {
     std::vector<std::uint32_t> counts;  ///< recorded vertices per distribution, those without radiance included
     UpdateCaps caps;
     std::vector<NextEventSums> next_event;  ///< per region, where next event is decided
-    std::vector<Record> drafts;  ///< room for a path's records, of which only some are kept
+    std::vector<Record> drafts;             ///< room for a path's records, of which only some are kept
 
     /// Empties the log, keeping its memory. `regions`: of which direct light is summed.
     void begin(std::uint32_t distributions, std::uint32_t regions = 0) {

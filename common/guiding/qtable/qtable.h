@@ -6,8 +6,8 @@
 
 #include "common/guiding/regions/first_model.h"
 #include "common/guiding/regions/light_probabilities.h"
-#include "common/guiding/regions/next_event.h"
 #include "common/guiding/regions/mixture.h"
+#include "common/guiding/regions/next_event.h"
 #include "common/guiding/regions/region_sampler.h"
 #include "common/guiding/regions/strata.h"
 

@@ -122,10 +122,10 @@ std::uint8_t read_next_event(ByteReader& in) {
 
 void read_optional(ByteReader& in, RegionModel& model, std::uint32_t regions) {
     const auto present = in.get<std::uint8_t>();
-    if ((present & ~(kHasLights | kHasFlux | kHasNextEvent | kHasImage)) != 0) throw FormatError("what a tree has learned is malformed");
-    const std::size_t bytes =
-        (present & kHasLights ? sizeof(LightProbabilities) : 0) + (present & kHasFlux ? sizeof(float) : 0) +
-        (present & kHasNextEvent ? 1 : 0);
+    if ((present & ~(kHasLights | kHasFlux | kHasNextEvent | kHasImage)) != 0)
+        throw FormatError("what a tree has learned is malformed");
+    const std::size_t bytes = (present & kHasLights ? sizeof(LightProbabilities) : 0) +
+                              (present & kHasFlux ? sizeof(float) : 0) + (present & kHasNextEvent ? 1 : 0);
     if (bytes != 0 && regions > in.remaining() / bytes) throw FormatError("what a tree has learned is cut short");
     if (present & kHasLights) model.light_probabilities.resize(regions);
     for (LightProbabilities& probabilities : model.light_probabilities) {

@@ -56,9 +56,9 @@ struct SumsShape {
     std::uint32_t regions = 0;
     std::uint32_t views = 0;
     std::uint32_t cells = 0;
-    bool with_mixture = false;  ///< mixture histograms: kMixtureBins more sums per distribution
-    bool with_lights = false;   ///< sums of emitters: kLightClusters more sums per region
-    bool with_visits = false;   ///< records per cell that count: one more sum per cell
+    bool with_mixture = false;     ///< mixture histograms: kMixtureBins more sums per distribution
+    bool with_lights = false;      ///< sums of emitters: kLightClusters more sums per region
+    bool with_visits = false;      ///< records per cell that count: one more sum per cell
     bool with_next_event = false;  ///< sums of direct light: kNextEventSums more per region
 
     SumsShape() = default;

@@ -13,8 +13,8 @@ namespace treefarm {
 /// Settings of the walk besides the scene: fixed for a pass.
 struct PathSettings {
     int max_depth;
-    bool next_event;   ///< a flag, not a kernel of its own: one predictable branch per vertex
-    bool delta_alone;  ///< no next event, but for the lights that nothing else finds
+    bool next_event;        ///< a flag, not a kernel of its own: one predictable branch per vertex
+    bool delta_alone;       ///< no next event, but for the lights that nothing else finds
     bool thin_next_event;   ///< some vertices have fewer light samples than one
     bool count_next_event;  ///< for whoever decides how many
     bool twin;              ///< guided paths tell what unguided ones would be like

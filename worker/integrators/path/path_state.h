@@ -20,14 +20,14 @@ struct PathState {
     int depth;             ///< edges so far
     Ray ray;
     Rgb radiance, throughput;
-    float scatter_pdf;           ///< infinite after a delta lobe: next event cannot have found what it hits
-    float spread;                ///< product of eta^2: what refraction took from the throughput and gives back later
+    float scatter_pdf;             ///< infinite after a delta lobe: next event cannot have found what it hits
+    float spread;                  ///< product of eta^2: what refraction took from the throughput and gives back later
     float scatter_light_samples;   ///< of next event at the vertex that the ray left
     std::uint32_t scatter_region;  ///< of that vertex
     float inverse_level;           ///< one over the light about the pixel; 0: not known
     float scatter_bsdf_pdf;        ///< that scattering would have had unguided; infinite after a delta lobe
     UnguidedTwin twin;             ///< where PathSettings::twin asks for it
-    LightReceiver scatter_from;  ///< the place, as next event chose an emitter there
+    LightReceiver scatter_from;    ///< the place, as next event chose an emitter there
     LightWidthStore scatter_widths;  ///< of scatter_from
     bool probe;                      ///< unguided in a pass that probes whether guiding pays
     int first_exponent;              ///< of the quanta where the camera's ray arrived: how bright it is there
@@ -45,7 +45,7 @@ struct PathState {
     std::optional<Surface> surface;
     float light_samples;    ///< of next event here, on average
     bool samples_emitters;  ///< by chance or always
-    std::uint8_t lane;  ///< its slot in what the batch has drawn
+    std::uint8_t lane;      ///< its slot in what the batch has drawn
     typename G::Scatter scatter;
     Rgb weight;  ///< f |cos| over the density of the sampled direction
 
@@ -84,8 +84,7 @@ struct PathState {
 
     /// One of the paths that this path goes on as, from where its ray has arrived.
     SplitPath split_off() const {
-        return {origin,     split_budget, depth,          ray,             embree_hit,
-                throughput, spread,       first_exponent, twin.split_off()};
+        return {origin, split_budget, depth, ray, embree_hit, throughput, spread, first_exponent, twin.split_off()};
     }
 
     /// Goes on as one that the path of this key was split into; it adds to a radiance of its own.

@@ -285,7 +285,8 @@ class PathWalk {
         path.scatter_from = receiver(path);
         path.scatter_light_samples = path.light_samples;
         if constexpr (kConverts) path.scatter_region = path.guidance.region;
-        if (surface.smooth() && samples_emitter(path)) emitters_.keep(path.lane, path.scatter_from, path.scatter_widths);
+        if (surface.smooth() && samples_emitter(path))
+            emitters_.keep(path.lane, path.scatter_from, path.scatter_widths);
         // One question for what is rare: the same bits say that a lobe may be delta, or refract.
         const bool rare = Surface::kGeneral && surface.delta_or_transmitting();
         if constexpr (Surface::kTransmits)
@@ -378,8 +379,8 @@ class PathWalk {
             counts_.traced(path.guidance.region);
         const std::uint32_t vertex = kRecord ? recorders_[index].vertex_count() : 0;
         pending_.add(path.hit, light,
-                     {index, vertex, light.delta ? 1.0f : path.light_samples, !settings_.delta_alone && at.probabilities,
-                      path.guidance, path.throughput},
+                     {index, vertex, light.delta ? 1.0f : path.light_samples,
+                      !settings_.delta_alone && at.probabilities, path.guidance, path.throughput},
                      bsdf);
     }
 

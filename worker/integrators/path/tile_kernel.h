@@ -58,9 +58,11 @@ void render_with(const TileJob& tile) {
     while (!start.done()) {
         kernel.clear();
         while (!kernel.full() && !start.done()) {
-            kernel.add(key(start), scene.camera().generate(start.x, start.y, key(start)),
-                       settings.count_next_event || settings.twin ? guide.inverse_level(static_cast<std::uint32_t>(start.x),
-                                                                                      static_cast<std::uint32_t>(start.y)) : 0.0f);
+            kernel.add(
+                key(start), scene.camera().generate(start.x, start.y, key(start)),
+                settings.count_next_event || settings.twin
+                    ? guide.inverse_level(static_cast<std::uint32_t>(start.x), static_cast<std::uint32_t>(start.y))
+                    : 0.0f);
             start.advance();
         }
         kernel.trace();

@@ -9,8 +9,8 @@ namespace treefarm {
 /// as 1 / ratio says, and carry `ratio` times as much. So guided samples tell how noisy and how costly unguided ones
 /// would be, also by light that few unguided samples meet (docs/design/guiding.md, "auto").
 ///
-/// The expectation of `moment`, the sum over all contributions of what each adds to the square of what was found so far,
-/// times that likelihood, is the second moment of unguided samples exactly.
+/// The expectation of `moment`, the sum over all contributions of what each adds to the square of what was found so
+/// far, times that likelihood, is the second moment of unguided samples exactly.
 class UnguidedTwin {
   public:
     /// Goes on along a direction, with the densities that guided and unguided paths draw it with, or through roulette,
