@@ -98,7 +98,7 @@ TEST_F(SplatFarmTest, AKilledWorkersSplatsAreMadeAgainAndNoneCountsTwice) {
     };
     EXPECT_EQ(render({.gather = 20, .lost = 0.3, .dismiss = 0.5}).image_hash, undisturbed);
     EXPECT_EQ(lost_, std::set<int>{1});
-    EXPECT_GT(reissued_, 0u);
+    EXPECT_GT(reissued_ + copied_, 0u);
 }
 
 TEST_F(SplatFarmTest, SplatsThatLieAreRefused) {
@@ -107,6 +107,7 @@ TEST_F(SplatFarmTest, SplatsThatLieAreRefused) {
     channels_.clear();
     faulty_.clear();
     make_workers(2);
+    first_ = 0;
     std::atomic<bool> sent = false;
     renderers_[1] = make_patient(sent);
     faulty_[0]->outgoing = [&](Bytes& bytes) {
