@@ -182,7 +182,7 @@ constexpr std::uint32_t kOrigin = section_tag("IDNT"), kHistory = section_tag("F
                         kBegunSplats = section_tag("PSPL"), kBegunSums = section_tag("PSUM");
 
 constexpr std::uint32_t version_of(std::uint32_t tag) {
-    return tag == kHistory ? 2 : 1;
+    return tag == kHistory || tag == kReports || tag == kBegun ? 2 : 1;
 }
 
 /// `room`: bytes that it may take at the most, where they are many.

@@ -18,6 +18,14 @@ void only_light_paths(PassPlan& pass) {
     pass.record = false;
 }
 
+void only_chains(PassPlan& pass) {
+    splat(pass);
+    pass.layers.splats.chains = true;
+    pass.layers.estimates = pass.units.tiles = false;
+    pass.units.chains = 30;
+    pass.record = false;
+}
+
 void tiles_and_light_paths(PassPlan& pass) {
     splat(pass);
     pass.units.light_paths = 2 * pass.spp;
@@ -60,7 +68,8 @@ TEST_P(Kinds, AnyNumberOfWorkersGivesTheSameBits) {
     EXPECT_NE(image, hash_text(truth().image_hash));
 }
 
-INSTANTIATE_TEST_SUITE_P(SplatFarmTest, Kinds, ::testing::Values(&only_light_paths, &tiles_and_light_paths, &splat));
+INSTANTIATE_TEST_SUITE_P(SplatFarmTest, Kinds,
+                         ::testing::Values(&only_light_paths, &tiles_and_light_paths, &splat, &only_chains));
 
 TEST_F(SplatFarmTest, LightPathsAloneMakeUpTheImage) {
     change_pass_ = only_light_paths;
