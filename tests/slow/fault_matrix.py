@@ -49,6 +49,7 @@ FAULTS = {
     "coordinator stands still 3 s": ([COORDINATOR], stop(3.0)),
     "coordinator told to stop": ([COORDINATOR], give(signal.SIGTERM)),
     "mpirun killed": ([MPIRUN], give(signal.SIGKILL)),
+    "mpirun told to stop": ([MPIRUN], give(signal.SIGTERM)),
     "mpirun stands still 3 s": ([MPIRUN], stop(3.0)),
     "all killed": ((MPIRUN, COORDINATOR, *WORKERS), give(signal.SIGKILL)),
 }

@@ -128,7 +128,7 @@ def killed_at_limit(bench):
     """Never told, ended at the limit as Slurm ends jobs, three times; requeued by hand."""
     words, truth = bench.words_for(200)
     folder = bench.work / "killed"
-    job = bench.submit(folder, words, "--nodes=3", "--time=1", "--signal=B:WINCH@1")
+    job = bench.submit(folder, words, "--nodes=3", "--time=1", "--signal=B:28@1")  # SIGWINCH, which nobody heeds
     for _ in range(3):
         if bench.slurm.wait(job, 200) != ["TIMEOUT"]:
             return f"FAILED: {bench.slurm.states(job)} instead of TIMEOUT: {bench.log(job)}"
