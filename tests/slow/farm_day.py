@@ -14,6 +14,7 @@ import json
 import os
 import pathlib
 import re
+import resource
 import shutil
 import signal
 import subprocess
@@ -124,9 +125,10 @@ class Day:
                 "--set", "farm.checkpoint_seconds=1"]
 
     def _samples_of(self, seconds):
-        begin = time.monotonic()
+        before = resource.getrusage(resource.RUSAGE_CHILDREN)
         self.alone(self.words(FRAMES[-1], 64), folder=self.work / "speed")
-        return max(64, int(64 * seconds / (time.monotonic() - begin)))
+        after = resource.getrusage(resource.RUSAGE_CHILDREN)
+        return max(64, int(64 * seconds / (after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime)))
 
     def alone(self, words, *options, folder):
         subprocess.run([self.program, "render", *words, *options, "--run-dir", str(folder), "--quiet"], check=True, env=environment())
@@ -167,7 +169,7 @@ class Day:
         self.say(f"frame {frame} waits for another node")
 
     def preempt(self):
-        """An urgent job takes a node; where its frame is done before that, the next one is tried."""
+        """An urgent job takes a node; where a frame is done before that and leaves one free, the next one is tried."""
         for _ in range(8):
             self.wait_for(self.in_hand, "a frame in hand")
             before = self.restarts()
@@ -238,7 +240,7 @@ def take(browser, file):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("treefarm")
-    parser.add_argument("--seconds", type=float, default=4, help="that a frame takes this machine, alone")
+    parser.add_argument("--seconds", type=float, default=8, help="of a core that a frame takes")
     parser.add_argument("--patience", type=float, default=1200, help="seconds to wait for anything; more where the machine is busy")
     parser.add_argument("--picture", help="of the page, in the middle of the day")
     arguments = parser.parse_args()
@@ -263,7 +265,8 @@ def main():
         except AssertionError as problem:
             print(f"FAILED: {problem}")
             for log in sorted(work.glob("log-*")):
-                print(f"{log.name}: {log.read_text()}")
+                if " image " not in (text := log.read_text()):  # not done
+                    print(f"{log.name}: {text}")
             sys.exit(1)
         finally:
             listener.server.kill()

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Faults x moments x transports: does each in turn to a small render of four ranks under treefarm launch.
 
-usage: fault_matrix.py TREEFARM SCENE [--fault NAME] [--moments N] [--transport NAME] [--seed S]
+usage: fault_matrix.py TREEFARM SCENE [--fault NAME] [--moments N] [--transport NAME] [--seed S] [--deadline S]
 
 Passes if each render ends with exit code 0 and the bits of the undisturbed one, within the deadline, and leaves no process, no shared
 memory and no temporary folder. Prints a line per failure and a table.
@@ -98,10 +98,10 @@ def one(arguments, folder, fault, moment, transport, truth, dice):
     hit = [there[victim] for victim in victims if victim in there]
     act(hit)
     try:
-        output, _ = process.communicate(timeout=DEADLINE)
+        output, _ = process.communicate(timeout=arguments.deadline)
     except subprocess.TimeoutExpired:
         kill([*started(folder), process.pid])
-        return f"hangs: {process.communicate()[0]}", DEADLINE, bool(hit)
+        return f"hangs: {process.communicate()[0]}", arguments.deadline, bool(hit)
     seconds = time.monotonic() - begin
     if fault in ASKED and process.returncode == 3:
         if any((folder / "checkpoint").glob("?.tfc")):
@@ -120,6 +120,7 @@ def main():
     parser.add_argument("--moments", type=int, default=len(MOMENTS), help="of each fault, spread over all")
     parser.add_argument("--transport", choices=TRANSPORTS, action="append")
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--deadline", type=float, default=DEADLINE, help="seconds for each; more where the machine is busy")
     arguments = parser.parse_args()
     if shutil.which("mpirun") is None:
         print("skipped: there is no mpirun")

@@ -7,7 +7,6 @@ usage: slurm.py TREEFARM SCENE [--only NAME]
 
 Passes if each ends with the bits of one process that was never stopped. Skips where there can be no Slurm.
 """
-import argparse
 import os
 import pathlib
 import subprocess
@@ -17,6 +16,7 @@ import time
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tests" / "support"))
+from cases import parser_of, run_cases, skip_for
 from launched_render import environment, hashes
 from local_slurm import LocalSlurm, why_not
 
@@ -212,28 +212,19 @@ CASES = {"calm": calm, "srun --mpi=pmix": plain_srun, "no variables": without_en
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("treefarm")
-    parser.add_argument("scene")
-    parser.add_argument("--only", choices=CASES, action="append")
-    arguments = parser.parse_args()
-    if reason := why_not():
-        print(f"skipped: {reason}")
-        sys.exit(77)
-    failed = 0
+    arguments = parser_of(__doc__, CASES).parse_args()
+    skip_for(why_not())
     with tempfile.TemporaryDirectory(dir="/var/tmp") as folder:
         bench = Bench(arguments, pathlib.Path(folder))
         with bench.slurm as slurm:
-            if not slurm.has_pmix():
-                print("skipped: this Slurm has no PMIx")
-                sys.exit(77)
-            for name in arguments.only or CASES:
-                begin = time.monotonic()
+            skip_for("" if slurm.has_pmix() else "this Slurm has no PMIx")
+
+            def case(name):
                 result = CASES[name](bench)
                 slurm.run("scancel", "--user=root", check=False)
-                failed += result.startswith("FAILED")
-                print(f"{name:22} {result} ({time.monotonic() - begin:.0f} s)", flush=True)
-    print(f"{failed} failed")
+                return result
+
+            failed = run_cases(arguments.only or CASES, case)
     sys.exit(1 if failed else 0)
 
 

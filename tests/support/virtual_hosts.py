@@ -54,7 +54,7 @@ class VirtualHosts:
         self.names = names or [f"vh{k}" for k in range(count)]
         self.prefix = f"tf{os.getpid()}"
         self.switch = f"{self.prefix}sw"
-        self.keepers, self.inits = [], []
+        self.keepers, self.inits, self.cables = [], [], []
         self.door = None
         self.environment = dict(os.environ)  # of what the agent starts, as a login would have it
         self.hosts_file = self.folder / "etc-hosts"
@@ -178,6 +178,28 @@ class VirtualHosts:
         return all(subprocess.run(["tc", flag, space, "qdisc", "replace", "dev", card, "root", *discipline],
                                   capture_output=True).returncode == 0 for flag, space, card in ends)
 
+    def lengthen(self, k, seconds):
+        """Gives a host a cable on which everything takes so much longer; by the kernel where it can do that. False: it cannot be done."""
+        if self.shape(k, "netem", "delay", f"{round(1000 * seconds)}ms"):
+            return True
+        if not pathlib.Path("/dev/net/tun").exists():
+            return False
+        space, port = f"{self.prefix}h{k}", f"port{k}"
+        facts = json.loads(subprocess.run(["ip", "-n", space, "-j", "link", "show", "eth0"], check=True, capture_output=True).stdout)
+        run("ip", "-n", space, "link", "del", "eth0")  # and the other end with it
+        program = pathlib.Path(__file__).with_name("long_cable.py")
+        cable = subprocess.Popen([sys.executable, str(program), self.switch, port, space, "eth0", str(seconds)],
+                                 stdout=subprocess.PIPE, text=True)
+        self.cables.append(cable)
+        if cable.stdout.readline() != "ready\n":
+            return False
+        # Others know the host by its card's address.
+        run("ip", "-n", space, "link", "set", "eth0", "address", facts[0]["address"])
+        run("ip", "-n", self.switch, "link", "set", port, "master", "br0", "up")
+        run("ip", "-n", space, "link", "set", "eth0", "up")
+        run("ip", "-n", space, "addr", "add", f"{self.address(k)}/24", "dev", "eth0")
+        return True
+
     def crash(self, k):
         """All processes of the host end at once, and its network with them."""
         self.cut(k)
@@ -194,7 +216,7 @@ class VirtualHosts:
                 os.kill(init, signal.SIGKILL)
             except ProcessLookupError:
                 pass
-        for keeper in self.keepers:
+        for keeper in [*self.cables, *self.keepers]:
             keeper.kill()
             keeper.wait()
         time.sleep(0.1)
