@@ -60,6 +60,18 @@ TRANSPORTS = {"vader": None, "tcp": "tcp,self"}
 MOMENTS = ["start"] * 2 + ["hello"] * 2 + ["boundary"] * 3 + ["anywhere"] * 4 + ["end"]
 
 
+LONG = 60  # seconds, after which one wants to know what took them
+
+
+def launch_log(folder):
+    """What launch noted."""
+    try:
+        lines = (folder / "launch" / "log").read_text(errors="replace").splitlines()
+    except OSError:
+        return "no log"
+    return " | ".join(line for line in lines if line.startswith("launch:"))
+
+
 def passes_done(folder):
     try:
         return len((folder / "passes.csv").read_text().splitlines()) - 1
@@ -141,6 +153,8 @@ def main():
                     failure, seconds, hit = one(arguments, folder, fault, moment, transport, truth, dice)
                     if failure:
                         print(f"{fault}, {moment}, {transport}: {failure}", flush=True)
+                    if failure or seconds > LONG:
+                        print(f"{fault}, {moment}, {transport}: {seconds:.1f} s: {launch_log(folder)}", flush=True)
                     right += not failure
                     hits += hit
                     longest = max(longest, seconds)
