@@ -78,8 +78,8 @@ CoordinatorEnd guarded(const std::function<CoordinatorEnd()>& act) {
     }
 }
 
-/// Whether mpirun alone wanted an end. Slurm tells a step's tasks by their parent, too, but a job that is preempted is to
-/// end.
+/// Whether mpirun alone wanted an end. Slurm tells a step's tasks by their parent, too, but a job that is preempted is
+/// to end.
 bool ended_by_launcher(const LaunchEnvironment& launch, const InterruptWatch& watch) {
     return watch.told_by_parent() && !launch.in_slurm;
 }

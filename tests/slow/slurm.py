@@ -3,7 +3,7 @@
 """Renders in jobs of a real Slurm (tests/support/local_slurm.py) by deploy/slurm/render.sbatch: killed by their time limit, preempted,
 cancelled, on a node that is lost; and an array of frames.
 
-usage: slurm.py TREEFARM SCENE [--only NAME]
+usage: slurm.py TREEFARM SCENE [--only NAME] [--longer F]
 
 Passes if each ends with the bits of one process that was never stopped. Skips where there can be no Slurm.
 """
@@ -37,7 +37,7 @@ class Bench:
         self.slurm.environment.update({
             **environment(), "PATH": f"{self.treefarm.parent}:{os.environ['PATH']}", "OMPI_MCA_btl_tcp_if_include": "lo",
             "OMPI_MCA_oob_tcp_if_include": "lo", "PMIX_MCA_ptl_tcp_if_include": "lo"})
-        self.second = self._samples_of_a_second()
+        self.second = self._samples_of_a_second() * arguments.longer
 
     def words(self, spp, size=64):
         return [str(self.scene), "-D", f"size={size}", "--spp", str(spp), "--set", "guiding.type=auto", "--set",
@@ -125,13 +125,13 @@ def out_of_time(bench):
 
 
 def killed_at_limit(bench):
-    """Never told, ended at the limit as Slurm ends jobs, three times; requeued by hand."""
-    words, truth = bench.words_for(200)
+    """Never told, ended at the limit as Slurm ends jobs, three times or more; requeued by hand."""
+    words, truth = bench.words_for(300)
     folder = bench.work / "killed"
     job = bench.submit(folder, words, "--nodes=3", "--time=1", "--signal=B:28@1")  # SIGWINCH, which nobody heeds
-    for _ in range(3):
+    for _ in range(30):
         if bench.slurm.wait(job, 200) != ["TIMEOUT"]:
-            return f"FAILED: {bench.slurm.states(job)} instead of TIMEOUT: {bench.log(job)}"
+            break
         bench.slurm.run("scontrol", "requeue", job)
         bench.slurm.wait(job, 60, ("RUNNING",))
     return bench.ends_as(job, folder, truth, 3)
@@ -212,7 +212,9 @@ CASES = {"calm": calm, "srun --mpi=pmix": plain_srun, "no variables": without_en
 
 
 def main():
-    arguments = parser_of(__doc__, CASES).parse_args()
+    parser = parser_of(__doc__, CASES)
+    parser.add_argument("--longer", type=float, default=1, help="times as much to render, where the machine may get less busy meanwhile")
+    arguments = parser.parse_args()
     skip_for(why_not())
     with tempfile.TemporaryDirectory(dir="/var/tmp") as folder:
         bench = Bench(arguments, pathlib.Path(folder))
