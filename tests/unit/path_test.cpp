@@ -204,7 +204,7 @@ TEST(Path, RouletteIsPlayedByWhatGuides) {
                             test::with_kernel(test::resolved(job), one_pass(1, false), guide), guide)
             .roulette.survival(Rgb(0.01f));
     };
-    EXPECT_FLOAT_EQ(survival(unguided(), untrained), 0.01f);
+    EXPECT_FLOAT_EQ(survival(unguided(), untrained), 0.02f);
     EXPECT_FLOAT_EQ(survival({}, untrained), 0.1f);
     EXPECT_FLOAT_EQ(survival({}, trained), 0.5f);
     Job constant;
