@@ -156,7 +156,7 @@ std::span<const PixelEstimate> Collector::pixels_so_far() const {
 }
 
 std::vector<PixelEstimate> Collector::take_pixels() {
-    return develop(film_.take_pixels(), splats_, plan_.splatting_paths());
+    return develop(film_.take_pixels(), splats_, plan_.splatting_paths(), plan_.splatting_chains());
 }
 
 TraceStats Collector::totals() const {

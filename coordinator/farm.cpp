@@ -9,6 +9,7 @@
 #include "common/config/aov_list.h"
 #include "common/config/job_reader.h"
 #include "coordinator/pulse.h"
+#include "coordinator/result_pace.h"
 
 namespace treefarm {
 
@@ -128,7 +129,9 @@ void Farm::fill(BegunPass& begun) const {
 }
 
 void Farm::announce(int peer) {
-    tell(peer, PassBegin{pass_->plan, pass_->tree.size(), pass_->tree_hash});
+    const double seconds =
+        result_seconds(job_.farm.update_seconds, pass_->plan.layers.splats.pixels, roster_.present_count());
+    tell(peer, PassBegin{pass_->plan, pass_->tree.size(), pass_->tree_hash, seconds});
 }
 
 BlobName Farm::name_of(Blob blob) const {

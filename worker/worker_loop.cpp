@@ -309,6 +309,7 @@ class WorkerLoop {
         if (!pool_ || !ready(pass_task_)) return;
         std::shared_ptr<PassWork> built = pass_task_.get();
         if (!coming_ || pass_task_job_ != job_number_ || built->plan().index != coming_->plan.index) return;
+        result_seconds_ = coming_->result_seconds;
         coming_.reset();
         pass_ = std::move(built);
         appetite_.begin();
@@ -320,7 +321,7 @@ class WorkerLoop {
     /// results, the less time has the coordinator to hand out work.
     void send_finished() {
         const bool at_end = appetite_.nothing_left() && pool_->idle(), enough = pass_->bundle_bytes() >= kBundleBytes;
-        if (at_end || enough || clock_.seconds() - last_update_ >= job_.farm.update_seconds) send_bundle();
+        if (at_end || enough || clock_.seconds() - last_update_ >= result_seconds_) send_bundle();
     }
 
     void send_bundle() {
@@ -370,7 +371,7 @@ class WorkerLoop {
     Job job_;
     double heartbeat_seconds_ = 1.0;
     SilenceWatch silence_;
-    double last_beat_ = 0, last_update_ = 0;
+    double last_beat_ = 0, last_update_ = 0, result_seconds_ = 0;
     bool quitting_ = false, said_bye_ = false, failed_ = false, has_left_ = false;
     std::optional<double> leaving_since_;  ///< told to leave
     std::optional<WorkerEnd> end_;

@@ -239,7 +239,8 @@ std::vector<JobKey> make_job_keys() {
         "farm.heartbeat_seconds", "0.001 to 3600", "how often each side says that it lives",
         [](auto& j) -> auto& { return j.farm.heartbeat_seconds; }, seconds));
     add(number_key(
-        "farm.update_seconds", "0.001 to 3600", "how often a worker sends what it has finished",
+        "farm.update_seconds", "0.001 to 3600",
+        "how often a worker sends what it has finished; more rarely where splats to a large film would fill a network",
         [](auto& j) -> auto& { return j.farm.update_seconds; }, seconds));
     add(number_key(
         "farm.checkpoint_seconds", "0 to 86400",

@@ -20,8 +20,9 @@ HalfCounts half_counts(std::uint64_t first, std::uint32_t count);
 /// which the splats' means and variances are added. `paths`: per pixel that splatted, by halves. Where a pass has no
 /// estimates (none are given) it is the number of samples as well; where it has, a half counts only if both layers have
 /// something of it. Whoever divides a sample variance by n gets the variance of the mean (docs/design/error.md,
-/// "splats"). Without splats, `estimates` as they are.
+/// "splats"). Without splats, `estimates` as they are. `chains`: Markov chains of each half, where they splatted; a
+/// half with less than two has no variance and does not count.
 std::vector<PixelEstimate> develop(std::vector<PixelEstimate> estimates, const SplatSums& splats,
-                                   const HalfCounts& paths);
+                                   const HalfCounts& paths, const HalfCounts& chains = {});
 
 }  // namespace treefarm

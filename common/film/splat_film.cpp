@@ -25,6 +25,13 @@ std::uint64_t rounded(double quanta, std::uint32_t bits) {
     return static_cast<std::uint64_t>(whole) + (threshold < quanta - whole ? 1u : 0u);
 }
 
+/// Square of a sum of quanta, in units of squares.
+std::uint64_t square_of_sum(std::uint64_t quanta) {
+    constexpr int kHalfBits = kSquareBits / 2;
+    const std::uint64_t root = (std::min(quanta, kMostSplatSum) + (1u << (kHalfBits - 1))) >> kHalfBits;
+    return root >> 31 ? kMostSplatSum : root * root;
+}
+
 bool is_splat(const Rgb& value) {
     return std::isfinite(value.x) && std::isfinite(value.y) && std::isfinite(value.z) && value.x >= 0 && value.y >= 0 &&
            value.z >= 0;
@@ -108,12 +115,40 @@ bool SplatMoments::empty() const {
     return *this == SplatMoments{};
 }
 
+void SplatLog::SummedEntries::clear() {
+    entries.clear();
+    summed = 0;
+    room = kLogEntries;
+}
+
+void SplatLog::SummedEntries::push(const Entry& entry) {
+    entries.push_back(entry);
+    if (entries.size() >= room) sum_up();
+}
+
+void SplatLog::SummedEntries::sum_up() {
+    if (summed == entries.size()) return;
+    const auto by_slot = [](const Entry& a, const Entry& b) { return a.slot < b.slot; };
+    const auto fresh = entries.begin() + static_cast<std::ptrdiff_t>(summed);
+    std::sort(fresh, entries.end(), by_slot);
+    std::inplace_merge(entries.begin(), fresh, entries.end(), by_slot);
+    std::size_t last = 0;
+    for (std::size_t i = 1; i < entries.size(); ++i) {
+        if (entries[i].slot == entries[last].slot)
+            entries[last].moments.add(entries[i].moments);
+        else
+            entries[++last] = entries[i];
+    }
+    entries.resize(last + 1);
+    summed = entries.size();
+    room = std::max(kLogEntries, 2 * summed);  // a unit that reaches many pixels is not summed up again and again
+}
+
 void SplatLog::begin(const SplatShape& shape) {
     shape_ = shape;
     per_value_ = exact_power_of_two(-shape.exponent);
-    entries_.clear();
-    summed_ = 0;
-    room_ = kLogEntries;
+    all_.clear();
+    chain_.clear();
     caps_ = {};
 }
 
@@ -129,36 +164,29 @@ void SplatLog::add(std::uint32_t pixel, std::uint32_t sample, const Rgb& value, 
         const double whole = static_cast<double>(value[c]) * per_value_, quanta = std::min(whole, kMostQuanta);
         capped = capped || whole > kMostQuanta;
         entry.moments.sum[k] = rounded(quanta, bits[k]);
+        if (shape_.chains) continue;
         // Another number than the sum's: a square that knew how it was rounded would be no second moment.
         const std::uint32_t other = scrambled(bits[3], static_cast<std::uint32_t>(c) + 1);
         entry.moments.square[k] = rounded(quanta * quanta * kPerSquare, other);
     }
     caps_.capped += capped ? 1 : 0;
-    if (entry.moments.empty()) return;
-    entries_.push_back(entry);
-    if (entries_.size() >= room_) sum_up();
+    if (!entry.moments.empty()) (shape_.chains ? chain_ : all_).push(entry);
 }
 
-void SplatLog::sum_up() {
-    std::sort(entries_.begin() + static_cast<std::ptrdiff_t>(summed_), entries_.end(),
-              [](const Entry& a, const Entry& b) { return a.slot < b.slot; });
-    std::inplace_merge(entries_.begin(), entries_.begin() + static_cast<std::ptrdiff_t>(summed_), entries_.end(),
-                       [](const Entry& a, const Entry& b) { return a.slot < b.slot; });
-    std::size_t last = 0;
-    for (std::size_t i = 1; i < entries_.size(); ++i) {
-        if (entries_[i].slot == entries_[last].slot)
-            entries_[last].moments.add(entries_[i].moments);
-        else
-            entries_[++last] = entries_[i];
+void SplatLog::end_chain() {
+    chain_.sum_up();
+    for (Entry& entry : chain_.entries) {
+        for (std::size_t c = 0; c < 3; ++c)
+            entry.moments.square[c] = square_of_sum(entry.moments.sum[c]);
+        all_.push(entry);
     }
-    if (!entries_.empty()) entries_.resize(last + 1);
-    summed_ = entries_.size();
-    room_ = std::max(kLogEntries, 2 * summed_);  // a unit that reaches many pixels is not summed up again and again
+    chain_.clear();
 }
 
 std::span<const SplatLog::Entry> SplatLog::summed() {
-    if (summed_ < entries_.size()) sum_up();
-    return entries_;
+    end_chain();
+    all_.sum_up();
+    return all_.entries;
 }
 
 SplatSums::SplatSums(const SplatShape& shape) : shape_(shape), moments_(2 * std::size_t{shape.pixels}) {}

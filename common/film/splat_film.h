@@ -23,6 +23,9 @@ inline constexpr int kMostSplatExponent = 256;
 struct SplatShape {
     std::uint32_t pixels = 0;   ///< of the film; 0: the pass has no splats
     std::int16_t exponent = 0;  ///< of the quantum, within +-kMostSplatExponent
+    /// Of Markov chains: one chain's splats depend on each other, so squares are of what a whole chain brings to a
+    /// pixel.
+    bool chains = false;
 
     bool operator==(const SplatShape&) const = default;
 };
@@ -45,7 +48,7 @@ inline constexpr int kSquareBits = 20;
 /// Sums of a half of a pixel's splats.
 struct SplatMoments {
     std::array<std::uint64_t, 3> sum{};     ///< quanta of v
-    std::array<std::uint64_t, 3> square{};  ///< of v^2, in units of 2^(2 exponent + kSquareBits)
+    std::array<std::uint64_t, 3> square{};  ///< of v^2, or a chain's, in units of 2^(2 exponent + kSquareBits)
 
     void add(const SplatMoments& other);  ///< saturates at kMostSplatSum
     bool empty() const;
@@ -65,22 +68,31 @@ class SplatLog {
 
     /// Empties it.
     void begin(const SplatShape& shape);
-    /// Adds a splat of a path with this sample number, which says its half; `bits` are of the keyed generator, for
-    /// stochastic rounding. Not all zero splats need be added.
+    /// Adds a splat of a path with this sample number, or of the chain with this number, which says its half; `bits`
+    /// are of the keyed generator, for stochastic rounding. Not all zero splats need be added.
     void add(std::uint32_t pixel, std::uint32_t sample, const Rgb& value, const Draw& bits);
-    /// What was added, one entry per slot, in their order.
+    /// The end of a chain: what is added from here on is another's. Squares of batch means (docs/design/error.md,
+    /// "splats").
+    void end_chain();
+    /// What was added, one entry per slot, in their order; ends a chain.
     std::span<const Entry> summed();
-    bool empty() const { return entries_.empty() && caps_ == SplatCaps{}; }
+    bool empty() const { return all_.entries.empty() && chain_.entries.empty() && caps_ == SplatCaps{}; }
     const SplatCaps& caps() const { return caps_; }
 
   private:
-    void sum_up();
+    struct SummedEntries {
+        std::vector<Entry> entries;
+        std::size_t summed = 0;  ///< entries before this one are in order, one per slot
+        std::size_t room = 0;    ///< entries from which on they are summed up
+
+        void clear();
+        void push(const Entry& entry);
+        void sum_up();
+    };
 
     SplatShape shape_;
     double per_value_ = 1;
-    std::vector<Entry> entries_;
-    std::size_t summed_ = 0;  ///< entries before this one are in order, one per slot
-    std::size_t room_ = 0;    ///< entries from which on they are summed up
+    SummedEntries all_, chain_;  ///< the chain at hand has sums alone
     SplatCaps caps_;
 };
 

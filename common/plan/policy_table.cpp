@@ -122,6 +122,8 @@ constexpr std::array kEntries = {
           kRoulette),
     entry("walk.adjoint_least", kWalk.adjoint_least, "least probability to survive it", kRoulette),
     entry("walk.adjoint_most", kWalk.adjoint_most, "greatest probability to survive it", kRoulette),
+    entry("walk.unguided_window", kWalk.unguided_window, "unguided paths survive with this times their throughput",
+          kDecisions),
     entry("walk.unguided_most", kWalk.unguided_most, "the same of unguided paths, by throughput", "Mitsuba 0.6"),
     entry("walk.untrained_least", kWalk.untrained_least, "least probability to survive before the first tree",
           kProgram2017),

@@ -76,6 +76,9 @@ struct PassPlan {
                                      : half_counts(first_sample, spp);
     }
 
+    /// Markov chains that splat: even and odd ones are the halves.
+    HalfCounts splatting_chains() const { return half_counts(0, units.chains); }
+
     bool operator==(const PassPlan&) const = default;
 };
 

@@ -33,7 +33,7 @@ void serialize(Archive& a, Resend& m) {
 
 template <class Archive>
 void serialize(Archive& a, PassBegin& m) {
-    a(m.plan, m.tree_bytes, m.tree_hash);
+    a(m.plan, m.tree_bytes, m.tree_hash, m.result_seconds);
 }
 
 template <class Archive>
@@ -104,8 +104,10 @@ void check(const PassBegin& m) {
     if (plan.spp == 0 || !std::has_single_bit(plan.blocks_per_unit) ||
         plan.chunks != (plan.spp + unit_spp - 1) / unit_spp || !(plan.record_weight >= 0 && plan.record_weight <= 1))
         throw FormatError("an absurd pass");
+    if (!(m.result_seconds >= 0 && m.result_seconds < 1e6)) throw FormatError("an absurd time between results");
     const bool tiles_where_estimated = plan.units.tiles || !plan.layers.estimates;
-    if (!tiles_where_estimated || std::abs(plan.layers.splats.exponent) > kMostSplatExponent)
+    const bool chains_where_squared = !plan.layers.splats.chains || plan.units.chains > 0;
+    if (!tiles_where_estimated || !chains_where_squared || std::abs(plan.layers.splats.exponent) > kMostSplatExponent)
         throw FormatError("a pass whose layers do not fit its units");
 }
 

@@ -93,6 +93,7 @@ struct PassBegin {
     PassPlan plan;
     std::uint64_t tree_bytes = 0;  ///< length and hash of the encoded tree that guides the pass
     std::uint64_t tree_hash = 0;
+    double result_seconds = 0;  ///< between two results of a worker, but at the end
 
     bool operator==(const PassBegin&) const;
 };

@@ -77,11 +77,12 @@ inline MakeRenderer make_fake() {
     };
 }
 
-/// The fake renderer, but it waits with every unit until `flag` is up: so that the fault under test comes to pass.
-inline MakeRenderer make_patient(const std::atomic<bool>& flag) {
-    return [&flag](std::span<const std::uint8_t>, const Job& job) -> RenderUnit {
-        return [&flag, render = fake_renderer(job)](auto&... args) {
-            for (int k = 0; k < 20'000 && !flag; ++k)
+/// The fake renderer, but it waits with every unit until `flag` is up, at most so long: so that the fault under test
+/// comes to pass.
+inline MakeRenderer make_patient(const std::atomic<bool>& flag, int milliseconds = 20'000) {
+    return [&flag, milliseconds](std::span<const std::uint8_t>, const Job& job) -> RenderUnit {
+        return [&flag, milliseconds, render = fake_renderer(job)](auto&... args) {
+            for (int k = 0; k < milliseconds && !flag; ++k)
                 std::this_thread::sleep_for(std::chrono::milliseconds(1));
             render(args...);
         };
@@ -95,8 +96,9 @@ class FaultyChannel final : public Channel {
 
     explicit FaultyChannel(Channel& inner) : inner_(inner) {}
     Filter outgoing, incoming;
-    std::atomic<bool> cut{false};  ///< nothing passes in either direction
-    std::atomic<int> nap_ms{0};    ///< the next rest takes so long, and the look after it sees nothing yet
+    std::atomic<bool> cut{false};     ///< nothing passes in either direction
+    std::atomic<bool> worked{false};  ///< work has come
+    std::atomic<int> nap_ms{0};       ///< the next rest takes so long, and the look after it sees nothing yet
     /// For so long nothing passes in either direction; then all comes, in order: a cable that was pulled and plugged
     /// in.
     std::atomic<int> held_ms{0};
@@ -115,6 +117,7 @@ class FaultyChannel final : public Channel {
         if (cut || std::exchange(woken_, false)) return std::nullopt;
         auto message = inner_.poll();
         if (message && incoming && !incoming(message->bytes)) return std::nullopt;
+        if (message && brings_work(message->bytes)) worked = true;
         return message;
     }
     bool drained() override { return inner_.drained(); }
@@ -130,6 +133,14 @@ class FaultyChannel final : public Channel {
     std::uint64_t bytes_received() const override { return inner_.bytes_received(); }
 
   private:
+    static bool brings_work(const Bytes& bytes) {
+        try {
+            return open_envelope(bytes).kind == Work::kKind;
+        } catch (const FormatError&) {  // a rogue's message
+            return false;
+        }
+    }
+
     using Clock = std::chrono::steady_clock;
 
     bool holds() {
@@ -166,8 +177,11 @@ class FarmTest : public ::testing::Test {
     }
 
     void start_worker(std::size_t w) {
-        threads_.emplace_back(
-            [this, w] { ends_[w] = run_worker(*faulty_[w], settings_[w], renderers_[w], quiet_log()); });
+        threads_.emplace_back([this, w] {
+            for (int k = 0; first_ && w != *first_ && k < 20'000 && !faulty_[*first_]->worked; ++k)
+                std::this_thread::sleep_for(std::chrono::milliseconds(1));
+            ends_[w] = run_worker(*faulty_[w], settings_[w], renderers_[w], quiet_log());
+        });
     }
 
     /// Starts all workers unless they stayed, renders, sends them away unless they shall stay.
@@ -240,6 +254,8 @@ class FarmTest : public ::testing::Test {
     Resolved job_ = resolve(test_job(), SceneFacts{});
     std::function<void(PassPlan&)> change_pass_;  ///< of each pass that the job asks for
     PassHooks hooks_;
+    /// The worker that has work before the others begin: a fault of it comes to pass however slowly threads start.
+    std::optional<std::size_t> first_;
     std::optional<RenderState> resumed_;  ///< taken: what the render goes on from
     JobTurn turn_;
     bool stay_ = false;  ///< workers, for another render()

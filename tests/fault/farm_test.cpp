@@ -29,6 +29,7 @@ TEST_F(FarmTest, AnyNumberOfWorkersGivesTheSameBits) {
 
 TEST_F(FarmTest, AWorkerThatDiesIsReplaced) {
     make_workers(3);
+    first_ = 1;
     settings_[1].silence_seconds = 1.0;
     std::atomic<bool> dead = false;
     renderers_[0] = renderers_[2] = make_patient(dead);
@@ -39,7 +40,7 @@ TEST_F(FarmTest, AWorkerThatDiesIsReplaced) {
     };
     expect_truth(render(kShort));
     EXPECT_EQ(lost_, std::set<int>{2});
-    EXPECT_GT(reissued_, 0u);
+    EXPECT_GT(reissued_ + copied_, 0u);
     EXPECT_FALSE(orderly_);
     EXPECT_EQ(ends_[1], WorkerEnd::orphaned);
     EXPECT_EQ(ends_[0], WorkerEnd::disorderly);
@@ -69,6 +70,7 @@ TEST_F(FarmTest, ADeadHeadOfTheChainStarvesNobody) {
 
 TEST_F(FarmTest, AWorkerThatWasThoughtLostJoinsAgain) {
     make_workers(2);
+    first_ = 1;
     int results = 0;
     int hellos = 0;
     std::atomic<bool> back = false;
@@ -107,6 +109,7 @@ TEST_F(FarmTest, AWorkerThatWasThoughtLostJoinsAgain) {
 
 TEST_F(FarmTest, ACorruptResultCostsTheWorkerItsPlace) {
     make_workers(2);
+    first_ = 0;
     std::atomic<bool> sent = false;
     renderers_[1] = make_patient(sent);
     faulty_[0]->outgoing = [&](Bytes& bytes) {
@@ -119,6 +122,7 @@ TEST_F(FarmTest, ACorruptResultCostsTheWorkerItsPlace) {
 
 TEST_F(FarmTest, AResultThatLiesIsRefused) {
     make_workers(2);
+    first_ = 0;
     std::atomic<bool> sent = false;
     renderers_[1] = make_patient(sent);
     faulty_[0]->outgoing = [&](Bytes& bytes) {
@@ -135,6 +139,7 @@ TEST_F(FarmTest, AResultThatLiesIsRefused) {
 
 TEST_F(FarmTest, AResultThatComesTwiceCountsOnce) {
     make_workers(2);
+    first_ = 0;
     std::atomic<bool> sent = false;
     renderers_[1] = make_patient(sent);
     faulty_[0]->outgoing = [&](Bytes& bytes) {
@@ -212,6 +217,7 @@ TEST_F(FarmTest, AFailingWorkerIsReplacedAndTheLastOneEndsTheRun) {
         };
     };
     make_workers(2);
+    first_ = 0;
     renderers_ = {broken, make_patient(failed)};
     expect_truth(render());
     EXPECT_EQ(lost_, std::set<int>{1});

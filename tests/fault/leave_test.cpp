@@ -22,6 +22,8 @@ class Leave : public FarmTest {
 TEST_F(Leave, OneOfThreeAtAnyMomentCostsNoBit) {
     for (const int count : {1, 2, 3}) {
         make_workers(3);
+        first_ = 1;
+        renderers_[0] = renderers_[2] = make_patient(told_, 10);
         tell_at_result(1, count);
         expect_truth(render());
         EXPECT_TRUE(told_);
@@ -44,6 +46,7 @@ TEST_F(Leave, BeforeItHasAnything) {
 TEST_F(Leave, WhatTakesTooLongIsGivenBack) {
     job_.farm.leave_seconds = 0.05;
     make_workers(2);
+    first_ = 0;
     std::atomic<bool> given_back = false, never = false;
     settings_[0].threads = 1;
     settings_[0].told_to_leave = [this] { return told_.load(); };
@@ -69,6 +72,7 @@ TEST_F(Leave, WhatTakesTooLongIsGivenBack) {
 
 TEST_F(Leave, NoLaterJobWaitsForIt) {
     make_workers(2);
+    first_ = 1;
     tell_at_result(1, 1);
     stay_ = true;
     turn_.number = 1;

@@ -67,12 +67,12 @@ TEST_F(FarmTest, WhenNobodyComesBackTheRunEnds) {
 TEST_F(FarmTest, WorkersHearFromACoordinatorThatComputes) {
     make_workers(2);
     for (WorkerSettings& settings : settings_)
-        settings.silence_seconds = 0.3;
+        settings.silence_seconds = 1.0;
     for (std::size_t w = 0; w < 2; ++w)
         start_worker(w);
     Farm farm(*channels_[0], job_, kScene, kFingerprint, quiet_log());
     farm.gather([] { return false; });
-    farm.beat_during([] { std::this_thread::sleep_for(std::chrono::milliseconds(1000)); });
+    farm.beat_during([] { std::this_thread::sleep_for(std::chrono::milliseconds(2500)); });
     EXPECT_THROW(farm.beat_during([] { throw RunError("what it computes may fail"); }), RunError);
     leave({}, {.dismiss = 20});
     EXPECT_TRUE(orderly_);
@@ -88,9 +88,9 @@ TEST_F(FarmTest, WorkersLeaveWhenTheCoordinatorFallsSilent) {
 
 TEST_F(FarmTest, AWorkerThatWasStoppedForAWhileStays) {
     make_workers(2);
-    settings_[1].silence_seconds = 0.7;
+    settings_[1].silence_seconds = 2;
     faulty_[1]->incoming = [&, passes = 0](Bytes& bytes) mutable {
-        if (is<PassBegin>(bytes) && ++passes == 2) faulty_[1]->nap_ms = 1000;
+        if (is<PassBegin>(bytes) && ++passes == 2) faulty_[1]->nap_ms = 2200;
         return true;
     };
     expect_truth(render());

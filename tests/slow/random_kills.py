@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Kills processes of a small farm at random moments of start-up, passes and end, over shared memory and TCP.
 
-usage: random_kills.py TREEFARM SCENE [--count N] [--seed S] [--only N]
+usage: random_kills.py TREEFARM SCENE [--count N] [--seed S] [--set KEY=VALUE]...
 
 Passes if no render hangs: one whose process died inside MPI_Init ends with the message that says so, any other gives the
 bits of the undisturbed render. Prints a line per kill that went otherwise, and a table. One after the other: a kill is
@@ -36,8 +36,8 @@ def command(arguments, folder, transport):
     return ["mpirun", "--oversubscribe", "--bind-to", "none", "--enable-recovery", "--mca", "mpi_yield_when_idle", "1",
             "-n", "4", *TRANSPORTS[transport], arguments.treefarm, "render", arguments.scene, "-D", "size=64",
             "--spp", "508", "--threads", "1", "--run-dir", folder, "--start-seconds", str(START_SECONDS)] + [
-            word for key in ("heartbeat_seconds=0.2", "update_seconds=0.05", "tile_size=16")
-            for word in ("--set", "farm." + key)]
+            word for key in ("farm.heartbeat_seconds=0.2", "farm.update_seconds=0.05", "farm.tile_size=16", *arguments.set)
+            for word in ("--set", key)]
 
 
 def ranks_of(mpirun):
@@ -71,6 +71,10 @@ def sweep():
         name = os.path.basename(path).split(".")
         if not any(part.isdigit() and os.path.exists(f"/proc/{part}") for part in name):
             os.remove(path)
+
+
+def hashes(summary):
+    return tuple(summary.get(name) for name in ("image_hash", "tree_hash", "aov_hash"))
 
 
 def last_sign_of_life(folder, began):
@@ -118,7 +122,7 @@ def judge(folder, truth, hung, killed, text):
         return "HANGS"
     summary = summary_of(folder)
     if summary.get("state") == "done":
-        same = (summary["image_hash"], summary["tree_hash"]) == truth
+        same = hashes(summary) == truth
         return ("same bits" if killed else "same bits, nobody killed") if same else "OTHER BITS"
     if "did not come together" in text:
         return "told of a death in MPI_Init"
@@ -131,6 +135,7 @@ def main():
     parser.add_argument("scene")
     parser.add_argument("--count", type=int, default=40)
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--set", action="append", default=[], help="of the renders: output.aovs=..., integrator.type=...")
     arguments = parser.parse_args()
     if not shutil.which("mpirun"):
         print("skipped: no mpirun")
@@ -144,8 +149,8 @@ def main():
     if hung or summary.get("state") != "done":
         print(f"the undisturbed render failed:\n{text}")
         return 1
-    truth = (summary["image_hash"], summary["tree_hash"])
-    print(f"undisturbed: {arguments.calm:.1f} s, image {truth[0]}, tree {truth[1]}", flush=True)
+    truth = hashes(summary)
+    print(f"undisturbed: {arguments.calm:.1f} s, image {truth[0]}, tree {truth[1]}, layers {truth[2]}", flush=True)
 
     draw = random.Random(arguments.seed)
     table = collections.Counter()

@@ -77,7 +77,7 @@ inline Layers render_layers(const Scene& scene, const std::string& aovs, const s
         passes.emplace_back();
         passes.back().spp = pass.spp;
         passes.back().pixels = develop(pass.layers.estimates ? film.pixels() : std::vector<PixelEstimate>(), splats,
-                                       pass.splatting_paths());
+                                       pass.splatting_paths(), pass.splatting_chains());
     }
     result.channels = sums.channels(combine_passes(passes, Combination::fixed, false), passes);
     result.pixels = std::move(passes.back().pixels);

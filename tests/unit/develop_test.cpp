@@ -33,6 +33,44 @@ std::vector<PixelEstimate> replica(const PassPlan& plan, std::uint64_t seed) {
     return develop({}, sums, plan.splatting_paths());
 }
 
+/// Batch means: splats of a chain depend on each other, and the variance says so.
+TEST(Develop, VariancesOfChainsAreThoseOfReplicas) {
+    constexpr int kReplicas = 400;
+    constexpr std::uint32_t kFewPixels = 4, kChains = 64;
+    PassPlan plan{.index = 0, .spp = 3200};
+    plan.units = {.tiles = false, .chains = kChains};
+    plan.layers = {.estimates = false, .splats = {kFewPixels, splat_exponent(0.8), true}};
+    WorkUnit all{.kind = UnitKind::chains};
+    all.count = kChains;
+    double sum = 0, squares = 0, expected = 0;
+    for (std::uint64_t r = 0; r < kReplicas; ++r) {
+        UnitOutput output;
+        output.begin(0, plan.layers.splats);
+        test::fake_chains(100 + r, plan, all, output);
+        SplatSums sums(plan.layers.splats);
+        sums.add(output.splats.summed(), output.splats.caps());
+        for (const PixelEstimate& pixel : develop({}, sums, plan.splatting_paths(), plan.splatting_chains()))
+            for (const Moments& half : pixel.half) {
+                const double n = half.n, mean = half.mean.y;
+                sum += mean;
+                squares += mean * mean;
+                expected += half.m2.y / (n * (n - 1));
+            }
+    }
+    constexpr double kValues = 2.0 * kFewPixels * kReplicas;
+    const double variance = squares / kValues - (sum / kValues) * (sum / kValues);
+    EXPECT_NEAR(sum / kValues, 1.0, 4 * std::sqrt(variance / kValues));
+    EXPECT_NEAR(expected / kValues / variance, 1.0, 0.15);
+    EXPECT_GT(variance, 10 * 0.75 / 1600) << "far from that of independent splats, 0.75 / n";
+}
+
+TEST(Develop, AHalfWithoutTwoChainsDoesNotCount) {
+    const SplatSums sums(SplatShape{2, 0, true});
+    const std::vector<PixelEstimate> pixels = develop({}, sums, {8, 8}, half_counts(0, 3));
+    EXPECT_EQ(pixels[0].half[0].n, 8u);
+    EXPECT_EQ(pixels[0].half[1].n, 0u);
+}
+
 TEST(Develop, WithoutSplatsEstimatesStayAsTheyAre) {
     std::vector<PixelEstimate> pixels(5);
     pixels[3].add(0, Rgb(2.0f));

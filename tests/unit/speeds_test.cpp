@@ -10,6 +10,8 @@
 #include <functional>
 #include <limits>
 
+#include "coordinator/result_pace.h"
+
 namespace treefarm {
 namespace {
 
@@ -212,6 +214,13 @@ TEST(Speeds, WhoStandsStillIsHelpedByWhomNobodyKnows) {
         still({{1, {2, 0.0}}, {2, {2, std::nullopt}}});
     EXPECT_EQ(unknown.gain(2, 300, 1, 1000), 0) << "who is slow is not known yet";
     EXPECT_GT(still.gain(2, 300, 1, 1000), 0);
+}
+
+TEST(ResultPace, SplatsToALargeFilmAreSentMoreRarely) {
+    EXPECT_EQ(result_seconds(1.5, 0, 1000), 1.5) << "none";
+    EXPECT_EQ(result_seconds(1.5, 512 * 512, 2), 1.5) << "19 MB are little";
+    EXPECT_NEAR(result_seconds(1.5, 1920 * 1080, 20), 42.5, 0.5);
+    EXPECT_EQ(result_seconds(60, 1920 * 1080, 20), 60);
 }
 
 }  // namespace

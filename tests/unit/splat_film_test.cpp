@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <random>
 
 namespace treefarm {
@@ -78,6 +79,60 @@ TEST(Splats, ALogHasOneEntryForEachHalfOfAPixelInOrder) {
     log.begin(kShape);
     EXPECT_TRUE(log.empty());
     EXPECT_TRUE(log.summed().empty());
+}
+
+constexpr SplatShape kChains{kShape.pixels, 0, true};
+
+/// Sums of chains as `random_splats` gives them, each of a hundred splats, in this order.
+SplatSums sums_of_chains(std::span<const Splat> splats, std::span<const std::size_t> order) {
+    constexpr std::size_t kSteps = 100;
+    SplatSums sums(kChains);
+    SplatLog log;
+    log.begin(kChains);
+    for (const std::size_t chain : order) {
+        for (const Splat& s : splats.subspan(chain * kSteps, kSteps))
+            log.add(s.pixel % 3, static_cast<std::uint32_t>(chain), s.value, s.bits);
+        log.end_chain();
+        if (chain % 7 != 0) continue;  // the end of a unit
+        sums.add(log.summed(), log.caps());
+        log.begin(kChains);
+    }
+    sums.add(log.summed(), log.caps());
+    return sums;
+}
+
+TEST(Splats, ChainsInAnyOrderAndUnitsGiveTheSameBits) {
+    const std::vector<Splat> splats = random_splats(20'000, 5);
+    std::vector<std::size_t> order(200);
+    std::iota(order.begin(), order.end(), 0u);
+    const SplatSums whole = sums_of_chains(splats, order);
+    std::mt19937 engine(6);
+    for (int k = 0; k < 20; ++k) {
+        std::shuffle(order.begin(), order.end(), engine);
+        ASSERT_EQ(sums_of_chains(splats, order), whole);
+    }
+    SplatSums merged(kChains);
+    merged.merge_encoded(whole.encode());
+    EXPECT_EQ(merged, whole);
+}
+
+TEST(Splats, SquaresOfChainsAreOfAllThatOneBringsToAPixel) {
+    SplatLog log;
+    log.begin({2, 0, true});
+    const auto chain = [&](std::uint32_t number, std::initializer_list<float> values) {
+        for (const float value : values)
+            log.add(1, number, Rgb(value * 1024, 0.0f, value * 0x1p40f), {});
+        log.end_chain();
+    };
+    chain(0, {3, 4, 5});
+    chain(2, {7, 0.25f});
+    chain(4, {});
+    const auto entries = log.summed();
+    ASSERT_EQ(entries.size(), 1u);
+    EXPECT_EQ(entries[0].moments.sum[0], 19u * 1024 + 256);
+    EXPECT_EQ(entries[0].moments.square[0], 12u * 12 + 7 * 7);
+    EXPECT_EQ(entries[0].moments.square[1], 0u);
+    EXPECT_EQ(entries[0].moments.square[2], kMostSplatSum) << "saturates";
 }
 
 TEST(Splats, RoundingIsUnbiased) {
