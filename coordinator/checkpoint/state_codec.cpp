@@ -187,11 +187,8 @@ constexpr std::uint32_t kOrigin = section_tag("IDNT"), kHistory = section_tag("F
                         kBegunSplats = section_tag("PSPL"), kBegunSums = section_tag("PSUM");
 
 constexpr std::uint32_t version_of(std::uint32_t tag) {
-<<<<<<< HEAD
-    return tag == kHistory || tag == kLearner || tag == kProbes || tag == kReports || tag == kBegun ? 2 : 1;
-=======
-    return tag == kHistory || tag == kReports || tag == kBegun ? 2 : 1;
->>>>>>> decide-roulette
+    if (tag == kReports || tag == kBegun) return 3;
+    return tag == kHistory || tag == kLearner || tag == kProbes ? 2 : 1;
 }
 
 /// `room`: bytes that it may take at the most, where they are many.
