@@ -47,6 +47,7 @@ struct Policy {
         float adjoint_window = 4.0f;
         float adjoint_least = 0.5f;
         float adjoint_most = 0.95f;
+        float unguided_window = 2.0f;
         float unguided_most = 0.95f;
         float untrained_least = 0.1f;
         float guided_survival = 0.99f;

@@ -26,6 +26,7 @@ constexpr const char* kBudgets = "bench/log/2026-11-25-error.md";
 constexpr const char* kError = "bench/log/2026-11-25-error.md";
 constexpr const char* kProgram2017 = "the program of Mueller et al. 2017";
 constexpr const char* kProgram2019 = "the program of Mueller et al. 2019";
+constexpr const char* kDecisions = "bench/log/2026-11-27-decisions.md";
 constexpr const char* kGuess = "chosen, not measured";
 
 constexpr Policy::Guiding kGuiding = kPolicy.guiding;
@@ -93,6 +94,8 @@ constexpr std::array kEntries = {
           kRoulette),
     entry("walk.adjoint_least", kWalk.adjoint_least, "least probability to survive it", kRoulette),
     entry("walk.adjoint_most", kWalk.adjoint_most, "greatest probability to survive it", kRoulette),
+    entry("walk.unguided_window", kWalk.unguided_window, "unguided paths survive with this times their throughput",
+          kDecisions),
     entry("walk.unguided_most", kWalk.unguided_most, "the same of unguided paths, by throughput", "Mitsuba 0.6"),
     entry("walk.untrained_least", kWalk.untrained_least, "least probability to survive before the first tree",
           kProgram2017),

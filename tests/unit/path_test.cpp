@@ -78,7 +78,9 @@ TEST(Mis, EdgesOfTheRange) {
 
 TEST(Roulette, Rules) {
     using Rule = Roulette::Rule;
-    EXPECT_FLOAT_EQ(Roulette(Rule::unguided, 5).survival(Rgb(0.1f, 0.3f, 0.2f)), 0.3f);
+    EXPECT_FLOAT_EQ(Roulette(Rule::unguided, 5).survival(Rgb(0.1f, 0.3f, 0.2f)), 0.6f);
+    EXPECT_FLOAT_EQ(Roulette(Rule::unguided, 5).survival(Rgb(0.1f), 0.5f), 0.1f);
+    EXPECT_FLOAT_EQ(Roulette(Rule::unguided, 5).survival(Rgb(0.48f)), 0.95f);
     EXPECT_FLOAT_EQ(Roulette(Rule::unguided, 5).survival(Rgb(2.0f)), 0.95f);
     EXPECT_FLOAT_EQ(Roulette(Rule::untrained, 5).survival(Rgb(0.01f)), 0.1f);
     EXPECT_FLOAT_EQ(Roulette(Rule::untrained, 5).survival(Rgb(2.0f)), 0.99f);
@@ -202,7 +204,7 @@ TEST(Path, RouletteIsPlayedByWhatGuides) {
                             test::with_kernel(test::resolved(job), one_pass(1, false), guide), guide)
             .roulette.survival(Rgb(0.01f));
     };
-    EXPECT_FLOAT_EQ(survival(unguided(), untrained), 0.01f);
+    EXPECT_FLOAT_EQ(survival(unguided(), untrained), 0.02f);
     EXPECT_FLOAT_EQ(survival({}, untrained), 0.1f);
     EXPECT_FLOAT_EQ(survival({}, trained), 0.5f);
     Job constant;

@@ -13,7 +13,7 @@ namespace treefarm {
 class Roulette {
   public:
     enum class Rule : std::uint8_t {
-        unguided,   ///< survival min(throughput, 0.95)
+        unguided,   ///< survival min(2 throughput, 0.95)
         untrained,  ///< a guided render before its first tree: throughput, within [0.1, 0.99]
         constant,   ///< 0.99: the guide sends paths where they matter
         adjoint,    ///< by what the path is expected to carry, over what its first vertex sends to the camera
@@ -29,7 +29,8 @@ class Roulette {
     float survival(const Rgb& throughput, float scale = 1.0f, float brightness = 1.0f) const {
         switch (rule_) {
             case Rule::unguided:
-                return std::min(max_component(throughput) * scale, kPolicy.walk.unguided_most);
+                return std::min(max_component(throughput) * scale * kPolicy.walk.unguided_window,
+                                kPolicy.walk.unguided_most);
             case Rule::untrained:
                 return std::clamp(max_component(throughput) * scale, kPolicy.walk.untrained_least,
                                   kPolicy.walk.guided_survival);
