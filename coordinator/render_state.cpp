@@ -7,6 +7,7 @@
 
 #include "common/base/hash.h"
 #include "common/config/aov_list.h"
+#include "common/film/emission_shares.h"
 #include "common/film/fold_passes.h"
 #include "common/plan/learning.h"
 
@@ -44,6 +45,19 @@ void judge_splitting(RenderState& state, const Resolved& job, PassReport& report
     if (job.guiding.splitting_rule == Rule::while_it_pays && !splitting_may_pay(report.plan, report.splitting_gain))
         state.history.splitting = false;
     report.splitting = state.history.splitting;
+}
+
+void judge_light_subpaths(RenderState& state, const Resolved& job, PassReport& report) {
+    report.light_subpath_gain = light_subpath_gain(report.stats);
+    if (job.bidirectional.light_subpaths == Rule::while_it_pays &&
+        !light_subpaths_may_pay(report.plan, report.light_subpath_gain))
+        state.history.light_subpaths = false;
+    report.light_subpaths = state.history.light_subpaths;
+    EmissionSums& emission = report.stats.emission;
+    state.history.emission.add(emission);
+    report.emitters = emission.paths.size();
+    report.emitters_of_half = emitters_of_half(emission);
+    emission = {};
 }
 
 }  // namespace
@@ -100,6 +114,7 @@ void describe_image(const RenderState& state, const Resolved& job, DevelopedStat
 void judge(RenderState& state, const Resolved& job, const CombinedImage& image, std::size_t width, PassReport& report) {
     judge_guiding(state, image, width, report);
     judge_splitting(state, job, report);
+    judge_light_subpaths(state, job, report);
 }
 
 void learn(RenderState& state, const Resolved& job, const PassPlan& pass, const std::optional<PassPlan>& coming,

@@ -25,7 +25,7 @@ LocalRender render_locally(const Scene& scene, const Job& asked) {
     const Resolved job = resolve(asked, scene);
     const PassChooser choose = passes_of(job);
     const bool guided = job.guides;
-    const RenderUnit render_unit = integrator_of(job).prepare(std::make_shared<const TraceScene>(scene, job), job);
+    const RenderUnit render_unit = prepare(job, std::make_shared<const TraceScene>(scene, job));
     run.model = first_model(job, guiding_bounds(scene), 1.0f);
     AnyLearner learner;
     RenderHistory state;
@@ -34,6 +34,7 @@ LocalRender render_locally(const Scene& scene, const Job& asked) {
     std::optional<PassPlan> before;
     for (NextPass next = choose(state); next.pass;) {
         PassPlan pass = *next.pass;
+        set_emission(pass, job, state);
         pass.kernel = kernel_of(job, pass, facts_of(run.model));
         run.model.set_pass(pass.index);
         const AnySampler guide(run.model);
@@ -85,6 +86,9 @@ LocalRender render_locally(const Scene& scene, const Job& asked) {
             if (state.guiding == Guiding::loses) set_aside.put_back(run.passes);
         }
         if (!splitting_may_pay(pass, splitting_gain(stats))) state.splitting = false;
+        if (!light_subpaths_may_pay(pass, light_subpath_gain(stats))) state.light_subpaths = false;
+        state.emission.add(stats.emission);
+        run.plans.push_back(pass);
         next = choose(state);
         if (!pass.record || !next.pass) continue;
         RefineReport report;
