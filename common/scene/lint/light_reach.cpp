@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "common/scene/kinds/shape_area.h"
 #include "common/scene/lint/emitter_points.h"
@@ -78,6 +79,7 @@ class Looking {
 
     /// Light that comes to a point.
     void from(const V3d& p, int ray) {
+        const LightReach before = std::exchange(reach_, {});
         const LitScene lit{static_cast<float>(0.25 * size_ * size_), scene_.images};
         for (const Emitter& emitter : scene_.emitters) {
             const double scale =
@@ -91,6 +93,12 @@ class Looking {
             else
                 reach_.infinity += scale * M_PI;
         }
+        // Each point counts alike: one beside a lamp would outshine all others.
+        const double all = reach_.infinity + reach_.free + reach_.glass + reach_.blocked, scale = all > 0 ? 1 / all : 0;
+        reach_.infinity = before.infinity + reach_.infinity * scale;
+        reach_.free = before.free + reach_.free * scale;
+        reach_.glass = before.glass + reach_.glass * scale;
+        reach_.blocked = before.blocked + reach_.blocked * scale;
     }
 
     void to_surface(const V3d& p, const Shape& lamp, double radiance, int ray) {
