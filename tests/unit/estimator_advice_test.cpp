@@ -68,7 +68,6 @@ TEST(EstimatorAdvice, OfPointsOverMirrors) {
 /// As measured (bench/log/2026-11-27-bidir.md): the estimator that is ahead at equal time.
 TEST(EstimatorAdvice, OfOurScenes) {
     for (const auto& [name, type] : {std::pair("fixtures", "bidirectional:"),
-                                     {"water", "bidirectional:"},
                                      {"door-ajar", "bidirectional:"},
                                      {"classroom", "path:"},
                                      {"plates", "path:"},

@@ -2,6 +2,8 @@
 #include "common/scene/lint/light_reach.h"
 
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include "common/scene/kinds/shape_area.h"
 #include "common/scene/lint/emitter_points.h"
@@ -17,6 +19,7 @@ using linting::point_of_square;
 
 constexpr int kColumns = 12, kRows = 8;  ///< of the camera's rays
 constexpr int kPoints = 2;               ///< of an emitter, for each of them
+constexpr int kMostPanes = 8;            ///< of glass that the camera looks through
 constexpr double kNearly = 1 - 1e-3;     ///< of the way to an emitter: what is met there is the emitter
 constexpr double kStep = 1e-5;           ///< off a surface, over the scene's size
 
@@ -46,8 +49,7 @@ class Looking {
             for (int column = 0; column < kColumns; ++column) {
                 const auto [origin, direction] =
                     camera_ray(scene_.camera, scene_.film, (column + 0.5) / kColumns, (row + 0.5) / kRows);
-                const auto hit = search_.find(origin, direction);
-                if (hit) from(origin + direction * (hit->distance - kStep * size_), row * kColumns + column);
+                if (const auto seen = seen_from(origin, direction)) from(*seen, row * kColumns + column);
             }
         const double local = reach_.free + reach_.glass + reach_.blocked, all = local + reach_.infinity;
         reach_.known = all > 0;
@@ -59,8 +61,25 @@ class Looking {
     }
 
   private:
+    bool is_glass(std::size_t shape) const {
+        const std::int32_t material = scene_.shapes[shape].material;
+        return material != kNone && material_traits(scene_, material).lobes.delta_transmission;
+    }
+
+    /// A point just before what is seen, straight through smooth glass.
+    std::optional<V3d> seen_from(V3d origin, const V3d& direction) const {
+        for (int panes = 0; panes < kMostPanes; ++panes) {
+            const auto hit = search_.find(origin, direction);
+            if (!hit) return std::nullopt;
+            if (!is_glass(hit->shape)) return origin + direction * (hit->distance - kStep * size_);
+            origin += direction * (hit->distance + kStep * size_);
+        }
+        return std::nullopt;
+    }
+
     /// Light that comes to a point.
     void from(const V3d& p, int ray) {
+        const LightReach before = std::exchange(reach_, {});
         const LitScene lit{static_cast<float>(0.25 * size_ * size_), scene_.images};
         for (const Emitter& emitter : scene_.emitters) {
             const double scale =
@@ -74,6 +93,12 @@ class Looking {
             else
                 reach_.infinity += scale * M_PI;
         }
+        // Each point counts alike: one beside a lamp would outshine all others.
+        const double all = reach_.infinity + reach_.free + reach_.glass + reach_.blocked, scale = all > 0 ? 1 / all : 0;
+        reach_.infinity = before.infinity + reach_.infinity * scale;
+        reach_.free = before.free + reach_.free * scale;
+        reach_.glass = before.glass + reach_.glass * scale;
+        reach_.blocked = before.blocked + reach_.blocked * scale;
     }
 
     void to_surface(const V3d& p, const Shape& lamp, double radiance, int ray) {
@@ -100,9 +125,7 @@ class Looking {
             reach_.free += light;
             return;
         }
-        const std::int32_t material = scene_.shapes[hit->shape].material;
-        const bool glass = material != kNone && material_traits(scene_, material).lobes.delta_transmission;
-        (glass ? reach_.glass : reach_.blocked) += light;
+        (is_glass(hit->shape) ? reach_.glass : reach_.blocked) += light;
     }
 
     const Scene& scene_;
