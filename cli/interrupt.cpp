@@ -2,6 +2,7 @@
 #include "cli/interrupt.h"
 
 #include <pthread.h>
+#include <unistd.h>
 
 namespace treefarm {
 
@@ -14,7 +15,7 @@ void ignore_broken_pipes() {
     signal(SIGPIPE, SIG_IGN);
 }
 
-InterruptWatch::InterruptWatch() {
+InterruptWatch::InterruptWatch() : parent_(getppid()) {
     sigemptyset(&watched_);
     sigaddset(&watched_, SIGINT);
     sigaddset(&watched_, SIGTERM);
@@ -26,7 +27,11 @@ InterruptWatch::InterruptWatch() {
 
 bool InterruptWatch::has_come(const sigset_t& signals) {
     const timespec now{};
-    seen_ = seen_ || sigtimedwait(&signals, nullptr, &now) > 0;
+    siginfo_t come{};
+    if (!seen_ && sigtimedwait(&signals, &come, &now) > 0) {
+        seen_ = true;
+        told_by_parent_ = come.si_signo == SIGTERM && come.si_pid == parent_;
+    }
     return seen_;
 }
 

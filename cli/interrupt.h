@@ -2,6 +2,7 @@
 #pragma once
 
 #include <signal.h>
+#include <sys/types.h>
 
 namespace treefarm {
 
@@ -21,12 +22,16 @@ class InterruptWatch {
     bool interrupted();
     /// True once SIGTERM has come, whatever else: a worker does not heed the others.
     bool terminated();
+    /// Whether what came was SIGTERM from the process that started this one: mpirun, when it ends a job of its own
+    /// accord, since it has lost a host.
+    bool told_by_parent() const { return told_by_parent_; }
 
   private:
     bool has_come(const sigset_t& signals);
 
+    const pid_t parent_;
     sigset_t watched_;
-    bool seen_ = false;
+    bool seen_ = false, told_by_parent_ = false;
 };
 
 }  // namespace treefarm

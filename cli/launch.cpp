@@ -17,10 +17,6 @@ namespace treefarm {
 
 namespace {
 
-bool is_set(const char* name) {
-    return std::getenv(name) != nullptr;
-}
-
 /// srun without PMIx, or with PMI-2, and MPICH's mpiexec give numbers that Open MPI does not read. In a batch script
 /// SLURM_PROCID is set, too, but no step.
 void find_lone_tasks(LaunchEnvironment& launch) {
@@ -39,10 +35,9 @@ void find_lone_tasks(LaunchEnvironment& launch) {
 /// NO_COLOR: no-color.org. A terminal without a name, or a dumb one, understands no escape sequences.
 TerminalKind read_terminal(bool under_mpi) {
     const char* const name = std::getenv("TERM");
-    const char* const no_colour = std::getenv("NO_COLOR");
     TerminalKind terminal;
     terminal.live = !under_mpi && isatty(STDERR_FILENO) && name && *name && std::string_view(name) != "dumb";
-    terminal.colour = terminal.live && !(no_colour && *no_colour);
+    terminal.colour = terminal.live && !is_set("NO_COLOR");
     return terminal;
 }
 
@@ -63,6 +58,7 @@ LaunchEnvironment read_launch_environment() {
         }
     const char* const here = std::getenv("OMPI_COMM_WORLD_LOCAL_SIZE");
     const char* const all = std::getenv("OMPI_COMM_WORLD_SIZE");
+    launch.in_slurm = is_set("SLURM_JOB_ID");
     launch.one_host = here && all && std::string_view(here) == all;
     if (!launch.under_mpi && !isatty(STDIN_FILENO)) find_lone_tasks(launch);  // a person has a shell, not many tasks
     launch.terminal = read_terminal(launch.under_mpi);

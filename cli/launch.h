@@ -16,6 +16,7 @@ struct LaunchEnvironment {
     int rank = 0;            ///< what the launcher calls this process; 0 without a launcher
     int size = 0;            ///< processes of the job; 0: not known
     bool one_host = false;   ///< mpirun started all processes on this host
+    bool in_slurm = false;   ///< in a job of Slurm, whoever started it there
     int lone_tasks = 1;      ///< more than 1: of a launcher that MPI cannot talk to, so each is an MPI world of its own
     int lone_task = 0;       ///< which of them this is
     bool by_slurm = false;   ///< they were started by srun

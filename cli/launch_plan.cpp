@@ -4,7 +4,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <numeric>
@@ -18,11 +17,6 @@
 namespace treefarm {
 
 namespace {
-
-bool is_set(const char* name) {
-    const char* const value = std::getenv(name);
-    return value && *value;
-}
 
 std::vector<HostLine> read_hostfile(const std::string& file) {
     std::ifstream stream(file, std::ios::binary);

@@ -78,9 +78,15 @@ CoordinatorEnd guarded(const std::function<CoordinatorEnd()>& act) {
     }
 }
 
+/// Whether mpirun alone wanted an end. Slurm tells a step's tasks by their parent, too, but a job that is preempted is
+/// to end.
+bool ended_by_launcher(const LaunchEnvironment& launch, const InterruptWatch& watch) {
+    return watch.told_by_parent() && !launch.in_slurm;
+}
+
 /// Sends every worker away and leaves: a signal came while the scene was being read, which nothing can break off.
-[[noreturn]] void leave_reading(const LaunchEnvironment& launch, MpiSession& session) {
-    if (launch.life) launch.life->end(3);
+[[noreturn]] void leave_reading(const LaunchEnvironment& launch, MpiSession& session, bool by_launcher) {
+    if (launch.life) launch.life->end(3, by_launcher);
     const bool orderly = dismiss_workers(session.channel(), {}, kDismissSeconds);
     std::fputs("treefarm: interrupted while the input was being read\n", stderr);
     session.finish(orderly, 3, kFinalizeSeconds);
@@ -91,7 +97,7 @@ CoordinatorEnd guarded(const std::function<CoordinatorEnd()>& act) {
 void prepare(const LaunchEnvironment& launch, MpiSession& session, const FarmTask& task, InterruptWatch& watch) {
     Pulse pulse(session.channel());
     run_aside(task.prepare, [&] {
-        if (watch.interrupted()) leave_reading(launch, session);
+        if (watch.interrupted()) leave_reading(launch, session, ended_by_launcher(launch, watch));
         pulse.beat();
     });
 }
@@ -102,7 +108,7 @@ int coordinate(const LaunchEnvironment& launch, MpiSession& session, const FarmT
         prepare(launch, session, task, watch);
         return task.coordinate(channel, [&] { return watch.interrupted(); });
     });
-    if (launch.life) launch.life->end(end.code);
+    if (launch.life) launch.life->end(end.code, ended_by_launcher(launch, watch));
     const bool orderly = dismiss_workers(channel, end.lost, kDismissSeconds);
     channel.close();
     session.finish(orderly, end.code, kFinalizeSeconds);

@@ -36,6 +36,7 @@ std::string life_status_text(const LifeStatus& status) {
                  {"renders", status.renders},   {"host", status.host},
                  {"pid", status.pid},           {"workers", workers}};
     if (status.code) json["code"] = *status.code;
+    if (status.ended_by_launcher) json["ended_by_launcher"] = true;
     return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
@@ -55,6 +56,7 @@ std::optional<LifeStatus> parse_life_status(const std::string& text) {
         for (const Json& worker : json.at("workers"))
             status.workers.push_back({printable(worker.at("host").get<std::string>()), worker.at("lost").get<bool>()});
         if (json.contains("code")) status.code = json["code"].get<int>();
+        status.ended_by_launcher = json.value("ended_by_launcher", false);
         return status;
     } catch (const std::exception&) {  // of another program, or damaged
         return std::nullopt;

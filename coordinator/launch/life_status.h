@@ -45,6 +45,8 @@ struct LifeStatus {
     int pid = 0;
     std::vector<LifeWorker> workers;
     std::optional<int> code;  ///< exit code, once it is known
+    /// It was interrupted by its launcher, of which nobody had asked that.
+    bool ended_by_launcher = false;
 };
 
 /// JSON; what is no UTF-8 is replaced.

@@ -96,11 +96,12 @@ void SignOfLife::finish_render() {
     ++told_;
 }
 
-void SignOfLife::end(int code) {
+void SignOfLife::end(int code, bool by_launcher) {
     if (!thread_.joinable()) return;
     {
         const std::lock_guard lock(mutex_);
         status_.code = code;
+        status_.ended_by_launcher = status_.ended_by_launcher || by_launcher;
         status_.phase = LifePhase::end;
         ++told_;
     }

@@ -51,8 +51,9 @@ class SignOfLife {
     void see_workers(const std::function<std::vector<LifeWorker>()>& list);
     /// A render of a series is done.
     void finish_render();
-    /// The exit code is known: written before this returns, if it can be.
-    void end(int code);
+    /// The exit code is known: written before this returns, if it can be. `by_launcher`: it is that of an interruption
+    /// by mpirun.
+    void end(int code, bool by_launcher = false);
 
   private:
     void work();

@@ -171,12 +171,14 @@ void Supervisor::push_stop(double now) {
 std::optional<SupervisorEnd> Supervisor::gone(const Sight& sight) {
     const std::optional<int> known = code(sight);
     const bool stood_still = state_ == State::terminating || state_ == State::killed;
-    // One that we ended for its silence may have taken that for a person's wish.
-    if (known && *known != kFailed && !(*known == kInterrupted && stood_still && stops_ == 0))
+    const bool by_launcher = own_ && own_->ended_by_launcher;
+    // One that we ended for its silence, or mpirun with a host that it lost, may have taken that for a person's wish.
+    if (known && *known != kFailed && !(*known == kInterrupted && (stood_still || by_launcher) && stops_ == 0))
         return SupervisorEnd{*known, "", *known == kInterrupted};
     if (stops_ > 0) return SupervisorEnd{kInterrupted, "interrupted in " + life_place(own_), true};
     if (known == kFailed) return restart_or_end(sight, "the render failed", life_place(own_));
     if (!why_.empty()) return restart_or_end(sight, why_, place_);
+    if (by_launcher) return restart_or_end(sight, "the launcher ended the render", life_place(own_));
     return restart_or_end(sight, "the render's processes are gone", life_place(own_));
 }
 

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Faults x moments x transports: does each in turn to a small render of four ranks under treefarm launch.
 
-usage: fault_matrix.py TREEFARM SCENE [--fault NAME] [--moments N] [--transport NAME] [--seed S]
+usage: fault_matrix.py TREEFARM SCENE [--fault NAME] [--moments N] [--transport NAME] [--seed S] [--deadline S]
 
 Passes if each render ends with exit code 0 and the bits of the undisturbed one, within the deadline, and leaves no process, no shared
 memory and no temporary folder. Prints a line per failure and a table.
@@ -49,6 +49,7 @@ FAULTS = {
     "coordinator stands still 3 s": ([COORDINATOR], stop(3.0)),
     "coordinator told to stop": ([COORDINATOR], give(signal.SIGTERM)),
     "mpirun killed": ([MPIRUN], give(signal.SIGKILL)),
+    "mpirun told to stop": ([MPIRUN], give(signal.SIGTERM)),
     "mpirun stands still 3 s": ([MPIRUN], stop(3.0)),
     "all killed": ((MPIRUN, COORDINATOR, *WORKERS), give(signal.SIGKILL)),
 }
@@ -57,6 +58,18 @@ ASKED = {"coordinator told to stop"}
 TRANSPORTS = {"vader": None, "tcp": "tcp,self"}
 # As FAULTS.md has them: while MPI starts, at the hellos, at boundaries of passes, anywhere, and at the end.
 MOMENTS = ["start"] * 2 + ["hello"] * 2 + ["boundary"] * 3 + ["anywhere"] * 4 + ["end"]
+
+
+LONG = 60  # seconds, after which one wants to know what took them
+
+
+def launch_log(folder):
+    """What launch noted."""
+    try:
+        lines = (folder / "launch" / "log").read_text(errors="replace").splitlines()
+    except OSError:
+        return "no log"
+    return " | ".join(line for line in lines if line.startswith("launch:"))
 
 
 def passes_done(folder):
@@ -97,10 +110,10 @@ def one(arguments, folder, fault, moment, transport, truth, dice):
     hit = [there[victim] for victim in victims if victim in there]
     act(hit)
     try:
-        output, _ = process.communicate(timeout=DEADLINE)
+        output, _ = process.communicate(timeout=arguments.deadline)
     except subprocess.TimeoutExpired:
         kill([*started(folder), process.pid])
-        return f"hangs: {process.communicate()[0]}", DEADLINE, bool(hit)
+        return f"hangs: {process.communicate()[0]}", arguments.deadline, bool(hit)
     seconds = time.monotonic() - begin
     if fault in ASKED and process.returncode == 3:
         if any((folder / "checkpoint").glob("?.tfc")):
@@ -119,6 +132,7 @@ def main():
     parser.add_argument("--moments", type=int, default=len(MOMENTS), help="of each fault, spread over all")
     parser.add_argument("--transport", choices=TRANSPORTS, action="append")
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--deadline", type=float, default=DEADLINE, help="seconds for each; more where the machine is busy")
     arguments = parser.parse_args()
     if shutil.which("mpirun") is None:
         print("skipped: there is no mpirun")
@@ -139,6 +153,8 @@ def main():
                     failure, seconds, hit = one(arguments, folder, fault, moment, transport, truth, dice)
                     if failure:
                         print(f"{fault}, {moment}, {transport}: {failure}", flush=True)
+                    if failure or seconds > LONG:
+                        print(f"{fault}, {moment}, {transport}: {seconds:.1f} s: {launch_log(folder)}", flush=True)
                     right += not failure
                     hits += hit
                     longest = max(longest, seconds)

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Kills every process of renders at random moments, but treefarm launch, which goes on with them.
 
-usage: random_launches.py TREEFARM SCENE [--count N] [--seed S] [--kills K] [--part]
+usage: random_launches.py TREEFARM SCENE [--count N] [--seed S] [--kills K] [--part] [--deadline S]
 
 Each of N renders is killed 1 to K times: all its processes at once, or with --part one of them, or mpirun. Passes if each ends with
 exit code 0 and the bits of the render that never stopped, and leaves no process, no shared memory and no temporary folder. Prints a line
@@ -43,7 +43,7 @@ def one(arguments, work, random, truths):
         kill([random.choice(victims)] if arguments.part and victims else victims)
         done += bool(victims)
     try:
-        output, _ = process.communicate(timeout=DEADLINE)
+        output, _ = process.communicate(timeout=arguments.deadline)
     except subprocess.TimeoutExpired:
         kill([*started(folder), process.pid])
         return name, f"hangs: {process.communicate()[0]}", 0, done
@@ -59,6 +59,7 @@ def main():
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--kills", type=int, default=3)
     parser.add_argument("--part", action="store_true", help="one process at a time")
+    parser.add_argument("--deadline", type=float, default=DEADLINE, help="seconds for each; more where the machine is busy")
     arguments = parser.parse_args()
     if shutil.which("mpirun") is None:
         print("skipped: there is no mpirun")

@@ -17,7 +17,7 @@ NODES = 3
 # Partitions: jobs of `urgent` preempt those of `main`, which are told by SIGTERM and requeued.
 CONFIGURATION = """
 ClusterName=farm
-SlurmctldHost={host}(127.0.0.1)
+SlurmctldHost={host}({address})
 SlurmctldPort={port}
 SlurmdPort={slurmd_port}
 AuthType=auth/munge
@@ -41,10 +41,11 @@ MpiDefault=none
 ReturnToService=2
 AccountingStorageType=accounting_storage/none
 JobAcctGatherType=jobacct_gather/none
-CommunicationParameters=NoInAddrAny,NoCtldInAddrAny
+CommunicationParameters={listening}
 SwitchType=switch/none
 InactiveLimit=0
 KillWait=10
+MinJobAge=7200
 SlurmdTimeout=10
 SlurmdParameters=config_overrides
 {nodes}
@@ -77,10 +78,12 @@ def free_ports(count):
 
 
 class LocalSlurm:
-    def __init__(self, folder, processors=2, task_plugin="task/none"):
-        """`folder`: outside /tmp, which each node has for itself; its path is short (sockets)."""
+    def __init__(self, folder, processors=2, task_plugin="task/none", hosts=None):
+        """`folder`: outside /tmp, which each node has for itself; its path is short (sockets). `hosts`: VirtualHosts that are the nodes,
+        each with a cable of its own, and slurmctld and Slurm's commands sit at their switch."""
         self.folder = pathlib.Path(folder)
-        self.names = [f"s{k + 1}" for k in range(NODES)]
+        self.hosts = hosts
+        self.names = hosts.names if hosts else [f"s{k + 1}" for k in range(NODES)]
         self.daemons = {}
         for name in ("state", "run", "log", *(f"spool-{node}" for node in self.names)):
             (self.folder / name).mkdir(parents=True)
@@ -94,12 +97,15 @@ class LocalSlurm:
             raise
 
     def _configure(self, processors, task_plugin):
-        port, slurmd_port, *ports = free_ports(2 + NODES)
+        port, slurmd_port, *ports = free_ports(2 + len(self.names))
         host = socket.gethostname()
-        nodes = "\n".join(f"NodeName={name} NodeHostname={host} NodeAddr=127.0.0.1 Port={own} CPUs={processors} RealMemory=4000"
-                          for name, own in zip(self.names, ports))
+        places = [(name, self.hosts.address(k)) if self.hosts else (host, "127.0.0.1") for k, name in enumerate(self.names)]
+        nodes = "\n".join(f"NodeName={name} NodeHostname={its} NodeAddr={address} Port={own} CPUs={processors} RealMemory=4000"
+                          for name, (its, address), own in zip(self.names, places, ports))
         (self.folder / "slurm.conf").write_text(CONFIGURATION.format(
-            host=host, port=port, slurmd_port=slurmd_port, folder=self.folder, task_plugin=task_plugin, nodes=nodes))
+            host=host, address=self.hosts.at_switch() if self.hosts else "127.0.0.1",
+            listening="NoInAddrAny" if self.hosts else "NoInAddrAny,NoCtldInAddrAny", port=port, slurmd_port=slurmd_port,
+            folder=self.folder, task_plugin=task_plugin, nodes=nodes))
         key = self.folder / "munge.key"
         key.write_bytes(os.urandom(128))
         key.chmod(0o400)
@@ -115,13 +121,22 @@ class LocalSlurm:
                      f"--socket={run}/munge.sock", f"--pid-file={run}/munged.pid", f"--log-file={self.folder}/log/munged.log",
                      f"--seed-file={run}/munge.seed")
         self._wait(lambda: (run / "munge.sock").exists(), "munged does not start")
-        self._daemon("slurmctld", "slurmctld", "-D", "-c", "-f", str(self.folder / "slurm.conf"))
+        self._daemon("slurmctld", *self._here(), "slurmctld", "-D", "-c", "-f", str(self.folder / "slurm.conf"))
         for name in self.names:
             self.start_node(name)
-        self._wait(lambda: self.run("sinfo", "-h", "-p", "main", "-o", "%T %D", check=False).stdout.split() == ["idle", str(NODES)],
+        wanted = ["idle", str(len(self.names))]
+        self._wait(lambda: self.run("sinfo", "-h", "-p", "main", "-o", "%T %D", check=False).stdout.split() == wanted,
                    "the nodes do not come up")
 
+    def _here(self):
+        """What leads a command to where slurmctld is."""
+        return self.hosts.words_at_switch() if self.hosts else []
+
     def start_node(self, name):
+        if self.hosts:
+            daemon = ["slurmd", "-D", "-f", f"{self.folder}/slurm.conf", "-N", name]
+            self._daemon(name, *self.hosts.words(self.names.index(name), daemon, self.folder))
+            return
         # Open MPI's and PMIx's files of one node must not lie where another node has its own.
         self._daemon(name, "unshare", "-m", "sh", "-c", "mount -t tmpfs none /tmp && mount -t tmpfs none /dev/shm && "
                      f"exec slurmd -D -f {self.folder}/slurm.conf -N {name}")
@@ -134,7 +149,10 @@ class LocalSlurm:
             time.sleep(0.1)
 
     def run(self, *words, check=True):
-        return subprocess.run(words, env=self.environment, capture_output=True, text=True, check=check)
+        done = subprocess.run([*self._here(), *words], env=self.environment, capture_output=True, text=True)
+        if check and done.returncode != 0:
+            raise RuntimeError(f"{' '.join(words)} says {done.stderr.strip()}")
+        return done
 
     def has_pmix(self):
         listed = self.run("srun", "--mpi=list", check=False)
@@ -170,7 +188,11 @@ class LocalSlurm:
         return None
 
     def crash(self, name):
-        """The node's daemon and all that runs there end at once."""
+        """The node's daemon and all that runs there end at once, and its network where it is a virtual host."""
+        if self.hosts:
+            self.hosts.crash(self.names.index(name))
+            self.daemons.pop(name).wait()
+            return
         for pid in self.processes(name):
             try:
                 os.kill(pid, signal.SIGKILL)
@@ -180,7 +202,8 @@ class LocalSlurm:
 
     def processes(self, name):
         """Processes of a node: they share its mount namespace."""
-        space = os.readlink(f"/proc/{self.daemons[name].pid}/ns/mnt")
+        first = self.hosts.inits[self.names.index(name)] if self.hosts else self.daemons[name].pid
+        space = os.readlink(f"/proc/{first}/ns/mnt")
         found = []
         for process in pathlib.Path("/proc").glob("[0-9]*"):
             try:

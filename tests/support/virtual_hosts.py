@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Hosts that are namespaces of this machine: each with a network card of its own, its own /tmp, /dev/shm, process numbers and name.
 
-They hang on one switch, 10.78.0.0/24, host k at 10.78.0.(10 + k). Needs root, iproute2 and util-linux; why_not() says what is missing.
-Files outside /tmp and /dev/shm are shared, as by a network disk. A host ends with the object, or when it is crashed.
+They hang on one switch, 10.78.0.0/24, host k at 10.78.0.(10 + k), the switch itself at 10.78.0.1. Needs root, iproute2
+and util-linux; why_not() says what is missing. Files outside /tmp and /dev/shm are shared, as by a network disk. A host ends with the object, or when it is crashed.
 """
 import json
 import os
@@ -54,12 +54,12 @@ class VirtualHosts:
         self.names = names or [f"vh{k}" for k in range(count)]
         self.prefix = f"tf{os.getpid()}"
         self.switch = f"{self.prefix}sw"
-        self.keepers, self.inits = [], []
+        self.keepers, self.inits, self.cables = [], [], []
         self.door = None
         self.environment = dict(os.environ)  # of what the agent starts, as a login would have it
         self.hosts_file = self.folder / "etc-hosts"
         self.hosts_file.write_text("127.0.0.1 localhost\n" + "".join(
-            f"10.78.0.{10 + k} {name}\n" for k, name in enumerate(self.names)))
+            f"{self.address(k)} {name}\n" for k, name in enumerate(self.names)))
         self.agent = self.folder / "agent"
         try:
             self._make_switch()
@@ -74,6 +74,8 @@ class VirtualHosts:
         run("ip", "netns", "add", self.switch)
         run("ip", "-n", self.switch, "link", "add", "br0", "type", "bridge")
         run("ip", "-n", self.switch, "link", "set", "br0", "up")
+        run("ip", "-n", self.switch, "link", "set", "lo", "up")
+        run("ip", "-n", self.switch, "addr", "add", f"{self.at_switch()}/24", "dev", "br0")
 
     def _make_host(self, k):
         space = f"{self.prefix}h{k}"
@@ -81,12 +83,13 @@ class VirtualHosts:
         run("ip", "-n", self.switch, "link", "add", f"port{k}", "type", "veth", "peer", "name", "eth0", "netns", space)
         run("ip", "-n", self.switch, "link", "set", f"port{k}", "master", "br0", "up")
         run("ip", "-n", space, "link", "set", "lo", "up")
-        run("ip", "-n", space, "addr", "add", f"10.78.0.{10 + k}/24", "dev", "eth0")
+        run("ip", "-n", space, "addr", "add", f"{self.address(k)}/24", "dev", "eth0")
         run("ip", "-n", space, "link", "set", "eth0", "up")
         first = (f"hostname {self.names[k]} && mount -t tmpfs none /tmp && mount -t tmpfs none /dev/shm && "
                  f"mount --bind {self.hosts_file} /etc/hosts && mount -t proc none /proc && echo ready && exec sleep infinity")
-        keeper = subprocess.Popen(["ip", "netns", "exec", space, "unshare", "--uts", "--mount", "--pid", "--fork", "--kill-child",
-                                   "sh", "-c", first], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True,
+        # Not by ip netns exec: that mounts a /sys without control groups.
+        keeper = subprocess.Popen(["nsenter", f"--net=/run/netns/{space}", "unshare", "--uts", "--mount", "--pid", "--fork",
+                                   "--kill-child", "sh", "-c", first], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True,
                                   start_new_session=True)
         self.keepers.append(keeper)
         if keeper.stdout.readline() != "ready\n":
@@ -148,6 +151,19 @@ class VirtualHosts:
         """The command line that runs a command on host k, in this folder or `place`."""
         return ["nsenter", "-t", str(self.inits[k]), "-n", "-u", "-m", "-p", f"--wd={place or os.getcwd()}", "--", *command]
 
+    @staticmethod
+    def address(k):
+        return f"10.78.0.{10 + k}"
+
+    @staticmethod
+    def at_switch():
+        """Address of the switch itself, where a service for all hosts may listen."""
+        return "10.78.0.1"
+
+    def words_at_switch(self):
+        """What runs a command with the network of the switch, and all else as this process has it."""
+        return ["nsenter", f"--net=/run/netns/{self.switch}", "--"]
+
     def cut(self, k):
         """Pulls the cable at the switch."""
         run("ip", "-n", self.switch, "link", "set", f"port{k}", "down")
@@ -162,6 +178,28 @@ class VirtualHosts:
         return all(subprocess.run(["tc", flag, space, "qdisc", "replace", "dev", card, "root", *discipline],
                                   capture_output=True).returncode == 0 for flag, space, card in ends)
 
+    def lengthen(self, k, seconds):
+        """Gives a host a cable on which everything takes so much longer; by the kernel where it can do that. False: it cannot be done."""
+        if self.shape(k, "netem", "delay", f"{round(1000 * seconds)}ms"):
+            return True
+        if not pathlib.Path("/dev/net/tun").exists():
+            return False
+        space, port = f"{self.prefix}h{k}", f"port{k}"
+        facts = json.loads(subprocess.run(["ip", "-n", space, "-j", "link", "show", "eth0"], check=True, capture_output=True).stdout)
+        run("ip", "-n", space, "link", "del", "eth0")  # and the other end with it
+        program = pathlib.Path(__file__).with_name("long_cable.py")
+        cable = subprocess.Popen([sys.executable, str(program), self.switch, port, space, "eth0", str(seconds)],
+                                 stdout=subprocess.PIPE, text=True)
+        self.cables.append(cable)
+        if cable.stdout.readline() != "ready\n":
+            return False
+        # Others know the host by its card's address.
+        run("ip", "-n", space, "link", "set", "eth0", "address", facts[0]["address"])
+        run("ip", "-n", self.switch, "link", "set", port, "master", "br0", "up")
+        run("ip", "-n", space, "link", "set", "eth0", "up")
+        run("ip", "-n", space, "addr", "add", f"{self.address(k)}/24", "dev", "eth0")
+        return True
+
     def crash(self, k):
         """All processes of the host end at once, and its network with them."""
         self.cut(k)
@@ -172,12 +210,13 @@ class VirtualHosts:
         if self.door:
             self.door.shutdown(socket.SHUT_RDWR)
             self.door.close()
+            (self.folder / "door").unlink(missing_ok=True)
         for init in self.inits:
             try:
                 os.kill(init, signal.SIGKILL)
             except ProcessLookupError:
                 pass
-        for keeper in self.keepers:
+        for keeper in [*self.cables, *self.keepers]:
             keeper.kill()
             keeper.wait()
         time.sleep(0.1)

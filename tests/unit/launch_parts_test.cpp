@@ -188,6 +188,9 @@ TEST(LifeStatus, ComesBackFromItsFile) {
     EXPECT_EQ(read->code, 4);
     status.code.reset();
     EXPECT_FALSE(parse_life_status(life_status_text(status))->code);
+    EXPECT_FALSE(read->ended_by_launcher);
+    status.ended_by_launcher = true;
+    EXPECT_TRUE(parse_life_status(life_status_text(status))->ended_by_launcher);
 }
 
 TEST(LifeStatus, WhatIsNoneIsNone) {

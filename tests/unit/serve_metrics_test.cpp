@@ -131,6 +131,22 @@ TEST(ServeMetrics, TheStrictReaderRefusesWhatIsWrong) {
         EXPECT_NE(parse(head + wrong).wrong, "") << wrong;
 }
 
+/// Prometheus' own client library, of Debian's Python: another may stand before it in PATH.
+TEST(ServeMetrics, PrometheusClientTakesThem) {
+    const std::string python = "/usr/bin/python3 -c '";
+    if (test::run_command(python + "import prometheus_client.parser'").code != 0)
+        GTEST_SKIP() << "there is no python3-prometheus-client (deploy/packages.txt)";
+    const std::string file = testing::TempDir() + "/treefarm_client_metrics.txt", text = metrics_text(two_runs());
+    std::ofstream(file) << text;
+    const test::Ended ended =
+        test::run_command(python +
+                          "import sys; from prometheus_client.parser import *; "
+                          "print(sum(len(f.samples) for f in text_fd_to_metric_families(sys.stdin)))' < '" +
+                          file + "'");
+    EXPECT_EQ(ended.code, 0) << ended.output;
+    EXPECT_EQ(ended.output, std::to_string(parse(text).samples.size()) + "\n");
+}
+
 TEST(ServeMetrics, PromtoolTakesThem) {
     if (test::run_command("command -v promtool").code != 0)
         GTEST_SKIP() << "promtool is not installed (Debian: prometheus)";

@@ -87,6 +87,25 @@ TEST(Supervisor, AStopWaitsForWhatIsWritten) {
     EXPECT_TRUE(world.end->resumable);
 }
 
+TEST(Supervisor, AnEndThatOnlyTheLauncherWantedIsNone) {
+    LaunchWorld world;
+    world.run_to_pass();
+    world.status->ended_by_launcher = true;  // mpirun, which has lost a host
+    world.finish(3);
+    world.step();
+    EXPECT_FALSE(world.end);
+    EXPECT_EQ(world.last_said(), "the launcher ended the render in pass 3 on node1; again in 1 s");
+    world.run_to_pass();
+    EXPECT_EQ(world.attempt, 2);
+    world.stop();
+    world.step();
+    world.status->ended_by_launcher = true;
+    world.finish(3);
+    world.step();
+    ASSERT_TRUE(world.end) << "a person wants it, too";
+    EXPECT_EQ(world.end->code, 3);
+}
+
 TEST(Supervisor, AStopThatIsNotHeardEndsByForce) {
     LaunchWorld world;
     world.run_to_pass();
