@@ -54,8 +54,9 @@ LocalRender render_locally(const Scene& scene, const Job& asked) {
         run.stats.push_back(stats);
         run.splat_caps.add(splats.caps());
         std::vector<PixelEstimate> pixels = pass.layers.estimates ? film.pixels() : std::vector<PixelEstimate>();
-        PassResult shown = finished_pass(pass, before ? &*before : nullptr,
-                                         develop(std::move(pixels), splats, pass.splatting_paths(), pass.splatting_chains()));
+        PassResult shown =
+            finished_pass(pass, before ? &*before : nullptr,
+                          develop(std::move(pixels), splats, pass.splatting_paths(), pass.splatting_chains()));
         before = pass;
         if (stats.probe_paths > 0) {
             probe.add(shown.pixels, stats, pass.index);
