@@ -10,6 +10,7 @@
 #include "cli/option_values.h"
 #include "cli/plan_answer.h"
 #include "cli/render.h"
+#include "common/plan/estimator_advice.h"
 #include "common/plan/plan_text.h"
 #include "common/scene/lint/lint.h"
 
@@ -63,6 +64,7 @@ int run_plan(const PlanOptions& options, std::ostream& out) {
     RenderRequest request = read_request(options.render);
     for (const Finding& cause : dark_causes(request.scene))
         request.plan.warnings.push_back(cause.text());
+    request.plan.advice = estimator_advice(request.scene, request.plan.job);
     if (!options.asks() || options.no_probe) {
         print(options, request, nullptr, out);
         return 0;

@@ -68,6 +68,12 @@ void Collector::check_stats(const Result& result) const {
     if (s.paths != paths || s.nonzero_paths > paths || s.invalid_samples > paths ||
         s.probe_paths > (plan_.probe ? paths : 0))
         throw FormatError("counts of paths that do not fit the work units");
+    std::uint64_t light_paths = 0;
+    for (std::size_t i = 0; i < s.emission.paths.size(); ++i) {
+        light_paths += std::min(s.emission.paths[i], paths + 1);
+        if (light_paths > paths || s.emission.squares[i] > kMostSplatSum)
+            throw FormatError("light paths that do not fit the work units");
+    }
     if (!is_duration(s.trace_seconds) || !is_duration(s.splat_seconds) ||
         !std::all_of(s.phase_seconds.begin(), s.phase_seconds.end(), is_duration))
         throw FormatError("seconds that no clock shows");

@@ -107,6 +107,7 @@ class PassLoop {
         state_.history.threads = thread_count();
         NextPass next = choose_(state_.history);
         if (next.pass && has_tree && state_.last_tree) next.pass->last_tree = *state_.last_tree;
+        if (next.pass) set_emission(*next.pass, job_, state_.history);
         return next;
     }
 

@@ -60,17 +60,20 @@ struct PassReport {
     PassSeconds seconds;
     TraceStats stats;
     PassVariance variance;
-    ErrorEstimate error;              ///< of the image with this pass
-    GuidingGain guiding_gain;         ///< of a guided pass that taught, since the first probe pass
-    GuidingWorth guiding_worth;       ///< of a guided pass that knows what unguided samples would be
-    Guiding guiding = Guiding::open;  ///< what is known with this pass
-    SplittingGain splitting_gain;     ///< of a guided pass that taught and may split
-    bool splitting = true;            ///< whether it may pay, with this pass
-    NextEventPrice price;             ///< by which next event was decided on after this pass; of a pass just finished
-    double run_seconds = 0;           ///< since the first worker asked for work, with this pass
-    ErrorForecast halving;            ///< until the error is half of this
-    ErrorForecast target;             ///< until it is budget.error; its relative_error is 0 where there is none
-    TreeFigures tree;                 ///< that guided the pass
+    ErrorEstimate error;                  ///< of the image with this pass
+    GuidingWorth guiding_worth;           ///< of a guided pass that knows what unguided samples would be
+    Guiding guiding = Guiding::open;      ///< what is known with this pass
+    SplittingGain splitting_gain;         ///< of a guided pass that taught and may split
+    bool splitting = true;                ///< whether it may pay, with this pass
+    LightSubpathGain light_subpath_gain;  ///< of a pass that compared
+    bool light_subpaths = true;           ///< whether they may pay, with this pass
+    std::uint64_t emitters = 0;           ///< that light paths may start from, where passes learn how often
+    std::uint64_t emitters_of_half = 0;   ///< of which the fewest started half of this pass's light paths
+    NextEventPrice price;                 ///< of a pass just finished: next event is decided by it
+    double run_seconds = 0;               ///< since the first worker asked for work, with this pass
+    ErrorForecast halving;                ///< until the error is half of this
+    ErrorForecast target;                 ///< until it is budget.error; its relative_error is 0 where there is none
+    TreeFigures tree;                     ///< that guided the pass
     std::uint64_t update_bytes = 0, touched_cells = 0;
     UpdateCaps caps;
     SplatCaps splat_caps;

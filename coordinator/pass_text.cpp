@@ -37,6 +37,17 @@ std::string next_event_text(const NextEventVerdict& verdict) {
         100 * verdict.low, 100 * (1 - verdict.saved));
 }
 
+/// What is decided on light subpaths, and why.
+std::string light_subpath_text(const PassReport& r) {
+    const double quieter = r.light_subpath_gain.at_equal_cost();
+    if (quieter == 0) return "";
+    const std::string noise =
+        fmt::format("{:.2g} times {}", std::max(quieter, 1 / quieter), quieter < 1 ? "the variance" : "less variance");
+    if (!r.light_subpaths)
+        return fmt::format("; paths from the camera alone from here on: those from lamps make {} at equal cost", noise);
+    return fmt::format("; paths from lamps make {} at equal cost", noise);
+}
+
 /// "half of it in about 1:10"; empty where nobody knows, or nothing is left to do.
 std::string outlook_text(const PassReport& r) {
     const bool asked = r.target.relative_error > 0;
@@ -67,6 +78,9 @@ std::string pass_summary(const PassReport& r, std::size_t pass_count) {
     if (r.guiding_worth.worth > 0) text += "; " + guiding_text(r.guiding, r.guiding_worth);
     text += next_event_text(r.refine.next_event);
     if (r.plan.split && !r.splitting) text += "; splitting paths does not pay: none is split from here on";
+    if (r.plan.light_subpaths) text += light_subpath_text(r);
+    if (!r.plan.emission.empty())
+        text += fmt::format("; half of the light paths start at {} of {} emitters", r.emitters_of_half, r.emitters);
     for (const ErrorForecast& forecast : {r.halving, r.target})
         if (is_known(forecast))
             text += fmt::format("; {:.3g} % in {}", 100 * forecast.relative_error, forecast_text(forecast));

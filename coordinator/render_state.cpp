@@ -7,6 +7,7 @@
 
 #include "common/base/hash.h"
 #include "common/config/aov_list.h"
+#include "common/film/emission_shares.h"
 #include "common/film/fold_passes.h"
 #include "common/film/image_levels.h"
 #include "common/plan/learning.h"
@@ -95,6 +96,19 @@ void judge_next_event(RenderState& state, const Resolved& job, const CombinedIma
     state.tree.set_image(std::move(facts));
 }
 
+void judge_light_subpaths(RenderState& state, const Resolved& job, PassReport& report) {
+    report.light_subpath_gain = light_subpath_gain(report.stats);
+    if (job.bidirectional.light_subpaths == Rule::while_it_pays &&
+        !light_subpaths_may_pay(report.plan, report.light_subpath_gain))
+        state.history.light_subpaths = false;
+    report.light_subpaths = state.history.light_subpaths;
+    EmissionSums& emission = report.stats.emission;
+    state.history.emission.add(emission);
+    report.emitters = emission.paths.size();
+    report.emitters_of_half = emitters_of_half(emission);
+    emission = {};
+}
+
 }  // namespace
 
 RenderState first_state(const Resolved& job, AnyModel tree, std::size_t pixels) {
@@ -146,6 +160,7 @@ void judge(RenderState& state, const Resolved& job, const CombinedImage& image, 
     judge_guiding(state, job, width, cost, report);
     judge_splitting(state, job, report);
     judge_next_event(state, job, image, width, cost, report);
+    judge_light_subpaths(state, job, report);
 }
 
 void learn(RenderState& state, const Resolved& job, const PassPlan& pass, const std::optional<PassPlan>& coming,

@@ -80,8 +80,8 @@ void add_film(RenderState& state, const Resolved& job, CollectedPass pass);
 void combine_films(RenderState& state, const Resolved& job, DevelopedState& developed);
 /// The other figures of the combined image, the last pass's variance among them, in threads of their own.
 void describe_image(const RenderState& state, const Resolved& job, DevelopedState& developed, PassVariance& last_pass);
-/// Verdicts on guiding, splitting and, where nothing guides, next event, by the pass's figures and the image with it.
-/// Sets the report's.
+/// Verdicts on guiding, splitting, light subpaths and, where nothing guides, next event, by the pass's figures and the
+/// image with it. Sets the report's.
 void judge(RenderState& state, const Resolved& job, const CombinedImage& image, std::size_t width, PassReport& report);
 /// The tree of the coming pass, by what the pass recorded. Without a coming one, as for a pass that goes on doubling:
 /// whoever continues an ended render needs it.

@@ -377,8 +377,8 @@ class WorkerLoop {
     std::optional<WorkerEnd> end_;
     std::set<int> ignored_;  ///< other workers that said what only the coordinator may; told once
 
-    std::uint32_t job_number_ = 0;
-    std::string job_text_;  ///< of job_; empty: none yet
+    std::uint32_t job_number_ = 0, pass_task_job_ = 0;  ///< of the renderer, of the pass being built
+    std::string job_text_;                              ///< of job_; empty: none yet
     std::shared_ptr<const Bytes> scene_;
     std::uint64_t scene_hash_ = 0, coming_scene_hash_ = 0, coming_scene_bytes_ = 0;
     bool keep_scene_ = false, build_renderer_ = false;  ///< scene and job are there, nothing was made of them yet
@@ -386,7 +386,6 @@ class WorkerLoop {
     std::unique_ptr<TracerPool> pool_, retired_;
     std::optional<PassBegin> coming_;  ///< announced, its guide not yet built
     std::future<std::shared_ptr<PassWork>> pass_task_;
-    std::uint32_t pass_task_job_ = 0;
     std::shared_ptr<PassWork> pass_;
     Appetite appetite_;
 };

@@ -11,13 +11,6 @@ namespace {
 constexpr std::int64_t kMaxInt = std::numeric_limits<int>::max();
 constexpr std::int64_t kMaxSpp = std::int64_t{1} << 30;
 
-template <class Member>
-JobKey rule_key(const char* name, const char* doc, Member member) {
-    return word_key(name, doc, member,
-                    std::vector<std::pair<std::string, Rule>>{
-                        {"usual", Rule::usual}, {"always", Rule::always}, {"while_it_pays", Rule::while_it_pays}});
-}
-
 /// The key whose value is a number, or (by default) that it is learned.
 JobKey bsdf_fraction_key() {
     JobKey key = number_key(

@@ -97,9 +97,10 @@ struct Job {
     } integrator;
 
     struct Bidirectional {
-        bool light_image = true;         ///< light paths are connected to the lens
-        std::string techniques = "all";  ///< of which the image is made (techniques.h)
-        bool weighted = true;            ///< techniques share the light that several find
+        bool light_image = true;            ///< light paths are connected to the lens
+        std::string techniques = "all";     ///< of which the image is made (techniques.h)
+        bool weighted = true;               ///< techniques share the light that several find
+        Rule light_subpaths = Rule::usual;  ///< usual: while_it_pays where the image is made of all techniques
     } bidirectional;
 
     struct Effects {

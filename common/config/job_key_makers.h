@@ -116,4 +116,12 @@ JobKey word_key(const char* name, const char* doc, Member member, std::vector<st
             std::move(unavailable)};
 }
 
+/// A key whose value says how long what a render has begun with goes on.
+template <class Member>
+JobKey rule_key(const char* name, const char* doc, Member member) {
+    return word_key(name, doc, member,
+                    std::vector<std::pair<std::string, Rule>>{
+                        {"usual", Rule::usual}, {"always", Rule::always}, {"while_it_pays", Rule::while_it_pays}});
+}
+
 }  // namespace treefarm

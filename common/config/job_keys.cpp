@@ -189,6 +189,11 @@ std::vector<JobKey> make_job_keys() {
     add(boolean_key(
         "bidirectional.light_image", "paths from lamps are connected to the lens, too",
         [](auto& j) -> auto& { return j.bidirectional.light_image; }));
+    add(rule_key(
+        "bidirectional.light_subpaths",
+        "how long samples have a path from a lamp, too; while_it_pays: until a pass shows that it does not, or to the "
+        "end where only such paths find some of the light; usual: that, or always where techniques are named",
+        [](auto& j) -> auto& { return j.bidirectional.light_subpaths; }));
     add(techniques_key());
     add(boolean_key(
         "bidirectional.weighted",

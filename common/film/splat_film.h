@@ -23,8 +23,8 @@ inline constexpr int kMostSplatExponent = 256;
 struct SplatShape {
     std::uint32_t pixels = 0;   ///< of the film; 0: the pass has no splats
     std::int16_t exponent = 0;  ///< of the quantum, within +-kMostSplatExponent
-    /// Of Markov chains: one chain's splats depend on each other, so squares are of what a whole chain brings to a
-    /// pixel.
+    /// Whether they are of Markov chains: one chain's splats depend on each other, so squares are of what a whole
+    /// chain brings to a pixel.
     bool chains = false;
 
     bool operator==(const SplatShape&) const = default;

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/film/trace_stats.h"
 
+#include <algorithm>
+
+#include "common/film/splat_film.h"
+
 namespace treefarm {
 
 void SplittingSums::add(const SplittingSums& other) {
@@ -8,6 +12,24 @@ void SplittingSums::add(const SplittingSums& other) {
     unsplit_mean += other.unsplit_mean;
     split_variance += other.split_variance;
     unsplit_variance += other.unsplit_variance;
+}
+
+void LightSubpathSums::add(const LightSubpathSums& other) {
+    both_mean += other.both_mean;
+    alone_mean += other.alone_mean;
+    both_variance += other.both_variance;
+    alone_variance += other.alone_variance;
+    alone_rays += other.alone_rays;
+}
+
+void EmissionSums::add(const EmissionSums& other) {
+    if (other.paths.empty()) return;
+    paths.resize(std::max(paths.size(), other.paths.size()));
+    squares.resize(paths.size());
+    for (std::size_t i = 0; i < other.paths.size(); ++i) {
+        paths[i] += other.paths[i];
+        squares[i] = std::min(squares[i] + other.squares[i], kMostSplatSum);
+    }
 }
 
 void TraceStats::add(const TraceStats& other) {
@@ -25,6 +47,8 @@ void TraceStats::add(const TraceStats& other) {
         add_saturating(next_event[i], other.next_event[i]);
     splitting.add(other.splitting);
     unguided.add(other.unguided);
+    light_subpaths.add(other.light_subpaths);
+    emission.add(other.emission);
     for (const InvalidSample& sample : other.first_invalid)
         if (first_invalid.size() < kMaxReported) first_invalid.push_back(sample);
     trace_seconds += other.trace_seconds;

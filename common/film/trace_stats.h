@@ -37,6 +37,26 @@ struct SplittingSums {
     void add(const SplittingSums& other);
 };
 
+/// Sums over pixels of a pass whose samples also know what they would bring without their light subpaths
+/// (light_subpath_gain.h); whole units.
+struct LightSubpathSums {
+    std::uint64_t both_mean = 0, alone_mean = 0;
+    std::uint64_t both_variance = 0, alone_variance = 0;  ///< of one sample
+    std::uint64_t alone_rays = 0;                         ///< that those alone would have traced, shadow rays included
+
+    void add(const LightSubpathSums& other);
+};
+
+/// What light paths bring, by the entry that each starts from in the table that their emitters are chosen by
+/// (emission_shares.h); empty where nobody asks.
+struct EmissionSums {
+    std::vector<std::uint64_t> paths;
+    /// Of each path's contributions squared, as if emitters were chosen by power; saturates at kMostSplatSum.
+    std::vector<std::uint64_t> squares;
+
+    void add(const EmissionSums& other);
+};
+
 /// Figures of tracing some units: counts are exact sums, seconds are measured (and never enter a result).
 struct TraceStats {
     std::uint64_t paths = 0;
@@ -51,6 +71,8 @@ struct TraceStats {
     NextEventSums next_event{};  ///< where it is decided; moments where nothing is recorded by region
     SplittingSums splitting;
     UnguidedSums unguided;                             ///< where a guided pass asks whether it pays
+    LightSubpathSums light_subpaths;
+    EmissionSums emission;
     std::vector<InvalidSample> first_invalid;          ///< at most kMaxReported of them, to reproduce
     double trace_seconds = 0;                          ///< thread-seconds in the tile renderer
     double splat_seconds = 0;                          ///< thread-seconds adding records to the tree's sums

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "common/film/emission_shares.h"
 #include "common/plan/policy.h"
 
 namespace treefarm {
@@ -132,6 +133,10 @@ PassChooser open_passes(const Resolved& job) {
     return [job](const RenderHistory& state) { return OpenBudget(job, state).next(state); };
 }
 
+void set_emission(PassPlan& pass, const Resolved& job, const RenderHistory& state) {
+    if (job.learns_emission && pass.light_subpaths) pass.emission = emission_emphasis(state.emission);
+}
+
 PassResult finished_pass(const PassPlan& plan, const PassPlan* before, std::vector<PixelEstimate> pixels) {
     PassResult pass{plan.spp, plan.first_sample, std::move(pixels)};
     pass.same_tree = before && !before->record;
@@ -152,6 +157,7 @@ PassChooser passes_of(const Resolved& job, std::span<const PassPlan> begun) {
         if (next.pass) {
             set_guiding(*next.pass, job, state.guiding);
             set_splitting(*next.pass, job, state.splitting);
+            set_light_subpaths(*next.pass, job, state.light_subpaths);
         }
         return next;
     };

@@ -37,6 +37,10 @@ PassChooser passes_of(const Resolved& job, std::span<const PassPlan> begun = {})
 /// otherwise passes go on doubling from there by the same two rules (docs/use/resume.md). Pure.
 std::vector<PassPlan> continued_passes(const Resolved& job, std::span<const PassPlan> begun);
 
+/// Lets a pass's light paths start by what those of the passes before brought, where the job has it so. Whoever renders
+/// a pass sets it once, as its kernel.
+void set_emission(PassPlan& pass, const Resolved& job, const RenderHistory& state);
+
 /// A finished pass; `before`: the one before it, or nullptr.
 PassResult finished_pass(const PassPlan& plan, const PassPlan* before, std::vector<PixelEstimate> pixels);
 

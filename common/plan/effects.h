@@ -44,6 +44,7 @@ struct EffectPlan {
     std::vector<Approximation> approximations;
     std::vector<KernelUse> kernels;
     MemoryPlan memory;
+    std::string advice;                 ///< which estimator suits the scene, and why; empty: nobody looked
     std::vector<std::string> warnings;  ///< what reading the scene had to replace or leave out
 
     const Effect* find(const std::string& name) const;

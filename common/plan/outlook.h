@@ -39,8 +39,10 @@ struct RenderHistory {
     std::uint32_t threads = 0;      ///< of the workers that the next pass has; 0: not known
     ErrorEstimate error;            ///< of the image so far
     Guiding guiding = Guiding::open;
-    bool splitting = true;  ///< may pay
-    BudgetMemory budget;    ///< with the last finished pass: NextPass::memory of it
+    bool splitting = true;       ///< may pay
+    bool light_subpaths = true;  ///< may pay
+    EmissionSums emission;       ///< of all passes
+    BudgetMemory budget;         ///< with the last finished pass: NextPass::memory of it
 
     std::uint32_t spp() const { return passes.empty() ? 0 : passes.back().spp_before + passes.back().spp; }
     /// Samples per pixel of the passes that had the last one's tree.

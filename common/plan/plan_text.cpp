@@ -123,6 +123,7 @@ std::string plan_text(const EffectPlan& plan, const std::string& scene) {
         text += "\nestimator: " + plan.job.integrator.type + "\n";
     else
         text += "\nkernels, of " + std::to_string(kKernelCount) + " in the program\n" + aligned(kernels);
+    if (!plan.advice.empty()) text += "\nestimator that suits the scene\n  " + plan.advice + "\n";
     if (!plan.misses.empty()) text += "\nlight that is not found\n";
     for (const std::string& missed : plan.misses)
         text += "  " + missed + "\n";
@@ -152,6 +153,7 @@ std::string plan_json(const EffectPlan& plan, const std::string& scene) {
                                    {"where", location_json(effect.where)},
                                    {"bytes", effect.bytes}});
     json["misses"] = plan.misses;
+    if (!plan.advice.empty()) json["advice"] = plan.advice;
     json["approximations"] = Json::array();
     for (const Approximation& approximation : plan.approximations)
         json["approximations"].push_back({{"effect", approximation.effect},

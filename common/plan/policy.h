@@ -60,6 +60,16 @@ struct Policy {
         double copy_ray_cost = 1.4;
     } splitting;
 
+    /// Light subpaths of bidirectional samples: when they are given up, and which emitters they start from.
+    struct LightSubpaths {
+        double ray_cost = 1.7;
+        double least_gain = 0.9;
+        double least_found = 0.95;
+        std::uint32_t least_spp = 4;
+        double prior_paths = 128.0;
+        float unlearned = 0.2f;
+    } light_subpaths;
+
     /// Russian roulette, candidates and glass that the camera sees.
     struct Walk {
         float adjoint_window = 4.0f;

@@ -27,11 +27,13 @@ constexpr const char* kError = "bench/log/2026-11-25-error.md";
 constexpr const char* kProgram2017 = "the program of Mueller et al. 2017";
 constexpr const char* kProgram2019 = "the program of Mueller et al. 2019";
 constexpr const char* kDecisions = "bench/log/2026-11-27-decisions.md";
+constexpr const char* kEnds = "bench/log/2026-11-27-ends.md";
 constexpr const char* kGuess = "chosen, not measured";
 
 constexpr Policy::Guiding kGuiding = kPolicy.guiding;
 constexpr Policy::NextEvent kNextEvent = kPolicy.next_event;
 constexpr Policy::Splitting kSplitting = kPolicy.splitting;
+constexpr Policy::LightSubpaths kLightSubpaths = kPolicy.light_subpaths;
 constexpr Policy::Walk kWalk = kPolicy.walk;
 constexpr Policy::Learning kLearning = kPolicy.learning;
 constexpr Policy::Schedule kSchedule = kPolicy.schedule;
@@ -116,6 +118,19 @@ constexpr std::array kEntries = {
     entry("splitting.shown_gain", kSplitting.shown_gain,
           "with next event the gain that is seen is so many times what renders gain that never split", kSplits),
     entry("splitting.copy_ray_cost", kSplitting.copy_ray_cost, "cost of a copy's ray over that of another", kSplits),
+    entry("light_subpaths.ray_cost", kLightSubpaths.ray_cost,
+          "cost of a ray of a bidirectional sample over that of a path from the camera, connections included", kEnds),
+    entry("light_subpaths.least_gain", kLightSubpaths.least_gain,
+          "light subpaths are given up where samples without them have less than this times their variance at equal "
+          "cost",
+          kEnds),
+    entry("light_subpaths.least_found", kLightSubpaths.least_found,
+          "but not where those find less of the light: nobody knows how noisy they are", kEnds),
+    entry("light_subpaths.least_spp", kLightSubpaths.least_spp, "shorter passes have no say, spp", kEnds),
+    entry("light_subpaths.prior_paths", kLightSubpaths.prior_paths,
+          "light paths of an emitter that count as if they had brought what all do", kGuess),
+    entry("light_subpaths.unlearned", kLightSubpaths.unlearned,
+          "part of the light paths that start by power whatever was learned", kGuess),
     entry("walk.adjoint_window", kWalk.adjoint_window,
           "a path plays roulette when it is expected to carry less than one part in so many of what its first vertex "
           "does",

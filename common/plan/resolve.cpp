@@ -46,6 +46,22 @@ bool may_decide_next_event(const Job& job) {
            job.guiding.target == GuidingTarget::radiance && job.guiding.combination == Combination::inverse_variance;
 }
 
+/// Mirrors and smooth glass throw the light of emitters without extent where no path from the camera finds it.
+bool lights_alone_find(const Scene& scene) {
+    const bool has_points = std::any_of(scene.emitters.begin(), scene.emitters.end(), [](const Emitter& emitter) {
+        return std::visit([]<class Kind>(const Kind&) { return Kind::kTraits.type == LightType::delta; }, emitter.kind);
+    });
+    return has_points && scene_traits(scene).lobes.delta_reflection;
+}
+
+/// Light subpaths stay where what they bring is asked for, or cannot be had otherwise.
+void resolve_light_subpaths(Job::Bidirectional& bidirectional, const SceneFacts& scene) {
+    if (bidirectional.techniques != "all" || !bidirectional.weighted || scene.lights_alone_find)
+        bidirectional.light_subpaths = Rule::always;
+    else if (bidirectional.light_subpaths == Rule::usual)
+        bidirectional.light_subpaths = Rule::while_it_pays;
+}
+
 /// Takes away what the job's estimator does not use.
 void resolve_estimator(Job& job) {
     const Estimator& estimator = estimator_of(job.integrator.type);
@@ -71,7 +87,8 @@ SceneFacts facts_of(const Scene& scene) {
             is_plainly_diffuse(scene),
             scene_traits(scene).lobes.view_dependent(),
             chooses_lights(scene),
-            usual_splat_exponent(scene)};
+            usual_splat_exponent(scene),
+            lights_alone_find(scene)};
 }
 
 Resolved resolve(const Job& job, const SceneFacts& scene) {
@@ -83,6 +100,7 @@ Resolved resolve(const Job& job, const SceneFacts& scene) {
     NextEvent& next_event = resolved.integrator.next_event;
     if (next_event == NextEvent::automatic && !may_decide_next_event(resolved)) next_event = NextEvent::always;
     resolved.decides_next_event = next_event == NextEvent::automatic;
+    resolve_light_subpaths(resolved.bidirectional, scene);
     const bool by_view = guiding.type == GuidingType::view;
     if (guiding.splitting == 0)
         guiding.splitting = by_view && guiding.roulette == GuidingRoulette::adjoint ? kPolicy.splitting.usual : 1;
@@ -96,7 +114,10 @@ Resolved resolve(const Job& job, const SceneFacts& scene) {
     LightSelection& lights = resolved.integrator.light_selection;
     resolved.learns_lights = resolved.guides && lights == LightSelection::learned &&
                              resolved.integrator.next_event != NextEvent::never && scene.chooses_lights;
-    if (lights == LightSelection::learned && !resolved.learns_lights) lights = LightSelection::tree;
+    resolved.learns_emission =
+        estimator_of(job.integrator.type).splats() && lights == LightSelection::learned && scene.chooses_lights;
+    if (lights == LightSelection::learned && !resolved.learns_lights && !resolved.learns_emission)
+        lights = LightSelection::tree;
     resolved.cells_follow_use = by_view && guiding.view_records == ViewRecords::product && guiding.learn_bsdf_fraction;
     return resolved;
 }

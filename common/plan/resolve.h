@@ -18,6 +18,7 @@ struct SceneFacts {
     bool view_dependent = false;      ///< a surface scatters otherwise by where it is seen from
     bool chooses_lights = false;      ///< next event has more than one emitter, or an image, to choose from
     std::int16_t splat_exponent = 0;  ///< of the quantum of splats (splat_quantum.h)
+    bool lights_alone_find = false;   ///< some light only paths from emitters find: that of points by way of mirrors
 };
 
 SceneFacts facts_of(const Scene& scene);
@@ -29,6 +30,7 @@ struct Resolved : Job {
     SceneFacts scene_facts;
     bool guides = false;              ///< a tree is learned, and guides paths
     bool learns_views = false;        ///< the tree has a view-dependent part
+    bool learns_emission = false;     ///< passes learn how often light paths start from each emitter
     bool learns_lights = false;       ///< regions learn how next event chooses among emitters
     bool decides_next_event = false;  ///< finished passes say how often emitters are sampled
     bool cells_follow_use = false;    ///< regions get fewer cells where the BSDF is sampled rather than their tree

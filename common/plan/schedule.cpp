@@ -87,6 +87,17 @@ bool splitting_may_pay(const PassPlan& pass, const SplittingGain& gain) {
     return quieter >= kPolicy.splitting.least_gain * slower;
 }
 
+void set_light_subpaths(PassPlan& pass, const Resolved& job, bool pays) {
+    if (pays || job.bidirectional.light_subpaths != Rule::while_it_pays) return;
+    pass.light_subpaths = false;
+    pass.layers.splats = {};
+}
+
+bool light_subpaths_may_pay(const PassPlan& pass, const LightSubpathGain& gain) {
+    if (pass.spp < kPolicy.light_subpaths.least_spp || gain.noise == 0) return true;
+    return gain.found < kPolicy.light_subpaths.least_found || gain.at_equal_cost() >= kPolicy.light_subpaths.least_gain;
+}
+
 PassPlan make_pass(const Resolved& job, std::uint32_t index, std::uint32_t first_sample, std::uint32_t spp, bool last) {
     PassPlan pass;
     pass.index = index;

@@ -8,6 +8,7 @@
 #include "common/film/develop.h"
 #include "common/film/guiding_probe.h"
 #include "common/film/guiding_worth.h"
+#include "common/film/light_subpath_gain.h"
 #include "common/film/splitting_gain.h"
 #include "common/film/work_unit.h"
 #include "common/plan/kernel_choice.h"
@@ -42,6 +43,7 @@ struct PassPlan {
     bool guided = true;                 ///< by the tree, where there is one
     bool probe = false;                 ///< but for some pixels, to see whether it pays (guiding_probe.h)
     bool split = true;                  ///< paths may be split, if the job lets them
+    bool light_subpaths = true;         ///< an estimator from both ends has them; else it traces paths from the camera
     bool record = false;                ///< teach the tree (the last pass does not)
     double record_weight = 1.0;         ///< 0.5 in kick-start passes
     bool learn_mixture = false;         ///< teach how often to sample the BSDF (needs a tree that guides)
@@ -69,6 +71,7 @@ struct PassPlan {
     KernelChoice kernel{};  ///< what traces it
     PassUnits units{};
     PassLayers layers{};
+    std::vector<float> emission{};  ///< emission_emphasis() of the passes before; empty: light paths start by power
 
     /// Paths per pixel that splat: light paths, where there are any, or the samples of tiles.
     HalfCounts splatting_paths() const {
@@ -118,6 +121,13 @@ void set_splitting(PassPlan& pass, const Resolved& job, bool pays);
 /// Whether splitting may pay, after a pass with this gain. Once it does not it is not asked again: nobody splits any
 /// more.
 bool splitting_may_pay(const PassPlan& pass, const SplittingGain& gain);
+
+/// bidirectional.light_subpaths "while_it_pays": once they were found not to pay, passes are made of paths from the
+/// camera alone, which splat nothing.
+void set_light_subpaths(PassPlan& pass, const Resolved& job, bool pays);
+
+/// Whether light subpaths may pay, after a pass with this gain. Once they do not they are not asked again.
+bool light_subpaths_may_pay(const PassPlan& pass, const LightSubpathGain& gain);
 
 /// Passes double from guiding.spp_unit; when what remains after a pass would be less than twice that pass, the pass
 /// takes the rest. The budget is rounded up to whole units. For an open budget (budget.seconds, budget.error), whose

@@ -16,9 +16,10 @@ constexpr std::int64_t kMostSpp = std::int64_t{1} << 30;
 constexpr std::size_t kMostPasses = 10000;
 
 /// Keys that one [[pass]] may hold.
-constexpr std::string_view kKeys[] = {"spp", "next_event", "record", "guided", "probe", "split", "last_tree"};
+constexpr std::string_view kKeys[] = {"spp",   "next_event", "record",         "guided",
+                                      "probe", "split",      "light_subpaths", "last_tree"};
 constexpr const char* kKeyAdvice =
-    "a pass has spp, next_event and record, and may have guided, probe, split and last_tree";
+    "a pass has spp, next_event and record, and may have guided, probe, split, light_subpaths and last_tree";
 
 class ScheduleReader {
   public:
@@ -70,6 +71,12 @@ class ScheduleReader {
         plan.guided = job_.guides && (!pass->contains("guided") || flag(*pass, "guided"));
         plan.probe = pass->contains("probe") && flag(*pass, "probe");
         plan.split = !pass->contains("split") || flag(*pass, "split");
+        const bool light_subpaths = !pass->contains("light_subpaths") || flag(*pass, "light_subpaths");
+        if (!light_subpaths && job_.bidirectional.light_subpaths != Rule::while_it_pays)
+            throw InputError(location((*pass)["light_subpaths"].node()->source()),
+                             "light_subpaths = false, but bidirectional.light_subpaths is not \"while_it_pays\"",
+                             "render with the job that the schedule was made by");
+        set_light_subpaths(plan, job_, light_subpaths);
         if (pass->contains("last_tree")) plan.last_tree = flag(*pass, "last_tree");
         done_ += *samples;
         passes_.push_back(plan);
@@ -109,6 +116,7 @@ std::string write_schedule(std::span<const PassPlan> passes) {
         text += "\n[[pass]]\nspp = " + std::to_string(pass.spp) + "\nnext_event = " + word(pass.next_event) +
                 "\nrecord = " + word(pass.record) + (pass.guided ? "" : "\nguided = false") +
                 (pass.probe ? "\nprobe = true" : "") + (pass.split ? "" : "\nsplit = false") +
+                (pass.light_subpaths ? "" : "\nlight_subpaths = false") +
                 (pass.last_tree != pass.record ? "" : std::string("\nlast_tree = ") + word(pass.last_tree)) + "\n";
     return text;
 }

@@ -83,7 +83,9 @@ void write_stats(ByteWriter& writer, const TraceStats& s) {
     for (const std::uint64_t count :
          {s.paths, s.nonzero_paths, s.rays, s.shadow_rays, s.vertices, s.records, s.probe_paths, s.probe_rays,
           s.split_path_rays, s.invalid_samples, s.splitting.split_mean, s.splitting.unsplit_mean,
-          s.splitting.split_variance, s.splitting.unsplit_variance})
+          s.splitting.split_variance, s.splitting.unsplit_variance, s.light_subpaths.both_mean,
+          s.light_subpaths.alone_mean, s.light_subpaths.both_variance, s.light_subpaths.alone_variance,
+          s.light_subpaths.alone_rays})
         writer.put_varint(count);
     for (const std::uint64_t sum : s.next_event)
         writer.put_varint(sum);
@@ -95,6 +97,11 @@ void write_stats(ByteWriter& writer, const TraceStats& s) {
     writer.put(s.splat_seconds);
     for (const double seconds : s.phase_seconds)
         writer.put(seconds);
+    writer.put_varint(s.emission.paths.size());
+    for (std::size_t i = 0; i < s.emission.paths.size(); ++i) {
+        writer.put_varint(s.emission.paths[i]);
+        writer.put_varint(s.emission.squares[i]);
+    }
     writer.put_varint(s.first_invalid.size());
     for (const InvalidSample& sample : s.first_invalid) {
         writer.put(sample.pass);
@@ -113,7 +120,9 @@ TraceStats read_stats(ByteReader& reader) {
     for (std::uint64_t* count :
          {&s.paths, &s.nonzero_paths, &s.rays, &s.shadow_rays, &s.vertices, &s.records, &s.probe_paths, &s.probe_rays,
           &s.split_path_rays, &s.invalid_samples, &s.splitting.split_mean, &s.splitting.unsplit_mean,
-          &s.splitting.split_variance, &s.splitting.unsplit_variance})
+          &s.splitting.split_variance, &s.splitting.unsplit_variance, &s.light_subpaths.both_mean,
+          &s.light_subpaths.alone_mean, &s.light_subpaths.both_variance, &s.light_subpaths.alone_variance,
+          &s.light_subpaths.alone_rays})
         *count = reader.get_varint();
     for (std::uint64_t& sum : s.next_event)
         sum = reader.get_varint();
@@ -125,6 +134,11 @@ TraceStats read_stats(ByteReader& reader) {
     s.splat_seconds = reader.get<double>();
     for (double& seconds : s.phase_seconds)
         seconds = reader.get<double>();
+    const std::size_t emitters = reader.get_count(2);
+    for (std::size_t i = 0; i < emitters; ++i) {
+        s.emission.paths.push_back(reader.get_varint());
+        s.emission.squares.push_back(reader.get_varint());
+    }
     const std::size_t invalid = reader.get_count(kInvalidSampleBytes);
     for (std::size_t i = 0; i < invalid; ++i) {
         InvalidSample sample;

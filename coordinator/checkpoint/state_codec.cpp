@@ -48,10 +48,25 @@ void serialize(Archive& a, PassFacts& f) {
       f.record_core_seconds, f.threads, f.record, f.next_event);
 }
 
+template <class Archive>
+void serialize(Archive& a, LightSubpathSums& s) {
+    a(s.both_mean, s.alone_mean, s.both_variance, s.alone_variance, s.alone_rays);
+}
+
+template <class Archive>
+void serialize(Archive& a, EmissionSums& s) {
+    a(s.paths, s.squares);
+}
+
+template <class Archive>
+void serialize(Archive& a, LightSubpathGain& g) {
+    a(g.noise, g.rays, g.found);
+}
+
 /// But for the threads, which each life of a render has of its own.
 template <class Archive>
 void serialize(Archive& a, RenderHistory& h) {
-    a(h.passes, h.seconds, h.error, h.guiding, h.splitting, h.budget);
+    a(h.passes, h.seconds, h.error, h.guiding, h.splitting, h.light_subpaths, h.emission, h.budget);
 }
 
 template <class Archive>
@@ -99,7 +114,7 @@ template <class Archive>
 void serialize(Archive& a, TraceStats& s) {
     a(s.paths, s.nonzero_paths, s.rays, s.shadow_rays, s.vertices, s.records, s.probe_paths, s.probe_rays,
       s.split_path_rays, s.invalid_samples, s.next_event, s.unguided.guided, s.unguided.unguided, s.unguided.cost,
-      s.splitting, s.first_invalid, s.trace_seconds, s.splat_seconds, s.phase_seconds);
+      s.splitting, s.light_subpaths, s.emission, s.first_invalid, s.trace_seconds, s.splat_seconds, s.phase_seconds);
 }
 
 template <class Archive>
@@ -152,8 +167,9 @@ void serialize(Archive& a, RefineReport& r) {
 template <class Archive>
 void serialize(Archive& a, PassReport& r) {
     a(r.plan, r.spp_done, r.workers, r.threads, r.seconds, r.stats, r.variance, r.error, r.guiding_gain,
-      r.guiding_worth, r.guiding, r.splitting_gain, r.splitting, r.run_seconds, r.halving, r.target, r.tree,
-      r.update_bytes, r.touched_cells, r.caps, r.splat_caps, r.splat_bytes, r.saturated_splats, r.refine);
+      r.guiding_worth, r.guiding, r.splitting_gain, r.splitting, r.light_subpath_gain, r.light_subpaths, r.emitters,
+      r.emitters_of_half, r.run_seconds, r.halving, r.target, r.tree, r.update_bytes, r.touched_cells, r.caps,
+      r.splat_caps, r.splat_bytes, r.saturated_splats, r.refine);
 }
 
 template <class Archive>
@@ -187,8 +203,8 @@ constexpr std::uint32_t kOrigin = section_tag("IDNT"), kHistory = section_tag("F
                         kBegunSplats = section_tag("PSPL"), kBegunSums = section_tag("PSUM");
 
 constexpr std::uint32_t version_of(std::uint32_t tag) {
-    if (tag == kReports || tag == kBegun) return 3;
-    return tag == kHistory || tag == kLearner || tag == kProbes ? 2 : 1;
+    if (tag == kHistory || tag == kReports || tag == kBegun) return 3;
+    return tag == kLearner || tag == kProbes ? 2 : 1;
 }
 
 /// `room`: bytes that it may take at the most, where they are many.
@@ -224,6 +240,10 @@ void read(const SectionFile& file, std::uint32_t tag, T&... values) {
 
 void require(bool condition, const char* what) {
     if (!condition) throw FormatError(what);
+}
+
+bool fits(const EmissionSums& emission) {
+    return emission.paths.size() == emission.squares.size();
 }
 
 /// Whether noise that was measured is of the films from number `first` on.
@@ -317,6 +337,8 @@ RenderState decode_state(const SectionFile& file, std::size_t pixels, std::span<
     read(file, kReports, state.reports);
     require(state.history.guiding <= Guiding::loses, "an unknown verdict on guiding");
     state.begun = decode_begun(file, pixels);
+    require(fits(state.history.emission) && (!state.begun || fits(state.begun->stats.emission)),
+            "light paths without what they brought");
     require(state.reports.size() == state.history.passes.size(), "not a report for each pass");
     require(!state.reports.empty() || state.begun, "no pass");
     require(state.films.empty() == state.reports.empty(), "no film");

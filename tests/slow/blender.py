@@ -22,13 +22,13 @@ IN_BLENDER = r"""
 import sys
 import bpy
 
-path, out = sys.argv[sys.argv.index("--") + 1:]
+path, out, width, height = sys.argv[sys.argv.index("--") + 1:]
 image = bpy.data.images.load(path)
 scene = bpy.context.scene
 scene.use_nodes = True
 tree = scene.node_tree
 tree.nodes.clear()
-scene.render.resolution_x, scene.render.resolution_y = image.size
+scene.render.resolution_x, scene.render.resolution_y = int(width), int(height)  # image.size is (0, 0) where there are layers
 scene.render.resolution_percentage = 100
 node = tree.nodes.new("CompositorNodeImage")
 node.image = image
@@ -58,14 +58,14 @@ def render(treefarm, scene, folder):
     return os.path.join(run, "image.exr")
 
 
-def in_blender(image, folder):
+def in_blender(image, width, height, folder):
     """What the compositor calls the image's layers, and a file of each."""
     script = os.path.join(folder, "compositor.py")
     with open(script, "w") as file:
         file.write(IN_BLENDER)
     out = os.path.join(folder, "layers")
     done = subprocess.run(["blender", "--background", "--factory-startup", "--python-exit-code", "1", "--python", script,
-                           "--", image, out], capture_output=True, text=True)
+                           "--", image, out, str(width), str(height)], capture_output=True, text=True)
     if done.returncode:
         sys.exit(f"blender failed:\n{done.stdout}\n{done.stderr}")
     names = [line.split(" ", 1)[1] for line in done.stdout.splitlines() if line.startswith("LAYER ")]
@@ -75,7 +75,7 @@ def in_blender(image, folder):
 def worst(mine, theirs):
     """The largest difference between two channels, over the largest value."""
     scale = max(map(abs, mine)) or 1.0
-    return max(abs(a - b) for a, b in zip(mine, theirs)) / scale
+    return max(abs(a - b) for a, b in zip(mine, theirs, strict=True)) / scale
 
 
 def main():
@@ -85,8 +85,8 @@ def main():
     treefarm, scene = sys.argv[1:]
     with tempfile.TemporaryDirectory(prefix="treefarm-blender-") as folder:
         image = render(treefarm, scene, folder)
-        _, _, mine = exr_reader.read(image)
-        files = in_blender(image, folder)
+        width, height, mine = exr_reader.read(image)
+        files = in_blender(image, width, height, folder)
         print("Blender offers: " + ", ".join(sorted(files)))
         bad = 0
         for layer, channels in LAYERS.items():

@@ -28,6 +28,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "tests" / "support"), str(ROOT / "tests" / "browser")]
 import local_slurm
 import virtual_hosts
+from cases import skip_for
 from launched_render import environment, hashes
 from report_test import Browser
 
@@ -244,9 +245,7 @@ def main():
     parser.add_argument("--patience", type=float, default=1200, help="seconds to wait for anything; more where the machine is busy")
     parser.add_argument("--picture", help="of the page, in the middle of the day")
     arguments = parser.parse_args()
-    if reason := local_slurm.why_not() or virtual_hosts.why_not():
-        print(f"skipped: {reason}")
-        sys.exit(77)
+    skip_for(local_slurm.why_not() or virtual_hosts.why_not())
     with tempfile.TemporaryDirectory(dir="/var/tmp") as folder:
         work = pathlib.Path(folder)
         day = Day(arguments, work)

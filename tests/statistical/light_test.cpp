@@ -19,6 +19,7 @@ Rendered render(const Scene& scene, Job job, const char* type, std::uint64_t see
     job.sampler.seed = seed;
     job.budget.spp = spp;
     job.guiding.type = GuidingType::none;
+    job.bidirectional.light_subpaths = Rule::always;
     job.integrator.next_event = next_event ? NextEvent::always : NextEvent::never;
     const test::LocalRender run = test::render_locally(scene, job);
     EXPECT_EQ(run.splat_caps, SplatCaps{}) << type;

@@ -25,7 +25,7 @@ LocalRender render_locally(const Scene& scene, const Job& asked) {
     const Resolved job = resolve(asked, scene);
     const PassChooser choose = passes_of(job);
     const bool guided = job.guides;
-    const RenderUnit render_unit = integrator_of(job).prepare(std::make_shared<const TraceScene>(scene, job), job);
+    const RenderUnit render_unit = prepare(job, std::make_shared<const TraceScene>(scene, job));
     run.model = first_model(job, guiding_bounds(scene), 1.0f);
     AnyLearner learner;
     RenderHistory state;
@@ -34,6 +34,7 @@ LocalRender render_locally(const Scene& scene, const Job& asked) {
     std::optional<PassPlan> before;
     for (NextPass next = choose(state); next.pass;) {
         PassPlan pass = *next.pass;
+        set_emission(pass, job, state);
         pass.kernel = kernel_of(job, pass, facts_of(run.model));
         run.model.set_pass(pass.index);
         const AnySampler guide(run.model);
@@ -54,8 +55,9 @@ LocalRender render_locally(const Scene& scene, const Job& asked) {
         run.stats.push_back(stats);
         run.splat_caps.add(splats.caps());
         std::vector<PixelEstimate> pixels = pass.layers.estimates ? film.pixels() : std::vector<PixelEstimate>();
-        PassResult shown = finished_pass(pass, before ? &*before : nullptr,
-                                         develop(std::move(pixels), splats, pass.splatting_paths(), pass.splatting_chains()));
+        PassResult shown =
+            finished_pass(pass, before ? &*before : nullptr,
+                          develop(std::move(pixels), splats, pass.splatting_paths(), pass.splatting_chains()));
         before = pass;
         if (stats.probe_paths > 0) {
             probe.add(shown.pixels, stats, pass.index);
@@ -86,6 +88,9 @@ LocalRender render_locally(const Scene& scene, const Job& asked) {
             if (state.guiding == Guiding::loses) set_aside.put_back(run.passes);
         }
         if (!splitting_may_pay(pass, splitting_gain(stats))) state.splitting = false;
+        if (!light_subpaths_may_pay(pass, light_subpath_gain(stats))) state.light_subpaths = false;
+        state.emission.add(stats.emission);
+        run.plans.push_back(pass);
         next = choose(state);
         if (!pass.record || !next.pass) continue;
         RefineReport report;

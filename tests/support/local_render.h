@@ -17,6 +17,7 @@ namespace treefarm::test {
 struct LocalRender {
     std::vector<PassResult> passes;
     std::vector<RenderHistory> states;  ///< after each pass; a sample takes a millisecond on this clock
+    std::vector<PassPlan> plans;
     std::vector<TraceStats> stats;
     std::vector<double> guiding_gains;  ///< of probe passes
     SplatCaps splat_caps;               ///< of all passes

@@ -2,7 +2,8 @@
 """Hosts that are namespaces of this machine: each with a network card of its own, its own /tmp, /dev/shm, process numbers and name.
 
 They hang on one switch, 10.78.0.0/24, host k at 10.78.0.(10 + k), the switch itself at 10.78.0.1. Needs root, iproute2
-and util-linux; why_not() says what is missing. Files outside /tmp and /dev/shm are shared, as by a network disk. A host ends with the object, or when it is crashed.
+and util-linux; why_not() says what is missing. Files outside /tmp and /dev/shm are shared, as by a network disk. A host ends with the
+object, or when it is crashed.
 """
 import json
 import os

@@ -127,6 +127,7 @@ constexpr const char* kOwn[] = {
     "effects.",
     "output.",
     "integrator.mis",
+    "bidirectional.light_subpaths",
     "bidirectional.techniques",
     "bidirectional.weighted",
     "integrator.light_selection",

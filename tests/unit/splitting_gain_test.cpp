@@ -7,7 +7,10 @@
 #include <cmath>
 #include <limits>
 
+#include "common/film/emission_shares.h"
+#include "common/film/splat_film.h"
 #include "common/plan/budget.h"
+#include "common/plan/policy.h"
 #include "common/plan/schedule.h"
 #include "tests/support/resolved.h"
 #include "worker/integrators/path/split_paths.h"
@@ -126,6 +129,104 @@ TEST(SplittingGain, WhatTheJobAsksForIsDone) {
     RenderHistory state;
     state.splitting = false;
     EXPECT_FALSE(passes_of(test::resolved(job))(state).pass->split);
+}
+
+TEST(LightSubpathGain, ComparesVarianceAndRays) {
+    TraceStats stats;
+    SubpathPairs pixel;
+    // Alone: 0 or 4, variance 8. Both: 1 or 2, variance 1/2, and a splat of 1 for each of two samples, 1 by their
+    // squares.
+    pixel.add({.own = 1, .alone = 0, .splats = 1, .splat_squares = 1});
+    pixel.add({.own = 2, .alone = 4, .splats = 1, .splat_squares = 1});
+    pixel.finish(stats.light_subpaths);
+    stats.rays = 300;
+    stats.shadow_rays = 100;
+    stats.light_subpaths.alone_rays = 200;
+    const LightSubpathGain gain = light_subpath_gain(stats);
+    EXPECT_NEAR(gain.noise, 8 / 1.5, 1e-6);
+    EXPECT_NEAR(gain.found, 2 / 2.5, 1e-6);
+    EXPECT_DOUBLE_EQ(gain.rays, 2.0);
+    EXPECT_NEAR(gain.at_equal_cost(), 8 / 1.5 / (2 * kPolicy.light_subpaths.ray_cost), 1e-6);
+}
+
+TEST(LightSubpathGain, OneSampleHasNoVarianceAndNonsenseIsLeftOut) {
+    LightSubpathSums sums;
+    SubpathPairs pixel;
+    pixel.add({.own = 1, .alone = 2});
+    for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), -1.0}) {
+        pixel.add({.own = bad, .alone = 1});
+        pixel.add({.own = 1, .alone = bad});
+    }
+    pixel.finish(sums);
+    EXPECT_EQ(sums.both_mean + sums.alone_mean + sums.both_variance + sums.alone_variance, 0u);
+    EXPECT_EQ(light_subpath_gain({}).noise, 0) << "not known";
+    EXPECT_EQ(light_subpath_gain({}).at_equal_cost(), 0);
+}
+
+TEST(LightSubpathGain, AVerdictNeedsSamplesThatFoundTheLight) {
+    const auto may_pay = [](std::uint32_t spp, const LightSubpathGain& gain) {
+        PassPlan pass;
+        pass.spp = spp;
+        return light_subpaths_may_pay(pass, gain);
+    };
+    EXPECT_TRUE(may_pay(64, {})) << "not known";
+    EXPECT_FALSE(may_pay(4, {1.2, 2.0, 1.0}));
+    EXPECT_TRUE(may_pay(2, {1.2, 2.0, 1.0})) << "too short to say";
+    EXPECT_TRUE(may_pay(64, {10.0, 2.0, 1.0}));
+    EXPECT_TRUE(may_pay(64, {1.2, 2.0, 0.7})) << "paths from the camera have missed light, which makes no noise";
+}
+
+TEST(LightSubpathGain, WhatTheJobAsksForIsDone) {
+    Job job;
+    job.integrator.type = "bidirectional";
+    const auto next = [](const Resolved& resolved) {
+        RenderHistory state;
+        state.light_subpaths = false;
+        return *passes_of(resolved)(state).pass;
+    };
+    EXPECT_FALSE(next(test::resolved(job)).light_subpaths);
+    EXPECT_EQ(next(test::resolved(job)).layers.splats.pixels, 0u);
+    job.bidirectional.light_subpaths = Rule::always;
+    EXPECT_TRUE(next(test::resolved(job)).light_subpaths);
+    job.bidirectional.light_subpaths = Rule::usual;
+    job.bidirectional.techniques = "1,2";
+    EXPECT_TRUE(next(test::resolved(job)).light_subpaths) << "techniques are asked for";
+}
+
+/// Noise is least where emitters are chosen by the root of their second moment: for two of power one half each, whose
+/// paths bring 1 and 4 squared on average, half and twice as much.
+TEST(EmissionShares, GoByTheRootOfTheSecondMoment) {
+    const EmissionSums sums{{1u << 30, 1u << 30}, {std::uint64_t{1} << 30, std::uint64_t{4} << 30}};
+    const std::vector<float> emphasis = emission_emphasis(sums);
+    ASSERT_EQ(emphasis.size(), 2u);
+    EXPECT_NEAR(double(emphasis[1]) / double(emphasis[0]), 2.0, 1e-5);
+    EXPECT_TRUE(emission_emphasis({}).empty());
+    EXPECT_TRUE(emission_emphasis({{5}, {7}}).empty()) << "no choice";
+    EXPECT_TRUE(emission_emphasis({{5, 6}, {0, 0}}).empty()) << "no light found";
+}
+
+TEST(EmissionShares, OfEmittersThatFewPathsTriedAreThoseOfAll) {
+    const std::vector<float> emphasis = emission_emphasis({{1u << 20, 0, 1u << 20}, {1u << 22, 0, 1u << 22}});
+    EXPECT_NEAR(double(emphasis[1]) / double(emphasis[0]), 1.0, 1e-3);
+}
+
+TEST(EmissionShares, SumsAreTheSameInAnyOrder) {
+    const EmissionSums parts[] = {{{1, 2, 3}, {4, kMostSplatSum, 6}}, {{}, {}}, {{7, 8, 9}, {1, 2, kMostSplatSum - 1}}};
+    EmissionSums forward, backward;
+    for (int i = 0; i < 3; ++i) {
+        forward.add(parts[i]);
+        backward.add(parts[2 - i]);
+    }
+    EXPECT_EQ(forward.paths, (std::vector<std::uint64_t>{8, 10, 12}));
+    EXPECT_EQ(forward.squares, (std::vector<std::uint64_t>{5, kMostSplatSum, kMostSplatSum}));
+    EXPECT_EQ(forward.paths, backward.paths);
+    EXPECT_EQ(forward.squares, backward.squares);
+}
+
+TEST(EmissionShares, HalfOfThePathsStartAtTheFewest) {
+    EXPECT_EQ(emitters_of_half({{1, 10, 1, 8}, {0, 0, 0, 0}}), 1u);
+    EXPECT_EQ(emitters_of_half({{5, 5, 5, 5}, {0, 0, 0, 0}}), 2u);
+    EXPECT_EQ(emitters_of_half({}), 0u);
 }
 
 }  // namespace

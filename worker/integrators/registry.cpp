@@ -6,6 +6,7 @@
 #include "common/base/error.h"
 #include "common/base/timer.h"
 #include "common/config/aov_list.h"
+#include "common/config/estimators.h"
 #include "common/plan/resolve.h"
 #include "common/scene/pack/scene_codec.h"
 #include "worker/integrators/ao/ao_integrator.h"
@@ -62,22 +63,21 @@ RenderUnit with_aovs(const Integrator& integrator, const std::shared_ptr<const T
     Resolved direct_job = job;
     direct_job.integrator.max_depth =
         job.integrator.max_depth < 0 ? kDirectDepth : std::min(job.integrator.max_depth, kDirectDepth);
-    return
-        [first_hit = FirstHitRenderer(scene, camera, job.sampler.seed, layout), render = integrator.prepare(scene, job),
-         direct = layout.direct() ? integrator.prepare(scene, direct_job) : RenderUnit()](
-            const PassPlan& pass, const AnySampler& guide, const WorkUnit& unit, UnitOutput& output) {
-            render(pass, guide, unit, output);
-            if (unit.kind != UnitKind::tile) return;
-            const double start = thread_cpu_seconds();
-            first_hit.render(pass, unit, output.aovs);
-            if (direct) {
-                UnitOutput part;
-                part.begin(guide.regions().distribution_count());
-                direct(pass, guide, unit, part);
-                output.aovs.direct = std::move(part.pixels);
-            }
-            output.stats.trace_seconds += thread_cpu_seconds() - start;
-        };
+    return [first_hit = FirstHitRenderer(scene, camera, job.sampler.seed, layout), render = prepare(job, scene),
+            direct = layout.direct() ? integrator.prepare(scene, direct_job) : RenderUnit()](
+               const PassPlan& pass, const AnySampler& guide, const WorkUnit& unit, UnitOutput& output) {
+        render(pass, guide, unit, output);
+        if (unit.kind != UnitKind::tile) return;
+        const double start = thread_cpu_seconds();
+        first_hit.render(pass, unit, output.aovs);
+        if (direct) {
+            UnitOutput part;
+            part.begin(guide.regions().distribution_count());
+            direct(pass, guide, unit, part);
+            output.aovs.direct = std::move(part.pixels);
+        }
+        output.stats.trace_seconds += thread_cpu_seconds() - start;
+    };
 }
 
 }  // namespace
@@ -92,6 +92,17 @@ const Integrator& integrator_of(const Job& job) {
     throw RunError("the program has no integrator \"" + job.integrator.type + "\"");
 }
 
+RenderUnit prepare(const Resolved& job, const std::shared_ptr<const TraceScene>& scene) {
+    const Integrator& integrator = integrator_of(job);
+    if (estimator_of(job.integrator.type).from != PathsFrom::both ||
+        job.bidirectional.light_subpaths != Rule::while_it_pays)
+        return integrator.prepare(scene, job);
+    return [both = integrator.prepare(scene, job), camera = prepare_path(scene, job)](
+               const PassPlan& pass, const AnySampler& guide, const WorkUnit& unit, UnitOutput& output) {
+        (pass.light_subpaths ? both : camera)(pass, guide, unit, output);
+    };
+}
+
 RenderUnit make_renderer(std::span<const std::uint8_t> scene, const Job& job) {
     Scene decoded = decode_scene(scene);
     const Resolved resolved = resolve(job, decoded);
@@ -99,8 +110,8 @@ RenderUnit make_renderer(std::span<const std::uint8_t> scene, const Job& job) {
     const Camera camera = decoded.camera;
     const auto trace_scene = std::make_shared<const TraceScene>(std::move(decoded), job);
     const AovLayout layout(aov_requests(resolved));
-    RenderUnit render = layout.empty() ? integrator.prepare(trace_scene, resolved)
-                                       : with_aovs(integrator, trace_scene, camera, resolved, layout);
+    RenderUnit render =
+        layout.empty() ? prepare(resolved, trace_scene) : with_aovs(integrator, trace_scene, camera, resolved, layout);
     return [trace_scene, render = std::move(render)](const PassPlan& pass, const AnySampler& guide,
                                                      const WorkUnit& unit, UnitOutput& output) {
         check_unit(unit, pass, *trace_scene);

@@ -6,27 +6,42 @@
 
 namespace treefarm {
 
-EmissionSample Emitters::emit(const Draw& place, const Draw& direction) const {
+EmissionSample Emitters::emit(const Draw& place, const Draw& direction, const EmissionChoice* choice) const {
     if (selection_.empty() || !(ball_.radius > 0.0f)) return {};
-    const std::uint32_t entry = selection_.pick(place[0]);
-    if (entry < area_lights_.size()) return emit_from_area(area_lights_[entry], place, direction);
+    return choice ? emit_by(*choice, place, direction) : emit_by(emission_choice(), place, direction);
+}
+
+EmissionSample Emitters::emit_by(const EmissionChoice& choice, const Draw& place, const Draw& direction) const {
+    const std::uint32_t entry = choice.pick(place[0]);
+    const float selection = choice.probability(entry);
     const std::size_t index = entry - area_lights_.size();
-    if (index >= delta_lights_.size())
-        return emit_from_infinity(area_entries_ + static_cast<std::uint32_t>(index), place, direction);
+    EmissionSample sample;
+    if (entry < area_lights_.size()) {
+        sample = emit_from_area(area_lights_[entry], selection, place, direction);
+    } else if (index >= delta_lights_.size()) {
+        sample = emit_from_infinity(area_entries_ + static_cast<std::uint32_t>(index), place, direction, choice);
+    } else {
+        sample = emit_from_point(index, selection, direction);
+    }
+    sample.entry = entry;
+    return sample;
+}
+
+EmissionSample Emitters::emit_from_point(std::size_t index, float selection, const Draw& direction) const {
     EmissionSample sample = delta_lights_[index].emit(ball_, direction);
-    const float selection = selection_.probability(entry);
     sample.weight *= 1.0f / selection;
     sample.place_pdf *= selection;
     sample.delta_light = static_cast<std::uint32_t>(index);
     return sample;
 }
 
-EmissionSample Emitters::emit_from_area(const AreaLight& light, const Draw& place, const Draw& direction) const {
+EmissionSample Emitters::emit_from_area(const AreaLight& light, float selection, const Draw& place,
+                                        const Draw& direction) const {
     EmissionSample sample;
     float density;
     sample.start = light.point(scene_, place, density);
     const Vec3 local = square_to_cosine_hemisphere({to_unit(direction[0]), to_unit(direction[1])});
-    sample.place_pdf = light.selection * density;
+    sample.place_pdf = selection * density;
     if (!(sample.place_pdf > 0.0f)) return sample;
     sample.from = EmissionFrom::surface;
     sample.radiance = light.radiance_at(scene_, sample.start);
@@ -39,10 +54,12 @@ EmissionSample Emitters::emit_from_area(const AreaLight& light, const Draw& plac
     return sample;
 }
 
-EmissionSample Emitters::emit_from_infinity(std::uint32_t entry, const Draw& place, const Draw& direction) const {
+EmissionSample Emitters::emit_from_infinity(std::uint32_t entry, const Draw& place, const Draw& direction,
+                                            const EmissionChoice& choice) const {
     EmissionSample sample;
     environments_.sample(entry, place, [&]<class Light>(const typename Light::Sample& drawn) {
-        const float pdf = environments_.pdf_of<Light>(drawn, EntryProbabilities());
+        const float pdf =
+            environments_.pdf_of<Light>(drawn, emission_probabilities(choice.learned() ? &choice : nullptr));
         if (!(pdf > 0.0f)) return;
         sample = emitted_across(ball_, -drawn.direction, environments_.radiance(drawn.direction) * (1.0f / pdf),
                                 {to_unit(direction[0]), to_unit(direction[1])}, EmissionFrom::environment);
@@ -51,28 +68,32 @@ EmissionSample Emitters::emit_from_infinity(std::uint32_t entry, const Draw& pla
     return sample;
 }
 
-EmissionDensity Emitters::emission_density(const Hit& start, const Vec3& away) const {
+EmissionDensity Emitters::emission_density(const Hit& start, const Vec3& away, const EmissionChoice* choice) const {
     const std::int32_t index = light_of_shape_[start.shape];
     const float cosine = dot(start.ng, away);
     if (index == kNone || !(cosine > 0.0f) || !(ball_.radius > 0.0f)) return {};
     const AreaLight& light = area_lights_[static_cast<std::size_t>(index)];
-    return {light.selection * light.point_density(start.primitive), cosine_hemisphere_pdf(cosine)};
+    const float selection = choice ? choice->probability(static_cast<std::uint32_t>(index)) : light.selection;
+    return {selection * light.point_density(start.primitive), cosine_hemisphere_pdf(cosine)};
 }
 
-EmissionDensity Emitters::emission_density(const Vec3& direction) const {
+EmissionDensity Emitters::emission_density(const Vec3& direction, const EmissionChoice* choice) const {
     if (!(ball_.radius > 0.0f)) return {};
-    return {environments_.pdf(direction, EntryProbabilities()), 1.0f / ball_.section()};
+    const EmissionProbabilities by = emission_probabilities(choice && choice->learned() ? choice : nullptr);
+    return {environments_.pdf(direction, by), 1.0f / ball_.section()};
 }
 
 EmissionDensity Emitters::emission_density(const DirectSample& sample, const LightReceiver& receiver,
-                                           const Draw& random, bool delta_alone) const {
+                                           const Draw& random, bool delta_alone, const EmissionChoice* choice) const {
     if (!sample.delta)
-        return sample.from_environment ? emission_density(sample.wi) : emission_density(sample.on_light, -sample.wi);
+        return sample.from_environment ? emission_density(sample.wi, choice)
+                                       : emission_density(sample.on_light, -sample.wi, choice);
     if (!(ball_.radius > 0.0f)) return {};
     const std::uint32_t light =
         delta_alone ? delta_alone_.pick(random[0]) : choice_.pick(random, receiver).entry - area_entries_;
     const auto entry = static_cast<std::uint32_t>(area_lights_.size()) + light;
-    return {selection_.probability(entry), delta_lights_[light].direction_pdf(ball_, -sample.wi)};
+    return {choice ? choice->probability(entry) : selection_.probability(entry),
+            delta_lights_[light].direction_pdf(ball_, -sample.wi)};
 }
 
 double Emitters::next_event_pdf(const EmissionSample& start, const LightReceiver& receiver) const {

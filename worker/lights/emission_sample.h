@@ -45,6 +45,7 @@ struct EmissionSample {
     Rgb weight{0.0f};    ///< emitted radiance or intensity, times the cosine, over all densities; its mean is the power
     Rgb radiance{0.0f};  ///< of an area emitter: that leaves the point, in every direction of its front
     Hit start;           ///< of an area emitter; of a point only its place
+    std::uint32_t entry = 0;        ///< of EmissionChoice
     std::uint32_t delta_light = 0;  ///< number of an emitter without extent among those
     /// Surfaces: per area; environment: of the direction that light comes from, per steradian; otherwise a probability.
     /// The choice of the emitter is in it.

@@ -11,6 +11,7 @@
 #include "worker/lights/delta_light.h"
 #include "worker/lights/direct_sample.h"
 #include "worker/lights/discrete_table.h"
+#include "worker/lights/emission_choice.h"
 #include "worker/lights/emission_sample.h"
 #include "worker/lights/environments.h"
 #include "worker/lights/light_batch.h"
@@ -87,20 +88,26 @@ class Emitters {
     }
     float pdf_direct(const LightReceiver& receiver, const Vec3& wi, const Hit& hit) const;
 
-    /// A ray that leaves an emitter, chosen by power whatever next event does: the beginning of a light path. `place`
-    /// chooses where it starts, as the numbers of sample_direct() do, or the direction that it comes from if that is
-    /// from infinity; direction[0] and [1] its direction, or the place across that one. A scene without surfaces gets
-    /// none.
-    EmissionSample emit(const Draw& place, const Draw& direction) const;
+    /// How a pass of this emphasis (emission_shares.h) chooses emitters for light paths; empty: by power. Throws
+    /// RunError where it is of other emitters.
+    EmissionChoice emission_choice(std::span<const float> emphasis = {}) const {
+        return EmissionChoice(selection_, emphasis);
+    }
+    // `choice` in what follows: nullptr is by power; whoever asks for one path's densities gives the same.
+    /// A ray that leaves an emitter, chosen without regard to what next event does: the beginning of a light path.
+    /// `place` chooses where it starts, as the numbers of sample_direct() do, or the direction that it comes from if
+    /// that is from infinity; direction[0] and [1] its direction, or the place across that one. A scene without
+    /// surfaces gets none.
+    EmissionSample emit(const Draw& place, const Draw& direction, const EmissionChoice* choice = nullptr) const;
     /// Densities with which emit() starts at a point of an area emitter into the unit direction `away`; zeros where
     /// nothing shines.
-    EmissionDensity emission_density(const Hit& start, const Vec3& away) const;
+    EmissionDensity emission_density(const Hit& start, const Vec3& away, const EmissionChoice* choice = nullptr) const;
     /// Densities of light from infinity that comes against the unit `direction`.
-    EmissionDensity emission_density(const Vec3& direction) const;
+    EmissionDensity emission_density(const Vec3& direction, const EmissionChoice* choice = nullptr) const;
     /// Densities with which emit() starts where next event ended, which drew `sample` at `receiver` by these numbers;
     /// `delta_alone`: by sample_delta().
     EmissionDensity emission_density(const DirectSample& sample, const LightReceiver& receiver, const Draw& random,
-                                     bool delta_alone) const;
+                                     bool delta_alone, const EmissionChoice* choice = nullptr) const;
     /// Density with which sample_direct() at `receiver` finds the start of a light path, in the measure of its
     /// place_pdf.
     double next_event_pdf(const EmissionSample& start, const LightReceiver& receiver) const;
@@ -152,8 +159,15 @@ class Emitters {
     std::uint32_t entry_of(std::uint32_t light, const Hit& hit) const {
         return light_of_entry_.empty() ? light : first_entry_[light] + area_lights_[light].patch_of(hit);
     }
-    EmissionSample emit_from_area(const AreaLight& light, const Draw& place, const Draw& direction) const;
-    EmissionSample emit_from_infinity(std::uint32_t entry, const Draw& place, const Draw& direction) const;
+    EmissionSample emit_by(const EmissionChoice& choice, const Draw& place, const Draw& direction) const;
+    EmissionSample emit_from_area(const AreaLight& light, float selection, const Draw& place,
+                                  const Draw& direction) const;
+    EmissionSample emit_from_point(std::size_t index, float selection, const Draw& direction) const;
+    EmissionSample emit_from_infinity(std::uint32_t entry, const Draw& place, const Draw& direction,
+                                      const EmissionChoice& choice) const;
+    EmissionProbabilities emission_probabilities(const EmissionChoice* choice) const {
+        return {choice, area_entries_ - static_cast<std::uint32_t>(area_lights_.size())};
+    }
     /// Kept out of line, so that plain meshes pay nothing for the other kinds.
     [[gnu::noinline]] DirectSample sample_other(const LightPick& chosen, const LightReceiver& receiver,
                                                 const Draw& random) const;

@@ -14,8 +14,9 @@
 namespace treefarm {
 
 /// Probability of each part of a light where a density is asked for.
+template <class Of>
 struct PartProbabilities {
-    const EntryProbabilities& of;
+    const Of& of;
     std::uint32_t first;  ///< entry of part 0 in the table that emitters are chosen by
 
     bool by_power() const { return of.by_power(); }
@@ -29,7 +30,8 @@ struct PartProbabilities {
 template <class Light>
 concept EnvironmentLight = requires(Light& light, const Light& given, const typename Light::Kind& kind,
                                     const TextureSet* textures, const Draw& random, const Vec3& direction,
-                                    const typename Light::Sample& drawn, const PartProbabilities& probabilities) {
+                                    const typename Light::Sample& drawn,
+                                    const PartProbabilities<EntryProbabilities>& probabilities) {
     light.add(kind, textures);
     light.choose(0, 0.0f);
     { given.part_count() } -> std::same_as<int>;
@@ -97,12 +99,12 @@ class Environments {
     }
 
     /// Density of sample() for a direction.
-    float pdf(const Vec3& direction, const EntryProbabilities& probabilities) const {
+    float pdf(const Vec3& direction, const auto& probabilities) const {
         return density<void>(direction, direction, probabilities);
     }
     /// That of a sample of one light.
     template <class Light>
-    float pdf_of(const typename Light::Sample& drawn, const EntryProbabilities& probabilities) const {
+    float pdf_of(const typename Light::Sample& drawn, const auto& probabilities) const {
         return density<Light>(drawn.direction, drawn, probabilities);
     }
 
@@ -154,10 +156,10 @@ class Environments {
     }
 
     /// The sum of densities, where `Light` knows its part of it by what was drawn.
-    template <class Light, class Drawn>
-    float density(const Vec3& direction, const Drawn& drawn, const EntryProbabilities& probabilities) const {
+    template <class Light, class Drawn, class Of>
+    float density(const Vec3& direction, const Drawn& drawn, const Of& probabilities) const {
         const auto of_light = [&]<class Other>(const Other& light, std::uint32_t first) {
-            const PartProbabilities parts{probabilities, first};
+            const PartProbabilities<Of> parts{probabilities, first};
             if constexpr (std::is_same_v<Other, Light>)
                 return light.pdf(drawn, parts);
             else

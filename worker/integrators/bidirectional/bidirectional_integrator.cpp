@@ -22,9 +22,13 @@ RenderUnit prepare_bidirectional(std::shared_ptr<const TraceScene> scene, const 
     return [sensor = Sensor(scene->camera().camera(), scene->film()), scene = std::move(scene), job](
                const PassPlan& pass, const AnySampler&, const WorkUnit& unit, UnitOutput& output) {
         with_surface(*scene, [&]<class Surface>() {
-            BidirectionalTracer<Surface> tracer(*scene, sensor, BidirectionalRules(*scene, job, pass), output);
+            const EmissionChoice choice = scene->emitters().emission_choice(pass.emission);
+            EmissionRecord record(choice, job.learns_emission, pass, output.stats.emission);
+            BidirectionalTracer<Surface> tracer(*scene, sensor, BidirectionalRules(*scene, job, pass), choice, record,
+                                                pass, output);
             render_samples(*scene, job, pass, unit, output,
                            [&](const PathKey& key, const Ray& ray) { return tracer.radiance(key, ray); });
+            tracer.finish();
         });
     };
 }

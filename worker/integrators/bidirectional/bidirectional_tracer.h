@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "common/film/light_subpath_gain.h"
 #include "worker/integrators/bidirectional/light_subpath.h"
 #include "worker/integrators/bidirectional/sample_connections.h"
 #include "worker/integrators/subpath/sensor.h"
@@ -12,13 +13,17 @@ template <class Surface>
 class BidirectionalTracer {
   public:
     BidirectionalTracer(const TraceScene& scene, const Sensor& sensor, const BidirectionalRules& rules,
-                        UnitOutput& output)
+                        const EmissionChoice& choice, EmissionRecord& record, const PassPlan& pass, UnitOutput& output)
         : scene_(scene),
           sensor_(sensor),
           rules_(rules),
+          choice_(choice),
+          record_(record),
+          first_sample_(pass.first_sample),
+          per_usual_(std::ldexp(1.0, -pass.layers.splats.exponent - kSquareBits)),
           stats_(output.stats),
           connections_(scene.geometry(), output),
-          light_(scene, rules_, output.stats),
+          light_(scene, rules_, choice, record, output.stats),
           scratch_(Surface::make_scratch(scene)),
           other_(Surface::make_scratch(scene)) {}
 
@@ -27,9 +32,18 @@ class BidirectionalTracer {
         const Draw camera = draw(key, 0, Stream::camera), lens{camera[2], camera[3], 0, 0};  // the ray's own point
         light_.trace(key);
         if (rules_.light_image) connect_to_lens(key, lens);
+        met_alone_ = 0;
+        const std::uint64_t rays = stats_.rays;
         const Rgb met = walk(key, camera_ray, lens);
-        return met + connections_.finish(key);
+        const SampleConnections::Sums sums = connections_.finish(key);
+        const Rgb radiance = met + sums.own;
+        if (rules_.compare) compare(key, radiance, sums, stats_.rays - rays);
+        record_.add(light_.emitter(), sums.from_lights * sums.from_lights + sums.splat_squares);
+        return radiance;
     }
+
+    /// After the last sample of a unit.
+    void finish() { pairs_.finish(stats_.light_subpaths); }
 
   private:
     /// A vertex of the camera's path: z_(depth).
@@ -51,6 +65,15 @@ class BidirectionalTracer {
         TechniqueSums sums{};      ///< of that vertex
         LightReceiver receiver{};  ///< that vertex, as next event chose an emitter there
     };
+
+    /// Notes what the sample brings with its light path, and what it would bring without.
+    void compare(const PathKey& key, const Rgb& radiance, const SampleConnections::Sums& sums, std::uint64_t rays) {
+        if ((key.sample - first_sample_) % kBlockSamples == 0) pairs_.finish(stats_.light_subpaths);
+        pairs_.add({per_usual_ * luminance(radiance), per_usual_ * (met_alone_ + sums.alone), per_usual_ * sums.splats,
+                    per_usual_ * per_usual_ * sums.splat_squares});
+        stats_.light_subpaths.alone_rays += rays + next_event_rays_;
+        next_event_rays_ = 0;
+    }
 
     /// Follows the camera's path, connects its vertices, and returns what it meets by itself.
     Rgb walk(const PathKey& key, const Ray& camera_ray, const Draw& lens) {
@@ -105,21 +128,28 @@ class BidirectionalTracer {
     }
 
     /// (0, t): what the path's ray has met emits.
-    Rgb emission(const Path& path, const TechniqueSums& sums, const Hit* arrival, int depth) const {
+    Rgb emission(const Path& path, const TechniqueSums& sums, const Hit* arrival, int depth) {
         if (!rules_.techniques.has(0, depth + 1)) return Rgb(0.0f);
         const Rgb light = emitted(scene_.emitters(), path.ray, arrival);
-        if (depth == 1) return rules_.hide_emitters ? Rgb(0.0f) : light;
+        if (depth == 1) {
+            const Rgb seen = rules_.hide_emitters ? Rgb(0.0f) : light;
+            met_alone_ += luminance(seen);
+            return seen;
+        }
         if (is_black(light)) return light;
         const Emitters& emitters = scene_.emitters();
         const Vec3& direction = path.ray.direction;
-        const EmissionDensity pdf =
-            arrival ? emitters.emission_density(*arrival, -direction) : emitters.emission_density(direction);
+        const EmissionDensity pdf = arrival ? emitters.emission_density(*arrival, -direction, &choice_)
+                                            : emitters.emission_density(direction, &choice_);
         double next_event = 0.0;
         if (rules_.next_event) {
             next_event = double(emitter_pdf(emitters, path.receiver, path.ray, arrival));
             if (arrival)
                 next_event *= double(geometric_cosine(*arrival, direction)) / squared_distance(path.from.p, arrival->p);
         }
+        if (rules_.compare)
+            met_alone_ += luminance(path.throughput * light) *
+                          technique_weight(TechniqueSums{sums.join, 0.0}.sum(next_event, 0.0, rules_.heuristic));
         const double others = sums.sum(next_event, double(pdf.place) * double(pdf.direction), rules_.heuristic);
         return light * static_cast<float>(rules_.weight(others));
     }
@@ -136,14 +166,17 @@ class BidirectionalTracer {
         const Rgb radiance = light.from_environment ? emitters.environment(light.wi) : light.radiance;
         const Rgb value = z.throughput * bsdf.f_cos * radiance;
         if (is_black(value)) return;
-        const double weight = rules_.weight(next_event_others(z, light, double(bsdf.pdf), random));
-        connections_.add(shadow_ray(z.hit, light), value * static_cast<float>(weight / double(light.pdf)));
+        const double met = light.delta ? 0.0 : rules_.heuristic(double(bsdf.pdf) / double(light.pdf));
+        const double weight = rules_.weight(met + next_event_others(z, light, random));
+        connections_.add_direct(shadow_ray(z.hit, light), value * static_cast<float>(weight / double(light.pdf)),
+                                double(luminance(value)) * technique_weight(met) / double(light.pdf));
+        ++next_event_rays_;
     }
 
-    /// All other techniques' part in such a path, against next event's.
-    double next_event_others(const CameraVertex& z, const DirectSample& light, double scatter, const Draw& random) {
-        const EmissionDensity pdf =
-            scene_.emitters().emission_density(light, receiver_at(z.hit, z.surface), random, rules_.delta_alone);
+    /// The part in such a path of all that the light path brings, against next event's.
+    double next_event_others(const CameraVertex& z, const DirectSample& light, const Draw& random) {
+        const EmissionDensity pdf = scene_.emitters().emission_density(light, receiver_at(z.hit, z.surface), random,
+                                                                       rules_.delta_alone, &choice_);
         // Densities of the place and of what is drawn from there, in the measures of next event's and per area.
         // Where only lights without extent are sampled, both ends are taken to choose them alike.
         double place = rules_.delta_alone ? 1.0 : double(pdf.place) / double(light.pdf);
@@ -153,8 +186,7 @@ class BidirectionalTracer {
             next /= distance2;
             if (!light.delta) place *= distance2 / double(geometric_cosine(light.on_light, light.wi));
         }
-        const double met = light.delta ? 0.0 : rules_.heuristic(scatter / double(light.pdf));
-        return met + z.sums.sum(place * next, place * next * reverse(z, light.wi), rules_.heuristic);
+        return z.sums.sum(place * next, place * next * reverse(z, light.wi), rules_.heuristic);
     }
 
     /// (s, t): a vertex of the light path sends its light to one of the camera's.
@@ -232,9 +264,16 @@ class BidirectionalTracer {
     const TraceScene& scene_;
     const Sensor& sensor_;
     const BidirectionalRules rules_;
+    const EmissionChoice& choice_;
+    EmissionRecord& record_;
+    const std::uint32_t first_sample_;
+    const double per_usual_;  ///< scale to what splats usually bring
     TraceStats& stats_;
     SampleConnections connections_;
     LightSubpath<Surface> light_;
+    SubpathPairs pairs_;
+    double met_alone_ = 0;                       ///< luminance that the path meets, weighed without the light path
+    std::uint64_t next_event_rays_ = 0;          ///< of the sample
     typename Surface::Scratch scratch_, other_;  ///< of the camera's surface, and of one that is seen from elsewhere
 };
 

@@ -6,6 +6,7 @@
 
 #include "worker/integrators/bidirectional/edge.h"
 #include "worker/integrators/bidirectional/rules.h"
+#include "worker/integrators/subpath/emission_record.h"
 
 namespace treefarm {
 
@@ -29,18 +30,29 @@ class LightSubpath {
   public:
     using Vertex = LightVertex<Surface>;
 
-    LightSubpath(const TraceScene& scene, const BidirectionalRules& rules, TraceStats& stats)
-        : scene_(scene), rules_(rules), stats_(stats), scratch_(Surface::make_scratch(scene)) {}
+    LightSubpath(const TraceScene& scene, const BidirectionalRules& rules, const EmissionChoice& choice,
+                 EmissionRecord& record, TraceStats& stats)
+        : scene_(scene),
+          rules_(rules),
+          choice_(choice),
+          record_(record),
+          stats_(stats),
+          scratch_(Surface::make_scratch(scene)) {}
 
     /// Traces that of a key: each vertex has its own random numbers, the emitter 0, surfaces from 1 on.
     void trace(const PathKey& key) {
         count_ = 0;
+        emitter_ = 0;
         if (!rules_.goes_on(1)) return;
         const EmissionSample start =
-            scene_.emitters().emit(draw(key, 0, Stream::light_start), draw(key, 0, Stream::light_scatter));
+            scene_.emitters().emit(draw(key, 0, Stream::light_start), draw(key, 0, Stream::light_scatter), &choice_);
+        emitter_ = start.entry;
+        if (start.from != EmissionFrom::nothing) record_.start(emitter_);
         if (!is_black(start.weight)) walk(start, key);
     }
 
+    /// That it starts from, an entry of EmissionChoice; 0 where there is none.
+    std::uint32_t emitter() const { return emitter_; }
     int size() const { return count_; }
     /// Vertex y_(i + 1).
     const Vertex& operator[](int i) const { return vertices_[static_cast<std::size_t>(i)]; }
@@ -104,10 +116,13 @@ class LightSubpath {
 
     const TraceScene& scene_;
     const BidirectionalRules& rules_;
+    const EmissionChoice& choice_;
+    EmissionRecord& record_;
     TraceStats& stats_;
     typename Surface::Scratch scratch_;  ///< of surfaces as the other walk sees them
     std::deque<Vertex> vertices_;        ///< memory is kept
     int count_ = 0;
+    std::uint32_t emitter_ = 0;
 };
 
 }  // namespace treefarm

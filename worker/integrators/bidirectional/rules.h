@@ -15,6 +15,7 @@ struct BidirectionalRules {
     bool next_event;   ///< emitters are sampled
     bool delta_alone;  ///< only those without extent are
     bool light_image;  ///< light paths are connected to the lens
+    bool compare;      ///< samples also say what their path from the camera would carry alone
     bool weighted;     ///< techniques share the light that several find
     bool strict_normals, hide_emitters;
     Heuristic heuristic;
@@ -26,6 +27,7 @@ struct BidirectionalRules {
           next_event(pass.next_event && scene.emitters().can_sample()),
           delta_alone(!pass.next_event && scene.emitters().has_delta_lights()),
           light_image(job.bidirectional.light_image),
+          compare(job.bidirectional.light_subpaths == Rule::while_it_pays),
           weighted(job.bidirectional.weighted),
           strict_normals(job.integrator.strict_normals),
           hide_emitters(job.integrator.hide_emitters),

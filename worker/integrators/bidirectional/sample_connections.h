@@ -16,40 +16,57 @@ class SampleConnections {
   public:
     SampleConnections(const EmbreeScene& geometry, UnitOutput& output) : geometry_(geometry), output_(output) {}
 
-    /// One that brings light to the sample's own pixel.
-    void add(const Ray& ray, const Rgb& value) { add(ray, {value, kOwn, 0}); }
+    /// What they bring that reaches its pixel.
+    struct Sums {
+        Rgb own{0.0f};           ///< to the sample's own
+        double alone = 0;        ///< luminance that next event would bring without the light path
+        double from_lights = 0;  ///< luminance of what vertices of the light path bring to the sample's own
+        double splats = 0, splat_squares = 0;  ///< sums over what they bring to others: luminances, and those squared
+    };
+
+    /// One that brings light of a vertex of the light path to the sample's own pixel.
+    void add(const Ray& ray, const Rgb& value) { add(ray, {value, 0.0, kOwn, 0}); }
+    /// One that brings light of a sampled emitter there; `alone`: its luminance if there were no light path.
+    void add_direct(const Ray& ray, const Rgb& value, double alone) { add(ray, {value, alone, kDirect, 0}); }
     /// One that brings light to any, from so numbered a vertex of the light path.
     void add_splat(const Ray& ray, const Rgb& value, std::uint32_t pixel, std::uint32_t vertex) {
-        add(ray, {value, pixel, vertex});
+        add(ray, {value, 0.0, pixel, vertex});
     }
 
-    /// Splats what reaches other pixels, and returns what reaches the sample's own. None is left.
-    Rgb finish(const PathKey& key) {
-        Rgb sum(0.0f);
+    /// Splats what reaches other pixels, and returns what all bring. None is left.
+    Sums finish(const PathKey& key) {
+        Sums sums;
         for (std::size_t begin = 0; begin < rays_.size(); begin += EmbreeScene::kMostTogether) {
             const std::size_t count = std::min(rays_.size() - begin, EmbreeScene::kMostTogether);
             geometry_.occluded({&rays_[begin], count}, hidden_.data());
             for (std::size_t i = 0; i < count; ++i) {
                 const Carried& carried = carried_[begin + i];
                 if (hidden_[i]) continue;
-                if (carried.pixel == kOwn)
-                    sum += carried.value;
-                else
-                    output_.splats.add(carried.pixel, key.sample, carried.value,
-                                       draw(key, carried.vertex, Stream::splat_round));
+                if (carried.pixel >= kDirect) {
+                    sums.own += carried.value;
+                    sums.alone += carried.alone;
+                    if (carried.pixel == kOwn) sums.from_lights += luminance(carried.value);
+                    continue;
+                }
+                output_.splats.add(carried.pixel, key.sample, carried.value,
+                                   draw(key, carried.vertex, Stream::splat_round));
+                const double splat = luminance(carried.value);
+                sums.splats += splat;
+                sums.splat_squares += splat * splat;
             }
         }
         output_.stats.shadow_rays += rays_.size();
         rays_.clear();
         carried_.clear();
-        return sum;
+        return sums;
     }
 
   private:
-    static constexpr std::uint32_t kOwn = ~0u;
+    static constexpr std::uint32_t kOwn = ~0u, kDirect = kOwn - 1;  // no film has so many pixels
 
     struct Carried {
         Rgb value;
+        double alone;
         std::uint32_t pixel, vertex;
     };
 

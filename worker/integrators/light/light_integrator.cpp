@@ -4,6 +4,7 @@
 #include <array>
 
 #include "common/base/timer.h"
+#include "worker/integrators/subpath/emission_record.h"
 #include "worker/integrators/subpath/light_scatter.h"
 #include "worker/integrators/subpath/roulette.h"
 #include "worker/integrators/subpath/sensor.h"
@@ -37,11 +38,14 @@ struct Rules {
 /// Connections whose shadow rays wait for each other: many together are faster.
 class Connections {
   public:
-    Connections(const EmbreeScene& geometry, UnitOutput& output) : geometry_(geometry), output_(output) {}
+    Connections(const EmbreeScene& geometry, EmissionRecord& record, UnitOutput& output)
+        : geometry_(geometry), record_(record), output_(output) {}
 
-    void add(const Ray& ray, std::uint32_t pixel, const Rgb& value, const PathKey& key, std::uint32_t vertex) {
+    /// `emitter`: that the path starts from.
+    void add(const Ray& ray, std::uint32_t pixel, const Rgb& value, const PathKey& key, std::uint32_t vertex,
+             std::uint32_t emitter) {
         rays_[count_] = ray;
-        splats_[count_++] = {value, key, pixel, vertex};
+        splats_[count_++] = {value, key, pixel, vertex, emitter};
         if (count_ == rays_.size()) flush();
     }
 
@@ -51,7 +55,9 @@ class Connections {
         output_.stats.shadow_rays += count_;
         for (std::size_t i = 0; i < count_; ++i) {
             if (hidden_[i]) continue;
-            const auto& [value, key, pixel, vertex] = splats_[i];
+            const auto& [value, key, pixel, vertex, emitter] = splats_[i];
+            const double light = luminance(value);
+            record_.add(emitter, light * light);
             output_.splats.add(pixel, key.sample, value, draw(key, vertex, Stream::splat_round));
             const bool same_path = lit_any_ && key.pixel == last_lit_.pixel && key.sample == last_lit_.sample;
             if (!same_path) ++output_.stats.nonzero_paths;
@@ -65,10 +71,11 @@ class Connections {
     struct Splat {
         Rgb value;
         PathKey key;
-        std::uint32_t pixel, vertex;
+        std::uint32_t pixel, vertex, emitter;
     };
 
     const EmbreeScene& geometry_;
+    EmissionRecord& record_;
     UnitOutput& output_;
     std::array<Ray, EmbreeScene::kMostTogether> rays_;
     std::array<Splat, EmbreeScene::kMostTogether> splats_;
@@ -82,12 +89,15 @@ class Connections {
 template <class Surface>
 class LightTracer {
   public:
-    LightTracer(const TraceScene& scene, const Sensor& sensor, const Rules& rules, UnitOutput& output)
+    LightTracer(const TraceScene& scene, const Sensor& sensor, const Rules& rules, const EmissionChoice& choice,
+                EmissionRecord& record, UnitOutput& output)
         : scene_(scene),
           sensor_(sensor),
           rules_(rules),
+          choice_(choice),
+          record_(record),
           stats_(output.stats),
-          connections_(scene.geometry(), output),
+          connections_(scene.geometry(), record, output),
           arriving_(Surface::make_scratch(scene)),
           leaving_(Surface::make_scratch(scene)) {}
 
@@ -95,7 +105,8 @@ class LightTracer {
     void trace(const PathKey& key) {
         ++stats_.paths;
         const EmissionSample start =
-            scene_.emitters().emit(draw(key, 0, Stream::light_start), draw(key, 0, Stream::light_scatter));
+            scene_.emitters().emit(draw(key, 0, Stream::light_start), draw(key, 0, Stream::light_scatter), &choice_);
+        if (start.from != EmissionFrom::nothing) record_.start(start.entry);
         const Draw lens = draw(key, 0, Stream::lens_connect);
         if (start.from == EmissionFrom::surface && !rules_.hide_emitters) connect_lamp(start, key, lens);
         if (!is_black(start.weight) && rules_.max_depth != 1) walk(start, key, lens);
@@ -104,6 +115,12 @@ class LightTracer {
     void finish() { connections_.flush(); }
 
   private:
+    /// A vertex of a path, by number, and the emitter that the path starts from.
+    struct Place {
+        PathKey key;
+        std::uint32_t vertex, emitter;
+    };
+
     void walk(const EmissionSample& start, const PathKey& key, const Draw& lens) {
         Ray ray = start.ray;
         Rgb throughput(1.0f);  // since it left the emitter
@@ -117,7 +134,7 @@ class LightTracer {
                 return;
             scene_.geometry().keep_inside(hit, ray);
             const Vec3 in = -ray.direction;
-            connect(hit, in, start.weight * throughput, key, vertex, lens);
+            connect(hit, in, start.weight * throughput, {key, vertex, start.entry}, lens);
             if (depth + 1 == rules_.max_depth) return;
             const Surface surface(scene_, hit, in, arriving_);
             if (surface.black()) return;
@@ -135,32 +152,33 @@ class LightTracer {
         const FilmConnection to = sensor_.importance.connect(start.start.p, lens);
         const float cosine = dot(start.start.ng, to.direction);
         if (!to.seen || !(cosine > 0.0f)) return;
-        add(start.start, to, start.radiance, double(cosine) / double(start.place_pdf), key, 0);
+        add(start.start, to, start.radiance, double(cosine) / double(start.place_pdf), {key, 0, start.entry});
     }
 
     /// Connects a vertex at which so much light arrives from `in`.
-    void connect(const Hit& hit, const Vec3& in, const Rgb& light, const PathKey& key, std::uint32_t vertex,
-                 const Draw& lens) {
+    void connect(const Hit& hit, const Vec3& in, const Rgb& light, const Place& place, const Draw& lens) {
         const FilmConnection to = sensor_.importance.connect(hit.p, lens);
         if (!to.seen || !sensor_.pixels.reaches(to.x, to.y)) return;
         const LightScattering scattering =
             light_scattering<Surface>(scene_, hit, in, to.direction, rules_.strict_normals, leaving_);
-        add(hit, to, light * scattering.f, 1.0, key, vertex);
+        add(hit, to, light * scattering.f, 1.0, place);
     }
 
     /// Adds what a vertex sends to the camera, `factor` times the colour.
-    void add(const Hit& hit, const FilmConnection& to, const Rgb& colour, double factor, const PathKey& key,
-             std::uint32_t vertex) {
+    void add(const Hit& hit, const FilmConnection& to, const Rgb& colour, double factor, const Place& place) {
         if (is_black(colour)) return;
+        const auto& [key, vertex, emitter] = place;
         const PixelPick pick = sensor_.pixels.pick(to.x, to.y, draw(key, vertex, Stream::filter_pick));
         if (!pick.found) return;
         connections_.add(ray_to_lens(hit, to), pick.pixel, colour * static_cast<float>(factor * to.g * pick.weight),
-                         key, vertex);
+                         key, vertex, emitter);
     }
 
     const TraceScene& scene_;
     const Sensor& sensor_;
     const Rules rules_;
+    const EmissionChoice& choice_;
+    EmissionRecord& record_;
     TraceStats& stats_;
     Connections connections_;
     typename Surface::Scratch arriving_, leaving_;  ///< of surfaces as light sees them, and as the camera does
@@ -172,8 +190,10 @@ RenderUnit prepare_light(std::shared_ptr<const TraceScene> scene, const Resolved
     return [sensor = Sensor(scene->camera().camera(), scene->film()), scene = std::move(scene), job](
                const PassPlan& pass, const AnySampler&, const WorkUnit& unit, UnitOutput& output) {
         const double start = thread_cpu_seconds();
+        const EmissionChoice choice = scene->emitters().emission_choice(pass.emission);
+        EmissionRecord record(choice, job.learns_emission, pass, output.stats.emission);
         with_surface(*scene, [&]<class Surface>() {
-            LightTracer<Surface> tracer(*scene, sensor, Rules(job.integrator), output);
+            LightTracer<Surface> tracer(*scene, sensor, Rules(job.integrator), choice, record, output);
             const std::uint64_t pixels = pass.layers.splats.pixels;
             for (std::uint64_t path = unit.first; path < unit.first + unit.count; ++path)
                 tracer.trace({job.sampler.seed, static_cast<std::uint32_t>(path % pixels),

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "common/film/emission_shares.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numeric>
+
+#include "common/plan/policy.h"
+
+namespace treefarm {
+
+std::vector<float> emission_emphasis(const EmissionSums& sums) {
+    double paths = 0, squares = 0;
+    for (std::size_t i = 0; i < sums.paths.size(); ++i) {
+        paths += static_cast<double>(sums.paths[i]);
+        squares += static_cast<double>(sums.squares[i]);
+    }
+    if (sums.paths.size() < 2 || !(squares > 0)) return {};
+    // An emitter of which little is known is taken to be as all are.
+    const double prior = kPolicy.light_subpaths.prior_paths, usual = squares / paths;
+    std::vector<float> emphasis;
+    emphasis.reserve(sums.paths.size());
+    for (std::size_t i = 0; i < sums.paths.size(); ++i)
+        emphasis.push_back(static_cast<float>(std::sqrt((static_cast<double>(sums.squares[i]) / usual + prior) /
+                                                        (static_cast<double>(sums.paths[i]) + prior))));
+    return emphasis;
+}
+
+std::size_t emitters_of_half(const EmissionSums& sums) {
+    std::vector<std::uint64_t> paths = sums.paths;
+    std::sort(paths.begin(), paths.end(), std::greater<>());
+    const std::uint64_t all = std::accumulate(paths.begin(), paths.end(), std::uint64_t{0});
+    std::uint64_t seen = 0;
+    std::size_t count = 0;
+    while (count < paths.size() && seen < all - all / 2)
+        seen += paths[count++];
+    return count;
+}
+
+}  // namespace treefarm
