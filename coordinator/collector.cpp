@@ -65,8 +65,7 @@ void Collector::check_stats(const Result& result) const {
     std::uint64_t paths = 0;
     for (const UnitResult& unit : result.units)
         paths += weight(unit.unit) * (unit.unit.kind == UnitKind::tile ? unit_samples(unit.unit) : 1);
-    if (s.paths != paths || s.nonzero_paths > paths || s.invalid_samples > paths ||
-        s.probe_paths > (plan_.probe ? paths : 0))
+    if (s.paths != paths || s.nonzero_paths > paths || s.invalid_samples > paths)
         throw FormatError("counts of paths that do not fit the work units");
     std::uint64_t light_paths = 0;
     for (std::size_t i = 0; i < s.emission.paths.size(); ++i) {

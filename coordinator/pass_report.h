@@ -8,7 +8,7 @@
 
 #include "common/film/combine.h"
 #include "common/film/error_estimate.h"
-#include "common/film/guiding_probe.h"
+#include "common/film/guiding_worth.h"
 #include "common/film/trace_stats.h"
 #include "common/guiding/any_guide.h"
 #include "common/plan/forecast.h"

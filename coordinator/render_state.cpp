@@ -131,7 +131,7 @@ void add_film(RenderState& state, const Resolved& job, CollectedPass pass) {
     PassResult result = finished_pass(pass.plan, before, std::move(pass.pixels));
     show(std::move(result), job, state.films);
     if (state.aovs.requested()) state.aovs.add(pass.aovs, pass.plan.spp);
-    if (const std::optional<std::size_t> first = fold_passes(state.films)) state.set_aside.follow_fold(*first);
+    fold_passes(state.films);
 }
 
 void combine_films(RenderState& state, const Resolved& job, DevelopedState& developed) {

@@ -8,7 +8,7 @@
 
 #include "common/film/aov_film.h"
 #include "common/film/combine.h"
-#include "common/film/guiding_probe.h"
+#include "common/film/guiding_worth.h"
 #include "common/guiding/any_guide.h"
 #include "common/guiding/regions/next_event.h"
 #include "common/plan/budget.h"
@@ -36,8 +36,6 @@ struct RenderState {
     RenderHistory history;
     std::vector<PassResult> films;  ///< that make the image, folded
     AovSums aovs;
-    GuidingProbe probe;
-    ProbesSetAside set_aside;
     GuidingMemory guiding_memory;
     AnyModel tree;                  ///< guides the next pass
     std::optional<bool> last_tree;  ///< whether it was refined as the last one; nothing: it is the first

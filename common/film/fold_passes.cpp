@@ -50,15 +50,14 @@ std::size_t pair_to_fold(std::span<const PassResult> passes) {
     return best;
 }
 
-std::optional<std::size_t> fold_passes(std::vector<PassResult>& passes) {
-    if (passes.size() <= kMostPassImages) return std::nullopt;
+void fold_passes(std::vector<PassResult>& passes) {
+    if (passes.size() <= kMostPassImages) return;
     const std::size_t first = pair_to_fold(passes);
     merge_into(passes[first], std::move(passes[first + 1]));
     passes.erase(passes.begin() + static_cast<std::ptrdiff_t>(first) + 1);
     // Noise is kept with the first of those that are alike, which may be an earlier pass.
     for (std::size_t k = 0; k <= first; ++k)
         passes[k].noise = {};
-    return first;
 }
 
 }  // namespace treefarm

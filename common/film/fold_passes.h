@@ -20,8 +20,7 @@ inline constexpr std::size_t kMostPassImages = 8;
 std::size_t pair_to_fold(std::span<const PassResult> passes);
 
 /// Merges two neighbours of `passes` where there are more than kMostPassImages: their samples become those of one pass
-/// (docs/design/error.md, "many passes"). Returns the number of the first of the two, if there were any. Called after
-/// each pass.
-std::optional<std::size_t> fold_passes(std::vector<PassResult>& passes);
+/// (docs/design/error.md, "many passes"). Called after each pass.
+void fold_passes(std::vector<PassResult>& passes);
 
 }  // namespace treefarm

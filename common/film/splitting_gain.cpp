@@ -45,8 +45,7 @@ SplittingGain splitting_gain(const TraceStats& stats) {
     const SplittingSums& sums = stats.splitting;
     if (sums.split_variance == 0 || sums.split_mean == 0) return {};
     const auto ratio = [](std::uint64_t a, std::uint64_t b) { return static_cast<double>(a) / static_cast<double>(b); };
-    const std::uint64_t split_rays = stats.rays - stats.probe_rays;
-    return {ratio(sums.unsplit_variance, sums.split_variance), ratio(split_rays, split_rays - stats.split_path_rays),
+    return {ratio(sums.unsplit_variance, sums.split_variance), ratio(stats.rays, stats.rays - stats.split_path_rays),
             ratio(sums.unsplit_mean, sums.split_mean)};
 }
 

@@ -39,8 +39,6 @@ void TraceStats::add(const TraceStats& other) {
     shadow_rays += other.shadow_rays;
     vertices += other.vertices;
     records += other.records;
-    probe_paths += other.probe_paths;
-    probe_rays += other.probe_rays;
     split_path_rays += other.split_path_rays;
     invalid_samples += other.invalid_samples;
     for (std::size_t i = 0; i < kNextEventSums; ++i)

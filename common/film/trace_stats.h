@@ -65,7 +65,6 @@ struct TraceStats {
     std::uint64_t shadow_rays = 0;
     std::uint64_t vertices = 0;                     ///< surface vertices at which a direction was sampled
     std::uint64_t records = 0;                      ///< of them, recorded for the tree
-    std::uint64_t probe_paths = 0, probe_rays = 0;  ///< of them, of unguided paths in a probe pass
     std::uint64_t split_path_rays = 0;              ///< of them, of split paths that paths left where they were split
     std::uint64_t invalid_samples = 0;
     NextEventSums next_event{};  ///< where it is decided; moments where nothing is recorded by region

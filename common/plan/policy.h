@@ -10,29 +10,16 @@ namespace treefarm {
 /// what each means and where it comes from. A render records them (resolved.toml).
 /// This header includes nothing of ours, so that every room may include it.
 struct Policy {
-    /// When guiding is given up ("auto"), by probes: unguided pixels of a guided render.
+    /// When paths are unguided ("auto"), by what guided samples tell of unguided ones.
     struct Guiding {
-        double losing_bulk = 0.75;
-        double losing_bulk_alone = 0.5;
-        double winning_few = 1.5;
-        double losing_few = 0.55;
         std::uint32_t least_judged_spp = 4;
-        std::uint32_t least_trusted_spp = 8;
-        double least_coverage = 0.8;
         double ray_cost = 1.4;
-        std::uint32_t least_probe_spp = 4;
-        std::uint32_t probe_passes = 4;
-        std::uint64_t probe_pixels = 2048;
-        std::size_t least_probe_pixels = 64;
         double mistrusted = 2.0;
         double giving_up = 0.9;
         double giving_up_early = 0.65;
         double giving_up_errors = 1.3;
         double taking_up = 1.1;
         std::uint32_t least_settled_spp = 16;
-        std::size_t probe_block = 8;
-        double probe_floor = 0.1;
-        double probe_evenly = 3.0;
     } guiding;
 
     /// How often next event samples emitters ("auto").

@@ -48,21 +48,9 @@ void set_record(PassPlan& pass, const Resolved& job, bool record) {
 }
 
 void set_guiding(PassPlan& pass, const Resolved& job, Guiding guiding) {
-    if (job.guiding.rule != Rule::while_it_pays) return;
-    if (guiding == Guiding::loses) {
-        pass.guided = false;
-        set_record(pass, job, false);
-    }
-    pass.probe = false;  // guided samples tell of unguided ones themselves
-}
-
-Guiding judge_guiding(const PassPlan& pass, const GuidingGain& gain) {
-    if (gain.all == 0 || pass.spp < kPolicy.guiding.least_judged_spp) return Guiding::open;
-    if (gain.coverage < kPolicy.guiding.least_coverage) return Guiding::pays;
-    const bool wins_by_few = gain.all >= (pass.spp < kPolicy.guiding.least_trusted_spp ? kPolicy.guiding.losing_few
-                                                                                       : kPolicy.guiding.winning_few);
-    const double losing = pass.next_event ? kPolicy.guiding.losing_bulk : kPolicy.guiding.losing_bulk_alone;
-    return gain.bulk >= losing * std::min(gain.coverage, 1.0) || wins_by_few ? Guiding::open : Guiding::loses;
+    if (job.guiding.rule != Rule::while_it_pays || guiding != Guiding::loses) return;
+    pass.guided = false;
+    set_record(pass, job, false);
 }
 
 Guiding judge_guiding(const PassPlan& pass, const GuidingWorth& worth, double mistrust) {

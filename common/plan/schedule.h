@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "common/film/develop.h"
-#include "common/film/guiding_probe.h"
 #include "common/film/guiding_worth.h"
 #include "common/film/light_subpath_gain.h"
 #include "common/film/splitting_gain.h"
@@ -41,7 +40,6 @@ struct PassPlan {
     std::uint32_t first_sample = 0;     ///< spp done before it
     bool next_event = false;            ///< sample emitters directly
     bool guided = true;                 ///< by the tree, where there is one
-    bool probe = false;                 ///< but for some pixels, to see whether it pays (guiding_probe.h)
     bool split = true;                  ///< paths may be split, if the job lets them
     bool light_subpaths = true;         ///< an estimator from both ends has them; else it traces paths from the camera
     bool record = false;                ///< teach the tree (the last pass does not)
@@ -95,24 +93,18 @@ PassPlan make_pass(const Resolved& job, std::uint32_t index, std::uint32_t first
 void set_next_event(PassPlan& pass, const Resolved& job, bool next_event);
 void set_record(PassPlan& pass, const Resolved& job, bool record);
 
-/// Whether guiding pays, as far as probes tell.
+/// Whether guiding pays, as far as finished passes tell. Never for good.
 enum class Guiding {
-    open,   ///< it goes on and is asked again
-    pays,   ///< for good
-    loses,  ///< for good
+    open,   ///< it does, or nobody knows: the next pass is guided
+    loses,  ///< the next pass is not
 };
 
-/// guiding.rule "while_it_pays": the first passes that have a tree probe whether guiding pays; once it was found not
-/// to, passes are unguided and learn nothing.
+/// guiding.rule "while_it_pays": where guiding loses a pass is unguided and teaches nothing.
 void set_guiding(PassPlan& pass, const Resolved& job, Guiding guiding);
 
-/// Verdict after a guided pass that taught, with this gain. Short passes have to say loudly that guiding does not pay:
-/// it gets better with each. Where unguided samples hardly find the light it does, and probes tell no more.
-Guiding judge_guiding(const PassPlan& pass, const GuidingGain& gain);
-
-/// Verdict after a guided pass, by what its samples tell of unguided ones, times the factor by which unguided passes
+/// Verdict after a guided pass that taught, by what its samples tell of unguided ones, times the factor by which unguided passes
 /// were noisier than such samples had said. Guided is what stays where nobody knows: it loses at most its cost, while
-/// unguided paths may lose without bound.
+/// unguided paths may lose without bound. Short passes have to say more loudly that it loses: trees get better with each.
 Guiding judge_guiding(const PassPlan& pass, const GuidingWorth& worth, double mistrust);
 
 /// guiding.splitting_rule "while_it_pays": no path is split any more once that was found not to pay.

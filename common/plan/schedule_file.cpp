@@ -17,9 +17,9 @@ constexpr std::size_t kMostPasses = 10000;
 
 /// Keys that one [[pass]] may hold.
 constexpr std::string_view kKeys[] = {"spp",   "next_event", "record",         "guided",
-                                      "probe", "split",      "light_subpaths", "last_tree"};
+                                      "split",      "light_subpaths", "last_tree"};
 constexpr const char* kKeyAdvice =
-    "a pass has spp, next_event and record, and may have guided, probe, split, light_subpaths and last_tree";
+    "a pass has spp, next_event and record, and may have guided, split, light_subpaths and last_tree";
 
 class ScheduleReader {
   public:
@@ -69,7 +69,6 @@ class ScheduleReader {
                              "render with the job that the schedule was made by");
         set_record(plan, job_, record);
         plan.guided = job_.guides && (!pass->contains("guided") || flag(*pass, "guided"));
-        plan.probe = pass->contains("probe") && flag(*pass, "probe");
         plan.split = !pass->contains("split") || flag(*pass, "split");
         const bool light_subpaths = !pass->contains("light_subpaths") || flag(*pass, "light_subpaths");
         if (!light_subpaths && job_.bidirectional.light_subpaths != Rule::while_it_pays)
@@ -115,7 +114,7 @@ std::string write_schedule(std::span<const PassPlan> passes) {
     for (const PassPlan& pass : passes)
         text += "\n[[pass]]\nspp = " + std::to_string(pass.spp) + "\nnext_event = " + word(pass.next_event) +
                 "\nrecord = " + word(pass.record) + (pass.guided ? "" : "\nguided = false") +
-                (pass.probe ? "\nprobe = true" : "") + (pass.split ? "" : "\nsplit = false") +
+                (pass.split ? "" : "\nsplit = false") +
                 (pass.light_subpaths ? "" : "\nlight_subpaths = false") +
                 (pass.last_tree != pass.record ? "" : std::string("\nlast_tree = ") + word(pass.last_tree)) + "\n";
     return text;

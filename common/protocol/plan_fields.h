@@ -8,7 +8,7 @@ namespace treefarm {
 /// The fields of a pass's plan, as messages and checkpoints hold them.
 template <class Archive>
 void serialize(Archive& a, PassPlan& m) {
-    a(m.index, m.spp, m.first_sample, m.next_event, m.guided, m.probe, m.split, m.light_subpaths, m.record, m.last_tree,
+    a(m.index, m.spp, m.first_sample, m.next_event, m.guided, m.split, m.light_subpaths, m.record, m.last_tree,
       m.record_weight, m.learn_mixture, m.blocks_per_unit, m.chunks, m.kernel.plain_diffuse, m.kernel.guided,
       m.kernel.record, m.kernel.views, m.units.tiles, m.units.light_paths, m.units.first_light_path, m.units.chains,
       m.layers.estimates, m.layers.splats.pixels, m.layers.splats.exponent, m.layers.splats.chains, m.emission);

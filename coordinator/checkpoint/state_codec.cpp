@@ -112,19 +112,14 @@ void serialize(Archive& a, InvalidSample& s) {
 
 template <class Archive>
 void serialize(Archive& a, TraceStats& s) {
-    a(s.paths, s.nonzero_paths, s.rays, s.shadow_rays, s.vertices, s.records, s.probe_paths, s.probe_rays,
-      s.split_path_rays, s.invalid_samples, s.next_event, s.unguided.guided, s.unguided.unguided, s.unguided.cost,
+    a(s.paths, s.nonzero_paths, s.rays, s.shadow_rays, s.vertices, s.records, s.split_path_rays,
+      s.invalid_samples, s.next_event, s.unguided.guided, s.unguided.unguided, s.unguided.cost,
       s.splitting, s.light_subpaths, s.emission, s.first_invalid, s.trace_seconds, s.splat_seconds, s.phase_seconds);
 }
 
 template <class Archive>
 void serialize(Archive& a, PassVariance& v) {
     a(v.stuv, v.stuv_trimmed, v.mse_of_sample, v.stuv_ppg);
-}
-
-template <class Archive>
-void serialize(Archive& a, GuidingGain& g) {
-    a(g.all, g.bulk, g.coverage);
 }
 
 template <class Archive>
@@ -166,7 +161,7 @@ void serialize(Archive& a, RefineReport& r) {
 
 template <class Archive>
 void serialize(Archive& a, PassReport& r) {
-    a(r.plan, r.spp_done, r.workers, r.threads, r.seconds, r.stats, r.variance, r.error, r.guiding_gain,
+    a(r.plan, r.spp_done, r.workers, r.threads, r.seconds, r.stats, r.variance, r.error,
       r.guiding_worth, r.guiding, r.splitting_gain, r.splitting, r.light_subpath_gain, r.light_subpaths, r.emitters,
       r.emitters_of_half, r.run_seconds, r.halving, r.target, r.tree, r.update_bytes, r.touched_cells, r.caps,
       r.splat_caps, r.splat_bytes, r.saturated_splats, r.refine);
@@ -197,14 +192,15 @@ void serialize(Archive& a, CheckpointOrigin& o) {
 namespace {
 
 constexpr std::uint32_t kOrigin = section_tag("IDNT"), kHistory = section_tag("FACT"), kFilms = section_tag("FILM"),
-                        kProbes = section_tag("PROB"), kAovs = section_tag("AOVS"), kModel = section_tag("MODL"),
+                        kAovs = section_tag("AOVS"), kModel = section_tag("MODL"),
                         kLearner = section_tag("LERN"), kReports = section_tag("RPRT"), kBegun = section_tag("OPEN"),
                         kBegunFilm = section_tag("PFLM"), kBegunAovs = section_tag("PAOV"),
                         kBegunSplats = section_tag("PSPL"), kBegunSums = section_tag("PSUM");
 
 constexpr std::uint32_t version_of(std::uint32_t tag) {
-    if (tag == kHistory || tag == kReports || tag == kBegun) return 3;
-    return tag == kLearner || tag == kProbes ? 2 : 1;
+    if (tag == kHistory) return 4;
+    if (tag == kReports || tag == kBegun) return 3;
+    return tag == kLearner ? 2 : 1;
 }
 
 /// `room`: bytes that it may take at the most, where they are many.
@@ -268,9 +264,8 @@ std::vector<Section> encode_fields(const CheckpointOrigin& origin, const RenderS
     const std::size_t room = state.aovs.requested() ? 64 + most_aov_bytes() * origin.pixels : 0;
     std::vector<Section> sections;  // a list in braces would copy each
     sections.push_back(section(kOrigin, origin));
-    sections.push_back(section(kHistory, state.history));
+    sections.push_back(section(kHistory, state.history, state.guiding_memory));
     sections.push_back(section(kFilms, state.films));
-    sections.push_back(section(kProbes, state.probe, state.set_aside, state.guiding_memory));
     sections.push_back(section_with_room(room, kAovs, state.aovs));
     sections.push_back(section(kModel, state.tree.encode(), state.last_tree, state.tree_hash));
     sections.push_back(section(kLearner, state.learner, state.image_next_event));
@@ -326,9 +321,8 @@ CheckpointOrigin decode_origin(const SectionFile& file) {
 RenderState decode_state(const SectionFile& file, std::size_t pixels, std::span<const AovRequest> aovs) {
     RenderState state;
     state.aovs = AovSums(aovs, pixels);
-    read(file, kHistory, state.history);
+    read(file, kHistory, state.history, state.guiding_memory);
     read(file, kFilms, state.films);
-    read(file, kProbes, state.probe, state.set_aside, state.guiding_memory);
     read(file, kAovs, state.aovs);
     Bytes tree;
     read(file, kModel, tree, state.last_tree, state.tree_hash);
@@ -352,7 +346,6 @@ RenderState decode_state(const SectionFile& file, std::size_t pixels, std::span<
                     report.target.trust <= Trust::firm && report.plan.spp > 0,
                 "a report that no pass makes");
     require(state.aovs.fits(), "AOVs of another image");
-    require(state.set_aside.fits(state.films.size(), pixels), "probes of another image");
     return state;
 }
 

@@ -69,7 +69,6 @@ INSTANTIATE_TEST_SUITE_P(
         Lie{"endless seconds", [](Result& r) { r.stats.phase_seconds[2] = kInfinity; }},
         Lie{"more paths than were asked for", [](Result& r) { ++r.stats.paths; }},
         Lie{"more paths with light than paths", [](Result& r) { r.stats.nonzero_paths = r.stats.paths + 1; }},
-        Lie{"probes in a pass without", [](Result& r) { r.stats.probe_paths = r.stats.paths + 1; }},
         Lie{"an invalid sample outside the film",
             [](Result& r) {
                 r.stats.first_invalid.push_back({r.pass, 60000, 0, 0, {0, 0, 0}});

@@ -21,8 +21,7 @@ RenderState small_state() {
     state.films[0].parts = {{1, 0}, {3, 1}};
     state.films[0].noise.passes = 1;
     state.films[0].noise.half[0] = {0.5, {2}};
-    std::vector<PixelEstimate> probes(kPixels);
-    state.set_aside.take_out(probes, 0, 0);
+    state.guiding_memory = {2.0, 3, {}};
     PassFacts facts;
     facts.spp = 4;
     state.history.passes.push_back(facts);

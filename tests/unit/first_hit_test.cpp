@@ -201,7 +201,7 @@ TEST(DirectLight, IsPartOfEachGuidedSample) {
     for (const bool next_event : {true, false}) {
         PassPlan pass = one_pass(8);
         pass.index = 3;
-        pass.guided = pass.record = pass.split = pass.probe = true;
+        pass.guided = pass.record = pass.split = true;
         pass.next_event = next_event;
         pass.kernel = kernel_of(resolved, pass, facts_of(learned.tree()));
         UnitOutput output;

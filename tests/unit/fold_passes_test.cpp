@@ -9,7 +9,6 @@
 #include <random>
 
 #include "common/film/error_estimate.h"
-#include "common/film/guiding_probe.h"
 
 namespace treefarm {
 namespace {
@@ -166,34 +165,6 @@ TEST(FoldPasses, MeanIsUnbiasedAndVarianceRight) {
             EXPECT_LT(std::abs(sum - 1), 4 * deviation) << same_tree << int(method);
             EXPECT_NEAR(expected / error, 1.0, 0.06) << same_tree << int(method);
         }
-}
-
-TEST(FoldPasses, ProbesComeBackToThePassThatTheirsWasMergedInto) {
-    std::mt19937 engine(5);
-    std::vector<PassResult> passes;
-    ProbesSetAside aside;
-    std::uint32_t before = 0;
-    for (std::uint32_t k = 0; k < 12; ++k) {
-        const std::uint32_t spp = 4u << std::min(k, 3u);
-        PassResult pass = make_pass(spp, before, 1.0, engine, 4096);
-        if (k == 1 || k == 4) aside.take_out(pass.pixels, k, passes.size());
-        passes.push_back(std::move(pass));
-        if (const auto first = fold_passes(passes)) aside.follow_fold(*first);
-        before += spp;
-    }
-    const auto samples = [&] {
-        std::uint64_t sum = 0;
-        for (const PassResult& pass : passes)
-            for (const PixelEstimate& pixel : pass.pixels)
-                sum += pixel.whole().n;
-        return sum;
-    };
-    EXPECT_LT(samples(), 4096u * before);
-    aside.put_back(passes);
-    EXPECT_EQ(samples(), 4096u * before);
-    for (const PassResult& pass : passes)
-        for (const PixelEstimate& pixel : pass.pixels)
-            ASSERT_EQ(pixel.whole().n, pass.spp) << "of the pass that it was taken from";
 }
 
 }  // namespace

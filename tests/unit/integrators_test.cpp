@@ -87,7 +87,7 @@ TEST(Estimators, UnguidedOnesLearnNothing) {
         EXPECT_FALSE(job.guides || job.learns_lights || job.learns_views || job.cells_follow_use) << estimator.type;
         EXPECT_FALSE(job.integrator.split_glass) << estimator.type;
         for (const PassPlan& pass : plan_passes(job)) {
-            EXPECT_FALSE(pass.record || pass.guided || pass.probe) << estimator.type;
+            EXPECT_FALSE(pass.record || pass.guided) << estimator.type;
             EXPECT_TRUE(estimator.sees_light || !pass.next_event) << estimator.type;
         }
         EXPECT_NE(plan_text(plan_effects(scene, job_of(estimator.type)), "s.xml")

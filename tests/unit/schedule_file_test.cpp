@@ -29,7 +29,6 @@ TEST(ScheduleFile, ComesBackAsItWasWritten) {
     for (const NextEvent next_event : {NextEvent::always, NextEvent::never, NextEvent::kickstart}) {
         const Job job = job_with(next_event);
         std::vector<PassPlan> passes = plan_passes(test::resolved(job));
-        passes[3].probe = true;
         passes[4].split = false;
         const std::vector<PassPlan> back = parse_schedule(write_schedule(passes), "s.toml", test::resolved(job));
         ASSERT_EQ(back.size(), passes.size());

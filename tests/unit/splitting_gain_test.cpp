@@ -24,8 +24,7 @@ TEST(SplittingGain, ComparesVarianceAndRays) {
     for (const double s : {0.0, 2.0})
         pixel.add(1 + 0.5 * (s - 1), s);
     pixel.finish(stats.splitting);
-    stats.rays = 700;
-    stats.probe_rays = 200;
+    stats.rays = 500;
     stats.split_path_rays = 100;
     const SplittingGain gain = splitting_gain(stats);
     EXPECT_NEAR(gain.variance, 4, 1e-3);

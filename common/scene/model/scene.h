@@ -62,13 +62,6 @@ struct Film {
     std::uint32_t key_of(int x, int y) const {
         return static_cast<std::uint32_t>((y + std::int64_t{crop.y}) * whole_width() + x + crop.x);
     }
-    /// Place among the pixels that are rendered of the one with that number on the whole film.
-    std::uint32_t index_of(std::uint32_t key) const {
-        if (!crop.is_window()) return key;
-        const auto whole = static_cast<std::uint32_t>(crop.whole_width);
-        return (key / whole - static_cast<std::uint32_t>(crop.y)) * static_cast<std::uint32_t>(width) + key % whole -
-               static_cast<std::uint32_t>(crop.x);
-    }
     /// The window lies on a film of 1 to 65535 pixels a side.
     bool is_crop_valid() const {
         return !crop.is_window() ||

@@ -111,7 +111,7 @@ class DirectionChoice {
 
     /// Whether a path chooses among several. Not where there may be a delta lobe, which has no density to weigh by.
     bool chooses(const Path& path) const {
-        return kGuided && several() && path.depth <= candidate_depth_ && !path.probe && !path.surface->has_delta();
+        return kGuided && several() && path.depth <= candidate_depth_ && !path.surface->has_delta();
     }
     std::uint32_t slot(const Path& path) const { return slot_[path.lane]; }
 

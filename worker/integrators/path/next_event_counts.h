@@ -11,7 +11,7 @@
 namespace treefarm {
 
 /// What a pass counts of direct light, so that the next knows how often to sample emitters: by region where paths
-/// record, else for the whole image. The samples of a probe's pixels are left out: they are not those of the pass.
+/// record, else for the whole image.
 template <bool kRecord>
 class NextEventCounts {
   public:
@@ -28,7 +28,7 @@ class NextEventCounts {
     /// samples of the vertex that it left.
     template <class Path>
     [[gnu::noinline]] void emission(const Path& path, const Rgb& carried, float light_pdf) const {
-        if (path.probe || !std::isfinite(path.scatter_pdf)) return;
+        if (!std::isfinite(path.scatter_pdf)) return;
         add_light(path, path.scatter_region, carried, path.scatter_pdf, light_pdf, path.scatter_light_samples, 0);
     }
 
@@ -36,7 +36,7 @@ class NextEventCounts {
     template <class Path>
     [[gnu::noinline]] void light(const Path& path, std::uint32_t region, const Rgb& carried, float scatter_pdf,
                                  float light_pdf, float light_samples) const {
-        if (!path.probe) add_light(path, region, carried, scatter_pdf, light_pdf, light_samples, 1);
+        add_light(path, region, carried, scatter_pdf, light_pdf, light_samples, 1);
     }
 
   private:

@@ -122,8 +122,6 @@ class PathKernel {
                 path.begin(keys_[number], rays_[number]);
                 path.origin = static_cast<std::uint16_t>(number);
                 path.inverse_level = inverse_levels_[number];
-                path.probe = kGuided && walk_.settings().is_probe(path.key.pixel);
-                stats_.probe_paths += path.probe;
                 if constexpr (kRecord) walk_.recorder(slot).begin_path();
                 walk_.observer().camera(path.ray);
             },
@@ -149,7 +147,6 @@ class PathKernel {
                 path.begin(keys_[way.origin], way.ray);
                 path.origin = way.origin;
                 path.inverse_level = inverse_levels_[way.origin];
-                path.probe = kGuided && walk_.settings().is_probe(path.key.pixel);
                 if constexpr (kInherits) {
                     path.split_budget = splitting_states_[way.origin].split_budget;
                     path.first_exponent = splitting_states_[way.origin].first_exponent;
@@ -206,7 +203,7 @@ class PathKernel {
         if constexpr (kRecord) {
             walk_.clock().start();
             for (const std::uint8_t slot : slots)
-                if (!walk_[slot].probe && is_radiance(walk_[slot].radiance))
+                if (is_radiance(walk_[slot].radiance))
                     stats_.records += walk_.recorder(slot).commit(*log_);
             walk_.clock().lap(TracePhase::record);
         }

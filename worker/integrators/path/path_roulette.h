@@ -24,7 +24,7 @@ float brightness(const PathState<G, Surface>& path, const RegionSampler& guide, 
 /// Number of paths as which a path goes on from where it has arrived.
 template <class G, class Surface>
 std::uint32_t splitting(const PathState<G, Surface>& path, const RegionSampler& guide, const PathSettings& settings) {
-    if (settings.splitting == 1 || path.probe) return 1;
+    if (settings.splitting == 1) return 1;
     const float spread = Surface::kTransmits ? path.spread : 1.0f;
     return settings.roulette.splitting(path.throughput, spread, brightness(path, guide, settings), settings.splitting);
 }
@@ -41,8 +41,7 @@ template <bool kGuided, class G, class Surface>
 float survival(const PathState<G, Surface>& path, const RegionSampler& guide, const PathSettings& settings) {
     const float spread = Surface::kTransmits ? path.spread : 1.0f;
     if constexpr (!kGuided) return settings.roulette.survival(path.throughput, spread);
-    const Roulette& roulette = path.probe ? settings.unguided_roulette : settings.roulette;
-    return roulette.survival(path.throughput, spread, brightness(path, guide, settings));
+    return settings.roulette.survival(path.throughput, spread, brightness(path, guide, settings));
 }
 
 }  // namespace treefarm

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "common/film/guiding_probe.h"
 #include "common/guiding/regions/region_sampler.h"
 #include "common/plan/resolve.h"
 #include "common/plan/schedule.h"
@@ -26,7 +25,6 @@ struct PathSettings {
     bool record_light_samples;  ///< kick-start: what next event finds teaches the tree, too
     bool profile;
     bool textured;             ///< surfaces have something to look up
-    ProbePixels probe;         ///< unguided, to see whether guiding pays
     bool jitter_records;       ///< stochastic spatial filter
     std::uint32_t candidates;  ///< directions drawn at a guided vertex, of which one is taken (candidates.h)
     int candidate_depth;       ///< up to here; deeper vertices draw one
@@ -36,11 +34,6 @@ struct PathSettings {
     ViewRecords view_records;
     float bootstrap;  ///< RecordRules::bootstrap
     Roulette roulette, unguided_roulette;
-
-    const Film& film;
-
-    /// Whether the path of a pixel, by its number on the whole film, is unguided to see whether guiding pays.
-    bool is_probe(std::uint32_t pixel) const { return probe.holds(film.index_of(pixel)); }
 
     PathSettings(const TraceScene& scene, const Resolved& job, const PassPlan& pass, const RegionSampler& guide)
         : max_depth(job.integrator.max_depth),
@@ -59,7 +52,6 @@ struct PathSettings {
           record_light_samples(job.integrator.next_event == NextEvent::kickstart && pass.next_event),
           profile(job.farm.profile),
           textured(!scene.plainly_diffuse() && scene.materials().varies()),
-          probe(pass.probe ? ProbePixels(scene.film().pixel_count(), pass.index) : ProbePixels()),
           jitter_records(job.guiding.spatial_filter == SpatialFilter::stochastic),
           candidates(static_cast<std::uint32_t>(job.guiding.candidates)),
           candidate_depth(job.guiding.candidate_depth),
@@ -73,8 +65,7 @@ struct PathSettings {
                    : job.guiding.roulette == GuidingRoulette::adjoint ? Roulette::Rule::adjoint
                                                                       : Roulette::Rule::constant,
                    job.integrator.rr_depth),
-          unguided_roulette(Roulette::Rule::unguided, job.integrator.rr_depth),
-          film(scene.film()) {}
+          unguided_roulette(Roulette::Rule::unguided, job.integrator.rr_depth) {}
 };
 
 }  // namespace treefarm

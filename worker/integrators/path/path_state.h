@@ -29,7 +29,6 @@ struct PathState {
     UnguidedTwin twin;             ///< where PathSettings::twin asks for it
     LightReceiver scatter_from;    ///< the place, as next event chose an emitter there
     LightWidthStore scatter_widths;  ///< of scatter_from
-    bool probe;                      ///< unguided in a pass that probes whether guiding pays
     int first_exponent;              ///< of the quanta where the camera's ray arrived: how bright it is there
     std::uint16_t origin;            ///< the group's camera path that it is part of
     SplitBudget split_budget;
@@ -99,7 +98,6 @@ struct PathState {
         split_budget = split.split_budget;
         was_split_off = true;
         twin = split.twin;
-        probe = false;
         found = true;
         embree_hit = split.embree_hit;
     }

@@ -90,10 +90,8 @@ class PathWalk {
             ++path.depth;
             if (kGuided && path.was_split_off) continue;
             ++stats_.rays;
-            if constexpr (kGuided) {
-                stats_.probe_rays += path.probe;
+            if constexpr (kGuided)
                 if (settings_.twin) path.twin.add_cost(1.0f);
-            }
             observer_.ray(path.ray);
             queries[count++] = {&path.ray, &path.embree_hit, &path.found};
         }
@@ -257,7 +255,6 @@ class PathWalk {
         if constexpr (kLocal)
             G::template localise<kGuided>(guide_, surface, -ray.direction, path.outgoing, path.guidance);
         if constexpr (kGuided && kLocal) directions_.prefetch_local(path);
-        if (kGuided && path.probe) path.guidance.sample_bsdf_alone();
         if constexpr (kRecord)
             if (surface.smooth() && !guide_.contains(hit.p)) recorders_[index].add_outside();
         if (emitters_.any() && surface.smooth()) {
@@ -342,14 +339,13 @@ class PathWalk {
     }
     bool samples_emitter(const Path& path) const { return path.samples_emitters || settings_.delta_lights; }
     [[gnu::noinline]] void count_asked(const Path& path) {
-        if (!path.probe) counts_.asked(path.guidance.region, path.samples_emitters);
+        counts_.asked(path.guidance.region, path.samples_emitters);
     }
 
     /// The place of a path, as next event chooses an emitter for it.
     LightReceiver receiver(const Path& path) const {
         const Vec3 front = path.surface->front();
-        const bool learned = kConverts && !(kGuided && path.probe);
-        return {path.hit.p, learned ? guide_.light_probabilities(path.guidance.region) : nullptr,
+        return {path.hit.p, kConverts ? guide_.light_probabilities(path.guidance.region) : nullptr,
                 path.surface->transmits() ? nullptr : &front};
     }
 
@@ -375,7 +371,7 @@ class PathWalk {
         ++stats_.shadow_rays;
         if constexpr (kGuided)
             if (settings_.twin) paths_[index].twin.add_cost(static_cast<float>(kPolicy.next_event.shadow_ray_cost));
-        if (settings_.count_next_event && !light.delta && !path.probe) [[unlikely]]
+        if (settings_.count_next_event && !light.delta) [[unlikely]]
             counts_.traced(path.guidance.region);
         const std::uint32_t vertex = kRecord ? recorders_[index].vertex_count() : 0;
         pending_.add(path.hit, light,

@@ -78,7 +78,7 @@ void render_with(const TileJob& tile) {
             refuse_invalid(radiance, unit, end.x, end.y, end.sample, stats);
             if (!is_black(radiance)) ++stats.nonzero_paths;
             blocks.back().add(key(end).sample, is_signed ? radiance * scene.camera().weight(key(end)) : radiance);
-            if (kGuided && kRecord && settings.compare_splitting && !settings.is_probe(key(end).pixel)) {
+            if (kGuided && kRecord && settings.compare_splitting) {
                 const int record = kernel.first_exponent(i) + kMeanRecordBits;
                 const double scale = std::ldexp(1.0, -radiance_exponent(record, settings.target));
                 pairs.add(scale * luminance(radiance), scale * kernel.unsplit(i));
