@@ -19,7 +19,8 @@ namespace treefarm {
 
 /// What is remembered of verdicts on guiding, from pass to pass.
 struct GuidingMemory {
-    double mistrust = 1;        ///< how many times as noisy unguided passes were as guided ones had said
+    /// How many times as noisy unguided passes were as guided ones had said; forgotten by half with each guided pass.
+    double mistrust = 1;
     std::uint32_t changed = 0;  ///< number of the first pass after the last change; 0: none
     GuidingWorth last;          ///< of the last guided pass
 

@@ -150,6 +150,11 @@ std::vector<JobKey> make_job_keys() {
                                                        {"never", NextEvent::never},
                                                        {"kickstart", NextEvent::kickstart},
                                                        {"auto", NextEvent::automatic}}));
+    add(number_key(
+        "integrator.light_samples", "0 to 1",
+        "part of the vertices at which next event samples an emitter, everywhere the same, to compare; lights without "
+        "extent always; 0: as integrator.next_event says",
+        [](auto& j) -> auto& { return j.integrator.light_samples; }, [](float v) { return v >= 0.0f && v <= 1.0f; }));
     add(word_key(
         "integrator.mis", "heuristic that weighs next event against scattering (Veach 1997); equal: half and half",
         [](auto& j) -> auto& { return j.integrator.mis; },

@@ -25,6 +25,7 @@ struct Policy {
     /// How often next event samples emitters ("auto").
     struct NextEvent {
         double least_vertices = 512.0;
+        double lent_vertices = 256.0;
         double standard_errors = 2.0;
         double least_gain = 0.03;
         double sample_cost = 0.15;

@@ -11,7 +11,7 @@ namespace treefarm {
 
 /// One constant of policy.h, explained.
 struct PolicyEntry {
-    const char* name;  ///< "guiding.losing_bulk"
+    const char* name;  ///< "guiding.giving_up"
     double value;
     bool single;           ///< a float: its shortest text is shorter than the double's
     const char* meaning;   ///< with the unit

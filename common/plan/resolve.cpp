@@ -41,9 +41,10 @@ void resolve_rules(Job::Guiding& guiding) {
 /// Whether finished passes may decide on next event: publications did not, and what is decided is right for the balance
 /// heuristic of one direction and light samples. Weights that were set beforehand ask for passes that were, too.
 bool may_decide_next_event(const Job& job) {
-    return estimator_of(job.integrator.type).guides && job.guiding.preset.empty() && !job.budget.strict &&
-           job.integrator.mis == MisHeuristic::balance && job.guiding.candidates == 1 &&
-           job.guiding.target == GuidingTarget::radiance && job.guiding.combination == Combination::inverse_variance;
+    return estimator_of(job.integrator.type).guides && job.integrator.light_samples == 0 &&
+           job.guiding.preset.empty() && !job.budget.strict && job.integrator.mis == MisHeuristic::balance &&
+           job.guiding.candidates == 1 && job.guiding.target == GuidingTarget::radiance &&
+           job.guiding.combination == Combination::inverse_variance;
 }
 
 /// Mirrors and smooth glass throw the light of emitters without extent where no path from the camera finds it.
@@ -68,6 +69,7 @@ void resolve_estimator(Job& job) {
     if (estimator.guides) return;
     job.guiding.type = GuidingType::none;
     job.guiding.splitting = job.guiding.candidates = 1;
+    job.integrator.light_samples = 0;
     job.integrator.split_glass = false;
     if (!estimator.sees_light || !estimator.has_camera_paths()) job.integrator.next_event = NextEvent::never;
     if (estimator.by_numbers)

@@ -127,6 +127,7 @@ constexpr const char* kOwn[] = {
     "effects.",
     "output.",
     "integrator.mis",
+    "integrator.light_samples",
     "bidirectional.light_subpaths",
     "bidirectional.techniques",
     "bidirectional.weighted",

@@ -93,7 +93,7 @@ TEST(Resolve, ARuleSaysWhenGuidingAndSplittingMayEnd) {
     EXPECT_FALSE(pass_of(with({{"guiding.splitting", "4"}, {"guiding.splitting_rule", "while_it_pays"}})).split);
 }
 
-/// Members of Policy that have a default, as the header has them: "guiding.losing_bulk".
+/// Members of Policy that have a default, as the header has them: "guiding.giving_up".
 std::vector<std::string> constants_of_policy_h() {
     std::ifstream header(std::string(TREEFARM_SOURCE_DIR) + "/common/plan/policy.h");
     std::vector<std::string> names, group;
@@ -144,12 +144,11 @@ TEST(ResolvedToml, OfAnotherBuildIsRefusedByName) {
     };
     const struct {
         std::string text, named;
-    } cases[] = {
-        {changed("losing_bulk = 0.75", "losing_bulk = 0.8"), "guiding.losing_bulk was 0.8, and is 0.75"},
-        {changed("losing_bulk = 0.75\n", ""), "guiding.losing_bulk is not in it"},
-        {changed("losing_bulk = 0.75", "losing_bulk = 0.75\nlosing_all = 1"), "guiding.losing_all is no constant"},
-        {changed("rr_depth = 5\n", ""), "integrator.rr_depth is not in it"},
-        {changed("losing_bulk = 0.75", "losing_bulk = \"much\""), "is no number"}};
+    } cases[] = {{changed("giving_up = 0.9", "giving_up = 0.8"), "guiding.giving_up was 0.8, and is 0.9"},
+                 {changed("giving_up = 0.9\n", ""), "guiding.giving_up is not in it"},
+                 {changed("giving_up = 0.9", "giving_up = 0.9\nlosing_all = 1"), "guiding.losing_all is no constant"},
+                 {changed("rr_depth = 5\n", ""), "integrator.rr_depth is not in it"},
+                 {changed("giving_up = 0.9", "losing_bulk = \"much\""), "is no number"}};
     for (const auto& [text, named] : cases) {
         try {
             without_policy(parse_job_settings(text, "resolved.toml"));

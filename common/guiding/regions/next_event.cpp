@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "common/plan/policy.h"
 
@@ -31,11 +32,12 @@ double doubt(const NextEventEvidence& e, std::size_t from, std::size_t to) {
     return all > 0 ? kPolicyOf.standard_errors * std::sqrt(e[kNextEventSpread]) * std::min(part / all, 1.0) : 0.0;
 }
 
-std::size_t best_choice(const NextEventEvidence& e, std::size_t now, double lambda) {
+/// `force`: the choice that the evidence comes from. Light samples become fewer by one step a pass.
+std::size_t best_choice(const NextEventEvidence& e, std::size_t now, std::size_t force, double lambda) {
     const auto price = [&](std::size_t choice) { return moment(e, choice) + lambda * rays(e, choice); };
     std::size_t best = now;
     double least = price(now) * (1 - kPolicyOf.least_gain);
-    for (std::size_t choice = 0; choice < kChoices; ++choice) {
+    for (std::size_t choice = 0; choice < std::min(force + 2, kChoices); ++choice) {
         if (choice == now) continue;
         const double cost = price(choice) + (choice > now ? doubt(e, now, choice) : 0.0);
         if (cost < least) {
@@ -51,12 +53,83 @@ void add_halved(NextEventEvidence& evidence, std::span<const std::uint64_t> fres
         evidence[i] = 0.5 * evidence[i] + static_cast<double>(fresh[i]) * next_event_unit(i);
 }
 
+/// Means over the vertices of a cube, and the variance of what is known of d, the last moment less the first.
+struct VertexMeans {
+    NextEventEvidence mean{};
+    double variance = 0;
+};
+
+/// Regions that know few vertices lean on the cubes about them, these on larger ones.
+class Pooling {
+  public:
+    Pooling(const RegionModel& tree, std::span<const NextEventEvidence> evidence)
+        : tree_(tree), evidence_(evidence), sums_(tree.nodes.size()), pooled_(evidence.size()) {
+        add_up(0);
+        if (const double vertices = sums_[0][kNextEventAsked]; vertices > 0) hand_down(0, means_of(sums_[0], vertices));
+    }
+    std::vector<NextEventEvidence> take() { return std::move(pooled_); }
+
+  private:
+    static VertexMeans means_of(const NextEventEvidence& sums, double vertices) {
+        VertexMeans means{sums, 0.0};
+        for (double& mean : means.mean)
+            mean /= vertices;
+        means.variance = means.mean[kNextEventSpread] / vertices;
+        return means;
+    }
+
+    const NextEventEvidence& add_up(std::uint32_t node) {
+        const RegionModel::Node& n = tree_.nodes[node];
+        if (n.is_leaf()) return sums_[node] = evidence_[n.child[1]];
+        for (const std::uint32_t child : n.child) {
+            const NextEventEvidence below = add_up(child);
+            for (std::size_t i = 0; i < kNextEventSums; ++i)
+                sums_[node][i] += below[i];
+        }
+        return sums_[node];
+    }
+
+    /// `about`: means of the cube that the node's is a half of; of the root its own.
+    void hand_down(std::uint32_t node, const VertexMeans& about) {
+        constexpr double kLent = kPolicyOf.lent_vertices;
+        const double own = sums_[node][kNextEventAsked];
+        VertexMeans means = about;
+        for (std::size_t i = 0; i < kNextEventSums; ++i)
+            means.mean[i] = (sums_[node][i] + kLent * about.mean[i]) / (own + kLent);
+        means.variance =
+            (own * means.mean[kNextEventSpread] + kLent * kLent * about.variance) / ((own + kLent) * (own + kLent));
+        const RegionModel::Node& n = tree_.nodes[node];
+        if (!n.is_leaf()) {
+            for (const std::uint32_t child : n.child)
+                hand_down(child, means);
+            return;
+        }
+        NextEventEvidence& region = pooled_[n.child[1]];
+        for (std::size_t i = 0; i < kNextEventSums; ++i)
+            region[i] = own * means.mean[i];
+        region[kNextEventSpread] = own * own * means.variance;
+    }
+
+    const RegionModel& tree_;
+    std::span<const NextEventEvidence> evidence_;
+    std::vector<NextEventEvidence> sums_;  ///< by node
+    std::vector<NextEventEvidence> pooled_;
+};
+
 }  // namespace
+
+std::vector<NextEventEvidence> pool_next_event(const RegionModel& tree, std::span<const NextEventEvidence> evidence) {
+    return Pooling(tree, evidence).take();
+}
 
 NextEventVerdict decide_next_event(std::span<const NextEventEvidence> evidence, double paths,
                                    const NextEventPrice& price, std::span<std::uint8_t> codes) {
     constexpr int kRounds = 8;
-    if (!(price.rays > 0 && price.variance > 0 && paths > 0)) return {};
+    double known = 0;
+    for (const NextEventEvidence& e : evidence)
+        known += e[kNextEventAsked];
+    if (!(price.rays > 0 && price.variance > 0 && paths > 0) || known < kPolicyOf.least_vertices) return {};
+    const std::vector<std::uint8_t> in_force(codes.begin(), codes.end());
     double variance = price.variance, cost = price.rays;
     for (int round = 0; round < kRounds; ++round) {
         const double lambda = variance / cost;
@@ -64,8 +137,7 @@ NextEventVerdict decide_next_event(std::span<const NextEventEvidence> evidence, 
         bool changed = false;
         for (std::size_t r = 0; r < codes.size(); ++r) {
             const NextEventEvidence& e = evidence[r];
-            if (e[kNextEventAsked] < kPolicyOf.least_vertices) continue;
-            const std::size_t now = codes[r], best = best_choice(e, now, lambda);
+            const std::size_t now = codes[r], best = best_choice(e, now, in_force[r], lambda);
             if (best == now) continue;
             variance_change += moment(e, best) - moment(e, now);
             cost_change += rays(e, best) - rays(e, now);
@@ -99,7 +171,7 @@ void NextEventLearner::learn(const RegionModel& tree, const CellSums& sums, cons
         add_halved(evidence_[r], sums.next_event(r));
     paths_ = 0.5 * paths_ + price.paths;
     std::vector<std::uint8_t> codes = tree.next_event;
-    report.next_event = decide_next_event(evidence_, paths_, price, codes);
+    report.next_event = decide_next_event(pool_next_event(tree, evidence_), paths_, price, codes);
     std::vector<NextEventEvidence> inherited;
     inherited.reserve(report.origins.size());
     next.next_event.clear();

@@ -19,8 +19,14 @@ namespace treefarm {
 /// Sums of several passes in doubles; older ones count half as much with each.
 using NextEventEvidence = std::array<double, kNextEventSums>;
 
+/// Evidence of the regions of a tree, in which those that know few vertices lean on the cubes about them. The spread
+/// becomes the variance of what is known of the last moment less the first.
+std::vector<NextEventEvidence> pool_next_event(const RegionModel& tree, std::span<const NextEventEvidence> evidence);
+
 /// Sets codes (indices of kNextEventSamples) of regions with this evidence, from `paths` camera samples, so that
-/// variance times cost becomes least. Regions that know too little keep theirs. Pure.
+/// variance times cost becomes least, as far as it is known: fewer light samples have to win by
+/// next_event.standard_errors (policy.h), and become fewer by one step. `codes` are those that the last evidence was
+/// gathered with. Pure.
 NextEventVerdict decide_next_event(std::span<const NextEventEvidence> evidence, double paths,
                                    const NextEventPrice& price, std::span<std::uint8_t> codes);
 

@@ -14,6 +14,7 @@ struct PathSettings {
     int max_depth;
     bool next_event;        ///< a flag, not a kernel of its own: one predictable branch per vertex
     bool delta_alone;       ///< no next event, but for the lights that nothing else finds
+    float light_samples;    ///< at each vertex; 0: as the guide says
     bool thin_next_event;   ///< some vertices have fewer light samples than one
     bool count_next_event;  ///< for whoever decides how many
     bool twin;              ///< guided paths tell what unguided ones would be like
@@ -39,7 +40,8 @@ struct PathSettings {
         : max_depth(job.integrator.max_depth),
           next_event(pass.next_event && scene.emitters().can_sample()),
           delta_alone(!pass.next_event && scene.emitters().has_delta_lights()),
-          thin_next_event(next_event && guide.thins_next_event()),
+          light_samples(job.integrator.light_samples),
+          thin_next_event(next_event && (light_samples > 0.0f ? light_samples < 1.0f : guide.thins_next_event())),
           count_next_event(next_event && job.decides_next_event && guide.knows_image() &&
                            (!pass.record || guide.decides_next_event())),
           twin(pass.guided && pass.record && guide.trained() && guide.knows_image() &&

@@ -328,19 +328,19 @@ class PathWalk {
         path.light_samples = 1.0f;
         path.samples_emitters = true;
         if (settings_.thin_next_event) [[unlikely]] {
-            if constexpr (kConverts)
-                path.light_samples = guide_.next_event(path.guidance.region);
-            else
-                path.light_samples = guide_.image_next_event();
+            path.light_samples = light_samples(path);
             path.samples_emitters = to_unit(count_draws_.word[0][path.lane]) < path.light_samples;
         }
         if (settings_.count_next_event && !settings_.delta_lights) [[unlikely]]
             count_asked(path);
     }
-    bool samples_emitter(const Path& path) const { return path.samples_emitters || settings_.delta_lights; }
-    [[gnu::noinline]] void count_asked(const Path& path) {
-        counts_.asked(path.guidance.region, path.samples_emitters);
+    float light_samples(const Path& path) const {
+        if (settings_.light_samples > 0.0f) return settings_.light_samples;
+        if constexpr (kConverts) return guide_.next_event(path.guidance.region);
+        return guide_.image_next_event();
     }
+    bool samples_emitter(const Path& path) const { return path.samples_emitters || settings_.delta_lights; }
+    [[gnu::noinline]] void count_asked(const Path& path) { counts_.asked(path.guidance.region, path.samples_emitters); }
 
     /// The place of a path, as next event chooses an emitter for it.
     LightReceiver receiver(const Path& path) const {
