@@ -17,23 +17,29 @@ bool is_known(const ErrorForecast& forecast) {
            std::isfinite(forecast.seconds);
 }
 
-/// What is decided on guiding, and why.
+/// What is decided on guiding, what it saves, how sure that is, and why.
 std::string guiding_text(Guiding verdict, const GuidingWorth& w) {
-    const double noise = w.unguided_variance / w.guided_variance, cost = w.guided_cost / w.unguided_cost;
-    const double error = std::exp(w.error);
-    return fmt::format(
-        "{}: an unguided sample would be {:.2g} times as noisy (between {:.2g} and {:.2g}), a guided one costs {:.2g} "
-        "times as much; asked again after each pass",
-        verdict == Guiding::loses ? "unguided" : "guided", noise, noise / error, noise * error, cost);
+    const bool guided = verdict != Guiding::loses;
+    const auto saved = [guided](double worth) { return 100 * (1 - (guided ? 1 / worth : worth)); };
+    const double at_most = std::max(saved(w.low()), saved(w.high())),
+                 at_least = std::min(saved(w.low()), saved(w.high()));
+    const std::string why =
+        fmt::format("an unguided sample would be {:.2g} times as noisy, a guided one costs {:.2g} times as much",
+                    w.unguided_variance / w.guided_variance, w.guided_cost / w.unguided_cost);
+    const char* const what = guided ? "guided" : "unguided";
+    if (saved(w.worth) <= 0) return fmt::format("{} as long as that is not sure to lose: {}", what, why);
+    return fmt::format("{}, which saves {:.0f} % of the work (between {:.0f} and {:.0f} %): {}", what, saved(w.worth),
+                       std::max(at_least, 0.0), at_most, why);
 }
 
-/// What is decided on next event, and why; empty where that is to sample an emitter at nearly each vertex.
-std::string next_event_text(const NextEventVerdict& verdict) {
+/// What is decided on next event, what it saves, and why; empty where that is to sample an emitter at nearly each
+/// vertex.
+std::string next_event_text(const PassReport& r) {
+    const NextEventVerdict& verdict = r.refine.next_event;
     if (verdict.saved > 0.98) return "";
     return fmt::format(
-        "; next event: hardly asked on {:.0f} % of the vertices, where it finds nearly nothing; saves about {:.0f} % "
-        "of "
-        "the work",
+        "; next event at one vertex in 16 for {:.0f} % of them, where it finds nearly nothing, which saves about "
+        "{:.0f} % of the work",
         100 * verdict.low, 100 * (1 - verdict.saved));
 }
 
@@ -76,7 +82,7 @@ std::string pass_summary(const PassReport& r, std::size_t pass_count) {
     if (r.tree.regions > 1)
         text += fmt::format("; tree {} nodes, {:.1f} MB", r.tree.nodes, 1e-6 * static_cast<double>(r.tree.memory));
     if (r.guiding_worth.worth > 0) text += "; " + guiding_text(r.guiding, r.guiding_worth);
-    text += next_event_text(r.refine.next_event);
+    text += next_event_text(r);
     if (r.plan.split && !r.splitting) text += "; splitting paths does not pay: none is split from here on";
     if (r.plan.light_subpaths) text += light_subpath_text(r);
     if (!r.plan.emission.empty())

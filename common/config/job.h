@@ -86,7 +86,6 @@ struct Job {
         int max_depth = -1;         ///< path edges from the camera; 1 sees emitters only; -1: no limit
         int rr_depth = 5;           ///< roulette from this depth on
         NextEvent next_event = NextEvent::automatic;
-        float light_samples = 0;  ///< of next event at each vertex, on average; 0: as next_event says
         MisHeuristic mis = MisHeuristic::balance;
         LightSelection light_selection = LightSelection::learned;  ///< where nothing learns: tree
         bool strict_normals = false;  ///< drop light that geometric and shading normal disagree about
@@ -95,6 +94,7 @@ struct Job {
         int bsdf_samples = 1;
         float ao_distance = 0;    ///< scene units; 0: by the scene's size
         bool split_glass = true;  ///< at the first surface: both ways out of smooth glass
+        float light_samples = 0;  ///< of next event at each vertex, on average; 0: as next_event says
     } integrator;
 
     struct Bidirectional {

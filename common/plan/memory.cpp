@@ -155,14 +155,15 @@ std::uint64_t emitter_table_bytes(const Scene& scene, const Emitter& emitter) {
 }
 
 std::uint64_t TreeSize::guide_bytes() const {
-    return regions * (cost.region + (with_lights ? sizeof(LightProbabilities) : 0)) + views * cost.view +
-           cells * cost.cell;
+    return regions * (cost.region + (with_lights ? sizeof(LightProbabilities) : 0) + (with_next_event ? 1 : 0)) +
+           views * cost.view + cells * cost.cell;
 }
 
 std::uint64_t TreeSize::sum_bytes() const {
     return (regions + views) * kPlainTreeBytesPerRegion +
            (with_lights ? regions * (sizeof(LightProbabilities) + kLightClusters * kSumBytes) : 0) +
            (with_mixture ? (regions + views) * kMixtureBins * kSumBytes : 0) +
+           (with_next_event ? regions * (1 + kNextEventSums * kSumBytes) : 0) +
            cells * (kPlainTreeBytesPerCell + kSumBytes);
 }
 
@@ -182,7 +183,8 @@ TreeSize expected_tree(const Scene& scene, const Resolved& job) {
     const AnyModel first = first_model(job, Box3(), 1.0f);
     if (!first.grows()) {
         const ModelFigures size = first.figures();
-        return {size.regions, size.cells, with_mixture, size.views, job.learns_lights, first.cost()};
+        return {size.regions,      size.cells,   with_mixture,          size.views,
+                job.learns_lights, first.cost(), job.decides_next_event};
     }
     const int depth = job.integrator.max_depth;
     const double length = depth < 0 ? kVerticesPerPath : std::min(kVerticesPerPath, std::max(depth - 1.0, 0.0));
@@ -201,7 +203,8 @@ TreeSize expected_tree(const Scene& scene, const Resolved& job) {
             with_mixture,
             static_cast<std::uint64_t>(views),
             job.learns_lights,
-            first.cost()};
+            first.cost(),
+            job.decides_next_event};
 }
 
 MemoryPlan expected_memory(const Scene& scene, const Resolved& job) {

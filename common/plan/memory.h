@@ -29,10 +29,11 @@ struct MemoryPlan {
 /// Expected size of a guide's model after the last pass that records.
 struct TreeSize {
     std::uint64_t regions = 0, cells = 0;
-    bool with_mixture = false;  ///< histograms from which the fractions of BSDF and tree are learned
-    std::uint64_t views = 0;    ///< of T2; their cells are among `cells`
-    bool with_lights = false;   ///< next event learns how to choose emitters
-    SamplerCost cost = {};      ///< of the form that workers sample from
+    bool with_mixture = false;     ///< histograms from which the fractions of BSDF and tree are learned
+    std::uint64_t views = 0;       ///< of T2; their cells are among `cells`
+    bool with_lights = false;      ///< next event learns how to choose emitters
+    SamplerCost cost = {};         ///< of the form that workers sample from
+    bool with_next_event = false;  ///< regions decide how often next event samples an emitter
 
     std::uint64_t guide_bytes() const;  ///< the form that workers sample from
     std::uint64_t sum_bytes() const;    ///< the plain form and the sums of what is recorded

@@ -24,9 +24,9 @@ std::ostream& operator<<(std::ostream& out, const Hashes& h) {
     return out << "image " << h.image << " tree " << h.tree << " AOVs " << h.aovs;
 }
 
-/// `options` begin with the scene. `learns`: the render is to have a tree.
+/// `options` begin with the scene. `learns`: the render is to have a tree. `thins`: and vertices without next event.
 Hashes render_scene(const std::vector<std::string>& launcher, const std::vector<std::string>& options,
-                    bool learns = true, const char* aovs = kAovs) {
+                    bool learns = true, const char* aovs = kAovs, bool thins = false) {
     const auto folder = fresh_folder("same");
     Program program(launcher + std::vector<std::string>{TREEFARM_PROGRAM, "render"} + options +
                     std::vector<std::string>{"--set", std::string("output.aovs=") + aovs, "--set",
@@ -40,6 +40,9 @@ Hashes render_scene(const std::vector<std::string>& launcher, const std::vector<
     EXPECT_GE(summary["passes"].size(), 3u) << "the test must exercise several passes";
     if (learns) {
         EXPECT_GT(summary["passes"].back()["tree_regions"], 8) << "the test must exercise the tree";
+    }
+    if (thins) {
+        EXPECT_LT(summary["passes"].back()["next_event_n"], 0.9) << "the test must exercise learned next event";
     }
     std::filesystem::remove_all(folder);
     if (*aovs == '\0') return {summary["image_hash"], summary["tree_hash"], ""};
@@ -60,7 +63,7 @@ const Hashes& one_thread() {
 
 /// A scene on a tiny film in one process, and under mpirun with each of these numbers of ranks.
 void expect_same_bits(const std::string& scene, const std::vector<int>& ranks,
-                      const std::vector<std::string>& more = {}) {
+                      const std::vector<std::string>& more = {}, bool learns = true, bool thins = false) {
     std::vector<std::string> options = {scene,
                                         "--set",
                                         "image.width=36",
@@ -75,10 +78,11 @@ void expect_same_bits(const std::string& scene, const std::vector<int>& ranks,
                                         "--threads",
                                         "1"};
     options.insert(options.end(), more.begin(), more.end());
-    const Hashes alone = render_scene({}, options);
+    const Hashes alone = render_scene({}, options, learns, kAovs, thins);
     EXPECT_FALSE(alone.image.empty());
     for (const int count : ranks)
-        EXPECT_EQ(render_scene(mpirun(count), options), alone) << scene << " with " << count << " ranks";
+        EXPECT_EQ(render_scene(mpirun(count), options, learns, kAovs, thins), alone)
+            << scene << " with " << count << " ranks";
 }
 
 TEST(SameBits, HashesTellImagesApart) {
@@ -201,6 +205,12 @@ TEST(SameBitsOfScenes, Caustic) {
 
 TEST(SameBitsOfScenes, Features) {
     expect_same_bits(own_scene("features.xml"), {2, 3, 5});
+}
+
+/// A lamp in a bulb, which next event hardly finds: fewer vertices have light samples from pass to pass.
+TEST(SameBitsOfScenes, LearnedNextEvent) {
+    for (const char* type : {"none", "view", "auto"})
+        expect_same_bits(own_scene("bulb.xml"), {2, 3, 5}, {"--set", std::string("guiding.type=") + type}, false, true);
 }
 
 TEST(SameBitsOfScenes, Published) {

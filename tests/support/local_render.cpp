@@ -3,10 +3,10 @@
 
 #include <optional>
 
-#include "common/film/guiding_probe.h"
 #include "common/film/pass_film.h"
 #include "common/plan/kernel.h"
 #include "common/plan/learning.h"
+#include "coordinator/render_state.h"
 #include "worker/integrators/registry.h"
 
 namespace treefarm::test {
@@ -24,20 +24,17 @@ LocalRender render_locally(const Scene& scene, const Job& asked) {
     LocalRender run;
     const Resolved job = resolve(asked, scene);
     const PassChooser choose = passes_of(job);
-    const bool guided = job.guides;
     const RenderUnit render_unit = prepare(job, std::make_shared<const TraceScene>(scene, job));
-    run.model = first_model(job, guiding_bounds(scene), 1.0f);
-    AnyLearner learner;
-    RenderHistory state;
-    GuidingProbe probe;
-    ProbesSetAside set_aside;
+    RenderState state = first_state(job, first_model(job, guiding_bounds(scene), 1.0f), scene.film.pixel_count());
+    RenderHistory& history = state.history;
     std::optional<PassPlan> before;
-    for (NextPass next = choose(state); next.pass;) {
+    for (NextPass next = choose(history); next.pass;) {
         PassPlan pass = *next.pass;
-        set_emission(pass, job, state);
-        pass.kernel = kernel_of(job, pass, facts_of(run.model));
-        run.model.set_pass(pass.index);
-        const AnySampler guide(run.model);
+        set_emission(pass, job, history);
+        pass.kernel = kernel_of(job, pass, facts_of(state.tree));
+        state.tree.set_pass(pass.index);
+        run.model = state.tree;
+        const AnySampler guide(state.tree);
         AnyAccumulator accumulator(pass.index, guide, job.guiding.directional_filter, pass.learn_mixture);
         PassFilm film(scene.film.width, scene.film.height, pass.chunks);
         SplatSums splats(pass.layers.splats);
@@ -55,48 +52,37 @@ LocalRender render_locally(const Scene& scene, const Job& asked) {
         run.stats.push_back(stats);
         run.splat_caps.add(splats.caps());
         std::vector<PixelEstimate> pixels = pass.layers.estimates ? film.pixels() : std::vector<PixelEstimate>();
-        PassResult shown =
-            finished_pass(pass, before ? &*before : nullptr,
-                          develop(std::move(pixels), splats, pass.splatting_paths(), pass.splatting_chains()));
+        show(finished_pass(pass, before ? &*before : nullptr,
+                           develop(std::move(pixels), splats, pass.splatting_paths(), pass.splatting_chains())),
+             job, state.films);
         before = pass;
-        if (stats.probe_paths > 0) {
-            probe.add(shown.pixels, stats, pass.index);
-            if (!shows_last_tree_only(job)) set_aside.take_out(shown.pixels, pass.index, run.passes.size());
-        }
-        show(std::move(shown), job, run.passes);
-        run.image = combine_passes(run.passes, job.guiding.combination, guided);
+        run.image = combine_passes(state.films, job.guiding.combination, job.guides);
         const double seconds = 1e-3 * pass.spp;
         PassFacts facts;
         facts.spp = pass.spp;
         facts.spp_before = pass.first_sample;
-        const PassVariance variance = pass_variance(run.passes.back().pixels);
+        const PassVariance variance = pass_variance(state.films.back().pixels);
         facts.mse_of_sample = variance.mse_of_sample;
         facts.stuv_trimmed = variance.stuv_trimmed;
         facts.collect_seconds = seconds;
         facts.record = pass.record;
         facts.next_event = pass.next_event;
-        state.passes.push_back(facts);
-        state.budget = next.memory;
-        state.seconds += seconds;
-        state.error = estimate_error(run.image, job.sampler.seed);
-        run.states.push_back(state);
-        if (pass.guided && pass.record) {
-            const GuidingGain gain = probe.gain(run.passes.back().pixels, stats, pass.index, run.image.mean,
-                                                static_cast<std::size_t>(scene.film.width));
-            run.guiding_gains.push_back(gain.all);
-            if (state.guiding == Guiding::open) state.guiding = judge_guiding(pass, gain);
-            if (state.guiding == Guiding::loses) set_aside.put_back(run.passes);
-        }
-        if (!splitting_may_pay(pass, splitting_gain(stats))) state.splitting = false;
-        if (!light_subpaths_may_pay(pass, light_subpath_gain(stats))) state.light_subpaths = false;
-        state.emission.add(stats.emission);
+        history.passes.push_back(facts);
+        history.budget = next.memory;
+        history.seconds += seconds;
+        history.error = estimate_error(run.image, job.sampler.seed);
+        run.states.push_back(history);
+        PassReport report;
+        report.plan = pass;
+        report.stats = stats;
+        judge(state, job, run.image, static_cast<std::size_t>(scene.film.width), report);
+        next = choose(history);
+        if (pass.record && next.pass)
+            learn(state, job, pass, next.pass, accumulator.take(), report.price, report.refine);
         run.plans.push_back(pass);
-        next = choose(state);
-        if (!pass.record || !next.pass) continue;
-        RefineReport report;
-        run.model = learner.learn(run.model, accumulator.take(), refine_settings(job, pass, *next.pass),
-                                  pass.learn_mixture, report);
+        run.reports.push_back(std::move(report));
     }
+    run.passes = std::move(state.films);
     return run;
 }
 

@@ -10,6 +10,7 @@
 #include "common/guiding/any_guide.h"
 #include "common/plan/budget.h"
 #include "common/scene/model/scene.h"
+#include "coordinator/pass_report.h"
 
 namespace treefarm::test {
 
@@ -19,8 +20,8 @@ struct LocalRender {
     std::vector<RenderHistory> states;  ///< after each pass; a sample takes a millisecond on this clock
     std::vector<PassPlan> plans;
     std::vector<TraceStats> stats;
-    std::vector<double> guiding_gains;  ///< of probe passes
-    SplatCaps splat_caps;               ///< of all passes
+    std::vector<PassReport> reports;  ///< what was decided after each pass, and by what
+    SplatCaps splat_caps;             ///< of all passes
     CombinedImage image;
     AnyModel model;  ///< that guided the last pass
     const SdTree& tree() const { return *model.get_if<SdTree>(); }

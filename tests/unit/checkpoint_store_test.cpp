@@ -99,6 +99,42 @@ TEST_F(Checkpoints, TheNewestIsReadWithItsFilms) {
     EXPECT_EQ(films(), 3u) << "each film once";
 }
 
+TEST_F(Checkpoints, WhatDecidesOnGuidingAndNextEventIsKept) {
+    CheckpointStore store(run_);
+    RenderState state = state_of(2);
+    state.history.guiding = Guiding::loses;
+    state.guiding_memory = {3.5, 7, {.worth = 0.5, .error = 0.25, .unguided_variance = 2}};
+    SdTree tree = *state.tree.get_if<SdTree>();
+    tree.next_event.assign(tree.leaf_count(), 2);
+    tree.image = {1, {0.5f}, 1};
+    state.tree = tree;
+    // Half of what was learned before the checkpoint counts after it: twins that learn on agree.
+    const NextEventSums sums = {4000, 4000, 4000, 100 << 16, 110 << 16, 150 << 16, 0};
+    const NextEventPrice price{1.0, 8.0, 1000};
+    std::uint8_t code = 0;
+    state.image_next_event.learn(sums, price, code);
+    state.reports.back().guiding_worth = state.guiding_memory.last;
+    state.reports.back().refine.next_event = {0.5, 0.25};
+    state.reports.back().stats.next_event = sums;
+    write(store, state);
+    RenderState back = load().state;
+    EXPECT_EQ(back.history.guiding, Guiding::loses);
+    EXPECT_EQ(back.guiding_memory.mistrust, 3.5);
+    EXPECT_EQ(back.guiding_memory.changed, 7u);
+    EXPECT_EQ(back.guiding_memory.last.unguided_variance, 2);
+    EXPECT_EQ(back.tree.encode(), state.tree.encode());
+    EXPECT_EQ(back.reports.back().guiding_worth.error, 0.25);
+    EXPECT_EQ(back.reports.back().refine.next_event.low, 0.25);
+    EXPECT_EQ(back.reports.back().stats.next_event, sums);
+    const NextEventSums later = {4000, 4000, 4000, 50 << 16, 90 << 16, 400 << 16, 0};
+    std::uint8_t here = code, there = code;
+    const NextEventVerdict one = state.image_next_event.learn(later, price, here),
+                           other = back.image_next_event.learn(later, price, there);
+    EXPECT_EQ(here, there);
+    EXPECT_EQ(one.saved, other.saved);
+    EXPECT_NE(one.saved, ImageNextEventLearner().learn(later, price, code).saved) << "or nothing was remembered";
+}
+
 TEST_F(Checkpoints, WhereTheNewestIsDamagedTheOneBeforeIsTaken) {
     CheckpointStore store(run_);
     for (std::size_t k = 1; k <= 3; ++k)

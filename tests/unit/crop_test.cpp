@@ -2,7 +2,6 @@
 // Crop windows: their pixels are those of the whole film, bit for bit.
 #include <gtest/gtest.h>
 
-#include "common/film/guiding_probe.h"
 #include "tests/support/local_render.h"
 #include "tests/support/test_scenes.h"
 
@@ -40,22 +39,33 @@ TEST(Crop, PixelsEqualThoseOfTheWholeFilm) {
         }
 }
 
-TEST(Crop, ProbesOfGuidingAreTheSamePixelsForWorkerAndFilm) {
+/// What guided samples add up to by groups of pixels is what the film holds of these pixels: in a grey scene, where the
+/// luminance's second moment is that of any channel.
+TEST(Crop, GroupsOfPixelsAreTheSameForWorkerAndFilm) {
+    Scene scene = test::furnace(0.5f, 1.0f, 2.0f, Vec3(0.3f, -0.2f, 0.1f));
+    scene.film = cropped_box().film;
     Job job;
     job.guiding.type = GuidingType::automatic;
-    job.budget.spp = 127;
-    const test::LocalRender run = test::render_locally(cropped_box(), job);
-    std::size_t probed = 0;
-    for (std::size_t p = 0; p < run.stats.size(); ++p) {
-        if (run.stats[p].probe_paths == 0) continue;
-        ++probed;
-        const ProbePixels probe(77, static_cast<std::uint32_t>(p));
-        std::uint64_t paths = 0;
-        for (std::uint32_t pixel = 0; pixel < 77; ++pixel)
-            paths += probe.holds(pixel) ? run.states[p].passes.back().spp : 0;
-        EXPECT_EQ(run.stats[p].probe_paths, paths) << p;
+    job.integrator.rr_depth = 1;
+    job.budget.spp = 31;
+    job.farm.tile_size = 4;
+    const test::LocalRender run = test::render_locally(scene, job);
+    const PassPlan& plan = run.plans[1];
+    ASSERT_TRUE(plan.guided && plan.record);
+    const Rgb64 first = run.passes[0].pixels[0].whole().mean;
+    std::array<double, UnguidedSums::kGroups> film{};
+    double levels = 0;  // their mean; that of a block differs by its noise
+    for (const PixelEstimate& pixel : run.passes[0].pixels)
+        levels += pixel.whole().mean.y / 77;
+    ASSERT_GT(levels, 0.5 * first.y);
+    for (std::uint32_t p = 0; p < 77; ++p) {
+        const Moments m = run.passes[1].pixels[p].whole();
+        film[pixel_group(p % 11, p / 11)] += (m.m2.y + m.n * m.mean.y * m.mean.y) / (levels * levels);
     }
-    EXPECT_GT(probed, 0u);
+    const UnguidedSums& sums = run.stats[1].unguided;
+    for (std::size_t g = 0; g < film.size(); ++g)
+        EXPECT_NEAR(static_cast<double>(sums.guided[g]) * UnguidedSums::kMomentUnit, film[g], 0.35 * film[g] + 1e-6)
+            << g;
 }
 
 }  // namespace

@@ -122,7 +122,7 @@ TEST_F(Mitsuba, IntegratorsBecomeSettings) {
                  "<integer name=\"rrDepth\" value=\"3\"/><boolean name=\"hideEmitters\" value=\"true\"/></integrator>")
                  .settings);
     EXPECT_EQ(job.guiding.type, Job().guiding.type) << "how light is transported, not that nothing may guide";
-    EXPECT_EQ(job.integrator.next_event, NextEvent::always);
+    EXPECT_EQ(job.integrator.next_event, NextEvent::automatic);
     EXPECT_EQ(job.integrator.max_depth, 7);
     EXPECT_EQ(job.integrator.rr_depth, 3);
     EXPECT_TRUE(job.integrator.hide_emitters);

@@ -4,14 +4,17 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <limits>
+#include <span>
+#include <vector>
 
 #include "common/base/error.h"
 #include "common/base/random.h"
-#include "common/film/guiding_worth.h"
 #include "common/guiding/sd_tree/sd_tree_sampler.h"
 #include "common/guiding/sd_tree/tree_learner.h"
-#include "worker/integrators/path/unguided_twin.h"
+#include "common/plan/policy.h"
 
 namespace treefarm {
 namespace {
@@ -66,14 +69,107 @@ std::uint8_t decided(const NextEventEvidence& e, std::uint8_t code = 0) {
 }
 
 TEST(NextEvent, IsHardlyAskedWhereItFindsNothing) {
-    EXPECT_EQ(decided(evidence(2000, 100, 100)), kChoices - 1);
+    EXPECT_EQ(decided(evidence(2000, 100, 100)), 1) << "a step a pass";
+    EXPECT_EQ(decided(evidence(2000, 100, 100), 1), kChoices - 1);
     EXPECT_EQ(decided(evidence(2000, 100, 1600)), 0) << "an open lamp";
-    EXPECT_EQ(decided(evidence(2000, 100, 1600), kChoices - 1), 0) << "and back";
+    EXPECT_EQ(decided(evidence(2000, 100, 1600), kChoices - 1), 0) << "and back, at once";
     EXPECT_EQ(decided(evidence(100, 1, 1)), 0) << "nobody knows";
     NextEventEvidence unsure = evidence(2000, 100, 150);
-    EXPECT_EQ(decided(unsure), kChoices - 1);
+    EXPECT_EQ(decided(unsure), 1);
     unsure[kNextEventSpread] = 1000.0 * 1000.0;
     EXPECT_EQ(decided(unsure), 0) << "two standard errors";
+}
+
+/// Variance times cost of an image of these regions, by the closed form: the rest of both is no region's.
+double work(std::span<const NextEventEvidence> regions, std::span<const std::uint8_t> codes, double paths,
+            const NextEventPrice& always) {
+    double variance = always.variance, cost = always.rays;
+    for (std::size_t r = 0; r < regions.size(); ++r) {
+        const NextEventEvidence& e = regions[r];
+        variance += (e[kNextEventMoments + codes[r]] - e[kNextEventMoments]) / paths;
+        cost -= (kPolicy.next_event.sample_cost + kPolicy.next_event.shadow_ray_cost) * e[kNextEventAsked] / paths *
+                (1.0 - double(kNextEventSamples[codes[r]]));
+    }
+    return variance * cost;
+}
+
+/// Passes of the same evidence end where nearly the least work is, that of all 3^4 ways to decide.
+TEST(NextEvent, DecisionsEndAtTheLeastWork) {
+    double worst = 1, logs = 0;
+    constexpr std::uint32_t kImages = 400;
+    for (std::uint32_t i = 0; i < kImages; ++i) {
+        std::array<NextEventEvidence, 4> regions;
+        double moments = 0;
+        for (std::uint32_t r = 0; r < 4; ++r) {
+            const Draw random = draw({3, i, r}, 0, Stream::light);
+            const double often = std::exp(8.0 * double(to_unit(random[0])) - 4.0);
+            regions[r] = evidence(1000 + 4000 * double(to_unit(random[1])), often,
+                                  often * std::pow(16.0, double(to_unit(random[2]))));
+            moments += often;
+        }
+        const NextEventPrice always{moments / 1000 + 0.1, 30.0, 1000};
+        double least = std::numeric_limits<double>::infinity();
+        for (std::uint32_t way = 0; way < 81; ++way) {
+            const std::array<std::uint8_t, 4> codes = {std::uint8_t(way % 3), std::uint8_t(way / 3 % 3),
+                                                       std::uint8_t(way / 9 % 3), std::uint8_t(way / 27)};
+            least = std::min(least, work(regions, codes, 1000, always));
+        }
+        std::array<std::uint8_t, 4> codes{};
+        for (int pass = 0; pass < 4; ++pass) {
+            NextEventPrice price = always;
+            price.rays = 0;
+            for (std::size_t r = 0; r < 4; ++r)
+                price.variance += (regions[r][kNextEventMoments + codes[r]] - regions[r][kNextEventMoments]) / 1000;
+            price.rays = work(regions, codes, 1000, always) / price.variance;
+            decide_next_event(regions, 1000, price, codes);
+        }
+        const double ratio = work(regions, codes, 1000, always) / least;
+        worst = std::max(worst, ratio);
+        logs += std::log(ratio) / kImages;
+    }
+    EXPECT_LT(std::exp(logs), 1.01);
+    EXPECT_LT(worst, 1.1);
+}
+
+/// Of a cube in two halves.
+RegionModel halves() {
+    RegionModel model;
+    model.nodes.resize(3);
+    model.nodes[0].child[0] = 1;
+    model.nodes[0].child[1] = 2;
+    model.nodes[1].child[1] = 0;
+    model.nodes[2].child[1] = 1;
+    return model;
+}
+
+TEST(NextEvent, RegionsThatKnowLittleLeanOnTheCubeAboutThem) {
+    constexpr double kLent = kPolicy.next_event.lent_vertices;
+    const std::array<NextEventEvidence, 2> evidences = {evidence(1e6, 5e5, 6e5), evidence(100, 0, 0)};
+    const std::vector<NextEventEvidence> pooled = pool_next_event(halves(), evidences);
+    const double all = 1e6 + 100;
+    for (std::size_t i = 0; i < kNextEventSpread; ++i) {
+        const double about = (evidences[0][i] + evidences[1][i]) / all;
+        EXPECT_NEAR(pooled[0][i], evidences[0][i], 1e-3 * evidences[0][i]) << i;
+        const double lent = 100 / (100 + kLent) * (evidences[1][i] + kLent * about);
+        EXPECT_NEAR(pooled[1][i], lent, 1e-3 * lent) << i;
+    }
+}
+
+/// Errors by theory: of independent vertices that spread alike, and of what a child leans on.
+TEST(NextEvent, WhatIsLentIsAsSureAsItWasKnown) {
+    constexpr double kLent = kPolicy.next_event.lent_vertices;
+    std::array<NextEventEvidence, 2> evidences = {evidence(1000, 1, 2), evidence(1000, 1, 2)};
+    for (NextEventEvidence& e : evidences)
+        e[kNextEventSpread] = 1000 * 4.0;  // a mean square of 4
+    const std::vector<NextEventEvidence> pooled = pool_next_event(halves(), evidences);
+    const double whole = 4.0 / 2000, root = (2000 * 4.0 + kLent * kLent * whole) / ((2000 + kLent) * (2000 + kLent)),
+                 half = (1000 * 4.0 + kLent * kLent * root) / ((1000 + kLent) * (1000 + kLent));
+    EXPECT_NEAR(pooled[0][kNextEventSpread], 1000.0 * 1000.0 * half, 1e-6 * 1000 * 4);
+    EXPECT_LT(pooled[0][kNextEventSpread], 4000.0) << "what is lent makes it surer";
+    RegionModel whole_model;
+    whole_model.nodes.resize(1);
+    const std::vector<NextEventEvidence> nothing = pool_next_event(whole_model, std::array{NextEventEvidence{}});
+    EXPECT_EQ(nothing[0], NextEventEvidence{}) << "nothing is known";
 }
 
 /// By construction of the rule: a step never makes the product of noise and cost larger, as predicted.
@@ -136,46 +232,6 @@ TEST(NextEvent, SumsMergeInAnyOrder) {
     EXPECT_EQ(one, other);
     EXPECT_EQ(one.next_event(1)[kNextEventSpread], ~std::uint64_t{0});
     EXPECT_EQ(one.next_event(0)[kNextEventAsked], 9u);
-}
-
-/// Paths of up to three steps: each goes left with the chance `a` (guided) or `b` (unguided), finds 1 on the left and 3
-/// on the right, and ends. What guided paths tell is held against the unguided sum over all ways.
-TEST(UnguidedTwin, TellsTheSecondMomentAndCostOfUnguidedPaths) {
-    constexpr double kGuided = 0.7, kUnguided = 0.2, kLeft = 0.9, kRight = 0.4;
-    double truth = 0, true_cost = 0, told = 0, cost = 0;
-    constexpr int kSteps = 3;
-    for (int way = 0; way < (1 << kSteps); ++way) {
-        double guided = 1, unguided = 1, found = 0, carried = 1;
-        float throughput = 1.0f;
-        UnguidedTwin twin;
-        for (int step = 0; step < kSteps; ++step) {
-            const bool left = way >> step & 1;
-            const double p = left ? kGuided : 1 - kGuided, q = left ? kUnguided : 1 - kUnguided;
-            twin.add_cost(1.0f);
-            guided *= p;
-            unguided *= q;
-            carried *= (left ? kLeft : kRight) / q;
-            throughput *= static_cast<float>((left ? kLeft : kRight) / p);
-            twin.step(static_cast<float>(p), static_cast<float>(q));
-            found += carried * (left ? 1.0 : 3.0);
-            twin.add(throughput * (left ? 1.0f : 3.0f));
-        }
-        truth += unguided * found * found;
-        true_cost += unguided * kSteps;
-        told += guided * double(twin.moment());
-        cost += guided * double(twin.cost());
-    }
-    EXPECT_NEAR(told / truth, 1.0, 1e-5);
-    EXPECT_NEAR(cost / true_cost, 1.0, 1e-5);
-}
-
-TEST(UnguidedTwin, WhatUnguidedPathsNeverDoTellsNothing) {
-    UnguidedTwin twin;
-    twin.step(0.5f, 0.0f);
-    twin.add(3.0f);
-    twin.add_cost(1.0f);
-    EXPECT_EQ(twin.moment(), 0.0f);
-    EXPECT_EQ(twin.cost(), 0.0f);
 }
 
 }  // namespace

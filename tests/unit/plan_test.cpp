@@ -243,6 +243,11 @@ TEST(Plan, MemoryFollowsTheFormulas) {
     EXPECT_GT(expected_tree(scene, resolve(Job{}, scene)).regions, 1000u);
     const TreeSize learned{10, 200, true}, fixed{10, 200, false};
     EXPECT_EQ(learned.sum_bytes() - fixed.sum_bytes(), 10u * kMixtureBins * 8);
+    TreeSize deciding = fixed;
+    deciding.with_next_event = true;
+    EXPECT_EQ(deciding.sum_bytes() - fixed.sum_bytes(), 10u * (1 + 8 * kNextEventSums));
+    EXPECT_EQ(deciding.guide_bytes() - fixed.guide_bytes(), 10u);
+    EXPECT_TRUE(expected_tree(scene, resolve(Job{}, scene)).with_next_event);
     EXPECT_TRUE(expected_tree(scene, resolve(Job{}, scene)).with_mixture);
     Job given;
     given.guiding.learn_bsdf_fraction = false;

@@ -17,6 +17,10 @@ Result sample_result() {
     result.stats.trace_seconds = 0.25;
     result.stats.split_path_rays = 7;
     result.stats.splitting = {1, 2, 3, std::uint64_t{1} << 63};
+    result.stats.next_event = {9, 8, 7, 6, 5, 4, ~std::uint64_t{0}};
+    result.stats.unguided.guided[63] = 11;
+    result.stats.unguided.unguided[0] = 12;
+    result.stats.unguided.cost = 13;
     result.stats.first_invalid.push_back({3, 1, 2, 5, {0, 1, 2}});
     for (std::uint16_t k = 0; k < 2; ++k) {
         UnitResult unit;
@@ -120,6 +124,10 @@ TEST(Protocol, FieldsArriveAsTheyWereSent) {
     EXPECT_EQ(got.stats.paths, 24u);
     EXPECT_EQ(got.stats.split_path_rays, 7u);
     EXPECT_EQ(got.stats.splitting.split_mean, 1u);
+    EXPECT_EQ(got.stats.next_event, (NextEventSums{9, 8, 7, 6, 5, 4, ~std::uint64_t{0}}));
+    EXPECT_EQ(got.stats.unguided.guided[63], 11u);
+    EXPECT_EQ(got.stats.unguided.unguided[0], 12u);
+    EXPECT_EQ(got.stats.unguided.cost, 13u);
     EXPECT_EQ(got.stats.splitting.unsplit_variance, std::uint64_t{1} << 63);
     ASSERT_EQ(got.stats.first_invalid.size(), 1u);
     EXPECT_EQ(got.stats.first_invalid[0].sample, 5u);

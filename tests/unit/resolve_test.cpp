@@ -148,7 +148,7 @@ TEST(ResolvedToml, OfAnotherBuildIsRefusedByName) {
                  {changed("giving_up = 0.9\n", ""), "guiding.giving_up is not in it"},
                  {changed("giving_up = 0.9", "giving_up = 0.9\nlosing_all = 1"), "guiding.losing_all is no constant"},
                  {changed("rr_depth = 5\n", ""), "integrator.rr_depth is not in it"},
-                 {changed("giving_up = 0.9", "losing_bulk = \"much\""), "is no number"}};
+                 {changed("giving_up = 0.9", "giving_up = \"much\""), "is no number"}};
     for (const auto& [text, named] : cases) {
         try {
             without_policy(parse_job_settings(text, "resolved.toml"));

@@ -134,7 +134,17 @@ TEST(ResumedRender, EveryGuideGoesOnFromEveryPass) {
     expect_all_stops_same("diffuse-room.xml", job_of(GuidingType::ppg, NextEvent::kickstart, 255), "kickstart");
 }
 
-TEST(ResumedRender, AVerdictOnGuidingIsTheSameAndGivesTheProbesBack) {
+TEST(ResumedRender, WhatIsLearnedOfNextEventGoesOn) {
+    for (const GuidingType type : {GuidingType::none, GuidingType::view, GuidingType::automatic}) {
+        const Job job = job_of(type, NextEvent::automatic, 63);
+        Stopped render("bulb.xml", job, "learned");
+        const RenderResult truth = render.render(render.begin(), render.passes(render.begin()));
+        EXPECT_LT(truth.passes.back().next_event_samples(), 0.9) << int(type);
+        expect_all_stops_same("bulb.xml", job, "learned-next-event");
+    }
+}
+
+TEST(ResumedRender, AVerdictOnGuidingIsTheSame) {
     Job job = job_of(GuidingType::automatic, NextEvent::never, 127);
     job.integrator.rr_depth = 100;
     Stopped render("white-furnace.xml", job, "verdict");
