@@ -11,6 +11,7 @@
 #include "cli/option_values.h"
 #include "common/image/atomic_file.h"
 #include "common/image/png.h"
+#include "common/math/next_event_sums.h"
 #include "common/metrics/false_colour.h"
 #include "worker/tools/inspect_film.h"
 
@@ -78,6 +79,15 @@ std::filesystem::path picture_folder(const InspectOptions& options) {
     return folder;
 }
 
+/// How many of the regions have each number of light samples, as parts of all.
+std::vector<double> next_event_parts(const RegionModel& regions) {
+    if (!regions.decides_next_event()) return {};
+    std::vector<double> parts(kNextEventSamples.size());
+    for (const std::uint8_t code : regions.next_event)
+        parts[code] += 1.0 / regions.leaf_count();
+    return parts;
+}
+
 void look(const InspectOptions& options, const InspectedRun& run, InspectReport& report) {
     const AnySampler guide(run.tree);
     const TraceScene scene(run.request.scene, run.request.job);
@@ -104,6 +114,7 @@ void inspect_run(const InspectOptions& options, std::ostream& out) {
     InspectReport report;
     report.directory = options.directory;
     report.statistics = run.tree.statistics(run.tree_bytes);
+    report.next_event = next_event_parts(run.tree.regions());
     if (options.maps || !options.pixels.empty() || !options.points.empty()) look(options, run, report);
     options.json ? print_json(report, out) : print_text(report, out);
 }

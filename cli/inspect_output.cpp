@@ -136,7 +136,13 @@ void print_text(const InspectReport& report, std::ostream& out) {
     out << (s.views == 0 ? std::string("no T2\n")
                          : fmt::format("{} T2s of {} views, {} cells, in {} regions ({:.1f} %)\n", s.t2s, s.views,
                                        s.view_cells, s.regions_with_t2, 100 * s.t2_share()));
-    out << fmt::format("  {} bytes stored, {} bytes in memory\n\n", s.encoded_bytes, s.memory_bytes);
+    out << fmt::format("  {} bytes stored, {} bytes in memory\n", s.encoded_bytes, s.memory_bytes);
+    if (!report.next_event.empty())
+        out << fmt::format(
+            "  next event at every vertex in {:.0f} % of the regions, at one in 4 in {:.0f} %, in 16 in "
+            "{:.0f} %\n",
+            100 * report.next_event[0], 100 * report.next_event[1], 100 * report.next_event[2]);
+    out << '\n';
     print_spreads(s, out);
     out << '\n';
     print_depths(s, out);
@@ -152,6 +158,7 @@ void print_text(const InspectReport& report, std::ostream& out) {
 
 void print_json(const InspectReport& report, std::ostream& out) {
     Json json = {{"run", report.directory}, {"tree", statistics_json(report.statistics)}};
+    if (!report.next_event.empty()) json["next_event"] = report.next_event;
     json["places"] = Json::array();
     for (const PlaceReport& place : report.places)
         json["places"].push_back(place_json(place));

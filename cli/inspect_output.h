@@ -22,6 +22,7 @@ struct MapReport {
 struct InspectReport {
     std::string directory;
     TreeStatistics statistics;
+    std::vector<double> next_event;  ///< part of the regions by kNextEventSamples; empty: nothing is decided
     std::vector<PlaceReport> places;
     std::vector<MapReport> maps;
 };

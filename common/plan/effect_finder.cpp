@@ -191,6 +191,7 @@ Effect EffectFinder::next_event() const {
     if (job_.integrator.next_event == NextEvent::never) return effect_off("integrator.next_event = \"never\"");
     if (scene_.emitters.empty()) return effect_off("there are no emitters");
     return effect_on(std::string("integrator.next_event = \"") + next_event_name(job_.integrator.next_event) + "\", " +
+                     (job_.decides_next_event ? "at every vertex at first, then as passes show, " : "") +
                      plural(scene_.emitters.size(), "emitter"));
 }
 
