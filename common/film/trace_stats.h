@@ -51,7 +51,7 @@ struct LightSubpathSums {
 /// (emission_shares.h); empty where nobody asks.
 struct EmissionSums {
     std::vector<std::uint64_t> paths;
-    /// Of each path's contributions squared, as if emitters were chosen by power; saturates at kMostSplatSum.
+    /// Squares of what each path contributes, as if emitters were chosen by power; saturates at kMostSplatSum.
     std::vector<std::uint64_t> squares;
 
     void add(const EmissionSums& other);

@@ -29,6 +29,8 @@ class FaultStorm : public FarmTest {
 
     /// Renders until so many faults have come to pass; each render has to give the bits of the undisturbed one.
     Count storm(int faults, unsigned seed) {
+        constexpr int kTold = 500;  // faults between two lines
+        int told = 0;
         const RenderResult calm = calm_render();
         while (counted_.all() < faults && !HasFailure()) {
             random_.seed(seed);
@@ -40,6 +42,11 @@ class FaultStorm : public FarmTest {
                 EXPECT_EQ(result.passes[k].stats.paths, calm.passes[k].stats.paths) << "seed " << seed;
             ++seed;
             ++renders_;
+            if (counted_.all() / kTold != told / kTold) {
+                told = counted_.all();
+                std::cout << told << " of " << faults << " faults, " << renders_ << " renders in " << lives_ << " lives"
+                          << std::endl;
+            }
         }
         return counted_;
     }
