@@ -141,8 +141,13 @@ std::string join_columns(Text text) {
 
 TreeFigures tree_figures(const AnyModel& model, std::uint64_t encoded_bytes) {
     TreeFigures figures{model.figures(), encoded_bytes, 0};
-    const TreeSize size{figures.regions, figures.cells, false, figures.views, model.regions().learns_lights(),
-                        model.cost(), model.regions().decides_next_event()};
+    const TreeSize size{figures.regions,
+                        figures.cells,
+                        false,
+                        figures.views,
+                        model.regions().learns_lights(),
+                        model.cost(),
+                        model.regions().decides_next_event()};
     figures.memory = size.guide_bytes() + size.sum_bytes();
     return figures;
 }

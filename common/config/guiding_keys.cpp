@@ -73,7 +73,8 @@ std::vector<JobKey> guiding_keys() {
                                                          {"qtable", GuidingType::qtable}}));
     add(rule_key(
         "guiding.rule",
-        "when a tree guides; while_it_pays: but in passes before which finished ones show that it loses; usual: that where "
+        "when a tree guides; while_it_pays: but in passes before which finished ones show that it loses; usual: that "
+        "where "
         "guiding.type is auto, else always",
         [](auto& j) -> auto& { return j.guiding.rule; }));
     add(word_key(

@@ -63,13 +63,13 @@ struct TraceStats {
     std::uint64_t nonzero_paths = 0;  ///< that carried any radiance
     std::uint64_t rays = 0;           ///< closest-hit rays
     std::uint64_t shadow_rays = 0;
-    std::uint64_t vertices = 0;                     ///< surface vertices at which a direction was sampled
-    std::uint64_t records = 0;                      ///< of them, recorded for the tree
-    std::uint64_t split_path_rays = 0;              ///< of them, of split paths that paths left where they were split
+    std::uint64_t vertices = 0;         ///< surface vertices at which a direction was sampled
+    std::uint64_t records = 0;          ///< of them, recorded for the tree
+    std::uint64_t split_path_rays = 0;  ///< of them, of split paths that paths left where they were split
     std::uint64_t invalid_samples = 0;
     NextEventSums next_event{};  ///< where it is decided; moments where nothing is recorded by region
     SplittingSums splitting;
-    UnguidedSums unguided;                             ///< where a guided pass asks whether it pays
+    UnguidedSums unguided;  ///< where a guided pass asks whether it pays
     LightSubpathSums light_subpaths;
     EmissionSums emission;
     std::vector<InvalidSample> first_invalid;          ///< at most kMaxReported of them, to reproduce

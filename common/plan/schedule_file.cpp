@@ -16,8 +16,7 @@ constexpr std::int64_t kMostSpp = std::int64_t{1} << 30;
 constexpr std::size_t kMostPasses = 10000;
 
 /// Keys that one [[pass]] may hold.
-constexpr std::string_view kKeys[] = {"spp",   "next_event", "record",         "guided",
-                                      "split",      "light_subpaths", "last_tree"};
+constexpr std::string_view kKeys[] = {"spp", "next_event", "record", "guided", "split", "light_subpaths", "last_tree"};
 constexpr const char* kKeyAdvice =
     "a pass has spp, next_event and record, and may have guided, split, light_subpaths and last_tree";
 
@@ -114,8 +113,7 @@ std::string write_schedule(std::span<const PassPlan> passes) {
     for (const PassPlan& pass : passes)
         text += "\n[[pass]]\nspp = " + std::to_string(pass.spp) + "\nnext_event = " + word(pass.next_event) +
                 "\nrecord = " + word(pass.record) + (pass.guided ? "" : "\nguided = false") +
-                (pass.split ? "" : "\nsplit = false") +
-                (pass.light_subpaths ? "" : "\nlight_subpaths = false") +
+                (pass.split ? "" : "\nsplit = false") + (pass.light_subpaths ? "" : "\nlight_subpaths = false") +
                 (pass.last_tree != pass.record ? "" : std::string("\nlast_tree = ") + word(pass.last_tree)) + "\n";
     return text;
 }

@@ -112,9 +112,9 @@ void serialize(Archive& a, InvalidSample& s) {
 
 template <class Archive>
 void serialize(Archive& a, TraceStats& s) {
-    a(s.paths, s.nonzero_paths, s.rays, s.shadow_rays, s.vertices, s.records, s.split_path_rays,
-      s.invalid_samples, s.next_event, s.unguided.guided, s.unguided.unguided, s.unguided.cost,
-      s.splitting, s.light_subpaths, s.emission, s.first_invalid, s.trace_seconds, s.splat_seconds, s.phase_seconds);
+    a(s.paths, s.nonzero_paths, s.rays, s.shadow_rays, s.vertices, s.records, s.split_path_rays, s.invalid_samples,
+      s.next_event, s.unguided.guided, s.unguided.unguided, s.unguided.cost, s.splitting, s.light_subpaths, s.emission,
+      s.first_invalid, s.trace_seconds, s.splat_seconds, s.phase_seconds);
 }
 
 template <class Archive>
@@ -161,10 +161,10 @@ void serialize(Archive& a, RefineReport& r) {
 
 template <class Archive>
 void serialize(Archive& a, PassReport& r) {
-    a(r.plan, r.spp_done, r.workers, r.threads, r.seconds, r.stats, r.variance, r.error,
-      r.guiding_worth, r.guiding, r.splitting_gain, r.splitting, r.light_subpath_gain, r.light_subpaths, r.emitters,
-      r.emitters_of_half, r.run_seconds, r.halving, r.target, r.tree, r.update_bytes, r.touched_cells, r.caps,
-      r.splat_caps, r.splat_bytes, r.saturated_splats, r.refine);
+    a(r.plan, r.spp_done, r.workers, r.threads, r.seconds, r.stats, r.variance, r.error, r.guiding_worth, r.guiding,
+      r.splitting_gain, r.splitting, r.light_subpath_gain, r.light_subpaths, r.emitters, r.emitters_of_half,
+      r.run_seconds, r.halving, r.target, r.tree, r.update_bytes, r.touched_cells, r.caps, r.splat_caps, r.splat_bytes,
+      r.saturated_splats, r.refine);
 }
 
 template <class Archive>
@@ -192,10 +192,10 @@ void serialize(Archive& a, CheckpointOrigin& o) {
 namespace {
 
 constexpr std::uint32_t kOrigin = section_tag("IDNT"), kHistory = section_tag("FACT"), kFilms = section_tag("FILM"),
-                        kAovs = section_tag("AOVS"), kModel = section_tag("MODL"),
-                        kLearner = section_tag("LERN"), kReports = section_tag("RPRT"), kBegun = section_tag("OPEN"),
-                        kBegunFilm = section_tag("PFLM"), kBegunAovs = section_tag("PAOV"),
-                        kBegunSplats = section_tag("PSPL"), kBegunSums = section_tag("PSUM");
+                        kAovs = section_tag("AOVS"), kModel = section_tag("MODL"), kLearner = section_tag("LERN"),
+                        kReports = section_tag("RPRT"), kBegun = section_tag("OPEN"), kBegunFilm = section_tag("PFLM"),
+                        kBegunAovs = section_tag("PAOV"), kBegunSplats = section_tag("PSPL"),
+                        kBegunSums = section_tag("PSUM");
 
 constexpr std::uint32_t version_of(std::uint32_t tag) {
     if (tag == kHistory) return 4;

@@ -92,7 +92,8 @@ Result any_result(Script& script, const Known& known) {
         result.update.push_back(script.byte());
     if (script.one_in(2)) result.splats = any_splats(script, known);
     TraceStats& s = result.stats;
-    for (std::uint64_t* counter : {&s.nonzero_paths, &s.rays, &s.records, &s.next_event[0], &s.unguided.cost, &s.invalid_samples})
+    for (std::uint64_t* counter :
+         {&s.nonzero_paths, &s.rays, &s.records, &s.next_event[0], &s.unguided.cost, &s.invalid_samples})
         *counter = script.number();
     s.trace_seconds = any_value(script);
     s.splat_seconds = any_value(script);

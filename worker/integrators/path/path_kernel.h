@@ -203,8 +203,7 @@ class PathKernel {
         if constexpr (kRecord) {
             walk_.clock().start();
             for (const std::uint8_t slot : slots)
-                if (is_radiance(walk_[slot].radiance))
-                    stats_.records += walk_.recorder(slot).commit(*log_);
+                if (is_radiance(walk_[slot].radiance)) stats_.records += walk_.recorder(slot).commit(*log_);
             walk_.clock().lap(TracePhase::record);
         }
     }

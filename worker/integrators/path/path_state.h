@@ -81,9 +81,26 @@ struct PathState {
         spread = eta2;
     }
 
+    /// Follows the direction that was drawn with its densities, guided and not. Ways out of glass are the same of both.
+    void follow_twin() {
+        if (!scatter.delta || scatter.effective_pdf == scatter.pdf) twin.step(scatter.pdf, scatter.bsdf_pdf);
+        scatter_bsdf_pdf = scatter.delta ? std::numeric_limits<float>::infinity() : scatter.bsdf_pdf;
+    }
+
     /// One of the paths that this path goes on as, from where its ray has arrived.
     SplitPath split_off() const {
         return {origin, split_budget, depth, ray, embree_hit, throughput, spread, first_exponent, twin.split_off()};
+    }
+
+    /// Goes on as several, of which it is one, and leaves the others; returns how many they are.
+    [[gnu::noinline]] std::uint32_t split(std::uint32_t paths, SplitPaths& others) {
+        paths = split_budget.split(paths);
+        unsplit.split(paths, luminance(radiance));
+        throughput *= 1.0f / static_cast<float>(paths);
+        twin.split(static_cast<float>(paths));
+        for (std::uint32_t i = 1; i < paths; ++i)
+            others.leave(split_off());
+        return paths;
     }
 
     /// Goes on as one that the path of this key was split into; it adds to a radiance of its own.

@@ -13,11 +13,12 @@
 #include "worker/integrators/path/ended_paths.h"
 #include "worker/integrators/path/glass_splits.h"
 #include "worker/integrators/path/guide_walk.h"
+#include "worker/integrators/path/light_chances.h"
 #include "worker/integrators/path/path_observer.h"
 #include "worker/integrators/path/path_roulette.h"
 #include "worker/integrators/path/phase_clock.h"
+#include "worker/integrators/path/seen_light.h"
 #include "worker/integrators/path/vertex_records.h"
-#include "worker/integrators/subpath/mis.h"
 #include "worker/scene/surface.h"
 
 namespace treefarm {
@@ -46,6 +47,7 @@ class PathWalk {
           directions_(guide, settings),
           direction_records_(guide, settings),
           counts_(stats, direct_light),
+          chances_(guide, settings_, counts_),
           emission_(scene, settings_, observer_, counts_) {
         recorders_.fill(Recorder({settings.target, settings.view_records, settings.bootstrap}));
     }
@@ -189,8 +191,7 @@ class PathWalk {
         const std::uint64_t seed = paths_[alive_[0]].key.seed;
         directions_.draw_numbers(seed, keys, paths_, {alive_.data(), alive});
         emitters_.draw_numbers(seed, keys, alive);
-        if (settings_.thin_next_event) [[unlikely]]
-            draw_batch(seed, keys, alive, 0, Stream::light_count, count_draws_);
+        chances_.draw_numbers(seed, keys, alive);
         if (depth > 1 && settings_.roulette.plays(depth - 1))
             draw_batch(seed, keys, alive, ~0u, Stream::roulette, roulette_draws_);  // of the vertex before
         if constexpr (kRecord) direction_records_.draw_numbers(seed, keys, alive);
@@ -219,19 +220,8 @@ class PathWalk {
         }
         if constexpr (kGuided)
             if (const std::uint32_t paths = splitting(path, guide_, settings_); paths > 1) [[unlikely]]
-                split(path, paths);
+                observer_.split(path.split(paths, split_paths_), path.throughput);
         return true;
-    }
-
-    /// The path goes on as several; it is one of them.
-    [[gnu::noinline]] void split(Path& path, std::uint32_t paths) {
-        paths = path.split_budget.split(paths);
-        path.unsplit.split(paths, luminance(path.radiance));
-        path.throughput *= 1.0f / static_cast<float>(paths);
-        path.twin.split(static_cast<float>(paths));
-        observer_.split(paths, path.throughput);
-        for (std::uint32_t i = 1; i < paths; ++i)
-            split_paths_.leave(path.split_off());
     }
 
     /// Visit of the surface where a path's ray has arrived. False if the path ends.
@@ -258,8 +248,8 @@ class PathWalk {
         if constexpr (kRecord)
             if (surface.smooth() && !guide_.contains(hit.p)) recorders_[index].add_outside();
         if (emitters_.any() && surface.smooth()) {
-            ask(path);
-            if (!emitters_.together() && samples_emitter(path)) next_event(index);
+            chances_.ask(path);
+            if (!emitters_.together() && chances_.chooses(path)) next_event(index);
         }
         return true;
     }
@@ -278,11 +268,11 @@ class PathWalk {
         observer_.scatter(s, path.throughput);
         path.scatter_pdf = s.pdf;
         if constexpr (kGuided)
-            if (settings_.twin) follow_twin(path);
+            if (settings_.twin) path.follow_twin();
         path.scatter_from = receiver(path);
         path.scatter_light_samples = path.light_samples;
         if constexpr (kConverts) path.scatter_region = path.guidance.region;
-        if (surface.smooth() && samples_emitter(path))
+        if (surface.smooth() && chances_.chooses(path))
             emitters_.keep(path.lane, path.scatter_from, path.scatter_widths);
         // One question for what is rare: the same bits say that a lobe may be delta, or refract.
         const bool rare = Surface::kGeneral && surface.delta_or_transmitting();
@@ -292,13 +282,6 @@ class PathWalk {
         if (rare && s.delta) path.scatter_pdf = std::numeric_limits<float>::infinity();
         path.ray = {offset_origin(path.hit, s.world), s.world};
         return true;
-    }
-
-    /// The densities of the direction that a path takes, guided and not. Ways out of glass are the same of both.
-    void follow_twin(Path& path) {
-        const auto& s = path.scatter;
-        if (!s.delta || s.effective_pdf == s.pdf) path.twin.step(s.pdf, s.bsdf_pdf);
-        path.scatter_bsdf_pdf = s.delta ? std::numeric_limits<float>::infinity() : s.bsdf_pdf;
     }
 
     bool end(const char* why) {
@@ -313,7 +296,7 @@ class PathWalk {
         emitters_.clear();
         for (std::uint32_t i = 0; i < alive; ++i) {
             const Path& path = paths_[alive_[i]];
-            if (!path.surface->smooth() || !samples_emitter(path)) continue;
+            if (!path.surface->smooth() || !chances_.chooses(path)) continue;
             smooth[count++] = alive_[i];
             emitters_.choose(path.lane, receiver(path));
         }
@@ -321,26 +304,6 @@ class PathWalk {
         for (std::uint32_t i = 0; i < count; ++i)
             next_event(smooth[i]);
     }
-
-    /// Decides how many light samples a vertex has, and tosses for one. Where there are delta lights, only once it is
-    /// known that the emitter is none.
-    void ask(Path& path) {
-        path.light_samples = 1.0f;
-        path.samples_emitters = true;
-        if (settings_.thin_next_event) [[unlikely]] {
-            path.light_samples = light_samples(path);
-            path.samples_emitters = to_unit(count_draws_.word[0][path.lane]) < path.light_samples;
-        }
-        if (settings_.count_next_event && !settings_.delta_lights) [[unlikely]]
-            count_asked(path);
-    }
-    float light_samples(const Path& path) const {
-        if (settings_.light_samples > 0.0f) return settings_.light_samples;
-        if constexpr (kConverts) return guide_.next_event(path.guidance.region);
-        return guide_.image_next_event();
-    }
-    bool samples_emitter(const Path& path) const { return path.samples_emitters || settings_.delta_lights; }
-    [[gnu::noinline]] void count_asked(const Path& path) { counts_.asked(path.guidance.region, path.samples_emitters); }
 
     /// The place of a path, as next event chooses an emitter for it.
     LightReceiver receiver(const Path& path) const {
@@ -355,41 +318,23 @@ class PathWalk {
         const Surface& surface = *path.surface;
         const LightReceiver at = receiver(path);
         const DirectSample light = emitters_.sample(at, path.lane);
-        if (settings_.delta_lights && !light.delta && settings_.next_event) [[unlikely]] {
-            if (settings_.count_next_event) count_asked(path);
-            if (!path.samples_emitters) return;
-        }
+        if (!chances_.takes(path, light.delta)) return;
         if (!(light.pdf > 0.0f) || light.black()) return;
         BsdfValue bsdf;
         if (surface.evaluate_late()) {
             if (at.one_sided && !(dot(at.front, light.wi) > 0.0f)) return;
         } else {
-            bsdf = bsdf_value(surface, light.wi);
+            bsdf = bsdf_towards(surface, light.wi);
             if (is_black(bsdf.f_cos)) return;
         }
         if (settings_.strict_normals && dot(surface.ng(), light.wi) * dot(surface.frame().n, light.wi) <= 0.0f) return;
         ++stats_.shadow_rays;
-        if constexpr (kGuided)
-            if (settings_.twin) paths_[index].twin.add_cost(static_cast<float>(kPolicy.next_event.shadow_ray_cost));
-        if (settings_.count_next_event && !light.delta) [[unlikely]]
-            counts_.traced(path.guidance.region);
+        chances_.traced(paths_[index], light.delta);
         const std::uint32_t vertex = kRecord ? recorders_[index].vertex_count() : 0;
         pending_.add(path.hit, light,
                      {index, vertex, light.delta ? 1.0f : path.light_samples,
                       !settings_.delta_alone && at.probabilities, path.guidance, path.throughput},
                      bsdf);
-    }
-
-    static BsdfValue bsdf_value(const Surface& surface, const Vec3& wi) {
-        return surface.bsdf().value(surface.wo(), surface.frame().to_local(wi));
-    }
-
-    /// Finds out how the surface scatters what it sees, unless that is known; false if not at all.
-    bool reflects(PendingLight<G>& light) {
-        const Surface& surface = *paths_[light.from.path].surface;
-        if (!surface.evaluate_late()) return true;
-        light.set(bsdf_value(surface, light.wi));
-        return !is_black(light.f_cos);
     }
 
     /// Traces the step's shadow rays, and adds what is seen, weighted against scattering.
@@ -399,7 +344,7 @@ class PathWalk {
         std::uint32_t count = 0;
         light_directions_.clear();
         for (std::uint32_t i = 0; i < pending_.size(); ++i) {
-            if (shadowed[i] || !reflects(pending_[i])) continue;
+            if (shadowed[i] || !reflects(*paths_[pending_[i].from.path].surface, pending_[i])) continue;
             seen[count++] = static_cast<std::uint8_t>(i);
             if constexpr (kConverts) light_directions_.add(pending_[i].wi, pending_[i].from.guidance);
         }
@@ -414,27 +359,17 @@ class PathWalk {
 
     void add_light(const PendingLight<G>& light, const typename G::Direction& direction) {
         if (!(light.pdf > 0.0f)) return;  // of an environment map: only now known
-        float scatter_pdf = light.delta ? 0.0f : light.bsdf_pdf;
-        if constexpr (kGuided)
-            if (!light.delta) scatter_pdf = G::pdf(guide_, light.from.guidance, light.bsdf_pdf, direction);
-        const float light_pdf = light.pdf * light.from.light_samples;
-        const float weight = mis_weight(settings_.mis, light_pdf, scatter_pdf);
-        const Rgb reflected = light.f_cos * light.radiance * (weight / light_pdf);
         Path& path = paths_[light.from.path];
-        const Rgb carried = light.from.throughput * reflected;
+        const SeenLight seen = see_light<G, kGuided>(light, direction, guide_, settings_);
+        const Rgb carried = light.from.throughput * seen.reflected;
         path.radiance += carried;
         if constexpr (kGuided)
-            if (settings_.twin) {
-                const float bsdf_pdf = light.delta ? 0.0f : light.bsdf_pdf;
-                const float twin_weight = mis_weight(settings_.mis, light_pdf, bsdf_pdf) / light_pdf;
-                path.twin.add(luminance(light.from.throughput * (light.f_cos * light.radiance)) * twin_weight *
-                              path.inverse_level);
-            }
-        if (settings_.count_next_event && !light.delta) [[unlikely]]
-            counts_.light(path, light.from.guidance.region, carried, scatter_pdf, light_pdf, light.from.light_samples);
-        observer_.next_event(light, scatter_pdf, weight, carried);
+            if (settings_.twin) path.twin.add(twin_light(light, seen, settings_) * path.inverse_level);
+        chances_.found(path, light, seen, carried);
+        observer_.next_event(light, seen.scatter_pdf, seen.weight, carried);
         if constexpr (kRecord)
-            record_light(light, reflected, weight, direction, path, guide_, settings_, recorders_[light.from.path]);
+            record_light(light, seen.reflected, seen.weight, direction, path, guide_, settings_,
+                         recorders_[light.from.path]);
     }
 
     const TraceScene& scene_;
@@ -448,7 +383,7 @@ class PathWalk {
     EndedPaths ended_;
     GlassSplits glass_;
     SplitPaths split_paths_;
-    DrawBatch roulette_draws_, count_draws_;
+    DrawBatch roulette_draws_;
     EmitterChoice emitters_;
     DirectionChoice<G, Surface, kGuided, kConverts> directions_;
     typename G::LightBatch light_directions_;
@@ -457,6 +392,7 @@ class PathWalk {
     DirectionRecords<G> direction_records_;
     [[no_unique_address]] Observer observer_;
     NextEventCounts<kRecord> counts_;
+    LightChances<G, kConverts, kRecord> chances_;
     Emission<G, Surface, kRecord, Observer> emission_;
 };
 

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "worker/integrators/path/next_event_counts.h"
+#include "worker/integrators/path/path_settings.h"
+#include "worker/integrators/path/seen_light.h"
+#include "worker/lights/light_lanes.h"
+
+namespace treefarm {
+
+/// At which vertices next event samples an emitter, where it does not at each, and counts of it for whoever decides how
+/// often. Lights without extent are sampled always: which emitter it is has to be known before the toss then.
+template <class G, bool kConverts, bool kRecord>
+class LightChances {
+  public:
+    LightChances(const typename G::Sampler& guide, const PathSettings& settings, const NextEventCounts<kRecord>& counts)
+        : guide_(guide), settings_(settings), counts_(counts) {}
+
+    /// The random numbers of a step.
+    void draw_numbers(std::uint64_t seed, const KeyBatch& keys, std::uint32_t lanes) {
+        if (settings_.thin_next_event) [[unlikely]]
+            draw_batch(seed, keys, lanes, 0, Stream::light_count, draws_);
+    }
+
+    /// Decides how many light samples a vertex has, and tosses for one.
+    template <class Path>
+    void ask(Path& path) const {
+        path.light_samples = 1.0f;
+        path.samples_emitters = true;
+        if (settings_.thin_next_event) [[unlikely]] {
+            path.light_samples = light_samples(path);
+            path.samples_emitters = to_unit(draws_.word[0][path.lane]) < path.light_samples;
+        }
+        if (settings_.count_next_event && !settings_.delta_lights) [[unlikely]]
+            count(path);
+    }
+
+    /// Whether an emitter is to be chosen.
+    template <class Path>
+    bool chooses(const Path& path) const {
+        return path.samples_emitters || settings_.delta_lights;
+    }
+
+    /// Whether the emitter that was chosen is sampled.
+    template <class Path>
+    bool takes(const Path& path, bool delta) const {
+        if (!settings_.delta_lights || delta || !settings_.next_event) [[likely]]
+            return true;
+        if (settings_.count_next_event) count(path);
+        return path.samples_emitters;
+    }
+
+    /// A shadow ray is traced.
+    template <class Path>
+    void traced(Path& path, bool delta) const {
+        if constexpr (kConverts)
+            if (settings_.twin) path.twin.add_cost(static_cast<float>(kPolicy.next_event.shadow_ray_cost));
+        if (settings_.count_next_event && !delta) [[unlikely]]
+            counts_.traced(path.guidance.region);
+    }
+
+    /// What a sample brings to the pixel.
+    template <class Path>
+    void found(const Path& path, const PendingLight<G>& light, const SeenLight& seen, const Rgb& carried) const {
+        if (settings_.count_next_event && !light.delta) [[unlikely]]
+            counts_.light(path, light.from.guidance.region, carried, seen.scatter_pdf, seen.light_pdf,
+                          light.from.light_samples);
+    }
+
+  private:
+    template <class Path>
+    float light_samples(const Path& path) const {
+        if (settings_.light_samples > 0.0f) return settings_.light_samples;
+        if constexpr (kConverts) return guide_.next_event(path.guidance.region);
+        return guide_.image_next_event();
+    }
+    template <class Path>
+    [[gnu::noinline]] void count(const Path& path) const {
+        counts_.asked(path.guidance.region, path.samples_emitters);
+    }
+
+    const typename G::Sampler& guide_;
+    const PathSettings& settings_;
+    const NextEventCounts<kRecord>& counts_;
+    DrawBatch draws_;
+};
+
+}  // namespace treefarm
