@@ -70,13 +70,12 @@ void judge_splitting(RenderState& state, const Resolved& job, PassReport& report
     report.splitting = state.history.splitting;
 }
 
-/// Cost of a camera sample, in closest-hit rays of unguided paths.
+/// Cost of a camera sample, in closest-hit rays of unguided paths, without what next event costs besides shadow rays.
 double sample_cost(const PassReport& report) {
     const TraceStats& stats = report.stats;
     const auto count = [](std::uint64_t n) { return static_cast<double>(n); };
     if (stats.paths == 0) return 0;
     const double rays = (report.plan.guided ? kPolicy.guiding.ray_cost : 1.0) * count(stats.rays) +
-                        kPolicy.next_event.sample_cost * count(stats.next_event[kNextEventDrawn]) +
                         kPolicy.next_event.shadow_ray_cost * count(stats.shadow_rays);
     return rays / count(stats.paths);
 }
@@ -87,8 +86,10 @@ void judge_next_event(RenderState& state, const Resolved& job, const CombinedIma
     if (!job.decides_next_event && job.guiding.rule != Rule::while_it_pays) return;
     if (!report.plan.layers.estimates) return;
     ImageLevels levels = image_levels(image.mean, width);
-    report.price = {relative_variance(state.films.back().pixels, levels, width), cost,
-                    static_cast<double>(report.stats.paths)};
+    const auto paths = static_cast<double>(report.stats.paths);
+    const double drawn = static_cast<double>(report.stats.next_event[kNextEventDrawn]);
+    report.price = {relative_variance(state.films.back().pixels, levels, width),
+                    paths > 0 ? cost + kPolicy.next_event.sample_cost * drawn / paths : 0, paths};
     ImageFacts facts{static_cast<std::uint32_t>(levels.columns), std::move(levels.inverse_levels),
                      state.tree.regions().image.next_event};
     if (job.decides_next_event && !report.plan.guided)

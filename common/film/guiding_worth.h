@@ -55,7 +55,7 @@ struct GuidingWorth {
     double high() const;
 };
 
-/// Of the guided pass with these pixels. `guided_cost` in rays, of one sample.
+/// Worth of guiding by a guided pass with these pixels. `guided_cost` in rays, of one sample.
 GuidingWorth guiding_worth(const UnguidedSums& sums, std::span<const PixelEstimate> pixels, const ImageLevels& levels,
                            std::size_t width, double guided_cost);
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <vector>
 
+#include "common/plan/learning.h"
 #include "coordinator/render_state.h"
 #include "tests/support/resolved.h"
 #include "worker/integrators/path/unguided_twin.h"
@@ -103,8 +104,6 @@ class Automatic {
         Job job;
         job.guiding.type = GuidingType::automatic;
         job_ = test::resolved(job);
-        RegionModel regions;
-        regions.nodes.resize(1);
         state_ = first_state(job_, first_model(job_, Box3(Vec3(0.0f), Vec3(1.0f)), 1.0f), kPixels);
         const ImageLevels levels = even_levels();
         state_.tree.set_image({static_cast<std::uint32_t>(levels.columns), levels.inverse_levels, 0});

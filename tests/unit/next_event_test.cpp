@@ -131,7 +131,7 @@ TEST(NextEvent, DecisionsEndAtTheLeastWork) {
     EXPECT_LT(worst, 1.1);
 }
 
-/// Of a cube in two halves.
+/// A cube in two halves.
 RegionModel halves() {
     RegionModel model;
     model.nodes.resize(3);
@@ -168,8 +168,8 @@ TEST(NextEvent, WhatIsLentIsAsSureAsItWasKnown) {
     EXPECT_LT(pooled[0][kNextEventSpread], 4000.0) << "what is lent makes it surer";
     RegionModel whole_model;
     whole_model.nodes.resize(1);
-    const std::vector<NextEventEvidence> nothing = pool_next_event(whole_model, std::array{NextEventEvidence{}});
-    EXPECT_EQ(nothing[0], NextEventEvidence{}) << "nothing is known";
+    const std::array<NextEventEvidence, 1> nothing{};
+    EXPECT_EQ(pool_next_event(whole_model, nothing)[0], nothing[0]) << "nothing is known";
 }
 
 /// By construction of the rule: a step never makes the product of noise and cost larger, as predicted.
