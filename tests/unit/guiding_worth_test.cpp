@@ -66,10 +66,10 @@ TEST(GuidingWorth, AFewGroupsThatKnowItAllAreNotSure) {
     EXPECT_EQ(guiding_worth(sums, pixels(0.5f), {}, kWidth, 8.0).worth, 0) << "the image was black before";
 }
 
-Guiding verdict(std::uint32_t spp, double worth, double error = 0, double mistrust = 1) {
+Guiding verdict(std::uint32_t spp, double worth, double error = 0, double mistrust = 1, double known = 20) {
     PassPlan pass;
     pass.spp = spp;
-    return judge_guiding(pass, {.worth = worth, .error = error}, mistrust);
+    return judge_guiding(pass, {.worth = worth, .error = error, .known = known}, mistrust);
 }
 
 TEST(GuidingWorth, GuidingEndsWhereItSurelyLoses) {
@@ -81,6 +81,7 @@ TEST(GuidingWorth, GuidingEndsWhereItSurelyLoses) {
     EXPECT_EQ(verdict(64, 0.95), Guiding::open);
     EXPECT_EQ(verdict(64, 0.8, 0.3), Guiding::open) << "0.8 may be 1.2";
     EXPECT_EQ(verdict(64, 0.5, 0.3), Guiding::loses);
+    EXPECT_EQ(verdict(64, 0.5, 0.0, 1.0, 2.0), Guiding::open) << "a sample or two are all that is known";
     EXPECT_EQ(verdict(64, 0.5, 0.0, 3.0), Guiding::open) << "unguided passes were thrice as noisy as it was said";
 }
 
