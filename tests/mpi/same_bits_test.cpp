@@ -209,7 +209,7 @@ TEST(SameBitsOfScenes, Features) {
 
 /// A lamp in a bulb, which next event hardly finds: fewer vertices have light samples from pass to pass.
 TEST(SameBitsOfScenes, LearnedNextEvent) {
-    for (const char* type : {"none", "view", "auto"})
+    for (const char* type : {"none", "view"})
         expect_same_bits(own_scene("bulb.xml"), {2, 3, 5}, {"--set", std::string("guiding.type=") + type}, false, true);
 }
 

@@ -135,7 +135,7 @@ TEST(ResumedRender, EveryGuideGoesOnFromEveryPass) {
 }
 
 TEST(ResumedRender, WhatIsLearnedOfNextEventGoesOn) {
-    for (const GuidingType type : {GuidingType::none, GuidingType::view, GuidingType::automatic}) {
+    for (const GuidingType type : {GuidingType::none, GuidingType::automatic}) {
         const Job job = job_of(type, NextEvent::automatic, 63);
         Stopped render("bulb.xml", job, "learned");
         const RenderResult truth = render.render(render.begin(), render.passes(render.begin()));
