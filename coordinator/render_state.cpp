@@ -86,7 +86,14 @@ void judge_next_event(RenderState& state, const Resolved& job, const CombinedIma
     if (!job.decides_next_event && job.guiding.rule != Rule::while_it_pays) return;
     if (!report.plan.layers.estimates) return;
     ImageLevels levels = image_levels(image.mean, width);
-    const auto paths = static_cast<double>(report.stats.paths);
+    // Samples of a pixel along which direct light was counted.
+    const PassPlan& plan = report.plan;
+    const auto before = [](std::uint32_t sample) {
+        return (sample + kPolicy.next_event.counted_every - 1) / kPolicy.next_event.counted_every;
+    };
+    const double part =
+        static_cast<double>(before(plan.first_sample + plan.spp) - before(plan.first_sample)) / plan.spp;
+    const double paths = static_cast<double>(report.stats.paths) * part;
     const double drawn = static_cast<double>(report.stats.next_event[kNextEventDrawn]);
     report.price = {relative_variance(state.films.back().pixels, levels, width),
                     paths > 0 ? cost + kPolicy.next_event.sample_cost * drawn / paths : 0, paths};

@@ -20,10 +20,12 @@ struct Policy {
         double giving_up_errors = 1.3;
         double taking_up = 1.1;
         std::uint32_t least_settled_spp = 16;
+        double least_known = 4.0;
     } guiding;
 
     /// How often next event samples emitters ("auto").
     struct NextEvent {
+        std::uint32_t counted_every = 8;
         double least_vertices = 512.0;
         double lent_vertices = 256.0;
         double standard_errors = 2.0;

@@ -60,6 +60,12 @@ constexpr std::array kEntries = {
     entry("guiding.taking_up", kGuiding.taking_up, "and guided again where it is above this", kDecisions),
     entry("guiding.least_settled_spp", kGuiding.least_settled_spp, "trees of shorter passes still get much better, spp",
           kDecisions),
+    entry("guiding.least_known", kGuiding.least_known, "noise that rests on fewer groups of pixels, of 64, has no say",
+          kDecisions),
+    entry("next_event.counted_every", kNextEvent.counted_every,
+          "direct light is summed along one of so many samples of a pixel; along all of them it would take 17 % of the "
+          "time",
+          kDecisions),
     entry("next_event.least_vertices", kNextEvent.least_vertices,
           "nothing is decided from fewer, of all regions together", kDecisions),
     entry("next_event.lent_vertices", kNextEvent.lent_vertices,

@@ -55,7 +55,7 @@ class Emission {
         path.radiance += carried;
         if (settings_.twin) [[unlikely]]
             add_to_twin(path, emitted, light_pdf);
-        if (settings_.count_next_event && path.depth > 1) [[unlikely]]
+        if (settings_.count_next_event && path.depth > 1 && counts_.counts(path.key)) [[unlikely]]
             counts_.emission(path, carried, light_pdf);
     }
 

@@ -31,7 +31,7 @@ class LightChances {
             path.light_samples = light_samples(path);
             path.samples_emitters = to_unit(draws_.word[0][path.lane]) < path.light_samples;
         }
-        if (settings_.count_next_event && !settings_.delta_lights) [[unlikely]]
+        if (counts(path) && !settings_.delta_lights) [[unlikely]]
             count(path);
     }
 
@@ -46,7 +46,7 @@ class LightChances {
     bool takes(const Path& path, bool delta) const {
         if (!settings_.delta_lights || delta || !settings_.next_event) [[likely]]
             return true;
-        if (settings_.count_next_event) count(path);
+        if (counts(path)) count(path);
         return path.samples_emitters;
     }
 
@@ -55,19 +55,23 @@ class LightChances {
     void traced(Path& path, bool delta) const {
         if constexpr (kConverts)
             if (settings_.twin) path.twin.add_cost(static_cast<float>(kPolicy.next_event.shadow_ray_cost));
-        if (settings_.count_next_event && !delta) [[unlikely]]
+        if (counts(path) && !delta) [[unlikely]]
             counts_.traced(path.guidance.region);
     }
 
     /// What a sample brings to the pixel.
     template <class Path>
     void found(const Path& path, const PendingLight<G>& light, const SeenLight& seen, const Rgb& carried) const {
-        if (settings_.count_next_event && !light.delta) [[unlikely]]
+        if (counts(path) && !light.delta) [[unlikely]]
             counts_.light(path, light.from.guidance.region, carried, seen.scatter_pdf, seen.light_pdf,
                           light.from.light_samples);
     }
 
   private:
+    template <class Path>
+    bool counts(const Path& path) const {
+        return settings_.count_next_event && counts_.counts(path.key);
+    }
     template <class Path>
     float light_samples(const Path& path) const {
         if (settings_.light_samples > 0.0f) return settings_.light_samples;

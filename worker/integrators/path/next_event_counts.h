@@ -6,6 +6,7 @@
 
 #include "common/base/random.h"
 #include "common/film/trace_stats.h"
+#include "common/plan/policy.h"
 #include "worker/integrators/path/path_state.h"
 
 namespace treefarm {
@@ -16,6 +17,9 @@ template <bool kRecord>
 class NextEventCounts {
   public:
     NextEventCounts(TraceStats& stats, std::span<NextEventSums> regions) : stats_(stats), regions_(regions) {}
+
+    /// Whether a path is among those along which it is counted: a few samples of each pixel.
+    static bool counts(const PathKey& key) { return key.sample % kPolicy.next_event.counted_every == 0; }
 
     /// A vertex at which an emitter may be sampled, and whether it is.
     void asked(std::uint32_t region, bool drawn) const {
