@@ -233,7 +233,7 @@ TEST(LightsAgainstPath, EveryKindOfCameraAndFilter) {
         Scene scene = test::cornell_box(1.0f, Vec3(0.0f));
         test::set_film(scene, 24, 24);
         change(scene);
-        expect_image_of_paths(scene, {}, what);
+        expect_image_of_paths(scene, {}, what, 240, 240);
     };
     with("lens", [](Scene& s) {
         s.camera.corner *= 1.7f;

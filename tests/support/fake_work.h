@@ -56,9 +56,9 @@ inline std::uint32_t chain_steps(const PassPlan& pass) {
 
 inline void fake_chains(std::uint64_t seed, const PassPlan& pass, const WorkUnit& unit, UnitOutput& output) {
     for (std::uint64_t i = unit.first; i < unit.first + unit.count; ++i) {
-        const std::uint32_t steps = chain_steps(pass);
-        output.stats.paths += steps;
-        fake_chain(output.splats, seed + pass.index, static_cast<std::uint32_t>(i), steps, pass.layers.splats.pixels);
+        ++output.stats.paths;  // work is counted in chains
+        fake_chain(output.splats, seed + pass.index, static_cast<std::uint32_t>(i), chain_steps(pass),
+                   pass.layers.splats.pixels);
     }
 }
 
