@@ -6,7 +6,8 @@ usage: random_launches.py TREEFARM SCENE [--count N] [--seed S] [--kills K] [--p
 
 Each of N renders is killed 1 to K times: all its processes at once, or with --part one of them, or mpirun. Passes if each ends with
 exit code 0 and the bits of the render that never stopped, and leaves no process, no shared memory and no temporary folder; with --interval,
-if a death of all costs no more than these seconds between two checkpoints, and those in which results come and one is written. Prints a line per render.
+if a death of all costs no more than these seconds between two checkpoints, and those in which results come and one is written. Prints a
+line per render.
 """
 import argparse
 import json
