@@ -24,7 +24,7 @@ from launched_render import DEADLINE, command, environment, faults_of, hashes, k
 
 GUIDES = ("auto", "view", "ppg", "none", "grid")
 UPDATE = 0.1   # seconds between a worker's results: a checkpoint without a new one would be in vain, and waits for it
-WRITING = 0.5  # seconds at most: a checkpoint that is not yet whole does not count
+WRITING = 1.0  # seconds at most: a checkpoint that is not yet whole does not count
 
 
 def rendered(folder):
