@@ -169,13 +169,30 @@ class Day:
         self.wait_for(lambda: self.restarts()[frame] > 0, f"frame {frame} is begun again")
         self.say(f"frame {frame} waits for another node")
 
+    def young(self):
+        """Frames in hand that have most of their way before them, with their nodes."""
+        return {frame: node for frame, node in self.in_hand().items() if self.fraction(frame) < 0.4}
+
+    def fraction(self, frame):
+        try:
+            return json.loads((self.shot / name_of(frame) / "status.json").read_text())["fraction"]
+        except (OSError, ValueError, KeyError):
+            return 1.0
+
+    def told(self):
+        """Frames that were told to give up their node and have not yet done so."""
+        return [frame for frame, facts in self.frames().items()
+                if facts["JobState"] == "RUNNING" and facts.get("PreemptTime", "None") != "None"]
+
     def preempt(self):
-        """An urgent job takes a node; where a frame is done before that and leaves one free, the next one is tried."""
+        """An urgent job takes a node, all of which are busy then. Where a frame is done before it has to go, the next one is tried."""
+        left = set(HOSTS) - {LOST}
         for _ in range(8):
-            self.wait_for(self.in_hand, "a frame in hand")
+            self.wait_for(lambda: set(self.young().values()) == left or self.done() == len(FRAMES), f"frames on {sorted(left)}")
             before = self.restarts()
             urgent = self.slurm.submit("--partition=urgent", "--nodes=1", "--exclusive", "--output=/dev/null", "--wrap", "sleep 3")
             self.wait_for(lambda: self.slurm.states(urgent) == ["COMPLETED"], "the urgent job's end")
+            self.wait_for(lambda: not self.told(), "the end of a frame that was preempted")
             for frame, count in self.restarts().items():
                 if count > before.get(frame, 0):
                     return self.say(f"an urgent job took a node from frame {frame}, which waits for its turn")
@@ -241,7 +258,7 @@ def take(browser, file):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("treefarm")
-    parser.add_argument("--seconds", type=float, default=8, help="of a core that a frame takes")
+    parser.add_argument("--seconds", type=float, default=12, help="of a core that a frame takes")
     parser.add_argument("--patience", type=float, default=1200, help="seconds to wait for anything; more where the machine is busy")
     parser.add_argument("--picture", help="of the page, in the middle of the day")
     arguments = parser.parse_args()
@@ -254,7 +271,7 @@ def main():
         browser = look(listener.url)
         try:
             with virtual_hosts.VirtualHosts(work / "hosts", len(HOSTS), HOSTS) as hosts, \
-                    local_slurm.LocalSlurm(work / "slurm", hosts=hosts) as slurm:
+                    local_slurm.LocalSlurm(work / "slurm", hosts=hosts, told_early=True) as slurm:
                 slurm.environment.update({**environment(), "PATH": f"{pathlib.Path(day.program).parent}:{os.environ['PATH']}"})
                 day.live(slurm, browser, arguments.picture)
             day.check(listener)

@@ -15,11 +15,11 @@ def environment(transport=None):
     return {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", **asked}
 
 
-def command(treefarm, scene, folder, guide, ranks=None, spp=255, interval=0.001):
-    """A render alone, or under launch on so many ranks; `interval`: seconds between its checkpoints."""
+def command(treefarm, scene, folder, guide, ranks=None, spp=255, interval=0.001, update=1.5):
+    """A render alone, or under launch on so many ranks; seconds between its checkpoints, and between a worker's results."""
     render = ["render", scene, "-D", "size=48", "--run-dir", str(folder), "--overwrite", "--threads", "1",
               "--quiet", "--spp", str(spp), "--set", f"guiding.type={guide}", "--set",
-              f"farm.checkpoint_seconds={interval}", "--set", "farm.heartbeat_seconds=0.2"]
+              f"farm.checkpoint_seconds={interval}", "--set", f"farm.update_seconds={update}", "--set", "farm.heartbeat_seconds=0.2"]
     return [treefarm, *(["launch", "-n", str(ranks), "--"] if ranks else []), *render]
 
 

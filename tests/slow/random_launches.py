@@ -6,7 +6,8 @@ usage: random_launches.py TREEFARM SCENE [--count N] [--seed S] [--kills K] [--p
 
 Each of N renders is killed 1 to K times: all its processes at once, or with --part one of them, or mpirun. Passes if each ends with
 exit code 0 and the bits of the render that never stopped, and leaves no process, no shared memory and no temporary folder; with --interval,
-if a death of all costs no more than these seconds between two checkpoints, and those in which one is written. Prints a line per render.
+if a death of all costs no more than these seconds between two checkpoints, and those in which results come and one is written. Prints a
+line per render.
 """
 import argparse
 import json
@@ -22,6 +23,7 @@ import time
 from launched_render import DEADLINE, command, environment, faults_of, hashes, kill, started
 
 GUIDES = ("auto", "view", "ppg", "none", "grid")
+UPDATE = 0.1   # seconds between a worker's results: a checkpoint without a new one would be in vain, and waits for it
 WRITING = 1.0  # seconds at most: a checkpoint that is not yet whole does not count
 
 
@@ -58,9 +60,11 @@ def one(arguments, work, random, truths):
     folder = work / "run"
     shutil.rmtree(folder, ignore_errors=True)
     begin = time.monotonic()
-    process = subprocess.Popen(command(arguments.treefarm, arguments.scene, folder, guide, ranks, arguments.spp,
-                                       arguments.interval or 0.001), env=environment(), stdout=subprocess.PIPE,
-                               stderr=subprocess.STDOUT, text=True)
+    words = command(arguments.treefarm, arguments.scene, folder, guide, ranks, arguments.spp)
+    if arguments.interval:
+        words = command(arguments.treefarm, arguments.scene, folder, guide, ranks, arguments.spp, arguments.interval, UPDATE)
+        words.remove("--quiet")  # each attempt says from where it goes on
+    process = subprocess.Popen(words, env=environment(), stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
     done, behind = 0, {}
     for _ in range(kills):
         time.sleep(random.uniform(0.1, 4.0))
@@ -80,7 +84,7 @@ def one(arguments, work, random, truths):
     if arguments.interval and not arguments.part and not faults:
         loss = longest_loss(behind, folder)
         outcome += f", {loss:.2f} s of rendering lost at most"
-        if loss > arguments.interval + WRITING:
+        if loss > arguments.interval + UPDATE + WRITING:
             faults = f"a death cost {loss:.2f} s of rendering"
     return name, faults, outcome, done
 

@@ -23,6 +23,7 @@ SlurmdPort={slurmd_port}
 AuthType=auth/munge
 AuthInfo=socket={folder}/run/munge.sock
 CredType=cred/munge
+SlurmctldParameters={told_early}
 SlurmUser=root
 SlurmdUser=root
 StateSaveLocation={folder}/state
@@ -78,9 +79,10 @@ def free_ports(count):
 
 
 class LocalSlurm:
-    def __init__(self, folder, processors=2, task_plugin="task/none", hosts=None):
+    def __init__(self, folder, processors=2, task_plugin="task/none", hosts=None, told_early=False):
         """`folder`: outside /tmp, which each node has for itself; its path is short (sockets). `hosts`: VirtualHosts that are the nodes,
-        each with a cable of its own, and slurmctld and Slurm's commands sit at their switch."""
+        each with a cable of its own, and slurmctld and Slurm's commands sit at their switch. `told_early`: who is preempted gets the
+        signal of --signal at once, not only when its time of grace is over."""
         self.folder = pathlib.Path(folder)
         self.hosts = hosts
         self.names = hosts.names if hosts else [f"s{k + 1}" for k in range(NODES)]
@@ -88,7 +90,7 @@ class LocalSlurm:
         for name in ("state", "run", "log", *(f"spool-{node}" for node in self.names)):
             (self.folder / name).mkdir(parents=True)
         self.folder.chmod(0o755)
-        self._configure(processors, task_plugin)
+        self._configure(processors, task_plugin, told_early)
         self.environment = {**os.environ, "SLURM_CONF": str(self.folder / "slurm.conf")}
         try:
             self._start()
@@ -96,7 +98,7 @@ class LocalSlurm:
             self.close()
             raise
 
-    def _configure(self, processors, task_plugin):
+    def _configure(self, processors, task_plugin, told_early):
         port, slurmd_port, *ports = free_ports(2 + len(self.names))
         host = socket.gethostname()
         places = [(name, self.hosts.address(k)) if self.hosts else (host, "127.0.0.1") for k, name in enumerate(self.names)]
@@ -105,7 +107,8 @@ class LocalSlurm:
         (self.folder / "slurm.conf").write_text(CONFIGURATION.format(
             host=host, address=self.hosts.at_switch() if self.hosts else "127.0.0.1",
             listening="NoInAddrAny" if self.hosts else "NoInAddrAny,NoCtldInAddrAny", port=port, slurmd_port=slurmd_port,
-            folder=self.folder, task_plugin=task_plugin, nodes=nodes))
+            folder=self.folder, task_plugin=task_plugin, nodes=nodes,
+            told_early="preempt_send_user_signal" if told_early else ""))
         key = self.folder / "munge.key"
         key.write_bytes(os.urandom(128))
         key.chmod(0o400)
