@@ -23,7 +23,6 @@ SlurmdPort={slurmd_port}
 AuthType=auth/munge
 AuthInfo=socket={folder}/run/munge.sock
 CredType=cred/munge
-SlurmctldParameters={told_early}
 SlurmUser=root
 SlurmdUser=root
 StateSaveLocation={folder}/state
@@ -53,6 +52,7 @@ SlurmdParameters=config_overrides
 PartitionName=main Nodes=ALL Default=YES MaxTime=INFINITE State=UP PriorityTier=1 GraceTime=30
 PartitionName=urgent Nodes=ALL MaxTime=INFINITE State=UP PriorityTier=2
 """
+TOLD_EARLY = "SlurmctldParameters=preempt_send_user_signal\n"
 
 
 def why_not():
@@ -104,11 +104,11 @@ class LocalSlurm:
         places = [(name, self.hosts.address(k)) if self.hosts else (host, "127.0.0.1") for k, name in enumerate(self.names)]
         nodes = "\n".join(f"NodeName={name} NodeHostname={its} NodeAddr={address} Port={own} CPUs={processors} RealMemory=4000"
                           for name, (its, address), own in zip(self.names, places, ports))
-        (self.folder / "slurm.conf").write_text(CONFIGURATION.format(
+        configuration = CONFIGURATION + (TOLD_EARLY if told_early else "")
+        (self.folder / "slurm.conf").write_text(configuration.format(
             host=host, address=self.hosts.at_switch() if self.hosts else "127.0.0.1",
             listening="NoInAddrAny" if self.hosts else "NoInAddrAny,NoCtldInAddrAny", port=port, slurmd_port=slurmd_port,
-            folder=self.folder, task_plugin=task_plugin, nodes=nodes,
-            told_early="preempt_send_user_signal" if told_early else ""))
+            folder=self.folder, task_plugin=task_plugin, nodes=nodes))
         key = self.folder / "munge.key"
         key.write_bytes(os.urandom(128))
         key.chmod(0o400)
