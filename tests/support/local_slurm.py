@@ -13,6 +13,7 @@ import subprocess
 import time
 
 NODES = 3
+SOON = 5  # seconds after which a requeued job begins
 
 # Partitions: jobs of `urgent` preempt those of `main`, which are told by SIGTERM and requeued.
 CONFIGURATION = """
@@ -174,10 +175,14 @@ class LocalSlurm:
         return [facts["JobState"] for facts in self.facts(job)]
 
     def hurry(self, job):
-        """A requeued job may begin now: Slurm would have it wait for two minutes."""
+        """A requeued job may begin soon: Slurm would have it wait for two minutes. Not at once, or a node that still ends the job's life
+        before refuses the next one, and the job is FAILED ("Job credential revoked")."""
         for facts in self.facts(job):
-            if facts.get("Reason") == "BeginTime":
-                self.run("scontrol", "update", f"jobid={facts['JobId']}", "starttime=now", check=False)
+            if facts.get("Reason") != "BeginTime":
+                continue
+            begin = time.mktime(time.strptime(facts["EligibleTime"], "%Y-%m-%dT%H:%M:%S"))
+            if begin - time.time() > 2 * SOON:
+                self.run("scontrol", "update", f"jobid={facts['JobId']}", f"starttime=now+{SOON}", check=False)
 
     def wait(self, job, seconds, states=("COMPLETED", "FAILED", "CANCELLED", "TIMEOUT", "NODE_FAIL", "OUT_OF_MEMORY")):
         """Waits until each of a job's tasks is in one of these states; returns them, None where that takes longer."""
