@@ -12,7 +12,7 @@ namespace treefarm {
 /// so much with it; no bit of an image depends on it.
 inline double result_seconds(double asked, std::uint32_t splat_pixels, std::size_t workers) {
     constexpr double kBytesPerSecond = 0.3 * 117e6;
-    constexpr double kBytesPerPixel = 2 * 18;  // both halves of a pixel that was touched, by measurement
+    constexpr double kBytesPerPixel = 2 * 18;  // both halves of a pixel that was touched, roughly
     return std::max(asked, static_cast<double>(workers) * splat_pixels * kBytesPerPixel / kBytesPerSecond);
 }
 

@@ -3,13 +3,13 @@
 // from, and whether they are traced at all. With more emitters than are chosen one by one.
 #include <gtest/gtest.h>
 
-#include "common/metrics/z_test.h"
 #include "tests/support/rendered.h"
 #include "tests/support/test_scenes.h"
 
 namespace treefarm {
 namespace {
 
+using test::expect_same_image;
 using test::LocalRender;
 using test::Rendered;
 
@@ -47,22 +47,6 @@ LocalRender render(const Scene& scene, const char* type, std::uint32_t spp, Ligh
     job.budget.spp = spp;
     job.sampler.seed = static_cast<std::uint64_t>(type[0]) + spp;
     return test::render_locally(scene, job);
-}
-
-/// Block and image z of two images. `noise`: of the first's mean, at most.
-void expect_same_image(const Rendered& image, const Rendered& path, const std::string& what, double noise) {
-    ZTestOptions options;
-    options.block = 8;
-    const BlockZTest blocks = block_z_test({image.mean, path.mean, &image.variance, &path.variance}, options);
-    EXPECT_TRUE(blocks.pass) << what << ": worst block z " << blocks.max_abs_z << " of " << blocks.limit;
-    for (const double z : blocks.image_z)
-        EXPECT_LT(std::abs(z), 4.0) << what;
-    double sum = 0, variance = 0;
-    for (std::size_t p = 0; p < image.mean.pixels.size(); ++p) {
-        sum += double(average(image.mean.pixels[p]));
-        variance += double(average(image.variance.pixels[p]));
-    }
-    EXPECT_LT(std::sqrt(variance), noise * sum) << what << ": too noisy to tell";
 }
 
 double last_pass_variance(const LocalRender& run) {

@@ -3,7 +3,6 @@
 // known exactly.
 #include <gtest/gtest.h>
 
-#include "common/metrics/z_test.h"
 #include "tests/support/chi_square.h"
 #include "tests/support/rendered.h"
 #include "tests/support/test_scenes.h"
@@ -11,6 +10,7 @@
 namespace treefarm {
 namespace {
 
+using test::expect_same_image;
 using test::Rendered;
 
 Rendered render(const Scene& scene, Job job, const char* type, std::uint64_t seed, std::uint32_t spp,
@@ -24,25 +24,6 @@ Rendered render(const Scene& scene, Job job, const char* type, std::uint64_t see
     const test::LocalRender run = test::render_locally(scene, job);
     EXPECT_EQ(run.splat_caps, SplatCaps{}) << type;
     return test::rendered(run, scene.film);
-}
-
-/// Whether an image is the paths', as far as both are known. `noise`: of its mean, at most.
-void expect_same_image(const Rendered& image, const Rendered& path, const std::string& what, double noise = 0.02) {
-    ZTestOptions options;
-    options.block = 8;
-    const ZTestInput input{image.mean, path.mean, &image.variance, &path.variance};
-    const BlockZTest blocks = block_z_test(input, options);
-    EXPECT_TRUE(blocks.pass) << what << ": worst block z " << blocks.max_abs_z << " of " << blocks.limit;
-    EXPECT_LT(blocks.mean_z2, 3.0) << what;  // of nine blocks or more, whose channels go together
-    for (const double z : blocks.image_z)
-        EXPECT_LT(std::abs(z), 4.0) << what;
-    double sum = 0, variance = 0;
-    for (std::size_t p = 0; p < image.mean.pixels.size(); ++p) {
-        sum += double(average(image.mean.pixels[p]));
-        variance += double(average(image.variance.pixels[p]));
-    }
-    EXPECT_GT(sum, 0.0) << what << ": black";
-    EXPECT_LT(std::sqrt(variance), noise * sum) << what << ": too noisy to tell";
 }
 
 void expect_image_of_paths(const Scene& scene, const Job& job, const std::string& what, std::uint32_t light_spp = 60,

@@ -13,6 +13,7 @@ import subprocess
 import time
 
 NODES = 3
+SOON = 5  # seconds after which a requeued job begins
 
 # Partitions: jobs of `urgent` preempt those of `main`, which are told by SIGTERM and requeued.
 CONFIGURATION = """
@@ -23,7 +24,6 @@ SlurmdPort={slurmd_port}
 AuthType=auth/munge
 AuthInfo=socket={folder}/run/munge.sock
 CredType=cred/munge
-SlurmctldParameters={told_early}
 SlurmUser=root
 SlurmdUser=root
 StateSaveLocation={folder}/state
@@ -53,6 +53,7 @@ SlurmdParameters=config_overrides
 PartitionName=main Nodes=ALL Default=YES MaxTime=INFINITE State=UP PriorityTier=1 GraceTime=30
 PartitionName=urgent Nodes=ALL MaxTime=INFINITE State=UP PriorityTier=2
 """
+TOLD_EARLY = "SlurmctldParameters=preempt_send_user_signal\n"
 
 
 def why_not():
@@ -104,11 +105,11 @@ class LocalSlurm:
         places = [(name, self.hosts.address(k)) if self.hosts else (host, "127.0.0.1") for k, name in enumerate(self.names)]
         nodes = "\n".join(f"NodeName={name} NodeHostname={its} NodeAddr={address} Port={own} CPUs={processors} RealMemory=4000"
                           for name, (its, address), own in zip(self.names, places, ports))
-        (self.folder / "slurm.conf").write_text(CONFIGURATION.format(
+        configuration = CONFIGURATION + (TOLD_EARLY if told_early else "")
+        (self.folder / "slurm.conf").write_text(configuration.format(
             host=host, address=self.hosts.at_switch() if self.hosts else "127.0.0.1",
             listening="NoInAddrAny" if self.hosts else "NoInAddrAny,NoCtldInAddrAny", port=port, slurmd_port=slurmd_port,
-            folder=self.folder, task_plugin=task_plugin, nodes=nodes,
-            told_early="preempt_send_user_signal" if told_early else ""))
+            folder=self.folder, task_plugin=task_plugin, nodes=nodes))
         key = self.folder / "munge.key"
         key.write_bytes(os.urandom(128))
         key.chmod(0o400)
@@ -174,10 +175,14 @@ class LocalSlurm:
         return [facts["JobState"] for facts in self.facts(job)]
 
     def hurry(self, job):
-        """A requeued job may begin now: Slurm would have it wait for two minutes."""
+        """A requeued job may begin soon: Slurm would have it wait for two minutes. Not at once, or a node that still ends the job's life
+        before refuses the next one, and the job is FAILED ("Job credential revoked")."""
         for facts in self.facts(job):
-            if facts.get("Reason") == "BeginTime":
-                self.run("scontrol", "update", f"jobid={facts['JobId']}", "starttime=now", check=False)
+            if facts.get("Reason") != "BeginTime":
+                continue
+            begin = time.mktime(time.strptime(facts["EligibleTime"], "%Y-%m-%dT%H:%M:%S"))
+            if begin - time.time() > 2 * SOON:
+                self.run("scontrol", "update", f"jobid={facts['JobId']}", f"starttime=now+{SOON}", check=False)
 
     def wait(self, job, seconds, states=("COMPLETED", "FAILED", "CANCELLED", "TIMEOUT", "NODE_FAIL", "OUT_OF_MEMORY")):
         """Waits until each of a job's tasks is in one of these states; returns them, None where that takes longer."""

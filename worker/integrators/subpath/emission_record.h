@@ -25,8 +25,6 @@ class EmissionRecord {
         sums_.squares.assign(choice.size(), 0);
     }
 
-    bool learns() const { return learns_; }
-
     /// A path that starts there.
     void start(std::uint32_t entry) {
         if (learns_) ++sums_.paths[entry];
