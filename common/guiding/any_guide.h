@@ -39,8 +39,7 @@ class AnyModel {
   public:
     AnyModel() = default;
     template <class M>
-    requires std::derived_from<std::remove_cvref_t<M>, RegionModel>
-    // NOLINTNEXTLINE(bugprone-forwarding-reference-overload): no model is an AnyModel
+    requires std::derived_from<std::remove_cvref_t<M>, RegionModel>  // so never an AnyModel: NOLINTNEXTLINE
     AnyModel(M&& model) : model_(std::forward<M>(model)) {}
 
     static AnyModel first(GuideKind kind, const Box3& bounds, const FirstModel& settings);
@@ -97,8 +96,7 @@ class AnySampler {
   public:
     explicit AnySampler(const AnyModel& model);
     template <class S>
-    requires std::derived_from<std::remove_cvref_t<S>, RegionSampler>
-    // NOLINTNEXTLINE(bugprone-forwarding-reference-overload): no sampler is an AnySampler
+    requires std::derived_from<std::remove_cvref_t<S>, RegionSampler>  // so never an AnySampler: NOLINTNEXTLINE
     AnySampler(S&& sampler) : sampler_(std::forward<S>(sampler)) {}
 
     GuideKind kind() const { return static_cast<GuideKind>(sampler_.index()); }

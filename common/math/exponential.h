@@ -32,7 +32,7 @@ inline float minus_log(float x) {
     // x = 2^e m with m in [sqrt(1/2), sqrt(2)), and ln m = 2 artanh((m - 1) / (m + 1)).
     const auto shifted = std::bit_cast<std::uint32_t>(x) - 0x3f3504f3u;
     const auto exponent = static_cast<float>(static_cast<std::int32_t>(shifted) >> 23);
-    const float m = std::bit_cast<float>((shifted & 0x007fffffu) + 0x3f3504f3u);
+    const auto m = std::bit_cast<float>((shifted & 0x007fffffu) + 0x3f3504f3u);
     const float s = (m - 1.0f) / (m + 1.0f), s2 = s * s;
     const float log_m =
         2.0f * s * (1.0f + s2 * (3.33333333e-1f + s2 * (0.2f + s2 * (1.42857143e-1f + s2 * 1.11111111e-1f))));

@@ -28,7 +28,7 @@ Hit uniform_point(const EmbreeScene& geometry, std::uint32_t shape, const Vec2& 
         const Vec2 d = square_to_disk(u);
         return geometry.disk_point(shape, d.x, d.y);
     }
-    const Cylinder& c = std::get<Cylinder>(kind);
+    const auto& c = std::get<Cylinder>(kind);
     const SinCos turn = sincos_turn(u.y);
     const Vec3 side = cross(normalize(c.p1 - c.p0), c.meridian);
     return geometry.cylinder_point(shape, u.x, c.meridian * turn.cos + side * turn.sin);

@@ -88,7 +88,7 @@ void Emitters::select(std::vector<double> power, LightSelection how) {
         select_by_place(power, how);
     else
         choice_ = LightChoice(how, power, {});
-    const std::uint32_t others = static_cast<std::uint32_t>(delta_lights_.size());
+    const auto others = static_cast<std::uint32_t>(delta_lights_.size());
     environments_.choose(area_entries_ + others,
                          [&](std::uint32_t entry) { return selection_.probability(entry - area_entries_ + next); });
 }

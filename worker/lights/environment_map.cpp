@@ -24,7 +24,7 @@ bool apportion(const std::vector<double>& weights, std::uint32_t* begin) {
         total += w;
         positive += w > 0;
     }
-    const double spare = double(kTotal - positive);
+    const auto spare = double(kTotal - positive);
     double sum = 0;
     std::uint32_t before = 0;
     for (std::size_t i = 0; i < weights.size(); ++i) {
@@ -143,7 +143,7 @@ void EnvironmentMap::add_part(const EnvironmentPart& texels, double whole, const
     for (std::size_t row = 0; row < rows; ++row) {
         if (!(weights[row] > 0)) continue;
         const int y = texels.y0 + static_cast<int>(row);
-        const double columns = double(part.rows[row].end - part.rows[row].begin);
+        const auto columns = double(part.rows[row].end - part.rows[row].begin);
         const double probability = double(part.row_begin[row + 1] - part.row_begin[row]) / double(kTotal);
         part.rows[row].density = static_cast<float>(probability / columns * (on_pole(y) ? 2.0 : 1.0));
     }

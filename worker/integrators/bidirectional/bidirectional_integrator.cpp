@@ -19,8 +19,9 @@
 namespace treefarm {
 
 RenderUnit prepare_bidirectional(std::shared_ptr<const TraceScene> scene, const Resolved& job) {
-    return [sensor = Sensor(scene->camera().camera(), scene->film()), scene = std::move(scene), job](
-               const PassPlan& pass, const AnySampler&, const WorkUnit& unit, UnitOutput& output) {
+    const Sensor sensor(scene->camera().camera(), scene->film());
+    return [sensor, scene = std::move(scene), job](const PassPlan& pass, const AnySampler&, const WorkUnit& unit,
+                                                   UnitOutput& output) {
         with_surface(*scene, [&]<class Surface>() {
             const EmissionChoice choice = scene->emitters().emission_choice(pass.emission);
             EmissionRecord record(choice, job.learns_emission, pass, output.stats.emission);

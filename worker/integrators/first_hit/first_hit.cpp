@@ -29,11 +29,9 @@ BsdfRandom albedo_point(std::uint32_t i) {
 template <class Surface>
 Rgb albedo_of(const Surface& surface) {
     if (surface.black()) return Rgb(0.0f);
-    std::uint32_t count = kAlbedoSamples;
-    if constexpr (!Surface::kGeneral)
-        count = 1;
-    else if (std::holds_alternative<DiffuseBsdf>(surface.bsdf().kind))
-        count = 1;
+    bool diffuse = true;
+    if constexpr (Surface::kGeneral) diffuse = std::holds_alternative<DiffuseBsdf>(surface.bsdf().kind);
+    const std::uint32_t count = diffuse ? 1 : kAlbedoSamples;
     Rgb sum(0.0f);
     for (std::uint32_t i = 0; i < count; ++i) {
         const BsdfSample s = surface.bsdf().sample(surface.wo(), albedo_point(i));

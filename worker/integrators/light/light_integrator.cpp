@@ -187,8 +187,9 @@ class LightTracer {
 }  // namespace
 
 RenderUnit prepare_light(std::shared_ptr<const TraceScene> scene, const Resolved& job) {
-    return [sensor = Sensor(scene->camera().camera(), scene->film()), scene = std::move(scene), job](
-               const PassPlan& pass, const AnySampler&, const WorkUnit& unit, UnitOutput& output) {
+    const Sensor sensor(scene->camera().camera(), scene->film());
+    return [sensor, scene = std::move(scene), job](const PassPlan& pass, const AnySampler&, const WorkUnit& unit,
+                                                   UnitOutput& output) {
         const double start = thread_cpu_seconds();
         const EmissionChoice choice = scene->emitters().emission_choice(pass.emission);
         EmissionRecord record(choice, job.learns_emission, pass, output.stats.emission);

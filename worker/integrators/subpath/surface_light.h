@@ -27,7 +27,7 @@ inline Rgb emitted(const Emitters& emitters, const Ray& ray, const Hit* arrival)
 /// A point of a surface that light of emitters is wanted at.
 template <class Surface>
 LightReceiver receiver_at(const Hit& hit, const Surface& surface) {
-    const Vec3 front = surface.front();
+    const Vec3& front = surface.front();
     return {hit.p, nullptr, surface.transmits() ? nullptr : &front};
 }
 
