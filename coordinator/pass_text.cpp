@@ -37,10 +37,11 @@ std::string guiding_text(Guiding verdict, const GuidingWorth& w) {
 std::string next_event_text(const PassReport& r) {
     const NextEventVerdict& verdict = r.refine.next_event;
     if (verdict.saved > 0.98) return "";
-    return fmt::format(
-        "; next event at one vertex in 16 for {:.0f} % of them, where it finds nearly nothing, which saves about "
-        "{:.0f} % of the work",
-        100 * verdict.low, 100 * (1 - verdict.saved));
+    const std::string where =
+        verdict.low < 0.005
+            ? "more rarely where it finds little"
+            : fmt::format("at one vertex in 16 for {:.0f} % of them, where it finds nearly nothing", 100 * verdict.low);
+    return fmt::format("; next event {}, which saves about {:.0f} % of the work", where, 100 * (1 - verdict.saved));
 }
 
 /// What is decided on light subpaths, and why.

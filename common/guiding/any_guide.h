@@ -39,8 +39,9 @@ class AnyModel {
   public:
     AnyModel() = default;
     template <class M>
-    requires std::derived_from<std::remove_cvref_t<M>, RegionModel> AnyModel(M&& model)
-        : model_(std::forward<M>(model)) {}
+    requires std::derived_from<std::remove_cvref_t<M>, RegionModel>
+    // NOLINTNEXTLINE(bugprone-forwarding-reference-overload): no model is an AnyModel
+    AnyModel(M&& model) : model_(std::forward<M>(model)) {}
 
     static AnyModel first(GuideKind kind, const Box3& bounds, const FirstModel& settings);
     /// By the guide whose magic the bytes begin with; FormatError if there is none, or they are not a model of it.
@@ -96,8 +97,9 @@ class AnySampler {
   public:
     explicit AnySampler(const AnyModel& model);
     template <class S>
-    requires std::derived_from<std::remove_cvref_t<S>, RegionSampler> AnySampler(S&& sampler)
-        : sampler_(std::forward<S>(sampler)) {}
+    requires std::derived_from<std::remove_cvref_t<S>, RegionSampler>
+    // NOLINTNEXTLINE(bugprone-forwarding-reference-overload): no sampler is an AnySampler
+    AnySampler(S&& sampler) : sampler_(std::forward<S>(sampler)) {}
 
     GuideKind kind() const { return static_cast<GuideKind>(sampler_.index()); }
     const RegionSampler& regions() const {

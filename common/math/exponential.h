@@ -30,7 +30,7 @@ inline float one_minus_exp_negative(float x) {
 /// -ln(x) for normal x in (0, 1], absolute error below 3e-7 of the larger of 1 and the result.
 inline float minus_log(float x) {
     // x = 2^e m with m in [sqrt(1/2), sqrt(2)), and ln m = 2 artanh((m - 1) / (m + 1)).
-    const std::uint32_t shifted = std::bit_cast<std::uint32_t>(x) - 0x3f3504f3u;
+    const auto shifted = std::bit_cast<std::uint32_t>(x) - 0x3f3504f3u;
     const auto exponent = static_cast<float>(static_cast<std::int32_t>(shifted) >> 23);
     const float m = std::bit_cast<float>((shifted & 0x007fffffu) + 0x3f3504f3u);
     const float s = (m - 1.0f) / (m + 1.0f), s2 = s * s;

@@ -49,7 +49,7 @@ inline void add_rounded(NextEventSums& sums, std::size_t sum, double value, std:
 inline void add_direct_light(NextEventSums& sums, float relative, float scatter_pdf, float light_pdf, float n,
                              std::uint32_t random) {
     const double square = static_cast<double>(relative) * static_cast<double>(relative);
-    const double s = static_cast<double>(scatter_pdf), l = static_cast<double>(light_pdf);
+    const auto s = static_cast<double>(scatter_pdf), l = static_cast<double>(light_pdf);
     const double density = s + static_cast<double>(n) * l;
     if (!(square > 0.0 && density > 0.0 && std::isfinite(square) && std::isfinite(density))) return;
     double first = 0, last = 0;

@@ -55,7 +55,8 @@ void set_guiding(PassPlan& pass, const Resolved& job, Guiding guiding) {
 
 Guiding judge_guiding(const PassPlan& pass, const GuidingWorth& worth, double mistrust) {
     const auto& policy = kPolicy.guiding;
-    if (!(worth.worth > 0) || pass.spp < policy.least_judged_spp || worth.known < policy.least_known) return Guiding::open;
+    if (!(worth.worth > 0) || pass.spp < policy.least_judged_spp || worth.known < policy.least_known)
+        return Guiding::open;
     const double bar = pass.spp < policy.least_settled_spp ? policy.giving_up_early : policy.giving_up;
     const double most = worth.worth * mistrust * std::exp(policy.giving_up_errors * worth.error);
     return most < bar ? Guiding::loses : Guiding::open;

@@ -27,7 +27,7 @@ Scene plates_under(std::size_t lamp) {
     return scene;
 }
 
-/// Of each plate under a lamp, means over its pixels.
+/// Means over the pixels of each plate, under one lamp.
 struct Cells {
     Row variance{};  ///< of a sample, which is its squared error: samples are unbiased
     Row square{};    ///< of the light

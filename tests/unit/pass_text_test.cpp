@@ -123,6 +123,9 @@ TEST(PassText, NextEventIsSpokenOfWhereItIsSaved) {
     EXPECT_NE(pass_summary(report, 7).find("; next event at one vertex in 16 for 62 % of them, where it finds nearly "
                                            "nothing, which saves about 31 % of the work"),
               std::string::npos);
+    report.refine.next_event = {0.8, 0};
+    EXPECT_NE(pass_summary(report, 7).find("; next event more rarely where it finds little, which saves about 20 % of"),
+              std::string::npos);
 }
 
 TEST(PassText, TheSummaryEndsInWhatIsLeftToDo) {

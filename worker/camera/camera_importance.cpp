@@ -104,7 +104,7 @@ bool PixelPicker::reaches(double x, double y) const {
 }
 
 PixelPicker::Axis PixelPicker::pick_along(double x, int begin, int end, std::uint32_t random) const {
-    const double radius = double(filter_.radius());
+    const auto radius = double(filter_.radius());
     // As many as the filter is wide; comparing first spares huge positions the way through int.
     const double lowest = std::max(std::floor(x - 0.5 - radius), double(begin)),
                  highest = std::min(std::ceil(x - 0.5 + radius), double(end - 1));

@@ -85,7 +85,7 @@ float FilterSampler::sample(std::uint32_t random) const {
         magnitude = radius_ * (1.0f - std::sqrt(rest));
     } else {
         const std::uint32_t bin = bin_of(bits);
-        const float begin = static_cast<float>(cumulative_[bin]), end = static_cast<float>(cumulative_[bin + 1]);
+        const auto begin = static_cast<float>(cumulative_[bin]), end = static_cast<float>(cumulative_[bin + 1]);
         const float within = end > begin ? (static_cast<float>(bits) - begin) / (end - begin) : 0.5f;
         magnitude = radius_ / static_cast<float>(kBins) * (static_cast<float>(bin) + std::clamp(within, 0.0f, 1.0f));
     }

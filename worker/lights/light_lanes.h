@@ -143,8 +143,8 @@ struct LightWidths {
     int pick(std::uint32_t bits) const {
         std::uint32_t end = 0;
         int lane = 0;
-        for (int k = 0; k < LightLanes::kCount; ++k) {
-            end += static_cast<std::uint32_t>(of[k]);
+        for (const auto part : of) {
+            end += static_cast<std::uint32_t>(part);
             lane += end <= bits;
         }
         return lane;

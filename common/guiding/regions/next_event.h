@@ -14,7 +14,7 @@
 namespace treefarm {
 
 /// The decision how often next event samples an emitter at a vertex: n of kNextEventSamples, for each region, or for a
-/// whole image that nothing guides (docs/design/guiding.md, "How often next event is asked").
+/// whole image that nothing guides (docs/design/guiding.md, "How often next event samples an emitter").
 
 /// Sums of several passes in doubles; older ones count half as much with each.
 using NextEventEvidence = std::array<double, kNextEventSums>;

@@ -106,7 +106,7 @@ class PathKernel {
             }
             return others;
         };
-        while (begun < count) {
+        while (begun < count) {  // NOLINT(bugprone-infinite-loop): fill() counts
             const std::uint32_t first = fill(std::span(slots_).first(batch()));
             walk_.walk(std::span(slots_).first(first), [&](std::span<const std::uint8_t> ended) {
                 for (const std::uint8_t slot : ended)
