@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <compare>
 #include <cstdint>
 #include <string>
 
@@ -26,7 +25,7 @@ struct LightOrigin {
     LightWay way = LightWay::diffuse;
     std::uint8_t vertices = 0;  ///< surfaces of the path, the emitter included; 255: as many or more
 
-    auto operator<=>(const LightOrigin&) const = default;
+    bool operator==(const LightOrigin&) const = default;
 };
 
 /// Whether it is one of those above: a message may say anything.

@@ -10,8 +10,7 @@
 namespace treefarm {
 
 bool comes_before(const TailSample& a, const TailSample& b) {
-    return std::tuple(b.noise, a.pass, a.y, a.x, a.sample, a.origin) <
-           std::tuple(a.noise, b.pass, b.y, b.x, b.sample, b.origin);
+    return std::tuple(b.noise, a.pass, a.y, a.x, a.sample) < std::tuple(a.noise, b.pass, b.y, b.x, b.sample);
 }
 
 float outlier_noise(const Rgb& value, const Moments& pixel, std::uint32_t spp) {

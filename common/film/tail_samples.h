@@ -21,7 +21,7 @@ struct TailSample {
     bool operator==(const TailSample&) const = default;
 };
 
-/// A total order: more noise first, then by place.
+/// A total order of samples: more noise first, then by place.
 bool comes_before(const TailSample& a, const TailSample& b);
 
 /// Noise of the largest sample of a pixel that has `spp` in the pass; `pixel` are those that are known. 0 unless it is
