@@ -80,6 +80,17 @@ void Collector::check_stats(const Result& result) const {
     for (const InvalidSample& sample : s.first_invalid)
         if (sample.pass != plan_.index || sample.x >= width_ || sample.y >= height_ || sample.sample >= plan_.spp)
             throw FormatError("an invalid sample outside the film");
+    check_tails(s.tails);
+}
+
+void Collector::check_tails(const TailSamples& tails) const {
+    if (tails.worst.size() > TailSamples::kMost) throw FormatError("more samples of much noise than are reported");
+    for (const TailSample& sample : tails.worst)
+        if (!(sample.noise > 0) || !std::isfinite(sample.noise) || sample.pass != plan_.index || sample.x >= width_ ||
+            sample.y >= height_ || sample.sample >= plan_.spp)
+            throw FormatError("a sample of much noise that cannot be");
+    if (!std::is_sorted(tails.worst.begin(), tails.worst.end(), comes_before))
+        throw FormatError("samples of much noise that are not sorted by it");
 }
 
 void Collector::check_splats(const Result& result) const {

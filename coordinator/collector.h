@@ -57,6 +57,7 @@ class Collector {
     // Throw FormatError where a result cannot be: what is merged cannot be taken out again.
     void check_pixels(const UnitResult& result) const;
     void check_stats(const Result& result) const;
+    void check_tails(const TailSamples& tails) const;
     void check_splats(const Result& result) const;
     std::uint32_t unit_samples(const WorkUnit& unit) const;  ///< of a pixel in a tile
 

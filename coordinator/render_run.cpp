@@ -16,6 +16,7 @@
 #include "coordinator/guest_door.h"
 #include "coordinator/memory_check.h"
 #include "coordinator/pass_text.h"
+#include "coordinator/tail_report.h"
 
 namespace treefarm {
 
@@ -272,6 +273,8 @@ class RenderRun {
         if (last.error.rmse > 0 && std::isfinite(last.halving.seconds))
             log_->info("half this error ({:.3g} %) would take {}{} more, {:.0f} spp", 100 * last.halving.relative_error,
                        trust_words(last.halving.trust), rough_duration_text(last.halving.seconds), last.halving.spp);
+        if (const TailReport tails = tail_report(*result_.image, result_.passes); tails.stands_out)
+            log_->info("{}", tail_text(tails, request_.debug_command, replay_options()));
         log_->info("{}", join_fields({fmt::format("{} spp", result_.spp), duration_text(last.run_seconds),
                                       brief_error_text(last.error), "image " + hash_text(result_.image_hash),
                                       image_file().string()}));

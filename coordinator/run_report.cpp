@@ -9,6 +9,7 @@
 #include "common/base/hash.h"
 #include "common/base/host.h"
 #include "common/plan/plan_text.h"
+#include "coordinator/tail_report.h"
 
 namespace treefarm {
 
@@ -170,6 +171,21 @@ Json farm_json(const Farm& farm, const PassReport* last) {
             {"bad_messages", farm.bad_messages()}};
 }
 
+/// Adds who carries the noise; nulls where none is known.
+void add_tails(Json& summary, const TailReport& tails) {
+    summary["tail_share"] = tails.share ? Json(*tails.share) : Json();
+    summary["tail_origin"] = tails.origin.empty() ? Json() : Json(tails.origin);
+    summary["tail_worst"] = Json::array();
+    for (const TailSample& sample : tails.worst.worst)
+        summary["tail_worst"].push_back({{"pass", sample.pass},
+                                         {"x", sample.x},
+                                         {"y", sample.y},
+                                         {"sample", sample.sample},
+                                         {"noise", sample.noise},
+                                         {"vertices", sample.origin.vertices},
+                                         {"origin", words(sample.origin)}});
+}
+
 /// Place of the image on the whole film; null if it is that.
 Json crop_json(const CropWindow& crop) {
     if (!crop.is_window()) return {};
@@ -244,6 +260,7 @@ std::string summary_json(const Job& job, const RunFacts& facts, const RenderResu
                     {"image_error", result.passes.empty() ? Json() : error_json(result.passes.back().error)},
                     {"halving", result.passes.empty() ? Json() : forecast_json(result.passes.back().halving)},
                     {"pass_weights", result.image->weight}};
+    add_tails(summary, tail_report(*result.image, result.passes));
     if (job.budget.error > 0 && !result.passes.empty())
         summary["target"] = {{"relative_error", job.budget.error},
                              {"reached", !misses_target(job, result.passes.back().error)}};

@@ -49,6 +49,7 @@ void TraceStats::add(const TraceStats& other) {
     emission.add(other.emission);
     for (const InvalidSample& sample : other.first_invalid)
         if (first_invalid.size() < kMaxReported) first_invalid.push_back(sample);
+    tails.add(other.tails);
     trace_seconds += other.trace_seconds;
     splat_seconds += other.splat_seconds;
     for (std::size_t i = 0; i < kTracePhases; ++i)

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "common/film/guiding_worth.h"
+#include "common/film/tail_samples.h"
 #include "common/math/next_event_sums.h"
 
 namespace treefarm {
@@ -73,6 +74,7 @@ struct TraceStats {
     LightSubpathSums light_subpaths;
     EmissionSums emission;
     std::vector<InvalidSample> first_invalid;          ///< at most kMaxReported of them, to reproduce
+    TailSamples tails;                                 ///< of the path integrator: at most one of a unit
     double trace_seconds = 0;                          ///< thread-seconds in the tile renderer
     double splat_seconds = 0;                          ///< thread-seconds adding records to the tree's sums
     std::array<double, kTracePhases> phase_seconds{};  ///< of trace_seconds; zeros where not timed

@@ -126,6 +126,14 @@ struct Policy {
         int trees_at_rest = 3;
         double recording_share = 0.12;
     } forecast;
+
+    /// What is told of few samples that carry much of an image's noise.
+    struct Tails {
+        double outlier = 0.25;
+        double noise_part = 0.4;
+        double told_share = 0.001;
+        std::uint32_t least_pixels = 4096;
+    } tails;
 };
 
 inline constexpr Policy kPolicy{};

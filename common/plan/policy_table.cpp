@@ -39,6 +39,7 @@ constexpr Policy::Learning kLearning = kPolicy.learning;
 constexpr Policy::Schedule kSchedule = kPolicy.schedule;
 constexpr Policy::Budget kBudget = kPolicy.budget;
 constexpr Policy::Forecast kForecast = kPolicy.forecast;
+constexpr Policy::Tails kTails = kPolicy.tails;
 
 template <class Number>
 constexpr PolicyEntry entry(const char* name, Number value, const char* meaning, const char* evidence) {
@@ -200,6 +201,12 @@ constexpr std::array kEntries = {
           "so many trees that are no better than each other have learned all", kError),
     entry("forecast.recording_share", kForecast.recording_share,
           "what keeping records takes of tracing; 6 to 23 % on eight scenes", kError),
+    entry("tails.outlier", kTails.outlier,
+          "a sample is remembered by name where it alone is so much of its pixel's variance", kGuess),
+    entry("tails.noise_part", kTails.noise_part, "of an image's noise, by the fewest pixels that carry it", kGuess),
+    entry("tails.told_share", kTails.told_share, "it is said at the end where they are a smaller share of all pixels",
+          kGuess),
+    entry("tails.least_pixels", kTails.least_pixels, "but not of smaller images", kGuess),
 };
 
 /// Work over that with the constant as it is, in the mean over six scenes: where it was measured.

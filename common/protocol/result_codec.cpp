@@ -110,9 +110,34 @@ void write_stats(ByteWriter& writer, const TraceStats& s) {
         for (const float value : sample.rgb)
             writer.put(value);
     }
+    writer.put_varint(s.tails.worst.size());
+    for (const TailSample& sample : s.tails.worst) {
+        writer.put(sample.noise);
+        writer.put(sample.pass);
+        writer.put(sample.x);
+        writer.put(sample.y);
+        writer.put(sample.sample);
+        writer.put(static_cast<std::uint8_t>(sample.origin.found));
+        writer.put(static_cast<std::uint8_t>(sample.origin.way));
+        writer.put(sample.origin.vertices);
+    }
 }
 
-constexpr std::size_t kInvalidSampleBytes = 24;
+constexpr std::size_t kInvalidSampleBytes = 24, kTailSampleBytes = 19;
+
+TailSample read_tail(ByteReader& reader) {
+    TailSample sample;
+    sample.noise = reader.get<float>();
+    sample.pass = reader.get<std::uint32_t>();
+    sample.x = reader.get<std::uint16_t>();
+    sample.y = reader.get<std::uint16_t>();
+    sample.sample = reader.get<std::uint32_t>();
+    sample.origin.found = static_cast<LightFound>(reader.get<std::uint8_t>());
+    sample.origin.way = static_cast<LightWay>(reader.get<std::uint8_t>());
+    sample.origin.vertices = reader.get<std::uint8_t>();
+    if (!is_known(sample.origin)) throw FormatError("light that comes from nowhere");
+    return sample;
+}
 
 TraceStats read_stats(ByteReader& reader) {
     TraceStats s;
@@ -148,13 +173,17 @@ TraceStats read_stats(ByteReader& reader) {
             value = reader.get<float>();
         s.first_invalid.push_back(sample);
     }
+    const std::size_t tails = reader.get_count(kTailSampleBytes);
+    for (std::size_t i = 0; i < tails; ++i)
+        s.tails.worst.push_back(read_tail(reader));
     return s;
 }
 
 /// Bytes of a result, or a little more.
 std::size_t size_bound(const Result& result) {
     constexpr std::size_t kMostVarint = 10, kMostStats = 512;
-    std::size_t bytes = kMostStats + kInvalidSampleBytes * result.stats.first_invalid.size() + result.update.size() +
+    std::size_t bytes = kMostStats + kInvalidSampleBytes * result.stats.first_invalid.size() +
+                        kTailSampleBytes * result.stats.tails.worst.size() + result.update.size() +
                         result.splats.size();
     for (const UnitResult& unit : result.units)
         bytes += kMostUnitBytes + 2 * sizeof(std::uint32_t) + 2 + 3 * kMostVarint +

@@ -111,10 +111,15 @@ void serialize(Archive& a, InvalidSample& s) {
 }
 
 template <class Archive>
+void serialize(Archive& a, TailSample& s) {
+    a(s.noise, s.pass, s.x, s.y, s.sample, s.origin.found, s.origin.way, s.origin.vertices);
+}
+
+template <class Archive>
 void serialize(Archive& a, TraceStats& s) {
     a(s.paths, s.nonzero_paths, s.rays, s.shadow_rays, s.vertices, s.records, s.split_path_rays, s.invalid_samples,
       s.next_event, s.unguided.guided, s.unguided.unguided, s.unguided.cost, s.splitting, s.light_subpaths, s.emission,
-      s.first_invalid, s.trace_seconds, s.splat_seconds, s.phase_seconds);
+      s.first_invalid, s.tails.worst, s.trace_seconds, s.splat_seconds, s.phase_seconds);
 }
 
 template <class Archive>
@@ -198,8 +203,7 @@ constexpr std::uint32_t kOrigin = section_tag("IDNT"), kHistory = section_tag("F
                         kBegunSums = section_tag("PSUM");
 
 constexpr std::uint32_t version_of(std::uint32_t tag) {
-    if (tag == kHistory) return 4;
-    if (tag == kReports || tag == kBegun) return 3;
+    if (tag == kHistory || tag == kReports || tag == kBegun) return 4;
     return tag == kLearner ? 2 : 1;
 }
 

@@ -77,6 +77,30 @@ INSTANTIATE_TEST_SUITE_P(
             [](Result& r) {
                 r.stats.first_invalid.resize(5000, {r.pass, 0, 0, 0, {0, 0, 0}});
             }},
+        Lie{"noise that is no number",
+            [](Result& r) {
+                r.stats.tails.worst = {{kNan, r.pass, 0, 0, 0, {}}};
+            }},
+        Lie{"no noise",
+            [](Result& r) {
+                r.stats.tails.worst = {{0, r.pass, 0, 0, 0, {}}};
+            }},
+        Lie{"a noisy sample outside the film",
+            [](Result& r) {
+                r.stats.tails.worst = {{1, r.pass, 0, 60000, 0, {}}};
+            }},
+        Lie{"a noisy sample of another pass",
+            [](Result& r) {
+                r.stats.tails.worst = {{1, r.pass + 1, 0, 0, 0, {}}};
+            }},
+        Lie{"noisy samples in disorder",
+            [](Result& r) {
+                r.stats.tails.worst = {{1, r.pass, 0, 0, 0, {}}, {2, r.pass, 0, 0, 0, {}}};
+            }},
+        Lie{"too many noisy samples",
+            [](Result& r) {
+                r.stats.tails.worst.assign(9, {1, r.pass, 0, 0, 0, {}});
+            }},
         Lie{"work of another pass", [](Result& r) { r.pass += 1; }}),
     [](const auto& info) { return "Lie" + std::to_string(info.index); });
 

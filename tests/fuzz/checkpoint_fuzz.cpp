@@ -29,6 +29,7 @@ RenderState small_state() {
     report.plan.spp = 4;
     report.seconds.worker = {{1, 0.5}, {2, 0.25}};
     report.stats.first_invalid.push_back({});
+    report.stats.tails.add({2.5f, 0, 1, 0, 3, {LightFound::sampled, LightWay::mirror, 4}});
     state.reports.push_back(report);
     BegunPass begun;
     begun.plan.index = 1;

@@ -97,6 +97,13 @@ Result any_result(Script& script, const Known& known) {
         *counter = script.number();
     s.trace_seconds = any_value(script);
     s.splat_seconds = any_value(script);
+    for (std::uint32_t count = script.below(4); count > 0; --count)
+        s.tails.worst.push_back({static_cast<float>(script.below(3)),
+                                 result.pass,
+                                 static_cast<std::uint16_t>(script.below(9)),
+                                 0,
+                                 script.below(4),
+                                 {static_cast<LightFound>(script.below(5)), LightWay::diffuse, 1}});
     s.paths = std::numeric_limits<std::uint64_t>::max();  // what can be seen to be wrong
     return result;
 }

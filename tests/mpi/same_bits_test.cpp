@@ -17,11 +17,12 @@ constexpr const char* kAovs =
 
 struct Hashes {
     std::string image, tree, aovs;
+    std::string worst{};  ///< the sample of the most noise, with where its light comes from
     bool operator==(const Hashes&) const = default;
 };
 
 std::ostream& operator<<(std::ostream& out, const Hashes& h) {
-    return out << "image " << h.image << " tree " << h.tree << " AOVs " << h.aovs;
+    return out << "image " << h.image << " tree " << h.tree << " AOVs " << h.aovs << " worst sample " << h.worst;
 }
 
 /// `options` begin with the scene. `learns`: the render is to have a tree. `thins`: and vertices without next event.
@@ -45,9 +46,11 @@ Hashes render_scene(const std::vector<std::string>& launcher, const std::vector<
         EXPECT_LT(summary["passes"].back()["next_event_n"], 0.9) << "the test must exercise learned next event";
     }
     std::filesystem::remove_all(folder);
-    if (*aovs == '\0') return {summary["image_hash"], summary["tree_hash"], ""};
+    const nlohmann::json& tails = summary["tail_worst"];
+    const std::string worst = tails.empty() ? "" : tails[0].dump();
+    if (*aovs == '\0') return {summary["image_hash"], summary["tree_hash"], "", worst};
     EXPECT_NE(summary["aov_hash"], "");
-    return {summary["image_hash"], summary["tree_hash"], summary["aov_hash"]};
+    return {summary["image_hash"], summary["tree_hash"], summary["aov_hash"], worst};
 }
 
 Hashes render(const std::vector<std::string>& launcher, const std::vector<std::string>& options) {

@@ -116,6 +116,7 @@ TEST_F(Checkpoints, WhatDecidesOnGuidingAndNextEventIsKept) {
     state.reports.back().guiding_worth = state.guiding_memory.last;
     state.reports.back().refine.next_event = {0.5, 0.25};
     state.reports.back().stats.next_event = sums;
+    state.reports.back().stats.tails.add({2.5f, 1, 3, 4, 5, {LightFound::sampled, LightWay::glossy, 3}});
     write(store, state);
     RenderState back = load().state;
     EXPECT_EQ(back.history.guiding, Guiding::loses);
@@ -126,6 +127,7 @@ TEST_F(Checkpoints, WhatDecidesOnGuidingAndNextEventIsKept) {
     EXPECT_EQ(back.reports.back().guiding_worth.error, 0.25);
     EXPECT_EQ(back.reports.back().refine.next_event.low, 0.25);
     EXPECT_EQ(back.reports.back().stats.next_event, sums);
+    EXPECT_EQ(back.reports.back().stats.tails, state.reports.back().stats.tails);
     const NextEventSums later = {4000, 4000, 4000, 50 << 16, 90 << 16, 400 << 16, 0};
     std::uint8_t here = code, there = code;
     const NextEventVerdict one = state.image_next_event.learn(later, price, here),

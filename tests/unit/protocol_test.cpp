@@ -22,6 +22,8 @@ Result sample_result() {
     result.stats.unguided.unguided[0] = 12;
     result.stats.unguided.cost = 13;
     result.stats.first_invalid.push_back({3, 1, 2, 5, {0, 1, 2}});
+    result.stats.tails.worst = {{2.5f, 3, 1, 2, 5, {LightFound::sky_met, LightWay::rough_glass, 7}},
+                                {0.5f, 3, 0, 1, 6, {}}};
     for (std::uint16_t k = 0; k < 2; ++k) {
         UnitResult unit;
         unit.unit = {3, static_cast<std::uint16_t>(2 * k), 0, static_cast<std::uint16_t>(2 * k + 2), 3, k};
@@ -131,6 +133,7 @@ TEST(Protocol, FieldsArriveAsTheyWereSent) {
     EXPECT_EQ(got.stats.splitting.unsplit_variance, std::uint64_t{1} << 63);
     ASSERT_EQ(got.stats.first_invalid.size(), 1u);
     EXPECT_EQ(got.stats.first_invalid[0].sample, 5u);
+    EXPECT_EQ(got.stats.tails, sent.stats.tails);
     EXPECT_EQ(got.splats, sent.splats);
     ASSERT_EQ(got.units.size(), 5u);
     for (std::size_t k = 0; k < got.units.size(); ++k) {
@@ -259,6 +262,14 @@ TEST(Protocol, UnitsThatDifferInTheirSamplesAreAnError) {
     Result result = sample_result();
     result.units[0].pixels[3].add(3, Rgb(0.0f));
     EXPECT_THROW(encode(result), RunError);
+}
+
+TEST(Protocol, LightOfUnknownOriginIsRefused) {
+    Result result = sample_result();
+    result.stats.tails.worst[0].origin.way = static_cast<LightWay>(5);
+    EXPECT_THROW(decode(encode(result)), FormatError);
+    result.stats.tails.worst[0].origin = {static_cast<LightFound>(4), LightWay::mirror, 2};
+    EXPECT_THROW(decode(encode(result)), FormatError);
 }
 
 TEST(Fingerprint, IsStableAndSensitive) {

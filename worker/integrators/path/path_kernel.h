@@ -79,7 +79,10 @@ class PathKernel {
     static constexpr bool kRefills = !kGuided;
 
     /// How many walk together: guided ones without next event are slower by whole batches.
-    std::uint32_t batch() const { return kGuided && !walk_.settings().next_event ? kBatch / 2 : kBatch; }
+    std::uint32_t batch() const {
+        if constexpr (Observer::kOneByOne) return 1;
+        return kGuided && !walk_.settings().next_event ? kBatch / 2 : kBatch;
+    }
 
     /// State from which splitting goes on at the other way of a camera path.
     struct SplittingState {

@@ -7,16 +7,19 @@
 
 namespace treefarm {
 
-/// Watches nothing, at no cost. describe_sample() passes one that writes.
+/// Watches nothing, at no cost. observe_sample() passes one that tells.
 struct NoObserver {
+    static constexpr bool kOneByOne = false;  ///< whether a kernel has one path walk after the other
+
     void camera(const Ray&) {}
     void ray(const Ray&) {}
     void shadow(const Ray&) {}
     void arrive(int, const Hit*) {}
     void emission(const Rgb&, float, float, const Rgb&) {}
-    void scatter(const ScatterSample&, const Rgb&) {}
-    template <class G>
-    void next_event(const PendingLight<G>&, float, float, const Rgb&) {}
+    template <class Surface>
+    void scatter(const Surface&, const ScatterSample&, const Rgb&) {}
+    template <class Surface, class G>
+    void next_event(const Surface&, const PendingLight<G>&, float, float, const Rgb&) {}
     void roulette(float, bool) {}
     void other_way(const Ray&, const Rgb&) {}
     void split(std::uint32_t, const Rgb&) {}

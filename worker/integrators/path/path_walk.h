@@ -265,7 +265,7 @@ class PathWalk {
         if (settings_.strict_normals && dot(surface.ng(), s.world) * s.local.z <= 0.0f) return end("normals disagree");
         path.weight = s.f_cos * (1.0f / s.effective_pdf);
         path.throughput *= path.weight;
-        observer_.scatter(s, path.throughput);
+        observer_.scatter(surface, s, path.throughput);
         path.scatter_pdf = s.pdf;
         if constexpr (kGuided)
             if (settings_.twin) path.follow_twin();
@@ -366,7 +366,7 @@ class PathWalk {
         if constexpr (kGuided)
             if (settings_.twin) path.twin.add(twin_light(light, seen, settings_) * path.inverse_level);
         chances_.found(path, light, seen, carried);
-        observer_.next_event(light, seen.scatter_pdf, seen.weight, carried);
+        observer_.next_event(*path.surface, light, seen.scatter_pdf, seen.weight, carried);
         if constexpr (kRecord)
             record_light(light, seen.reflected, seen.weight, direction, path, guide_, settings_,
                          recorders_[light.from.path]);

@@ -10,6 +10,7 @@
 #include "worker/integrators/path/path_kernel.h"
 #include "worker/integrators/path/path_roulette.h"
 #include "worker/integrators/path/tile_renderer.h"
+#include "worker/integrators/path/worst_sample.h"
 #include "worker/integrators/sample_loop.h"
 
 namespace treefarm {
@@ -24,6 +25,7 @@ struct TileJob {
     std::vector<PixelEstimate>& pixels;
     RecordLog& log;
     TraceStats& stats;
+    WorstSample& worst;
 };
 
 /// An instance of the path kernel.
@@ -42,7 +44,7 @@ std::span<const KernelList> kernels_of(GuideKind kind);
 
 template <GuideWalk G, class Surface, bool kGuided, bool kRecord>
 void render_with(const TileJob& tile) {
-    const auto& [scene, job, pass, any_guide, unit, pixels, log, stats] = tile;
+    const auto& [scene, job, pass, any_guide, unit, pixels, log, stats, worst] = tile;
     const auto& guide = any_guide.template get<typename G::Sampler>();
     const PathSettings settings(scene, job, pass, guide);
     PathKernel<G, Surface, kGuided, kRecord> kernel(scene, guide, settings, stats, &log);
@@ -77,7 +79,9 @@ void render_with(const TileJob& tile) {
             Rgb radiance = kernel.radiance(i);
             refuse_invalid(radiance, unit, end.x, end.y, end.sample, stats);
             if (!is_black(radiance)) ++stats.nonzero_paths;
-            blocks.back().add(key(end).sample, is_signed ? radiance * scene.camera().weight(key(end)) : radiance);
+            const Rgb value = is_signed ? radiance * scene.camera().weight(key(end)) : radiance;
+            blocks.back().add(key(end).sample, value);
+            worst.see(value, end.sample);
             if (kGuided && kRecord && settings.compare_splitting) {
                 const int record = kernel.first_exponent(i) + kMeanRecordBits;
                 const double scale = std::ldexp(1.0, -radiance_exponent(record, settings.target));
@@ -88,8 +92,10 @@ void render_with(const TileJob& tile) {
                     tells.add(static_cast<double>(luminance(radiance) * kernel.inverse_level(i)),
                               static_cast<double>(kernel.unguided(i).moment),
                               static_cast<double>(kernel.unguided(i).cost));
+            const int x = end.x, y = end.y;
             if (end.advance()) {
                 pixels.push_back(reduce_blocks(blocks));
+                worst.finish(pass.index, x, y, pixels.back(), pass.spp);
                 blocks.clear();
             }
         }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/base/error.h"
 #include "common/base/timer.h"
+#include "worker/integrators/path/observe_sample.h"
+#include "worker/integrators/path/origin_finder.h"
 #include "worker/integrators/path/tile_kernel.h"
 
 namespace treefarm {
@@ -13,6 +15,21 @@ const TileKernel& kernel(const KernelChoice& choice, GuideKind guide) {
         for (const TileKernel& kernel : list())
             if (kernel.choice == choice) return kernel;
     throw RunError("the program has no kernel \"" + choice.name() + "\"");
+}
+
+/// Traces a sample once more to see where its light comes from, and reports it. One that does not come out as it did
+/// would be blamed on something else.
+void report(const TailSample& worst, const Rgb& value, const TileJob& tile) {
+    OriginFinder finder;
+    Rgb again = observe_sample(tile.scene, tile.job, tile.pass, tile.guide, worst.x, worst.y, worst.sample, finder);
+    const Film& film = tile.scene.film();
+    if (film.is_signed())
+        again = again * tile.scene.camera().weight({tile.job.sampler.seed, film.key_of(worst.x, worst.y),
+                                                    tile.pass.first_sample + worst.sample});
+    if (again != value) return;
+    TailSample sample = worst;
+    sample.origin = finder.origin();
+    tile.stats.tails.add(sample);
 }
 
 }  // namespace
@@ -35,8 +52,10 @@ void render_unit(const TraceScene& scene, const Resolved& job, const PassPlan& p
     const RegionSampler& regions = guide.regions();
     log.begin(pass.record ? regions.distribution_count() : 0,
               pass.record && regions.decides_next_event() ? regions.region_count() : 0);
-    const TileJob tile{scene, job, pass, guide, unit, pixels, log, stats};
+    WorstSample worst;
+    const TileJob tile{scene, job, pass, guide, unit, pixels, log, stats, worst};
     kernel(pass.kernel, guide.kind()).render(tile);
+    if (worst.found()) report(worst.worst(), worst.value(), tile);
     stats.trace_seconds += thread_cpu_seconds() - start;
 }
 

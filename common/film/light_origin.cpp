@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "common/film/light_origin.h"
+
+namespace treefarm {
+namespace {
+
+const char* words(LightWay way) {
+    switch (way) {
+        case LightWay::diffuse:
+            return " off diffuse surfaces";
+        case LightWay::glossy:
+            return " off glossy surfaces";
+        case LightWay::mirror:
+            return " in mirrors";
+        case LightWay::smooth_glass:
+            return " through smooth glass";
+        case LightWay::rough_glass:
+            return " through rough glass";
+    }
+    return "";
+}
+
+}  // namespace
+
+bool is_known(const LightOrigin& origin) {
+    return origin.found <= LightFound::sky_sampled && origin.way <= LightWay::rough_glass;
+}
+
+std::string words(const LightOrigin& origin) {
+    const bool of_sky = origin.found == LightFound::sky_met || origin.found == LightFound::sky_sampled;
+    const bool sampled = origin.found == LightFound::sampled || origin.found == LightFound::sky_sampled;
+    const std::string light = of_sky ? "light of the environment" : "light";
+    if (origin.vertices <= 1 && !sampled) return light + " that the camera sees";
+    return light + words(origin.way) + (sampled ? ", sampled by next event" : ", met by chance");
+}
+
+}  // namespace treefarm

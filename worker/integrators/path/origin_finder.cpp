@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "worker/integrators/path/origin_finder.h"
+
+#include <algorithm>
+
+namespace treefarm {
+
+void OriginFinder::Way::pass(const SurfacePassage& surface) {
+    if (!surface.delta && !scattered) {  // what the camera looks through is no chance
+        last = LightWay::diffuse;
+        scattered = true;
+    }
+    last = std::max(last, surface.way);
+}
+
+void OriginFinder::camera(const Ray& ray) {
+    way_ = {};
+    view_ = ray.direction;
+}
+
+void OriginFinder::arrive(int depth, const Hit* hit) {
+    depth_ = depth;
+    left_scene_ = !hit;
+    if (depth == 1 && hit) first_normal_ = hit->ng;
+}
+
+void OriginFinder::emission(const Rgb&, float, float, const Rgb& contribution) {
+    found(left_scene_ ? LightFound::sky_met : LightFound::met, way_, depth_, contribution);
+}
+
+void OriginFinder::scatter(const SurfacePassage& passage, const ScatterSample&, const Rgb&) {
+    way_.pass(passage);
+}
+
+void OriginFinder::next_event(const SurfacePassage& passage, const SampledLight& light, float, float,
+                              const Rgb& contribution) {
+    Way way = way_;
+    way.pass(passage);
+    found(light.from_environment ? LightFound::sky_sampled : LightFound::sampled, way, depth_ + 1, contribution);
+}
+
+void OriginFinder::other_way(const Ray& ray, const Rgb&) {
+    const bool through = dot(first_normal_, ray.direction) * dot(first_normal_, view_) > 0.0f;
+    way_ = {};
+    way_.pass({through ? LightWay::smooth_glass : LightWay::mirror, true});
+}
+
+void OriginFinder::split(std::uint32_t paths, const Rgb&) {
+    waiting_.insert(waiting_.end(), paths - 1, way_);
+}
+
+void OriginFinder::split_path(const SplitPath&) {
+    way_ = taken_ < waiting_.size() ? waiting_[taken_++] : Way();
+}
+
+void OriginFinder::found(LightFound how, const Way& way, int vertices, const Rgb& contribution) {
+    const float light = luminance(contribution);
+    if (!(light > largest_)) return;
+    largest_ = light;
+    origin_ = {how, way.last, static_cast<std::uint8_t>(std::min(vertices, 255))};
+}
+
+}  // namespace treefarm

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cmath>
+
+#include "common/film/tail_samples.h"
+
+namespace treefarm {
+
+/// Looks for the sample of a unit that is most of the noise, among the largest of each pixel: one comparison a sample.
+class WorstSample {
+  public:
+    /// What the pixel in hand is given.
+    void see(const Rgb& value, std::uint32_t sample) {
+        const float light = std::abs(luminance(value));
+        if (!(light > largest_light_)) return;
+        largest_light_ = light;
+        largest_ = value;
+        number_ = sample;
+    }
+
+    /// Ends the pixel in hand, which is that of these samples of `spp`; the next may begin.
+    void finish(std::uint32_t pass, int x, int y, const PixelEstimate& pixel, std::uint32_t spp) {
+        const TailSample sample{outlier_noise(largest_, pixel.whole(), spp),
+                                pass,
+                                static_cast<std::uint16_t>(x),
+                                static_cast<std::uint16_t>(y),
+                                number_,
+                                {}};
+        if (sample.noise > 0.0f && (!found() || comes_before(sample, worst_))) {
+            worst_ = sample;
+            value_ = largest_;
+        }
+        largest_ = Rgb(0.0f);
+        largest_light_ = 0.0f;
+        number_ = 0;
+    }
+
+    bool found() const { return worst_.noise > 0.0f; }
+    const TailSample& worst() const { return worst_; }
+    /// What its pixel was given.
+    const Rgb& value() const { return value_; }
+
+  private:
+    float largest_light_ = 0.0f;
+    std::uint32_t number_ = 0;
+    Rgb largest_{0.0f}, value_{0.0f};
+    TailSample worst_;
+};
+
+}  // namespace treefarm
