@@ -40,16 +40,21 @@ bool begins(const std::vector<PassPlan>& plans, const RenderState& state) {
 RenderState nearest_state(const RenderRequest& request, const std::vector<PassPlan>& plans, std::uint32_t pass) {
     if (request.resumed && begins(plans, request.resumed->state)) {
         RenderState& state = request.resumed->state;
-        const bool has_its_tree = state.reports.size() == pass + 1 && !state.reports.back().plan.record;
+        // Unless the pass taught it anything: of next event an unguided one does.
+        const PassPlan* const last = state.reports.empty() ? nullptr : &state.reports.back().plan;
+        const bool has_its_tree = last && state.reports.size() == pass + 1 && !last->record &&
+                                  (last->guided || !request.plan.job.decides_next_event);
         if (state.reports.size() <= pass || has_its_tree) return std::move(state);
     }
     return starting_state(request);
 }
 
-/// The tree that guides a pass, learned by rendering the passes before it, but for those that a checkpoint knows.
+/// The tree of a pass, which may decide on next event alone, learned by rendering the passes before it, but for those
+/// that a checkpoint knows.
 AnyModel learn_tree(const RenderRequest& request, const std::vector<PassPlan>& plans, std::uint32_t pass) {
     RenderState state = nearest_state(request, plans, pass);
-    if (state.reports.size() >= pass || !request.plan.job.guides) return std::move(state.tree);
+    const bool learns = request.plan.job.guides || request.plan.job.decides_next_event;
+    if (state.reports.size() >= pass || !learns) return std::move(state.tree);
     const Log log = make_log("treefarm", {}, request.console, Loudness::quiet);
     auto channels = make_in_process_channels(2);
     std::thread worker([&] {

@@ -30,8 +30,10 @@ std::uint64_t hash_aovs(const std::vector<AovChannel>& channels) {
     return hash_bytes({reinterpret_cast<const std::uint8_t*>(hashes.data()), hashes.size() * sizeof(std::uint64_t)});
 }
 
-ImageLevels levels_of(const RegionModel& model) {
-    return {model.image.columns, model.image.inverse_levels};
+/// What the model knows of an image; nothing where it is of another one, as in a damaged checkpoint.
+ImageLevels levels_of(const RegionModel& model, std::size_t pixels, std::size_t width) {
+    ImageLevels levels{model.image.columns, model.image.inverse_levels};
+    return levels.fits(pixels, width) ? levels : ImageLevels();
 }
 
 /// Judges guiding by one image-wide number: a decision, not a weight, so no pixel is biased by its own samples. Guided
@@ -42,7 +44,7 @@ void judge_guiding(RenderState& state, const Resolved& job, std::size_t width, d
     const auto& policy = kPolicy.guiding;
     if (job.guiding.rule == Rule::while_it_pays && report.plan.layers.estimates) {
         const std::span<const PixelEstimate> pixels = state.films.back().pixels;
-        const ImageLevels levels = levels_of(state.tree.regions());
+        const ImageLevels levels = levels_of(state.tree.regions(), pixels.size(), width);
         const bool may_change = report.plan.index >= memory.changed;
         if (report.plan.guided && report.plan.record) {
             report.guiding_worth = guiding_worth(report.stats.unguided, pixels, levels, width, cost);
@@ -86,22 +88,22 @@ void judge_next_event(RenderState& state, const Resolved& job, const CombinedIma
     if (!job.decides_next_event && job.guiding.rule != Rule::while_it_pays) return;
     if (!report.plan.layers.estimates) return;
     ImageLevels levels = image_levels(image.mean, width);
-    // Samples of a pixel along which direct light was counted.
     const PassPlan& plan = report.plan;
-    const auto before = [](std::uint32_t sample) {
-        return (sample + kPolicy.next_event.counted_every - 1) / kPolicy.next_event.counted_every;
-    };
-    const double part =
-        static_cast<double>(before(plan.first_sample + plan.spp) - before(plan.first_sample)) / plan.spp;
-    const double paths = static_cast<double>(report.stats.paths) * part;
-    const double drawn = static_cast<double>(report.stats.next_event[kNextEventDrawn]);
+    const auto asked = static_cast<double>(report.stats.next_event[kNextEventAsked]),
+               drawn = static_cast<double>(report.stats.next_event[kNextEventDrawn]);
+    // Along which direct light was counted.
+    const std::uint64_t samples = multiples_in(plan.first_sample, plan.spp, kPolicy.next_event.counted_every);
+    const double paths =
+        asked > 0 ? static_cast<double>(report.stats.paths) * static_cast<double>(samples) / plan.spp : 0;
     report.price = {relative_variance(state.films.back().pixels, levels, width),
                     paths > 0 ? cost + kPolicy.next_event.sample_cost * drawn / paths : 0, paths};
     ImageFacts facts{static_cast<std::uint32_t>(levels.columns), std::move(levels.inverse_levels),
                      state.tree.regions().image.next_event};
-    if (job.decides_next_event && !report.plan.guided)
+    if (job.decides_next_event && !plan.guided)
         report.refine.next_event =
             state.image_next_event.learn(report.stats.next_event, report.price, facts.next_event);
+    else if (job.decides_next_event && asked > 0 && state.history.guiding == Guiding::loses)
+        facts.next_event = next_event_code(drawn / asked);  // what the regions did is what the worth was judged by
     state.tree.set_image(std::move(facts));
 }
 

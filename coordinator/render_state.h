@@ -21,7 +21,7 @@ namespace treefarm {
 struct GuidingMemory {
     /// How many times as noisy unguided passes were as guided ones had said; forgotten by half with each guided pass.
     double mistrust = 1;
-    std::uint32_t changed = 0;  ///< number of the first pass after the last change; 0: none
+    std::uint32_t changed = 0;  ///< number of the first pass that may bring the next change
     GuidingWorth last;          ///< of the last guided pass
 
     template <class Archive>

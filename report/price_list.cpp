@@ -58,12 +58,11 @@ std::string scene_table(const StudyResults& study, const SceneResult& scene) {
     if (base.empty()) return "";
     const PassRow& last = base.front()->passes.back();
     std::string text = fmt::format(
-        "## {}\n\n{} x {} pixels, {} spp, {} seeds, {} threads; `{}`: {:.3g} core-seconds, root of relMSE {:.3g} %, "
-        "trimmed {:.3g} %; "
-        "the reference's own error is {:.2g} % of the mean.\n\n| choice |",
-        scene.name, base.front()->width, base.front()->height, last.spp_done, base.size(), last.threads, study.baseline,
-        last.core_seconds, 100 * measures()[1].value(last), 100 * measures()[2].value(last),
-        100 * scene.reference_error);
+        "## {}: {}\n\n{} x {} pixels, {} spp, {} seeds, {} threads; `{}`: {:.3g} core-seconds, root of relMSE "
+        "{:.3g} %, trimmed {:.3g} %; the reference's own error is {:.2g} % of the mean.\n\n| choice |",
+        std::filesystem::path(study.study).stem().string(), scene.name, base.front()->width, base.front()->height,
+        last.spp_done, base.size(), last.threads, study.baseline, last.core_seconds, 100 * measures()[1].value(last),
+        100 * measures()[2].value(last), 100 * scene.reference_error);
     std::string rule = "|---|";
     for (const Column& column : kColumns) {
         text += fmt::format(" {} |", column.name);

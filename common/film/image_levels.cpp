@@ -10,6 +10,12 @@
 namespace treefarm {
 namespace {
 
+constexpr std::size_t kBlock = kPolicy.next_event.level_block;
+
+std::size_t blocks_of(std::size_t pixels) {
+    return (pixels + kBlock - 1) / kBlock;
+}
+
 std::vector<double> variances(std::span<const PixelEstimate> pixels, const ImageLevels& levels, std::size_t width) {
     std::vector<double> found;
     if (levels.inverse_levels.empty()) return found;
@@ -25,17 +31,20 @@ std::vector<double> variances(std::span<const PixelEstimate> pixels, const Image
 
 }  // namespace
 
+bool ImageLevels::fits(std::size_t pixels, std::size_t width) const {
+    return width > 0 && columns == blocks_of(width) &&
+           inverse_levels.size() == columns * blocks_of((pixels + width - 1) / width);
+}
+
 float ImageLevels::at(std::size_t pixel, std::size_t width) const {
-    constexpr std::size_t kBlock = kPolicy.next_event.level_block;
     return inverse_levels[pixel / width / kBlock * columns + pixel % width / kBlock];
 }
 
 ImageLevels image_levels(std::span<const Rgb64> image, std::size_t width) {
-    constexpr std::size_t kBlock = kPolicy.next_event.level_block;
     ImageLevels levels;
     if (image.empty()) return levels;
-    levels.columns = (width + kBlock - 1) / kBlock;
-    const std::size_t rows = ((image.size() + width - 1) / width + kBlock - 1) / kBlock;
+    levels.columns = blocks_of(width);
+    const std::size_t rows = blocks_of((image.size() + width - 1) / width);
     std::vector<double> sums(rows * levels.columns), counts(sums.size());
     double all = 0;
     for (std::size_t p = 0; p < image.size(); ++p) {
@@ -46,7 +55,8 @@ ImageLevels image_levels(std::span<const Rgb64> image, std::size_t width) {
         all += y;
     }
     const double least = kPolicy.next_event.least_level * all / static_cast<double>(image.size());
-    if (!(least > 0)) return levels;
+    constexpr double kBlack = 1e-30;  // one over less is no float
+    if (!(least > kBlack)) return levels;
     for (std::size_t b = 0; b < sums.size(); ++b)
         levels.inverse_levels.push_back(static_cast<float>(1.0 / std::max(sums[b] / counts[b], least)));
     return levels;

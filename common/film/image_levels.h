@@ -15,6 +15,9 @@ struct ImageLevels {
     std::size_t columns = 0;            ///< of blocks
     std::vector<float> inverse_levels;  ///< one over the light of each block, row by row; empty: the image is black
 
+    /// Whether they are of an image of so many pixels in rows of `width`.
+    bool fits(std::size_t pixels, std::size_t width) const;
+    /// One over the light about a pixel of an image that they fit.
     float at(std::size_t pixel, std::size_t width) const;
 };
 ImageLevels image_levels(std::span<const Rgb64> image, std::size_t width);

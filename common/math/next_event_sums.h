@@ -12,6 +12,20 @@ namespace treefarm {
 /// Numbers n of light samples per vertex that next event may have: below 1 it is a probability. Codes are indices.
 inline constexpr std::array<float, 3> kNextEventSamples = {1.0f, 0.25f, 0.0625f};
 
+/// The code of the rarest n that is at least `mean`, in [0, 1].
+inline std::uint8_t next_event_code(double mean) {
+    std::size_t code = kNextEventSamples.size() - 1;
+    while (code > 0 && static_cast<double>(kNextEventSamples[code]) < mean)
+        --code;
+    return static_cast<std::uint8_t>(code);
+}
+
+/// How many of `count` numbers from `first` on `every` divides.
+inline std::uint64_t multiples_in(std::uint64_t first, std::uint64_t count, std::uint64_t every) {
+    const auto before = [every](std::uint64_t number) { return (number + every - 1) / every; };
+    return before(first + count) - before(first);
+}
+
 /// What is counted of next event, in whole numbers. From kNextEventMoments on a sum per n: the second moment that
 /// direct light would have with it, relative to the square of the light about the pixel.
 enum NextEventSum : std::size_t {

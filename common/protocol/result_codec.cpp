@@ -181,7 +181,7 @@ TraceStats read_stats(ByteReader& reader) {
 
 /// Bytes of a result, or a little more.
 std::size_t size_bound(const Result& result) {
-    constexpr std::size_t kMostVarint = 10, kMostStats = 512;
+    constexpr std::size_t kMostVarint = 10, kMostStats = 2048;
     std::size_t bytes = kMostStats + kInvalidSampleBytes * result.stats.first_invalid.size() +
                         kTailSampleBytes * result.stats.tails.worst.size() + result.update.size() +
                         result.splats.size();

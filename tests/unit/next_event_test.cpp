@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "common/base/error.h"
@@ -232,6 +233,18 @@ TEST(NextEvent, SumsMergeInAnyOrder) {
     EXPECT_EQ(one, other);
     EXPECT_EQ(one.next_event(1)[kNextEventSpread], ~std::uint64_t{0});
     EXPECT_EQ(one.next_event(0)[kNextEventAsked], 9u);
+}
+
+TEST(NextEvent, TheCodeOfAMeanIsNoRarerThanIt) {
+    for (const auto& [mean, code] : {std::pair(1.0, 0), {0.26, 0}, {0.25, 1}, {0.1, 1}, {0.0625, 2}, {0.0, 2}})
+        EXPECT_EQ(int{next_event_code(mean)}, code) << mean;
+}
+
+TEST(NextEvent, CountsMultiples) {
+    EXPECT_EQ(multiples_in(0, 1, 8), 1u);
+    EXPECT_EQ(multiples_in(1, 7, 8), 0u);
+    EXPECT_EQ(multiples_in(1, 8, 8), 1u);
+    EXPECT_EQ(multiples_in(7, 100, 8), 13u);
 }
 
 }  // namespace

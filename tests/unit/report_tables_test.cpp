@@ -168,6 +168,13 @@ TEST(BenchTable, PairsRepetitions) {
     EXPECT_EQ(price_list({study}, {}).find("## Exactness"), std::string::npos);
 }
 
+TEST(PriceList, NamesStudyAndScene) {  // two studies may have one scene
+    StudyResults study = study_of({{"all", {}}}, {cell("all", 0, {pass_row(1, 0.1)})});
+    study.study = "configs/studies/choices.toml";
+    const std::string list = price_list({study}, {});
+    EXPECT_NE(list.find("\n## choices: room\n"), std::string::npos) << list;
+}
+
 TEST(BenchTable, RefusesWhatIsNone) {
     const auto file = fresh_folder("bench") / "out.json";
     std::ofstream(file) << "{}";

@@ -46,8 +46,8 @@ RegionSampler::RegionSampler(const RegionModel& model)
       flux_(model.flux),
       next_event_(model.next_event),
       image_(model.image),
-      thins_next_event_(model.image.next_event != 0 || std::any_of(model.next_event.begin(), model.next_event.end(),
-                                                                   [](std::uint8_t code) { return code != 0; })),
+      thins_next_event_(
+          std::any_of(model.next_event.begin(), model.next_event.end(), [](std::uint8_t code) { return code != 0; })),
       region_depth_(model.leaf_count()) {
     for (int depth = 0; depth <= kMaxSpatialDepth; ++depth)
         for (int axis = 0; axis < 3; ++axis)

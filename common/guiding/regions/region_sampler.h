@@ -43,7 +43,7 @@ class RegionSampler {
     float image_next_event() const { return kNextEventSamples[image_.next_event]; }
     bool decides_next_event() const { return !next_event_.empty(); }
     /// Whether any vertex may have fewer light samples than one.
-    bool thins_next_event() const { return thins_next_event_; }
+    bool thins_next_event(bool by_region) const { return by_region ? thins_next_event_ : image_.next_event != 0; }
     /// Whether the image is known, by which light is judged; one over the light about a pixel of it.
     bool knows_image() const { return !image_.inverse_levels.empty(); }
     float inverse_level(std::uint32_t x, std::uint32_t y) const {

@@ -209,7 +209,7 @@ void CellAccumulator<Sampler>::commit(std::span<const Record> records, std::span
         for (std::size_t d = begin; d < stop; ++d)
             if (counts[d] != 0) sums_.add_count(static_cast<std::uint32_t>(d), counts[d]);
         for (std::size_t d = begin; d < std::min(stop, next_event.size()); ++d)
-            if (next_event[d][kNextEventAsked] != 0) sums_.add_next_event(static_cast<std::uint32_t>(d), next_event[d]);
+            if (next_event[d] != NextEventSums{}) sums_.add_next_event(static_cast<std::uint32_t>(d), next_event[d]);
         for (const std::size_t after = order.records.size() - order.ends[stop - 1]; rest.size() > after;) {
             const std::size_t count = std::min<std::size_t>(BoxBlock::kRecords, rest.size() - after);
             gather(records, rest, count, block);

@@ -162,11 +162,12 @@ class PathKernel {
             [&](std::uint32_t, const Path& path) {
                 Rgb& radiance = radiance_[path.origin];
                 if constexpr (kCompares) {
-                    unsplit_[path.origin] += path.unsplit.of(luminance(path.radiance)) - luminance(radiance);
                     // Both ways are of one sample: its square has their product, too.
+                    float& first = unsplit_[path.origin];
+                    const float second = path.unsplit.of(luminance(path.radiance)) - luminance(radiance);
                     const float level = path.inverse_level;
-                    const float first = luminance(radiance) * level, both = luminance(path.radiance) * level;
-                    unguided_[path.origin].add(path.twin, 2.0f * first * (both - first));
+                    unguided_[path.origin].add(path.twin, 2.0f * (first * level) * (second * level));
+                    first += second;
                 }
                 radiance = path.radiance;
             });

@@ -2,12 +2,21 @@
 #pragma once
 
 #include "common/guiding/regions/region_sampler.h"
+#include "common/math/next_event_sums.h"
+#include "common/plan/policy.h"
 #include "common/plan/resolve.h"
 #include "common/plan/schedule.h"
 #include "worker/integrators/subpath/roulette.h"
 #include "worker/scene/trace_scene.h"
 
 namespace treefarm {
+
+/// Whether a pass counts what next event brings, for whoever decides how often it samples emitters.
+inline bool counts_next_event(const Resolved& job, const PassPlan& pass, const RegionSampler& guide) {
+    return pass.next_event && job.decides_next_event && guide.knows_image() &&
+           (!pass.record || guide.decides_next_event()) &&
+           multiples_in(pass.first_sample, pass.spp, kPolicy.next_event.counted_every) > 0;
+}
 
 /// Settings of the walk besides the scene: fixed for a pass.
 struct PathSettings {
@@ -41,9 +50,9 @@ struct PathSettings {
           next_event(pass.next_event && scene.emitters().can_sample()),
           delta_alone(!pass.next_event && scene.emitters().has_delta_lights()),
           light_samples(job.integrator.light_samples),
-          thin_next_event(next_event && (light_samples > 0.0f ? light_samples < 1.0f : guide.thins_next_event())),
-          count_next_event(next_event && job.decides_next_event && guide.knows_image() &&
-                           (!pass.record || guide.decides_next_event())),
+          thin_next_event(next_event && (light_samples > 0.0f ? light_samples < 1.0f
+                                                              : guide.thins_next_event(pass.guided || pass.record))),
+          count_next_event(next_event && counts_next_event(job, pass, guide)),
           twin(pass.guided && pass.record && guide.trained() && guide.knows_image() &&
                job.guiding.rule == Rule::while_it_pays),
           delta_lights(scene.emitters().has_delta_lights()),

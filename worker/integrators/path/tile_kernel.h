@@ -52,6 +52,12 @@ void render_with(const TileJob& tile) {
     const auto key = [&tile](const UnitCursor& at) {
         return PathKey{tile.job.sampler.seed, tile.scene.film().key_of(at.x, at.y), tile.pass.first_sample + at.sample};
     };
+    // What a sample brings is counted as the pixel gets it.
+    const auto inverse_level = [&](const UnitCursor& at) {
+        if (!settings.count_next_event && !settings.twin) return 0.0f;
+        const float level = guide.inverse_level(static_cast<std::uint32_t>(at.x), static_cast<std::uint32_t>(at.y));
+        return is_signed ? level * std::abs(scene.camera().weight(key(at))) : level;
+    };
     std::vector<PixelEstimate> blocks;
     PairedSamples pairs;
     UnguidedBlock tells;
@@ -60,11 +66,7 @@ void render_with(const TileJob& tile) {
     while (!start.done()) {
         kernel.clear();
         while (!kernel.full() && !start.done()) {
-            kernel.add(
-                key(start), scene.camera().generate(start.x, start.y, key(start)),
-                settings.count_next_event || settings.twin
-                    ? guide.inverse_level(static_cast<std::uint32_t>(start.x), static_cast<std::uint32_t>(start.y))
-                    : 0.0f);
+            kernel.add(key(start), scene.camera().generate(start.x, start.y, key(start)), inverse_level(start));
             start.advance();
         }
         kernel.trace();

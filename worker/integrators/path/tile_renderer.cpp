@@ -51,7 +51,7 @@ void render_unit(const TraceScene& scene, const Resolved& job, const PassPlan& p
     pixels.reserve(unit.pixel_count());
     const RegionSampler& regions = guide.regions();
     log.begin(pass.record ? regions.distribution_count() : 0,
-              pass.record && regions.decides_next_event() ? regions.region_count() : 0);
+              pass.record && counts_next_event(job, pass, regions) ? regions.region_count() : 0);
     WorstSample worst;
     const TileJob tile{scene, job, pass, guide, unit, pixels, log, stats, worst};
     kernel(pass.kernel, guide.kind()).render(tile);
