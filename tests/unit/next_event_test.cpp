@@ -15,6 +15,7 @@
 #include "common/base/random.h"
 #include "common/guiding/sd_tree/sd_tree_sampler.h"
 #include "common/guiding/sd_tree/tree_learner.h"
+#include "common/guiding/statistics/cell_accumulator.h"
 #include "common/plan/policy.h"
 
 namespace treefarm {
@@ -233,6 +234,19 @@ TEST(NextEvent, SumsMergeInAnyOrder) {
     EXPECT_EQ(one, other);
     EXPECT_EQ(one.next_event(1)[kNextEventSpread], ~std::uint64_t{0});
     EXPECT_EQ(one.next_event(0)[kNextEventAsked], 9u);
+}
+
+/// Light that scattering meets counts for a region even where a unit has asked no emitter: else what is summed would
+/// depend on how the farm cuts units.
+TEST(NextEvent, MomentsAloneAreCommitted) {
+    const SdTree tree = root();
+    const SdTreeSampler guide(tree);
+    CellAccumulator accumulator(0, guide);
+    const std::array<std::uint32_t, 1> counts{1};
+    NextEventSums met{};
+    met[kNextEventMoments] = 5;
+    accumulator.commit({}, counts, {}, {&met, 1});
+    EXPECT_EQ(accumulator.take().next_event(0)[kNextEventMoments], 5u);
 }
 
 TEST(NextEvent, TheCodeOfAMeanIsNoRarerThanIt) {
