@@ -154,8 +154,7 @@ std::string debug_command(const RenderOptions& options) {
         text += " --set " + shell_quoted(argument);
     for (const std::string& define : options.defines)
         text += " -D " + shell_quoted(define);
-    if (options.spp) text += " --spp " + std::to_string(*options.spp);
-    // --seconds and --error are left out: the passes that they led to come as a schedule.
+    // --spp, --seconds and --error are left out: the passes that they led to come as a schedule.
     if (!options.schedule.empty())
         text += " --schedule " + shell_quoted(std::filesystem::absolute(options.schedule).string());
     if (!options.sensor.empty()) text += " --sensor " + shell_quoted(options.sensor);

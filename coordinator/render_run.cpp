@@ -316,15 +316,11 @@ class RenderRun {
         return "the last pass was planned too short";
     }
 
-    /// The options that make the passes known to --debug-sample, where they were chosen as the render went, and its
-    /// checkpoint.
+    /// The options that make the passes known to --debug-sample, and the checkpoint.
     std::string replay_options() const {
         const std::filesystem::path run = std::filesystem::absolute(directory_.path());
         std::string options = " --run-dir " + run.string();
-        const Job::Guiding& guiding = job().guiding;
-        const bool is_planned = !has_open_budget(job()) && guiding.rule == Rule::always &&
-                                guiding.splitting_rule == Rule::always && !request_.resumed;
-        if (request_.schedule.empty() && !is_planned) options += " --schedule " + (run / "schedule.toml").string();
+        if (request_.schedule.empty()) options += " --schedule " + (run / "schedule.toml").string();
         return options;
     }
 

@@ -22,15 +22,14 @@ namespace treefarm {
 /// A render as it was asked for: everything read and checked.
 struct RenderRequest {
     Job job;
-    Scene scene;                        ///< without the effects that the job forces off
-    EffectPlan plan;                    ///< of both
-    std::vector<std::string> warnings;  ///< of the readers, for the log
-    std::vector<std::string> notes;     ///< of the readers, of what is no fault
-    std::vector<PassPlan> schedule;     ///< --schedule: these passes; empty: the job's own
-    std::string command;                ///< as it was typed
-    std::string debug_command;  ///< reproduces a sample when " pass,x,y,sample" and, for an open budget, --schedule are
-                                ///< appended
-    Fingerprint fingerprint;    ///< of this process
+    Scene scene;                            ///< without the effects that the job forces off
+    EffectPlan plan;                        ///< of both
+    std::vector<std::string> warnings;      ///< of the readers, for the log
+    std::vector<std::string> notes;         ///< of the readers, of what is no fault
+    std::vector<PassPlan> schedule;         ///< --schedule: these passes; empty: the job's own
+    std::string command;                    ///< as it was typed
+    std::string debug_command;              ///< reproduces a sample with " pass,x,y,sample" and --schedule appended
+    Fingerprint fingerprint;                ///< of this process
     std::shared_ptr<SignOfLife> life;       ///< that a supervisor watches; nullptr: none does
     std::string display_server;             ///< HOST:PORT of a viewer that speaks tev's protocol; "": none
     bool overwrite = false;                 ///< an earlier run in the folder may be replaced

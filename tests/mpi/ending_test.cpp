@@ -3,6 +3,8 @@
 #include <signal.h>
 
 #include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "tests/mpi/program.h"
 #include "tests/support/support.h"
@@ -155,6 +157,30 @@ TEST(Ending, ADebugSampleTellsItsPath) {
                                                           "-D", "size=32", "--debug-sample", "0,32,0,0"})
                              .wait(kSoon);
     EXPECT_EQ(wrong.code, 2) << wrong.output;
+}
+
+/// A lamp in water: few samples carry much of the noise. The command that shows the worst of them is pasted.
+TEST(Ending, AFireflyIsNamedAndCanBeSeen) {
+    const auto folder = fresh_folder("run");
+    const Ending ending =
+        Program(std::vector<std::string>{TREEFARM_PROGRAM, "render", own_scene("water.xml"), "-D", "width=72", "-D",
+                                         "height=64", "--spp", "63", "--run-dir", folder.string()})
+            .wait(kSoon);
+    ASSERT_EQ(ending.code, 0) << ending.output;
+    const std::string mark = "; see it: ";
+    const std::size_t at = ending.output.find(mark);
+    ASSERT_NE(at, std::string::npos) << ending.output;
+    const std::size_t begin = at + mark.size();
+    const Ending seen =
+        Program(std::vector<std::string>{"sh", "-c", ending.output.substr(begin, ending.output.find('\n', at) - begin)})
+            .wait(kSoon);
+    EXPECT_EQ(seen.code, 0) << seen.output;
+    const nlohmann::json worst = nlohmann::json::parse(std::ifstream(folder / "summary.json"))["tail_worst"][0];
+    std::ostringstream place;
+    place << "pass " << worst["pass"] << " pixel (" << worst["x"] << ", " << worst["y"] << ") sample "
+          << worst["sample"];
+    EXPECT_TRUE(seen.output.starts_with(place.str())) << place.str() << "\n" << seen.output;
+    EXPECT_NE(ending.output.find(worst["origin"].get<std::string>()), std::string::npos);
 }
 
 /// What the farm names that workers were lost over can be traced alone.
