@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <fstream>
 #include <map>
 #include <set>
@@ -113,6 +114,15 @@ TEST(Study, SaysWhatIsWrongAndWhere) {
     expect_complaint(kScene + kRest + "[vary]\nguiding.spp_unit = 4\n", "not a list of values");
     expect_complaint(kScene + kRest + "[vary]\nguiding.spp_unit = [\"a\"]\n", "not an integer");
     expect_complaint("seeds = = 1", "this is not TOML");
+}
+
+TEST(Study, ReadsAllThatComeAlong) {
+    std::size_t count = 0;
+    for (const auto& file : std::filesystem::directory_iterator(TREEFARM_SOURCE_DIR "/configs/studies")) {
+        EXPECT_NO_THROW(read_study(file.path())) << file.path();
+        ++count;
+    }
+    EXPECT_GT(count, 10u);
 }
 
 }  // namespace
