@@ -234,7 +234,7 @@ TEST(Splitting, FractionsSumToOne) {
     job.guiding.candidates = 1;
     job.guiding.splitting = 8;
     job.guiding.spatial_threshold = 50;
-    job.integrator.next_event = NextEvent::always;
+    job.guiding.type = GuidingType::view;  // to the end
     job.budget.spp = 31;
     SdTree tree = test::render_locally(scene, job).tree();
     ASSERT_GT(tree.region_count(), 4u);

@@ -191,7 +191,7 @@ TEST_P(Fireflies, AreNamed) {
         const test::LocalRender run = test::render_locally(scene, job());
         ASSERT_EQ(run.stats.size(), run.plans.size());
         for (std::size_t k = 0; k < run.stats.size(); ++k) {
-            if (run.plans[k].spp < 2) continue;
+            if (run.plans[k].spp < 4) continue;  // of two samples none is an outlier
             // What is not the same when it is traced again is not told.
             EXPECT_EQ(run.stats[k].tails.worst.size(), 8u) << run.plans[k].kernel.name() << ", pass " << k;
         }
@@ -220,7 +220,7 @@ TEST_P(Fireflies, CanBeTracedAgain) {
         EXPECT_EQ(outlier_noise(radiance, pixel.whole(), pass.spp), sample.noise);
         std::ostringstream text;
         text.precision(9);
-        text << ": radiance " << radiance << '\n';
+        text << ": radiance (" << radiance.x << ", " << radiance.y << ", " << radiance.z << ")\n";
         EXPECT_NE(describe_sample(trace, resolved, pass, guide, sample.x, sample.y, sample.sample).find(text.str()),
                   std::string::npos);
     }
