@@ -107,8 +107,25 @@ void judge_next_event(RenderState& state, const Resolved& job, const CombinedIma
     state.tree.set_image(std::move(facts));
 }
 
+/// Gain by light subpaths in all passes that had them, if this one has: rare light, which few samples find, is most of
+/// what there is to compare, and a single pass may have met it by one of both alone.
+LightSubpathGain gain_so_far(const RenderState& state, const PassReport& report) {
+    if (!report.plan.light_subpaths) return {};
+    TraceStats all;
+    const auto add = [&all](const PassReport& r) {
+        if (!r.plan.light_subpaths) return;
+        all.light_subpaths.add(r.stats.light_subpaths);
+        all.rays += r.stats.rays;
+        all.shadow_rays += r.stats.shadow_rays;
+    };
+    for (const PassReport& before : state.reports)
+        add(before);
+    add(report);
+    return light_subpath_gain(all);
+}
+
 void judge_light_subpaths(RenderState& state, const Resolved& job, PassReport& report) {
-    report.light_subpath_gain = light_subpath_gain(report.stats);
+    report.light_subpath_gain = gain_so_far(state, report);
     if (job.bidirectional.light_subpaths == Rule::while_it_pays &&
         !light_subpaths_may_pay(report.plan, report.light_subpath_gain))
         state.history.light_subpaths = false;
