@@ -68,6 +68,7 @@ AnyModel learn_tree(const RenderRequest& request, const std::vector<PassPlan>& p
         dismiss_workers(*channels[0], {}, 5.0);
         worker.join();
     };
+    AnyModel tree;
     try {
         Farm farm(*channels[0], request.plan.job, encode_scene(request.scene), request.fingerprint.hash(), log);
         bool enough = false;
@@ -77,7 +78,7 @@ AnyModel learn_tree(const RenderRequest& request, const std::vector<PassPlan>& p
         farm.gather({[] { return false; }});
         const Film& film = request.scene.film;
         farm.allow_negative(film.is_signed());
-        state.tree =
+        tree =
             run_passes(farm, request.plan.job, listed_passes(plans), std::move(state), film.width, film.height, hooks)
                 .tree;
     } catch (...) {
@@ -85,7 +86,7 @@ AnyModel learn_tree(const RenderRequest& request, const std::vector<PassPlan>& p
         throw;
     }
     send_away();
-    return std::move(state.tree);
+    return tree;
 }
 
 /// The tree that guides a pass, and the pass with the kernel that goes with it.
