@@ -10,6 +10,7 @@
 #include "common/film/emission_shares.h"
 #include "common/film/fold_passes.h"
 #include "common/film/image_levels.h"
+#include "common/plan/guiding_verdict.h"
 #include "common/plan/learning.h"
 #include "common/plan/policy.h"
 
@@ -48,8 +49,9 @@ void judge_guiding(RenderState& state, const Resolved& job, std::size_t width, d
         const bool may_change = report.plan.index >= memory.changed;
         if (report.plan.guided && report.plan.record) {
             report.guiding_worth = guiding_worth(report.stats.unguided, pixels, levels, width, cost);
+            if (may_change)
+                verdict = treefarm::judge_guiding(report.plan, report.guiding_worth, memory.last, memory.mistrust);
             if (report.guiding_worth.worth > 0) memory.last = report.guiding_worth;
-            if (may_change) verdict = treefarm::judge_guiding(report.plan, report.guiding_worth, memory.mistrust);
             memory.mistrust = std::sqrt(memory.mistrust);
         } else if (!report.plan.guided && memory.last.worth > 0) {
             const double noisier = mean_variance(pixels, levels, width) / memory.last.unguided_variance;

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <vector>
 
+#include "common/plan/guiding_verdict.h"
 #include "common/plan/learning.h"
 #include "coordinator/render_state.h"
 #include "tests/support/resolved.h"
@@ -83,6 +84,21 @@ TEST(GuidingWorth, GuidingEndsWhereItSurelyLoses) {
     EXPECT_EQ(verdict(64, 0.5, 0.3), Guiding::loses);
     EXPECT_EQ(verdict(64, 0.5, 0.0, 1.0, 2.0), Guiding::open) << "a sample or two are all that is known";
     EXPECT_EQ(verdict(64, 0.5, 0.0, 3.0), Guiding::open) << "unguided passes were thrice as noisy as it was said";
+}
+
+/// A tree that is not worth more than the one before is judged as it is, not as it may become.
+TEST(GuidingWorth, ShortPassesAreJudgedMildlyAsLongAsTreesGetBetter) {
+    const auto after = [](double before, double worth, std::uint32_t spp = 8, double error = 0) {
+        PassPlan pass;
+        pass.spp = spp;
+        return judge_guiding(pass, {.worth = worth, .error = error, .known = 20}, {.worth = before}, 1);
+    };
+    EXPECT_EQ(after(0, 0.8), Guiding::open) << "the first that is known";
+    EXPECT_EQ(after(0.7, 0.8), Guiding::open);
+    EXPECT_EQ(after(0.8, 0.8), Guiding::loses);
+    EXPECT_EQ(after(1.2, 0.95), Guiding::open);
+    EXPECT_EQ(after(0.9, 0.8, 8, 0.2), Guiding::open) << "0.8 may be 1.04";
+    EXPECT_EQ(after(0.8, 0.7, 2), Guiding::open) << "too short";
 }
 
 TEST(GuidingWorth, WhereGuidingLosesPassesAreUnguidedAndTeachNothing) {
