@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <memory>
 #include <string>
@@ -96,8 +97,9 @@ TEST(WebServer, TooManyConnectionsAreSentAway) {
     std::vector<std::unique_ptr<test::Client>> silent;
     for (int k = 0; k < 8; ++k)
         silent.push_back(std::make_unique<test::Client>(running.port));
-    const std::string answer = silent.back()->receive(20);
-    EXPECT_EQ(answer.find("HTTP/1.1 503"), 0u) << answer;
+    // On a slow machine the last may come when the first have been given up.
+    const auto sent_away = [](const auto& client) { return client->receive(20).starts_with("HTTP/1.1 503"); };
+    EXPECT_TRUE(std::any_of(silent.rbegin(), silent.rend(), sent_away));
 }
 
 TEST(WebServer, EndsWhateverClientsDo) {
