@@ -132,6 +132,41 @@ TEST(KnownError, OfUnguidedRenders) {
     expect_forecast(runs, job);
 }
 
+/// What is asked of estimators that splat (docs/design/error.md, "Splats"): the error within a quarter, and intervals
+/// that hold it in four of five renders.
+void expect_fair(const char* type) {
+    const auto job = [type](std::uint64_t seed) {
+        Job j = small_job(seed);
+        j.integrator.type = type;
+        j.bidirectional.light_subpaths = Rule::always;
+        j.budget.spp = 31;
+        return j;
+    };
+    const std::vector<SmallRender> runs = render_runs(small_scene(32), job, 20);
+    double estimated = 0, truth = 0;
+    int covered = 0;
+    for (const SmallRender& run : runs) {
+        const ErrorEstimate& error = run.states.back().error;
+        const double rmse = std::sqrt(std::max(0.0, run.true_mse));
+        covered += error.low <= rmse && rmse <= error.high;
+        estimated += error.mse();
+        truth += run.true_mse;
+    }
+    const double ratio = std::sqrt(estimated / truth);
+    EXPECT_GE(ratio, 0.8) << type;
+    EXPECT_LE(ratio, 1.25) << type;
+    EXPECT_GE(covered, 16) << type;
+    std::printf("%s: estimated / true RMSE %.4f, covered %d of %zu\n", type, ratio, covered, runs.size());
+}
+
+TEST(KnownError, OfLightTracing) {
+    expect_fair("light");
+}
+
+TEST(KnownError, OfBidirectionalRenders) {
+    expect_fair("bidirectional");
+}
+
 /// Renders of a closed white room, where every pixel is 1 / (1 - albedo), with the truth known.
 std::vector<SmallRender> render_furnaces(float albedo, const std::function<Job(std::uint64_t)>& job, double truth) {
     Scene scene = test::furnace(albedo, 1.0f, 2.0f, Vec3(0.3f, -0.2f, 0.1f));
