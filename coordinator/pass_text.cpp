@@ -113,7 +113,7 @@ const char* trust_words(Trust trust) {
 }
 
 std::string forecast_text(const ErrorForecast& forecast) {
-    const std::string time = trust_words(forecast.trust) + rough_duration_text(forecast.seconds);
+    std::string time = trust_words(forecast.trust) + rough_duration_text(forecast.seconds);
     switch (forecast.trust) {
         case Trust::none:
             return "an unknown time";

@@ -25,6 +25,7 @@ std::uint64_t hash_image(const CombinedImage& image) {
 
 std::uint64_t hash_aovs(const std::vector<AovChannel>& channels) {
     std::vector<std::uint64_t> hashes;
+    hashes.reserve(channels.size());
     for (const AovChannel& channel : channels)
         hashes.push_back(hash_bytes(
             {reinterpret_cast<const std::uint8_t*>(channel.values.data()), channel.values.size() * sizeof(float)}));

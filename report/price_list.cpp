@@ -116,6 +116,7 @@ std::string price_list(const std::vector<StudyResults>& studies, const std::vect
 void write_price_list(const std::vector<std::filesystem::path>& folders,
                       const std::vector<std::filesystem::path>& benches, const std::filesystem::path& file) {
     std::vector<StudyResults> studies;
+    studies.reserve(folders.size());
     for (const std::filesystem::path& folder : folders)
         studies.push_back(read_study_results(folder));
     std::vector<BenchChoice> choices;

@@ -84,7 +84,7 @@ GuidingWorth guiding_worth(const UnguidedSums& sums, std::span<const PixelEstima
         weight += part;
         weights += part * part;
     }
-    constexpr double kN = static_cast<double>(kGroups);
+    constexpr auto kN = static_cast<double>(kGroups);
     worth.error = std::sqrt(std::max(squares - sum * sum / kN, 0.0) * (kN - 1) / kN);
     worth.known = weights > 0 ? weight * weight / weights : 0;
     return worth;
