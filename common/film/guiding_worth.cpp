@@ -4,32 +4,32 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/math/next_event_sums.h"
+
 namespace treefarm {
 namespace {
 
-std::uint64_t in_units(double value, double unit) {
+/// Adds a value in whole units; what is no number counts nothing.
+void add_units(std::uint64_t& sum, double value, double unit) {
     constexpr double kMost = 0x1p52;
-    return static_cast<std::uint64_t>(std::llround(std::clamp(value / unit, 0.0, kMost)));
-}
-
-void add_sum(std::uint64_t& sum, std::uint64_t value) {
-    sum = value <= ~sum ? sum + value : ~std::uint64_t{0};
+    if (!std::isfinite(value)) return;
+    add_saturating(sum, static_cast<std::uint64_t>(std::llround(std::clamp(value / unit, 0.0, kMost))));
 }
 
 }  // namespace
 
 void UnguidedSums::add(const UnguidedSums& other) {
     for (std::size_t g = 0; g < kGroups; ++g) {
-        add_sum(guided[g], other.guided[g]);
-        add_sum(unguided[g], other.unguided[g]);
+        add_saturating(guided[g], other.guided[g]);
+        add_saturating(unguided[g], other.unguided[g]);
     }
-    add_sum(cost, other.cost);
+    add_saturating(cost, other.cost);
 }
 
 void UnguidedBlock::finish(std::size_t group, UnguidedSums& sums) {
-    add_sum(sums.guided[group], in_units(std::isfinite(guided_) ? guided_ : 0.0, UnguidedSums::kMomentUnit));
-    add_sum(sums.unguided[group], in_units(std::isfinite(unguided_) ? unguided_ : 0.0, UnguidedSums::kMomentUnit));
-    add_sum(sums.cost, in_units(std::isfinite(cost_) ? cost_ : 0.0, UnguidedSums::kCostUnit));
+    add_units(sums.guided[group], guided_, UnguidedSums::kMomentUnit);
+    add_units(sums.unguided[group], unguided_, UnguidedSums::kMomentUnit);
+    add_units(sums.cost, cost_, UnguidedSums::kCostUnit);
     *this = {};
 }
 
