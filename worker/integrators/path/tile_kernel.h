@@ -56,7 +56,7 @@ void render_with(const TileJob& tile) {
     const auto inverse_level = [&](const UnitCursor& at) {
         if (!settings.count_next_event && !settings.twin) return 0.0f;
         const float level = guide.inverse_level(static_cast<std::uint32_t>(at.x), static_cast<std::uint32_t>(at.y));
-        return is_signed ? level * std::abs(scene.camera().weight(key(at))) : level;
+        return is_signed ? level * std::abs(tile.scene.camera().weight(key(at))) : level;
     };
     std::vector<PixelEstimate> blocks;
     PairedSamples pairs;
