@@ -36,12 +36,15 @@ std::string guiding_text(Guiding verdict, const GuidingWorth& w) {
 /// vertex.
 std::string next_event_text(const PassReport& r) {
     const NextEventVerdict& verdict = r.refine.next_event;
-    if (verdict.saved > 0.98) return "";
-    const std::string where =
-        verdict.low < 0.005
-            ? "more rarely where it finds little"
-            : fmt::format("at one vertex in 16 for {:.0f} % of them, where it finds nearly nothing", 100 * verdict.low);
-    return fmt::format("; next event {}, which saves about {:.0f} % of the work", where, 100 * (1 - verdict.saved));
+    const bool saves = verdict.saved <= 0.98;
+    if (!saves && verdict.low < 0.005) return "";
+    const std::string where = verdict.low < 0.005
+                                  ? "more rarely where it finds little"
+                                  : fmt::format("at one vertex in 16 for {:.0f} % of them, where {}", 100 * verdict.low,
+                                                saves ? "it finds nearly nothing" : "guiding finds that light as well");
+    return saves ? fmt::format("; next event {}, which saves about {:.0f} % of the work", where,
+                               100 * (1 - verdict.saved))
+                 : "; next event " + where;
 }
 
 /// What is decided on light subpaths, and why.

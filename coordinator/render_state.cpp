@@ -52,7 +52,8 @@ void judge_guiding(RenderState& state, const Resolved& job, std::size_t width, d
             report.guiding_worth = guiding_worth(report.stats.unguided, pixels, levels, width, cost);
             if (may_change)
                 verdict = treefarm::judge_guiding(report.plan, report.guiding_worth, memory.last, memory.mistrust);
-            if (report.guiding_worth.worth > 0) memory.last = report.guiding_worth;
+            if (report.guiding_worth.worth > 0 && report.plan.spp >= policy.least_judged_spp)
+                memory.last = report.guiding_worth;
             memory.mistrust = std::sqrt(memory.mistrust);
         } else if (!report.plan.guided && memory.last.worth > 0) {
             const double noisier = mean_variance(pixels, levels, width) / memory.last.unguided_variance;

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/math/next_event_sums.h"
+#include "common/math/saturating.h"
 
 namespace treefarm {
 namespace {

@@ -5,12 +5,13 @@
 #include <numeric>
 
 #include "common/film/trimmed_mean.h"
+#include "common/math/level_block.h"
 #include "common/plan/policy.h"
 
 namespace treefarm {
 namespace {
 
-constexpr std::size_t kBlock = kPolicy.next_event.level_block;
+constexpr std::size_t kBlock = kPolicy.levels.block;
 
 std::size_t blocks_of(std::size_t pixels) {
     return (pixels + kBlock - 1) / kBlock;
@@ -37,7 +38,7 @@ bool ImageLevels::fits(std::size_t pixels, std::size_t width) const {
 }
 
 float ImageLevels::at(std::size_t pixel, std::size_t width) const {
-    return inverse_levels[pixel / width / kBlock * columns + pixel % width / kBlock];
+    return inverse_levels[level_block(pixel % width, pixel / width, columns)];
 }
 
 ImageLevels image_levels(std::span<const Rgb64> image, std::size_t width) {
@@ -48,13 +49,13 @@ ImageLevels image_levels(std::span<const Rgb64> image, std::size_t width) {
     std::vector<double> sums(rows * levels.columns), counts(sums.size());
     double all = 0;
     for (std::size_t p = 0; p < image.size(); ++p) {
-        const std::size_t block = p / width / kBlock * levels.columns + p % width / kBlock;
+        const std::size_t block = level_block(p % width, p / width, levels.columns);
         const double y = luminance(image[p]);
         sums[block] += y;
         counts[block] += 1;
         all += y;
     }
-    const double least = kPolicy.next_event.least_level * all / static_cast<double>(image.size());
+    const double least = kPolicy.levels.least * all / static_cast<double>(image.size());
     constexpr double kBlack = 1e-30;  // one over less is no float
     if (!(least > kBlack)) return levels;
     for (std::size_t b = 0; b < sums.size(); ++b)

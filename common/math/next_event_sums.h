@@ -7,15 +7,18 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "common/math/saturating.h"
+
 namespace treefarm {
 
 /// Numbers n of light samples per vertex that next event may have: below 1 it is a probability. Codes are indices.
 inline constexpr std::array<float, 3> kNextEventSamples = {1.0f, 0.25f, 0.0625f};
 
-/// The code of the rarest n that is at least `mean`, in [0, 1].
+/// The code of the n that is nearest to `mean`, in [0, 1], by ratio.
 inline std::uint8_t next_event_code(double mean) {
     std::size_t code = kNextEventSamples.size() - 1;
-    while (code > 0 && static_cast<double>(kNextEventSamples[code]) < mean)
+    const auto n = [](std::size_t of) { return static_cast<double>(kNextEventSamples[of]); };
+    while (code > 0 && mean * mean > n(code) * n(code - 1))
         --code;
     return static_cast<std::uint8_t>(code);
 }
@@ -41,11 +44,6 @@ using NextEventSums = std::array<std::uint64_t, kNextEventSums>;
 /// What one unit of a sum stands for.
 inline constexpr double next_event_unit(std::size_t sum) {
     return sum < kNextEventMoments ? 1.0 : sum < kNextEventSpread ? 0x1p-16 : 0x1p-8;
-}
-
-/// Adds a sum to another; sums stay at the largest number that there is.
-inline void add_saturating(std::uint64_t& sum, std::uint64_t value) {
-    sum = value <= ~sum ? sum + value : ~std::uint64_t{0};
 }
 
 /// Adds a value to a sum in its units, up or down by `random`, uniform bits, so that the expectation is exact; at most

@@ -6,9 +6,11 @@
 
 namespace treefarm {
 
-/// Verdict on guiding after a guided pass, by its own worth and that of the guided pass before. The trees of short
-/// passes still get better, which is why those are judged mildly; one that is not worth more than the last shows that
-/// it does not, and is judged as a long one.
+/// Verdict after a guided pass that taught, by what its samples tell of unguided ones, times the factor `mistrust` by
+/// which unguided passes were noisier than such samples had said. Guided is what stays where nobody knows: it loses at
+/// most its cost, while unguided paths may lose without bound. A tree that is worth more than that of the guided pass
+/// before is judged as the next one, which should be worth as much more again; in a short pass it has to say more
+/// loudly that guiding loses.
 Guiding judge_guiding(const PassPlan& pass, const GuidingWorth& worth, const GuidingWorth& before, double mistrust);
 
 }  // namespace treefarm

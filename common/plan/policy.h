@@ -30,12 +30,17 @@ struct Policy {
         double lent_vertices = 256.0;
         double standard_errors = 2.0;
         double least_gain = 0.03;
+        double learned = 0.1;
         double sample_cost = 0.15;
         double shadow_ray_cost = 0.75;
         double least_rest = 0.02;
-        double least_level = 0.1;
-        std::size_t level_block = 8;
     } next_event;
+
+    /// The light about a pixel that its noise is judged by.
+    struct Levels {
+        double least = 0.1;
+        std::size_t block = 8;
+    } levels;
 
     /// Splitting: as how many paths one goes on, and when that is given up.
     struct Splitting {

@@ -27,11 +27,13 @@ constexpr const char* kError = "bench/log/2026-11-25-error.md";
 constexpr const char* kProgram2017 = "the program of Mueller et al. 2017";
 constexpr const char* kProgram2019 = "the program of Mueller et al. 2019";
 constexpr const char* kDecisions = "bench/log/2026-11-27-decisions.md";
+constexpr const char* kJoint = "bench/log/2026-11-27-joint.md";
 constexpr const char* kEnds = "bench/log/2026-11-27-ends.md";
 constexpr const char* kGuess = "chosen, not measured";
 
 constexpr Policy::Guiding kGuiding = kPolicy.guiding;
 constexpr Policy::NextEvent kNextEvent = kPolicy.next_event;
+constexpr Policy::Levels kLevels = kPolicy.levels;
 constexpr Policy::Splitting kSplitting = kPolicy.splitting;
 constexpr Policy::LightSubpaths kLightSubpaths = kPolicy.light_subpaths;
 constexpr Policy::Walk kWalk = kPolicy.walk;
@@ -75,16 +77,18 @@ constexpr std::array kEntries = {
           "by how many standard errors fewer light samples must win", kDecisions),
     entry("next_event.least_gain", kNextEvent.least_gain, "and by this share of the region's own noise and cost",
           kDecisions),
+    entry("next_event.learned", kNextEvent.learned,
+          "part of a guided region's noise and cost that trees are expected to take away with each step to fewer light "
+          "samples, which they learn",
+          kJoint),
     entry("next_event.sample_cost", kNextEvent.sample_cost, "cost of a light sample without its ray, in rays",
           kDecisions),
     entry("next_event.shadow_ray_cost", kNextEvent.shadow_ray_cost, "cost of a shadow ray and its weights, in rays",
           kDecisions),
     entry("next_event.least_rest", kNextEvent.least_rest,
           "part of all noise or cost that no decision is believed to take away", kGuess),
-    entry("next_event.least_level", kNextEvent.least_level,
-          "darker blocks count as bright as this share of the image's mean", kDecisions),
-    entry("next_event.level_block", kNextEvent.level_block, "side of the blocks that noise is relative to, pixels",
-          kGuess),
+    entry("levels.least", kLevels.least, "darker blocks count as bright as this share of the image's mean", kDecisions),
+    entry("levels.block", kLevels.block, "side of the blocks that noise is relative to, pixels", kGuess),
     entry("splitting.usual", kSplitting.usual, "as how many paths one may go on (guiding.splitting = 0)", kSplits),
     entry("splitting.least_share", kSplitting.least_share,
           "of what the first vertex sends to the camera, what each path of a split is expected to carry at least",

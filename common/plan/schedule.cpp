@@ -53,15 +53,6 @@ void set_guiding(PassPlan& pass, const Resolved& job, Guiding guiding) {
     set_record(pass, job, false);
 }
 
-Guiding judge_guiding(const PassPlan& pass, const GuidingWorth& worth, double mistrust) {
-    const auto& policy = kPolicy.guiding;
-    if (!(worth.worth > 0) || pass.spp < policy.least_judged_spp || worth.known < policy.least_known)
-        return Guiding::open;
-    const double bar = pass.spp < policy.least_settled_spp ? policy.giving_up_early : policy.giving_up;
-    const double most = worth.worth * mistrust * std::exp(policy.giving_up_errors * worth.error);
-    return most < bar ? Guiding::loses : Guiding::open;
-}
-
 void set_splitting(PassPlan& pass, const Resolved& job, bool pays) {
     if (job.guiding.splitting_rule == Rule::while_it_pays) pass.split = pays;
 }

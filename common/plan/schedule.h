@@ -102,12 +102,6 @@ enum class Guiding {
 /// guiding.rule "while_it_pays": where guiding loses a pass is unguided and teaches nothing.
 void set_guiding(PassPlan& pass, const Resolved& job, Guiding guiding);
 
-/// Verdict after a guided pass that taught, by what its samples tell of unguided ones, times the factor by which
-/// unguided passes were noisier than such samples had said. Guided is what stays where nobody knows: it loses at most
-/// its cost, while unguided paths may lose without bound. Short passes have to say more loudly that it loses: trees get
-/// better with each.
-Guiding judge_guiding(const PassPlan& pass, const GuidingWorth& worth, double mistrust);
-
 /// guiding.splitting_rule "while_it_pays": no path is split any more once that was found not to pay.
 void set_splitting(PassPlan& pass, const Resolved& job, bool pays);
 

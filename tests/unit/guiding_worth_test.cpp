@@ -70,7 +70,7 @@ TEST(GuidingWorth, AFewGroupsThatKnowItAllAreNotSure) {
 Guiding verdict(std::uint32_t spp, double worth, double error = 0, double mistrust = 1, double known = 20) {
     PassPlan pass;
     pass.spp = spp;
-    return judge_guiding(pass, {.worth = worth, .error = error, .known = known}, mistrust);
+    return judge_guiding(pass, {.worth = worth, .error = error, .known = known}, {}, mistrust);
 }
 
 TEST(GuidingWorth, GuidingEndsWhereItSurelyLoses) {
@@ -99,6 +99,8 @@ TEST(GuidingWorth, ShortPassesAreJudgedMildlyAsLongAsTreesGetBetter) {
     EXPECT_EQ(after(1.2, 0.95), Guiding::open);
     EXPECT_EQ(after(0.9, 0.8, 8, 0.2), Guiding::open) << "0.8 may be 1.04";
     EXPECT_EQ(after(0.8, 0.7, 2), Guiding::open) << "too short";
+    EXPECT_EQ(after(0.85, 0.87, 64), Guiding::loses);
+    EXPECT_EQ(after(0.80, 0.87, 64), Guiding::open) << "as much again is 0.95";
 }
 
 TEST(GuidingWorth, WhereGuidingLosesPassesAreUnguidedAndTeachNothing) {

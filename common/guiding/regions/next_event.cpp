@@ -32,14 +32,20 @@ double doubt(const NextEventEvidence& e, std::size_t from, std::size_t to) {
     return all > 0 ? kPolicyOf.standard_errors * std::sqrt(e[kNextEventSpread]) * std::min(part / all, 1.0) : 0.0;
 }
 
-/// `force`: the choice that the evidence comes from. Light samples become fewer by one step a pass.
-std::size_t best_choice(const NextEventEvidence& e, std::size_t now, std::size_t force, double lambda) {
-    const auto price = [&](std::size_t choice) { return moment(e, choice) + lambda * rays(e, choice); };
+/// What is left of a region's noise and cost by a choice, once a tree has learned what light samples found.
+double left_by_trees(std::size_t choice, bool trees_learn) {
+    return trees_learn ? std::pow(1 - kPolicyOf.learned, static_cast<double>(choice)) : 1.0;
+}
+
+std::size_t best_choice(const NextEventEvidence& e, std::size_t now, double lambda, bool trees_learn) {
+    const auto price = [&](std::size_t choice, double worse) {
+        return (moment(e, choice) + worse + lambda * rays(e, choice)) * left_by_trees(choice, trees_learn);
+    };
     std::size_t best = now;
-    double least = price(now) * (1 - kPolicyOf.least_gain);
-    for (std::size_t choice = 0; choice < std::min(force + 2, kChoices); ++choice) {
+    double least = price(now, 0) * (1 - kPolicyOf.least_gain);
+    for (std::size_t choice = 0; choice < kChoices; ++choice) {
         if (choice == now) continue;
-        const double cost = price(choice) + (choice > now ? doubt(e, now, choice) : 0.0);
+        const double cost = price(choice, choice > now ? doubt(e, now, choice) : 0.0);
         if (cost < least) {
             least = cost;
             best = choice;
@@ -123,13 +129,12 @@ std::vector<NextEventEvidence> pool_next_event(const RegionModel& tree, std::spa
 }
 
 NextEventVerdict decide_next_event(std::span<const NextEventEvidence> evidence, double paths,
-                                   const NextEventPrice& price, std::span<std::uint8_t> codes) {
+                                   const NextEventPrice& price, bool trees_learn, std::span<std::uint8_t> codes) {
     constexpr int kRounds = 8;
     double known = 0;
     for (const NextEventEvidence& e : evidence)
         known += e[kNextEventAsked];
     if (!(price.rays > 0 && price.variance > 0 && paths > 0) || known < kPolicyOf.least_vertices) return {};
-    const std::vector<std::uint8_t> in_force(codes.begin(), codes.end());
     double variance = price.variance, cost = price.rays;
     for (int round = 0; round < kRounds; ++round) {
         const double lambda = variance / cost;
@@ -137,7 +142,7 @@ NextEventVerdict decide_next_event(std::span<const NextEventEvidence> evidence, 
         bool changed = false;
         for (std::size_t r = 0; r < codes.size(); ++r) {
             const NextEventEvidence& e = evidence[r];
-            const std::size_t now = codes[r], best = best_choice(e, now, in_force[r], lambda);
+            const std::size_t now = codes[r], best = best_choice(e, now, lambda, trees_learn);
             if (best == now) continue;
             variance_change += moment(e, best) - moment(e, now);
             cost_change += rays(e, best) - rays(e, now);
@@ -171,7 +176,7 @@ void NextEventLearner::learn(const RegionModel& tree, const CellSums& sums, cons
         add_halved(evidence_[r], sums.next_event(r));
     paths_ = 0.5 * paths_ + price.paths;
     std::vector<std::uint8_t> codes = tree.next_event;
-    report.next_event = decide_next_event(pool_next_event(tree, evidence_), paths_, price, codes);
+    report.next_event = decide_next_event(pool_next_event(tree, evidence_), paths_, price, true, codes);
     std::vector<NextEventEvidence> inherited;
     inherited.reserve(report.origins.size());
     next.next_event.clear();
@@ -188,7 +193,7 @@ NextEventVerdict ImageNextEventLearner::learn(const NextEventSums& sums, const N
                                               std::uint8_t& code) {
     add_halved(evidence_, sums);
     paths_ = 0.5 * paths_ + price.paths;
-    return decide_next_event({&evidence_, 1}, paths_, price, {&code, 1});
+    return decide_next_event({&evidence_, 1}, paths_, price, false, {&code, 1});
 }
 
 }  // namespace treefarm

@@ -25,10 +25,10 @@ std::vector<NextEventEvidence> pool_next_event(const RegionModel& tree, std::spa
 
 /// Sets codes (indices of kNextEventSamples) of regions with this evidence, from `paths` camera samples, so that
 /// variance times cost becomes least, as far as it is known: fewer light samples have to win by
-/// next_event.standard_errors (policy.h), and become fewer by one step. `codes` are those that the last evidence was
-/// gathered with. Pure.
+/// next_event.standard_errors (policy.h). Where trees learn what light samples found, fewer are given more credit: the
+/// evidence is of trees that need not know it yet. `codes` are those that the last evidence was gathered with. Pure.
 NextEventVerdict decide_next_event(std::span<const NextEventEvidence> evidence, double paths,
-                                   const NextEventPrice& price, std::span<std::uint8_t> codes);
+                                   const NextEventPrice& price, bool trees_learn, std::span<std::uint8_t> codes);
 
 /// The coordinator's memory of what next event was worth in each region, from pass to pass.
 class NextEventLearner {

@@ -7,9 +7,9 @@
 
 #include "common/base/random.h"
 #include "common/guiding/regions/region_model.h"
+#include "common/math/level_block.h"
 #include "common/math/next_event_sums.h"
 #include "common/math/vector_batch.h"
-#include "common/plan/policy.h"
 
 namespace treefarm {
 
@@ -47,7 +47,7 @@ class RegionSampler {
     /// Whether the image is known, by which light is judged; one over the light about a pixel of it.
     bool knows_image() const { return !image_.inverse_levels.empty(); }
     float inverse_level(std::uint32_t x, std::uint32_t y) const {
-        const std::size_t block = std::size_t{y} / kLevelBlock * image_.columns + x / kLevelBlock;
+        const std::size_t block = level_block(x, y, image_.columns);
         return block < image_.inverse_levels.size() ? image_.inverse_levels[block] : 0.0f;
     }
 
@@ -83,7 +83,6 @@ class RegionSampler {
 
   private:
     static constexpr std::uint32_t kLeafFlag = 0x80000000u;
-    static constexpr std::uint32_t kLevelBlock = static_cast<std::uint32_t>(kPolicy.next_event.level_block);
 
     std::uint32_t build_treelet(const RegionModel& model, std::uint32_t node, int depth);
     void build_top();

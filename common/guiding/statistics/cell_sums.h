@@ -141,13 +141,6 @@ class CellSums {
     bool operator==(const CellSums&) const = default;
 
   private:
-    /// False where the sum would pass 2^64 - 1 and stays there.
-    static bool add_saturating(std::uint64_t& sum, std::uint64_t quanta) {
-        const bool fits = quanta <= ~sum;
-        sum = fits ? sum + quanta : ~std::uint64_t{0};
-        return fits;
-    }
-
     std::uint32_t pass_ = 0;
     SumsShape shape_;
     LargeTable<std::uint64_t> cells_, visits_;

@@ -49,7 +49,7 @@ class Emission {
             weight = mis_weight(settings_.mis, path.scatter_pdf, light_pdf);
         }
         const Rgb weighted = emitted * weight;
-        if constexpr (kRecord) recorder->add_emission(weighted, left_to_next_event(path, emitted, weight, light_pdf));
+        if constexpr (kRecord) recorder->add_emission(weighted);
         observer_.emission(emitted, light_pdf, weight, path.throughput * weighted);
         const Rgb carried = path.throughput * weighted;
         path.radiance += carried;
@@ -57,15 +57,6 @@ class Emission {
             add_to_twin(path, emitted, light_pdf);
         if (settings_.count_next_event && path.depth > 1 && counts_.counts(path.key)) [[unlikely]]
             counts_.emission(path, carried, light_pdf);
-    }
-
-    /// What one light sample a vertex would have found of this emission, where there are fewer. Trees do not learn it:
-    /// else they would follow the lamps wherever emitters are sampled less, at the expense of all other light.
-    Rgb left_to_next_event(const Path& path, const Rgb& emitted, float weight, float light_pdf) const {
-        if (path.scatter_light_samples == 1.0f || light_pdf == 0.0f) [[likely]]
-            return Rgb(0.0f);
-        const float alone = mis_weight(settings_.mis, path.scatter_pdf, light_pdf / path.scatter_light_samples);
-        return emitted * std::max(weight - alone, 0.0f);
     }
 
     [[gnu::noinline]] void add_to_twin(Path& path, const Rgb& emitted, float light_pdf) const {

@@ -35,8 +35,8 @@ class PathKernel {
     std::uint32_t count() const { return count_; }
     bool full() const { return count_ == kGroup; }
 
-    /// Adds a camera path; the kernel must not be full.
-    /// `inverse_level`: one over the light about the pixel; 0: not known.
+    /// Adds a camera path; the kernel must not be full. `inverse_level`: one over the light about the pixel; 0: not
+    /// known.
     void add(const PathKey& key, const Ray& ray, float inverse_level = 0.0f) {
         assert(!full());
         inverse_levels_[count_] = inverse_level;
@@ -59,13 +59,14 @@ class PathKernel {
 
     /// Radiance along the camera ray of the path added as number `path`.
     const Rgb& radiance(std::uint32_t path) const { return radiance_[path]; }
-    /// Luminance that path `path` would have without splitting, and the exponent of the power of two to count both in:
-    /// that of the records of the region where the camera's ray arrived. For guided paths that record.
+    /// Luminance that path `path` would have without splitting; of guided paths that record.
     float unsplit(std::uint32_t path) const { return unsplit_[path]; }
-    /// What path `path` tells of unguided ones, where the pass asks; of a guided pass that records.
-    const UnguidedTell& unguided(std::uint32_t path) const { return unguided_[path]; }
-    float inverse_level(std::uint32_t path) const { return inverse_levels_[path]; }
+    /// Exponent of the power of two to count that in: of the records of the region where the camera's ray arrived.
     int first_exponent(std::uint32_t path) const { return first_exponents_[path]; }
+    /// What path `path` tells of unguided ones, where the pass asks; of guided paths that record.
+    const UnguidedTell& unguided(std::uint32_t path) const { return unguided_[path]; }
+    /// One over the light about the pixel, as it was added.
+    float inverse_level(std::uint32_t path) const { return inverse_levels_[path]; }
     Observer& observer() { return walk_.observer(); }
     PhaseClock& clock() { return walk_.clock(); }
 

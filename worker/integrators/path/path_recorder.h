@@ -24,7 +24,6 @@ struct TaughtDirection {
 /// Remembers the vertices of one path and, at its end, what radiance each sampled direction carried:
 ///   L_i = emission_i + (reflected_i + weight_(i+1) L_(i+1)) / survival_i,
 /// where emission_i was met by the direction sampled at vertex i, and reflected_i is what next event found at its end.
-/// A part of emission_i may be left to next event: vertex i does not teach it, but those before it do.
 /// With bootstrapping the guide's own L~_(i+1), what the region of vertex i + 1 has learned of the direction sampled
 /// there, takes a part beta of L_(i+1)'s place (Q-learning: Dahm and Keller 2017, "Learning light transport the
 /// reinforced way"; beta < 1 keeps a part of what the path found). Only records change, which choose directions,
@@ -57,23 +56,18 @@ class PathRecorder {
     /// bits by which its records are rounded, and the radiance that the guide knows to arrive from it, or kUnknown.
     void add_vertex(const Target& target, const Direction& direction, float pdf, const Rgb& weight, const Bins& bins,
                     std::uint32_t rounding, float known = kUnknown) {
-        vertices_.push_back(
-            {weight, Rgb(0.0f), Rgb(0.0f), Rgb(0.0f), 1.0f, pdf, known, target, direction, rounding, bins});
+        vertices_.push_back({weight, Rgb(0.0f), Rgb(0.0f), 1.0f, pdf, known, target, direction, rounding, bins});
     }
 
     /// A direction of a delta lobe was sampled: it is no record, but what it carried belongs to the vertices before it,
     /// and to the mixture where the BSDF has lobes besides; the target is empty where it has not.
     void add_delta_vertex(const Rgb& weight, const Target& target, std::uint32_t rounding) {
-        vertices_.push_back(
-            {weight, Rgb(0.0f), Rgb(0.0f), Rgb(0.0f), 1.0f, 0.0f, kUnknown, target, {}, rounding, G::kDeltaBins});
+        vertices_.push_back({weight, Rgb(0.0f), Rgb(0.0f), 1.0f, 0.0f, kUnknown, target, {}, rounding, G::kDeltaBins});
     }
 
-    /// Emission that the last sampled direction met, weighted against next event. `left`: the part of it that more
-    /// light samples would have found.
-    void add_emission(const Rgb& radiance, const Rgb& left = Rgb(0.0f)) {
-        if (vertices_.empty()) return;
-        vertices_.back().emission += radiance;
-        vertices_.back().left += left;
+    /// Emission that the last sampled direction met, weighted against next event.
+    void add_emission(const Rgb& radiance) {
+        if (!vertices_.empty()) vertices_.back().emission += radiance;
     }
 
     std::uint32_t vertex_count() const { return static_cast<std::uint32_t>(vertices_.size()); }
@@ -113,11 +107,11 @@ class PathRecorder {
         for (std::size_t i = vertices_.size(); i-- > 0;) {
             const Vertex& v = vertices_[i];
             carried = v.emission + (v.reflected + carried) * (1.0f / v.survival);
-            float radiance = average(carried - v.left);
+            float radiance = average(carried);
             carried *= v.weight;
             if (rules_.bootstrap > 0.0f) radiance += std::exchange(replaced, bootstrapped(v, carried)) / v.survival;
-            const TaughtDirection<G> taught{v.direction, v.pdf, radiance,
-                                            RecordRules::finite(average(carried - v.left * v.weight)), v.bins};
+            const TaughtDirection<G> taught{v.direction, v.pdf, radiance, RecordRules::finite(average(carried)),
+                                            v.bins};
             if (v.target.empty()) continue;
             recorded += v.pdf > 0.0f;
             end = G::teach(rules_, v.rounding, v.target, taught, log, end);
@@ -132,7 +126,7 @@ class PathRecorder {
 
   private:
     struct Vertex {
-        Rgb weight, emission, left, reflected;
+        Rgb weight, emission, reflected;
         float survival, pdf, known;
         Target target;
         Direction direction;
