@@ -83,11 +83,12 @@ TEST(NextEvent, IsHardlyAskedWhereItFindsNothing) {
 
 /// What is a tie by the trees of today goes to fewer light samples, whose light those of tomorrow learn.
 TEST(NextEvent, TreesAreExpectedToLearnWhatLightSamplesFound) {
-    // At n = 1/16 so much more noise that it costs 3 % more than n = 1, then 30 %.
-    const double saved = 1.0 / 8.0 * 0.9 * 2000 * 15.0 / 16;
-    const auto dearer = [&](double by) {
-        const double always = 100 + 1.0 / 8.0 * 0.9 * 2000;
-        return evidence(2000, 100, 100 + saved + by * always);
+    // Noise and cost at n = 1/16 over those at n = 1; half of it at n = 1/4.
+    const auto dearer = [](double by) {
+        const double rays = 1.0 / 8.0 * 0.9 * 2000, always = 100 + rays;
+        NextEventEvidence e = evidence(2000, 100, 100 + rays * 15 / 16 + by * always);
+        e[kNextEventMoments + 1] = 100 + rays * 3 / 4 + by / 2 * always;
+        return e;
     };
     EXPECT_EQ(decided(dearer(0.03)), 0);
     EXPECT_EQ(decided(dearer(0.03), 0, true), kChoices - 1);
