@@ -115,21 +115,6 @@ TEST(PathRecorder, CarriesRadianceBackwards) {
     EXPECT_EQ(log.counts, (std::vector<std::uint32_t>{1, 0, 1}));
 }
 
-/// What one light sample a vertex would have found is no direction's own, but part of what it carries to the others.
-TEST(PathRecorder, LeavesToNextEventWhatItWouldFind) {
-    PathRecorder<SdTreeWalk<true>> recorder;
-    RecordLog log;
-    log.begin(3);
-    recorder.begin_path();
-    recorder.add_vertex({0}, 11, 0.5f, Rgb(0.5f), {3}, 0);
-    recorder.add_vertex({2}, 22, 4.0f, Rgb(0.25f), {4}, 0);
-    recorder.add_emission(Rgb(8.0f), Rgb(6.0f));
-    recorder.commit(log);
-    ASSERT_EQ(log.records.size(), 2u);
-    EXPECT_FLOAT_EQ(log.records[0].value, (8.0f - 6.0f) / 4.0f);
-    EXPECT_FLOAT_EQ(log.records[1].value, 0.25f * 8.0f / 0.5f);
-}
-
 /// beta of what the second vertex's region knows takes the place of what the path found there; the mixture learns from
 /// what it found.
 TEST(PathRecorder, BootstrapsFromWhatTheNextRegionKnows) {
