@@ -37,7 +37,7 @@ std::string guiding_text(Guiding verdict, const GuidingWorth& w) {
 std::string next_event_text(const PassReport& r) {
     const NextEventVerdict& verdict = r.refine.next_event;
     const bool saves = verdict.saved <= 0.98;
-    if (!saves && verdict.low < 0.005) return "";
+    if (!saves && (verdict.low < 0.005 || !r.plan.guided)) return "";
     const std::string where = verdict.low < 0.005
                                   ? "more rarely where it finds little"
                                   : fmt::format("at one vertex in 16 for {:.0f} % of them, where {}", 100 * verdict.low,

@@ -22,7 +22,7 @@ struct GuidingMemory {
     /// How many times as noisy unguided passes were as guided ones had said; forgotten by half with each guided pass.
     double mistrust = 1;
     std::uint32_t changed = 0;  ///< number of the first pass that may bring the next change
-    GuidingWorth last;          ///< of the last guided pass
+    GuidingWorth last;          ///< of the last guided pass that was long enough
 
     template <class Archive>
     void serialize(Archive& archive) {

@@ -11,8 +11,9 @@ namespace treefarm {
 Guiding judge_guiding(const PassPlan& pass, const GuidingWorth& worth, const GuidingWorth& before, double mistrust) {
     constexpr const auto& kOf = kPolicy.guiding;
     if (!(worth.worth > 0) || pass.spp < kOf.least_judged_spp || worth.known < kOf.least_known) return Guiding::open;
-    const double growth = before.worth > 0 ? worth.worth / before.worth : 1.0;
-    const bool still_learns = !(before.worth > 0) || growth > 1.0;
+    const bool comparable = before.worth > 0 && before.known >= kOf.least_known;
+    const double growth = comparable ? worth.worth / before.worth : 1.0;
+    const bool still_learns = !comparable || growth > 1.0;
     const double bar = still_learns && pass.spp < kOf.least_settled_spp ? kOf.giving_up_early : kOf.giving_up;
     const double next = worth.worth * std::max(growth, 1.0);
     const double most = next * mistrust * std::exp(kOf.giving_up_errors * worth.error);

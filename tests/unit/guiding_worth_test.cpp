@@ -91,10 +91,15 @@ TEST(GuidingWorth, ShortPassesAreJudgedMildlyAsLongAsTreesGetBetter) {
     const auto after = [](double before, double worth, std::uint32_t spp = 8, double error = 0) {
         PassPlan pass;
         pass.spp = spp;
-        return judge_guiding(pass, {.worth = worth, .error = error, .known = 20}, {.worth = before}, 1);
+        return judge_guiding(pass, {.worth = worth, .error = error, .known = 20}, {.worth = before, .known = 20}, 1);
     };
     EXPECT_EQ(after(0, 0.8), Guiding::open) << "the first that is known";
-    EXPECT_EQ(after(0.7, 0.8), Guiding::open);
+    EXPECT_EQ(after(0.78, 0.8), Guiding::open);
+    EXPECT_EQ(after(0.78, 0.8, 64), Guiding::loses) << "0.82 is next";
+    PassPlan pass;
+    pass.spp = 8;
+    EXPECT_EQ(judge_guiding(pass, {.worth = 0.8, .known = 20}, {.worth = 0.9, .known = 2}, 1), Guiding::open)
+        << "a sample or two are all that was known before";
     EXPECT_EQ(after(0.8, 0.8), Guiding::loses);
     EXPECT_EQ(after(1.2, 0.95), Guiding::open);
     EXPECT_EQ(after(0.9, 0.8, 8, 0.2), Guiding::open) << "0.8 may be 1.04";
@@ -129,9 +134,9 @@ class Automatic {
     }
 
     /// A pass whose samples deviate by this, and that tells of unguided ones, if it is guided. Returns the verdict.
-    Guiding pass(float deviation, double unguided = 0) {
+    Guiding pass(float deviation, double unguided = 0, std::uint32_t spp = 64) {
         PassReport report;
-        report.plan = make_pass(job_, index_++, 64, 64, false);
+        report.plan = make_pass(job_, index_++, 64, spp, false);
         set_guiding(report.plan, job_, state_.history.guiding);
         report.stats.paths = kPixels * kSamples;
         report.stats.rays = 4 * report.stats.paths;
@@ -167,6 +172,13 @@ TEST(Automatic, GuidesAgainWhereUnguidedPassesAreNoisierThanGuidedOnesHadSaid) {
     for (int pass = 0; pass < 12 && last == Guiding::open; ++pass)
         last = render.pass(0.5f, 0.4);
     EXPECT_EQ(last, Guiding::loses) << "mistrust does not last";
+}
+
+TEST(Automatic, PassesTooShortToJudgeAreNothingToCompareWith) {
+    Automatic render;
+    EXPECT_EQ(render.pass(0.5f, 4.0, 2), Guiding::open);
+    EXPECT_EQ(render.pass(0.5f, 0.5, 8), Guiding::open) << "worth 0.7, the first that is known";
+    EXPECT_EQ(render.pass(0.5f, 0.5, 8), Guiding::loses) << "worth no more";
 }
 
 TEST(Automatic, NeverChangesTwiceInTwoPasses) {

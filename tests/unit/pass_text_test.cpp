@@ -117,7 +117,15 @@ TEST(PassText, TheVerdictOnGuidingSaysWhatItSavesHowSurelyAndWhy) {
 
 TEST(PassText, NextEventIsSpokenOfWhereItIsSaved) {
     PassReport report = sixth_pass();
-    report.refine.next_event = {0.99, 0.4};
+    report.refine.next_event = {0.99, 0.0};
+    EXPECT_EQ(pass_summary(report, 7).find("next event"), std::string::npos);
+    report.refine.next_event = {1.02, 0.4};
+    report.plan.guided = true;
+    EXPECT_NE(
+        pass_summary(report, 7).find("; next event at one vertex in 16 for 40 % of them, where guiding finds that "
+                                     "light as well"),
+        std::string::npos);
+    report.plan.guided = false;
     EXPECT_EQ(pass_summary(report, 7).find("next event"), std::string::npos);
     report.refine.next_event = {0.69, 0.62};
     EXPECT_NE(pass_summary(report, 7).find("; next event at one vertex in 16 for 62 % of them, where it finds nearly "

@@ -47,7 +47,7 @@ GridModel GridLearner::learn(const GridModel& model, const CellSums& sums, const
         if (recorded > 0) set_strata(energy, kEvenPart, &next.mass[r * kStrata]);
     }
     if (model.learns_lights()) lights_.learn(model, sums, report.origins, next);
-    if (model.decides_next_event()) next_event_.learn(model, sums, settings.next_event, report, next);
+    if (model.decides_next_event()) next_event_.learn(model, sums, settings, report, next);
     if (learn_mixture) mixture_.learn(model, sums, report.origins, next);
     return next;
 }

@@ -54,7 +54,7 @@ QTableModel QTableLearner::learn(const QTableModel& model, const CellSums& sums,
         next.quantum_exponent[r] = learned_exponent(recorded, sums.counts()[r], model.quantum_exponent[r]);
     }
     if (model.learns_lights()) lights_.learn(model, sums, report.origins, next);
-    if (model.decides_next_event()) next_event_.learn(model, sums, settings.next_event, report, next);
+    if (model.decides_next_event()) next_event_.learn(model, sums, settings, report, next);
     if (learn_mixture) mixture_.learn(model, sums, report.origins, next);
     return next;
 }

@@ -32,20 +32,24 @@ double doubt(const NextEventEvidence& e, std::size_t from, std::size_t to) {
     return all > 0 ? kPolicyOf.standard_errors * std::sqrt(e[kNextEventSpread]) * std::min(part / all, 1.0) : 0.0;
 }
 
-/// What is left of a region's noise and cost by a choice, once a tree has learned what light samples found.
-double left_by_trees(std::size_t choice, bool trees_learn) {
-    return trees_learn ? std::pow(1 - kPolicyOf.learned, static_cast<double>(choice)) : 1.0;
+/// What is left of a region's noise and cost once a tree has learned what `steps` to fewer light samples leave to it.
+double left_by_trees(std::size_t steps) {
+    double left = 1.0;
+    for (; steps > 0; --steps)
+        left *= 1 - kPolicyOf.learned;
+    return left;
 }
 
-std::size_t best_choice(const NextEventEvidence& e, std::size_t now, double lambda, bool trees_learn) {
-    const auto price = [&](std::size_t choice, double worse) {
-        return (moment(e, choice) + worse + lambda * rays(e, choice)) * left_by_trees(choice, trees_learn);
+/// `credited`: up to which choice steps to fewer light samples have credit.
+std::size_t best_choice(const NextEventEvidence& e, std::size_t now, std::size_t credited, double lambda) {
+    const auto price = [&](std::size_t choice) {
+        return (moment(e, choice) + lambda * rays(e, choice)) * left_by_trees(std::min(choice, credited));
     };
     std::size_t best = now;
-    double least = price(now, 0) * (1 - kPolicyOf.least_gain);
+    double least = price(now) * (1 - kPolicyOf.least_gain);
     for (std::size_t choice = 0; choice < kChoices; ++choice) {
         if (choice == now) continue;
-        const double cost = price(choice, choice > now ? doubt(e, now, choice) : 0.0);
+        const double cost = price(choice) + (choice > now ? doubt(e, now, choice) : 0.0);
         if (cost < least) {
             least = cost;
             best = choice;
@@ -129,12 +133,17 @@ std::vector<NextEventEvidence> pool_next_event(const RegionModel& tree, std::spa
 }
 
 NextEventVerdict decide_next_event(std::span<const NextEventEvidence> evidence, double paths,
-                                   const NextEventPrice& price, bool trees_learn, std::span<std::uint8_t> codes) {
+                                   const NextEventPrice& price, TreesLearn trees, std::span<std::uint8_t> codes) {
     constexpr int kRounds = 8;
     double known = 0;
     for (const NextEventEvidence& e : evidence)
         known += e[kNextEventAsked];
     if (!(price.rays > 0 && price.variance > 0 && paths > 0) || known < kPolicyOf.least_vertices) return {};
+    const std::vector<std::uint8_t> in_force(codes.begin(), codes.end());
+    const auto credited = [&](std::size_t region) -> std::size_t {
+        if (trees == TreesLearn::no_more) return in_force[region];
+        return trees == TreesLearn::on ? kChoices - 1 : 0;
+    };
     double variance = price.variance, cost = price.rays;
     for (int round = 0; round < kRounds; ++round) {
         const double lambda = variance / cost;
@@ -142,7 +151,7 @@ NextEventVerdict decide_next_event(std::span<const NextEventEvidence> evidence, 
         bool changed = false;
         for (std::size_t r = 0; r < codes.size(); ++r) {
             const NextEventEvidence& e = evidence[r];
-            const std::size_t now = codes[r], best = best_choice(e, now, lambda, trees_learn);
+            const std::size_t now = codes[r], best = best_choice(e, now, credited(r), lambda);
             if (best == now) continue;
             variance_change += moment(e, best) - moment(e, now);
             cost_change += rays(e, best) - rays(e, now);
@@ -166,7 +175,7 @@ NextEventVerdict decide_next_event(std::span<const NextEventEvidence> evidence, 
     return {always > 0 ? variance * cost / always : 1.0, asked > 0 ? low / asked : 0.0};
 }
 
-void NextEventLearner::learn(const RegionModel& tree, const CellSums& sums, const NextEventPrice& price,
+void NextEventLearner::learn(const RegionModel& tree, const CellSums& sums, const RefineSettings& settings,
                              RefineReport& report, RegionModel& next) {
     const std::uint32_t regions = tree.leaf_count();
     if (!sums.shape().with_next_event || sums.shape().regions != regions || tree.next_event.size() != regions)
@@ -174,9 +183,10 @@ void NextEventLearner::learn(const RegionModel& tree, const CellSums& sums, cons
     evidence_.resize(regions);
     for (std::uint32_t r = 0; r < regions; ++r)
         add_halved(evidence_[r], sums.next_event(r));
-    paths_ = 0.5 * paths_ + price.paths;
+    paths_ = 0.5 * paths_ + settings.next_event.paths;
     std::vector<std::uint8_t> codes = tree.next_event;
-    report.next_event = decide_next_event(pool_next_event(tree, evidence_), paths_, price, true, codes);
+    report.next_event = decide_next_event(pool_next_event(tree, evidence_), paths_, settings.next_event,
+                                          settings.last_update ? TreesLearn::no_more : TreesLearn::on, codes);
     std::vector<NextEventEvidence> inherited;
     inherited.reserve(report.origins.size());
     next.next_event.clear();
@@ -193,7 +203,7 @@ NextEventVerdict ImageNextEventLearner::learn(const NextEventSums& sums, const N
                                               std::uint8_t& code) {
     add_halved(evidence_, sums);
     paths_ = 0.5 * paths_ + price.paths;
-    return decide_next_event({&evidence_, 1}, paths_, price, false, {&code, 1});
+    return decide_next_event({&evidence_, 1}, paths_, price, TreesLearn::nothing, {&code, 1});
 }
 
 }  // namespace treefarm

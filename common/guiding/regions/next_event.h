@@ -19,23 +19,31 @@ namespace treefarm {
 /// Sums of several passes in doubles; older ones count half as much with each.
 using NextEventEvidence = std::array<double, kNextEventSums>;
 
+/// Whether trees to come will know more of the light that light samples find.
+enum class TreesLearn {
+    nothing,  ///< there is no tree
+    no_more,  ///< the tree of the coming pass is the last
+    on,
+};
+
 /// Evidence of the regions of a tree, in which those that know few vertices lean on the cubes about them. The spread
 /// becomes the variance of what is known of the last moment less the first.
 std::vector<NextEventEvidence> pool_next_event(const RegionModel& tree, std::span<const NextEventEvidence> evidence);
 
 /// Sets codes (indices of kNextEventSamples) of regions with this evidence, from `paths` camera samples, so that
 /// variance times cost becomes least, as far as it is known: fewer light samples have to win by
-/// next_event.standard_errors (policy.h). Where trees learn what light samples found, fewer are given more credit: the
-/// evidence is of trees that need not know it yet. `codes` are those that the last evidence was gathered with. Pure.
+/// next_event.standard_errors (policy.h). Fewer light samples are credited with next_event.learned as far as trees
+/// learn what the others found: the evidence is of trees that need not know it yet. `codes` are those that the last
+/// evidence was gathered with. Pure.
 NextEventVerdict decide_next_event(std::span<const NextEventEvidence> evidence, double paths,
-                                   const NextEventPrice& price, bool trees_learn, std::span<std::uint8_t> codes);
+                                   const NextEventPrice& price, TreesLearn trees, std::span<std::uint8_t> codes);
 
 /// The coordinator's memory of what next event was worth in each region, from pass to pass.
 class NextEventLearner {
   public:
     /// Sets next.next_event from what the pass over `tree` counted. `report` has the origins of the regions, and gets
     /// the verdict.
-    void learn(const RegionModel& tree, const CellSums& sums, const NextEventPrice& price, RefineReport& report,
+    void learn(const RegionModel& tree, const CellSums& sums, const RefineSettings& settings, RefineReport& report,
                RegionModel& next);
 
     /// Lists what it remembers, for a checkpoint.
