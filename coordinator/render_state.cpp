@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "coordinator/render_state.h"
 
+#include <algorithm>
 #include <cmath>
 #include <future>
 #include <utility>
@@ -10,6 +11,7 @@
 #include "common/film/emission_shares.h"
 #include "common/film/fold_passes.h"
 #include "common/film/image_levels.h"
+#include "common/film/light_subpath_gain.h"
 #include "common/plan/guiding_verdict.h"
 #include "common/plan/learning.h"
 #include "common/plan/policy.h"
@@ -116,16 +118,22 @@ void judge_next_event(RenderState& state, const Resolved& job, const CombinedIma
 LightSubpathGain gain_so_far(const RenderState& state, const PassReport& report) {
     if (!report.plan.light_subpaths) return {};
     TraceStats all;
-    const auto add = [&all](const PassReport& r) {
+    double samples = 0, blocks = 0;
+    const auto add = [&](const PassReport& r) {
         if (!r.plan.light_subpaths) return;
         all.light_subpaths.add(r.stats.light_subpaths);
         all.rays += r.stats.rays;
         all.shadow_rays += r.stats.shadow_rays;
+        if (r.plan.spp < 2) return;  // one sample has no variance
+        samples += static_cast<double>(r.stats.paths);
+        blocks += static_cast<double>(r.stats.paths / r.plan.spp * ((r.plan.spp + kBlockSamples - 1) / kBlockSamples));
     };
     for (const PassReport& before : state.reports)
         add(before);
     add(report);
-    return light_subpath_gain(all);
+    LightSubpathGain gain = light_subpath_gain(all);
+    gain.noise = std::max(gain.noise, missed_light_noise(all.light_subpaths, samples, blocks));
+    return gain;
 }
 
 void judge_light_subpaths(RenderState& state, const Resolved& job, PassReport& report) {

@@ -59,4 +59,13 @@ LightSubpathGain light_subpath_gain(const TraceStats& stats) {
             ratio(sums.alone_mean, sums.both_mean)};
 }
 
+double missed_light_noise(const LightSubpathSums& sums, double samples, double blocks) {
+    if (sums.both_variance == 0 || !(samples > 0 && blocks > 0)) return 0.0;
+    const auto mean = [blocks](std::uint64_t sum) { return static_cast<double>(sum) / (blocks * kUnitsPerOne); };
+    const double variance = mean(sums.both_variance);
+    const double error = std::sqrt((variance + mean(sums.alone_variance)) / samples);
+    const double missed = mean(sums.both_mean) - mean(sums.alone_mean) - 2 * error;
+    return missed > 0 ? missed * missed * samples / variance : 0.0;
+}
+
 }  // namespace treefarm

@@ -45,4 +45,11 @@ struct LightSubpathGain {
 };
 LightSubpathGain light_subpath_gain(const TraceStats& stats);
 
+/// LightSubpathGain::noise as far as the light that samples without light subpaths miss tells it; 0: nothing. Where
+/// they have not met a caustic yet their own variance knows nothing of it, and may lie below that of what splats found.
+/// But two means of the same light differ by their errors alone, so what is missed is an error, and its square is
+/// variance over samples. Two standard errors, as samples show them, are left out. `samples` in so many `blocks`, each
+/// of which added its means and variances to `sums`.
+double missed_light_noise(const LightSubpathSums& sums, double samples, double blocks);
+
 }  // namespace treefarm

@@ -162,6 +162,35 @@ TEST(LightSubpathGain, OneSampleHasNoVarianceAndNonsenseIsLeftOut) {
     EXPECT_EQ(light_subpath_gain({}).at_equal_cost(), 0);
 }
 
+/// Four pixels of eight samples, in each of which light subpaths bring 1 more than what paths from the camera have met:
+/// by theory 1 = variance / samples.
+TEST(LightSubpathGain, MissedLightIsNoiseThatNobodyHasSeen) {
+    LightSubpathSums sums;
+    const auto add = [&sums](double splat) {
+        SubpathPairs pixel;
+        for (int pixels = 0; pixels < 4; ++pixels) {
+            for (int sample = 0; sample < 8; ++sample)
+                pixel.add({.own = 1, .alone = 1, .splats = splat, .splat_squares = 0.5});
+            pixel.finish(sums);
+        }
+    };
+    add(1.0);
+    TraceStats stats;
+    stats.light_subpaths = sums;
+    stats.rays = stats.light_subpaths.alone_rays = 1;
+    EXPECT_EQ(light_subpath_gain(stats).noise, 0) << "camera paths show none";
+    const double missed = 1.0 - 2 * std::sqrt(0.5 / 32);
+    EXPECT_NEAR(missed_light_noise(sums, 32, 4), missed * missed * 32 / 0.5, 1e-6);
+    EXPECT_EQ(missed_light_noise({}, 32, 4), 0) << "not known";
+    EXPECT_EQ(missed_light_noise(sums, 0, 0), 0) << "not known";
+    sums = {};
+    add(0.2);
+    EXPECT_EQ(missed_light_noise(sums, 32, 4), 0) << "within two standard errors";
+    sums = {};
+    add(0.0);
+    EXPECT_EQ(missed_light_noise(sums, 32, 4), 0) << "nothing is missed";
+}
+
 TEST(LightSubpathGain, AVerdictNeedsSamplesThatFoundTheLight) {
     const auto may_pay = [](std::uint32_t spp, const LightSubpathGain& gain) {
         PassPlan pass;
