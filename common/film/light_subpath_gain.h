@@ -25,7 +25,7 @@ class SubpathPairs {
     /// Adds what the samples tell to `sums`, in whole units, and forgets them.
     void finish(LightSubpathSums& sums);
 
-    static constexpr double kMost = 512;
+    static constexpr double kMost = 32;  ///< a sample or two that both kinds meet would hide what else differs
 
   private:
     int count_ = 0;

@@ -3,7 +3,9 @@
 // from, and whether they are traced at all. With more emitters than are chosen one by one.
 #include <gtest/gtest.h>
 
+#include "common/scene/readers/load.h"
 #include "tests/support/rendered.h"
+#include "tests/support/support.h"
 #include "tests/support/test_scenes.h"
 
 namespace treefarm {
@@ -122,6 +124,19 @@ TEST(LightSubpaths, PathsAloneAreThoseOfPathTracing) {
     const auto rays = [](const TraceStats& s) { return double(s.rays + s.shadow_rays) / double(s.paths); };
     EXPECT_NEAR(gain.rays / (rays(both.stats[2]) / rays(path.stats[2])), 1, 0.03);
     EXPECT_NEAR(gain.found, 1, 0.03);
+}
+
+/// Paths from the camera hardly meet a lamp by way of water: they look quiet, and only the light that they miss tells.
+TEST(LightSubpaths, StayWhereCameraPathsHaveMetNoCausticYet) {
+    const Scene scene = load_scene(test::own_scene("water.xml"), {}, false, 96, 64).scene;
+    int kept = 0, looked_quiet = 0;
+    for (const std::uint32_t spp : {24u, 26u, 28u, 30u}) {  // each has a seed of its own
+        const LocalRender run = render(scene, "bidirectional", spp, LightSelection::learned, true, Rule::while_it_pays);
+        kept += run.plans.back().light_subpaths;
+        looked_quiet += light_subpath_gain(run.stats[2]).at_equal_cost() < 0.9;
+    }
+    EXPECT_GE(kept, 3);
+    EXPECT_GE(looked_quiet, 2) << "by the variance of a pass";
 }
 
 /// What points throw by way of glass no path from the camera finds: subpaths stay, whatever they cost.
