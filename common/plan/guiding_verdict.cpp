@@ -13,8 +13,7 @@ Guiding judge_guiding(const PassPlan& pass, const GuidingWorth& worth, const Gui
     if (!(worth.worth > 0) || pass.spp < kOf.least_judged_spp || worth.known < kOf.least_known) return Guiding::open;
     const bool comparable = before.worth > 0 && before.known >= kOf.least_known;
     const double growth = comparable ? worth.worth / before.worth : 1.0;
-    const bool still_learns = !comparable || growth > 1.0;
-    const double bar = still_learns && pass.spp < kOf.least_settled_spp ? kOf.giving_up_early : kOf.giving_up;
+    const double bar = pass.spp < kOf.least_settled_spp ? kOf.giving_up_early : kOf.giving_up;
     const double next = worth.worth * std::max(growth, 1.0);
     const double most = next * mistrust * std::exp(kOf.giving_up_errors * worth.error);
     return most < bar ? Guiding::loses : Guiding::open;

@@ -16,7 +16,7 @@ struct Policy {
         double ray_cost = 1.4;
         double mistrusted = 2.0;
         double giving_up = 0.9;
-        double giving_up_early = 0.65;
+        double giving_up_early = 0.75;
         double giving_up_errors = 1.3;
         double taking_up = 1.1;
         std::uint32_t least_settled_spp = 16;
