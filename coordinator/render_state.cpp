@@ -126,7 +126,9 @@ LightSubpathGain gain_so_far(const RenderState& state, const PassReport& report)
         all.shadow_rays += r.stats.shadow_rays;
         if (r.plan.spp < 2) return;  // one sample has no variance
         samples += static_cast<double>(r.stats.paths);
-        blocks += static_cast<double>(r.stats.paths / r.plan.spp * ((r.plan.spp + kBlockSamples - 1) / kBlockSamples));
+        const std::uint64_t pixels = r.stats.paths / r.plan.spp;
+        const std::uint64_t blocks_each = (r.plan.spp + kBlockSamples - 1) / kBlockSamples;
+        blocks += static_cast<double>(pixels * blocks_each);
     };
     for (const PassReport& before : state.reports)
         add(before);
