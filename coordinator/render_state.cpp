@@ -124,11 +124,11 @@ LightSubpathGain gain_so_far(const RenderState& state, const PassReport& report)
         all.light_subpaths.add(r.stats.light_subpaths);
         all.rays += r.stats.rays;
         all.shadow_rays += r.stats.shadow_rays;
-        if (r.plan.spp < 2) return;  // one sample has no variance
-        samples += static_cast<double>(r.stats.paths);
+        // A block of one sample has no variance and is not in the sums.
+        const std::uint32_t rest = r.plan.spp % kBlockSamples;
         const std::uint64_t pixels = r.stats.paths / r.plan.spp;
-        const std::uint64_t blocks_each = (r.plan.spp + kBlockSamples - 1) / kBlockSamples;
-        blocks += static_cast<double>(pixels * blocks_each);
+        samples += static_cast<double>(pixels * (rest == 1 ? r.plan.spp - 1 : r.plan.spp));
+        blocks += static_cast<double>(pixels * (r.plan.spp / kBlockSamples + (rest > 1 ? 1 : 0)));
     };
     for (const PassReport& before : state.reports)
         add(before);
