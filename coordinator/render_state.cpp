@@ -128,7 +128,8 @@ LightSubpathGain gain_so_far(const RenderState& state, const PassReport& report)
         const std::uint32_t rest = r.plan.spp % kBlockSamples;
         const std::uint64_t pixels = r.stats.paths / r.plan.spp;
         samples += static_cast<double>(pixels * (rest == 1 ? r.plan.spp - 1 : r.plan.spp));
-        blocks += static_cast<double>(pixels * (r.plan.spp / kBlockSamples + (rest > 1 ? 1 : 0)));
+        const std::uint32_t blocks_each = r.plan.spp / kBlockSamples + (rest > 1 ? 1 : 0);
+        blocks += static_cast<double>(pixels * blocks_each);
     };
     for (const PassReport& before : state.reports)
         add(before);
