@@ -15,7 +15,7 @@ enum class Stream : std::uint32_t {
     lens,          ///< position on the lens
     scatter,       ///< which density a direction is drawn from, and the direction
     light,         ///< next event: which emitter, where on it
-    roulette,      ///< survival
+    roulette,      ///< survival; whether next event samples an emitter at the vertex after, where it does not at each
     record,        ///< spatial filter (three words) and stochastic rounding of what scattered directions teach the tree
     light_record,  ///< as `record`, for next event's records
     bootstrap,     ///< the interval of the estimated error; keyed by block and resample instead of pixel and sample
@@ -27,7 +27,6 @@ enum class Stream : std::uint32_t {
     splat_round,     ///< stochastic rounding of a splat
     lens_connect,    ///< the point of the lens that light paths are connected to
     filter_pick,     ///< the pixel that a connection goes to
-    light_count,     ///< whether next event samples an emitter at a vertex, where it does not at each
 };
 
 /// Names one camera path: the same key gives the same path on any machine, thread or rank.

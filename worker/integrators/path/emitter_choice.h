@@ -17,19 +17,22 @@ class EmitterChoice {
           needed_(settings.next_event || settings.delta_alone),
           delta_alone_(settings.delta_alone),
           together_(settings.next_event && emitters.draws_together()),
-          special_(delta_alone_ || together_) {}
+          special_(delta_alone_ || together_),
+          few_(settings.few_light_samples) {}
 
-    /// The random numbers of a step.
+    /// The random numbers of a step, but where few of its vertices need them.
     void draw_numbers(std::uint64_t seed, const KeyBatch& keys, std::uint32_t lanes) {
-        if (needed_) draw_batch(seed, keys, lanes, 0, Stream::light, draws_);
+        if (needed_ && !few_) draw_batch(seed, keys, lanes, 0, Stream::light, draws_);
     }
 
     /// Whether there is anything to sample in this pass.
     bool any() const { return needed_; }
     bool together() const { return together_; }
     void clear() { batch_.clear(); }
-    void choose(std::uint32_t lane, const LightReceiver& receiver) {
-        emitters_.choose(batch_, lane, receiver, draws_[lane]);
+    template <class Path>
+    void choose(const Path& path, const LightReceiver& receiver) {
+        if (few_) draw_alone(path);
+        emitters_.choose(batch_, path.lane, receiver, draws_[path.lane]);
     }
     void draw() { emitters_.draw(batch_); }
     /// Keeps what the choice of this step has found out, for a density that may be asked for there (Emitters::keep()).
@@ -39,10 +42,13 @@ class EmitterChoice {
     }
 
     /// A next-event sample as of Emitters::sample_direct(), or sample_delta() where next event is for those alone.
-    DirectSample sample(const LightReceiver& receiver, std::uint32_t lane) const {
+    template <class Path>
+    DirectSample sample(const LightReceiver& receiver, const Path& path) {
+        if (few_ && !together_) [[unlikely]]
+            draw_alone(path);
         if (special_) [[unlikely]]
-            return sample_specially(receiver.p, lane);
-        return emitters_.sample_direct(receiver, draws_[lane]);
+            return sample_specially(receiver.p, path.lane);
+        return emitters_.sample_direct(receiver, draws_[path.lane]);
     }
     /// Completes the samples from infinity among `lights`, of those numbers that are seen, by radiance and missing
     /// density; lane_of(light) has drawn one. All together: the others then have no test for it, nor a call to save
@@ -54,6 +60,14 @@ class EmitterChoice {
     }
 
   private:
+    /// The numbers of a vertex that samples an emitter, where they are missing: the same numbers.
+    template <class Path>
+    void draw_alone(const Path& path) {
+        const Draw draw = treefarm::draw(path.key, path.vertex, Stream::light);
+        for (std::size_t i = 0; i < draw.size(); ++i)
+            draws_.word[i][path.lane] = draw[i];
+    }
+
     /// Out of line: most scenes pay one test for it.
     [[gnu::noinline]] DirectSample sample_specially(const Vec3& p, std::uint32_t lane) const {
         if (delta_alone_) return emitters_.sample_delta(p, draws_[lane]);
@@ -75,7 +89,7 @@ class EmitterChoice {
     }
 
     const Emitters& emitters_;
-    const bool needed_, delta_alone_, together_, special_;
+    const bool needed_, delta_alone_, together_, special_, few_;
     DrawBatch draws_;
     LightBatch batch_;
 };

@@ -16,20 +16,14 @@ class LightChances {
     LightChances(const typename G::Sampler& guide, const PathSettings& settings, const NextEventCounts<kRecord>& counts)
         : guide_(guide), settings_(settings), counts_(counts) {}
 
-    /// The random numbers of a step.
-    void draw_numbers(std::uint64_t seed, const KeyBatch& keys, std::uint32_t lanes) {
-        if (settings_.thin_next_event) [[unlikely]]
-            draw_batch(seed, keys, lanes, 0, Stream::light_count, draws_);
-    }
-
-    /// Decides how many light samples a vertex has, and tosses for one.
+    /// Decides how many light samples a vertex has, and tosses for one by the second word of what each path has drawn.
     template <class Path>
-    void ask(Path& path) const {
+    void ask(Path& path, const DrawBatch& draws) const {
         path.light_samples = 1.0f;
         path.samples_emitters = true;
         if (settings_.thin_next_event) [[unlikely]] {
             path.light_samples = light_samples(path);
-            path.samples_emitters = to_unit(draws_.word[0][path.lane]) < path.light_samples;
+            path.samples_emitters = to_unit(draws.word[1][path.lane]) < path.light_samples;
         }
         if (counts(path) && !settings_.delta_lights) [[unlikely]]
             count(path);
@@ -86,7 +80,6 @@ class LightChances {
     const typename G::Sampler& guide_;
     const PathSettings& settings_;
     const NextEventCounts<kRecord>& counts_;
-    DrawBatch draws_;
 };
 
 }  // namespace treefarm

@@ -21,13 +21,14 @@ inline bool counts_next_event(const Resolved& job, const PassPlan& pass, const R
 /// Settings of the walk besides the scene: fixed for a pass.
 struct PathSettings {
     int max_depth;
-    bool next_event;        ///< a flag, not a kernel of its own: one predictable branch per vertex
-    bool delta_alone;       ///< no next event, but for the lights that nothing else finds
-    float light_samples;    ///< at each vertex; 0: as the guide says
-    bool thin_next_event;   ///< some vertices have fewer light samples than one
-    bool count_next_event;  ///< for whoever decides how many
-    bool twin;              ///< guided paths tell what unguided ones would be like
-    bool delta_lights;      ///< among others: they are sampled always
+    bool next_event;         ///< a flag, not a kernel of its own: one predictable branch per vertex
+    bool delta_alone;        ///< no next event, but for the lights that nothing else finds
+    float light_samples;     ///< at each vertex; 0: as the guide says
+    bool thin_next_event;    ///< some vertices have fewer light samples than one
+    bool few_light_samples;  ///< so few that vertices which have one draw its numbers alone
+    bool count_next_event;   ///< for whoever decides how many
+    bool twin;               ///< guided paths tell what unguided ones would be like
+    bool delta_lights;       ///< among others: they are sampled always
     MisHeuristic mis;
     bool strict_normals;
     bool hide_emitters;
@@ -45,6 +46,9 @@ struct PathSettings {
     float bootstrap;  ///< RecordRules::bootstrap
     Roulette roulette, unguided_roulette;
 
+    /// Drawing one vertex's numbers alone takes some three times as long as among many.
+    static constexpr float kFew = 1.0f / 3;
+
     PathSettings(const TraceScene& scene, const Resolved& job, const PassPlan& pass, const RegionSampler& guide)
         : max_depth(job.integrator.max_depth),
           next_event(pass.next_event && scene.emitters().can_sample()),
@@ -52,6 +56,8 @@ struct PathSettings {
           light_samples(job.integrator.light_samples),
           thin_next_event(next_event && (light_samples > 0.0f ? light_samples < 1.0f
                                                               : guide.thins_next_event(pass.guided || pass.record))),
+          few_light_samples(thin_next_event && !(pass.guided || pass.record) && !scene.emitters().has_delta_lights() &&
+                            (light_samples > 0.0f ? light_samples : guide.image_next_event()) < kFew),
           count_next_event(next_event && counts_next_event(job, pass, guide)),
           twin(pass.guided && pass.record && guide.trained() && guide.knows_image() &&
                job.guiding.rule == Rule::while_it_pays),

@@ -191,8 +191,7 @@ class PathWalk {
         const std::uint64_t seed = paths_[alive_[0]].key.seed;
         directions_.draw_numbers(seed, keys, paths_, {alive_.data(), alive});
         emitters_.draw_numbers(seed, keys, alive);
-        chances_.draw_numbers(seed, keys, alive);
-        if (depth > 1 && settings_.roulette.plays(depth - 1))
+        if (settings_.thin_next_event || (depth > 1 && settings_.roulette.plays(depth - 1)))
             draw_batch(seed, keys, alive, ~0u, Stream::roulette, roulette_draws_);  // of the vertex before
         if constexpr (kRecord) direction_records_.draw_numbers(seed, keys, alive);
     }
@@ -248,7 +247,7 @@ class PathWalk {
         if constexpr (kRecord)
             if (surface.smooth() && !guide_.contains(hit.p)) recorders_[index].add_outside();
         if (emitters_.any() && surface.smooth()) {
-            chances_.ask(path);
+            chances_.ask(path, roulette_draws_);
             if (!emitters_.together() && chances_.chooses(path)) next_event(index);
         }
         return true;
@@ -298,7 +297,7 @@ class PathWalk {
             const Path& path = paths_[alive_[i]];
             if (!path.surface->smooth() || !chances_.chooses(path)) continue;
             smooth[count++] = alive_[i];
-            emitters_.choose(path.lane, receiver(path));
+            emitters_.choose(path, receiver(path));
         }
         emitters_.draw();
         for (std::uint32_t i = 0; i < count; ++i)
@@ -317,7 +316,7 @@ class PathWalk {
         const Path& path = paths_[index];
         const Surface& surface = *path.surface;
         const LightReceiver at = receiver(path);
-        const DirectSample light = emitters_.sample(at, path.lane);
+        const DirectSample light = emitters_.sample(at, path);
         if (!chances_.takes(path, light.delta)) return;
         if (!(light.pdf > 0.0f) || light.black()) return;
         BsdfValue bsdf;
