@@ -9,17 +9,27 @@
 namespace treefarm {
 namespace {
 
-/// 64 bits hold 2^15 blocks of samples of the largest variance there is, and 2^33 of the usual one.
-constexpr double kUnitsPerOne = 0x1p30;
+/// 64 bits hold the sums of 2^29 samples of the largest variance there is, and of 2^40 of the usual one.
+constexpr double kUnitsPerOne = 0x1p24;
 
 std::uint64_t in_units(double value) {
     return static_cast<std::uint64_t>(std::llround(std::max(value, 0.0) * kUnitsPerOne));
 }
 
+/// LightSubpathGain::noise as far as the light that samples without light subpaths miss tells it; 0: nothing.
+double missed_light_noise(const LightSubpathSums& sums) {
+    const auto samples = static_cast<double>(sums.samples);
+    const auto mean = [samples](std::uint64_t sum) { return static_cast<double>(sum) / (samples * kUnitsPerOne); };
+    const double variance = mean(sums.both_variance);
+    const double error = std::sqrt((variance + mean(sums.alone_variance)) / samples);
+    const double missed = mean(sums.both_mean) - mean(sums.alone_mean) - kPolicy.light_subpaths.missed_errors * error;
+    return missed > 0 ? missed * missed * samples / variance : 0.0;
+}
+
 }  // namespace
 
 void SubpathPairs::add(const Sample& sample) {
-    const double most2 = kMost * kMost;
+    constexpr double kMost = kPolicy.light_subpaths.most_of_mean;
     if (!(sample.own >= 0 && sample.alone >= 0 && sample.splat_squares >= 0) ||
         !std::isfinite(sample.own + sample.alone + sample.splats + sample.splat_squares))
         return;
@@ -30,18 +40,19 @@ void SubpathPairs::add(const Sample& sample) {
     alone_ += alone;
     alone_squares_ += alone * alone;
     splats_ += std::min(sample.splats, kMost);
-    splat_squares_ += std::min(sample.splat_squares, most2);
+    splat_squares_ += std::min(sample.splat_squares, kMost * kMost);
 }
 
 void SubpathPairs::finish(LightSubpathSums& sums) {
     const double n = count_;
     const auto variance = [n](double sum, double squares) { return (squares - sum * sum / n) / (n - 1); };
     if (count_ > 1) {
-        sums.both_mean += in_units((own_ + splats_) / n);
-        sums.alone_mean += in_units(alone_ / n);
+        sums.samples += static_cast<std::uint64_t>(count_);
+        sums.both_mean += in_units(own_ + splats_);
+        sums.alone_mean += in_units(alone_);
         // Splats are so rare in a pixel that the sum of their squares is the variance of their sum.
-        sums.both_variance += in_units(variance(own_, own_squares_) + splat_squares_ / n);
-        sums.alone_variance += in_units(variance(alone_, alone_squares_));
+        sums.both_variance += in_units(n * variance(own_, own_squares_) + splat_squares_);
+        sums.alone_variance += in_units(n * variance(alone_, alone_squares_));
     }
     *this = {};
 }
@@ -55,17 +66,8 @@ LightSubpathGain light_subpath_gain(const TraceStats& stats) {
     const LightSubpathSums& sums = stats.light_subpaths;
     if (sums.both_variance == 0 || sums.both_mean == 0 || sums.alone_rays == 0) return {};
     const auto ratio = [](std::uint64_t a, std::uint64_t b) { return static_cast<double>(a) / static_cast<double>(b); };
-    return {ratio(sums.alone_variance, sums.both_variance), ratio(stats.rays + stats.shadow_rays, sums.alone_rays),
-            ratio(sums.alone_mean, sums.both_mean)};
-}
-
-double missed_light_noise(const LightSubpathSums& sums, double samples, double blocks) {
-    if (sums.both_variance == 0 || !(samples > 0 && blocks > 0)) return 0.0;
-    const auto mean = [blocks](std::uint64_t sum) { return static_cast<double>(sum) / (blocks * kUnitsPerOne); };
-    const double variance = mean(sums.both_variance);
-    const double error = std::sqrt((variance + mean(sums.alone_variance)) / samples);
-    const double missed = mean(sums.both_mean) - mean(sums.alone_mean) - 2 * error;
-    return missed > 0 ? missed * missed * samples / variance : 0.0;
+    return {std::max(ratio(sums.alone_variance, sums.both_variance), missed_light_noise(sums)),
+            ratio(stats.rays + stats.shadow_rays, sums.alone_rays), ratio(sums.alone_mean, sums.both_mean)};
 }
 
 }  // namespace treefarm

@@ -20,12 +20,10 @@ class SubpathPairs {
     };
 
     /// Luminances at a common scale that does not depend on them: about 1. Samples that are no numbers are left out,
-    /// what is larger than kMost is taken for it.
+    /// what is larger than LightSubpaths::most_of_mean is taken for it.
     void add(const Sample& sample);
-    /// Adds what the samples tell to `sums`, in whole units, and forgets them.
+    /// Adds what the samples tell to `sums`, in whole units, and forgets them. A single one tells nothing.
     void finish(LightSubpathSums& sums);
-
-    static constexpr double kMost = 32;  ///< a sample or two that both kinds meet would hide what else differs
 
   private:
     int count_ = 0;
@@ -34,8 +32,12 @@ class SubpathPairs {
 
 /// Gain by light subpaths, of a pass that compared.
 struct LightSubpathGain {
-    double noise = 0;  ///< variance without them over that with them, of one sample; 0: not known
-    double rays = 0;   ///< of samples with them over those without
+    /// Variance without them over that with them, of one sample; 0: not known. Where samples without them have not met
+    /// a caustic yet, their own variance knows nothing of it, and may lie below that of what splats found. But two
+    /// means of the same light differ by their errors alone, so what is missed is an error, and its square is variance
+    /// over samples.
+    double noise = 0;
+    double rays = 0;  ///< of samples with them over those without
     /// Mean of the samples without them over that with them, which is 1 but for chance and for light that only they
     /// find. Where it is low nobody knows how noisy samples without them are.
     double found = 0;
@@ -44,12 +46,5 @@ struct LightSubpathGain {
     double at_equal_cost() const;
 };
 LightSubpathGain light_subpath_gain(const TraceStats& stats);
-
-/// LightSubpathGain::noise as far as the light that samples without light subpaths miss tells it; 0: nothing. Where
-/// they have not met a caustic yet their own variance knows nothing of it, and may lie below that of what splats found.
-/// But two means of the same light differ by their errors alone, so what is missed is an error, and its square is
-/// variance over samples. Two standard errors, as samples show them, are left out. `samples` in so many `blocks`, each
-/// of which added its means and variances to `sums`.
-double missed_light_noise(const LightSubpathSums& sums, double samples, double blocks);
 
 }  // namespace treefarm

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "common/film/splat_film.h"
+#include "common/math/saturating.h"
 
 namespace treefarm {
 
@@ -15,6 +16,7 @@ void SplittingSums::add(const SplittingSums& other) {
 }
 
 void LightSubpathSums::add(const LightSubpathSums& other) {
+    samples += other.samples;
     both_mean += other.both_mean;
     alone_mean += other.alone_mean;
     both_variance += other.both_variance;

@@ -41,11 +41,13 @@ struct SplittingSums {
 /// Sums over pixels of a pass whose samples also know what they would bring without their light subpaths
 /// (light_subpath_gain.h); whole units.
 struct LightSubpathSums {
+    std::uint64_t samples = 0;  ///< of which the next four are sums
     std::uint64_t both_mean = 0, alone_mean = 0;
     std::uint64_t both_variance = 0, alone_variance = 0;  ///< of one sample
     std::uint64_t alone_rays = 0;                         ///< that those alone would have traced, shadow rays included
 
     void add(const LightSubpathSums& other);
+    bool operator==(const LightSubpathSums&) const = default;
 };
 
 /// What light paths bring, by the entry that each starts from in the table that their emitters are chosen by

@@ -29,6 +29,7 @@ constexpr const char* kProgram2019 = "the program of Mueller et al. 2019";
 constexpr const char* kDecisions = "bench/log/2026-11-27-decisions.md";
 constexpr const char* kJoint = "bench/log/2026-11-27-joint.md";
 constexpr const char* kEnds = "bench/log/2026-11-27-ends.md";
+constexpr const char* kMissed = "bench/log/2026-11-27-missed-light.md";
 constexpr const char* kGuess = "chosen, not measured";
 
 constexpr Policy::Guiding kGuiding = kPolicy.guiding;
@@ -53,7 +54,7 @@ constexpr std::array kEntries = {
     entry("guiding.ray_cost", kGuiding.ray_cost,
           "cost of a guided ray over that of an unguided one, training included; 1.24 to 1.53 by scene", kAuto),
     entry("guiding.mistrusted", kGuiding.mistrusted,
-          "unguided passes that are so many times as noisy as guided samples had said are believed instead",
+          "unguided passes that are so many times as noisy as guided samples have said are believed instead",
           kDecisions),
     entry("guiding.giving_up", kGuiding.giving_up,
           "paths are unguided where variance times cost of unguided samples over that of guided ones is below this",
@@ -114,6 +115,12 @@ constexpr std::array kEntries = {
     entry("light_subpaths.least_found", kLightSubpaths.least_found,
           "but not where those find less of the light: nobody knows how noisy they are", kEnds),
     entry("light_subpaths.least_spp", kLightSubpaths.least_spp, "shorter passes have no say, spp", kEnds),
+    entry("light_subpaths.most_of_mean", kLightSubpaths.most_of_mean,
+          "what a sample brings is compared up to so many times the usual: a firefly that both kinds meet hides what "
+          "else differs",
+          kMissed),
+    entry("light_subpaths.missed_errors", kLightSubpaths.missed_errors,
+          "light that samples without them have missed is noise, but for so many standard errors", kMissed),
     entry("light_subpaths.prior_paths", kLightSubpaths.prior_paths,
           "light paths of an emitter that count as if they had brought what all do", kGuess),
     entry("light_subpaths.unlearned", kLightSubpaths.unlearned,

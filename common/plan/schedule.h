@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "common/film/develop.h"
-#include "common/film/guiding_worth.h"
 #include "common/film/light_subpath_gain.h"
 #include "common/film/splitting_gain.h"
 #include "common/film/work_unit.h"

@@ -9,7 +9,7 @@
 namespace treefarm {
 
 /// Raised whenever a message changes its form: peers of another version are refused, not guessed at.
-inline constexpr std::uint32_t kProtocolVersion = 14;
+inline constexpr std::uint32_t kProtocolVersion = 15;
 
 /// Kind of a message. The numbers are on the wire: append only (docs/design/protocol.md).
 enum class Kind : std::uint8_t {

@@ -83,8 +83,8 @@ void write_stats(ByteWriter& writer, const TraceStats& s) {
     for (const std::uint64_t count :
          {s.paths, s.nonzero_paths, s.rays, s.shadow_rays, s.vertices, s.records, s.split_path_rays, s.invalid_samples,
           s.splitting.split_mean, s.splitting.unsplit_mean, s.splitting.split_variance, s.splitting.unsplit_variance,
-          s.light_subpaths.both_mean, s.light_subpaths.alone_mean, s.light_subpaths.both_variance,
-          s.light_subpaths.alone_variance, s.light_subpaths.alone_rays})
+          s.light_subpaths.samples, s.light_subpaths.both_mean, s.light_subpaths.alone_mean,
+          s.light_subpaths.both_variance, s.light_subpaths.alone_variance, s.light_subpaths.alone_rays})
         writer.put_varint(count);
     for (const std::uint64_t sum : s.next_event)
         writer.put_varint(sum);
@@ -144,8 +144,9 @@ TraceStats read_stats(ByteReader& reader) {
     for (std::uint64_t* count :
          {&s.paths, &s.nonzero_paths, &s.rays, &s.shadow_rays, &s.vertices, &s.records, &s.split_path_rays,
           &s.invalid_samples, &s.splitting.split_mean, &s.splitting.unsplit_mean, &s.splitting.split_variance,
-          &s.splitting.unsplit_variance, &s.light_subpaths.both_mean, &s.light_subpaths.alone_mean,
-          &s.light_subpaths.both_variance, &s.light_subpaths.alone_variance, &s.light_subpaths.alone_rays})
+          &s.splitting.unsplit_variance, &s.light_subpaths.samples, &s.light_subpaths.both_mean,
+          &s.light_subpaths.alone_mean, &s.light_subpaths.both_variance, &s.light_subpaths.alone_variance,
+          &s.light_subpaths.alone_rays})
         *count = reader.get_varint();
     for (std::uint64_t& sum : s.next_event)
         sum = reader.get_varint();

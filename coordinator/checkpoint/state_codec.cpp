@@ -50,7 +50,7 @@ void serialize(Archive& a, PassFacts& f) {
 
 template <class Archive>
 void serialize(Archive& a, LightSubpathSums& s) {
-    a(s.both_mean, s.alone_mean, s.both_variance, s.alone_variance, s.alone_rays);
+    a(s.samples, s.both_mean, s.alone_mean, s.both_variance, s.alone_variance, s.alone_rays);
 }
 
 template <class Archive>
@@ -203,7 +203,7 @@ constexpr std::uint32_t kOrigin = section_tag("IDNT"), kHistory = section_tag("F
                         kBegunSums = section_tag("PSUM");
 
 constexpr std::uint32_t version_of(std::uint32_t tag) {
-    if (tag == kHistory || tag == kReports || tag == kBegun) return 4;
+    if (tag == kHistory || tag == kReports || tag == kBegun) return 5;
     return tag == kLearner ? 2 : 1;
 }
 

@@ -41,6 +41,7 @@ Result sample_result() {
     result.units.push_back({{.pass = 3, .kind = UnitKind::light_paths, .first = 1ull << 40, .count = 5}, {}, {}});
     result.units.push_back({{.pass = 3, .kind = UnitKind::chains, .first = 7, .count = 1}, {}, {}});
     result.splats = {4, 5};
+    result.stats.light_subpaths = {21, 22, 23, 24, 25, 26};
     return result;
 }
 
@@ -126,6 +127,7 @@ TEST(Protocol, FieldsArriveAsTheyWereSent) {
     EXPECT_EQ(got.stats.paths, 24u);
     EXPECT_EQ(got.stats.split_path_rays, 7u);
     EXPECT_EQ(got.stats.splitting.split_mean, 1u);
+    EXPECT_EQ(got.stats.light_subpaths, sent.stats.light_subpaths);
     EXPECT_EQ(got.stats.next_event, (NextEventSums{9, 8, 7, 6, 5, 4, ~std::uint64_t{0}}));
     EXPECT_EQ(got.stats.unguided.guided[63], 11u);
     EXPECT_EQ(got.stats.unguided.unguided[0], 12u);

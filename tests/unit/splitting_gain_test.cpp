@@ -157,38 +157,35 @@ TEST(LightSubpathGain, OneSampleHasNoVarianceAndNonsenseIsLeftOut) {
         pixel.add({.own = 1, .alone = bad});
     }
     pixel.finish(sums);
-    EXPECT_EQ(sums.both_mean + sums.alone_mean + sums.both_variance + sums.alone_variance, 0u);
+    EXPECT_EQ(sums.samples + sums.both_mean + sums.alone_mean + sums.both_variance + sums.alone_variance,
+              0u);
     EXPECT_EQ(light_subpath_gain({}).noise, 0) << "not known";
     EXPECT_EQ(light_subpath_gain({}).at_equal_cost(), 0);
 }
 
-/// Four pixels of eight samples, in each of which light subpaths bring 1 more than what paths from the camera have met:
-/// by theory 1 = variance / samples.
+/// Four pixels of eight samples, in each of which light subpaths bring something more than what paths from the camera
+/// have met: by theory its square is variance over samples.
 TEST(LightSubpathGain, MissedLightIsNoiseThatNobodyHasSeen) {
-    LightSubpathSums sums;
-    const auto add = [&sums](double splat) {
+    const auto noise = [](double splat, bool a_sample_alone = false) {
+        TraceStats stats;
+        stats.rays = stats.light_subpaths.alone_rays = 1;
         SubpathPairs pixel;
+        const SubpathPairs::Sample sample{.own = 1, .alone = 1, .splats = splat, .splat_squares = 0.5};
         for (int pixels = 0; pixels < 4; ++pixels) {
-            for (int sample = 0; sample < 8; ++sample)
-                pixel.add({.own = 1, .alone = 1, .splats = splat, .splat_squares = 0.5});
-            pixel.finish(sums);
+            for (int i = 0; i < 8; ++i)
+                pixel.add(sample);
+            pixel.finish(stats.light_subpaths);
+            if (!a_sample_alone) continue;
+            pixel.add(sample);
+            pixel.finish(stats.light_subpaths);
         }
+        return light_subpath_gain(stats).noise;
     };
-    add(1.0);
-    TraceStats stats;
-    stats.light_subpaths = sums;
-    stats.rays = stats.light_subpaths.alone_rays = 1;
-    EXPECT_EQ(light_subpath_gain(stats).noise, 0) << "camera paths show none";
-    const double missed = 1.0 - 2 * std::sqrt(0.5 / 32);
-    EXPECT_NEAR(missed_light_noise(sums, 32, 4), missed * missed * 32 / 0.5, 1e-6);
-    EXPECT_EQ(missed_light_noise({}, 32, 4), 0) << "not known";
-    EXPECT_EQ(missed_light_noise(sums, 0, 0), 0) << "not known";
-    sums = {};
-    add(0.2);
-    EXPECT_EQ(missed_light_noise(sums, 32, 4), 0) << "within two standard errors";
-    sums = {};
-    add(0.0);
-    EXPECT_EQ(missed_light_noise(sums, 32, 4), 0) << "nothing is missed";
+    const double missed = 1.0 - kPolicy.light_subpaths.missed_errors * std::sqrt(0.5 / 32);
+    EXPECT_NEAR(noise(1.0), missed * missed * 32 / 0.5, 1e-6) << "camera paths alone show none";
+    EXPECT_EQ(noise(1.0, true), noise(1.0)) << "passes of 9 spp: a block of one sample has no variance";
+    EXPECT_EQ(noise(0.17), 0) << "within two standard errors";
+    EXPECT_EQ(noise(0.0), 0) << "nothing is missed";
 }
 
 TEST(LightSubpathGain, AVerdictNeedsSamplesThatFoundTheLight) {

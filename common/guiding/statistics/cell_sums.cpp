@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "common/math/saturating.h"
+
 namespace treefarm {
 namespace {
 
