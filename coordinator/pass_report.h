@@ -61,7 +61,7 @@ struct PassReport {
     TraceStats stats;
     PassVariance variance;
     ErrorEstimate error;                  ///< of the image with this pass
-    GuidingWorth guiding_worth;           ///< of a guided pass that knows what unguided samples would be
+    GuidingWorth guiding_worth;           ///< by which guiding is judged after this pass
     Guiding guiding = Guiding::open;      ///< what is known with this pass
     SplittingGain splitting_gain;         ///< of a guided pass that taught and may split
     bool splitting = true;                ///< whether it may pay, with this pass

@@ -2,7 +2,6 @@
 #include "coordinator/render_state.h"
 
 #include <algorithm>
-#include <cmath>
 #include <future>
 #include <utility>
 
@@ -12,7 +11,6 @@
 #include "common/film/fold_passes.h"
 #include "common/film/image_levels.h"
 #include "common/film/light_subpath_gain.h"
-#include "common/plan/guiding_verdict.h"
 #include "common/plan/learning.h"
 #include "common/plan/policy.h"
 
@@ -40,33 +38,20 @@ ImageLevels levels_of(const RegionModel& model, std::size_t pixels, std::size_t 
     return levels.fits(pixels, width) ? levels : ImageLevels();
 }
 
-/// Judges guiding by one image-wide number: a decision, not a weight, so no pixel is biased by its own samples. Guided
-/// passes say what unguided ones would be like; where those were noisier, they have the last word.
+/// Judges guiding by one image-wide number: a decision, not a weight, so no pixel is biased by its own samples.
 void judge_guiding(RenderState& state, const Resolved& job, std::size_t width, double cost, PassReport& report) {
     Guiding& verdict = state.history.guiding;
     GuidingMemory& memory = state.guiding_memory;
-    const auto& policy = kPolicy.guiding;
-    if (job.guiding.rule == Rule::while_it_pays && report.plan.layers.estimates) {
+    const PassPlan& pass = report.plan;
+    if (job.guiding.rule == Rule::while_it_pays && pass.layers.estimates && (!pass.guided || pass.record)) {
         const std::span<const PixelEstimate> pixels = state.films.back().pixels;
         const ImageLevels levels = levels_of(state.tree.regions(), pixels.size(), width);
-        const bool may_change = report.plan.index >= memory.changed;
-        if (report.plan.guided && report.plan.record) {
-            report.guiding_worth = guiding_worth(report.stats.unguided, pixels, levels, width, cost);
-            if (may_change)
-                verdict = treefarm::judge_guiding(report.plan, report.guiding_worth, memory.last, memory.mistrust);
-            if (report.guiding_worth.worth > 0 && report.plan.spp >= policy.least_judged_spp)
-                memory.last = report.guiding_worth;
-            memory.mistrust = std::sqrt(memory.mistrust);
-        } else if (!report.plan.guided && memory.last.worth > 0) {
-            const double noisier = mean_variance(pixels, levels, width) / memory.last.unguided_variance;
-            report.guiding_worth = memory.last;
-            if (may_change && noisier > policy.mistrusted && noisier * memory.last.worth > policy.taking_up) {
-                memory.mistrust = noisier;
-                verdict = Guiding::open;
-            }
-        }
-        // Never two changes in two passes.
-        if ((verdict == Guiding::open) != report.plan.guided) memory.changed = report.plan.index + 2;
+        const GuidingVerdict judged =
+            pass.guided
+                ? memory.after_guided(pass, guiding_evidence(report.stats.unguided, pixels, levels, width, cost))
+                : memory.after_unguided(pass, mean_variance(pixels, levels, width), verdict);
+        verdict = judged.guiding;
+        report.guiding_worth = judged.worth;
     }
     report.guiding = verdict;
 }
@@ -118,25 +103,16 @@ void judge_next_event(RenderState& state, const Resolved& job, const CombinedIma
 LightSubpathGain gain_so_far(const RenderState& state, const PassReport& report) {
     if (!report.plan.light_subpaths) return {};
     TraceStats all;
-    double samples = 0, blocks = 0;
-    const auto add = [&](const PassReport& r) {
+    const auto add = [&all](const PassReport& r) {
         if (!r.plan.light_subpaths) return;
         all.light_subpaths.add(r.stats.light_subpaths);
         all.rays += r.stats.rays;
         all.shadow_rays += r.stats.shadow_rays;
-        // A block of one sample has no variance and is not in the sums.
-        const std::uint32_t rest = r.plan.spp % kBlockSamples;
-        const std::uint64_t pixels = r.stats.paths / r.plan.spp;
-        samples += static_cast<double>(pixels * (rest == 1 ? r.plan.spp - 1 : r.plan.spp));
-        const std::uint32_t blocks_each = r.plan.spp / kBlockSamples + (rest > 1 ? 1 : 0);
-        blocks += static_cast<double>(pixels * blocks_each);
     };
     for (const PassReport& before : state.reports)
         add(before);
     add(report);
-    LightSubpathGain gain = light_subpath_gain(all);
-    gain.noise = std::max(gain.noise, missed_light_noise(all.light_subpaths, samples, blocks));
-    return gain;
+    return light_subpath_gain(all);
 }
 
 void judge_light_subpaths(RenderState& state, const Resolved& job, PassReport& report) {

@@ -8,27 +8,14 @@
 
 #include "common/film/aov_film.h"
 #include "common/film/combine.h"
-#include "common/film/guiding_worth.h"
 #include "common/guiding/any_guide.h"
 #include "common/guiding/regions/next_event.h"
 #include "common/plan/budget.h"
 #include "coordinator/begun_pass.h"
+#include "coordinator/guiding_memory.h"
 #include "coordinator/pass_report.h"
 
 namespace treefarm {
-
-/// What is remembered of verdicts on guiding, from pass to pass.
-struct GuidingMemory {
-    /// How many times as noisy unguided passes were as guided ones had said; forgotten by half with each guided pass.
-    double mistrust = 1;
-    std::uint32_t changed = 0;  ///< number of the first pass that may bring the next change
-    GuidingWorth last;          ///< of the last guided pass that was long enough
-
-    template <class Archive>
-    void serialize(Archive& archive) {
-        archive(mistrust, changed, last);
-    }
-};
 
 /// A render between two passes, or within one, as a value: whatever decides a later bit, and the reports of the passes
 /// so far. Nothing else outlives a pass, so who has it can go on, here or elsewhere, as if nothing had happened

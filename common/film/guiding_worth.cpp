@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "common/math/saturating.h"
 
@@ -40,40 +41,33 @@ double GuidingWorth::high() const {
     return worth * std::exp(error);
 }
 
-GuidingWorth guiding_worth(const UnguidedSums& sums, std::span<const PixelEstimate> pixels, const ImageLevels& levels,
-                           std::size_t width, double guided_cost) {
-    constexpr std::size_t kGroups = UnguidedSums::kGroups;
-    if (levels.inverse_levels.empty() || sums.cost == 0 || pixels.empty()) return {};
-    const auto samples = static_cast<double>(pixels.front().whole().n);
-    if (samples < 2) return {};
-    std::array<double, kGroups> means{};  // squares of the pixels' means
-    for (std::size_t p = 0; p < pixels.size(); ++p) {
-        const double mean = luminance(pixels[p].whole().mean) * static_cast<double>(levels.at(p, width));
-        means[pixel_group(static_cast<std::uint32_t>(p % width), static_cast<std::uint32_t>(p / width))] += mean * mean;
+void GuidingEvidence::add(const GuidingEvidence& other) {
+    if (other.samples == 0) return;
+    samples += other.samples;
+    const double part = other.samples / samples;
+    const auto mix = [part](double& mean, double added) { mean += part * (added - mean); };
+    for (std::size_t g = 0; g < guided.size(); ++g) {
+        mix(guided[g], other.guided[g]);
+        mix(unguided[g], other.unguided[g]);
     }
-    // Of all pixels of a group together: variances of guided and of unguided samples.
-    std::array<double, kGroups> guided, unguided;
-    double all_guided = 0, all_unguided = 0;
-    for (std::size_t g = 0; g < kGroups; ++g) {
-        const double moment = static_cast<double>(sums.guided[g]) * UnguidedSums::kMomentUnit / samples;
-        guided[g] = std::max(moment - means[g], 0.0) * samples / (samples - 1);
-        unguided[g] =
-            static_cast<double>(sums.unguided[g]) * UnguidedSums::kMomentUnit / samples - (moment - guided[g]);
-        all_guided += guided[g];
-        all_unguided += unguided[g];
-    }
-    const auto count = static_cast<double>(pixels.size());
+    mix(guided_cost, other.guided_cost);
+    mix(unguided_cost, other.unguided_cost);
+}
+
+GuidingWorth GuidingEvidence::worth() const {
+    const double all_guided = std::accumulate(guided.begin(), guided.end(), 0.0),
+                 all_unguided = std::accumulate(unguided.begin(), unguided.end(), 0.0);
+    if (!(all_guided > 0 && guided_cost > 0 && unguided_cost > 0)) return {};
     GuidingWorth worth;
     worth.guided_cost = guided_cost;
-    worth.unguided_cost = static_cast<double>(sums.cost) * UnguidedSums::kCostUnit / (count * samples);
+    worth.unguided_cost = unguided_cost;
     constexpr double kLeast = 1e-9;  // no noise at all
-    worth.guided_variance = all_guided / count;
-    worth.unguided_variance = std::max(all_unguided / count, kLeast * std::max(worth.guided_variance, kLeast));
-    if (!(worth.guided_variance > 0 && guided_cost > 0 && worth.unguided_cost > 0)) return {};
-    worth.worth = worth.unguided_variance * worth.unguided_cost / (worth.guided_variance * worth.guided_cost);
+    worth.guided_variance = all_guided;
+    worth.unguided_variance = std::max(all_unguided, kLeast * std::max(all_guided, kLeast));
+    worth.worth = worth.unguided_variance * unguided_cost / (all_guided * guided_cost);
     // The spread of the logarithm, by leaving groups out.
     double sum = 0, squares = 0, weight = 0, weights = 0;
-    for (std::size_t g = 0; g < kGroups; ++g) {
+    for (std::size_t g = 0; g < guided.size(); ++g) {
         const double others_guided = all_guided - guided[g], others_unguided = all_unguided - unguided[g];
         const double log = others_guided > 0 && others_unguided > 0
                                ? std::log(others_unguided / others_guided)
@@ -84,10 +78,34 @@ GuidingWorth guiding_worth(const UnguidedSums& sums, std::span<const PixelEstima
         weight += part;
         weights += part * part;
     }
-    constexpr auto kN = static_cast<double>(kGroups);
+    constexpr auto kN = static_cast<double>(UnguidedSums::kGroups);
     worth.error = std::sqrt(std::max(squares - sum * sum / kN, 0.0) * (kN - 1) / kN);
     worth.known = weights > 0 ? weight * weight / weights : 0;
     return worth;
+}
+
+GuidingEvidence guiding_evidence(const UnguidedSums& sums, std::span<const PixelEstimate> pixels,
+                                 const ImageLevels& levels, std::size_t width, double guided_cost) {
+    if (levels.inverse_levels.empty() || sums.cost == 0 || pixels.empty()) return {};
+    GuidingEvidence evidence;
+    const auto samples = static_cast<double>(pixels.front().whole().n), count = static_cast<double>(pixels.size());
+    if (samples < 2) return {};
+    GuidingEvidence::Groups means{};  // squares of the pixels' means
+    for (std::size_t p = 0; p < pixels.size(); ++p) {
+        const double mean = luminance(pixels[p].whole().mean) * static_cast<double>(levels.at(p, width));
+        means[pixel_group(static_cast<std::uint32_t>(p % width), static_cast<std::uint32_t>(p / width))] += mean * mean;
+    }
+    for (std::size_t g = 0; g < means.size(); ++g) {
+        const double moment = static_cast<double>(sums.guided[g]) * UnguidedSums::kMomentUnit / samples;
+        const double guided = std::max(moment - means[g], 0.0) * samples / (samples - 1);
+        evidence.guided[g] = guided / count;
+        evidence.unguided[g] =
+            (static_cast<double>(sums.unguided[g]) * UnguidedSums::kMomentUnit / samples - (moment - guided)) / count;
+    }
+    evidence.samples = samples;
+    evidence.guided_cost = guided_cost;
+    evidence.unguided_cost = static_cast<double>(sums.cost) * UnguidedSums::kCostUnit / (count * samples);
+    return evidence;
 }
 
 }  // namespace treefarm

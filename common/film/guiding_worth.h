@@ -53,10 +53,32 @@ struct GuidingWorth {
 
     double low() const;  ///< by one standard error
     double high() const;
+
+    bool operator==(const GuidingWorth&) const = default;
 };
 
-/// Worth of guiding by a guided pass with these pixels. `guided_cost` in rays, of one sample.
-GuidingWorth guiding_worth(const UnguidedSums& sums, std::span<const PixelEstimate> pixels, const ImageLevels& levels,
-                           std::size_t width, double guided_cost);
+/// What guided passes have told of guided and of unguided samples, by pixel group.
+struct GuidingEvidence {
+    using Groups = std::array<double, UnguidedSums::kGroups>;
+
+    double samples = 0;                         ///< of each pixel; 0: nothing is known
+    Groups guided{}, unguided{};                ///< variances of a sample; their sums are those of a mean pixel
+    double guided_cost = 0, unguided_cost = 0;  ///< of a sample, in rays
+
+    /// Adds that of other passes; each sample counts alike.
+    void add(const GuidingEvidence& other);
+    GuidingWorth worth() const;
+
+    bool operator==(const GuidingEvidence&) const = default;
+
+    template <class Archive>
+    void serialize(Archive& archive) {
+        archive(samples, guided, unguided, guided_cost, unguided_cost);
+    }
+};
+
+/// Evidence of a guided pass with these pixels. `guided_cost` in rays, of one sample.
+GuidingEvidence guiding_evidence(const UnguidedSums& sums, std::span<const PixelEstimate> pixels,
+                                 const ImageLevels& levels, std::size_t width, double guided_cost);
 
 }  // namespace treefarm

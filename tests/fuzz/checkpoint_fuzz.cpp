@@ -21,7 +21,11 @@ RenderState small_state() {
     state.films[0].parts = {{1, 0}, {3, 1}};
     state.films[0].noise.passes = 1;
     state.films[0].noise.half[0] = {0.5, {2}};
-    state.guiding_memory = {2.0, 3, {}};
+    PassPlan guided;
+    guided.spp = 8;
+    GuidingEvidence evidence{.samples = 8, .guided_cost = 3, .unguided_cost = 2};
+    evidence.guided.fill(0.5);
+    state.guiding_memory.after_guided(guided, evidence);
     PassFacts facts;
     facts.spp = 4;
     state.history.passes.push_back(facts);

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -44,9 +45,13 @@ ImageLevels even_levels() {
     return image_levels(std::vector<Rgb64>(kPixels, Rgb64(1.0)), kWidth);
 }
 
+/// Of pixels that deviate by a half, at 8 rays a sample.
+GuidingWorth worth_of(const UnguidedSums& sums, const ImageLevels& levels = even_levels()) {
+    return guiding_evidence(sums, pixels(0.5f), levels, kWidth, 8.0).worth();
+}
+
 TEST(GuidingWorth, IsVarianceTimesCostOfUnguidedOverGuidedSamples) {
-    const GuidingWorth worth =
-        guiding_worth(sums_of(0.5, 1.5, 4.0), pixels(0.5f), even_levels(), kWidth, /*guided_cost=*/8.0);
+    const GuidingWorth worth = worth_of(sums_of(0.5, 1.5, 4.0));
     const double unbiased = kSamples / (kSamples - 1.0);
     EXPECT_NEAR(worth.guided_variance, 0.25 * unbiased, 1e-3);
     // The mean's square is that of the guided pixels, of which the noise is taken away.
@@ -60,11 +65,40 @@ TEST(GuidingWorth, IsVarianceTimesCostOfUnguidedOverGuidedSamples) {
 TEST(GuidingWorth, AFewGroupsThatKnowItAllAreNotSure) {
     UnguidedSums sums = sums_of(0.5, 0.5, 4.0);
     sums.unguided[5] += static_cast<std::uint64_t>(1000 * kSamples / UnguidedSums::kMomentUnit);
-    const GuidingWorth worth = guiding_worth(sums, pixels(0.5f), even_levels(), kWidth, 8.0);
+    const GuidingWorth worth = worth_of(sums);
     EXPECT_GT(worth.error, 0.8);
     EXPECT_LT(worth.known, 4);
-    EXPECT_EQ(guiding_worth({}, pixels(0.5f), even_levels(), kWidth, 8.0).worth, 0) << "nothing was counted";
-    EXPECT_EQ(guiding_worth(sums, pixels(0.5f), {}, kWidth, 8.0).worth, 0) << "the image was black before";
+    EXPECT_EQ(worth_of({}).worth, 0) << "nothing was counted";
+    EXPECT_EQ(worth_of(sums, {}).worth, 0) << "the image was black before";
+}
+
+/// Evidence of several passes is that of one with all their samples.
+TEST(GuidingWorth, EvidenceAddsUpBySamples) {
+    const auto of = [](double samples, double guided, double unguided, double cost) {
+        GuidingEvidence evidence{.samples = samples, .guided_cost = cost, .unguided_cost = 2 * cost};
+        evidence.guided.fill(guided);
+        evidence.unguided.fill(unguided);
+        return evidence;
+    };
+    GuidingEvidence all;
+    all.add({});
+    EXPECT_EQ(all, GuidingEvidence());
+    EXPECT_EQ(all.worth(), GuidingWorth());
+    all.add(of(8, 1, 2, 4));
+    EXPECT_EQ(all, of(8, 1, 2, 4));
+    all.add(of(24, 3, 6, 8));
+    all.add({});
+    EXPECT_NEAR(all.worth().guided_variance, 64 * 2.5, 1e-9);
+    EXPECT_NEAR(all.worth().unguided_variance, 64 * 5, 1e-9);
+    EXPECT_NEAR(all.worth().guided_cost, 7, 1e-9);
+    EXPECT_NEAR(all.worth().worth, 4, 1e-9);
+    EXPECT_EQ(all.samples, 32);
+    // A group that knows it all in either pass: two of them in both.
+    GuidingEvidence rare = of(8, 0, 0, 4), other = rare;
+    rare.guided[3] = rare.unguided[3] = other.guided[9] = other.unguided[9] = 1;
+    EXPECT_NEAR(rare.worth().known, 1, 1e-9);
+    rare.add(other);
+    EXPECT_NEAR(rare.worth().known, 2, 1e-9);
 }
 
 Guiding verdict(std::uint32_t spp, double worth, double error = 0, double mistrust = 1, double known = 20) {
@@ -140,10 +174,10 @@ class Automatic {
         PassReport report;
         report.plan = make_pass(job_, index_++, 64, spp, false);
         set_guiding(report.plan, job_, state_.history.guiding);
-        report.stats.paths = kPixels * kSamples;
+        report.stats.paths = kPixels * spp;
         report.stats.rays = 4 * report.stats.paths;
-        if (report.plan.guided) report.stats.unguided = sums_of(double(deviation), unguided, 4.0);
-        state_.films.assign(1, {kSamples, 0, pixels(deviation)});
+        if (report.plan.guided) report.stats.unguided = sums_of(double(deviation), unguided, 4.0, spp);
+        state_.films.assign(1, {spp, 0, pixels(deviation, spp)});
         CombinedImage image;
         image.mean.assign(kPixels, Rgb64(1.0));
         judge(state_, job_, image, kWidth, report);
@@ -170,10 +204,84 @@ TEST(Automatic, GuidesAgainWhereUnguidedPassesAreNoisierThanGuidedOnesHadSaid) {
     EXPECT_EQ(render.pass(0.5f, 0.4), Guiding::open) << "guided paths still say the same, and are not believed";
     EXPECT_TRUE(render.guided);
     EXPECT_EQ(render.pass(0.5f, 4.0), Guiding::open) << "now they know";
+    EXPECT_EQ(render.pass(0.5f, 0.4), Guiding::open) << "but this one has missed the light again";
+}
+
+TEST(Automatic, MistrustDoesNotLast) {
+    Automatic render;
+    EXPECT_EQ(render.pass(0.5f, 0.4), Guiding::loses);
+    render.pass(4.0f);
+    EXPECT_EQ(render.pass(4.0f), Guiding::open);
     Guiding last = Guiding::open;
-    for (int pass = 0; pass < 12 && last == Guiding::open; ++pass)
+    int passes = 0;
+    for (; passes < 12 && last == Guiding::open; ++passes)
         last = render.pass(0.5f, 0.4);
-    EXPECT_EQ(last, Guiding::loses) << "mistrust does not last";
+    EXPECT_EQ(last, Guiding::loses);
+    EXPECT_GT(passes, 1);
+}
+
+/// Passes of 64 spp at equal cost, in which some groups of pixels have such variances and the others none.
+class Passes {
+  public:
+    GuidingVerdict guided(double guided, double unguided, std::size_t first = 0, std::size_t groups = 64) {
+        GuidingEvidence evidence{.samples = double(pass_.spp), .guided_cost = 1, .unguided_cost = 1};
+        std::fill_n(evidence.guided.begin() + std::ptrdiff_t(first), groups, guided / double(groups));
+        std::fill_n(evidence.unguided.begin() + std::ptrdiff_t(first), groups, unguided / double(groups));
+        ++pass_.index;
+        return memory_.after_guided(pass_, evidence);
+    }
+    Guiding unguided(double variance) {
+        ++pass_.index;
+        return memory_.after_unguided(pass_, variance, Guiding::loses).guiding;
+    }
+    void set_spp(std::uint32_t spp) { pass_.spp = spp; }
+
+  private:
+    GuidingMemory memory_;
+    PassPlan pass_{.spp = 64};
+};
+
+/// Rare light makes single groups of pixels outweigh all others in any pass.
+TEST(GuidingMemory, PassesThatEachKnowTooLittleKnowEnoughTogether) {
+    Passes passes;
+    const GuidingVerdict first = passes.guided(2, 1, 0, 2), second = passes.guided(2, 1, 2, 2);
+    EXPECT_NEAR(first.worth.known, 2, 1e-9);
+    EXPECT_EQ(first.guiding, Guiding::open);
+    EXPECT_NEAR(second.worth.known, 4, 1e-9);
+    EXPECT_NEAR(second.worth.worth, 0.5, 1e-9);
+    EXPECT_EQ(second.guiding, Guiding::loses);
+}
+
+TEST(GuidingMemory, APassThatHasMissedLightIsJudgedByAll) {
+    Passes passes;
+    EXPECT_EQ(passes.guided(10, 100).guiding, Guiding::open);
+    const GuidingVerdict missed = passes.guided(2, 1);
+    EXPECT_NEAR(missed.worth.unguided_variance, 50.5, 1e-9);
+    EXPECT_EQ(missed.guiding, Guiding::open) << "by itself it would be worth a half";
+    for (int pass = 0; pass < 120; ++pass)
+        passes.guided(2, 1);
+    EXPECT_EQ(passes.guided(2, 1).guiding, Guiding::loses) << "in the end that light was a firefly";
+}
+
+TEST(GuidingMemory, WhatShortPassesToldIsForgotten) {
+    Passes passes;
+    passes.set_spp(8);
+    EXPECT_EQ(passes.guided(10, 100).guiding, Guiding::open);
+    passes.set_spp(16);
+    const GuidingVerdict settled = passes.guided(2, 1);
+    EXPECT_NEAR(settled.worth.unguided_variance, 1, 1e-9);
+    EXPECT_EQ(settled.guiding, Guiding::loses);
+}
+
+TEST(GuidingMemory, WaitsOnlyBeforeGuidingIsTakenUpAgain) {
+    Passes passes;
+    EXPECT_EQ(passes.guided(2, 1).guiding, Guiding::loses);
+    EXPECT_EQ(passes.unguided(0), Guiding::loses) << "not known";
+    EXPECT_EQ(passes.unguided(100), Guiding::open) << "the second";
+    EXPECT_EQ(passes.guided(256, 128).guiding, Guiding::loses) << "all have told 64 of 100";
+    EXPECT_EQ(passes.unguided(100), Guiding::loses);
+    EXPECT_EQ(passes.unguided(100), Guiding::loses) << "which is the same but for chance";
+    EXPECT_EQ(passes.unguided(400), Guiding::open);
 }
 
 TEST(Automatic, PassesTooShortToJudgeAreNothingToCompareWith) {
@@ -182,7 +290,7 @@ TEST(Automatic, PassesTooShortToJudgeAreNothingToCompareWith) {
     EXPECT_EQ(render.pass(0.5f, 0.533), Guiding::loses) << "worth 0.8, the first that is known";
 }
 
-TEST(Automatic, NeverChangesTwiceInTwoPasses) {
+TEST(Automatic, TheFirstUnguidedPassDoesNotTakeGuidingUp) {
     Automatic render;
     EXPECT_EQ(render.pass(0.5f, 0.4), Guiding::loses);
     EXPECT_EQ(render.pass(4.0f), Guiding::loses) << "the first pass after a change has no say";
