@@ -157,8 +157,7 @@ TEST(LightSubpathGain, OneSampleHasNoVarianceAndNonsenseIsLeftOut) {
         pixel.add({.own = 1, .alone = bad});
     }
     pixel.finish(sums);
-    EXPECT_EQ(sums.samples + sums.both_mean + sums.alone_mean + sums.both_variance + sums.alone_variance,
-              0u);
+    EXPECT_EQ(sums.samples + sums.both_mean + sums.alone_mean + sums.both_variance + sums.alone_variance, 0u);
     EXPECT_EQ(light_subpath_gain({}).noise, 0) << "not known";
     EXPECT_EQ(light_subpath_gain({}).at_equal_cost(), 0);
 }
