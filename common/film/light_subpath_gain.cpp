@@ -22,8 +22,8 @@ double missed_light_noise(const LightSubpathSums& sums) {
     const auto mean = [samples](std::uint64_t sum) { return static_cast<double>(sum) / (samples * kUnitsPerOne); };
     const double variance = mean(sums.both_variance);
     const double error = std::sqrt((variance + mean(sums.alone_variance)) / samples);
-    const double missed = mean(sums.both_mean) - mean(sums.alone_mean) - kPolicy.light_subpaths.missed_errors * error;
-    return missed > 0 ? missed * missed * samples / variance : 0.0;
+    const double missed = mean(sums.both_mean) - mean(sums.alone_mean);
+    return missed > kPolicy.light_subpaths.missed_errors * error ? missed * missed * samples / variance : 0.0;
 }
 
 }  // namespace

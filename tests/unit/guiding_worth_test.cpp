@@ -45,7 +45,7 @@ ImageLevels even_levels() {
     return image_levels(std::vector<Rgb64>(kPixels, Rgb64(1.0)), kWidth);
 }
 
-/// Of pixels that deviate by a half, at 8 rays a sample.
+/// Worth by pixels that deviate by a half, at 8 rays a sample.
 GuidingWorth worth_of(const UnguidedSums& sums, const ImageLevels& levels = even_levels()) {
     return guiding_evidence(sums, pixels(0.5f), levels, kWidth, 8.0).worth();
 }
