@@ -62,7 +62,7 @@ struct Policy {
         double least_found = 0.95;
         std::uint32_t least_spp = 4;
         double most_of_mean = 32.0;
-        double missed_errors = 2.0;
+        double missed_errors = 1.0;
         double prior_paths = 128.0;
         float unlearned = 0.2f;
     } light_subpaths;

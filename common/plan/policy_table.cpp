@@ -30,6 +30,7 @@ constexpr const char* kDecisions = "bench/log/2026-11-27-decisions.md";
 constexpr const char* kJoint = "bench/log/2026-11-27-joint.md";
 constexpr const char* kEnds = "bench/log/2026-11-27-ends.md";
 constexpr const char* kMissed = "bench/log/2026-11-27-missed-light.md";
+constexpr const char* kRare = "bench/log/2026-11-27-rare-light.md";
 constexpr const char* kGuess = "chosen, not measured";
 
 constexpr Policy::Guiding kGuiding = kPolicy.guiding;
@@ -120,8 +121,7 @@ constexpr std::array kEntries = {
           "else differs",
           kMissed),
     entry("light_subpaths.missed_errors", kLightSubpaths.missed_errors,
-          "light that samples without them have missed is noise where it is more than so many standard errors",
-          kMissed),
+          "light that samples without them have missed is noise where it is more than so many standard errors", kRare),
     entry("light_subpaths.prior_paths", kLightSubpaths.prior_paths,
           "light paths of an emitter that count as if they had brought what all do", kGuess),
     entry("light_subpaths.unlearned", kLightSubpaths.unlearned,

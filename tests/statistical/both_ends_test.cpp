@@ -126,9 +126,12 @@ TEST(LightSubpaths, PathsAloneAreThoseOfPathTracing) {
     EXPECT_NEAR(gain.found, 1, 0.03);
 }
 
-/// Paths from the camera hardly meet a lamp by way of water: they look quiet, and only the light that they miss tells.
-TEST(LightSubpaths, StayWhereCameraPathsHaveMetNoCausticYet) {
-    const Scene scene = load_scene(test::own_scene("water.xml"), {}, false, 96, 64).scene;
+class Caustics : public testing::TestWithParam<const char*> {};
+
+/// Paths from the camera hardly meet a lamp by way of water or glass: they look quiet, and only the light that they
+/// miss tells.
+TEST_P(Caustics, KeepLightSubpathsWhereCameraPathsHaveMetNoneYet) {
+    const Scene scene = load_scene(test::own_scene(GetParam()), {}, false, 96, 64).scene;
     int kept = 0, looked_quiet = 0;
     for (const std::uint32_t spp : {24u, 26u, 28u, 30u}) {  // each has a seed of its own
         const LocalRender run = render(scene, "bidirectional", spp, LightSelection::learned, true, Rule::while_it_pays);
@@ -141,6 +144,8 @@ TEST(LightSubpaths, StayWhereCameraPathsHaveMetNoCausticYet) {
     EXPECT_GE(kept, 3);
     EXPECT_GE(looked_quiet, 2) << "by the variance of a pass";
 }
+
+INSTANTIATE_TEST_SUITE_P(Scenes, Caustics, testing::Values("water.xml", "caustic.xml"));
 
 /// What points throw by way of glass no path from the camera finds: subpaths stay, whatever they cost.
 TEST(LightSubpaths, StayWhereOnlyTheyFindTheLight) {

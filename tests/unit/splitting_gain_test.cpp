@@ -182,8 +182,9 @@ TEST(LightSubpathGain, MissedLightIsNoiseThatNobodyHasSeen) {
     };
     EXPECT_NEAR(noise(1.0), 32 / 0.5, 1e-4) << "camera paths alone show none";
     EXPECT_EQ(noise(1.0, true), noise(1.0)) << "passes of 9 spp: a block of one sample has no variance";
-    EXPECT_NEAR(noise(0.26), 0.26 * 0.26 * 32 / 0.5, 1e-4);
-    EXPECT_EQ(noise(0.24), 0) << "within two standard errors";
+    const double error = std::sqrt(0.5 / 32), least = kPolicy.light_subpaths.missed_errors * error;
+    EXPECT_NEAR(noise(1.01 * least), std::pow(1.01 * least / error, 2), 1e-4);
+    EXPECT_EQ(noise(0.99 * least), 0) << "within the error";
     EXPECT_EQ(noise(0.0), 0) << "nothing is missed";
 }
 
