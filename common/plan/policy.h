@@ -31,8 +31,8 @@ struct Policy {
         double standard_errors = 2.0;
         double least_gain = 0.03;
         double learned = 0.1;
-        double sample_cost = 0.15;
-        double shadow_ray_cost = 0.75;
+        double sample_cost = 0.25;
+        double shadow_ray_cost = 1.0;
         double least_rest = 0.02;
     } next_event;
 

@@ -83,10 +83,9 @@ constexpr std::array kEntries = {
           "part of a guided region's noise and cost that trees are expected to take away with each step to fewer light "
           "samples, which they learn",
           kJoint),
-    entry("next_event.sample_cost", kNextEvent.sample_cost, "cost of a light sample without its ray, in rays",
-          kDecisions),
+    entry("next_event.sample_cost", kNextEvent.sample_cost, "cost of a light sample without its ray, in rays", kRare),
     entry("next_event.shadow_ray_cost", kNextEvent.shadow_ray_cost, "cost of a shadow ray and its weights, in rays",
-          kDecisions),
+          kRare),
     entry("next_event.least_rest", kNextEvent.least_rest,
           "part of all noise or cost that no decision is believed to take away", kGuess),
     entry("levels.least", kLevels.least, "darker blocks count as bright as this share of the image's mean", kDecisions),

@@ -10,6 +10,7 @@
 #include "common/config/job_reader.h"
 #include "common/film/image_levels.h"
 #include "common/metrics/z_test.h"
+#include "common/plan/policy.h"
 #include "common/scene/readers/load.h"
 #include "tests/support/local_render.h"
 #include "tests/support/material_scenes.h"
@@ -100,7 +101,9 @@ TEST(Guided, PathsTellTheVarianceAndCostOfUnguidedOnes) {
     EXPECT_NEAR(told.unguided_variance / mean_variance(unguided.passes.back().pixels, levels, 48), 1, 0.25);
     const TraceStats& stats = unguided.stats.back();
     const double paths = 48.0 * 48.0 * plan.spp;
-    const double cost = (static_cast<double>(stats.rays) + 0.75 * static_cast<double>(stats.shadow_rays)) / paths;
+    const double cost = (static_cast<double>(stats.rays) +
+                         kPolicy.next_event.shadow_ray_cost * static_cast<double>(stats.shadow_rays)) /
+                        paths;
     EXPECT_NEAR(told.unguided_cost / cost, 1, 0.05);
 }
 
