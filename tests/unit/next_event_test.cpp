@@ -22,6 +22,8 @@ namespace treefarm {
 namespace {
 
 constexpr std::size_t kChoices = kNextEventSamples.size();
+/// Cost of a light sample whose ray is traced, in rays.
+constexpr double kLightSample = kPolicy.next_event.sample_cost + kPolicy.next_event.shadow_ray_cost;
 
 /// Direct light over [0, 1): scattering is uniform, emitters are drawn with density 2 x, and x^2 arrives.
 double density(double x, double n) {
@@ -83,7 +85,7 @@ TEST(NextEvent, IsHardlyAskedWhereItFindsNothing) {
 
 /// Evidence by which noise and cost at n = 1/16 are `by` above those at n = 1, and half of it at n = 1/4.
 NextEventEvidence dearer(double by) {
-    const double rays = 1.0 / 8.0 * 0.9 * 2000, always = 100 + rays;
+    const double rays = 1.0 / 8.0 * kLightSample * 2000, always = 100 + rays;
     NextEventEvidence e = evidence(2000, 100, 100 + rays * 15 / 16 + by * always);
     e[kNextEventMoments + 1] = 100 + rays * 3 / 4 + by / 2 * always;
     return e;
@@ -110,8 +112,7 @@ double work(std::span<const NextEventEvidence> regions, std::span<const std::uin
     for (std::size_t r = 0; r < regions.size(); ++r) {
         const NextEventEvidence& e = regions[r];
         variance += (e[kNextEventMoments + codes[r]] - e[kNextEventMoments]) / paths;
-        cost -= (kPolicy.next_event.sample_cost + kPolicy.next_event.shadow_ray_cost) * e[kNextEventAsked] / paths *
-                (1.0 - double(kNextEventSamples[codes[r]]));
+        cost -= kLightSample * e[kNextEventAsked] / paths * (1.0 - double(kNextEventSamples[codes[r]]));
     }
     return variance * cost;
 }
@@ -130,7 +131,7 @@ TEST(NextEvent, DecisionsEndAtTheLeastWork) {
                                   often * std::pow(16.0, double(to_unit(random[2]))));
             moments += often;
         }
-        const NextEventPrice always{moments / 1000 + 0.1, 30.0, 1000};
+        const NextEventPrice always{moments / 1000 + 0.1, kLightSample * 33.0, 1000};
         double least = std::numeric_limits<double>::infinity();
         for (std::uint32_t way = 0; way < 81; ++way) {
             const std::array<std::uint8_t, 4> codes = {std::uint8_t(way % 3), std::uint8_t(way / 3 % 3),
