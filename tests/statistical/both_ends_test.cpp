@@ -131,7 +131,7 @@ class Caustics : public testing::TestWithParam<const char*> {};
 /// Paths from the camera hardly meet a lamp by way of water or glass: they look quiet, and only the light that they
 /// miss tells.
 TEST_P(Caustics, KeepLightSubpathsWhereCameraPathsHaveMetNoneYet) {
-    const Scene scene = load_scene(test::own_scene(GetParam()), {}, false, 96, 64).scene;
+    const Scene scene = load_scene(test::own_scene(GetParam()), {}, false, 64, 48).scene;
     int kept = 0, looked_quiet = 0;
     for (const std::uint32_t spp : {24u, 26u, 28u, 30u}) {  // each has a seed of its own
         const LocalRender run = render(scene, "bidirectional", spp, LightSelection::learned, true, Rule::while_it_pays);
