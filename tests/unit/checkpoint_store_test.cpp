@@ -109,7 +109,8 @@ TEST_F(Checkpoints, WhatDecidesOnGuidingAndNextEventIsKept) {
     PassPlan pass;
     pass.spp = 8;
     EXPECT_EQ(state.guiding_memory.after_guided(pass, evidence).guiding, Guiding::loses);
-    EXPECT_EQ(state.guiding_memory.after_unguided(pass, 100, Guiding::loses).guiding, Guiding::loses);
+    pass.index = 5;
+    EXPECT_EQ(state.guiding_memory.after_unguided(pass, 100, Guiding::loses).guiding, Guiding::open) << "with mistrust";
     SdTree tree = *state.tree.get_if<SdTree>();
     tree.next_event.assign(tree.leaf_count(), 2);
     tree.image = {1, {0.5f}, 1};
