@@ -56,6 +56,9 @@ class EffectFinder {
     Effect guiding() const;
     Effect views() const;
     Effect recording() const;
+    Effect light_subpaths() const;
+    Effect light_image() const;
+    Effect connections() const;
     Effect roulette() const;
     Effect depth_limit() const;
     Effect strict_normals() const;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cstdio>
 
+#include "common/config/estimators.h"
 #include "common/config/job_keys.h"
 #include "common/plan/effect_finder.h"
 #include "common/plan/kernel.h"
@@ -47,6 +48,11 @@ std::uint64_t normal_bytes(const Scene& scene) {
     for (const Shape& shape : scene.shapes)
         if (const auto* mesh = std::get_if<Mesh>(&shape.geometry)) bytes += mesh->normals.size() * sizeof(Vec3);
     return bytes;
+}
+
+/// Whether paths from the camera and from emitters are joined.
+bool connects(const Resolved& job) {
+    return estimator_of(job.integrator.type).from == PathsFrom::both;
 }
 
 bool is_mesh(const Shape& shape) {
@@ -133,6 +139,27 @@ Effect EffectFinder::recording() const {
     if (count == 0) return effect_off("no later pass would be guided by it");
     return effect_on("in all passes but the last, " + std::to_string(count) + " of them",
                      expected_tree(scene_, job_).sum_bytes());
+}
+
+Effect EffectFinder::light_subpaths() const {
+    const std::string reason = "integrator.type = \"" + job_.integrator.type + "\"";
+    if (!estimator_of(job_.integrator.type).splats()) return effect_off(reason);
+    if (scene_.emitters.empty()) return effect_off("there are no emitters");
+    const bool for_now = job_.bidirectional.light_subpaths == Rule::while_it_pays && connects(job_);
+    return effect_on(reason + (for_now ? ", until passes show that they do not pay" : ""));
+}
+
+Effect EffectFinder::light_image() const {
+    if (!light_subpaths().on) return effect_off("there are no paths from emitters");
+    if (!connects(job_)) return effect_on("all that the image shows", splat_bytes(scene_, job_));
+    if (!job_.bidirectional.light_image) return effect_off("bidirectional.light_image = false");
+    return effect_on("bidirectional.light_image = true", splat_bytes(scene_, job_));
+}
+
+Effect EffectFinder::connections() const {
+    if (!light_subpaths().on) return effect_off("there are no paths from emitters");
+    if (!connects(job_)) return effect_off("there are no paths from the camera");
+    return effect_on("bidirectional.techniques = \"" + job_.bidirectional.techniques + "\"");
 }
 
 Effect EffectFinder::roulette() const {

@@ -32,6 +32,8 @@ constexpr double kCellsPerRegionByUse = 2.0;
 constexpr double kViewsPerRegion = 0.5;
 /// A cell's two sums (docs/design/guiding.md).
 constexpr std::uint64_t kSumBytes = 8;
+/// Both halves of a pixel's splats.
+constexpr std::uint64_t kSplatBytes = 2 * sizeof(SplatMoments);
 constexpr std::uint64_t kPlainTreeBytesPerCell = 5;
 constexpr std::uint64_t kPlainTreeBytesPerRegion = 2 * 8 + 6;
 
@@ -154,6 +156,11 @@ std::uint64_t emitter_table_bytes(const Scene& scene, const Emitter& emitter) {
     return table.bytes;
 }
 
+std::uint64_t splat_bytes(const Scene& scene, const Resolved& job) {
+    const bool splats = make_pass(job, 0, 0, 1, true).layers.splats.pixels > 0;
+    return splats ? 2 * scene.film.pixel_count() * kSplatBytes : 0;
+}
+
 std::uint64_t TreeSize::guide_bytes() const {
     return regions * (cost.region + (with_lights ? sizeof(LightProbabilities) : 0) + (with_next_event ? 1 : 0)) +
            views * cost.view + cells * cost.cell;
@@ -227,12 +234,9 @@ MemoryPlan expected_memory(const Scene& scene, const Resolved& job) {
     plan.worker.push_back({"textures", texture_bytes(scene), count_text(scene.images.size(), "images")});
     plan.worker.push_back(emitter_item(scene, job));
     plan.worker.push_back({"tree", tree.guide_bytes() + tree.sum_bytes(), tree_text});
-    const auto sums_of_splats = [&](std::uint64_t copies) {
-        return MemoryItem{"splats", copies * pixels * 2 * sizeof(SplatMoments),
-                          count_text(2 * sizeof(SplatMoments), "bytes a pixel: sums, and their message")};
-    };
-    const bool splats = make_pass(job, 0, 0, 1, true).layers.splats.pixels > 0;
-    if (splats) plan.worker.push_back(sums_of_splats(2));
+    const MemoryItem splats{"splats", splat_bytes(scene, job),
+                            count_text(kSplatBytes, "bytes a pixel: sums, and their message")};
+    if (splats.bytes > 0) plan.worker.push_back(splats);
     const std::uint64_t scene_bytes = geometry_bytes(scene) + texture_bytes(scene);
     plan.coordinator.push_back({"scene", 2 * scene_bytes, "as values and packed for workers"});
     // Passes, the one in hand, the image; that of the pass before while it is written, its 12 channels and their file.
@@ -240,7 +244,7 @@ MemoryPlan expected_memory(const Scene& scene, const Resolved& job) {
         {"film",
          pixels * ((kept_passes(job) + 1) * sizeof(PixelEstimate) + 2 * 4 * sizeof(Rgb64) + 2 * 12 * sizeof(float)),
          count_text(pixels, "pixels, ") + passes_text(job)});
-    if (splats) plan.coordinator.push_back(sums_of_splats(2));
+    if (splats.bytes > 0) plan.coordinator.push_back(splats);
     const AovLayout aovs(aov_requests(job));
     const std::uint64_t sums = sizeof(double) * aovs.size() + (aovs.direct() ? sizeof(Rgb64) : 0);
     if (job.farm.checkpoint_seconds > 0)

@@ -56,6 +56,9 @@ std::uint64_t mesh_bytes(const Mesh& mesh);
 /// map a bound.
 std::uint64_t emitter_table_bytes(const Scene& scene, const Emitter& emitter);
 
+/// Bytes of the sums of splats in a worker, and of their message; 0 where a job's paths splat nothing.
+std::uint64_t splat_bytes(const Scene& scene, const Resolved& job);
+
 /// Expected size of the tree: a region holds about as many vertices as its splitting threshold asks for. A path is
 /// counted as eight vertices, a region's quadtree as 2.4 / directional_threshold cells, views as what they are bounded
 /// by (one for two regions). Of a guide that does not grow it is known. 0 without guiding.

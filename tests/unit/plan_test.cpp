@@ -211,6 +211,30 @@ TEST(Plan, TheJobDecidesAboutTransport) {
     EXPECT_TRUE(plan.warnings.empty());
 }
 
+TEST(Plan, SaysWhatPathsFromEmittersTake) {
+    Scene scene = full_scene();
+    Job job;
+    const auto found = [&](const char* name) { return *plan_effects(scene, job).find(name); };
+    for (const char* name : {"light_subpaths", "light_image", "connections"})
+        EXPECT_FALSE(found(name).on) << name;
+    EXPECT_EQ(found("light_subpaths").reason, "integrator.type = \"path\"");
+
+    job.integrator.type = "light";
+    EXPECT_TRUE(found("light_subpaths").on && found("light_image").on);
+    EXPECT_FALSE(found("connections").on);
+
+    job.integrator.type = "bidirectional";
+    EXPECT_TRUE(found("light_subpaths").on && found("light_image").on && found("connections").on);
+    EXPECT_EQ(found("light_image").bytes, 2u * 96 * scene.film.pixel_count());
+    EXPECT_EQ(found("light_image").bytes, splat_bytes(scene, resolve(job, scene)));
+    job.bidirectional.light_image = false;
+    EXPECT_EQ(found("light_image").reason, "bidirectional.light_image = false");
+
+    scene.emitters.clear();
+    for (const char* name : {"light_subpaths", "light_image", "connections"})
+        EXPECT_FALSE(found(name).on) << name;
+}
+
 TEST(Plan, NamesTheKernelOfEachPass) {
     const Scene scene;
     Job job;

@@ -23,6 +23,23 @@ inline constexpr auto kTransportEffects = std::tuple(
          "13 bytes per cell and 22 per region, 150 where the mixture is learned; a record per vertex"},
         [](const auto& find) { return find.recording(); }, instead("set guiding.type = \"none\"")),
     effect(
+        {"light_subpaths", "transport", "paths that start from emitters, not from the camera alone (Veach 1997)",
+         "`integrator.type` is light or bidirectional, and there are emitters",
+         "a second path per sample where paths from the camera stay: a bidirectional sample takes 2 to 3 times as "
+         "long"},
+        [](const auto& find) { return find.light_subpaths(); }, instead("set integrator.type = \"path\"")),
+    effect(
+        {"light_image", "transport", "light paths are connected to the lens, and splat the pixel that they fall on",
+         "with light_subpaths; of bidirectional, `bidirectional.light_image`, too",
+         "96 bytes a pixel, and as much again to send them; a shadow ray per vertex of a light path"},
+        [](const auto& find) { return find.light_image(); },
+        instead("set bidirectional.light_image = false, or integrator.type = \"path\"")),
+    effect(
+        {"connections", "transport", "vertices of a path from the camera are connected with those of a light path",
+         "`integrator.type` is bidirectional, with light_subpaths",
+         "a shadow ray and two evaluated BSDFs per pair of vertices that is not black"},
+        [](const auto& find) { return find.connections(); }, instead("set integrator.type = \"path\" or \"light\"")),
+    effect(
         {"roulette", "transport", "Russian roulette ends paths that carry little",
          "paths may be longer than `integrator.rr_depth`", "no memory"},
         [](const auto& find) { return find.roulette(); },
