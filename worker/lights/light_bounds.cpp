@@ -43,9 +43,11 @@ DirectionCone joined(const DirectionCone& a, const DirectionCone& b) {
     const float between = half_turns_between(a.axis, b.axis);
     if (between + b.half_turns <= a.half_turns) return a;
     const float half_turns = 0.5f * (a.half_turns + between + b.half_turns);
-    const Vec3 across = b.axis - a.axis * dot(a.axis, b.axis);
+    const float along = dot(a.axis, b.axis);
+    const Vec3 across = b.axis - a.axis * along;
     const float length2 = dot(across, across);
-    if (half_turns >= 1.0f || !(length2 > 0.0f)) return {a.axis, 1.0f};
+    // Of nearly opposite axes little but rounding is left, which says nothing of where the cone is to be turned.
+    if (half_turns >= 1.0f || !(length2 > (along < 0.0f ? 1e-3f : 0.0f))) return {a.axis, 1.0f};
     const SinCos turned = sincos_turn(0.5f * (half_turns - a.half_turns));
     return {normalize(a.axis * turned.cos + across * (turned.sin / std::sqrt(length2))), half_turns};
 }

@@ -83,7 +83,7 @@ inline float sum_of(const LightLanes::Floats& f) {
 }
 
 /// Estimates below this are none: their quotients would leave the range of float.
-inline constexpr float kLeastLight = 1e-30f, kMostLight = 1e30f;
+inline constexpr float kLeastLight = 1e-29f, kMostLight = 1e30f;
 
 /// What an emitter with these bounds brings to p: LightLanes::estimate(). Everything by value, so that it becomes
 /// vector code over emitters as well as over points, of the same bits.

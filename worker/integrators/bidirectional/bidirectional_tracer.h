@@ -184,7 +184,9 @@ class BidirectionalTracer {
         if (!light.at_infinity()) {
             const double distance2 = squared_distance(z.hit.p, light.on_light.p);
             next /= distance2;
-            if (!light.delta) place *= distance2 / double(geometric_cosine(light.on_light, light.wi));
+            const auto cosine = double(geometric_cosine(light.on_light, light.wi));
+            // 0 on a sphere's rim, by rounding: no light path leaves along its surface.
+            if (!light.delta) place = cosine > 0.0 ? place * (distance2 / cosine) : 0.0;
         }
         return z.sums.sum(place * next, place * next * reverse(z, light.wi), rules_.heuristic);
     }

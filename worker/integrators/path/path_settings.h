@@ -46,6 +46,9 @@ struct PathSettings {
     float bootstrap;  ///< RecordRules::bootstrap
     Roulette roulette, unguided_roulette;
 
+    /// Whether vertices look up their region: the number of light samples is then the region's.
+    static bool by_region(const PassPlan& pass) { return pass.guided || pass.record; }
+
     /// Drawing one vertex's numbers alone takes some three times as long as among many.
     static constexpr float kFew = 1.0f / 3;
 
@@ -54,9 +57,9 @@ struct PathSettings {
           next_event(pass.next_event && scene.emitters().can_sample()),
           delta_alone(!pass.next_event && scene.emitters().has_delta_lights()),
           light_samples(job.integrator.light_samples),
-          thin_next_event(next_event && (light_samples > 0.0f ? light_samples < 1.0f
-                                                              : guide.thins_next_event(pass.guided || pass.record))),
-          few_light_samples(thin_next_event && !(pass.guided || pass.record) && !scene.emitters().has_delta_lights() &&
+          thin_next_event(next_event &&
+                          (light_samples > 0.0f ? light_samples < 1.0f : guide.thins_next_event(by_region(pass)))),
+          few_light_samples(thin_next_event && !by_region(pass) && !scene.emitters().has_delta_lights() &&
                             (light_samples > 0.0f ? light_samples : guide.image_next_event()) < kFew),
           count_next_event(next_event && counts_next_event(job, pass, guide)),
           twin(pass.guided && pass.record && guide.trained() && guide.knows_image() &&

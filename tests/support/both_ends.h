@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <string>
+
+#include "tests/support/hard_case.h"
+
+namespace treefarm::test {
+
+/// Estimators whose paths start at lamps, and all that are held against each other.
+inline constexpr const char* kFromLamps[] = {"light", "bidirectional"};
+inline constexpr const char* kFromAnyEnd[] = {"path", "light", "bidirectional"};
+
+/// A plain_job() with next event by an estimator, which keeps its light subpaths.
+inline LocalRender render_by(const std::string& type, const Scene& scene, std::uint32_t spp, int max_depth,
+                             const std::function<void(Job&)>& change = {}) {
+    Job job = plain_job(spp, max_depth, NextEvent::always);
+    job.integrator.type = type;
+    job.bidirectional.light_subpaths = Rule::always;
+    job.sampler.seed = static_cast<std::uint64_t>(type[0]);
+    if (change) change(job);
+    return render_locally(scene, job);
+}
+
+/// A change of a job: lamps that are seen directly are most of the noise of small images.
+inline void hide_emitters(Job& job) {
+    job.integrator.hide_emitters = true;
+}
+
+/// Holds means of renders from the lamps against path tracing's; returns the largest difference, in standard errors.
+inline double expect_mean_of_paths(const Scene& scene, int max_depth, std::uint32_t spp, const std::string& what,
+                                   const std::function<void(Job&)>& change = {}) {
+    const ImageMean path = mean_of(render_by("path", scene, 2 * spp, max_depth, change).image);
+    double worst = 0;
+    for (const char* const type : kFromLamps) {
+        const LocalRender run = render_by(type, scene, spp, max_depth, change);
+        EXPECT_EQ(invalid_samples(run), 0u) << type << ", " << what;
+        EXPECT_EQ(run.splat_caps.capped, 0u) << type << ", " << what;
+        EXPECT_EQ(run.splat_caps.rejected, 0u) << type << ", " << what;
+        const ImageMean mean = mean_of(run.image);
+        const double error = std::hypot(mean.error, path.error);
+        EXPECT_NEAR(mean.value, path.value, 4.5 * error) << type << ", " << what;
+        EXPECT_LT(error, 0.05 * path.value) << type << ", " << what << ": too noisy to tell";
+        worst = std::max(worst, std::abs(mean.value - path.value) / error);
+    }
+    return worst;
+}
+
+/// Holds an image against another, `factor` times as bright, a power of two.
+inline void expect_same_bits(const LocalRender& image, const LocalRender& other, double factor,
+                             const std::string& what) {
+    EXPECT_GT(mean_of(image.image).value, 0.0) << what << ": black";
+    for (std::size_t i = 0; i < image.image.mean.size(); ++i) {
+        ASSERT_EQ(image.image.mean[i] * factor, other.image.mean[i]) << what << ", pixel " << i;
+        ASSERT_EQ(image.image.variance[i] * (factor * factor), other.image.variance[i]) << what << ", pixel " << i;
+    }
+}
+
+}  // namespace treefarm::test
