@@ -27,18 +27,17 @@ double importance(const Camera& camera, double distance2) {
 }
 
 /// Light falls near its lamp: squared distance from the lens at which that of an emitter is seen, at most that of the
-/// scene. Not much less either: a lamp at the lens may light what is far.
-double seen_from(const Scene& scene, const Box3& lamp, double distance2) {
-    constexpr double kLeast = 0x1p-12;
+/// scene, and at least `nearest` of it.
+double seen_from(const Scene& scene, const Box3& lamp, double distance2, double nearest) {
     if (lamp.isEmpty()) return distance2;
     const Imath::V3d half = (Imath::V3d(lamp.max) - Imath::V3d(lamp.min)) * 0.5;
     const Imath::V3d to_lamp = Imath::V3d(lamp.min) + half - Imath::V3d(scene.camera.origin);
-    return std::clamp(to_lamp.dot(to_lamp) + half.dot(half), kLeast * distance2, distance2);
+    return std::clamp(to_lamp.dot(to_lamp) + half.dot(half), nearest * distance2, distance2);
 }
 
 /// Watts that the emitters send into a ball of radius R about the surfaces, mean of the channels, by what each says of
 /// the radiance that it brings there, each times the camera's importance where it is seen.
-double power_seen(const Scene& scene, double radius2, double distance2) {
+double power_seen(const Scene& scene, double radius2, double distance2, double nearest) {
     const LitScene lit{static_cast<float>(radius2), scene.images};
     double sum = 0;
     for (const Emitter& emitter : scene.emitters)
@@ -59,7 +58,7 @@ double power_seen(const Scene& scene, double radius2, double distance2) {
                 } else {
                     power = M_PI * M_PI * scale * radius2;
                 }
-                sum += power * importance(scene.camera, seen_from(scene, lamp, distance2));
+                sum += power * importance(scene.camera, seen_from(scene, lamp, distance2, nearest));
             },
             emitter.kind);
     return sum;
@@ -76,7 +75,12 @@ std::int16_t usual_splat_exponent(const Scene& scene) {
     const double distance2 = std::max(to_scene.dot(to_scene), radius2);
     const double per_window = double(scene.film.whole_width()) * double(scene.film.whole_height()) /
                               static_cast<double>(scene.film.pixel_count());
-    const double splat = power_seen(scene, radius2, distance2) / (2 * M_PI) * per_window;
+    // A lamp at the lens may light what is far: so near a one is not believed. A coarser quantum is only needed where
+    // splats would come near its caps, 2^30 times the usual one; what is left of these is for rare paths.
+    constexpr double kNearest = 0x1p-16, kAlike = 16;
+    const double power =
+        std::max(power_seen(scene, radius2, distance2, 1.0), power_seen(scene, radius2, distance2, kNearest) / kAlike);
+    const double splat = power / (2 * M_PI) * per_window;
     return splat_exponent(splat * kFiner * kOfExponent);
 }
 
