@@ -47,7 +47,7 @@ std::string time_text(double seconds, bool of_cores) {
 }
 
 std::string time_text(const Interval& seconds, bool of_cores) {
-    const std::string text = time_text(seconds.mean, of_cores);
+    std::string text = time_text(seconds.mean, of_cores);
     if (!has_interval(seconds) || seconds.high > kWidest * seconds.low) return text;
     return text + " [" + time_text(seconds.low, of_cores) + ", " + time_text(seconds.high, of_cores) + "]";
 }

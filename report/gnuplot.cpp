@@ -87,7 +87,7 @@ std::string described(const std::string& drawn, const Picture& picture) {
     if (tag_end == std::string::npos) return svg;
     svg.insert(tag_end + 1, fmt::format("\n<title id=\"{0}-title\">{1}</title>\n<desc id=\"{0}-desc\">{2}</desc>\n", id,
                                         html_text(picture.title), html_text(picture.description)));
-    svg.insert(tag_end, fmt::format(" role=\"img\" aria-labelledby=\"{0}-title\" aria-describedby=\"{0}-desc\"", id));
+    svg.insert(tag_end, fmt::format(R"( role="img" aria-labelledby="{0}-title" aria-describedby="{0}-desc")", id));
     return svg;
 }
 

@@ -57,7 +57,7 @@ std::string base64(std::vector<std::uint8_t> bytes) {
     bytes.resize(bytes.size() + missing);
     std::string text;
     for (std::size_t k = 0; k < bytes.size(); k += 3) {
-        const unsigned word = static_cast<unsigned>(bytes[k] << 16 | bytes[k + 1] << 8 | bytes[k + 2]);
+        const auto word = static_cast<unsigned>(bytes[k] << 16 | bytes[k + 1] << 8 | bytes[k + 2]);
         for (int shift = 18; shift >= 0; shift -= 6)
             text += digits[word >> shift & 63];
     }
@@ -78,13 +78,15 @@ RgbImage reduced(const RgbImage& image, int longest) {
     const int side = (std::max(image.width, image.height) + longest - 1) / longest;
     if (side <= 1) return image;
     RgbImage small(image.width / side, image.height / side);
+    const auto index = [](int x, int y, int width) {
+        return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
+    };
     for (int y = 0; y < small.height; ++y)
         for (int x = 0; x < small.width; ++x) {
             Rgb sum(0.0f);
             for (int k = 0; k < side * side; ++k)
-                sum +=
-                    image.pixels[static_cast<std::size_t>((y * side + k / side) * image.width + x * side + k % side)];
-            small.pixels[static_cast<std::size_t>(y * small.width + x)] = sum / static_cast<float>(side * side);
+                sum += image.pixels[index(x * side + k % side, y * side + k / side, image.width)];
+            small.pixels[index(x, y, small.width)] = sum / static_cast<float>(side * side);
         }
     return small;
 }

@@ -68,6 +68,7 @@ std::vector<std::pair<double, Interval>> band(const std::vector<std::vector<Curv
     for (int k = 0; k < kGridPoints; ++k) {
         const double seconds = first * std::pow(last / first, k / (kGridPoints - 1.0));
         std::vector<double> errors;
+        errors.reserve(curves.size());
         for (const auto& curve : curves)
             errors.push_back(error_at(curve, seconds));
         Interval at = geometric_mean(errors);

@@ -151,7 +151,7 @@ std::string method_table(const StudyResults& results) {
     for (const MethodResult& method : results.methods) {
         std::string keys;
         for (const auto& [key, value] : method.settings)
-            keys += (keys.empty() ? "" : ", ") + html_text(key + " = " + value);
+            keys += (keys.empty() ? "" : ", ") + html_text(fmt::format("{} = {}", key, value));
         rows.push_back({html_text(method.name) + (method.name == results.baseline ? " (baseline)" : ""),
                         keys.empty() ? "defaults" : keys});
     }

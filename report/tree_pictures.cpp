@@ -19,7 +19,7 @@ using Json = nlohmann::json;
 /// A picture that lies beside inspect.json, inside the page. Only its name counts: folders are moved.
 std::string figure(const std::filesystem::path& folder, const Json& picture, const std::string& caption) {
     const std::filesystem::path file = folder / std::filesystem::path(picture.at("file").get<std::string>()).filename();
-    return "<figure><img alt=\"\" src=\"data:image/png;base64," +
+    return R"(<figure><img alt="" src="data:image/png;base64,)" +
            base64(read_bytes(file, "run treefarm inspect again")) + "\"><figcaption>" + html_text(caption) +
            "</figcaption></figure>\n";
 }

@@ -51,7 +51,7 @@ std::string viewer_data(const StudyResults& results, const SceneResult& scene) {
         images.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);  // text in a script ends at "</"
     for (std::size_t at = 0; (at = json.find("</", at)) != std::string::npos; at += 3)
         json.replace(at, 2, "<\\/");
-    return "<div class=\"viewer\"><script type=\"application/json\">" + json + "</script></div>\n";
+    return R"(<div class="viewer"><script type="application/json">)" + json + "</script></div>\n";
 }
 
 }  // namespace treefarm

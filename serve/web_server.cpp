@@ -37,11 +37,11 @@ SiteRequest site_request(const httplib::Request& request) {
     return asked;
 }
 
-void fill(httplib::Response& to, SiteResponse response) {
+void fill(httplib::Response& to, const SiteResponse& response) {
     to.status = response.status;
     for (const auto& [name, value] : response.headers)
-        to.set_header(name.c_str(), value);
-    if (response.status != 304) to.set_content(std::move(response.body), response.type.c_str());
+        to.set_header(name, value);
+    if (response.status != 304) to.set_content(response.body, response.type);
 }
 
 std::string place(const std::string& address, int port) {
@@ -63,7 +63,7 @@ class WebServer::Server final : public httplib::Server {
             fill(response, respond_(site_request(request)));
             return HandlerResponse::Handled;
         });
-        set_exception_handler([](const httplib::Request&, httplib::Response& response, std::exception_ptr) {
+        set_exception_handler([](const httplib::Request&, httplib::Response& response, const std::exception_ptr&) {
             response.status = 500;
             response.set_content("something went wrong\n", "text/plain");
         });

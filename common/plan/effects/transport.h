@@ -38,7 +38,7 @@ inline constexpr auto kTransportEffects = std::tuple(
         {"connections", "transport", "vertices of a path from the camera are connected with those of a light path",
          "`integrator.type` is bidirectional, with light_subpaths",
          "a shadow ray and two evaluated BSDFs per pair of vertices that is not black"},
-        [](const auto& find) { return find.connections(); }, instead("set integrator.type = \"path\" or \"light\"")),
+        [](const auto& find) { return find.connections(); }, instead(R"(set integrator.type = "path" or "light")")),
     effect(
         {"roulette", "transport", "Russian roulette ends paths that carry little",
          "paths may be longer than `integrator.rr_depth`", "no memory"},
