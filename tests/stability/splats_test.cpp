@@ -118,7 +118,7 @@ TEST(Splats, OfLampsOfAnyPower) {
 
 /// ours | A lamp over a large ground
 /// Others: what light paths bring depended on how far the lens is from the lamp (LuxCore #678).
-/// Here: the quantum of splats is taken where lamps are seen from the lens, not where the scene's middle is.
+/// Here: the quantum of splats also goes by how near to the lens lamps are, not by the scene's middle alone.
 /// Holds: over grounds of about the distance of lens and lamp to 10,000 times as much nothing is capped, and the means
 /// agree with path tracing's within 4.5 standard errors.
 TEST(Splats, OfALampOverALargeGround) {

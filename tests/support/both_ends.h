@@ -49,14 +49,4 @@ inline double expect_mean_of_paths(const Scene& scene, int max_depth, std::uint3
     return worst;
 }
 
-/// Holds an image against another, `factor` times as bright, a power of two.
-inline void expect_same_bits(const LocalRender& image, const LocalRender& other, double factor,
-                             const std::string& what) {
-    EXPECT_GT(mean_of(image.image).value, 0.0) << what << ": black";
-    for (std::size_t i = 0; i < image.image.mean.size(); ++i) {
-        ASSERT_EQ(image.image.mean[i] * factor, other.image.mean[i]) << what << ", pixel " << i;
-        ASSERT_EQ(image.image.variance[i] * (factor * factor), other.image.variance[i]) << what << ", pixel " << i;
-    }
-}
-
 }  // namespace treefarm::test

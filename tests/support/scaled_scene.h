@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "common/scene/model/scene.h"
+#include "tests/support/hard_case.h"
+#include "tests/support/material_scenes.h"
 
 namespace treefarm::test {
 
@@ -24,6 +29,26 @@ inline Scene scaled(Scene scene, float factor) {
                     &scene.camera.lens_u, &scene.camera.lens_v})
         *v *= factor;
     return scene;
+}
+
+/// Rooms of a few pixels to be scaled: with diffuse walls, and with metal, glass, plastic and a lens.
+inline std::vector<Scene> rooms_to_scale() {
+    std::vector<Scene> rooms = {cornell_box(1.0f, Vec3(0.0f)), glossy_room()};
+    rooms[1].camera.lens_u = Vec3(0.02f, 0, 0);
+    rooms[1].camera.lens_v = Vec3(0, 0.02f, 0);
+    for (Scene& room : rooms)
+        set_film(room, 12, 12);
+    return rooms;
+}
+
+/// Holds an image against another, `factor` times as bright, a power of two.
+inline void expect_same_bits(const LocalRender& image, const LocalRender& other, double factor,
+                             const std::string& what) {
+    EXPECT_GT(mean_of(image.image).value, 0.0) << what << ": black";
+    for (std::size_t i = 0; i < image.image.mean.size(); ++i) {
+        ASSERT_EQ(image.image.mean[i] * factor, other.image.mean[i]) << what << ", pixel " << i;
+        ASSERT_EQ(image.image.variance[i] * (factor * factor), other.image.variance[i]) << what << ", pixel " << i;
+    }
 }
 
 }  // namespace treefarm::test
