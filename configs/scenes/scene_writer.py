@@ -23,7 +23,7 @@ class Writer:
 
     def __init__(self, version, comment, script="make_rooms.py"):
         self.version = version
-        self.lines = ['<?xml version="1.0" encoding="utf-8"?>', f"<!-- {comment}",
+        self.lines = ['<?xml version="1.0" encoding="utf-8"?>', "<!-- SPDX-License-Identifier: Apache-2.0 -->", f"<!-- {comment}",
                       f"     Written by {script}: change it there. -->", f'<scene version="{version}">']
         self.depth = 1
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Says the licence in each source file: one SPDX line at its top, below a "#!" line.
+"""Says the licence in each file that can hold a comment: one SPDX line at its top, below a "#!" or "<?xml" line.
 
 usage: tests/tools/add_spdx.py            adds it where it is missing
        tests/tools/add_spdx.py --check    fails where it is missing; 77 (skipped) while no file has it
@@ -12,12 +12,13 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 LINE = "SPDX-License-Identifier: Apache-2.0"
 MARKS = {".h": "// {}", ".cpp": "// {}", ".in": "// {}", ".js": "// {}", ".css": "/* {} */", ".py": "# {}", ".cmake": "# {}",
-         ".sh": "# {}", ".bash": "# {}"}
+         ".sh": "# {}", ".bash": "# {}", ".toml": "# {}", ".yaml": "# {}", ".cff": "# {}", ".xml": "<!-- {} -->"}
+NAMES = {"CMakeLists.txt", ".clang-format", ".clang-tidy", ".editorconfig", ".gitignore", ".git-blame-ignore-revs"}
 
 
 def mark_of(path):
     """How a comment looks in a file; None: it is no source file."""
-    if path.name == "CMakeLists.txt":
+    if path.name in NAMES:
         return "# {}"
     if path.suffix in MARKS:
         return MARKS[path.suffix]
@@ -43,7 +44,7 @@ def has_line(text, line):
 
 
 def with_line(text, line):
-    if text.startswith("#!"):
+    if text.startswith(("#!", "<?xml")):
         first, rest = text.split("\n", 1)
         return f"{first}\n{line}\n{rest}"
     return f"{line}\n{text}"
