@@ -150,6 +150,14 @@ TEST_P(RoughLobes, Principled) {
     }
 }
 
+TEST_P(RoughLobes, DiffuseTransmitter) {
+    const auto [distribution, alpha] = GetParam();
+    if (distribution != Microfacets::ggx || alpha < 0.5f) return;  // it has no roughness: once is enough
+    const test::PreparedMaterial paper(DiffuseTransmitterMaterial{Rgb(0.5f)});
+    for (const float cos : {1.0f, 0.7f, 0.2f})
+        test_round(paper.front(), at_cosine(cos, 0.3f), Vec3(0, 0, -1), 1.0f, "passed");
+}
+
 TEST_P(RoughLobes, ThinPrincipled) {
     const auto [distribution, alpha] = GetParam();
     if (distribution != Microfacets::ggx || alpha < 0.01f) return;

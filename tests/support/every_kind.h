@@ -70,6 +70,7 @@ inline Scene every_kind_scene() {
     thin.sheen = 0.375f, thin.sheen_tint = 0.625f, thin.flatness = 0.75f;
     thin.diff_trans = {0.5f, 2}, thin.eta = 1.25f;
     add(thin);
+    add(DiffuseTransmitterMaterial{ColorInput(Rgb(0.25f, 0.5f, 0.75f), 0)});
     add(WardMaterial{Rgb(0.375f), Rgb(0.25f), WardVariant::duer, {Microfacets::beckmann, {0.25f}, {0.5f}}});
 
     Mesh mesh;

@@ -65,6 +65,25 @@ TEST(BsdfModels, PrincipledContainsMetalAndGlass) {
     }
 }
 
+/// All that passes leaves on the other side, evenly; half of it within the cone of 45 degrees.
+TEST(BsdfModels, ADiffuseTransmitterShinesEvenlyOnTheOtherSide) {
+    const PreparedMaterial paper(DiffuseTransmitterMaterial{Rgb(0.75f, 0.5f, 0.25f)});
+    int inner = 0;
+    constexpr std::uint32_t kCount = 20000;
+    for (std::uint32_t i = 0; i < kCount; ++i) {
+        const Draw r = draw({23, i, 0}, 0, Stream::scatter);
+        const Vec3 wo = at_cosine(0.01f + 0.99f * to_unit(r[0]), 6.28f * to_unit(r[1]));
+        const BsdfSample s = paper.side(i % 2 == 1)->sample(wo, BsdfRandom{0.5f, {to_unit(r[2]), to_unit(r[3])}});
+        ASSERT_LT(s.wi.z, 0.0f);
+        ASSERT_FALSE(s.delta);
+        ASSERT_NEAR(s.f_cos.x / s.pdf, 0.75f, 1e-5f);
+        ASSERT_NEAR(s.f_cos.z, 0.25f * kInvPi * -s.wi.z, 1e-6f);
+        ASSERT_EQ(paper.front().value(wo, {s.wi.x, s.wi.y, -s.wi.z}).pdf, 0.0f) << "nothing is reflected";
+        inner += s.wi.z < -std::sqrt(0.5f);
+    }
+    EXPECT_NEAR(inner, 0.5 * kCount, 4 * std::sqrt(0.25 * kCount));
+}
+
 /// The corners of a thin sheet: paper that lets half of its diffuse light pass, and a rough pane.
 TEST(BsdfModels, ThinPrincipledContainsPaperAndPane) {
     PrincipledThinMaterial paper;

@@ -73,6 +73,7 @@ std::vector<Subject> all_materials() {
     all.push_back({"thin principled", thin});
     thin.spec_trans = 0.5f, thin.diff_trans = 1.2f;
     all.push_back({"thin principled that transmits", thin});
+    all.push_back({"diffuse transmitter", DiffuseTransmitterMaterial{Rgb(1.0f)}});
     for (const WardVariant variant : {WardVariant::ward, WardVariant::duer})
         all.push_back(
             {"older Ward", WardMaterial{Rgb(0.5f), Rgb(0.5f), variant, rough(Microfacets::beckmann, 0.1f, 0.1f)}});

@@ -128,6 +128,7 @@ TEST(BsdfTraits, BsdfsHaveTheLobesThatTheirDescriptionsPromise) {
     expect_agreement(of(thin), "thin principled");
     thin.diff_trans = 0.5f;
     expect_agreement(of(thin), "thin principled that transmits");
+    expect_agreement(of(DiffuseTransmitterMaterial{}), "diffuse transmitter");
 }
 
 TEST(BsdfTraits, SoDoBlends) {

@@ -32,6 +32,14 @@ TEST_F(MitsubaBsdfModels, RoughDiffusePhongAndWard) {
     EXPECT_THROW(material(bsdf("phong", number("exponent", "-1"))), InputError);
 }
 
+TEST_F(MitsubaBsdfModels, DiffuseTransmitters) {
+    EXPECT_EQ(of_type<DiffuseTransmitterMaterial>("difftrans").transmittance.value, Rgb(0.5f));
+    const auto given = of_type<DiffuseTransmitterMaterial>("difftrans", rgb("transmittance", "0.1 0.2 0.3"));
+    EXPECT_EQ(given.transmittance.value, Rgb(0.1f, 0.2f, 0.3f));
+    EXPECT_TRUE(of_type<DiffuseTransmitterMaterial>("difftrans", board("transmittance")).transmittance.varies());
+    EXPECT_THROW(material(bsdf("difftrans", rgb("transmittance", "-0.1 0.2 0.3"))), InputError);
+}
+
 TEST_F(MitsubaBsdfModels, DiffuseAndSpecularPartsThatAddUpToMoreThanOneAreScaledDown) {
     const auto loaded = load_with_sensor(
         "<shape type=\"rectangle\">" +

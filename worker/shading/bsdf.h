@@ -10,6 +10,7 @@
 #include "worker/shading/conductor.h"
 #include "worker/shading/dielectric.h"
 #include "worker/shading/diffuse.h"
+#include "worker/shading/diffuse_transmitter.h"
 #include "worker/shading/null.h"
 #include "worker/shading/oriented.h"
 #include "worker/shading/phong.h"
@@ -35,10 +36,10 @@ struct BlackBsdf {
 
 /// Every BSDF. A new one comes last; it says its own lobes (kLobes or lobes()), and where it transmits how light is
 /// refracted (refraction()), or does not compile.
-using BsdfKind =
-    std::variant<BlackBsdf, DiffuseBsdf, RoughConductorBsdf, RoughDielectricBsdf, RoughPlasticBsdf, PlasticBsdf,
-                 ConductorBsdf, DielectricBsdf, ThinDielectricBsdf, NullBsdf, BlendBsdf, OrientedBsdf, RoughDiffuseBsdf,
-                 PhongBsdf, WardBsdf, PrincipledBsdf, CoatingBsdf, RoughCoatingBsdf, PrincipledThinBsdf>;
+using BsdfKind = std::variant<BlackBsdf, DiffuseBsdf, RoughConductorBsdf, RoughDielectricBsdf, RoughPlasticBsdf,
+                              PlasticBsdf, ConductorBsdf, DielectricBsdf, ThinDielectricBsdf, NullBsdf, BlendBsdf,
+                              OrientedBsdf, RoughDiffuseBsdf, PhongBsdf, WardBsdf, PrincipledBsdf, CoatingBsdf,
+                              RoughCoatingBsdf, PrincipledThinBsdf, DiffuseTransmitterBsdf>;
 
 template <class Kind>
 constexpr bool may_transmit() {

@@ -9,6 +9,7 @@
 #include "common/scene/kinds/materials/conductor.h"
 #include "common/scene/kinds/materials/dielectric.h"
 #include "common/scene/kinds/materials/diffuse.h"
+#include "common/scene/kinds/materials/diffuse_transmitter.h"
 #include "common/scene/kinds/materials/null.h"
 #include "common/scene/kinds/materials/phong.h"
 #include "common/scene/kinds/materials/plastic.h"
@@ -21,8 +22,9 @@
 namespace treefarm {
 
 /// Every kind of material. Its place here is its number in packed form: new ones come last.
-using MaterialKind = std::variant<DiffuseMaterial, ConductorMaterial, DielectricMaterial, ThinDielectricMaterial,
-                                  PlasticMaterial, BlendMaterial, NullMaterial, RoughDiffuseMaterial, PhongMaterial,
-                                  WardMaterial, PrincipledMaterial, CoatingMaterial, PrincipledThinMaterial>;
+using MaterialKind =
+    std::variant<DiffuseMaterial, ConductorMaterial, DielectricMaterial, ThinDielectricMaterial, PlasticMaterial,
+                 BlendMaterial, NullMaterial, RoughDiffuseMaterial, PhongMaterial, WardMaterial, PrincipledMaterial,
+                 CoatingMaterial, PrincipledThinMaterial, DiffuseTransmitterMaterial>;
 
 }  // namespace treefarm

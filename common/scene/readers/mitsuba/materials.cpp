@@ -13,12 +13,11 @@ constexpr std::string_view kBsdfs[] = {
     "diffuse",    "conductor",      "roughconductor", "dielectric",   "roughdielectric", "thindielectric",
     "plastic",    "roughplastic",   "twosided",       "mask",         "bumpmap",         "normalmap",
     "blendbsdf",  "mixturebsdf",    "null",           "roughdiffuse", "phong",           "ward",
-    "principled", "principledthin", "coating",        "roughcoating"};
+    "principled", "principledthin", "coating",        "roughcoating", "difftrans"};
 
 /// What a BSDF that is not available would simulate.
 std::string effect_of(const std::string& type) {
     static constexpr std::pair<const char*, const char*> kEffects[] = {
-        {"difftrans", "diffuse transmission"},
         {"hk", "scattering inside a thin slab (Hanrahan-Krueger)"},
         {"irawan", "Irawan and Marschner's woven cloth"},
         {"hair", "hair fibres"},

@@ -111,6 +111,8 @@ class SurfaceReader {
         return rough;
     }
 
+    Bsdf diffuse_transmitter() { return DiffuseTransmitterMaterial{reflectance("transmittance", 0.5f)}; }
+
     Bsdf phong() {
         PhongMaterial phong;
         phong.diffuse_reflectance = reflectance("diffuse_reflectance", 0.5f);
@@ -266,6 +268,7 @@ std::optional<Bsdf> read_surface_bsdf(Properties& properties, TextureReader& tex
     if (type == "roughplastic") return reader.plastic(true);
     if (type == "roughdiffuse") return reader.rough_diffuse();
     if (type == "phong") return reader.phong();
+    if (type == "difftrans") return reader.diffuse_transmitter();
     if (type == "ward") return reader.ward();
     if (type == "principled") return reader.principled();
     if (type == "principledthin") return reader.principled_thin();
