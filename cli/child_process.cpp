@@ -35,7 +35,8 @@ std::vector<std::string> environment_with(const std::string& variable) {
 }
 
 /// Between fork and exec: only what is safe there.
-[[noreturn]] void become(pid_t parent, int words, bool all, char* const* arguments, char* const* variables) {
+[[noreturn]] void become(pid_t parent, int words, bool all, const char* input, char* const* arguments,
+                         char* const* variables) {
     setsid();
     prctl(PR_SET_PDEATHSIG, SIGTERM);
     if (getppid() != parent) _exit(127);  // it died before we asked to be told
@@ -44,8 +45,9 @@ std::vector<std::string> environment_with(const std::string& variable) {
     sigset_t none;
     sigemptyset(&none);
     sigprocmask(SIG_SETMASK, &none, nullptr);
-    const int nothing = open("/dev/null", O_RDONLY);
-    dup2(nothing, STDIN_FILENO);
+    const int file = open(input, O_RDONLY);
+    if (file < 0) _exit(127);
+    dup2(file, STDIN_FILENO);
     dup2(words, STDERR_FILENO);
     if (all) dup2(words, STDOUT_FILENO);
     execvpe(arguments[0], arguments, variables);
@@ -57,14 +59,17 @@ std::vector<std::string> environment_with(const std::string& variable) {
 
 }  // namespace
 
-ChildProcess::ChildProcess(const std::vector<std::string>& words, const std::string& variable, Heard heard) {
+ChildProcess::ChildProcess(const std::vector<std::string>& words, const std::string& variable, Heard heard,
+                           const std::string& input) {
     std::vector<std::string> arguments = words, variables = environment_with(variable);
     const std::vector<char*> argument_list = pointers(arguments), variable_list = pointers(variables);
     int ends[2];
     if (pipe2(ends, O_CLOEXEC) != 0) throw RunError(std::string("cannot make a pipe: ") + std::strerror(errno));
     const pid_t parent = getpid();
     pid_ = fork();
-    if (pid_ == 0) become(parent, ends[1], heard == Heard::all, argument_list.data(), variable_list.data());
+    if (pid_ == 0)
+        become(parent, ends[1], heard == Heard::all, input.empty() ? "/dev/null" : input.c_str(), argument_list.data(),
+               variable_list.data());
     const int error = errno;
     close(ends[1]);
     words_ = ends[0];

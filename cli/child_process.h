@@ -9,13 +9,14 @@
 namespace treefarm {
 
 /// A program in a session and process group of its own, which gets SIGTERM where this process dies before it. What it
-/// says on its standard error can be read; it has no input.
+/// says on its standard error can be read.
 class ChildProcess {
   public:
     enum class Heard { errors, all };  ///< its standard error, or its standard output with it
-    /// `variable`: "NAME=value", added to its environment. Throws RunError where it cannot be started; a program that
-    /// is not there ends with code 127.
-    ChildProcess(const std::vector<std::string>& words, const std::string& variable, Heard heard = Heard::errors);
+    /// `variable`: "NAME=value", added to its environment. `input`: a file to read from; empty: none. Throws RunError
+    /// where it cannot be started; a program that is not there ends with code 127.
+    ChildProcess(const std::vector<std::string>& words, const std::string& variable, Heard heard = Heard::errors,
+                 const std::string& input = "");
     /// Kills it.
     ~ChildProcess();
     ChildProcess(const ChildProcess&) = delete;

@@ -65,7 +65,7 @@ AnyModel learn_tree(const RenderRequest& request, const std::vector<PassPlan>& p
         run_worker(*channels[1], settings, make_renderer, log);
     });
     const auto send_away = [&] {
-        dismiss_workers(*channels[0], {}, 5.0);
+        dismiss_workers(*channels[0], {}, FarmLimits().dismiss);
         worker.join();
     };
     AnyModel tree;

@@ -26,7 +26,7 @@ constexpr double kProbeSeconds = 10.0;
 /// A variable that changes nothing.
 const char* const kNothing = "TREEFARM_PROBE=1";
 
-Words probe_command(const std::string& host) {
+Words host_command(const std::string& host, const std::string& line) {
     Words words;
     if (const char* agent = std::getenv("OMPI_MCA_plm_rsh_agent"); agent && *agent) {
         std::istringstream parts(agent);
@@ -36,7 +36,7 @@ Words probe_command(const std::string& host) {
         words = {"ssh", "-o", "BatchMode=yes", "-o", "ConnectTimeout=5"};
     }
     words.push_back(host);
-    words.emplace_back("true");
+    words.push_back(line);
     return words;
 }
 
@@ -46,28 +46,34 @@ bool is_here(const std::string& host) {
 
 }  // namespace
 
-std::set<std::string> unreachable_hosts(const std::vector<HostLine>& hosts) {
+std::set<std::string> failing_hosts(const std::vector<HostLine>& hosts, const std::string& shell_line, double seconds,
+                                    const std::filesystem::path& input) {
     std::list<std::pair<std::string, ChildProcess>> probes;
     for (const HostLine& line : hosts)
         if (!is_here(line.host))
             probes.emplace_back(std::piecewise_construct, std::forward_as_tuple(line.host),
-                                std::forward_as_tuple(probe_command(line.host), kNothing, ChildProcess::Heard::all));
+                                std::forward_as_tuple(host_command(line.host, shell_line), kNothing,
+                                                      ChildProcess::Heard::all, input.string()));
     const Timer timer;
-    std::set<std::string> unreachable;
-    while (!probes.empty() && timer.seconds() < kProbeSeconds) {
+    std::set<std::string> failing;
+    while (!probes.empty() && timer.seconds() < seconds) {
         for (auto probe = probes.begin(); probe != probes.end();)
             if (probe->second.running()) {
                 probe->second.take_words();
                 ++probe;
             } else {
-                if (!probe->second.succeeded()) unreachable.insert(probe->first);
+                if (!probe->second.succeeded()) failing.insert(probe->first);
                 probe = probes.erase(probe);
             }
         std::this_thread::sleep_for(std::chrono::milliseconds(20));
     }
     for (const auto& [host, probe] : probes)
-        unreachable.insert(host);
-    return unreachable;
+        failing.insert(host);
+    return failing;
+}
+
+std::set<std::string> unreachable_hosts(const std::vector<HostLine>& hosts) {
+    return failing_hosts(hosts, "true", kProbeSeconds);
 }
 
 bool is_program(const std::string& name) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <filesystem>
 #include <set>
 #include <string>
 #include <vector>
@@ -9,8 +10,13 @@
 
 namespace treefarm {
 
-/// Hosts where a command cannot be started within some seconds by ssh, or by the agent that Open MPI is told to use
-/// (OMPI_MCA_plm_rsh_agent). All are asked side by side; this host is not asked.
+/// Hosts where a line of shell does not end well within `seconds`, by ssh or by the agent that Open MPI is told to use
+/// (OMPI_MCA_plm_rsh_agent). All are asked side by side; this host is not asked. `input`: a file that the line can
+/// read, or empty.
+std::set<std::string> failing_hosts(const std::vector<HostLine>& hosts, const std::string& line, double seconds,
+                                    const std::filesystem::path& input = {});
+
+/// Hosts that do not answer.
 std::set<std::string> unreachable_hosts(const std::vector<HostLine>& hosts);
 
 /// Whether a program is found where the shell would find it.

@@ -25,12 +25,12 @@ constexpr const char* kStudy = "give a study file (.toml)";
         refuse(input, "is the folder of a study",
                "give the study file to go on with it, or write treefarm report " + input);
     if (has("shot.json"))
-        refuse(
-            input, "is the folder of a shot",
-            "its frames are run directories in it: treefarm render " + (folder / "frame.0001" / "job.toml").string());
+        refuse(input, "is the folder of a shot",
+               "its frames are run directories in it: treefarm render " +
+                   shell_quoted((folder / "frame.0001" / "job.toml").string()));
     if (has("job.toml"))
         refuse(input, "is a run directory",
-               "its job is a file in it: treefarm render " + (folder / "job.toml").string());
+               "its job is a file in it: treefarm render " + shell_quoted((folder / "job.toml").string()));
     refuse(input, "is a folder", otherwise);
 }
 
@@ -58,7 +58,7 @@ void require_study_file(const std::string& input) {
     if (extension == ".toml") return;
     if (extension == ".xml")
         refuse(input, "is a scene, and a study names scenes in a file of its own (.toml)",
-               "write treefarm render " + input + ", or see docs/use/studies.md");
+               "write treefarm render " + shell_quoted(input) + ", or see docs/use/studies.md");
     refuse(input, extension.empty() ? "the name has no extension" : in_quotes(extension) + " files are no studies",
            kStudy);
 }

@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "cli/environment.h"
+#include "cli/host_keys.h"
 #include "common/base/error.h"
 #include "common/comm/run_key.h"
 
@@ -65,6 +66,9 @@ LaunchEnvironment read_launch_environment() {
     if (const char* text = std::getenv(kAttemptVariable))
         if (const LifeAttempt attempt = parse_attempt(text); !attempt.name.empty()) {
             launch.key_file = attempt.file.parent_path() / kRunKeyName;
+            const std::filesystem::path on_host = host_key_file(attempt.name);
+            if (!std::filesystem::exists(launch.key_file) && std::filesystem::exists(on_host))
+                launch.key_file = on_host;
             if (launch.rank == 0) launch.life = std::make_shared<SignOfLife>(attempt);
         }
     return launch;

@@ -90,6 +90,7 @@ StartPlan LaunchPlanner::plan(const Places& places) const {
 void LaunchPlanner::use_hosts(const Places& places, StartPlan& plan) const {
     const std::vector<HostLine> hosts = hosts_->choose(unreachable_hosts(hosts_->all()));
     if (hosts.empty()) throw RunError(options_.hostfile + ": no host answers, or all of them lost their workers twice");
+    plan.hosts = hosts;
     const std::string text = hostfile_text(hosts);
     write_file_atomically(places.hostfile, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()},
                           Outlives::process);

@@ -17,6 +17,7 @@
 
 #include "cli/attempt_processes.h"
 #include "cli/child_process.h"
+#include "cli/host_keys.h"
 #include "cli/host_probe.h"
 #include "cli/interrupt.h"
 #include "cli/launch_folder.h"
@@ -28,6 +29,7 @@
 #include "common/base/host.h"
 #include "common/base/timer.h"
 #include "common/comm/run_key.h"
+#include "common/config/parse_text.h"
 #include "coordinator/folder_content.h"
 #include "coordinator/launch/supervisor.h"
 
@@ -53,11 +55,22 @@ bool is_gone(pid_t process) {
     return ::kill(process, 0) != 0 && errno == ESRCH;
 }
 
-std::string joined(const std::vector<std::string>& words) {
-    std::string text;
-    for (const std::string& word : words)
-        text += (text.empty() ? "" : " ") + word;
-    return text;
+/// The command as it was typed, up to "--": what a person adds to go on.
+std::string typed(const LaunchOptions& options) {
+    const LaunchOptions usual;
+    std::vector<std::string> words = {"treefarm", "launch"};
+    const auto add = [&words](const char* option, const std::string& value) {
+        words.emplace_back(option);
+        words.push_back(value);
+    };
+    if (options.processes > 0) add("-n", std::to_string(options.processes));
+    if (!options.hostfile.empty()) add("--hostfile", options.hostfile);
+    if (!options.network.empty()) add("--network", options.network);
+    if (options.mpirun != usual.mpirun) add("--mpirun", options.mpirun);
+    if (options.restarts != usual.restarts) add("--restarts", std::to_string(options.restarts));
+    if (options.stall_seconds != usual.stall_seconds) add("--stall-seconds", number_text(options.stall_seconds));
+    if (options.no_recovery) words.emplace_back("--no-recovery");
+    return shell_line(words) + " --";
 }
 
 /// Words for the terminal; a terminal that is gone ends nothing.
@@ -85,7 +98,7 @@ class LaunchRun {
             }
         } catch (const std::exception&) {
             clean_up();
-            folder_.give_back();
+            if (!started_) folder_.give_back();
             throw;
         }
     }
@@ -117,6 +130,7 @@ class LaunchRun {
         Sight sight;
         relay();
         sight.running = child_ && child_->running();
+        sight.not_started = not_started_;
         if (child_ && !sight.running) end_child();
         sight.coordinator_gone = seen_ && seen_->host == host_name() && is_gone(seen_->pid);
         // After the processes are gone: what they still said counts.
@@ -145,11 +159,25 @@ class LaunchRun {
         shared_memory_.empty();
         std::error_code none;
         std::filesystem::remove(key_file(), none);
+        host_keys_.reset();
     }
 
     std::filesystem::path key_file() const { return folder_.own() / kRunKeyName; }
 
+    /// An attempt. That it cannot be started is an end of it like others, but for the first: hosts come back.
     void start(int number) {
+        not_started_.clear();
+        try {
+            begin(number);
+            started_ = true;
+        } catch (const std::exception& error) {
+            if (number == 1) throw;
+            not_started_ = error.what();
+            clean_up();
+        }
+    }
+
+    void begin(int number) {
         sweep();
         if (number > 1) wait_for_folder();
         const StartPlan plan = planner_.plan(
@@ -157,9 +185,10 @@ class LaunchRun {
         const bool goes_on = number > 1 && folder_.was_taken_by(launch_);
         const std::vector<std::string> words = goes_on ? command_.again(folder_.checkpoint() > 0) : command_.first();
         const std::vector<std::string> command = start_command(plan, words);
-        note("attempt " + std::to_string(number) + ": " + joined(command));
+        note("attempt " + std::to_string(number) + ": " + shell_line(command));
         const LifeAttempt attempt{name_of(number), folder_.life_file()};
         write_run_key(key_file());
+        if (!plan.hosts.empty()) host_keys_ = std::make_unique<HostKeys>(plan.hosts, key_file(), name_of(number));
         child_ = std::make_unique<ChildProcess>(command, std::string(kAttemptVariable) + "=" + attempt_text(attempt));
     }
 
@@ -227,18 +256,16 @@ class LaunchRun {
 
     /// What there is, and the command that goes on.
     std::string what_is_kept() const {
-        std::string again = "treefarm launch";
-        if (options_.processes > 0) again += " -n " + std::to_string(options_.processes);
-        if (!options_.hostfile.empty()) again += " --hostfile " + options_.hostfile;
+        const std::string again = typed(options_);
         if (command_.kind == LaunchedCommand::Kind::render || command_.kind == LaunchedCommand::Kind::resume) {
             if (folder_.checkpoint() == 0)
-                return "no pass is kept in " + folder_.run().string() + "; begin again with " + again + " -- " +
-                       joined(command_.again(false));
+                return "no pass is kept in " + folder_.run().string() + "; begin again with " + again + " " +
+                       shell_line(command_.again(false));
             return "kept in " + folder_.run().string() + ": " + render_words(folder_.run()) + "; go on with " + again +
-                   " -- resume " + folder_.run().string();
+                   " resume " + shell_quoted(folder_.run().string());
         }
-        return "finished ones are kept in " + folder_.run().string() + "; go on with " + again + " -- " +
-               joined(command_.words);
+        return "finished ones are kept in " + folder_.run().string() + "; go on with " + again + " " +
+               shell_line(command_.words);
     }
 
     const LaunchOptions& options_;
@@ -251,7 +278,10 @@ class LaunchRun {
     const OwnFolder temporary_, shared_memory_;
     std::ofstream log_;
     std::optional<LifeStatus> seen_;  ///< the attempt's last sign of life
+    std::string not_started_;         ///< why the attempt could not be started; "" if it was
+    bool started_ = false;            ///< whether any was
     std::unique_ptr<ChildProcess> child_;
+    std::unique_ptr<HostKeys> host_keys_;
     Supervisor supervisor_;
 };
 

@@ -67,8 +67,7 @@ void read_render(const CLI::App& command, LaunchedCommand& launched) {
 void read_resume(const CLI::App& command, LaunchedCommand& launched) {
     launched.kind = LaunchedCommand::Kind::resume;
     launched.folder = value_of(command, "run");
-    if (!std::filesystem::exists(launched.folder / "job.toml"))
-        refuse(launched.folder, "is no run directory", "name the folder that a render wrote its files to");
+    check_run_folder(launched.folder);
 }
 
 void read_study_command(const CLI::App& command, LaunchedCommand& launched) {

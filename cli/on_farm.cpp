@@ -27,7 +27,7 @@ namespace treefarm {
 namespace {
 
 /// How long the end waits for workers, and MPI_Finalize for everybody.
-constexpr double kDismissSeconds = 5.0;
+constexpr double kDismissSeconds = FarmLimits().dismiss;
 constexpr double kFinalizeSeconds = 10.0;
 
 /// Coordinator and one worker in this process.

@@ -82,16 +82,6 @@ void replay(const std::string& file, RenderRequest& request) {
     request.job.budget.spp = request.schedule.back().first_sample + request.schedule.back().spp;
 }
 
-std::string shell_quoted(const std::string& word) {
-    if (!word.empty() && word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
-                                                "_-+=./,:@%") == std::string::npos)
-        return word;
-    std::string quoted = "'";
-    for (const char c : word)
-        quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    return quoted + "'";
-}
-
 }  // namespace
 
 RenderRequest read_request(const RenderOptions& options) {

@@ -13,8 +13,10 @@
 #include "cli/render.h"
 #include "common/base/hash.h"
 #include "common/config/job_keys.h"
+#include "common/config/parse_text.h"
 #include "common/plan/resolved_file.h"
 #include "common/scene/pack/scene_codec.h"
+#include "coordinator/run_folder.h"
 #include "coordinator/shot/finished_frame.h"
 
 namespace treefarm {
@@ -24,26 +26,32 @@ namespace {
 namespace fs = std::filesystem;
 
 void check_directory(const fs::path& run) {
-    if (!fs::is_directory(run) || !fs::exists(run / "job.toml"))
-        refuse(run, "is no run directory", "name the folder that a render wrote its files to");
+    check_run_folder(run);
+    if (!fs::exists(run / kCheckpointFolder)) refuse_if_at_work(run);
     if (!fs::exists(run / kCheckpointFolder))
         refuse(run, "holds no checkpoint: too little was done, or none was to be kept",
-               "render again: treefarm render " + (run / "job.toml").string());
+               "render again: treefarm render " + shell_quoted((run / "job.toml").string()));
 }
 
-/// Refuses what would not go on to the same bits.
-void check_origin(const fs::path& run, const CheckpointOrigin& origin, const RenderRequest& request) {
-    const std::string again = "treefarm render " + (run / "job.toml").string();
+/// Refuses what would not go on to the same bits. `set`: what --set gives.
+void check_origin(const fs::path& run, const CheckpointOrigin& origin, const RenderRequest& request,
+                  const std::vector<std::string>& set) {
+    const std::string again = "treefarm render " + shell_quoted((run / "job.toml").string());
     if (origin.fingerprint != request.fingerprint.hash())
         refuse(run,
                "was rendered by another build (" + origin.build + "; this is " + request.fingerprint.text() +
                    "): its bits could not go on",
-               "use that program, or: " + again + " --schedule " + (run / "schedule.toml").string());
+               "use that program, or: " + again + " --schedule " + shell_quoted((run / "schedule.toml").string()));
     const std::string changed =
         first_difference(read_resolved(origin.resolved, (run / "resolved.toml").string()), request.plan.job);
-    if (!changed.empty())
-        refuse(run / "job.toml", "is not the job of the render: " + changed,
-               "only farm.*, output.* and the budget may change; for the new job: " + again);
+    if (!changed.empty()) {
+        std::string new_job = again;
+        for (const std::string& argument : set)
+            new_job += " --set " + shell_quoted(argument);
+        refuse(set.empty() ? run / "job.toml" : fs::path("--set"),
+               set.empty() ? "is not the job of the render: " + changed : "would make another render: " + changed,
+               "only farm.*, output.* and the budget may change; for the new job: " + new_job);
+    }
     if (origin.scene_hash != hash_bytes(encode_scene(request.scene)) ||
         origin.pixels != request.scene.film.pixel_count())
         refuse(request.job.scene.file, "the scene has changed since " + run.string() + " began",
@@ -59,9 +67,10 @@ bool has_new_budget(const LoadedCheckpoint& loaded, const Job& now) {
     });
 }
 
-std::shared_ptr<LoadedCheckpoint> load(const fs::path& run, const RenderRequest& request) {
+std::shared_ptr<LoadedCheckpoint> load(const fs::path& run, const RenderRequest& request,
+                                       const std::vector<std::string>& set = {}) {
     auto loaded = std::make_shared<LoadedCheckpoint>(
-        load_checkpoint(run, [&](const CheckpointOrigin& origin) { check_origin(run, origin, request); }));
+        load_checkpoint(run, [&](const CheckpointOrigin& origin) { check_origin(run, origin, request, set); }));
     // A new budget starts its own reckoning of how to end.
     if (has_new_budget(*loaded, request.job)) loaded->state.history.budget.ending = false;
     return loaded;
@@ -105,10 +114,16 @@ RenderRequest read_resumed(const ResumeOptions& options) {
     as_render.display_server = options.display_server;
     as_render.reads_model = false;  // the checkpoint has what became of it
     RenderRequest request = read_request(as_render);
-    auto loaded = load(run, request);
+    auto loaded = load(run, request, options.set);
     if (request.job.output.file.empty()) request.job.output.file = loaded->origin.output_file;
     go_on_from(std::move(loaded), run, request);
     return request;
+}
+
+void check_run_folder(const fs::path& run) {
+    if (fs::exists(run / "job.toml")) return;
+    if (fs::is_directory(run)) refuse_if_at_work(run);
+    refuse(run, "is no run directory", "name the folder that a render wrote its files to");
 }
 
 std::optional<int> go_on_in_folder(RenderRequest& request) {

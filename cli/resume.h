@@ -33,6 +33,9 @@ struct ResumeOptions {
 void add_resume_command(CLI::App& app, const LaunchEnvironment& launch, const std::string& command_line,
                         int& exit_code);
 
+/// Refuses what is no run directory, or not yet: throws InputError.
+void check_run_folder(const std::filesystem::path& run);
+
 /// Reads a run directory's job, its scene and its newest usable checkpoint. Throws InputError where the render cannot
 /// go on from there to the same bits; nothing has been written then.
 RenderRequest read_resumed(const ResumeOptions& options);

@@ -12,6 +12,8 @@
 #include <set>
 #include <system_error>
 
+#include "cli/attempt_processes.h"
+#include "cli/host_keys.h"
 #include "common/base/host.h"
 #include "common/config/parse_text.h"
 
@@ -102,6 +104,21 @@ int sweep_shared_memory() {
     return removed;
 }
 
+/// Secrets of attempts that have no process here: a launch on another host was killed, or lost this host.
+int sweep_keys() {
+    constexpr std::time_t kSeconds = 600;  // between a secret's arrival and the process that it is for
+    const std::string start = kHostKeyName;
+    int removed = 0;
+    std::error_code error;
+    for (const auto& entry : fs::directory_iterator(temporary_folder(), error)) {
+        const std::string name = entry.path().filename().string();
+        if (name.starts_with(start) && is_ours(entry.path(), kSeconds) &&
+            attempt_processes(name.substr(start.size())).empty())
+            removed += discard(entry.path());
+    }
+    return removed;
+}
+
 }  // namespace
 
 fs::path temporary_folder() {
@@ -131,7 +148,7 @@ void OwnFolder::empty() const {
 
 int sweep() {
     return sweep_launches(temporary_folder()) + sweep_launches(shared_memory_folder()) + sweep_sessions() +
-           sweep_shared_memory();
+           sweep_shared_memory() + sweep_keys();
 }
 
 }  // namespace treefarm

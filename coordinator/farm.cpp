@@ -26,20 +26,6 @@ constexpr int kMostLooks = 1024;
 /// After so many seconds from when nothing was left to hand out, who has not sent what it had is slow.
 constexpr double kSettleSeconds = 0.05, kLookSeconds = 0.02;
 
-/// A unit in words, and how to have it traced alone.
-std::string blame(const WorkUnit& unit) {
-    const std::string of_pass = " of pass " + std::to_string(unit.pass);
-    if (unit.kind != UnitKind::tile)
-        return "work " + std::to_string(unit.first) + " to " + std::to_string(unit.first + unit.count) + of_pass;
-    std::string pixels, name = std::to_string(unit.pass);
-    for (const std::uint32_t number :
-         {std::uint32_t{unit.x0}, std::uint32_t{unit.y0}, std::uint32_t{unit.x1}, std::uint32_t{unit.y1}, unit.chunk})
-        name += "," + std::to_string(number);
-    return "the pixels from " + std::to_string(unit.x0) + "," + std::to_string(unit.y0) + " to below " +
-           std::to_string(unit.x1) + "," + std::to_string(unit.y1) + of_pass + "; treefarm render --debug-sample " +
-           name + " traces them alone";
-}
-
 /// While more are left, and all are long, workers have enough to trace.
 constexpr std::size_t kCalmUnitsPerThread = 4;
 
@@ -223,6 +209,20 @@ void Farm::watch_for_silence() {
         log_->warn("no worker answers: waiting {:.0f} s for one to come back", limits_.grace);
     }
     if (!wait || now - *alone_since_ > limits_.grace) throw RunError("no worker is left" + why_nobody());
+}
+
+/// A unit in words, and the command that traces it alone.
+std::string Farm::blame(const WorkUnit& unit) const {
+    const std::string of_pass = " of pass " + std::to_string(unit.pass);
+    if (unit.kind != UnitKind::tile)
+        return "work " + std::to_string(unit.first) + " to " + std::to_string(unit.first + unit.count) + of_pass;
+    std::string name = std::to_string(unit.pass);
+    for (const std::uint32_t number :
+         {std::uint32_t{unit.x0}, std::uint32_t{unit.y0}, std::uint32_t{unit.x1}, std::uint32_t{unit.y1}, unit.chunk})
+        name += "," + std::to_string(number);
+    return "the pixels from " + std::to_string(unit.x0) + "," + std::to_string(unit.y0) + " to below " +
+           std::to_string(unit.x1) + "," + std::to_string(unit.y1) + of_pass +
+           "; to trace them alone: " + debug_command_ + " " + name + debug_options_;
 }
 
 /// What is known of how the last ones were lost.

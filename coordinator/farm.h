@@ -47,6 +47,12 @@ class Farm {
     /// asked now and then; true ends the wait.
     void gather(const std::function<bool()>& interrupted);
 
+    /// What stands before and after a unit's name in the command that traces it alone: for units that killed workers.
+    void debug_by(std::string command, std::string options) {
+        debug_command_ = std::move(command);
+        debug_options_ = std::move(options);
+    }
+
     /// Whether pixels may be negative: those of a film that is_signed(). Otherwise they are refused.
     void allow_negative(bool allowed) { negative_allowed_ = allowed; }
 
@@ -104,6 +110,7 @@ class Farm {
     void on_bad_message(int peer, const std::string& why);
     void watch_for_silence();
     void watch_for_slowness();
+    std::string blame(const WorkUnit& unit) const;
     std::string why_nobody() const;
     std::pair<WorkUnit, std::size_t> deadliest() const;
     bool may_come_back() const;  ///< somebody who is not there now
@@ -145,6 +152,7 @@ class Farm {
     JobTurn turn_;
     const Timer clock_;
     Roster roster_;
+    std::string debug_command_ = "treefarm render SCENE --debug-sample", debug_options_;
     bool negative_allowed_ = false;
     bool scene_sent_ = false;  ///< whoever comes from now on gets it at once
     std::optional<OpenPass> pass_;

@@ -3,6 +3,7 @@
 
 #include "common/comm/join_ticket.h"
 #include "common/comm/tcp_channel.h"
+#include "common/config/parse_text.h"
 
 namespace treefarm {
 
@@ -18,7 +19,8 @@ GuestDoor::GuestDoor(Channel& channel, const Job::Farm& farm, std::uint64_t fing
     const std::filesystem::path path = run / kTicketFileName;
     write_ticket(path, ticket);
     ticket_ = path;
-    log->info("workers may join at {} port {}: treefarm join {}", ticket.address, ticket.port, run.string());
+    log->info("workers may join at {} port {}: treefarm join {}", ticket.address, ticket.port,
+              shell_quoted(run.string()));
     log->debug("only who joins is authenticated: the network between processes of MPI is trusted");
 }
 

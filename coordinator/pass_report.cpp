@@ -106,7 +106,7 @@ std::vector<Column> columns() {
         column("splitting_quietens", [](R r) { return r.splitting_gain.variance; }),
         column("splitting_rays", [](R r) { return r.splitting_gain.rays; }),
         column("splitting_found", [](R r) { return r.splitting_gain.found; }),
-        column("light_subpaths", [](R r) { return std::uint64_t{r.plan.light_subpaths}; }),
+        column("light_subpaths", [](R r) { return std::uint64_t{r.has_light_subpaths()}; }),
         column("light_subpaths_quieten", [](R r) { return r.light_subpath_gain.noise; }),
         column("light_subpaths_rays", [](R r) { return r.light_subpath_gain.rays; }),
         column("camera_paths_found", [](R r) { return r.light_subpath_gain.found; }),

@@ -83,6 +83,10 @@ struct PassReport {
     /// Light samples per vertex that might have had one.
     double next_event_samples() const;
     double nonzero_share() const;
+    /// Whether samples of this pass join paths from lamps to those of the camera.
+    bool has_light_subpaths() const {
+        return plan.light_subpaths && plan.layers.estimates && plan.layers.splats.pixels > 0;
+    }
     double core_seconds() const;  ///< of the workers' threads, tracing and recording
     /// Core-seconds until the image has unit variance, at this pass's stuv and speed.
     double ttuv() const;

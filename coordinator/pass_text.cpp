@@ -17,47 +17,6 @@ bool is_known(const ErrorForecast& forecast) {
            std::isfinite(forecast.seconds);
 }
 
-/// What is decided on guiding, what it saves, how sure that is, and why.
-std::string guiding_text(Guiding verdict, const GuidingWorth& w) {
-    const bool guided = verdict != Guiding::loses;
-    const auto saved = [guided](double worth) { return 100 * (1 - (guided ? 1 / worth : worth)); };
-    const double at_most = std::max(saved(w.low()), saved(w.high())),
-                 at_least = std::min(saved(w.low()), saved(w.high()));
-    const std::string why =
-        fmt::format("an unguided sample would be {:.2g} times as noisy, a guided one costs {:.2g} times as much",
-                    w.unguided_variance / w.guided_variance, w.guided_cost / w.unguided_cost);
-    const char* const what = guided ? "guided" : "unguided";
-    if (saved(w.worth) <= 0) return fmt::format("{} as long as that is not sure to lose: {}", what, why);
-    return fmt::format("{}, which saves {:.0f} % of the work (between {:.0f} and {:.0f} %): {}", what, saved(w.worth),
-                       std::max(at_least, 0.0), at_most, why);
-}
-
-/// What is decided on next event, what it saves, and why; empty where that is to sample an emitter at nearly each
-/// vertex.
-std::string next_event_text(const PassReport& r) {
-    const NextEventVerdict& verdict = r.refine.next_event;
-    const bool saves = verdict.saved <= 0.98;
-    if (!saves && (verdict.low < 0.005 || !r.plan.guided)) return "";
-    const std::string where = verdict.low < 0.005
-                                  ? "more rarely where it finds little"
-                                  : fmt::format("at one vertex in 16 for {:.0f} % of them, where {}", 100 * verdict.low,
-                                                saves ? "it finds nearly nothing" : "guiding finds that light as well");
-    return saves ? fmt::format("; next event {}, which saves about {:.0f} % of the work", where,
-                               100 * (1 - verdict.saved))
-                 : "; next event " + where;
-}
-
-/// What is decided on light subpaths, and why.
-std::string light_subpath_text(const PassReport& r) {
-    const double quieter = r.light_subpath_gain.at_equal_cost();
-    if (quieter == 0) return "";
-    const std::string noise =
-        fmt::format("{:.2g} times {}", std::max(quieter, 1 / quieter), quieter < 1 ? "the variance" : "less variance");
-    if (!r.light_subpaths)
-        return fmt::format("; paths from the camera alone from here on: those from lamps make {} at equal cost", noise);
-    return fmt::format("; paths from lamps make {} at equal cost", noise);
-}
-
 /// "half of it in about 1:10"; empty where nobody knows, or nothing is left to do.
 std::string outlook_text(const PassReport& r) {
     const bool asked = r.target.relative_error > 0;
@@ -85,10 +44,6 @@ std::string pass_summary(const PassReport& r, std::size_t pass_count) {
     text += fmt::format(", {:.1f} % of paths see light", 100 * r.nonzero_share());
     if (r.tree.regions > 1)
         text += fmt::format("; tree {} nodes, {:.1f} MB", r.tree.nodes, 1e-6 * static_cast<double>(r.tree.memory));
-    if (r.guiding_worth.worth > 0) text += "; " + guiding_text(r.guiding, r.guiding_worth);
-    text += next_event_text(r);
-    if (r.plan.split && !r.splitting) text += "; splitting paths does not pay: none is split from here on";
-    if (r.plan.light_subpaths) text += light_subpath_text(r);
     if (!r.plan.emission.empty())
         text += fmt::format("; half of the light paths start at {} of {} emitters", r.emitters_of_half, r.emitters);
     for (const ErrorForecast& forecast : {r.halving, r.target})

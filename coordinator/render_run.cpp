@@ -5,13 +5,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
+#include <utility>
 
 #include "common/base/hash.h"
+#include "common/config/parse_text.h"
 #include "common/plan/learning.h"
 #include "common/plan/plan_text.h"
 #include "common/scene/lint/lint.h"
 #include "common/scene/pack/scene_codec.h"
+#include "coordinator/decision_text.h"
 #include "coordinator/display/live_display.h"
 #include "coordinator/guest_door.h"
 #include "coordinator/memory_check.h"
@@ -51,7 +55,9 @@ class RenderRun {
           progress_(request.console, request.job.budget, request.status_frame),
           display_(request.display_server, "treefarm " + directory_.path().filename().string()),
           farm_(channel, request.plan.job, std::move(scene_), request.fingerprint.hash(), log_, {}, request.turn),
-          spp_before_(request.resumed ? request.resumed->state.spp() : 0) {}
+          spp_before_(request.resumed ? request.resumed->state.spp() : 0) {
+        farm_.debug_by(request.debug_command, replay_options());
+    }
 
     RenderOutcome run() {
         log_->debug("{}", request_.command);
@@ -220,6 +226,7 @@ class RenderRun {
         directory_.add_pass(pass);
         log_->info("{}", pass_line(pass, pass_count_));
         log_->debug("{}", pass_summary(pass, pass_count_));
+        tell_decisions(pass);
         const std::string name = pass_name(pass.plan.index, 0);
         for (const InvalidSample& sample : pass.stats.first_invalid)
             log_->warn("radiance ({}, {}, {}) counts as black; reproduce with: {} {},{},{},{}{}", sample.rgb[0],
@@ -233,6 +240,16 @@ class RenderRun {
         if (pass.splat_caps != SplatCaps{} || pass.saturated_splats > 0)
             log_->warn("{}: {} capped splats, {} saturated sums of splats, {} splats that are no radiance", name,
                        pass.splat_caps.capped, pass.saturated_splats, pass.splat_caps.rejected);
+    }
+
+    /// Says each decision when it is new; with -v after every pass.
+    void tell_decisions(const PassReport& pass) {
+        for (const DecisionText& text : decision_texts(pass)) {
+            std::string& before = decided_[text.subject];
+            const bool is_new = std::exchange(before, text.decision) != text.decision;
+            log_->log(is_new ? spdlog::level::info : spdlog::level::debug, "{}: {}", pass_name(pass.plan.index, 0),
+                      text.words);
+        }
     }
 
     /// Says, once, what in the scene makes an image black.
@@ -295,7 +312,8 @@ class RenderRun {
         if (share > 0)
             text += fmt::format("{}{:.0f} % of the pass in hand", text.empty() ? "kept " : ", and ",
                                 std::floor(100 * share));
-        if (goes_on && !text.empty()) text += "; go on with: treefarm resume " + directory_.path().string();
+        if (goes_on && !text.empty())
+            text += "; go on with: treefarm resume " + shell_quoted(directory_.path().string());
         return text;
     }
 
@@ -319,8 +337,8 @@ class RenderRun {
     /// The options that make the passes known to --debug-sample, and the checkpoint.
     std::string replay_options() const {
         const std::filesystem::path run = std::filesystem::absolute(directory_.path());
-        std::string options = " --run-dir " + run.string();
-        if (request_.schedule.empty()) options += " --schedule " + (run / "schedule.toml").string();
+        std::string options = " --run-dir " + shell_quoted(run.string());
+        if (request_.schedule.empty()) options += " --schedule " + shell_quoted((run / "schedule.toml").string());
         return options;
     }
 
@@ -336,9 +354,10 @@ class RenderRun {
     Farm farm_;
     std::optional<GuestDoor> door_;
     bool reported_black_ = false;
-    std::size_t pass_count_ = 0;      ///< 0: not known
-    const std::uint32_t spp_before_;  ///< of what the render goes on with
-    bool went_on_ = false;            ///< with that
+    std::map<std::string, std::string> decided_;  ///< by subject: what was said last
+    std::size_t pass_count_ = 0;                  ///< 0: not known
+    const std::uint32_t spp_before_;              ///< of what the render goes on with
+    bool went_on_ = false;                        ///< with that
     RenderResult result_;
 };
 

@@ -62,6 +62,13 @@ fs::path make_new_run_folder(const std::string& scene_file) {
     }
 }
 
+void refuse_if_at_work(const fs::path& folder) {
+    const FolderLock lock(folder, 0.0, nullptr);
+    if (!lock.refused()) return;
+    const std::string who = writer_words(folder);
+    refuse(folder, "is being rendered" + (who.empty() ? "" : " (" + who + ")"), "wait for it, or stop it");
+}
+
 RunFolder::RunFolder(const Job& job, FolderUse use, const std::function<bool()>& interrupted)
     : use_(use), path_(make_folder(job)), lock_(path_, kPatience, interrupted) {
     check();

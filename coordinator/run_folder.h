@@ -14,6 +14,9 @@ namespace treefarm {
 /// std::filesystem::filesystem_error.
 std::filesystem::path make_new_run_folder(const std::string& scene_file);
 
+/// Throws InputError where a render or study is at work in a folder: what it holds so far says little.
+void refuse_if_at_work(const std::filesystem::path& folder);
+
 /// Whose folder a run takes.
 enum class FolderUse {
     fresh,    ///< an empty or a new one

@@ -68,7 +68,7 @@ Json pass_json(const PassReport& r) {
             {"splitting_quietens", r.splitting_gain.variance},
             {"splitting_rays", r.splitting_gain.rays},
             {"splitting_found", r.splitting_gain.found},
-            {"light_subpaths", r.plan.light_subpaths},
+            {"light_subpaths", r.has_light_subpaths()},
             {"light_subpaths_quieten", r.light_subpath_gain.noise},
             {"light_subpaths_rays", r.light_subpath_gain.rays},
             {"camera_paths_found", r.light_subpath_gain.found},

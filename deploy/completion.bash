@@ -14,10 +14,12 @@ _treefarm() {
     local -i k
     COMPREPLY=()
     for ((k = 1; k < COMP_CWORD; ++k)); do
-        [[ ${COMP_WORDS[k]} == -* ]] || {
+        # What launch starts is a command of its own.
+        if [[ ${COMP_WORDS[k]} == -- && $command == launch ]]; then
+            command=""
+        elif [[ ${COMP_WORDS[k]} != -* && -z $command ]]; then
             command=${COMP_WORDS[k]}
-            break
-        }
+        fi
     done
     if [[ -z $command ]]; then
         mapfile -t COMPREPLY < <(compgen -W "$(_treefarm_words '[a-z]+' "$program")" -- "$word")

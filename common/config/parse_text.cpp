@@ -107,6 +107,13 @@ std::string nearest_word(std::string_view word, std::span<const std::string> can
     return best;
 }
 
+std::string listed(std::span<const std::string_view> words) {
+    std::string text;
+    for (std::size_t i = 0; i < words.size(); ++i)
+        text += (i == 0 ? "" : i + 1 < words.size() ? ", " : " or ") + std::string(words[i]);
+    return text;
+}
+
 std::string did_you_mean(std::string_view word, std::span<const std::string_view> candidates,
                          const std::string& otherwise) {
     const std::vector<std::string> words(candidates.begin(), candidates.end());
@@ -117,6 +124,23 @@ std::string did_you_mean(std::string_view word, std::span<const std::string_view
 std::string in_quotes(std::string_view text) {
     constexpr std::size_t kLongest = 60;
     return "\"" + one_line(text.substr(0, kLongest)) + (text.size() > kLongest ? "...\"" : "\"");
+}
+
+std::string shell_quoted(const std::string& word) {
+    if (!word.empty() && word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
+                                                "_-+=./,:@%") == std::string::npos)
+        return word;
+    std::string quoted = "'";
+    for (const char c : word)
+        quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return quoted + "'";
+}
+
+std::string shell_line(std::span<const std::string> words) {
+    std::string line;
+    for (const std::string& word : words)
+        line += (line.empty() ? "" : " ") + shell_quoted(word);
+    return line;
 }
 
 std::string path_in_quotes(std::string_view path) {

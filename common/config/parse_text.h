@@ -30,12 +30,20 @@ std::string number_text(float value);
 /// The candidate with the smallest edit distance to an unknown word, for a message; "" if none is near.
 std::string nearest_word(std::string_view word, std::span<const std::string> candidates);
 
+/// "a, b or c".
+std::string listed(std::span<const std::string_view> words);
+
 /// The advice about an unknown word: the nearest candidate, and `otherwise` in any case.
 std::string did_you_mean(std::string_view word, std::span<const std::string_view> candidates,
                          const std::string& otherwise);
 
 /// Input text for a message: quoted, printable, and no longer than a line can hold.
 std::string in_quotes(std::string_view text);
+
+/// A word as a shell reads it back: a command that a message tells can be typed.
+std::string shell_quoted(const std::string& word);
+/// Words as a line for a shell.
+std::string shell_line(std::span<const std::string> words);
 
 /// A file's name for a message: as in_quotes(), but whole unless absurdly long, since a reader must be able to find it.
 std::string path_in_quotes(std::string_view path);

@@ -250,6 +250,14 @@ class StudyReader {
         for (const StudyMethod& method : study_.methods)
             names.push_back(method.name);
         if (std::find(names.begin(), names.end(), study_.baseline) != names.end()) return;
+        // [vary] adds its values to the names of methods: a name alone means the first of these.
+        const auto variant = std::find_if(names.begin(), names.end(), [&](const std::string& name) {
+            return name.starts_with(study_.baseline + " ");
+        });
+        if (variant != names.end()) {
+            study_.baseline = *variant;
+            return;
+        }
         const std::string nearest = nearest_word(study_.baseline, names);
         throw InputError(location(node->source()), "no method is called " + in_quotes(study_.baseline),
                          "did you mean " + in_quotes(nearest.empty() ? names.front() : nearest) + "?");

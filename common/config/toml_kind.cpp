@@ -47,12 +47,12 @@ const toml::key* job_key(const toml::table& table) {
 void require_kind(const toml::table& table, const std::string& file, TomlKind wanted) {
     const toml::key* const study = study_key(table);
     if (const toml::key* pass = first_key(table, {"pass"}); pass != nullptr && table["pass"].is_array())
-        refuse(*pass, file, "schedules", "write treefarm render job.toml --schedule " + file);
+        refuse(*pass, file, "schedules", "write treefarm render job.toml --schedule " + shell_quoted(file));
     if (wanted == TomlKind::job && study != nullptr)
         refuse(*study, file, "studies, and this command takes a job", "write treefarm study " + file);
     if (wanted == TomlKind::study && study == nullptr)
         if (const toml::key* job = job_key(table))
-            refuse(*job, file, "jobs, and treefarm study takes a study", "write treefarm render " + file);
+            refuse(*job, file, "jobs, and treefarm study takes a study", "write treefarm render " + shell_quoted(file));
 }
 
 }  // namespace treefarm

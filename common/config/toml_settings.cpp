@@ -29,9 +29,15 @@ bool is_section(const std::string& name) {
         if (name == kEffectsPrefix + effect) throw InputError(where, name + " cannot be switched off by a key", cure);
     for (const auto& [old_name, new_name] : kRenamedKeys)
         if (name == old_name) throw InputError(where, in_quotes(name) + " is called " + new_name + " now", "set that");
+    if (is_section(name))
+        throw InputError(where, in_quotes(name) + " is no key, but a table of keys",
+                         "write [" + name + "] and keys below it");
     std::vector<std::string> names;
-    for (const JobKey& key : job_keys())
+    for (const JobKey& key : job_keys()) {
         names.push_back(key.name);
+        const std::string section = key.name.substr(0, key.name.find('.'));
+        if (std::find(names.begin(), names.end(), section) == names.end()) names.push_back(section);
+    }
     const std::string nearest = nearest_word(name, names);
     throw InputError(where, "unknown key " + in_quotes(name),
                      nearest.empty() ? "see docs/generated/jobs.md for the keys" : "did you mean " + nearest + "?");

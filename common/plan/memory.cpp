@@ -6,6 +6,7 @@
 #include <span>
 
 #include "common/config/aov_list.h"
+#include "common/config/parse_text.h"
 #include "common/film/fold_passes.h"
 #include "common/film/pixel_estimate.h"
 #include "common/film/splat_film.h"
@@ -125,6 +126,13 @@ std::string passes_text(const Resolved& job) {
     if (has_open_budget(job)) return "at most " + kept;
     const std::size_t passes = plan_passes(job).size();
     return passes > kMostPassImages ? count_text(passes, "passes merged into ") + kept : kept;
+}
+
+/// Seconds between two checkpoints, which are written for at most a tenth of the time.
+std::string lost_by_kill(const Resolved& job, std::uint64_t pixels) {
+    constexpr double kPixelBytes = 2 * (sizeof(std::uint32_t) + 6 * sizeof(double)), kBytesPerSecond = 1e8;
+    const double bytes = kPixelBytes * static_cast<double>(pixels * (kept_passes(job) + 1));
+    return number_text(std::ceil(std::max(double(job.farm.checkpoint_seconds), 10 * bytes / kBytesPerSecond)));
 }
 
 }  // namespace
@@ -250,7 +258,8 @@ MemoryPlan expected_memory(const Scene& scene, const Resolved& job) {
     if (job.farm.checkpoint_seconds > 0)
         plan.coordinator.push_back(
             {"checkpoint", pixels * 2 * (2 * (sizeof(std::uint32_t) + 6 * sizeof(double)) + sums),
-             std::string("copies of two passes") + (sums > 0 ? " and of two sums of AOVs" : "") + ", to be written"});
+             std::string("copies of two passes") + (sums > 0 ? " and of two sums of AOVs" : "") +
+                 ", to be written; a kill loses at most some " + lost_by_kill(job, pixels) + " s (100 MB/s disk)"});
     if (!job.output.aovs.empty()) {
         std::size_t channels = 0;
         for (const AovRequest& request : aov_requests(job))

@@ -281,23 +281,27 @@ std::vector<Setting> without_policy(std::vector<Setting> settings) {
     };
     constexpr const char* kCure =
         "render job.toml instead, which leaves it to the program, or use the build that wrote it";
+    std::vector<std::string> known;
+    for (const PolicyEntry& entry : kEntries)
+        known.push_back(std::string(kPrefix) + entry.name);
+    for (const Setting& setting : settings) {
+        if (!is_policy(setting) || std::find(known.begin(), known.end(), setting.key) != known.end()) continue;
+        const std::string nearest = nearest_word(setting.key, known);
+        throw InputError(setting.where, setting.key + " is no constant of this build",
+                         (nearest.empty() ? "" : "did you mean " + nearest + "? Otherwise ") + kCure);
+    }
     for (const PolicyEntry& entry : kEntries) {
         const auto written = find(std::string(kPrefix) + entry.name);
         if (written == settings.end())
             throw InputError(
-                file, std::string(entry.name) + " is not in it: the build that wrote it had no such constant", kCure);
-        if (written->value != value_text(entry))
-            throw InputError(
-                written->where,
-                std::string(entry.name) + " was " + written->value + ", and is " + value_text(entry) + " in this build",
+                file, std::string(kPrefix) + entry.name + " is not in it: the build that wrote it had no such constant",
                 kCure);
-    }
-    for (const Setting& setting : settings)
-        if (is_policy(setting) && std::none_of(kEntries.begin(), kEntries.end(), [&](const PolicyEntry& entry) {
-                return setting.key.substr(kPrefix.size()) == entry.name;
-            }))
-            throw InputError(setting.where, setting.key.substr(kPrefix.size()) + " is no constant of this build",
+        if (written->value != value_text(entry))
+            throw InputError(written->where,
+                             std::string(kPrefix) + entry.name + " was " + written->value + ", and is " +
+                                 value_text(entry) + " in this build",
                              kCure);
+    }
     for (const JobKey& key : job_keys())
         if (key.stored() && !key.name.starts_with("output.") && find(key.name) == settings.end())
             throw InputError(file, key.name + " is not in it: the build that wrote it had no such key", kCure);

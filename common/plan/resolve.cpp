@@ -80,6 +80,13 @@ void resolve_estimator(Job& job) {
     job.integrator.rr_depth = std::max(job.integrator.rr_depth, job.integrator.max_depth);
 }
 
+float ao_reach(const Scene& scene) {
+    const Box3 box = scene.bounds();
+    if (box.isEmpty()) return SceneFacts().ao_reach;
+    const Imath::V3d diagonal = Imath::V3d(box.max) - Imath::V3d(box.min);
+    return static_cast<float>(0.25 * std::sqrt(diagonal.dot(diagonal)));
+}
+
 }  // namespace
 
 SceneFacts facts_of(const Scene& scene) {
@@ -90,6 +97,7 @@ SceneFacts facts_of(const Scene& scene) {
             scene_traits(scene).lobes.view_dependent(),
             chooses_lights(scene),
             usual_splat_exponent(scene),
+            ao_reach(scene),
             lights_alone_find(scene)};
 }
 
@@ -103,6 +111,7 @@ Resolved resolve(const Job& job, const SceneFacts& scene) {
     if (next_event == NextEvent::automatic && !may_decide_next_event(resolved)) next_event = NextEvent::always;
     resolved.decides_next_event = next_event == NextEvent::automatic;
     resolve_light_subpaths(resolved.bidirectional, scene);
+    if (resolved.integrator.ao_distance == 0) resolved.integrator.ao_distance = scene.ao_reach;
     const bool by_view = guiding.type == GuidingType::view;
     if (guiding.splitting == 0)
         guiding.splitting = by_view && guiding.roulette == GuidingRoulette::adjoint ? kPolicy.splitting.usual : 1;

@@ -18,6 +18,7 @@ struct SceneFacts {
     bool view_dependent = false;      ///< a surface scatters otherwise by where it is seen from
     bool chooses_lights = false;      ///< next event has more than one emitter, or an image, to choose from
     std::int16_t splat_exponent = 0;  ///< of the quantum of splats (splat_quantum.h)
+    float ao_reach = 1.0f;            ///< a quarter of the diagonal of the scene's box
     bool lights_alone_find = false;   ///< some light only paths from emitters find: that of points by way of mirrors
 };
 

@@ -9,6 +9,7 @@
 #include "common/base/error.h"
 #include "common/base/hash.h"
 #include "common/config/aov_list.h"
+#include "common/config/parse_text.h"
 #include "common/image/atomic_file.h"
 #include "common/image/read_bytes.h"
 #include "common/plan/resolved_file.h"
@@ -137,7 +138,7 @@ LoadedCheckpoint load_checkpoint(const fs::path& run, const std::function<void(c
     for (const Candidate& candidate : candidates)
         faults += (faults.empty() ? "" : "; ") + candidate.path.filename().string() + " " + candidate.fault;
     throw InputError(Location{folder.string(), 0, 0}, "no usable checkpoint (" + faults + ")",
-                     "start again with: treefarm render " + (run / "job.toml").string());
+                     "start again with: treefarm render " + shell_quoted((run / "job.toml").string()));
 }
 
 CheckpointStore::CheckpointStore(fs::path run, const LoadedCheckpoint* loaded)

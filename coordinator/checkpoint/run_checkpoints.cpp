@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "common/base/timer.h"
+#include "common/config/parse_text.h"
 #include "coordinator/last_files.h"
 
 namespace treefarm {
@@ -79,7 +80,11 @@ std::string RunCheckpoints::finish(bool done) {
                                    }}};
     const std::vector<std::string> failures = write_last_files(file, kPatience);
     last_state_.reset();
-    return failures.empty() ? "" : "no checkpoint of the end: " + failures.front();
+    if (failures.empty()) return "";
+    return "no checkpoint of the end: " + failures.front() + "; " +
+           (done ? "the image is whole, but no samples can be added to it: for more, free space and "
+                 : "what the one before it has is kept; or, with more space, ") +
+           "render again: treefarm render " + shell_quoted((folder_.parent_path() / "job.toml").string());
 }
 
 }  // namespace treefarm

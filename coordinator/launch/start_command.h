@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "coordinator/launch/host_pool.h"
+
 namespace treefarm {
 
 /// How the processes of an attempt are started.
@@ -26,6 +28,7 @@ struct StartPlan {
     std::string network{};                  ///< that Open MPI is to use, "10.0.0.0/24"; empty: its choice
     std::filesystem::path temporary{};      ///< folder for Open MPI's own files
     std::filesystem::path shared_memory{};  ///< folder for memory that ranks of this host share; empty: the usual one
+    std::vector<HostLine> hosts{};          ///< hosts of the hostfile
 };
 
 /// The command that starts `words`, the program's arguments.

@@ -176,6 +176,8 @@ std::optional<SupervisorEnd> Supervisor::gone(const Sight& sight) {
     if (known && *known != kFailed && !(*known == kInterrupted && (stood_still || by_launcher) && stops_ == 0))
         return SupervisorEnd{*known, "", *known == kInterrupted};
     if (stops_ > 0) return SupervisorEnd{kInterrupted, "interrupted in " + life_place(own_), true};
+    if (!sight.not_started.empty())
+        return restart_or_end(sight, "it could not be started (" + sight.not_started + ")", life_place(own_));
     if (known == kFailed) return restart_or_end(sight, "the render failed", life_place(own_));
     if (!why_.empty()) return restart_or_end(sight, why_, place_);
     if (by_launcher) return restart_or_end(sight, "the launcher ended the render", life_place(own_));

@@ -29,6 +29,7 @@ struct SupervisorLimits {
 struct Sight {
     double now = 0;                    ///< seconds of its own clock
     bool running = false;              ///< the process that it started is there
+    std::string not_started;           ///< why the attempt could not be started at all
     bool readable = true;              ///< the sign of life could be looked for
     bool coordinator_gone = false;     ///< its process was here, and is not any more
     std::optional<LifeStatus> status;  ///< what is there, of this attempt or another

@@ -270,14 +270,15 @@ const char* const kRun = "while [ \"$1\" != '" TREEFARM_PROGRAM "' ]; do shift; 
 
 TEST(Launch, WhatAlwaysDiesEndsWithOneLineThatSaysWhatToDo) {
     const fs::path folder = fresh_folder("run");
+    const fs::path mpirun = false_mpirun("exit 7");
     const Ending ending =
-        Program(launch(2, {"--restarts", "2", "--mpirun", false_mpirun("exit 7").string()}) + render(folder))
-            .wait(kSoon);
+        Program(launch(2, {"--restarts", "2", "--mpirun", mpirun.string()}) + render(folder)).wait(kSoon);
     EXPECT_EQ(ending.code, 1) << ending.output;
     EXPECT_NE(ending.output.find("the render's processes are gone in the start, before any sign of life; given up "
                                  "after 3 attempts in a row that brought nothing, all of which ended there; no pass is "
                                  "kept in " +
-                                 folder.string() + "; begin again with treefarm launch -n 2 -- render "),
+                                 folder.string() + "; begin again with treefarm launch -n 2 --mpirun " +
+                                 mpirun.string() + " --restarts 2 -- render "),
               std::string::npos)
         << ending.output;
     EXPECT_NE(text_of(folder / "launch/log").find("launcher: exit code 7"), std::string::npos);

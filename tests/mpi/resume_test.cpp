@@ -226,9 +226,14 @@ TEST(Resume, WhereTheNewestIsDamagedTheOneBeforeIsUsed) {
 
 TEST(Resume, OnlyItsOwnRenderGoesOn) {
     const fs::path folder = broken_off();
-    EXPECT_NE(refusal(folder, {"--set", "guiding.type=none"})
-                  .find("is not the job of the render: guiding.type was \"view\", is \"none\"; only farm.*"),
-              std::string::npos);
+    const std::string refused = refusal(folder, {"--set", "guiding.type=none"});
+    EXPECT_NE(refused.find("--set: would make another render: guiding.type was \"view\", is \"none\"; only farm.*"),
+              std::string::npos)
+        << refused;
+    EXPECT_NE(
+        refused.find("for the new job: treefarm render " + (folder / "job.toml").string() + " --set guiding.type=none"),
+        std::string::npos)
+        << refused;
     EXPECT_NE(refusal(folder, {"--set", "sampler.seed=3"}).find("sampler.seed was \"0\", is \"3\""), std::string::npos);
     EXPECT_NE(refusal(folder, {"--set", "farm.isa=sse2"}).find("farm.isa was"), std::string::npos);
     EXPECT_EQ(resumed(1, folder, {"--set", "farm.tile_size=7", "--set", "output.half=true"}), 0);

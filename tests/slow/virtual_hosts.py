@@ -44,6 +44,9 @@ HARMS = {
 }
 
 
+APART = "run directory on the first host alone"
+
+
 def launch(arguments, hosts, folder):
     words = command(arguments.treefarm, arguments.scene, folder, "auto", spp=SPP)
     words[1:1] = ["launch", "--hostfile", str(hosts.hostfile()), "--network", NETWORK, "--"]
@@ -86,8 +89,26 @@ def one(arguments, name, work, truth):
         return f"same bits after {seconds:.1f} s ({attempts} lines of attempts)"
 
 
+def apart(arguments, work):
+    """A run directory that the first host alone sees: the others get the secret, and nothing of it stays."""
+    place = work / "hosts"
+    place.mkdir(exist_ok=True)
+    with VirtualHosts(place, HOSTS) as hosts:
+        process = launch(arguments, hosts, pathlib.Path("/tmp/apart"))  # each host has a /tmp of its own
+        try:
+            output, _ = process.communicate(timeout=arguments.deadline)
+        except subprocess.TimeoutExpired:
+            process.kill()
+            return f"hangs: {process.communicate()[0]}"
+        left = [k for k in range(HOSTS) if subprocess.run(
+            hosts.words(k, ["sh", "-c", "ls /tmp | grep treefarm-key"]), capture_output=True).returncode == 0]
+    if process.returncode != 0 or "authenticated" in output:
+        return f"exit code {process.returncode}: {output}"
+    return f"keys stay on hosts {left}" if left else "same bits: all hosts had the secret, and none has it still"
+
+
 def main():
-    parser = parser_of(__doc__, HARMS)
+    parser = parser_of(__doc__, [*HARMS, APART])
     parser.add_argument("--deadline", type=float, default=DEADLINE, help="seconds for each; more where the machine is busy")
     arguments = parser.parse_args()
     arguments.treefarm = str(pathlib.Path(arguments.treefarm).resolve())
@@ -98,7 +119,8 @@ def main():
         subprocess.run(command(arguments.treefarm, arguments.scene, work / "truth", "auto", spp=SPP), check=True,
                        env=environment())
         truth = hashes(work / "truth")
-        failed = run_cases(arguments.only or HARMS, lambda name: one(arguments, name, work, truth))
+        failed = run_cases(arguments.only or [*HARMS, APART], lambda name: apart(arguments, work) if name == APART else
+                           one(arguments, name, work, truth))
     sys.exit(1 if failed else 0)
 
 

@@ -25,7 +25,9 @@ class LaunchWorld {
     /// One step of the clock, in which the coordinator may do something.
     void step(double seconds = 1.0) {
         now += seconds;
-        if (!end) end = supervisor_.step({now, running, readable, coordinator_gone, status, summary, checkpoint});
+        if (!end)
+            end =
+                supervisor_.step({now, running, not_started, readable, coordinator_gone, status, summary, checkpoint});
     }
     /// So many seconds, in each of which `life` happens.
     void pass(
@@ -71,6 +73,7 @@ class LaunchWorld {
 
     double now = 0;
     bool running = false, readable = true, coordinator_gone = false;
+    std::string not_started;  ///< why an attempt cannot be started; "": it can
     int attempt = 0;
     std::optional<LifeStatus> status;
     std::optional<int> summary;
@@ -82,7 +85,7 @@ class LaunchWorld {
   private:
     void begin(int number) {
         attempt = number;
-        running = true;
+        running = not_started.empty();
         summary.reset();
         starts.push_back(now);
         note("start");

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/image/exr.h"
 #include "tests/support/command.h"
 #include "tests/support/markdown.h"
 
@@ -117,6 +118,44 @@ TEST(DocsCommands, ScenesAreRead) {
         std::ofstream(folder / "scene.xml") << text;
         const test::Ended ended = test::run_command(kProgram + " plan '" + (folder / "scene.xml").string() + "'");
         EXPECT_EQ(ended.code, 0) << page << ": " << ended.output;
+    }
+}
+
+/// Fenced studies of a page.
+std::vector<std::string> studies(const fs::path& page) {
+    std::vector<std::string> found;
+    bool inside = false;
+    for (const test::MarkdownLine& line : test::markdown_lines(page)) {
+        if (line.text.starts_with("```toml")) {
+            inside = true;
+            found.emplace_back();
+        } else if (!line.fenced || line.text.starts_with("```")) {
+            inside = false;
+        } else if (inside) {
+            found.back() += line.text + "\n";
+        }
+    }
+    return found;
+}
+
+TEST(DocsCommands, StudiesAreRead) {
+    const fs::path folder = fs::path(testing::TempDir()) / "docs_studies_test";
+    fs::create_directories(folder / "studies");
+    fs::create_directories(folder / "scenes");
+    fs::copy_file(kRoot / "configs/scenes/cornell-box.xml", folder / "scenes/cornell-box.xml",
+                  fs::copy_options::overwrite_existing);
+    Image reference{64, 96, {}, {}};
+    for (const char* const channel : {"R", "G", "B"})
+        reference.add_channel(channel);
+    write_exr(folder / "studies/box.exr", reference);
+    const std::vector<std::string> shown = studies(kRoot / "docs/use/studies.md");
+    ASSERT_FALSE(shown.empty());
+    for (const std::string& text : shown) {
+        const fs::path file = folder / "studies/mine.toml";
+        std::ofstream(file) << text;
+        const test::Ended ended = test::run_command("cd '" + folder.string() + "' && " + kProgram + " study '" +
+                                                    file.string() + "' --dry-run");
+        EXPECT_EQ(ended.code, 0) << text << ended.output;
     }
 }
 

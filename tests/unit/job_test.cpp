@@ -202,7 +202,9 @@ TEST(Job, UnknownKeySuggestsTheNearest) {
     EXPECT_EQ(message_of("[integrator]\nmax_depht = 3\n"),
               "job.toml:2:1: unknown key \"integrator.max_depht\"; did you mean integrator.max_depth?");
     EXPECT_NE(message_of("[zzz]\nqqqqqqqqqqq = 3\n").find("job.toml:1:"), std::string::npos);
-    EXPECT_NE(message_of("budget = 3\n").find("unknown key \"budget\""), std::string::npos);
+    EXPECT_EQ(message_of("budget = 3\n"),
+              "job.toml:1:1: \"budget\" is no key, but a table of keys; write [budget] and keys below it");
+    EXPECT_NE(message_of("[guidng]\ntype = \"none\"\n").find("did you mean guiding"), std::string::npos);
 }
 
 TEST(Job, ARenamedKeySaysItsNewName) {

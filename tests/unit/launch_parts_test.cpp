@@ -8,8 +8,12 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <set>
 #include <thread>
 
+#include "cli/host_keys.h"
+#include "cli/host_probe.h"
+#include "common/comm/run_key.h"
 #include "coordinator/folder_content.h"
 #include "coordinator/launch/host_pool.h"
 #include "coordinator/launch/sign_of_life.h"
@@ -33,6 +37,32 @@ std::string command(const StartPlan& plan) {
 
 bool has(const std::string& text, const std::string& part) {
     return text.find(part) != std::string::npos;
+}
+
+/// A host is a folder here: its own temporary files, and a shell.
+TEST(HostKeys, ASecretReachesAHostByStandardInputAndIsTakenBack) {
+    const fs::path folder = fs::path(testing::TempDir()) / "host_keys_test";
+    fs::remove_all(folder);
+    fs::create_directories(folder / "node7");
+    const fs::path agent = folder / "agent", key = folder / "key";
+    std::ofstream(agent) << "#!/bin/sh\nhost=$1\nshift\necho \"$*\" >> " << folder.string()
+                         << "/asked\nTMPDIR=" << folder.string() << "/$host exec sh -c \"$*\"\n";
+    fs::permissions(agent, fs::perms::owner_all);
+    write_run_key(key);
+    setenv("OMPI_MCA_plm_rsh_agent", agent.c_str(), 1);
+    const fs::path there = folder / "node7" / host_key_file("abc.1").filename();
+    {
+        const HostKeys keys({{"node7", 1, "node7"}, {"localhost", 1, "localhost"}}, key, "abc.1");
+        EXPECT_EQ(read_run_key(there), read_run_key(key)) << "and nobody else may read it";
+        EXPECT_EQ(failing_hosts({{"node8", 1, "node8"}}, "cat > $TMPDIR/x", 10.0, key), std::set<std::string>{"node8"});
+    }
+    EXPECT_FALSE(fs::exists(there));
+    std::ifstream asked(folder / "asked");
+    const std::string commands{std::istreambuf_iterator<char>(asked), {}};
+    std::ifstream secret(key, std::ios::binary);
+    const std::string bytes{std::istreambuf_iterator<char>(secret), {}};
+    EXPECT_EQ(commands.find(bytes), std::string::npos);
+    unsetenv("OMPI_MCA_plm_rsh_agent");
 }
 
 TEST(StartCommand, OneProcessNeedsNoLauncher) {

@@ -123,8 +123,12 @@ TEST_F(Malformed, Structure) {
     write("s.xml", "<scene version=\"0.6.0\">\n</scene>");
     EXPECT_EQ(message_of_file("s.xml"), "s.xml:1:1: the scene has no sensor; add <sensor type=\"perspective\">");
     expect("<mystery/>", "s.xml:3:1: unknown element <mystery> in <scene>");
+    expect("<emiter type=\"constant\"/>",
+           "s.xml:3:1: unknown element <emiter> in <scene>; did you mean \"emitter\"? Otherwise remove it");
     expect("<shape/>", "s.xml:3:1: <shape> has no attribute \"type\"");
     expect("<shape type=\"cube\" colour=\"red\"/>", "s.xml:3:1: <shape> has the unknown attribute \"colour\"");
+    expect("<shape type=\"sphere\"><float name=\"radius\" vale=\"2\"/></shape>",
+           "s.xml:3:22: <float> has the unknown attribute \"vale\"; did you mean \"value\"? Otherwise remove it");
     expect("<shape type=\"cube\" type=\"cube\"/>", "s.xml:3:1: ");
     expect("<shape type=\"cube\">words</shape>", "s.xml:3:20: text \"words\" stands between elements");
     expect("<shape type=\"cube\"><boolean name=\"flipNormals\" value=\"1\"/></shape>",

@@ -93,49 +93,6 @@ TEST(PassText, WhatIsNotKnownIsNotSaid) {
     EXPECT_NE(pass_summary(first, 7).find("stuv 2, ttuv"), std::string::npos);
 }
 
-TEST(PassText, TheVerdictOnGuidingSaysWhatItSavesHowSurelyAndWhy) {
-    PassReport report = sixth_pass();
-    report.guiding_worth = {.worth = 6,
-                            .error = std::log(1.5),
-                            .known = 20,
-                            .unguided_variance = 18,
-                            .guided_variance = 2,
-                            .unguided_cost = 3,
-                            .guided_cost = 4.5};
-    const auto says = [&](const std::string& what) {
-        EXPECT_NE(pass_summary(report, 7).find(what), std::string::npos) << pass_summary(report, 7);
-    };
-    const std::string why = "an unguided sample would be 9 times as noisy, a guided one costs 1.5 times as much";
-    says("; guided, which saves 83 % of the work (between 75 and 89 %): " + why);
-    report.guiding = Guiding::loses;
-    says("; unguided as long as that is not sure to lose: " + why);
-    report.guiding_worth.worth = 0.4;
-    says("; unguided, which saves 60 % of the work (between 40 and 73 %): " + why);
-    report.guiding = Guiding::open;
-    says("; guided as long as that is not sure to lose: " + why);
-}
-
-TEST(PassText, NextEventIsSpokenOfWhereItIsSaved) {
-    PassReport report = sixth_pass();
-    report.refine.next_event = {0.99, 0.0};
-    EXPECT_EQ(pass_summary(report, 7).find("next event"), std::string::npos);
-    report.refine.next_event = {1.02, 0.4};
-    report.plan.guided = true;
-    EXPECT_NE(
-        pass_summary(report, 7).find("; next event at one vertex in 16 for 40 % of them, where guiding finds that "
-                                     "light as well"),
-        std::string::npos);
-    report.plan.guided = false;
-    EXPECT_EQ(pass_summary(report, 7).find("next event"), std::string::npos);
-    report.refine.next_event = {0.69, 0.62};
-    EXPECT_NE(pass_summary(report, 7).find("; next event at one vertex in 16 for 62 % of them, where it finds nearly "
-                                           "nothing, which saves about 31 % of the work"),
-              std::string::npos);
-    report.refine.next_event = {0.8, 0};
-    EXPECT_NE(pass_summary(report, 7).find("; next event more rarely where it finds little, which saves about 20 % of"),
-              std::string::npos);
-}
-
 TEST(PassText, TheSummaryEndsInWhatIsLeftToDo) {
     PassReport report;
     report.error = known(0.1, 2);

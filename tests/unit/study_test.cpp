@@ -34,6 +34,12 @@ void expect_complaint(const std::string& text, const std::string& part) {
     EXPECT_NE(message.find(part), std::string::npos) << text << "\nsays: " << message;
 }
 
+TEST(Study, AMethodsNameIsThatOfItsFirstVariant) {
+    const Study study = parse("baseline = \"ape\"\n" + kScene + "[method.zebra]\n[method.ape]\n" + kRest +
+                              "[vary]\nguiding.spp_unit = [2, 3]\n");
+    EXPECT_EQ(study.baseline, "ape spp_unit=2");
+}
+
 TEST(Study, ReadsItsMatrix) {
     const Study study = parse("seeds = [5, 7]\nbaseline = \"zebra\"\n" + kScene +
                               "image.width = 32\n[method.zebra]\n[method.ape]\nguiding.type = \"none\"\n" + kRest);

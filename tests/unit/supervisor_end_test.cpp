@@ -71,6 +71,30 @@ TEST(Supervisor, WithoutRestartsTheFirstDeathEndsIt) {
     EXPECT_NE(world.end->words.find("no restarts are left"), std::string::npos);
 }
 
+/// Hosts that do not answer come back: their absence is an attempt as any other, and does not end the launch at once.
+TEST(Supervisor, AnAttemptThatCannotBeStartedIsTriedAgain) {
+    LaunchWorld world({.restarts = 2});
+    world.run_to_pass();
+    world.not_started = "hosts: no host answers";
+    world.die();
+    world.pass(3);
+    EXPECT_EQ(world.attempt, 2);
+    EXPECT_EQ(world.last_said(),
+              "it could not be started (hosts: no host answers) in the start, before any sign of life; again in 2 s");
+    world.not_started.clear();
+    world.status.reset();
+    world.pass(4);
+    EXPECT_EQ(world.attempt, 3);
+    EXPECT_TRUE(world.running);
+    EXPECT_FALSE(world.end);
+    world.not_started = "hosts: no host answers";
+    world.die();
+    world.pass(60);
+    ASSERT_TRUE(world.end);
+    EXPECT_TRUE(world.end->resumable);
+    EXPECT_NE(world.end->words.find("it could not be started (hosts: no host answers)"), std::string::npos);
+}
+
 TEST(Supervisor, AStopWaitsForWhatIsWritten) {
     LaunchWorld world;
     world.run_to_pass();

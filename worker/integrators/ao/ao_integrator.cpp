@@ -6,21 +6,8 @@
 
 namespace treefarm {
 
-namespace {
-
-/// How far away something darkens, in scene units.
-float reach(const TraceScene& scene, const Resolved& job) {
-    if (job.integrator.ao_distance > 0.0f) return job.integrator.ao_distance;
-    const Box3& box = scene.bounds();
-    if (box.isEmpty()) return 1.0f;
-    const Imath::V3d diagonal = Imath::V3d(box.max) - Imath::V3d(box.min);
-    return static_cast<float>(0.25 * std::sqrt(diagonal.dot(diagonal)));
-}
-
-}  // namespace
-
 RenderUnit prepare_ao(std::shared_ptr<const TraceScene> scene, const Resolved& job) {
-    const float length = reach(*scene, job);
+    const float length = job.integrator.ao_distance;  // scene units
     return [scene = std::move(scene), job, length](const PassPlan& pass, const AnySampler&, const WorkUnit& unit,
                                                    UnitOutput& output) {
         render_samples(*scene, job, pass, unit, output, [&](const PathKey& key, const Ray& ray) {

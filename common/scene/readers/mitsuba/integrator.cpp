@@ -168,7 +168,7 @@ void read_integrator(const XmlElement& integrator, std::vector<Setting>& setting
     } else {
         diagnostics.unsupported(integrator.where,
                                 "the integrator " + in_quotes(type) + " is not available in this version",
-                                did_you_mean(type, kIntegrators, "use path, volpath, direct or guided_path"),
+                                did_you_mean(type, kIntegrators, "use " + listed(kIntegrators)),
                                 "paths are traced as the job says; of its parameters count maxDepth, rrDepth, "
                                 "strictNormals and hideEmitters");
         // Somebody's own integrator, most likely: what all of them have belongs to the image.

@@ -23,11 +23,20 @@ char to_lower(char c) {
     return is_upper(c) ? static_cast<char>(c - 'A' + 'a') : c;
 }
 
+constexpr std::array<std::string_view, 12> kValueTags = {"float",    "integer",   "boolean",   "string",
+                                                         "point",    "vector",    "rgb",       "srgb",
+                                                         "spectrum", "blackbody", "transform", "animation"};
+
 bool is_value_tag(const std::string& tag) {
-    constexpr std::array<std::string_view, 12> tags = {"float",    "integer",   "boolean",   "string",
-                                                       "point",    "vector",    "rgb",       "srgb",
-                                                       "spectrum", "blackbody", "transform", "animation"};
-    return std::find(tags.begin(), tags.end(), tag) != tags.end();
+    return std::find(kValueTags.begin(), kValueTags.end(), tag) != kValueTags.end();
+}
+
+/// What to do about an element that nobody knows: it may be a misspelt light, which is not to be lost.
+std::string cure_of_tag(const std::string& tag) {
+    std::vector<std::string_view> tags(kValueTags.begin(), kValueTags.end());
+    tags.insert(tags.end(), object_tags().begin(), object_tags().end());
+    tags.push_back("ref");
+    return did_you_mean(tag, tags, "remove it");
 }
 
 /// The effect that an object which is not read would simulate, for messages.
@@ -66,7 +75,8 @@ Properties::Properties(const XmlElement& object, const SceneDocument& document, 
         } else if (is_value_tag(element.tag)) {
             add_value(element);
         } else {
-            diagnostics.unsupported(element.where, "unknown element <" + element.tag + "> in " + title(), "remove it");
+            diagnostics.unsupported(element.where, "unknown element <" + element.tag + "> in " + title(),
+                                    cure_of_tag(element.tag));
         }
     }
 }

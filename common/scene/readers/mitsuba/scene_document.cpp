@@ -126,10 +126,15 @@ class Expander {
 
 }  // namespace
 
+std::span<const std::string_view> object_tags() {
+    static constexpr std::array<std::string_view, 14> kTags = {
+        "scene", "integrator", "sensor",  "film",   "rfilter", "sampler", "shape",
+        "bsdf",  "emitter",    "texture", "medium", "phase",   "volume",  "subsurface"};
+    return kTags;
+}
+
 bool is_object_tag(const std::string& tag) {
-    constexpr std::array<std::string_view, 14> tags = {"scene",   "integrator", "sensor", "film",      "rfilter",
-                                                       "sampler", "shape",      "bsdf",   "emitter",   "texture",
-                                                       "medium",  "phase",      "volume", "subsurface"};
+    const std::span<const std::string_view> tags = object_tags();
     return std::find(tags.begin(), tags.end(), tag) != tags.end();
 }
 

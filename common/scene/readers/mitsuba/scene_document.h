@@ -4,7 +4,9 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <span>
 #include <string>
+#include <string_view>
 
 #include "common/scene/readers/mitsuba/file_search.h"
 #include "common/scene/readers/mitsuba/xml_document.h"
@@ -12,7 +14,8 @@
 
 namespace treefarm::mitsuba {
 
-/// Elements that make an object (as opposed to a property): they can have an id and be referred to.
+/// Tags of elements that make an object (as opposed to a property): they can have an id and be referred to.
+std::span<const std::string_view> object_tags();
 bool is_object_tag(const std::string& tag);
 
 /// A scene's elements with includes put in place, every $name replaced and every file name made one that can be opened.

@@ -109,7 +109,7 @@ void XmlElement::allow_attributes(std::initializer_list<std::string_view> names)
     for (const XmlAttribute& attribute : attributes)
         if (std::find(names.begin(), names.end(), attribute.name) == names.end())
             throw InputError(where, "<" + tag + "> has the unknown attribute " + in_quotes(attribute.name),
-                             "remove it");
+                             did_you_mean(attribute.name, std::span(names.begin(), names.size()), "remove it"));
 }
 
 XmlElement read_xml(const std::filesystem::path& path, const Location& asked_from) {
