@@ -102,7 +102,7 @@ def apart(arguments, work):
             return f"hangs: {process.communicate()[0]}"
         left = [k for k in range(HOSTS) if subprocess.run(
             hosts.words(k, ["sh", "-c", "ls /tmp | grep treefarm-key"]), capture_output=True).returncode == 0]
-    if process.returncode != 0 or "authenticated" in output:
+    if process.returncode != 0 or "authenticated" in output or "cannot be read" in output:
         return f"exit code {process.returncode}: {output}"
     return f"keys stay on hosts {left}" if left else "same bits: all hosts had the secret, and none has it still"
 
