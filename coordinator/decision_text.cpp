@@ -38,15 +38,14 @@ DecisionText guiding(Guiding verdict, const GuidingWorth& w) {
     const char* const what = guided ? "guided" : "unguided";
     const bool too_little = w.known < kPolicy.guiding.least_known;
     if (guided && (too_little || saved(w.worth) <= 0))
-        return {"guiding", what,
+        return {"guiding",
                 fmt::format("guided for now: {}, {}; so far {}", too_little ? "too little is known" : "it may lose",
                             at_most > 0 ? fmt::format("but may save up to {} % of the work", std::lround(100 * at_most))
                                         : "but not surely enough to give it up",
                             why)};
     if (saved(w.worth) <= 0)
-        return {"guiding", what, fmt::format("unguided as long as guiding is not sure to pay again: {}", why)};
-    return {"guiding", what,
-            fmt::format("{}, which saves {}: {}", what, saving(saved(w.worth), at_least, at_most), why)};
+        return {"guiding", fmt::format("unguided as long as guiding is not sure to pay again: {}", why)};
+    return {"guiding", fmt::format("{}, which saves {}: {}", what, saving(saved(w.worth), at_least, at_most), why)};
 }
 
 /// Nothing where an emitter is sampled at nearly each vertex.
@@ -64,12 +63,12 @@ void add_next_event(const PassReport& r, std::vector<DecisionText>& texts) {
         words +=
             fmt::format(", which saves about {:.0f} % of the work (by {:.2g} standard errors wherever it is rarer)",
                         100 * (1 - verdict.saved), kPolicy.next_event.standard_errors);
-    texts.push_back({"next event", "rarer", std::move(words)});
+    texts.push_back({"next event", std::move(words)});
 }
 
 void add_splitting(const PassReport& r, std::vector<DecisionText>& texts) {
     if (!r.plan.split || r.splitting) return;
-    texts.push_back({"splitting", "none",
+    texts.push_back({"splitting",
                      fmt::format("no path is split from here on: unsplit samples would have {} for {:.2g} of the rays, "
                                  "and copies cost more than their rays",
                                  variance_ratio(r.splitting_gain.variance), 1 / r.splitting_gain.rays)});
@@ -80,9 +79,9 @@ void add_light_subpaths(const PassReport& r, std::vector<DecisionText>& texts) {
     if (!r.has_light_subpaths() || quieter == 0) return;
     const std::string noise =
         fmt::format("{:.2g} times {}", std::max(quieter, 1 / quieter), quieter < 1 ? "the variance" : "less variance");
-    texts.push_back({"light subpaths", r.light_subpaths ? "both" : "camera",
-                     fmt::format("{}paths from lamps make {} at equal cost, found by samples that have both",
-                                 r.light_subpaths ? "" : "paths from the camera alone from here on: ", noise)});
+    texts.push_back(
+        {"light subpaths", fmt::format("{}paths from lamps make {} at equal cost, found by samples that have both",
+                                       r.light_subpaths ? "" : "paths from the camera alone from here on: ", noise)});
 }
 
 }  // namespace

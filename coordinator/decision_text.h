@@ -10,8 +10,7 @@ namespace treefarm {
 
 /// A decision as it stands after a pass, in a line for strangers: what, what it saves, how sure that is, and why.
 struct DecisionText {
-    const char* subject;   ///< which decision: "guiding", "next event", "splitting", "light subpaths"
-    const char* decision;  ///< differs where it was decided otherwise
+    const char* subject;  ///< which decision: "guiding", "next event", "splitting", "light subpaths"
     std::string words;
 };
 

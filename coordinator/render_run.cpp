@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <optional>
 #include <utility>
 
@@ -226,7 +225,8 @@ class RenderRun {
         directory_.add_pass(pass);
         log_->info("{}", pass_line(pass, pass_count_));
         log_->debug("{}", pass_summary(pass, pass_count_));
-        tell_decisions(pass);
+        for (const DecisionText& text : decision_texts(pass))
+            log_->debug("{}: {}", pass_name(pass.plan.index, 0), text.words);
         const std::string name = pass_name(pass.plan.index, 0);
         for (const InvalidSample& sample : pass.stats.first_invalid)
             log_->warn("radiance ({}, {}, {}) counts as black; reproduce with: {} {},{},{},{}{}", sample.rgb[0],
@@ -240,16 +240,6 @@ class RenderRun {
         if (pass.splat_caps != SplatCaps{} || pass.saturated_splats > 0)
             log_->warn("{}: {} capped splats, {} saturated sums of splats, {} splats that are no radiance", name,
                        pass.splat_caps.capped, pass.saturated_splats, pass.splat_caps.rejected);
-    }
-
-    /// Says each decision when it is new; with -v after every pass.
-    void tell_decisions(const PassReport& pass) {
-        for (const DecisionText& text : decision_texts(pass)) {
-            std::string& before = decided_[text.subject];
-            const bool is_new = std::exchange(before, text.decision) != text.decision;
-            log_->log(is_new ? spdlog::level::info : spdlog::level::debug, "{}: {}", pass_name(pass.plan.index, 0),
-                      text.words);
-        }
     }
 
     /// Says, once, what in the scene makes an image black.
@@ -354,10 +344,9 @@ class RenderRun {
     Farm farm_;
     std::optional<GuestDoor> door_;
     bool reported_black_ = false;
-    std::map<std::string, std::string> decided_;  ///< by subject: what was said last
-    std::size_t pass_count_ = 0;                  ///< 0: not known
-    const std::uint32_t spp_before_;              ///< of what the render goes on with
-    bool went_on_ = false;                        ///< with that
+    std::size_t pass_count_ = 0;      ///< 0: not known
+    const std::uint32_t spp_before_;  ///< of what the render goes on with
+    bool went_on_ = false;            ///< with that
     RenderResult result_;
 };
 

@@ -326,7 +326,8 @@ TEST(Launch, DeathsAtOnePlaceNameIt) {
                                  "kept in "),
               std::string::npos)
         << ending.output;
-    EXPECT_NE(ending.output.find("go on with treefarm launch -n 1 -- resume " + folder.string()), std::string::npos);
+    EXPECT_NE(ending.output.find("go on with treefarm launch -n 1 --restarts 1 -- resume " + folder.string()),
+              std::string::npos);
 }
 
 TEST(Launch, TheExitCodeOfMpirunIsNotBelieved) {
