@@ -68,10 +68,13 @@ void add_next_event(const PassReport& r, std::vector<DecisionText>& texts) {
 
 void add_splitting(const PassReport& r, std::vector<DecisionText>& texts) {
     if (!r.plan.split || r.splitting) return;
-    texts.push_back({"splitting",
-                     fmt::format("no path is split from here on: unsplit samples would have {} for {:.2g} of the rays, "
-                                 "and copies cost more than their rays",
-                                 variance_ratio(r.splitting_gain.variance), 1 / r.splitting_gain.rays)});
+    const SplittingGain& gain = r.splitting_gain;
+    std::string why = "unsplit samples would have " + variance_ratio(gain.variance);
+    if (gain.variance >= kPolicy.splitting.least_quietened) {
+        why += fmt::format(" for {:.2g} of the rays", 1 / gain.rays);
+        if (r.plan.next_event) why += ", and copies cost more than their rays";
+    }
+    texts.push_back({"splitting", "no path is split from here on: " + why});
 }
 
 void add_light_subpaths(const PassReport& r, std::vector<DecisionText>& texts) {

@@ -297,7 +297,7 @@ std::vector<JobKey> make_job_keys() {
     const std::vector<std::pair<std::string, std::string>> compressions{
         {"auto", "auto"}, {"none", "none"}, {"rle", "rle"}, {"zips", "zips"}, {"zip", "zip"}, {"piz", "piz"}};
     add(word_key(
-        "output.compression", "of image.exr, lossless in any case; auto: zip where output.half is on, else rle",
+        "output.compression", "of image.exr, lossless in any case; auto: rle where all channels are floats, else zip",
         [](auto& j) -> auto& { return j.output.compression; }, compressions));
     add(integer_key(
         "output.tiles", "0, or 16 to 4096", "edge of the tiles in image.exr, pixels; 0: scan lines",

@@ -8,6 +8,7 @@
 #include "common/config/aov_list.h"
 #include "common/config/parse_text.h"
 #include "common/film/fold_passes.h"
+#include "common/film/pixel_codec.h"
 #include "common/film/pixel_estimate.h"
 #include "common/film/splat_film.h"
 #include "common/guiding/statistics/cell_sums.h"
@@ -130,8 +131,8 @@ std::string passes_text(const Resolved& job) {
 
 /// Seconds between two checkpoints, which are written for at most a tenth of the time.
 std::string lost_by_kill(const Resolved& job, std::uint64_t pixels) {
-    constexpr double kPixelBytes = 2 * (sizeof(std::uint32_t) + 6 * sizeof(double)), kBytesPerSecond = 1e8;
-    const double bytes = kPixelBytes * static_cast<double>(pixels * (kept_passes(job) + 1));
+    constexpr double kBytesPerSecond = 1e8;
+    const auto bytes = static_cast<double>(kEstimateBytes * pixels * (kept_passes(job) + 1));
     return number_text(std::ceil(std::max(double(job.farm.checkpoint_seconds), 10 * bytes / kBytesPerSecond)));
 }
 
@@ -257,7 +258,7 @@ MemoryPlan expected_memory(const Scene& scene, const Resolved& job) {
     const std::uint64_t sums = sizeof(double) * aovs.size() + (aovs.direct() ? sizeof(Rgb64) : 0);
     if (job.farm.checkpoint_seconds > 0)
         plan.coordinator.push_back(
-            {"checkpoint", pixels * 2 * (2 * (sizeof(std::uint32_t) + 6 * sizeof(double)) + sums),
+            {"checkpoint", pixels * 2 * (kEstimateBytes + sums),
              std::string("copies of two passes") + (sums > 0 ? " and of two sums of AOVs" : "") +
                  ", to be written; a kill loses at most some " + lost_by_kill(job, pixels) + " s (100 MB/s disk)"});
     if (!job.output.aovs.empty()) {

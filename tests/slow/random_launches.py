@@ -38,16 +38,19 @@ def rendered(folder):
 
 
 def kept(folder):
-    """Seconds of rendering with which each attempt of a launch began, in turn."""
-    text = (folder / "launch" / "log").read_text()
-    begun = [re.search(r"([\d.]+) s of rendering", attempt) for attempt in text.split("launch: attempt ")[1:]]
-    return [float(found[1]) if found else 0.0 for found in begun]
+    """Seconds of rendering with which each attempt of a launch began, in turn; None where it died before it said so."""
+    def begun(attempt):
+        resumed = re.search(r"([\d.]+) s of rendering", attempt)
+        return float(resumed[1]) if resumed else 0.0 if re.search("^rendering ", attempt, re.MULTILINE) else None
+
+    return [begun(attempt) for attempt in (folder / "launch" / "log").read_text().split("launch: attempt ")[1:]]
 
 
 def longest_loss(behind, folder):
     """Seconds of rendering that a death cost. `behind`: by attempt, what it had rendered when all were killed."""
     begun = kept(folder)
-    return max((seconds - begun[attempt] for attempt, seconds in behind.items() if 0 < attempt < len(begun)), default=0.0)
+    later = {attempt: next((seconds for seconds in begun[attempt:] if seconds is not None), None) for attempt in behind}
+    return max((seconds - later[a] for a, seconds in behind.items() if a > 0 and later[a] is not None), default=0.0)
 
 
 def one(arguments, work, random, truths):
@@ -74,7 +77,7 @@ def one(arguments, work, random, truths):
         attempt, seconds = rendered(folder)
         kill([random.choice(victims)] if arguments.part and victims else victims)
         done += bool(victims)
-        behind[attempt] = seconds
+        behind.setdefault(attempt, seconds)  # where it is killed before it begins, the status is that of the one before
     try:
         output, _ = process.communicate(timeout=arguments.deadline)
     except subprocess.TimeoutExpired:

@@ -37,19 +37,17 @@ class Build:
         command = self.link_command(target).replace(f" -o {target} ", f" {' '.join(map(str, objects))} -o {output} ")
         return subprocess.run(command, shell=True, cwd=self.folder, capture_output=True, text=True)
 
-    def program_without(self, edits, overlay):
+    def program_without(self, edits, overlay, units=None):
         """The program with changed copies of files, which are written to a folder of its own; RuntimeError if it
-        cannot be built."""
+        cannot be built. Compiled are the given units, or all that the files are part of and that a render needs."""
         if stale := write_edits(edits, overlay):
             raise RuntimeError(f"an edit is stale: {stale} has no such text")
-        units = set()
-        for file in {edit["file"] for edit in edits}:
-            units |= {file} if file.endswith(".cpp") else self.users(file)
+        if units is None:
+            # Units of the inspecting commands include the same headers, but trace nothing in a render.
+            units = {unit for unit in self.units_of({edit["file"] for edit in edits})
+                     if unit.startswith(("worker/", "common/")) and not pathlib.Path(unit).name.startswith(IDLE)}
         objects = []
         for unit in sorted(units):
-            # Units of the inspecting commands include the same headers, but trace nothing in a render.
-            if not unit.startswith(("worker/", "common/")) or pathlib.Path(unit).name.startswith(IDLE):
-                continue
             objects.append(overlay / (unit.replace("/", "_") + ".o"))
             done = self.compile(unit, overlay, objects[-1])
             if done.returncode != 0:
@@ -64,6 +62,10 @@ class Build:
         commands = subprocess.run(["ninja", "-t", "commands", "-s", target], cwd=self.folder, capture_output=True,
                                   text=True).stdout
         return re.sub(r"^: && | && :$", "", commands.strip().splitlines()[-1])
+
+    def units_of(self, files):
+        """The units that these files are part of."""
+        return set().union(*({file} if file.endswith(".cpp") else self.users(file) for file in files))
 
     def users(self, header):
         """The units that include a header."""

@@ -85,13 +85,20 @@ TEST(DecisionText, OnNextEventWhereItIsSaved) {
 
 TEST(DecisionText, OnSplittingOnceItIsGivenUp) {
     PassReport report;
-    report.plan.split = true;
+    report.plan.split = report.plan.next_event = true;
     report.splitting_gain = {1.02, 1.25, 1};
     EXPECT_EQ(words_of(report, "splitting"), "");
     report.splitting = false;
     EXPECT_EQ(words_of(report, "splitting"),
               "no path is split from here on: unsplit samples would have about the variance for 0.8 of the rays, and "
               "copies cost more than their rays");
+    report.plan.next_event = false;
+    EXPECT_EQ(words_of(report, "splitting"),
+              "no path is split from here on: unsplit samples would have about the variance for 0.8 of the rays");
+    report.splitting_gain.variance = 1;
+    EXPECT_EQ(words_of(report, "splitting"),
+              "no path is split from here on: unsplit samples would have about the variance")
+        << "whatever the rays";
 }
 
 TEST(DecisionText, OnLightSubpathsOnlyOfSamplesThatHaveThem) {
