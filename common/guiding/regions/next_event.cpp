@@ -101,13 +101,13 @@ class Pooling {
 
     /// `about`: means of the cube that the node's is a half of; of the root its own.
     void hand_down(std::uint32_t node, const VertexMeans& about) {
-        constexpr double kLent = kPolicyOf.lent_vertices;
+        const double lent = kPolicyOf.lent_vertices;
         const double own = sums_[node][kNextEventAsked];
         VertexMeans means = about;
         for (std::size_t i = 0; i < kNextEventSums; ++i)
-            means.mean[i] = (sums_[node][i] + kLent * about.mean[i]) / (own + kLent);
+            means.mean[i] = (sums_[node][i] + lent * about.mean[i]) / (own + lent);
         means.variance =
-            (own * means.mean[kNextEventSpread] + kLent * kLent * about.variance) / ((own + kLent) * (own + kLent));
+            (own * means.mean[kNextEventSpread] + lent * lent * about.variance) / ((own + lent) * (own + lent));
         const RegionModel::Node& n = tree_.nodes[node];
         if (!n.is_leaf()) {
             for (const std::uint32_t child : n.child)
