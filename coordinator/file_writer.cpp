@@ -118,7 +118,7 @@ void FileWriter::tell_recovery() {
         std::any_of(slots_.begin(), slots_.end(), [](const auto& entry) { return entry.second.failed; });
     if (!trouble_ || failing) return;
     trouble_ = false;
-    news_.push_back("all files are written again");
+    news_.emplace_back("all files are written again");
 }
 
 }  // namespace treefarm

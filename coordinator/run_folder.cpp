@@ -57,7 +57,7 @@ fs::path make_new_run_folder(const std::string& scene_file) {
     fs::create_directories("runs");
     // Two runs may begin in the same second.
     for (int k = 1;; ++k) {
-        const fs::path path = fs::path("runs") / (k == 1 ? name : name + "-" + std::to_string(k));
+        fs::path path = fs::path("runs") / (k == 1 ? name : name + "-" + std::to_string(k));
         if (fs::create_directory(path)) return path;
     }
 }

@@ -21,7 +21,7 @@ struct BlobName {
     Blob blob = Blob::scene;
     std::uint32_t job = 0;
     std::uint32_t epoch = 0;
-    auto operator<=>(const BlobName&) const = default;
+    auto operator<=>(const BlobName&) const = default;  // NOLINT(modernize-use-nullptr): its own 0
 };
 
 /// The coordinator's end. Sends `bytes` from `offset` on along `chain` (peer numbers; none: sends nothing).

@@ -36,7 +36,7 @@ struct WorkUnit {
     std::uint32_t pixel_count() const {
         return static_cast<std::uint32_t>(x1 - x0) * static_cast<std::uint32_t>(y1 - y0);
     }
-    auto operator<=>(const WorkUnit&) const = default;
+    auto operator<=>(const WorkUnit&) const = default;  // NOLINT(modernize-use-nullptr): its own 0
 };
 
 /// Amount of work: pixels of a tile, paths or chains of a range.

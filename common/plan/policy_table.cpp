@@ -227,6 +227,18 @@ struct Sensitivity {
 };
 
 constexpr Sensitivity kSensitivities[] = {
+    // bench/log/2026-11-28-policy.md
+    {"guiding.giving_up", "0.97, 1.18"},
+    {"guiding.giving_up_errors", "1.00, 1.00"},
+    {"guiding.taking_up", "1.00, 1.00"},
+    {"guiding.mistrusted", "1.00, 1.00"},
+    {"guiding.ray_cost", "0.99, 1.20"},
+    {"next_event.lent_vertices", "1.00, 1.00"},
+    {"next_event.standard_errors", "0.99, 1.02"},
+    {"next_event.least_gain", "1.00, 1.00"},
+    {"next_event.learned", "1.02, 0.99"},
+    {"next_event.sample_cost", "1.01, 0.99"},
+    // bench/log/2026-11-26-policy.md
     {"splitting.usual", "1.00, 0.99"},
     {"splitting.least_share", "1.00, 0.98"},
     {"walk.adjoint_window", "0.99, 1.02"},
@@ -237,7 +249,7 @@ constexpr Sensitivity kSensitivities[] = {
     {"learning.lights_unlearned", "0.97, 1.05"},
     {"learning.mixture_prior_records", "0.99, 0.99"},
     {"schedule.kickstart_spp", "1.00, 1.00"},
-};  // bench/log/2026-11-26-policy.md
+};
 
 static_assert(std::all_of(std::begin(kSensitivities), std::end(kSensitivities), [](const Sensitivity& sensitivity) {
     return std::any_of(std::begin(kEntries), std::end(kEntries),

@@ -141,8 +141,8 @@ LoadedCheckpoint load_checkpoint(const fs::path& run, const std::function<void(c
                      "start again with: treefarm render " + shell_quoted((run / "job.toml").string()));
 }
 
-CheckpointStore::CheckpointStore(fs::path run, const LoadedCheckpoint* loaded)
-    : folder_(std::move(run) / kCheckpointFolder) {
+CheckpointStore::CheckpointStore(const fs::path& run, const LoadedCheckpoint* loaded)
+    : folder_(run / kCheckpointFolder) {
     if (!loaded) return;
     generation_ = std::max(loaded->generation, loaded->newest);
     slot_ = 1 - loaded->slot;

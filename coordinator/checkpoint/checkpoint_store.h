@@ -43,7 +43,7 @@ LoadedCheckpoint load_checkpoint(const std::filesystem::path& run,
 class CheckpointStore {
   public:
     /// `loaded`: what the render goes on from, or nullptr.
-    explicit CheckpointStore(std::filesystem::path run, const LoadedCheckpoint* loaded = nullptr);
+    explicit CheckpointStore(const std::filesystem::path& run, const LoadedCheckpoint* loaded = nullptr);
 
     /// Takes what has to be written of a state, naming its films; a pass in hand leaves it. The result writes it, in
     /// any thread, as often as it takes, and throws FileError.

@@ -73,7 +73,7 @@ Bytes tev_update_rows(const std::string& name, const RgbImage& image, int first,
         packet.put(channel);  // where its first value lies
     for (std::size_t channel = 0; channel < kChannels.size(); ++channel)
         packet.put(static_cast<std::int64_t>(kChannels.size()));  // from pixel to pixel
-    const std::size_t width = static_cast<std::size_t>(image.width), rows = static_cast<std::size_t>(end - first);
+    const auto width = static_cast<std::size_t>(image.width), rows = static_cast<std::size_t>(end - first);
     const auto pixels = std::span(image.pixels).subspan(static_cast<std::size_t>(first) * width, rows * width);
     packet.reserve(pixels.size_bytes());
     packet.put_bytes({reinterpret_cast<const std::uint8_t*>(pixels.data()), pixels.size_bytes()});
