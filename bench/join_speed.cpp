@@ -53,7 +53,7 @@ void measure(std::size_t trips) {
         door.send(1, payload);
     for (std::size_t k = 0; k < kMessages; ++k)
         await(door);
-    const double mib = static_cast<double>(kMessages * kLong >> 20);
+    const auto mib = static_cast<double>(kMessages * kLong >> 20);
     std::printf("messages of 8 MiB: %.0f MiB/s, %.2f core-seconds per GiB at both ends\n", mib / long_ones.seconds(),
                 1024 * (process_cpu_seconds() - before) / mib);
     door.close(1);

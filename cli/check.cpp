@@ -90,6 +90,15 @@ std::string to_json(const std::vector<Finding>& findings, const std::string& sce
     return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
+/// "1 error, 2 warnings".
+std::string verdict(std::ptrdiff_t errors, std::ptrdiff_t warnings) {
+    const auto counted = [](std::ptrdiff_t count, const char* what) {
+        return count == 0 ? "" : std::to_string(count) + what + (count == 1 ? "" : "s");
+    };
+    if (errors == 0 && warnings == 0) return "nothing risky";
+    return counted(errors, " error") + (errors > 0 && warnings > 0 ? ", " : "") + counted(warnings, " warning");
+}
+
 int run_check(const CheckOptions& options, std::ostream& out) {
     std::vector<Finding> findings;
     try {
@@ -98,17 +107,19 @@ int run_check(const CheckOptions& options, std::ostream& out) {
         if (!options.json) throw;
         findings.push_back(refusal(error));
     }
-    const auto risky = std::count_if(findings.begin(), findings.end(),
-                                     [](const Finding& f) { return f.severity != Finding::Severity::note; });
+    const auto errors = std::count_if(findings.begin(), findings.end(), &is_error);
+    const auto warnings = std::count_if(findings.begin(), findings.end(), [](const Finding& f) {
+        return f.severity != Finding::Severity::note && !is_error(f);
+    });
     if (options.json) {
         out << to_json(findings, options.scene);
     } else {
         for (const Finding& finding : findings)
             out << finding.text() << "\n";
-        out << options.scene << ": " << (risky == 0 ? "nothing risky" : std::to_string(risky) + " risky") << "\n";
+        out << options.scene << ": " << verdict(errors, warnings) << "\n";
     }
-    if (std::any_of(findings.begin(), findings.end(), &is_error)) return kRefused;
-    return risky == 0 ? 0 : kFoundSomething;
+    if (errors > 0) return kRefused;
+    return warnings == 0 ? 0 : kFoundSomething;
 }
 
 }  // namespace

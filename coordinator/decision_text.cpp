@@ -33,18 +33,22 @@ DecisionText guiding(Guiding verdict, const GuidingWorth& w) {
     const double at_most = std::max(saved(w.low()), saved(w.high())),
                  at_least = std::min(saved(w.low()), saved(w.high()));
     const std::string why =
-        fmt::format("an unguided sample would have {} of a guided one, which costs {:.2g} times as much",
-                    variance_ratio(w.unguided_variance / w.guided_variance), w.guided_cost / w.unguided_cost);
+        fmt::format("an unguided sample would have {} of a guided one, at {:.2g} of its cost",
+                    variance_ratio(w.unguided_variance / w.guided_variance), w.unguided_cost / w.guided_cost);
     const char* const what = guided ? "guided" : "unguided";
     const bool too_little = w.known < kPolicy.guiding.least_known;
     if (guided && (too_little || saved(w.worth) <= 0))
-        return {"guiding",
-                fmt::format("guided for now: {}, {}; so far {}", too_little ? "too little is known" : "it may lose",
-                            at_most > 0 ? fmt::format("but may save up to {} % of the work", std::lround(100 * at_most))
-                                        : "but not surely enough to give it up",
-                            why)};
+        return {
+            "guiding",
+            fmt::format("guided for now: {}{}; so far {}", too_little ? "too little is known" : "it may lose",
+                        at_most > 0  ? fmt::format(", but may save up to {} % of the work", std::lround(100 * at_most))
+                        : too_little ? ""
+                                     : ", but not surely enough to give it up",
+                        why)};
     if (saved(w.worth) <= 0)
         return {"guiding", fmt::format("unguided as long as guiding is not sure to pay again: {}", why)};
+    if (std::lround(100 * saved(w.worth)) == 0)
+        return {"guiding", fmt::format("{}, which costs as much as not: {}", what, why)};
     return {"guiding", fmt::format("{}, which saves {}: {}", what, saving(saved(w.worth), at_least, at_most), why)};
 }
 
@@ -74,7 +78,7 @@ void add_splitting(const PassReport& r, std::vector<DecisionText>& texts) {
         why += fmt::format(" for {:.2g} of the rays", 1 / gain.rays);
         if (r.plan.next_event) why += ", and copies cost more than their rays";
     }
-    texts.push_back({"splitting", "no path is split from here on: " + why});
+    texts.push_back({"splitting", "no path is split: " + why});
 }
 
 void add_light_subpaths(const PassReport& r, std::vector<DecisionText>& texts) {
@@ -84,7 +88,7 @@ void add_light_subpaths(const PassReport& r, std::vector<DecisionText>& texts) {
         fmt::format("{:.2g} times {}", std::max(quieter, 1 / quieter), quieter < 1 ? "the variance" : "less variance");
     texts.push_back(
         {"light subpaths", fmt::format("{}paths from lamps make {} at equal cost, found by samples that have both",
-                                       r.light_subpaths ? "" : "paths from the camera alone from here on: ", noise)});
+                                       r.light_subpaths ? "" : "paths from the camera alone: ", noise)});
 }
 
 }  // namespace

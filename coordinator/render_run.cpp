@@ -225,8 +225,9 @@ class RenderRun {
         directory_.add_pass(pass);
         log_->info("{}", pass_line(pass, pass_count_));
         log_->debug("{}", pass_summary(pass, pass_count_));
-        for (const DecisionText& text : decision_texts(pass))
-            log_->debug("{}: {}", pass_name(pass.plan.index, 0), text.words);
+        if (pass_count_ == 0 || pass.plan.index + 1 < pass_count_)
+            for (const DecisionText& text : decision_texts(pass))
+                log_->debug("from {} on: {}", pass_name(pass.plan.index + 1, 0), text.words);
         const std::string name = pass_name(pass.plan.index, 0);
         for (const InvalidSample& sample : pass.stats.first_invalid)
             log_->warn("radiance ({}, {}, {}) counts as black; reproduce with: {} {},{},{},{}{}", sample.rgb[0],

@@ -51,10 +51,9 @@ TailReport tail_report(const CombinedImage& image, std::span<const PassReport> p
 std::string tail_text(const TailReport& tails, const std::string& debug_command, const std::string& debug_options) {
     const TailSample& worst = tails.worst.worst.front();
     return fmt::format(
-        "{:.2g} % of the pixels carry {:.0f} % of the noise: {}; worst: pixel ({}, {}), sample {} of pass {}; see it: "
-        "{} {},{},{},{}{}",
-        100 * tails.share.value_or(0), 100 * kPolicy.tails.noise_part, tails.origin, worst.x, worst.y, worst.sample,
-        worst.pass, debug_command, worst.pass, worst.x, worst.y, worst.sample, debug_options);
+        "{:.2g} % of the pixels carry {:.0f} % of the noise: {}; worst: pixel ({}, {}); see it: {} {},{},{},{}{}",
+        100 * tails.share.value_or(0), 100 * kPolicy.tails.noise_part, tails.origin, worst.x, worst.y, debug_command,
+        worst.pass, worst.x, worst.y, worst.sample, debug_options);
 }
 
 }  // namespace treefarm

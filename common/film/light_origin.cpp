@@ -16,6 +16,8 @@ const char* words(LightWay way) {
             return " through smooth glass";
         case LightWay::rough_glass:
             return " through rough glass";
+        case LightWay::sheet:
+            return " through thin sheets that scatter it";
     }
     return "";
 }
@@ -23,7 +25,7 @@ const char* words(LightWay way) {
 }  // namespace
 
 bool is_known(const LightOrigin& origin) {
-    return origin.found <= LightFound::sky_sampled && origin.way <= LightWay::rough_glass;
+    return origin.found <= LightFound::sky_sampled && origin.way <= LightWay::sheet;
 }
 
 std::string words(const LightOrigin& origin) {

@@ -17,7 +17,7 @@ enum class LightFound : std::uint8_t {
 /// What a path has passed, as far as that makes light hard to find: the last in this order that it did. What the camera
 /// sees by way of mirrors and smooth glass alone does not count, if the path scatters behind that. On the wire: append
 /// only.
-enum class LightWay : std::uint8_t { diffuse, glossy, mirror, smooth_glass, rough_glass };
+enum class LightWay : std::uint8_t { diffuse, glossy, mirror, smooth_glass, rough_glass, sheet };
 
 /// Where a contribution to a sample comes from.
 struct LightOrigin {

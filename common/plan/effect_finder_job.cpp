@@ -129,7 +129,8 @@ Effect EffectFinder::views() const {
     if (job_.guiding.type != GuidingType::view) return effect_off(R"(guiding.type is neither "view" nor "auto")");
     if (!job_.learns_views) return effect_off("no surface prefers other directions from another side");
     if (plan_passes(job_).size() < 2) return effect_off("a single pass has nothing to learn from");
-    return effect_on("rough materials, " + std::to_string(expected_tree(scene_, job_).views) + " views expected");
+    return effect_on("surfaces that prefer other directions from another side, " +
+                     std::to_string(expected_tree(scene_, job_).views) + " views expected");
 }
 
 Effect EffectFinder::recording() const {

@@ -67,9 +67,10 @@ std::string memory_section(const char* whose, const std::vector<MemoryItem>& ite
     return std::string("\nmemory expected, ") + whose + ": " + bytes_text(total) + "\n" + aligned(rows);
 }
 
+/// Counted from 1, as in what a render says.
 std::string passes_text(const std::vector<std::uint32_t>& passes) {
-    if (passes.size() == 1) return "pass " + std::to_string(passes[0]);
-    return "passes " + std::to_string(passes.front()) + " to " + std::to_string(passes.back());
+    if (passes.size() == 1) return "pass " + std::to_string(passes[0] + 1);
+    return "passes " + std::to_string(passes.front() + 1) + " to " + std::to_string(passes.back() + 1);
 }
 
 Json location_json(const Location& where) {

@@ -15,11 +15,12 @@ struct Policy {
         std::uint32_t least_judged_spp = 4;
         double ray_cost = 1.4;
         double mistrusted = 2.0;
-        double giving_up = 0.9;
+        double giving_up = 0.85;
         double giving_up_early = 0.75;
         double giving_up_errors = 1.3;
         double taking_up = 1.1;
         std::uint32_t least_settled_spp = 16;
+        std::uint32_t settled_spp = 64;
         double least_known = 4.0;
     } guiding;
 

@@ -31,6 +31,7 @@ constexpr const char* kJoint = "bench/log/2026-11-27-joint.md";
 constexpr const char* kEnds = "bench/log/2026-11-27-ends.md";
 constexpr const char* kMissed = "bench/log/2026-11-27-missed-light.md";
 constexpr const char* kRare = "bench/log/2026-11-27-rare-light.md";
+constexpr const char* kHeld = "bench/log/2026-11-28-held-out.md";
 constexpr const char* kGuess = "chosen, not measured";
 
 constexpr Policy::Guiding kGuiding = kPolicy.guiding;
@@ -59,12 +60,14 @@ constexpr std::array kEntries = {
           kDecisions),
     entry("guiding.giving_up", kGuiding.giving_up,
           "paths are unguided where variance times cost of unguided samples over that of guided ones is below this",
-          kDecisions),
-    entry("guiding.giving_up_early", kGuiding.giving_up_early, "in passes shorter than least_settled_spp", kJoint),
+          kHeld),
+    entry("guiding.giving_up_early", kGuiding.giving_up_early,
+          "the same after passes of at most least_settled_spp; between those and settled_spp by the logarithm", kJoint),
     entry("guiding.giving_up_errors", kGuiding.giving_up_errors, "by so many standard errors", kDecisions),
     entry("guiding.taking_up", kGuiding.taking_up, "and guided again where it is above this", kDecisions),
     entry("guiding.least_settled_spp", kGuiding.least_settled_spp, "trees of shorter passes still get much better, spp",
           kDecisions),
+    entry("guiding.settled_spp", kGuiding.settled_spp, "from passes of so many spp on giving_up holds", kHeld),
     entry("guiding.least_known", kGuiding.least_known, "noise that rests on fewer groups of pixels, of 64, has no say",
           kDecisions),
     entry("next_event.counted_every", kNextEvent.counted_every,

@@ -107,6 +107,21 @@ TEST(Guided, PathsTellTheVarianceAndCostOfUnguidedOnes) {
     EXPECT_NEAR(told.unguided_cost / cost, 1, 0.05);
 }
 
+/// Behind a blind trees of short passes bring little: unguided samples would then have four fifths of the work. Those
+/// of longer ones bring much.
+TEST(Guided, PathsAreKeptWhileTreesGetBetter) {
+    const Scene scene = load_scene(test::own_scene("blinds.xml"), {}, false, 48, 36).scene;
+    Job job;
+    job.guiding.type = GuidingType::automatic;
+    job.budget.spp = 127;
+    job.sampler.seed = 4;
+    const test::LocalRender run = test::render_locally(scene, job);
+    EXPECT_TRUE(run.plans.back().guided);
+    const double early = run.reports.at(3).guiding_worth.worth, late = run.reports.at(5).guiding_worth.worth;
+    EXPECT_LT(early, kPolicy.guiding.giving_up) << "or this scene shows nothing";
+    EXPECT_GT(late, early);
+}
+
 using Forced = std::tuple<const char*, GuidingType, float>;
 class LightSamples : public testing::TestWithParam<Forced> {
   protected:

@@ -30,8 +30,7 @@ PassReport guided_report() {
 
 TEST(DecisionText, OnGuidingSaysWhatItSavesHowSurelyAndWhy) {
     PassReport report = guided_report();
-    const std::string why =
-        "an unguided sample would have 9 times the variance of a guided one, which costs 1.5 times as much";
+    const std::string why = "an unguided sample would have 9 times the variance of a guided one, at 0.67 of its cost";
     EXPECT_EQ(words_of(report, "guiding"), "guided, which saves 83 % of the work (between 75 and 89 %): " + why);
     report.guiding = Guiding::loses;
     EXPECT_EQ(words_of(report, "guiding"), "unguided as long as guiding is not sure to pay again: " + why);
@@ -50,7 +49,7 @@ TEST(DecisionText, ABoundThatSaysNothingMoreIsLeftOut) {
     report.guiding_worth.unguided_variance = 2.01;
     EXPECT_EQ(words_of(report, "guiding"),
               "unguided, which saves 29 % of the work: an unguided sample would have about the variance of a guided "
-              "one, which costs 1.5 times as much");
+              "one, at 0.67 of its cost");
 }
 
 TEST(DecisionText, GuidedForWantOfKnowledgeSaysSo) {
@@ -90,14 +89,13 @@ TEST(DecisionText, OnSplittingOnceItIsGivenUp) {
     EXPECT_EQ(words_of(report, "splitting"), "");
     report.splitting = false;
     EXPECT_EQ(words_of(report, "splitting"),
-              "no path is split from here on: unsplit samples would have about the variance for 0.8 of the rays, and "
+              "no path is split: unsplit samples would have about the variance for 0.8 of the rays, and "
               "copies cost more than their rays");
     report.plan.next_event = false;
     EXPECT_EQ(words_of(report, "splitting"),
-              "no path is split from here on: unsplit samples would have about the variance for 0.8 of the rays");
+              "no path is split: unsplit samples would have about the variance for 0.8 of the rays");
     report.splitting_gain.variance = 1;
-    EXPECT_EQ(words_of(report, "splitting"),
-              "no path is split from here on: unsplit samples would have about the variance")
+    EXPECT_EQ(words_of(report, "splitting"), "no path is split: unsplit samples would have about the variance")
         << "whatever the rays";
 }
 

@@ -112,7 +112,11 @@ TEST(GuidingWorth, GuidingEndsWhereItSurelyLoses) {
     EXPECT_EQ(verdict(64, 0), Guiding::open) << "not known";
     EXPECT_EQ(verdict(8, 0.8), Guiding::open) << "trees of short passes get better";
     EXPECT_EQ(verdict(8, 0.6), Guiding::loses);
-    EXPECT_EQ(verdict(64, 0.85), Guiding::loses);
+    EXPECT_EQ(verdict(16, 0.76), Guiding::open);
+    EXPECT_EQ(verdict(32, 0.81), Guiding::open) << "half way to passes whose trees hardly get better";
+    EXPECT_EQ(verdict(32, 0.79), Guiding::loses);
+    EXPECT_EQ(verdict(64, 0.81), Guiding::loses);
+    EXPECT_EQ(verdict(512, 0.84), Guiding::loses);
     EXPECT_EQ(verdict(64, 0.95), Guiding::open);
     EXPECT_EQ(verdict(64, 0.8, 0.3), Guiding::open) << "0.8 may be 1.2";
     EXPECT_EQ(verdict(64, 0.5, 0.3), Guiding::loses);
@@ -140,8 +144,8 @@ TEST(GuidingWorth, TreesThatGetBetterAreJudgedByTheNext) {
     EXPECT_EQ(after(1.2, 0.95), Guiding::open);
     EXPECT_EQ(after(0.9, 0.8, 8, 0.2), Guiding::open) << "0.8 may be 1.04";
     EXPECT_EQ(after(0.8, 0.7, 2), Guiding::open) << "too short";
-    EXPECT_EQ(after(0.85, 0.87, 64), Guiding::loses);
-    EXPECT_EQ(after(0.80, 0.87, 64), Guiding::open) << "as much again is 0.95";
+    EXPECT_EQ(after(0.82, 0.83, 64), Guiding::loses) << "0.84 is next";
+    EXPECT_EQ(after(0.80, 0.83, 64), Guiding::open) << "as much again is 0.861";
 }
 
 TEST(GuidingWorth, WhereGuidingLosesPassesAreUnguidedAndTeachNothing) {

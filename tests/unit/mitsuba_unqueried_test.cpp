@@ -37,7 +37,7 @@ TEST_F(MitsubaUnqueried, OldFilesWarn) {
     EXPECT_NE(warnings(kAlpha)[0].find("unknown property \"alpha\""), std::string::npos) << warnings(kAlpha)[0];
     const std::string typing_error = "<integrator type=\"path\"><integer name=\"maxDepht\" value=\"3\"/></integrator>";
     ASSERT_EQ(warnings(typing_error).size(), 1u);
-    EXPECT_NE(warnings(typing_error)[0].find("did you mean \"max_depth\"?"), std::string::npos);
+    EXPECT_NE(warnings(typing_error)[0].find("did you mean \"maxDepth\"?"), std::string::npos);
 }
 
 TEST_F(MitsubaUnqueried, NewFilesAreStrict) {

@@ -11,7 +11,7 @@ namespace {
 template <class Surface>
 SurfacePassage passage(const Surface& surface, const Vec3& wi, bool delta) {
     if constexpr (Surface::kGeneral) {
-        if (wi.z < 0.0f && !delta) return {LightWay::rough_glass, false};
+        if (wi.z < 0.0f && !delta) return {surface.eta2() == 1.0f ? LightWay::sheet : LightWay::rough_glass, false};
         if (wi.z < 0.0f) return {surface.transmits() ? LightWay::smooth_glass : LightWay::diffuse, true};  // else null
         if (delta) return {LightWay::mirror, true};
         if (surface.view_dependent()) return {LightWay::glossy, false};

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "common/math/warp.h"
 #include "common/scene/kinds/materials/diffuse_transmitter.h"
-#include "worker/shading/bsdf_sample.h"
+#include "worker/shading/diffuse.h"
 
 namespace treefarm {
 
@@ -15,16 +14,17 @@ struct DiffuseTransmitterBsdf {
 
     float refraction() const { return 1.0f; }
 
-    BsdfValue value(const Vec3& /*wo*/, const Vec3& wi) const {
-        if (!(wi.z < 0.0f)) return {};
-        return {transmittance * (-wi.z * kInvPi), cosine_hemisphere_pdf(-wi.z)};
-    }
+    BsdfValue value(const Vec3& wo, const Vec3& wi) const { return turned().value(wo, {wi.x, wi.y, -wi.z}); }
 
     BsdfSample sample(const Vec3& wo, const BsdfRandom& random) const {
-        const Vec3 wi(random.cosine.x, random.cosine.y, -random.cosine.z);
-        const BsdfValue v = value(wo, wi);
-        return {wi, v.pdf, v.f_cos, false};
+        BsdfSample sample = turned().sample(wo, random);
+        sample.wi.z = -sample.wi.z;
+        return sample;
     }
+
+  private:
+    /// What reflects to one side as much as this lets through to the other.
+    DiffuseBsdf turned() const { return {transmittance}; }
 };
 
 /// The BSDF of such a material at one place of a surface (bsdf_builder.h).

@@ -35,13 +35,15 @@ inline constexpr auto kMaterialEffects = std::tuple(
         },
         replaced(6, "roughness is the same along and across", [](auto& scene) { scene.anisotropy(); })),
     effect(
-        {"transmission", "materials", "light passes through dielectrics, refracted or straight",
-         "a material is a dielectric, rough, smooth or thin", "no memory"},
+        {"transmission", "materials", "light passes through surfaces: refracted, straight or scattered",
+         "a material is a dielectric, rough, smooth or thin, a principled one that transmits, or difftrans",
+         "no memory"},
         [](const auto& find) {
-            return find.materials(
-                "dielectric", [](const auto& m) { return m.lobes.glossy_transmission || m.lobes.delta_transmission; });
+            return find.materials("transmitting material", [](const auto& m) {
+                return m.lobes.glossy_transmission || m.lobes.delta_transmission;
+            });
         },
-        replaced(5, "dielectrics only reflect; what they would let through is lost",
+        replaced(5, "surfaces only reflect; what they would let through is lost",
                  [](auto& scene) { scene.transmission(); })),
     effect(
         {"coats", "materials", "a diffuse base under a dielectric coat", "a material is plastic", "no memory"},

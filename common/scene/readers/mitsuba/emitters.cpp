@@ -217,7 +217,9 @@ void read_emitter(const XmlElement& emitter, Scene& scene, TextureReader& textur
     properties.finish();
     for (std::size_t i = first; i < scene.emitters.size(); ++i)
         if (had_environment && scene.emitters[i].type() == LightType::environment)
-            throw InputError(emitter.where, "this is a second environment emitter", "keep one of them");
+            throw InputError(emitter.where, "this is a second environment emitter",
+                             "keep one of them; sunsky has a sun in its sky, and a sun with sunRadiusScale 0 is a "
+                             "directional light beside any");
 }
 
 }  // namespace treefarm::mitsuba

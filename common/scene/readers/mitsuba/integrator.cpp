@@ -149,8 +149,9 @@ void read_integrator(const XmlElement& integrator, std::vector<Setting>& setting
         read_bidirectional(reader);
     } else if (is_path_tracer(type)) {
         diagnostics.note(integrator.where, "the integrator " + in_quotes(type) +
-                                               " says how light is transported; whether paths are guided says the job "
-                                               "(guiding.type, none for plain path tracing)");
+                                               " says how light is transported; whether paths are guided says the job: "
+                                               "guiding.type, which is \"auto\" unless set, and \"none\" for plain "
+                                               "path tracing");
         read_path(reader);
     } else if (type == "guided_path") {
         read_guided_path(reader);

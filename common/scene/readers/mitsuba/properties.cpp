@@ -23,6 +23,10 @@ char to_lower(char c) {
     return is_upper(c) ? static_cast<char>(c - 'A' + 'a') : c;
 }
 
+char to_upper(char c) {
+    return is_lower(c) ? static_cast<char>(c - 'a' + 'A') : c;
+}
+
 constexpr std::array<std::string_view, 12> kValueTags = {"float",    "integer",   "boolean",   "string",
                                                          "point",    "vector",    "rgb",       "srgb",
                                                          "spectrum", "blackbody", "transform", "animation"};
@@ -44,6 +48,14 @@ std::string effect_of(const std::string& tag) {
     if (tag == "medium" || tag == "phase" || tag == "volume") return " (light scattered and absorbed by a medium)";
     if (tag == "subsurface") return " (light scattered below surfaces)";
     return "";
+}
+
+/// "max_depth" -> "maxDepth".
+std::string camel_case(const std::string& snake_case) {
+    std::string result;
+    for (std::size_t i = 0; i < snake_case.size(); ++i)
+        if (snake_case[i] != '_') result += i > 0 && snake_case[i - 1] == '_' ? to_upper(snake_case[i]) : snake_case[i];
+    return result;
 }
 
 }  // namespace
@@ -271,8 +283,9 @@ void Properties::finish() {
     for (const auto& [name, value] : values_) {
         if (value.used) continue;
         const std::string nearest = nearest_word(name, asked_);
+        const std::string known = is_tolerant() ? camel_case(nearest) : nearest;
         const std::string what = "unknown property " + in_quotes(value.element->require("name")) + " of " + title(),
-                          cure = nearest.empty() ? "remove it" : "did you mean " + in_quotes(nearest) + "?";
+                          cure = known.empty() ? "remove it" : "did you mean " + in_quotes(known) + "?";
         if (is_tolerant())
             diagnostics_.warn(value.element->where, what + " is ignored; " + cure);
         else
