@@ -257,10 +257,10 @@ MemoryPlan expected_memory(const Scene& scene, const Resolved& job) {
     const AovLayout aovs(aov_requests(job));
     const std::uint64_t sums = sizeof(double) * aovs.size() + (aovs.direct() ? sizeof(Rgb64) : 0);
     if (job.farm.checkpoint_seconds > 0)
-        plan.coordinator.push_back(
-            {"checkpoint", pixels * 2 * (kEstimateBytes + sums),
-             std::string("copies of two passes") + (sums > 0 ? " and of two sums of AOVs" : "") +
-                 ", to be written; a kill loses at most some " + lost_by_kill(job, pixels) + " s (100 MB/s disk)"});
+        plan.coordinator.push_back({"checkpoint", pixels * 2 * (kEstimateBytes + sums),
+                                    std::string("copies of two passes") + (sums > 0 ? " and of two sums of AOVs" : "") +
+                                        ", to be written; a kill loses at most some " + lost_by_kill(job, pixels) +
+                                        " s (100 MB/s disk)"});
     if (!job.output.aovs.empty()) {
         std::size_t channels = 0;
         for (const AovRequest& request : aov_requests(job))
