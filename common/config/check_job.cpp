@@ -18,7 +18,7 @@ void check_techniques(const Job& job) {
     if (job.integrator.mis == MisHeuristic::equal)
         throw InputError(Location{"integrator.mis", 0, 0},
                          "among many techniques equal weights would leave all the noise of the worst of them",
-                         "set integrator.mis = \"balance\" or \"power\"");
+                         R"(set integrator.mis = "balance" or "power")");
     std::string why;
     const std::vector<Technique> techniques = parse_techniques(job.bidirectional.techniques, why);
     const auto is_light_image = [](const Technique& technique) { return technique.camera == 1; };

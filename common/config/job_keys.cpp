@@ -80,7 +80,7 @@ JobKey aovs_key() {
 JobKey techniques_key() {
     return {"bidirectional.techniques",
             ValueKind::text,
-            "\"all\", or pairs of vertices from lamp and camera, as \"0,3 1,2\"",
+            R"("all", or pairs of vertices from lamp and camera, as "0,3 1,2")",
             "techniques of which the image is made, each with its part of the light: their images add up to the whole",
             [](Job& job, const std::string& text) {
                 std::string why;

@@ -6,8 +6,6 @@
 
 namespace treefarm {
 
-static_assert(sizeof(Rgb64) == 3 * sizeof(double));
-
 /// All its bytes at once: there are millions.
 void put_estimate(ByteWriter& writer, const PixelEstimate& pixel) {
     std::array<std::uint8_t, kEstimateBytes> bytes;
@@ -18,8 +16,8 @@ void put_estimate(ByteWriter& writer, const PixelEstimate& pixel) {
     };
     for (const Moments& half : pixel.half) {
         add(half.n);
-        add(half.mean);
-        add(half.m2);
+        for (const Rgb64& sum : {half.mean, half.m2})
+            add(std::array{sum.x, sum.y, sum.z});
     }
     writer.put_bytes(bytes);
 }

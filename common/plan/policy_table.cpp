@@ -231,11 +231,11 @@ struct Sensitivity {
 
 constexpr Sensitivity kSensitivities[] = {
     // bench/log/2026-11-28-policy.md
-    {"guiding.giving_up", "0.97, 1.18"},
-    {"guiding.giving_up_errors", "1.00, 1.00"},
+    {"guiding.giving_up", "0.96, 0.98"},
+    {"guiding.giving_up_errors", "1.00, 0.96"},
     {"guiding.taking_up", "1.00, 1.00"},
     {"guiding.mistrusted", "1.00, 1.00"},
-    {"guiding.ray_cost", "0.99, 1.20"},
+    {"guiding.ray_cost", "0.98, 1.19"},
     {"next_event.lent_vertices", "1.00, 1.00"},
     {"next_event.standard_errors", "0.99, 1.02"},
     {"next_event.least_gain", "1.00, 1.00"},

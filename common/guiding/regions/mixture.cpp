@@ -55,7 +55,7 @@ void MixtureLearner::learn(const RegionModel& tree, const CellSums& sums, std::s
         const double mean_record = records > 0 ? fresh / static_cast<double>(records) : 0.0;
         const double prior_weight =
             kPolicy.learning.mixture_prior_records * (mean_record > 0 ? mean_record : total(histogram));
-        const double prior = static_cast<double>(tree.bsdf_fraction[r]);
+        const auto prior = static_cast<double>(tree.bsdf_fraction[r]);
         fraction[r] = prior_weight > 0 ? static_cast<float>(best_bsdf_fraction(histogram, prior, prior_weight))
                                        : tree.bsdf_fraction[r];
     }

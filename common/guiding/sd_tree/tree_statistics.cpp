@@ -31,7 +31,7 @@ Cells cells_of(const SdTree& tree, std::uint32_t first, std::uint32_t last) {
 MixtureQuantiles mixtures_of(const SdTree& tree, std::uint32_t first, std::uint32_t last) {
     std::vector<double> bsdf, t1, t2;
     for (std::uint32_t d = first; d < last; ++d) {
-        const double a = static_cast<double>(tree.bsdf_fraction[d]);
+        const auto a = static_cast<double>(tree.bsdf_fraction[d]);
         const double view =
             d < tree.region_count() ? 0.0 : static_cast<double>(tree.view_fraction[d - tree.region_count()]);
         bsdf.push_back(a);

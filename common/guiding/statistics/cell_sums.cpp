@@ -163,7 +163,7 @@ std::uint64_t CellSums::merge_encoded(std::span<const std::uint8_t> update) {
 }
 
 Record light_record(std::uint32_t region, int quantum_exponent, std::uint8_t cluster, float chosen, float reflected) {
-    const double x = static_cast<double>(reflected);
+    const auto x = static_cast<double>(reflected);
     const double units =
         x * x * static_cast<double>(chosen) * exact_power_of_two(-light_sum_exponent(quantum_exponent));
     // Half of a unit rounds up: among 2^16 no randomness is needed.

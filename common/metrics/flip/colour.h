@@ -39,7 +39,7 @@ inline Vec3 opponent_to_rgb(const Vec3& opponent) {
 /// Cube root of a normal x > 0, relative error below 3e-7: a guess from a third of the exponent, then two of Halley's
 /// steps, each of which triples the digits. The C library's took a third of the time of FLIP.
 inline float cube_root(float x) {
-    float y = std::bit_cast<float>(std::bit_cast<std::uint32_t>(x) / 3 + 0x2a514067u);
+    auto y = std::bit_cast<float>(std::bit_cast<std::uint32_t>(x) / 3 + 0x2a514067u);
     for (int step = 0; step < 2; ++step) {
         const float cube = y * y * y;
         y *= (cube + 2.0f * x) / (2.0f * cube + x);

@@ -74,7 +74,7 @@ std::array<double, CieTables::kCount> interpolate(const std::array<double, kCieC
             double weight = 1.0;
             for (int b = 0; b < 4; ++b)
                 if (a != b) weight *= (t - b) / (a - b);
-            result[i] += weight * table[static_cast<std::size_t>(first + a)];
+            result[i] += weight * table[static_cast<std::size_t>(first) + static_cast<std::size_t>(a)];
         }
     }
     return result;

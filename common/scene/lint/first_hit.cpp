@@ -71,7 +71,7 @@ bool intersect_round(Ray& ray, double a, double b, double c, auto normal_at) {
 
 bool intersect(Ray& ray, const Sphere& sphere) {
     const V3d from = ray.origin - V3d(sphere.center);
-    const double radius = double(sphere.radius);
+    const auto radius = double(sphere.radius);
     return intersect_round(ray, ray.direction.dot(ray.direction), ray.direction.dot(from),
                            from.dot(from) - radius * radius, [&](const V3d& p) -> std::optional<V3d> {
                                return (p - V3d(sphere.center)) * (sphere.flip_normals ? -1.0 : 1.0);
@@ -81,7 +81,7 @@ bool intersect(Ray& ray, const Sphere& sphere) {
 bool intersect(Ray& ray, const Cylinder& cylinder) {
     const V3d p0(cylinder.p0), along = V3d(cylinder.p1) - p0, axis = along.normalized(), from = ray.origin - p0;
     const V3d d = ray.direction - axis * ray.direction.dot(axis), f = from - axis * from.dot(axis);
-    const double radius = double(cylinder.radius);
+    const auto radius = double(cylinder.radius);
     return intersect_round(ray, d.dot(d), d.dot(f), f.dot(f) - radius * radius,
                            [&](const V3d& p) -> std::optional<V3d> {
                                const double height = (p - p0).dot(axis);

@@ -107,7 +107,7 @@ void lint_scale(const Scene& scene, std::vector<Finding>& findings) {
         const Box3 own = own_box(shape);
         if (own.isEmpty() || !is_finite(own.min) || !is_finite(own.max)) continue;
         const Vec3 edges = own.max - own.min;
-        const double largest = double(std::max(edges.x, std::max(edges.y, edges.z)));
+        const auto largest = double(std::max(edges.x, std::max(edges.y, edges.z)));
         if (largest > 0 && largest < 1e-6 * extent && shape.group == kNone)
             findings.push_back(
                 {note, "tiny shape", shape.where,

@@ -65,7 +65,7 @@ path FileSearch::find(const std::string& name, const path& own_folder) const {
     std::string portable = name;
     std::replace(portable.begin(), portable.end(), '\\', '/');
     for (const path& folder : folders)
-        if (const path found = find_similar(folder, portable); !found.empty()) return found;
+        if (path found = find_similar(folder, portable); !found.empty()) return found;
     return own_folder / name;
 }
 

@@ -18,7 +18,7 @@ void read_filters(IntegratorSettings& settings) {
     }
     if (properties.text("spatial_filter", "") == "box")
         settings.diagnostics().warn(properties.where("spatial_filter"),
-                                    "the spatial filter \"box\" becomes \"stochastic\", whose expectation is the same");
+                                    R"(the spatial filter "box" becomes "stochastic", whose expectation is the same)");
     settings.read_words("spatial_filter", "guiding.spatial_filter",
                         {{"nearest", "nearest"}, {"stochastic", "stochastic"}, {"box", "stochastic"}});
     settings.read_words("directional_filter", "guiding.directional_filter", {{"nearest", "nearest"}, {"box", "box"}});

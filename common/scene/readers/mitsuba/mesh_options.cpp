@@ -19,7 +19,7 @@ std::size_t count_zeros(const std::vector<Vec3>& vectors) {
 MeshOptions read_mesh_options(Properties& properties, bool flip_tex_coords) {
     if (!properties.has("filename"))
         throw InputError(properties.where(), properties.title() + " has no file name",
-                         "add <string name=\"filename\" value=\"...\"/>");
+                         R"(add <string name="filename" value="..."/>)");
     MeshOptions options;
     options.file = properties.text("filename", "");
     options.face_normals = properties.boolean("face_normals", false);

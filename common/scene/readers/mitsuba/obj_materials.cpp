@@ -39,7 +39,7 @@ class Assignment {
     /// Whether some triangles have no BSDF yet.
     bool lacks() const {
         return common_ == nullptr && std::any_of(obj_.material_of.begin(), obj_.material_of.end(), [&](std::int32_t m) {
-                   return result_[static_cast<std::size_t>(m + 1)].material == kNone;
+                   return result_[static_cast<std::size_t>(std::int64_t{m} + 1)].material == kNone;
                });
     }
 

@@ -39,7 +39,7 @@ bool is_value_tag(const std::string& tag) {
 std::string cure_of_tag(const std::string& tag) {
     std::vector<std::string_view> tags(kValueTags.begin(), kValueTags.end());
     tags.insert(tags.end(), object_tags().begin(), object_tags().end());
-    tags.push_back("ref");
+    tags.emplace_back("ref");
     return did_you_mean(tag, tags, "remove it");
 }
 
@@ -56,6 +56,10 @@ std::string camel_case(const std::string& snake_case) {
     for (std::size_t i = 0; i < snake_case.size(); ++i)
         if (snake_case[i] != '_') result += i > 0 && snake_case[i - 1] == '_' ? to_upper(snake_case[i]) : snake_case[i];
     return result;
+}
+
+std::string ignored(const std::string& what, const std::string& cure) {
+    return what + " is ignored; " + cure;
 }
 
 }  // namespace
@@ -106,7 +110,7 @@ void Properties::add_value(const XmlElement& element) {
     }
     if (element.tag == "spectrum" && !element.find("value") && !element.find("filename"))
         throw InputError(element.where, "a <spectrum> without a value or a file",
-                         "give value=\"...\" with one number or pairs \"wavelength:value\", or filename=\"...\"");
+                         R"(give value="..." with one number or pairs "wavelength:value", or filename="...")");
     const std::string& name = element.require("name");
     const auto [entry, is_new] = values_.emplace(snake_case(name), Value{&element});
     if (is_new) return;
@@ -264,7 +268,7 @@ const XmlElement* Properties::only_child(const std::string& tag) {
 
 void Properties::ignore(std::initializer_list<const char*> names) {
     for (const char* name : names) {
-        asked_.push_back(name);
+        asked_.emplace_back(name);
         if (const auto value = values_.find(name); value != values_.end()) value->second.used = true;
     }
 }
@@ -287,7 +291,7 @@ void Properties::finish() {
         const std::string what = "unknown property " + in_quotes(value.element->require("name")) + " of " + title(),
                           cure = known.empty() ? "remove it" : "did you mean " + in_quotes(known) + "?";
         if (is_tolerant())
-            diagnostics_.warn(value.element->where, what + " is ignored; " + cure);
+            diagnostics_.warn(value.element->where, ignored(what, cure));
         else
             diagnostics_.unsupported(value.element->where, what, cure);
     }

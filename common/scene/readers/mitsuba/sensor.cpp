@@ -36,7 +36,7 @@ void read_sampler(const XmlElement& sampler, std::vector<Setting>& settings, con
 void add_lens(Properties& properties, const Matrix& to_world, Camera& camera, Diagnostics& diagnostics) {
     if (!properties.has("aperture_radius"))
         throw InputError(properties.where(), properties.title() + " has no aperture",
-                         "add <float name=\"apertureRadius\" value=\"...\"/>, or use perspective");
+                         R"(add <float name="apertureRadius" value="..."/>, or use perspective)");
     const double radius = properties.number("aperture_radius", 0.0);
     if (!(radius >= 0.0))
         throw InputError(properties.where("aperture_radius"), "an aperture radius of " + number_text(radius),

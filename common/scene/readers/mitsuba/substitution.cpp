@@ -15,9 +15,8 @@ constexpr std::size_t kMaxReplacedBytes = std::size_t{1} << 26;
 
 /// A name of the scene that is near, else what may have been meant.
 std::string cure_of_unused(const std::string& name, const std::string& value, const std::vector<std::string>& used) {
-    for (const char* size : {"width", "height"})
-        if (name == size && std::find(used.begin(), used.end(), name) == used.end())
-            return "the image's " + name + " is --set image." + name + "=" + value;
+    if ((name == "width" || name == "height") && std::find(used.begin(), used.end(), name) == used.end())
+        return "the image's " + name + " is --set image." + name + "=" + value;
     const std::string nearest = nearest_word(name, used);
     if (!nearest.empty()) return "did you mean $" + nearest + "?";
     std::string known;
@@ -48,7 +47,7 @@ std::string Parameters::substitute(const std::string& text, const Location& wher
             continue;
         }
         const std::string_view rest = std::string_view(text).substr(at + 1);
-        std::map<std::string, Parameter>::iterator best = parameters_.end();
+        auto best = parameters_.end();
         for (auto it = parameters_.begin(); it != parameters_.end(); ++it)
             if (rest.starts_with(it->first) && (best == parameters_.end() || it->first.size() > best->first.size()))
                 best = it;

@@ -58,7 +58,7 @@ bool read_filter(Properties& properties) {
 std::filesystem::path file_of(Properties& properties) {
     if (!properties.has("filename"))
         throw InputError(properties.where(), properties.title() + " has no file name",
-                         "add <string name=\"filename\" value=\"...\"/>");
+                         R"(add <string name="filename" value="..."/>)");
     return properties.text("filename", "");
 }
 
@@ -114,7 +114,7 @@ std::int32_t TextureReader::environment_image(Properties& properties) {
 ColorInput TextureReader::read(const XmlElement& texture, const Use& use) {
     const auto known = known_.find({&texture, use});
     if (known != known_.end()) return known->second;
-    const ColorInput input = convert(texture, use);
+    ColorInput input = convert(texture, use);
     known_.emplace(std::pair(&texture, use), input);
     return input;
 }

@@ -86,7 +86,7 @@ struct Converter {
                 element.children.push_back(convert(child, depth + 1));
             else if (child.type() == pugi::node_pcdata || child.type() == pugi::node_cdata)
                 throw InputError(locate(child), "text " + in_quotes(trim(child.value())) + " stands between elements",
-                                 "put values into attributes, as in <float name=\"fov\" value=\"45\"/>");
+                                 R"(put values into attributes, as in <float name="fov" value="45"/>)");
         }
         return element;
     }
