@@ -71,7 +71,7 @@ void check_budget_keys(const std::vector<Setting>& line, const RenderOptions& op
             throw InputError(setting.where, std::string(open) + " decides how many samples there are",
                              "to cap them, --set budget.max_spp=N; to have them instead, --spp N");
         if (setting.key == "budget.max_spp" && open == nullptr)
-            request.warnings.push_back("budget.max_spp has no effect without --seconds or --error");
+            request.warnings.emplace_back("budget.max_spp has no effect without --seconds or --error");
     }
 }
 

@@ -74,6 +74,7 @@ class InProcessChannel final : public Channel {
 std::vector<std::unique_ptr<Channel>> make_in_process_channels(int peers) {
     auto inboxes = std::make_shared<Inboxes>(static_cast<std::size_t>(peers));
     std::vector<std::unique_ptr<Channel>> channels;
+    channels.reserve(static_cast<std::size_t>(peers));
     for (int self = 0; self < peers; ++self)
         channels.push_back(std::make_unique<InProcessChannel>(inboxes, self));
     return channels;

@@ -36,7 +36,7 @@ void TcpLink::end_sending() {
     ::shutdown(socket_.fd(), SHUT_WR);
 }
 
-void TcpLink::send(Payload payload) {
+void TcpLink::send(const Payload& payload) {
     if (!is_open() || deaf_) return;
     std::size_t begin = 0;
     do {

@@ -19,7 +19,7 @@ class TcpLink {
     TcpLink(Socket socket, const JoinKey& sending_key, FrameReader reader);
 
     /// Queues a message.
-    void send(Payload payload);
+    void send(const Payload& payload);
 
     /// Move what can be moved without waiting, but not for ever; false if nothing could.
     bool write();

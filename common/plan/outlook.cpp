@@ -122,11 +122,10 @@ void Outlook::look_at_variance(const RenderHistory& state) {
     if (levels.empty()) return;
     variance_ = levels.back().variance;
     quiet_ = !(variance_ > 0);
-    if (levels.back().trees >= kPolicy.forecast.trees_at_rest)
-        progress_ = 1;
-    else if (levels.size() > 1)
+    const bool at_rest = levels.back().trees >= kPolicy.forecast.trees_at_rest;
+    if (!at_rest && levels.size() > 1)
         progress_ = std::max(kPolicy.forecast.least_progress, variance_ / levels[levels.size() - 2].variance);
-    else if (levels.back().trees > 1)
+    else if (at_rest || levels.back().trees > 1)
         progress_ = 1;
     trees_since_ = levels.back().trees - 1;
     int back = 0;

@@ -35,7 +35,7 @@ std::string aligned(const std::vector<Row>& rows) {
 
 /// "place" of an effect; those of the scene file itself without its name.
 std::string location_text(const Location& where, const std::string& scene) {
-    const std::string text = where.text();
+    std::string text = where.text();
     if (!scene.empty() && text.starts_with(scene + ":")) return "line " + text.substr(scene.size() + 1);
     return text;
 }
@@ -62,6 +62,7 @@ std::string never_line(const EffectPlan& plan) {
 
 std::string memory_section(const char* whose, const std::vector<MemoryItem>& items, std::uint64_t total) {
     std::vector<Row> rows;
+    rows.reserve(items.size());
     for (const MemoryItem& item : items)
         rows.push_back({item.name, bytes_text(item.bytes), item.formula});
     return std::string("\nmemory expected, ") + whose + ": " + bytes_text(total) + "\n" + aligned(rows);

@@ -297,6 +297,7 @@ std::vector<Setting> without_policy(std::vector<Setting> settings) {
     constexpr const char* kCure =
         "render job.toml instead, which leaves it to the program, or use the build that wrote it";
     std::vector<std::string> known;
+    known.reserve(kEntries.size());
     for (const PolicyEntry& entry : kEntries)
         known.push_back(std::string(kPrefix) + entry.name);
     for (const Setting& setting : settings) {

@@ -89,6 +89,7 @@ class TextureCheck {
 
 std::vector<ValueRange> check_images(const std::vector<TextureImage>& images) {
     std::vector<ValueRange> ranges;
+    ranges.reserve(images.size());
     for (const TextureImage& image : images)
         ranges.push_back(check_image(image));
     return ranges;
