@@ -177,6 +177,22 @@ bool is_mechanical(const std::string& cure) {
 
 namespace {
 
+/// Source with its raw texts written as others are.
+std::string with_escapes(std::string source) {
+    for (std::size_t at = 0; (at = source.find("R\"(", at)) != std::string::npos;) {
+        const std::size_t end = source.find(")\"", at);
+        if (end == std::string::npos) break;
+        std::string text = "\"";
+        for (const char c : source.substr(at + 3, end - at - 3)) {
+            if (c == '"' || c == '\\') text += '\\';
+            text += c;
+        }
+        source.replace(at, end + 2 - at, text + '"');
+        at += text.size() + 1;
+    }
+    return source;
+}
+
 /// The arguments of a call, from behind its opening bracket.
 std::vector<std::string> arguments(const std::string& source, std::size_t at) {
     std::vector<std::string> parts(1);
@@ -225,7 +241,7 @@ std::vector<Refusal> refusals_in(const std::string& folder) {
     static const std::regex kCall(R"(throw InputError\(|\bunsupported\()");
     for (const auto& file : files) {
         std::ifstream in(file);
-        const std::string source{std::istreambuf_iterator<char>(in), {}};
+        const std::string source = with_escapes({std::istreambuf_iterator<char>(in), {}});
         for (std::sregex_iterator at(source.begin(), source.end(), kCall), end; at != end; ++at) {
             const auto begin = static_cast<std::size_t>(at->position());
             const auto parts = arguments(source, begin + static_cast<std::size_t>(at->length()));
