@@ -102,7 +102,7 @@ void report(ReportOptions& options) {
     for (const std::string& folder : options.folders) {
         const bool is_run =
             !std::filesystem::exists(std::filesystem::path(folder) / "study.json") && is_run_folder(folder);
-        (is_run ? runs : studies).push_back(folder);
+        (is_run ? runs : studies).emplace_back(folder);
     }
     const bool several = studies.size() + !runs.empty() > 1;
     for (const std::filesystem::path& folder : studies) {

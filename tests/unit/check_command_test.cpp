@@ -76,6 +76,15 @@ class CheckCommand : public test::MitsubaFixture {
             const std::string where = line > 0 ? path + ":" + std::to_string(line) + ":" : path + ": ";
             EXPECT_NE(lines.output.find(where), std::string::npos) << lines.output;
         }
+        std::string counted;
+        for (const std::string severity : {"error", "warning"}) {
+            const auto count = std::count_if(findings.begin(), findings.end(),
+                                             [&](const json& f) { return f["severity"] == severity; });
+            if (count == 0) continue;
+            counted += (counted.empty() ? "" : ", ") + std::to_string(count) + " " + severity + (count == 1 ? "" : "s");
+        }
+        if (counted.empty()) counted = "nothing risky";
+        EXPECT_NE(lines.output.find(path + ": " + counted + "\n"), std::string::npos) << lines.output;
         for (const json& f : findings) {
             const auto line = static_cast<std::size_t>(f["line"].get<int>());
             EXPECT_TRUE(line == 0 || (line >= 2 && !defects.at(line - 2).kind.empty())) << "not planted: " << f;

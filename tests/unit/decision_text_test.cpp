@@ -52,6 +52,13 @@ TEST(DecisionText, ABoundThatSaysNothingMoreIsLeftOut) {
               "one, at 0.67 of its cost");
 }
 
+TEST(DecisionText, NothingIsSavedByWhatCostsTheSame) {
+    PassReport report = guided_report();
+    report.guiding_worth.worth = 1.001;
+    report.guiding_worth.error = 1e-4;
+    EXPECT_TRUE(words_of(report, "guiding").starts_with("guided, which costs as much as not: "));
+}
+
 TEST(DecisionText, GuidedForWantOfKnowledgeSaysSo) {
     PassReport report = guided_report();
     report.guiding_worth.worth = 0.67;
