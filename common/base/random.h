@@ -40,7 +40,7 @@ using Draw = std::array<std::uint32_t, 4>;
 
 /// Four independent uniform 32-bit numbers for (path, vertex, stream). Philox 4x32 with 7 rounds, the fewest that pass
 /// BigCrush (Salmon et al. 2011, "Parallel random numbers: as easy as 1, 2, 3", table 2).
-inline Draw draw(const PathKey& path, std::uint32_t vertex, Stream stream) {
+[[gnu::always_inline]] inline Draw draw(const PathKey& path, std::uint32_t vertex, Stream stream) {
     using Philox = r123::Philox4x32_R<7>;
     const Philox::ctr_type counter = {{path.pixel, path.sample, vertex, static_cast<std::uint32_t>(stream)}};
     const Philox::key_type key = {{static_cast<std::uint32_t>(path.seed), static_cast<std::uint32_t>(path.seed >> 32)}};

@@ -2,8 +2,11 @@
 // What the plan says of a material is what its BSDF does.
 #include <gtest/gtest.h>
 
+#include <typeinfo>
+
 #include "common/base/random.h"
 #include "common/scene/model/material_traits.h"
+#include "tests/support/kind_scenes.h"
 #include "worker/shading/bsdf_builder.h"
 
 namespace treefarm {
@@ -129,6 +132,34 @@ TEST(BsdfTraits, BsdfsHaveTheLobesThatTheirDescriptionsPromise) {
     thin.diff_trans = 0.5f;
     expect_agreement(of(thin), "thin principled that transmits");
     expect_agreement(of(DiffuseTransmitterMaterial{}), "diffuse transmitter");
+}
+
+TEST(BsdfTraits, EveryKindKeepsItsPromiseAsItIsByDefault) {
+    for_each_kind<MaterialKind>([]<class Kind>() {
+        Kind kind;
+        test::ReferToTheFirst refer;
+        Kind::fields(kind, refer);
+        expect_agreement(of(DiffuseMaterial{}, kind), typeid(Kind).name());
+    });
+}
+
+struct HalfOfAll : IgnoreFields {
+    using IgnoreFields::fraction;
+    void fraction(const char*, FloatInput& input) { input = 0.5f; }
+};
+
+/// `effects.transmission = false` puts that form in its place. What is not there at all needs none.
+TEST(BsdfTraits, EveryKindThatLightPassesThroughHasAnOpaqueForm) {
+    for_each_kind<MaterialKind>([]<class Kind>() {
+        Kind kind;
+        HalfOfAll half;
+        Kind::fields(kind, half);
+        const Lobes lobes = kind.lobes();
+        if constexpr (requires { kind.opaque(); })
+            EXPECT_FALSE(kind.opaque().lobes().transmits()) << typeid(Kind).name();
+        else
+            EXPECT_FALSE(lobes.glossy_transmission || lobes.delta_transmission) << typeid(Kind).name();
+    });
 }
 
 TEST(BsdfTraits, SoDoBlends) {

@@ -15,6 +15,35 @@ Scene example() {
     return test::every_kind_scene();
 }
 
+/// Indices of the alternatives that a list of variants does not hold.
+template <class Kinds, class List, class F>
+std::vector<std::size_t> missing_kinds(const List& list, F&& kind_of) {
+    std::vector<bool> held(std::variant_size_v<Kinds>);
+    for (const auto& item : list)
+        held[kind_of(item).index()] = true;
+    std::vector<std::size_t> missing;
+    for (std::size_t i = 0; i < held.size(); ++i)
+        if (!held[i]) missing.push_back(i);
+    return missing;
+}
+
+TEST(SceneCodec, TheExampleHoldsEveryKind) {
+    const Scene scene = example();
+    const std::vector<std::size_t> none;
+    EXPECT_EQ(missing_kinds<MaterialKind>(
+                  scene.materials, [](const Material& m) -> auto& { return m.bsdf; }),
+              none);
+    EXPECT_EQ(missing_kinds<EmitterKind>(
+                  scene.emitters, [](const Emitter& e) -> auto& { return e.kind; }),
+              none);
+    EXPECT_EQ(missing_kinds<TextureKind>(
+                  scene.textures, [](const Texture& t) -> auto& { return t.kind; }),
+              none);
+    EXPECT_EQ(missing_kinds<ShapeKind>(
+                  scene.shapes, [](const Shape& s) -> auto& { return s.geometry; }),
+              none);
+}
+
 TEST(SceneCodec, RoundTrip) {
     const Bytes bytes = encode_scene(example());
     const Scene back = decode_scene(bytes);

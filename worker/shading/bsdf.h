@@ -49,6 +49,18 @@ constexpr bool may_transmit() {
         return false;
 }
 
+/// Smooth glass: it reflects in one direction, refracts in another, and does nothing else.
+template <class Kind>
+constexpr bool has_two_ways() {
+    if constexpr (requires { Kind::kLobes; })
+        return Kind::kLobes == (kDeltaLobe | kTransmittingLobe);
+    else
+        return false;
+}
+
+// Every vertex of a scene with textures writes one: what is more, a kind keeps aside (BsdfNeeds::Kept).
+static_assert(sizeof(BsdfKind) <= 64, "a BSDF became larger: keep its inputs aside (bsdf_needs.h)");
+
 /// How one side of a surface scatters, at one point: a closed set, no virtual call, no allocation.
 struct Bsdf {
     BsdfKind kind;
@@ -71,7 +83,7 @@ struct Bsdf {
     /// Smooth glass has two ways out: that one which is not on the side of `taken`. The density is 0 where there is
     /// none.
     BsdfSample other_way(const Vec3& wo, const Vec3& taken) const {
-        if (!std::get_if<DielectricBsdf>(&kind) && !std::get_if<ThinDielectricBsdf>(&kind)) return {};
+        if (!visit([](const auto& bsdf) { return has_two_ways<std::decay_t<decltype(bsdf)>>(); })) return {};
         const float last_lobe = taken.z > 0.0f ? 0x1.fffffep-1f : 0.0f;
         const BsdfSample other = sample(wo, {last_lobe, Vec2(0.5f)});
         return (other.wi.z > 0.0f) != (taken.z > 0.0f) ? other : BsdfSample{};

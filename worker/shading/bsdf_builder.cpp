@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "worker/shading/bsdf_builder.h"
 
+#include <concepts>
 #include <limits>
 
 #include "common/base/error.h"
@@ -14,10 +15,10 @@ namespace {
 /// Where BSDFs of constant materials are kept.
 struct ConstantNodes {
     std::deque<Bsdf>& bsdfs;
-    std::deque<PrincipledInputs>& principled;
+    std::deque<KeptInputs>& kept;
 
     Bsdf& add() { return bsdfs.emplace_back(); }
-    PrincipledInputs& add_principled() { return principled.emplace_back(); }
+    KeptInputs& add_kept() { return kept.emplace_back(); }
     RoughTransmittance& add_coat() { throw RunError("a constant material has a coat whose roughness varies"); }
 };
 
@@ -78,10 +79,8 @@ void BsdfBuilder::find_facts(std::size_t index) {
     facts.tangents = traits.anisotropic || material.detail.any();
     facts.texture = first_texture_of(material);
     facts.transmits = traits.lobes.transmits();
-    facts.principled = std::holds_alternative<PrincipledMaterial>(material.bsdf) ||
-                               std::holds_alternative<PrincipledThinMaterial>(material.bsdf)
-                           ? 1
-                           : 0;
+    std::visit([&]<class Kind>(const Kind&) { facts.kept = std::is_void_v<typename BsdfNeeds<Kind>::Kept> ? 0 : 1; },
+               material.bsdf);
     // Its own node, and one for each frame of its own.
     facts.nodes = 1 + (material.detail.any() ? 1 : 0) + (traits.anisotropic ? 1 : 0);
     // Parts stand below what they are part of: theirs are known.
@@ -91,21 +90,22 @@ void BsdfBuilder::find_facts(std::size_t index) {
         facts.tangents |= of_part.tangents;
         if (&part == &material.back) {  // in place of the front
             facts.nodes = std::max(facts.nodes, of_part.nodes);
-            facts.principled = std::max(facts.principled, of_part.principled);
+            facts.kept = std::max(facts.kept, of_part.kept);
             return;
         }
         if (facts.texture == kNone) facts.texture = of_part.texture;
         facts.transmits |= of_part.transmits;
         facts.nodes += of_part.nodes;
-        facts.principled += of_part.principled;
+        facts.kept += of_part.kept;
     });
     if (facts.nodes > kMaxNodes)
         throw RunError(material.where.text() + ": material \"" + material.name + "\" is made of more than " +
                        std::to_string(kMaxNodes) + " parts, too many for every hit; blend fewer materials");
-    if (const auto* plastic = std::get_if<PlasticMaterial>(&material.bsdf))
-        find_coat(plastic->roughness, plastic->eta, facts);
-    if (const auto* coating = std::get_if<CoatingMaterial>(&material.bsdf))
-        find_coat(coating->roughness, coating->eta, facts);
+    std::visit(
+        [&]<class Kind>(const Kind& kind) {
+            if constexpr (BsdfNeeds<Kind>::kCoat) find_coat(kind.roughness, kind.eta, facts);
+        },
+        material.bsdf);
     facts_[index] = facts;
 }
 
@@ -123,7 +123,7 @@ void BsdfBuilder::find_coat(const Roughness& r, float eta, MaterialFacts& facts)
 }
 
 const Bsdf* BsdfBuilder::constant(std::int32_t material, bool back) {
-    ConstantNodes nodes{constants_, constant_principled_};
+    ConstantNodes nodes{constants_, constant_kept_};
     return side(material, back, {}, nodes);
 }
 
@@ -176,7 +176,7 @@ const Bsdf* BsdfBuilder::described(std::int32_t index, bool back, const ShadingP
 }
 
 /// What make_bsdf() of a kind is told of a point of a surface.
-template <class Nodes>
+template <class Material, class Nodes>
 struct BsdfBuilder::Context {
     using Result = Bsdf;
 
@@ -193,9 +193,11 @@ struct BsdfBuilder::Context {
     float fraction(const FloatInput& input) const { return clamped(builder.textures_->eval(input, point), 1.0f); }
     Microfacet facets(const Roughness& roughness) const { return builder.facets(roughness, point); }
     const Bsdf* part(std::int32_t material) const { return builder.side(material, back, point, nodes); }
-    const PrincipledInputs* keep(const PrincipledInputs& inputs) const { return &(nodes.add_principled() = inputs); }
-    float smooth_escapes() const { return facts.smooth_escapes; }
-    const RoughTransmittance* coat(const Microfacet& rough) const {
+    template <class Inputs>
+    requires std::same_as<Inputs, typename BsdfNeeds<Material>::Kept>
+    const Inputs* keep(const Inputs& inputs) const { return nodes.add_kept().keep(inputs); }
+    float smooth_escapes() const requires BsdfNeeds<Material>::kCoat { return facts.smooth_escapes; }
+    const RoughTransmittance* coat(const Microfacet& rough) const requires BsdfNeeds<Material>::kCoat {
         if (!facts.coats) return facts.coat;
         RoughTransmittance& mixed = nodes.add_coat();
         mixed = facts.coats->at(rough.alpha_u);
@@ -206,9 +208,13 @@ struct BsdfBuilder::Context {
 template <class Nodes>
 Bsdf BsdfBuilder::leaf(std::int32_t index, bool back, const ShadingPoint& point, Nodes& nodes) const {
     const Material& described = materials_[static_cast<std::size_t>(index)];
-    const Context<Nodes> context{
-        *this, facts_[static_cast<std::size_t>(index)], back, point, nodes, largest_factor(described)};
-    return std::visit([&](const auto& material) { return make_bsdf(material, context); }, described.bsdf);
+    const MaterialFacts& facts = facts_[static_cast<std::size_t>(index)];
+    return std::visit(
+        [&]<class Kind>(const Kind& material) {
+            const Context<Kind, Nodes> context{*this, facts, back, point, nodes, largest_factor(described)};
+            return make_bsdf(material, context);
+        },
+        described.bsdf);
 }
 
 Rgb BsdfBuilder::color(const ColorInput& input, const ShadingPoint& point, float most) const {

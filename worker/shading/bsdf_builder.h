@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <deque>
 #include <map>
+#include <new>
 #include <tuple>
+#include <type_traits>
 #include <vector>
 
 #include "common/scene/model/scene.h"
@@ -19,22 +23,35 @@ struct ShadingPoint : TexturePoint {
     bool mirrored = false;                                  ///< the frame's normal is the reverse of the surface's
 };
 
+/// Room for what one BSDF keeps aside (BsdfNeeds::Kept), whatever its kind.
+struct KeptInputs {
+    static constexpr std::size_t kAlignment = 8;
+
+    alignas(kAlignment) std::array<std::byte, kMostKept<MaterialKind>> bytes;
+
+    template <class Inputs>
+    const Inputs* keep(const Inputs& inputs) {
+        static_assert(std::is_trivially_destructible_v<Inputs> && sizeof(Inputs) <= sizeof(bytes));
+        static_assert(alignof(Inputs) <= kAlignment);
+        return ::new (static_cast<void*>(bytes.data())) Inputs(inputs);
+    }
+};
+
 /// Storage for the BSDFs of one hit: a thread keeps it; it never grows.
 class BsdfScratch {
   public:
-    explicit BsdfScratch(std::size_t nodes = 0, std::size_t principled = 0)
-        : nodes_(nodes), coats_(nodes), principled_(principled) {}
+    explicit BsdfScratch(std::size_t nodes = 0, std::size_t kept = 0) : nodes_(nodes), coats_(nodes), kept_(kept) {}
 
-    void clear() { used_ = coats_used_ = principled_used_ = 0; }
+    void clear() { used_ = coats_used_ = kept_used_ = 0; }
     Bsdf& add() { return nodes_[used_++]; }
     RoughTransmittance& add_coat() { return coats_[coats_used_++]; }
-    PrincipledInputs& add_principled() { return principled_[principled_used_++]; }
+    KeptInputs& add_kept() { return kept_[kept_used_++]; }
 
   private:
     std::vector<Bsdf> nodes_;
     std::vector<RoughTransmittance> coats_;
-    std::vector<PrincipledInputs> principled_;
-    std::size_t used_ = 0, coats_used_ = 0, principled_used_ = 0;
+    std::vector<KeptInputs> kept_;
+    std::size_t used_ = 0, coats_used_ = 0, kept_used_ = 0;
 };
 
 /// Turns descriptions into BSDFs: once for those that are the same everywhere, at every hit for the others. What a kind
@@ -52,7 +69,7 @@ class BsdfBuilder {
     const Bsdf* constant(std::int32_t material, bool back);
 
     /// One side of a material at a point; the result lives until the scratch is cleared, which must hold nodes() and
-    /// principled().
+    /// kept().
     const Bsdf* at(std::int32_t material, bool back, const ShadingPoint& point, BsdfScratch& scratch) const;
 
     /// Whether it must be built at every hit: textures, tilted normals, tangents.
@@ -63,10 +80,8 @@ class BsdfBuilder {
     std::int32_t first_texture(std::int32_t material) const {
         return facts_[static_cast<std::size_t>(material)].texture;
     }
-    /// Principled materials that at() looks up for it.
-    std::size_t principled(std::int32_t material) const {
-        return facts_[static_cast<std::size_t>(material)].principled;
-    }
+    /// Parts of it that keep something aside (BsdfNeeds::Kept).
+    std::size_t kept(std::int32_t material) const { return facts_[static_cast<std::size_t>(material)].kept; }
     /// Nodes that at() needs for it.
     std::size_t nodes(std::int32_t material) const { return facts_[static_cast<std::size_t>(material)].nodes; }
 
@@ -79,7 +94,7 @@ class BsdfBuilder {
         bool anisotropic = false;  ///< itself, not what it is made of
         bool tangents = false;     ///< it, or what it is made of, has a frame of its own
         bool transmits = false;    ///< its back scatters by nature: glass, nothing, blends with them
-        std::size_t nodes = 0, principled = 0;
+        std::size_t nodes = 0, kept = 0;
         std::int32_t texture = kNone;                ///< that it most likely reads first
         const RoughTransmittance* coat = nullptr;    ///< a rough coat of one roughness
         const RoughTransmittances* coats = nullptr;  ///< a rough coat whose roughness varies
@@ -89,7 +104,7 @@ class BsdfBuilder {
     void find_facts(std::size_t material);
     void find_coat(const Roughness& roughness, float eta, MaterialFacts& facts);
 
-    template <class Nodes>
+    template <class Material, class Nodes>
     struct Context;
 
     template <class Nodes>
@@ -109,7 +124,7 @@ class BsdfBuilder {
     std::map<std::tuple<bool, float, float>, RoughTransmittance> coats_;
     std::map<std::tuple<bool, float>, RoughTransmittances> varying_coats_;
     std::deque<Bsdf> constants_;
-    std::deque<PrincipledInputs> constant_principled_;
+    std::deque<KeptInputs> constant_kept_;
 };
 
 }  // namespace treefarm

@@ -3,6 +3,7 @@
 
 #include "common/math/exponential.h"
 #include "common/scene/kinds/materials/coating.h"
+#include "worker/shading/bsdf_needs.h"
 #include "worker/shading/coat.h"
 #include "worker/shading/fresnel.h"
 #include "worker/shading/rough_reflection.h"
@@ -128,6 +129,11 @@ struct RoughCoatingBsdf {
 
   private:
     Microfacet facets() const { return {ggx, alpha, alpha}; }
+};
+
+template <>
+struct BsdfNeeds<CoatingMaterial> : NoBsdfNeeds {
+    static constexpr bool kCoat = true;
 };
 
 /// The BSDF of such a material at one place of a surface (bsdf_builder.h).

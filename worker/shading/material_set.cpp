@@ -17,7 +17,7 @@ MaterialSet::MaterialSet(const Scene& scene, const TextureSet& textures) : build
                 if (builder_.varies(material)) {
                     side.material = material;
                     scratch_nodes_ = std::max(scratch_nodes_, builder_.nodes(material));
-                    scratch_principled_ = std::max(scratch_principled_, builder_.principled(material));
+                    scratch_kept_ = std::max(scratch_kept_, builder_.kept(material));
                 } else {
                     side.bsdf = builder_.constant(material, back);
                     side.lobes = lobes_of(*side.bsdf);

@@ -32,12 +32,12 @@ class MaterialSet {
         return builder_.at(material, back, point, scratch);
     }
     /// Scratch that is large enough for every material of the scene.
-    BsdfScratch make_scratch() const { return BsdfScratch(scratch_nodes_, scratch_principled_); }
+    BsdfScratch make_scratch() const { return BsdfScratch(scratch_nodes_, scratch_kept_); }
 
   private:
     BsdfBuilder builder_;
     std::vector<Side> sides_;  ///< front and back of each shape
-    std::size_t scratch_nodes_ = 0, scratch_principled_ = 0;
+    std::size_t scratch_nodes_ = 0, scratch_kept_ = 0;
 };
 
 }  // namespace treefarm

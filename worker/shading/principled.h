@@ -3,6 +3,7 @@
 
 #include "common/math/warp.h"
 #include "common/scene/kinds/materials/principled.h"
+#include "worker/shading/bsdf_needs.h"
 #include "worker/shading/clear_coat.h"
 #include "worker/shading/rough_dielectric.h"
 
@@ -163,6 +164,11 @@ struct PrincipledBsdf {
             Rgb(0.25f * in->clearcoat * fresnel * density * ClearCoat::masking(wo) * ClearCoat::masking(wi) * wi.z);
         result.pdf += probability * density * h.z / (4.0f * cos_h);
     }
+};
+
+template <>
+struct BsdfNeeds<PrincipledMaterial> : NoBsdfNeeds {
+    using Kept = PrincipledInputs;
 };
 
 /// The BSDF of such a material at one place of a surface (bsdf_builder.h).

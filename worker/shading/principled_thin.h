@@ -80,6 +80,11 @@ struct PrincipledThinBsdf {
     }
 };
 
+template <>
+struct BsdfNeeds<PrincipledThinMaterial> : NoBsdfNeeds {
+    using Kept = PrincipledInputs;
+};
+
 /// The BSDF of such a material at one place of a surface (bsdf_builder.h).
 template <class Context>
 typename Context::Result make_bsdf(const PrincipledThinMaterial& m, const Context& at) {

@@ -15,7 +15,7 @@ struct RoughConductorBsdf {
     Rgb eta{0.0f}, k{1.0f}, reflectance{1.0f};
     Microfacet facets;
 
-    BsdfValue value(const Vec3& wo, const Vec3& wi) const {
+    [[gnu::always_inline]] BsdfValue value(const Vec3& wo, const Vec3& wi) const {
         if (!(wi.z > 0.0f)) return {};
         const RoughReflection r = rough_reflection(facets, wo, wi);
         return {reflectance * fresnel_conductor(r.cos_o, eta, k) * r.f_cos, r.pdf};

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "common/scene/kinds/materials/plastic.h"
+#include "worker/shading/bsdf_needs.h"
 #include "worker/shading/coat.h"
 #include "worker/shading/fresnel.h"
 #include "worker/shading/plastic.h"
@@ -36,6 +37,11 @@ struct RoughPlasticBsdf {
         const BsdfValue v = value(wo, wi);
         return {wi, v.pdf, v.f_cos, false};
     }
+};
+
+template <>
+struct BsdfNeeds<PlasticMaterial> : NoBsdfNeeds {
+    static constexpr bool kCoat = true;
 };
 
 /// The BSDF of such a material at one place of a surface (bsdf_builder.h).

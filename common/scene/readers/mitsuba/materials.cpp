@@ -9,11 +9,12 @@ namespace treefarm::mitsuba {
 namespace {
 
 constexpr const char* kCure = "use one of those listed in docs/use/scenes.md";
-constexpr std::string_view kBsdfs[] = {
-    "diffuse",    "conductor",      "roughconductor", "dielectric",   "roughdielectric", "thindielectric",
-    "plastic",    "roughplastic",   "twosided",       "mask",         "bumpmap",         "normalmap",
-    "blendbsdf",  "mixturebsdf",    "null",           "roughdiffuse", "phong",           "ward",
-    "principled", "principledthin", "coating",        "roughcoating", "difftrans"};
+
+std::string nearest_type(const std::string& type) {
+    std::vector<std::string_view> known = surface_bsdf_names();
+    known.insert(known.end(), {"twosided", "mask", "bumpmap", "normalmap", "blendbsdf", "mixturebsdf"});
+    return did_you_mean(type, known, kCure);
+}
 
 /// What a BSDF that is not available would simulate.
 std::string effect_of(const std::string& type) {
@@ -99,10 +100,9 @@ Material MaterialReader::convert_new(const XmlElement& bsdf) {
     } else if (type == "mixturebsdf" || type == "mixture") {
         material = convert_mixture(properties);
     } else {
-        diagnostics_.unsupported(bsdf.where,
-                                 "the BSDF " + in_quotes(type) + effect_of(type) + " is not available in this version",
-                                 effect_of(type).empty() ? did_you_mean(type, kBsdfs, kCure) : kCure,
-                                 "it becomes diffuse with reflectance 0.5");
+        diagnostics_.unsupported(
+            bsdf.where, "the BSDF " + in_quotes(type) + effect_of(type) + " is not available in this version",
+            effect_of(type).empty() ? nearest_type(type) : kCure, "it becomes diffuse with reflectance 0.5");
         material.bsdf = DiffuseMaterial{Rgb(0.5f)};
         material.name = properties.id();
         material.where = bsdf.where;

@@ -253,29 +253,47 @@ class SurfaceReader {
     Diagnostics& diagnostics_;
 };
 
+struct SurfaceType {
+    std::string_view name;
+    Bsdf (*read)(SurfaceReader& reader);
+};
+
+constexpr SurfaceType kTypes[] = {
+    {"diffuse", [](SurfaceReader& reader) { return reader.diffuse(); }},
+    {"conductor", [](SurfaceReader& reader) { return reader.conductor(false); }},
+    {"roughconductor", [](SurfaceReader& reader) { return reader.conductor(true); }},
+    {"dielectric", [](SurfaceReader& reader) { return reader.dielectric(false); }},
+    {"roughdielectric", [](SurfaceReader& reader) { return reader.dielectric(true); }},
+    {"thindielectric", [](SurfaceReader& reader) { return reader.thin_dielectric(); }},
+    {"plastic", [](SurfaceReader& reader) { return reader.plastic(false); }},
+    {"roughplastic", [](SurfaceReader& reader) { return reader.plastic(true); }},
+    {"roughdiffuse", [](SurfaceReader& reader) { return reader.rough_diffuse(); }},
+    {"phong", [](SurfaceReader& reader) { return reader.phong(); }},
+    {"difftrans", [](SurfaceReader& reader) { return reader.diffuse_transmitter(); }},
+    {"ward", [](SurfaceReader& reader) { return reader.ward(); }},
+    {"principled", [](SurfaceReader& reader) { return reader.principled(); }},
+    {"principledthin", [](SurfaceReader& reader) { return reader.principled_thin(); }},
+    {"coating", [](SurfaceReader& reader) { return reader.coating(false); }},
+    {"roughcoating", [](SurfaceReader& reader) { return reader.coating(true); }},
+    {"null", [](SurfaceReader&) { return Bsdf{NullMaterial{}}; }},
+};
+
 }  // namespace
 
 std::optional<Bsdf> read_surface_bsdf(Properties& properties, TextureReader& textures, Diagnostics& diagnostics) {
-    const std::string type = properties.type();
-    SurfaceReader reader(properties, textures, diagnostics);
-    if (type == "diffuse") return reader.diffuse();
-    if (type == "conductor") return reader.conductor(false);
-    if (type == "roughconductor") return reader.conductor(true);
-    if (type == "dielectric") return reader.dielectric(false);
-    if (type == "roughdielectric") return reader.dielectric(true);
-    if (type == "thindielectric") return reader.thin_dielectric();
-    if (type == "plastic") return reader.plastic(false);
-    if (type == "roughplastic") return reader.plastic(true);
-    if (type == "roughdiffuse") return reader.rough_diffuse();
-    if (type == "phong") return reader.phong();
-    if (type == "difftrans") return reader.diffuse_transmitter();
-    if (type == "ward") return reader.ward();
-    if (type == "principled") return reader.principled();
-    if (type == "principledthin") return reader.principled_thin();
-    if (type == "coating") return reader.coating(false);
-    if (type == "roughcoating") return reader.coating(true);
-    if (type == "null") return NullMaterial{};
+    for (const SurfaceType& type : kTypes) {
+        if (properties.type() != type.name) continue;
+        SurfaceReader reader(properties, textures, diagnostics);
+        return type.read(reader);
+    }
     return std::nullopt;
+}
+
+std::vector<std::string_view> surface_bsdf_names() {
+    std::vector<std::string_view> names;
+    for (const SurfaceType& type : kTypes)
+        names.push_back(type.name);
+    return names;
 }
 
 }  // namespace treefarm::mitsuba

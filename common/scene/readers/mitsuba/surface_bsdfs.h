@@ -2,6 +2,8 @@
 #pragma once
 
 #include <optional>
+#include <string_view>
+#include <vector>
 
 #include "common/scene/model/material.h"
 #include "common/scene/readers/mitsuba/texture_reader.h"
@@ -12,5 +14,8 @@ namespace treefarm::mitsuba {
 /// coats. Nothing for other types.
 std::optional<decltype(Material::bsdf)> read_surface_bsdf(Properties& properties, TextureReader& textures,
                                                           Diagnostics& diagnostics);
+
+/// The types that read_surface_bsdf() knows.
+std::vector<std::string_view> surface_bsdf_names();
 
 }  // namespace treefarm::mitsuba
