@@ -44,7 +44,7 @@ class RoughLobes : public ::testing::TestWithParam<Case> {
         const auto sample = [&](std::uint32_t i, Vec3& d) {
             const BsdfSample s = bsdf.sample(wo, uniform(i));
             d = s.wi;
-            return s.pdf > 0.0f && d.z * side > 0.0f;
+            return s.pdf > 0.0f && !s.delta && d.z * side > 0.0f;
         };
         const auto density = [&](const Vec3& d) { return d.z * side > 0.0f ? double(bsdf.value(wo, d).pdf) : 0.0; };
         const int sub = wo.z < 0.01f && (width < 0.05f || side < 0.0f) ? 100 : 32;
@@ -62,7 +62,7 @@ class RoughLobes : public ::testing::TestWithParam<Case> {
         const auto sample = [&](std::uint32_t i, Vec3& d) {
             const BsdfSample s = bsdf.sample(wo, uniform(i));
             d = s.wi;
-            return s.pdf > 0.0f && d.z * side > 0.0f;
+            return s.pdf > 0.0f && !s.delta && d.z * side > 0.0f;
         };
         const auto density = [&](const Vec3& d) { return d.z * side > 0.0f ? double(bsdf.value(wo, d).pdf) : 0.0; };
         const test::LobeTest result =
@@ -156,6 +156,19 @@ TEST_P(RoughLobes, DiffuseTransmitter) {
     const test::PreparedMaterial paper(DiffuseTransmitterMaterial{Rgb(0.5f)});
     for (const float cos : {1.0f, 0.7f, 0.2f})
         test_round(paper.front(), at_cosine(cos, 0.3f), Vec3(0, 0, -1), 1.0f, "passed");
+}
+
+TEST_P(RoughLobes, ThinLayer) {
+    const auto [distribution, alpha] = GetParam();
+    if (distribution != Microfacets::ggx || alpha < 0.5f) return;  // it has no roughness: once is enough
+    for (const float g : {-0.7f, 0.0f, 0.9f}) {
+        const test::PreparedMaterial layer(ThinLayerMaterial{Rgb(0.5f, 0.2f, 1.0f), Rgb(0.1f), {g}});
+        for (const float cos : {1.0f, 0.7f, 0.2f}) {
+            const Vec3 wo = at_cosine(cos, 0.3f), ahead = g < 0.0f ? Vec3(wo.x, wo.y, -wo.z) : -wo;
+            test_round(layer.front(), wo, g < 0.0f ? wo : -ahead, 1.0f - std::abs(g), "back");
+            test_round(layer.front(), wo, ahead, 1.0f - std::abs(g), "on");
+        }
+    }
 }
 
 TEST_P(RoughLobes, ThinPrincipled) {

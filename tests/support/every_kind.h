@@ -71,6 +71,7 @@ inline Scene every_kind_scene() {
     thin.diff_trans = {0.5f, 2}, thin.eta = 1.25f;
     add(thin);
     add(DiffuseTransmitterMaterial{ColorInput(Rgb(0.25f, 0.5f, 0.75f), 0)});
+    add(ThinLayerMaterial{ColorInput(Rgb(0.5f, 2.0f, 3.0f), 1), ColorInput(Rgb(0.75f), 0), {0.5f}, false});
     add(WardMaterial{Rgb(0.375f), Rgb(0.25f), WardVariant::duer, {Microfacets::beckmann, {0.25f}, {0.5f}}});
 
     Mesh mesh;

@@ -160,5 +160,62 @@ TEST(BsdfModels, PhongAndWardReflectWhatTheyPromise) {
     }
 }
 
+/// What light does in a layer until it has been scattered twice: powers that leave by either side after it was
+/// scattered once, and that which passes unscattered.
+struct LayerPower {
+    double back = 0, on = 0, straight = 0;
+};
+
+LayerPower walked(double depth, double albedo, double cos_o, const HenyeyGreenstein& phase, int walks) {
+    LayerPower power;
+    for (int i = 0; i < walks; ++i) {
+        const Draw r = draw({29, static_cast<std::uint32_t>(i), 0}, 0, Stream::scatter);
+        const double deep = -std::log(1.0 - double(to_unit(r[0]))) * cos_o;
+        if (deep >= depth) {
+            power.straight += 1.0 / walks;
+            continue;
+        }
+        const Vec3 wi = phase.sample(at_cosine(static_cast<float>(cos_o), 0.5f), {to_unit(r[1]), to_unit(r[2])});
+        const double way = wi.z > 0.0f ? deep / double(wi.z) : (depth - deep) / double(-wi.z);
+        (wi.z > 0.0f ? power.back : power.on) += albedo * std::exp(-way) / walks;
+    }
+    return power;
+}
+
+/// Hanrahan and Krueger's closed forms against a walk through the layer.
+TEST(BsdfModels, AThinLayerScattersOnce) {
+    constexpr int kWalks = 40000;
+    for (const float g : {-0.5f, 0.0f, 0.8f})
+        for (const float depth : {0.05f, 0.7f, 4.0f})
+            for (const float cos : {1.0f, 0.4f}) {
+                const float albedo = 0.8f;
+                const PreparedMaterial layer(ThinLayerMaterial{Rgb(albedo * depth), Rgb((1.0f - albedo) * depth), {g}});
+                LayerPower sampled;
+                for (std::uint32_t i = 0; i < kWalks; ++i) {
+                    const BsdfSample s = layer.front().sample(at_cosine(cos, 0.5f), test::uniform(i));
+                    if (!(s.pdf > 0.0f)) continue;
+                    (s.delta         ? sampled.straight
+                     : s.wi.z > 0.0f ? sampled.back
+                                     : sampled.on) += double(s.f_cos.y) / double(s.pdf) / kWalks;
+                }
+                const LayerPower expected = walked(double(depth), double(albedo), double(cos), {g}, kWalks);
+                const std::string at =
+                    "g " + std::to_string(g) + ", depth " + std::to_string(depth) + ", cos " + std::to_string(cos);
+                EXPECT_NEAR(sampled.straight, expected.straight, 0.012) << at;
+                EXPECT_NEAR(sampled.back, expected.back, 0.012) << at;
+                EXPECT_NEAR(sampled.on, expected.on, 0.012) << at;
+            }
+}
+
+TEST(BsdfModels, AThinLayerWithoutWhatPassesOnlyReflects) {
+    const ThinLayerMaterial layer{Rgb(0.5f), Rgb(0.25f), {0.5f}};
+    const PreparedMaterial whole(layer), opaque(layer.opaque());
+    const Vec3 wo = at_cosine(0.6f, 0.5f), wi = at_cosine(0.3f, 2.0f);
+    EXPECT_EQ(opaque.front().value(wo, wi).f_cos, whole.front().value(wo, wi).f_cos);
+    EXPECT_EQ(opaque.front().value(wo, -wi).f_cos, Rgb(0.0f));
+    EXPECT_EQ(lobes_of(opaque.front()), kSmoothLobe | kViewLobe);
+    EXPECT_EQ(opaque.side(true), nullptr);
+}
+
 }  // namespace
 }  // namespace treefarm

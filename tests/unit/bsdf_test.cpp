@@ -74,6 +74,12 @@ std::vector<Subject> all_materials() {
     thin.spec_trans = 0.5f, thin.diff_trans = 1.2f;
     all.push_back({"thin principled that transmits", thin});
     all.push_back({"diffuse transmitter", DiffuseTransmitterMaterial{Rgb(1.0f)}});
+    for (const float depth : {0.0f, 1e-6f, 0.5f, 100.0f, 1e30f})
+        for (const float g : {-0.9f, 0.0f, 0.99f}) {
+            const std::string name = "layer " + std::to_string(depth) + " g " + std::to_string(g);
+            all.push_back({name, ThinLayerMaterial{Rgb(depth), Rgb(0.0f), {g}}});
+            all.push_back({"opaque " + name, ThinLayerMaterial{Rgb(depth), Rgb(0.0f), {g}}.opaque()});
+        }
     for (const WardVariant variant : {WardVariant::ward, WardVariant::duer})
         all.push_back(
             {"older Ward", WardMaterial{Rgb(0.5f), Rgb(0.5f), variant, rough(Microfacets::beckmann, 0.1f, 0.1f)}});

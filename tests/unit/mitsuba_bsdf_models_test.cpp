@@ -40,6 +40,29 @@ TEST_F(MitsubaBsdfModels, DiffuseTransmitters) {
     EXPECT_THROW(material(bsdf("difftrans", rgb("transmittance", "-0.1 0.2 0.3"))), InputError);
 }
 
+TEST_F(MitsubaBsdfModels, ThinLayers) {
+    const auto skin = of_type<ThinLayerMaterial>("hk");
+    EXPECT_EQ(skin.scattering.value, Rgb(0.74f, 0.88f, 1.01f)) << "as in Mitsuba, skin1";
+    EXPECT_EQ(skin.absorption.value, Rgb(0.032f, 0.17f, 0.48f));
+    EXPECT_EQ(skin.mean_cosine.value, 0.0f);
+    const std::string thick = "<float name=\"thickness\" value=\"0.5\"/>";
+    const auto given = of_type<ThinLayerMaterial>(
+        "hk", thick + rgb("sigmaS", "1 2 3") + rgb("sigmaA", "4 5 6") + "<phase type=\"hg\"/>");
+    EXPECT_EQ(given.scattering.value, Rgb(0.5f, 1.0f, 1.5f));
+    EXPECT_EQ(given.absorption.value, Rgb(2.0f, 2.5f, 3.0f));
+    EXPECT_EQ(given.mean_cosine.value, 0.8f);
+    const auto other = of_type<ThinLayerMaterial>("hk", rgb("sigmaT", "4 4 4") + rgb("albedo", "0.25 0.5 0.75"));
+    EXPECT_EQ(other.scattering.value, Rgb(1.0f, 2.0f, 3.0f));
+    EXPECT_EQ(other.absorption.value, Rgb(3.0f, 2.0f, 1.0f));
+    EXPECT_TRUE(of_type<ThinLayerMaterial>("hk", board("sigmaS")).scattering.varies());
+    const std::string forward = "<phase type=\"hg\"><float name=\"g\" value=\"1\"/></phase>";
+    for (const std::string& bad :
+         {rgb("sigmaT", "4 4 4"), rgb("albedo", "1 1 1"), rgb("sigmaS", "-1 0 0"), forward,
+          std::string("<phase type=\"rayleigh\"/>"), std::string("<string name=\"material\" value=\"ketchupp\"/>"),
+          std::string("<float name=\"thickness\" value=\"-1\"/>")})
+        EXPECT_THROW(material(bsdf("hk", bad)), InputError) << bad;
+}
+
 TEST_F(MitsubaBsdfModels, DiffuseAndSpecularPartsThatAddUpToMoreThanOneAreScaledDown) {
     const auto loaded = load_with_sensor(
         "<shape type=\"rectangle\">" +

@@ -111,7 +111,11 @@ std::vector<Fault> faults() {
         // materials
         {bsdf("foo", "")},
         {bsdf("difuse", "")},
-        {bsdf("hk", "")},
+        {bsdf("irawan", "")},
+        {bsdf("hk", value("string", "material", "ketchupp"))},
+        {bsdf("hk", value("float", "sigmaT", "1"))},
+        {bsdf("hk", "<phase type=\"rayleigh\"/>")},
+        {bsdf("hk", "<phase type=\"hg\">" + value("float", "g", "1") + "</phase>")},
         {bsdf("ward", value("string", "variant", "new"))},
         {bsdf("principled", value("float", "specular", "2")), "3"},
         {bsdf("coating", value("float", "thickness", "-1") + kDiffuse)},

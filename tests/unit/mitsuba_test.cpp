@@ -164,7 +164,7 @@ TEST_F(Mitsuba, LenientReadingApproximatesAndWarns) {
     const std::string body =
         "<sensor type=\"perspective\"/><integrator type=\"mlt\"/><medium type=\"homogeneous\" id=\"fog\"/>"
         "<bsdf type=\"hair\" id=\"unused\"/>"
-        "<bsdf type=\"hk\" id=\"old\"><float name=\"thickness\" value=\"15\"/></bsdf>"
+        "<bsdf type=\"irawan\" id=\"old\"><float name=\"repeatU\" value=\"15\"/></bsdf>"
         "<bsdf type=\"twosided\" id=\"both\"><bsdf type=\"irawan\"/></bsdf>"
         "<shape type=\"hair\"/><shape type=\"rectangle\"><ref id=\"old\"/><float name=\"unknown\" "
         "value=\"1\"/></shape>"

@@ -22,6 +22,7 @@
 #include "worker/shading/rough_diffuse.h"
 #include "worker/shading/rough_plastic.h"
 #include "worker/shading/thin_dielectric.h"
+#include "worker/shading/thin_layer.h"
 #include "worker/shading/ward.h"
 
 namespace treefarm {
@@ -39,7 +40,7 @@ struct BlackBsdf {
 using BsdfKind = std::variant<BlackBsdf, DiffuseBsdf, RoughConductorBsdf, RoughDielectricBsdf, RoughPlasticBsdf,
                               PlasticBsdf, ConductorBsdf, DielectricBsdf, ThinDielectricBsdf, NullBsdf, BlendBsdf,
                               OrientedBsdf, RoughDiffuseBsdf, PhongBsdf, WardBsdf, PrincipledBsdf, CoatingBsdf,
-                              RoughCoatingBsdf, PrincipledThinBsdf, DiffuseTransmitterBsdf>;
+                              RoughCoatingBsdf, PrincipledThinBsdf, DiffuseTransmitterBsdf, ThinLayerBsdf>;
 
 template <class Kind>
 constexpr bool may_transmit() {

@@ -36,7 +36,7 @@ inline constexpr auto kMaterialEffects = std::tuple(
         replaced(6, "roughness is the same along and across", [](auto& scene) { scene.anisotropy(); })),
     effect(
         {"transmission", "materials", "light passes through surfaces: refracted, straight or scattered",
-         "a material is a dielectric, rough, smooth or thin, a principled one that transmits, or difftrans",
+         "a material is a dielectric, rough, smooth or thin, a principled one that transmits, difftrans or hk",
          "no memory"},
         [](const auto& find) {
             return find.materials("transmitting material", [](const auto& m) {
@@ -67,6 +67,9 @@ inline constexpr auto kMaterialEffects = std::tuple(
     effect_of_kind(
         {"ward", "materials", "Ward's anisotropic lobe over a diffuse base", "a material is ward", "no memory"},
         EffectFamily::materials, kChangeMaterials),
+    effect_of_kind({"thin_layers", "materials", "single scattering in a layer (Hanrahan and Krueger 1993)",
+                    "a material is hk", "no memory; nine exponentials per evaluation"},
+                   EffectFamily::materials, kChangeMaterials),
     effect(
         {"blends", "materials", "two materials mixed", "a material is a blend", "both parts are evaluated"},
         [](const auto& find) { return find.materials("blend", [](const auto& m) { return m.blended; }); },

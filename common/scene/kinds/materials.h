@@ -17,6 +17,7 @@
 #include "common/scene/kinds/materials/principled_thin.h"
 #include "common/scene/kinds/materials/rough_diffuse.h"
 #include "common/scene/kinds/materials/thin_dielectric.h"
+#include "common/scene/kinds/materials/thin_layer.h"
 #include "common/scene/kinds/materials/ward.h"
 
 namespace treefarm {
@@ -25,6 +26,6 @@ namespace treefarm {
 using MaterialKind =
     std::variant<DiffuseMaterial, ConductorMaterial, DielectricMaterial, ThinDielectricMaterial, PlasticMaterial,
                  BlendMaterial, NullMaterial, RoughDiffuseMaterial, PhongMaterial, WardMaterial, PrincipledMaterial,
-                 CoatingMaterial, PrincipledThinMaterial, DiffuseTransmitterMaterial>;
+                 CoatingMaterial, PrincipledThinMaterial, DiffuseTransmitterMaterial, ThinLayerMaterial>;
 
 }  // namespace treefarm

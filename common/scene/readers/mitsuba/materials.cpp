@@ -18,16 +18,14 @@ std::string nearest_type(const std::string& type) {
 
 /// What a BSDF that is not available would simulate.
 std::string effect_of(const std::string& type) {
-    static constexpr std::pair<const char*, const char*> kEffects[] = {
-        {"hk", "scattering inside a thin slab (Hanrahan-Krueger)"},
-        {"irawan", "Irawan and Marschner's woven cloth"},
-        {"hair", "hair fibres"},
-        {"measured", "measured BRDFs"},
-        {"measured_polarized", "polarisation"},
-        {"pplastic", "polarisation"},
-        {"polarizer", "polarisation"},
-        {"retarder", "polarisation"},
-        {"circular", "polarisation"}};
+    static constexpr std::pair<const char*, const char*> kEffects[] = {{"irawan", "Irawan and Marschner's woven cloth"},
+                                                                       {"hair", "hair fibres"},
+                                                                       {"measured", "measured BRDFs"},
+                                                                       {"measured_polarized", "polarisation"},
+                                                                       {"pplastic", "polarisation"},
+                                                                       {"polarizer", "polarisation"},
+                                                                       {"retarder", "polarisation"},
+                                                                       {"circular", "polarisation"}};
     for (const auto& [name, effect] : kEffects)
         if (type == name) return std::string(" (") + effect + ")";
     return "";
@@ -82,7 +80,7 @@ Material MaterialReader::convert_new(const XmlElement& bsdf) {
     const std::string type = properties.type();
     Material material;
     const bool scales = properties.element().version < 2 && properties.boolean("ensure_energy_conservation", true);
-    if (auto surface = read_surface_bsdf(properties, textures_, diagnostics_)) {
+    if (auto surface = read_surface_bsdf(properties, textures_, document_, diagnostics_)) {
         material.bsdf = std::move(*surface);
         material.unlimited = !scales;
         if (auto* coating = std::get_if<CoatingMaterial>(&material.bsdf))

@@ -3,6 +3,7 @@
 
 #include "common/config/parse_text.h"
 #include "common/scene/colour/metals.h"
+#include "common/scene/colour/scattering_media.h"
 #include "common/scene/readers/mitsuba/refractive_index.h"
 
 namespace treefarm::mitsuba {
@@ -18,8 +19,9 @@ std::string lower(std::string text) {
 
 class SurfaceReader {
   public:
-    SurfaceReader(Properties& properties, TextureReader& textures, Diagnostics& diagnostics)
-        : properties_(properties), textures_(textures), diagnostics_(diagnostics) {}
+    SurfaceReader(Properties& properties, TextureReader& textures, const SceneDocument& document,
+                  Diagnostics& diagnostics)
+        : properties_(properties), textures_(textures), document_(document), diagnostics_(diagnostics) {}
 
     Bsdf diffuse() {
         // Version 0.6 knows it by both names.
@@ -92,11 +94,8 @@ class SurfaceReader {
         CoatingMaterial coating;
         coating.eta = read_relative_index(properties_, "bk7");
         coating.specular_reflectance = reflectance("specular_reflectance", 1.0f);
-        const auto thickness = static_cast<float>(properties_.number("thickness", 1.0));
-        if (!(thickness >= 0.0f && thickness <= 1e30f))
-            throw InputError(properties_.where("thickness"), "a thickness of " + number_text(thickness),
-                             "give 0 or more, in the inverse unit of sigmaA");
-        coating.absorption = textures_.color(properties_, "sigma_a", Rgb(0.0f), ColorUse::coefficient);
+        const float thickness = this->thickness();
+        coating.absorption = coefficient("sigma_a", Rgb(0.0f));
         coating.absorption.value *= thickness;
         if (rough) coating.roughness = roughness(false);
         return coating;
@@ -112,6 +111,35 @@ class SurfaceReader {
     }
 
     Bsdf diffuse_transmitter() { return DiffuseTransmitterMaterial{reflectance("transmittance", 0.5f)}; }
+
+    /// Depths are coefficients times the thickness; those of a named medium are there unless coefficients are given.
+    Bsdf thin_layer() {
+        const std::string name = properties_.text("material", "skin1");
+        const auto medium = find_medium(name);
+        if (!medium) {
+            const std::string nearest = nearest_word(name, medium_names());
+            throw InputError(properties_.where("material"), "no scattering medium is called " + in_quotes(name),
+                             nearest.empty() ? "give sigmaS and sigmaA" : "did you mean " + in_quotes(nearest) + "?");
+        }
+        const float thickness = this->thickness();
+        ThinLayerMaterial layer;
+        if (has_input("sigma_t") || has_input("albedo")) {
+            if (!has_input("sigma_t") || !has_input("albedo"))
+                throw InputError(properties_.where(has_input("albedo") ? "albedo" : "sigma_t"),
+                                 "one of sigmaT and albedo is given alone", "give both, or sigmaS and sigmaA");
+            const Rgb sigma_t = textures_.constant(properties_, "sigma_t", Rgb(1.0f), ColorUse::coefficient);
+            const Rgb albedo = textures_.constant(properties_, "albedo", Rgb(0.0f), ColorUse::reflectance);
+            layer.scattering = sigma_t * albedo;
+            layer.absorption = sigma_t * (Rgb(1.0f) - albedo);
+        } else {
+            layer.scattering = coefficient("sigma_s", medium->scattering);
+            layer.absorption = coefficient("sigma_a", medium->absorption);
+        }
+        layer.scattering.value *= thickness;
+        layer.absorption.value *= thickness;
+        if (const XmlElement* phase = properties_.only_child("phase")) layer.mean_cosine = mean_cosine(*phase);
+        return layer;
+    }
 
     Bsdf phong() {
         PhongMaterial phong;
@@ -195,6 +223,35 @@ class SurfaceReader {
 
     FloatInput number(const char* name, float otherwise) { return textures_.number(properties_, name, otherwise); }
 
+    ColorInput coefficient(const char* name, const Rgb& otherwise) {
+        return textures_.color(properties_, name, otherwise, ColorUse::coefficient);
+    }
+
+    float thickness() {
+        const auto thickness = static_cast<float>(properties_.number("thickness", 1.0));
+        if (!(thickness >= 0.0f && thickness <= 1e30f))
+            throw InputError(properties_.where("thickness"), "a thickness of " + number_text(thickness),
+                             "give 0 or more, in the inverse unit of sigmaA");
+        return thickness;
+    }
+
+    float mean_cosine(const XmlElement& element) {
+        Properties phase(element, document_, diagnostics_);
+        float g = 0.0f;
+        if (phase.type() == "hg") {
+            g = static_cast<float>(phase.number("g", 0.8));
+            if (!(std::abs(g) <= ThinLayerMaterial::kMostCosine))
+                throw InputError(phase.where("g"), "a mean cosine of " + number_text(g), "give -0.99 to 0.99");
+        } else if (phase.type() != "isotropic") {
+            diagnostics_.unsupported(
+                phase.where(), "the phase function " + in_quotes(phase.type()) + " is not available in this version",
+                "use isotropic or hg", "it is isotropic");
+            phase.ignore_values();
+        }
+        phase.finish();
+        return g;
+    }
+
     ColorInput reflectance(const char* name, float otherwise) {
         return textures_.color(properties_, name, Rgb(otherwise), ColorUse::reflectance);
     }
@@ -250,6 +307,7 @@ class SurfaceReader {
 
     Properties& properties_;
     TextureReader& textures_;
+    const SceneDocument& document_;
     Diagnostics& diagnostics_;
 };
 
@@ -275,15 +333,17 @@ constexpr SurfaceType kTypes[] = {
     {"principledthin", [](SurfaceReader& reader) { return reader.principled_thin(); }},
     {"coating", [](SurfaceReader& reader) { return reader.coating(false); }},
     {"roughcoating", [](SurfaceReader& reader) { return reader.coating(true); }},
+    {"hk", [](SurfaceReader& reader) { return reader.thin_layer(); }},
     {"null", [](SurfaceReader&) { return Bsdf{NullMaterial{}}; }},
 };
 
 }  // namespace
 
-std::optional<Bsdf> read_surface_bsdf(Properties& properties, TextureReader& textures, Diagnostics& diagnostics) {
+std::optional<Bsdf> read_surface_bsdf(Properties& properties, TextureReader& textures, const SceneDocument& document,
+                                      Diagnostics& diagnostics) {
     for (const SurfaceType& type : kTypes) {
         if (properties.type() != type.name) continue;
-        SurfaceReader reader(properties, textures, diagnostics);
+        SurfaceReader reader(properties, textures, document, diagnostics);
         return type.read(reader);
     }
     return std::nullopt;

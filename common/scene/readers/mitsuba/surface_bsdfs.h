@@ -13,7 +13,7 @@ namespace treefarm::mitsuba {
 /// The BSDFs that are a kind of surface, with the defaults of the version of the format; a coating yet without what it
 /// coats. Nothing for other types.
 std::optional<decltype(Material::bsdf)> read_surface_bsdf(Properties& properties, TextureReader& textures,
-                                                          Diagnostics& diagnostics);
+                                                          const SceneDocument& document, Diagnostics& diagnostics);
 
 /// The types that read_surface_bsdf() knows.
 std::vector<std::string_view> surface_bsdf_names();
