@@ -181,7 +181,7 @@ class Emitters {
     void file(LightBatch& batch, std::uint32_t lane) const;
     /// Whether next event's entry is a part of the environment map.
     bool is_map(std::uint32_t entry) const { return environments_.is_map(entry); }
-    /// That of next event's entry, if it is a sphere.
+    /// The light that next event's entry names, if it is a sphere that shines; otherwise nullptr.
     const AreaLight* sphere_light(std::uint32_t entry) const {
         if (!is_area(entry)) return nullptr;
         const AreaLight& light = area_lights_[area_entry(entry).light];

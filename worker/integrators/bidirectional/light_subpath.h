@@ -51,7 +51,7 @@ class LightSubpath {
         if (!is_black(start.weight)) walk(start, key);
     }
 
-    /// That it starts from, an entry of EmissionChoice; 0 where there is none.
+    /// The emitter that the path starts from, an entry of EmissionChoice; 0 where there is none.
     std::uint32_t emitter() const { return emitter_; }
     int size() const { return count_; }
     /// Vertex y_(i + 1).
