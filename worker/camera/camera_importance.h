@@ -76,7 +76,7 @@ class PixelPicker {
     };
     /// A pixel among [begin, end) along one axis.
     Axis pick_along(double x, int begin, int end, std::uint32_t random) const;
-    PixelPick pick_place(double x, double y, const Draw& random) const;
+    PixelPick pick_point(double x, double y, const Draw& random) const;
     PixelPick pick_of_panorama(double x, double y, const Draw& random) const;
 
     FilterSampler filter_;
