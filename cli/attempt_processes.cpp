@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Another user's cannot be read.
+/// Environment of a process; another user's cannot be read.
 std::string environment_of(const fs::path& process) {
     std::ifstream file(process / "environ", std::ios::binary);
     return '\0' + std::string(std::istreambuf_iterator<char>(file), {});

@@ -120,7 +120,7 @@ NamedPlace pixel_place(const std::string& text, const TraceScene& scene, const A
             where, "names no pixel of the image",
             "write X,Y from 0,0 at the top left to " + std::to_string(width - 1) + "," + std::to_string(height - 1));
     const int x = static_cast<int>(at[0]), y = static_cast<int>(at[1]);
-    const auto place = seen_place(scene, x, y);
+    const auto place = seen_point(scene, x, y);
     if (!place) throw InputError(where, "sees no surface, so there is nothing to guide", "choose another pixel");
     const PlaceFacts facts = place_facts(scene, guide, *place);
     if (facts.black || !facts.smooth)

@@ -30,7 +30,7 @@ LaunchEnvironment read_launch_environment();
 /// InputError with what to type; the others need only leave.
 bool is_separate_world(const LaunchEnvironment& launch);
 
-/// Skips Open MPI's search for fast networks, for processes of one host and before MPI starts: it takes 0.2 s, and ends
+/// Skips Open MPI's search for fast networks, for processes of one host and before MPI starts: it takes time, and ends
 /// with shared memory (ob1). Unless the environment or an option of mpirun chose something else.
 void skip_network_search();
 

@@ -17,9 +17,9 @@ struct LaunchedCommand {
     std::vector<std::string> farm_options;  ///< of the words, what a resume takes, too
     bool goes_on = false;                   ///< the words themselves go on with what is there
 
-    /// Its words for the first attempt, or for one that died before it had the folder.
+    /// Words of the first attempt, and of one that follows an attempt that died before it had the folder.
     std::vector<std::string> first() const { return words; }
-    /// Its words for a further attempt, where an earlier one had the folder, and has left a checkpoint there or not.
+    /// Words of a further attempt, where an earlier one had the folder, and has left a checkpoint there or not.
     std::vector<std::string> again(bool has_checkpoint) const;
 };
 

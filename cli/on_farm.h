@@ -38,7 +38,7 @@ struct FarmOptions {
 
 /// --threads, --quiet, --verbose
 void add_voice_options(CLI::App& command, FarmOptions& options);
-/// These and --start-seconds.
+/// --threads, --quiet, --verbose, --start-seconds
 void add_farm_options(CLI::App& command, FarmOptions& options);
 
 /// A worker in this process, as the coordinator is told.

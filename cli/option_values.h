@@ -56,7 +56,7 @@ CLI::Option* add_threads_option(CLI::App& command, unsigned& threads, const std:
 /// --display-server
 CLI::Option* add_display_option(CLI::App& command, std::string& server);
 
-/// Any other whole number.
+/// An option whose value is a whole number within `range`.
 template <class T>
 CLI::Option* add_integer_option(CLI::App& command, const std::string& name, T& value, const NumberRange& range,
                                 const std::string& help) {
@@ -70,7 +70,7 @@ CLI::Option* add_integer_option(CLI::App& command, const std::string& name, T& v
         ->type_name("N");
 }
 
-/// Any other number.
+/// An option whose value is a number within `range`.
 CLI::Option* add_number_option(CLI::App& command, const std::string& name, double& value, const NumberRange& range,
                                const std::string& help);
 

@@ -82,14 +82,15 @@ class Ledger {
     void forgive(int worker);
     /// The unit over which most workers were lost, and how many; none: 0.
     std::pair<WorkUnit, std::size_t> deadliest() const;
-    /// All such units, for a checkpoint. One that would end the render does so in its next life at the next death.
+    /// All units over which workers were lost, for a checkpoint. One that would end the render does so in its next life
+    /// at the next death.
     std::vector<DeadlyUnit> deadly() const;
 
     bool complete() const { return done_ == total_; }
     std::size_t waiting() const { return waiting_.size(); }
-    /// Units that wait, too, but to be issued alone.
+    /// Units that wait, but to be issued alone.
     std::size_t suspects() const { return suspects_.size(); }
-    /// Paths of all units that wait, but for those.
+    /// Paths of all units that wait, suspects aside.
     std::uint64_t waiting_paths() const { return waiting_paths_; }
     std::size_t outstanding() const { return holders_.size(); }
     std::size_t outstanding(int worker) const;

@@ -66,7 +66,7 @@ struct RenderResult : DevelopedState {
 RenderResult run_passes(Farm& farm, const Resolved& job, const PassChooser& choose, RenderState state, int width,
                         int height, const PassHooks& hooks);
 
-/// As above, from the first tree on.
+/// Renders the passes that `choose` says from the first on, which `tree` guides.
 RenderResult run_passes(Farm& farm, const Resolved& job, const PassChooser& choose, AnyModel tree, int width,
                         int height, const PassHooks& hooks);
 

@@ -90,7 +90,7 @@ struct StudyResults {
     /// Cells of a scene and method, by repetition.
     std::vector<const CellResult*> of(const std::string& scene, const std::string& method) const;
 
-    /// These results with the cells of one budget only.
+    /// Results with the cells of one budget only.
     StudyResults of_budget(const std::string& budget) const;
 };
 

@@ -24,8 +24,8 @@ Here this_place();
 /// for a minute, or "unknown".
 nlohmann::ordered_json run_entry(const ConfinedFolder& root, const std::string& path, const Here& here);
 
-/// As above, with everything else that the page of a run shows: workers, forecasts, passes, the end of the log, how it
-/// ended, its supervisor's state.
+/// run_entry(), with everything else that the page of a run shows: workers, forecasts, passes, the end of the log, how
+/// it ended, its supervisor's state.
 nlohmann::ordered_json run_view(const ConfinedFolder& root, const std::string& path, const Here& here);
 
 }  // namespace treefarm

@@ -35,7 +35,7 @@ struct AovKind {
     const char* meaning;     ///< one line
 };
 
-/// All of them, in the order of the enum.
+/// All AOVs, in the order of the enum.
 std::span<const AovKind> aov_kinds();
 const AovKind& kind_of(Aov aov);
 /// The AOV of that name, or nullptr.

@@ -6,7 +6,7 @@
 
 namespace treefarm {
 
-/// All its bytes at once: there are millions.
+/// Writes a pixel's bytes at once: there are millions of pixels.
 void put_estimate(ByteWriter& writer, const PixelEstimate& pixel) {
     std::array<std::uint8_t, kEstimateBytes> bytes;
     std::uint8_t* next = bytes.data();

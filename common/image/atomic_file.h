@@ -32,7 +32,7 @@ class FileError : public RunError {
 void write_file_atomically(const std::filesystem::path& path, std::span<const std::uint8_t> bytes,
                            Outlives outlives = Outlives::power);
 
-/// As above, of a content in pieces.
+/// Writes a file as write_file_atomically() does, of a content in pieces.
 void write_pieces_atomically(const std::filesystem::path& path, std::span<const std::span<const std::uint8_t>> pieces,
                              Outlives outlives = Outlives::power);
 

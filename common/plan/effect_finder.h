@@ -63,7 +63,7 @@ class EffectFinder {
     Effect depth_limit() const;
     Effect strict_normals() const;
     Effect hidden_emitters() const;
-    /// That of what the program does not simulate.
+    /// The effect of what the program does not simulate: always off.
     Effect never() const { return effect_off("not simulated by this program"); }
 
   private:

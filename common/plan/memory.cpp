@@ -25,8 +25,7 @@ namespace {
 constexpr double kVerticesPerPath = 8.0;
 /// Part of its threshold that a region holds after the last split: measured in the scenes of configs/.
 constexpr double kRegionFilling = 0.65;
-/// Cells per region times the directional threshold, measured as well: 230 to 245 cells at 0.01; 185 to 210 where cells
-/// follow use.
+/// Cells per region times the directional threshold, measured as well; fewer where cells follow use.
 constexpr double kCellsPerRegion = 2.4;
 constexpr double kCellsPerRegionByUse = 2.0;
 

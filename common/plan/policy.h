@@ -78,8 +78,8 @@ struct Policy {
         float untrained_least = 0.1f;
         float guided_survival = 0.99f;
         float candidate_fair = 0.2f;
-        float branch_often = 4.0f;
-        float branch_least = 0x1p-12f;
+        float split_often = 4.0f;
+        float split_least = 0x1p-12f;
     } walk;
 
     /// The tree's learning and growth.

@@ -57,7 +57,7 @@ class SectionPieces {
     std::vector<std::span<const std::uint8_t>> pieces_;
 };
 
-/// All pieces in a row.
+/// Bytes of the file: all its pieces in a row.
 Bytes encode_sections(const SectionFile& file);
 
 /// Throws FormatError, with what is wrong, for anything but the bytes of encode_sections().

@@ -45,7 +45,7 @@ struct LifeStatus {
     int pid = 0;
     std::vector<LifeWorker> workers;
     std::optional<int> code;  ///< exit code, once it is known
-    /// It was interrupted by its launcher, of which nobody had asked that.
+    /// Whether its launcher interrupted it, of which nobody had asked that.
     bool ended_by_launcher = false;
 };
 

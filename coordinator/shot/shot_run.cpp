@@ -192,7 +192,7 @@ class ShotRun {
             make_folder(folder, "cannot be the folder of images");
     }
 
-    /// Each once: frames of one scene have the same.
+    /// Warnings of a frame, each once: frames of one scene have the same.
     void tell_warnings(const RenderRequest& request) {
         for (const std::string& warning : request.warnings)
             if (told_.insert(warning).second) log_->warn("{}", warning);

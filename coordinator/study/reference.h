@@ -18,7 +18,7 @@ struct Reference {
     RgbImage image;   ///< empty until it is needed
     nlohmann::ordered_json about;
 
-    /// One that was rendered is whole when this file stands beside it; an interrupted one has an image, too.
+    /// The file that says that a rendered reference is whole: an interrupted one has an image, too, but not this.
     std::filesystem::path mark() const { return std::filesystem::path(file).parent_path() / "reference.json"; }
 };
 

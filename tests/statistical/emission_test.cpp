@@ -261,10 +261,10 @@ TEST_P(EveryKind, DensitiesAgree) {
                                             ? emitters.emission_density(start.start, away)
                                             : emitters.emission_density(-away);
         if (start.is_delta()) {
-            EXPECT_EQ(start.place_factor(hit.p), 0.0) << given.name;
+            EXPECT_EQ(start.position_factor(hit.p), 0.0) << given.name;
             continue;
         }
-        EXPECT_NEAR(density.place, start.place_pdf, 2e-3f * start.place_pdf) << given.name;
+        EXPECT_NEAR(density.position, start.position_pdf, 2e-3f * start.position_pdf) << given.name;
         EXPECT_NEAR(density.direction, start.direction_pdf, 1e-3f * start.direction_pdf + 1e-5f) << given.name;
         if (start.from == EmissionFrom::environment) {
             EXPECT_NEAR(start.next_pdf(hit.p, hit.ng), double(density.direction) * std::abs(double(dot(hit.ng, away))),
@@ -275,8 +275,8 @@ TEST_P(EveryKind, DensitiesAgree) {
         const bool by_cone = std::holds_alternative<Sphere>(given.scene.shapes[start.start.shape].geometry);
         if (by_cone || dot(start.start.ng, away) < 0.05f || std::abs(dot(hit.ng, away)) < 0.05f) continue;
         // Next event chooses points by area too, and says so per steradian.
-        const double reverse = double(emitters.pdf_direct(hit.p, -away, start.start)) * start.place_factor(hit.p);
-        EXPECT_NEAR(reverse, double(start.place_pdf), 1e-3 * double(start.place_pdf)) << given.name;
+        const double reverse = double(emitters.pdf_direct(hit.p, -away, start.start)) * start.position_factor(hit.p);
+        EXPECT_NEAR(reverse, double(start.position_pdf), 1e-3 * double(start.position_pdf)) << given.name;
         const Vec3 d = hit.p - start.start.p;
         EXPECT_NEAR(start.next_pdf(hit.p, hit.ng),
                     double(start.direction_pdf) * std::abs(double(dot(hit.ng, away))) / double(dot(d, d)),
@@ -322,7 +322,7 @@ TEST(EmissionDirections, FollowTheirDensity) {
         return dot(d, axis) > std::cos(2.5f) ? 1.0 / (4 * kPiD * std::pow(std::sin(1.25), 2)) : 0.0;
     });
     const TraceScene sky(named("image").scene, Job());
-    expect_directions("image", [&](const Vec3& d) { return double(sky.emitters().emission_density(-d).place); });
+    expect_directions("image", [&](const Vec3& d) { return double(sky.emitters().emission_density(-d).position); });
 }
 
 TEST(EmissionDirections, OfAProjectorAreUniformOnItsPicture) {

@@ -137,7 +137,7 @@ void expect_batches_as_alone(LightSelection how, int more_lamps) {
     const TraceScene lights(scene, job);
     const Emitters& emitters = lights.emitters();
     ASSERT_TRUE(emitters.draws_together());
-    EXPECT_EQ(emitters.choice().node_count() > 0, more_lamps > 0 && LightChoice::by_place(how));
+    EXPECT_EQ(emitters.choice().node_count() > 0, more_lamps > 0 && LightChoice::by_point(how));
     LightProbabilities learned{};
     learned[0] = kLightProbabilityOne / 2;
     learned[1] = kLightProbabilityOne / 8;

@@ -68,9 +68,11 @@ std::vector<Comment> comments(std::istream& source) {
     return found;
 }
 
-/// Whether a comment can be read only with the line above it. `///< of the film` is none: the member is its subject.
+/// Whether a comment can be read only with the line above it. `///< of the film`, `///< that are open` and `///< its
+/// name` are none: the member is their subject.
 bool hides_its_subject(std::string_view text) {
-    for (const std::string_view word : {"The same", "the same", "Those", "those", "Of"})
+    for (const std::string_view word : {"The same", "the same", "Those", "those", "These", "these", "That", "Of", "Its",
+                                        "One that", "one that", "As above", "as above", "All of them", "all of them"})
         if (text.starts_with(word) &&
             (text.size() == word.size() || !std::isalnum(static_cast<unsigned char>(text[word.size()]))))
             return true;
@@ -135,7 +137,12 @@ TEST(Words, OnlyTheFirstLineOfACommentIsItsBeginning) {
         EXPECT_EQ(found[i].line, lines[i]);
         EXPECT_EQ(hides_its_subject(found[i].text), hidden[i]) << found[i].text;
     }
-    EXPECT_TRUE(hides_its_subject("Those."));
+    for (const char* hidden_one : {"Those.", "That of a sphere.", "These and --quiet.", "Its words.",
+                                   "As above, in pieces.", "One that waits.", "All of them."})
+        EXPECT_TRUE(hides_its_subject(hidden_one)) << hidden_one;
+    for (const char* clear :
+         {"that are open", "its name", "All of the film.", "One pixel.", "As many as there are lights."})
+        EXPECT_FALSE(hides_its_subject(clear)) << clear;
     EXPECT_FALSE(hides_its_subject("Offset of a ray."));
 }
 

@@ -125,7 +125,7 @@ PixelPicker::Axis PixelPicker::pick_along(double x, int begin, int end, std::uin
     return axis;
 }
 
-PixelPick PixelPicker::pick_place(double x, double y, const Draw& random) const {
+PixelPick PixelPicker::pick_point(double x, double y, const Draw& random) const {
     const Axis column = pick_along(x, x0_, x1_, random[0]), row = pick_along(y, y0_, y1_, random[1]);
     PixelPick pick;
     pick.weight = column.sum * row.sum * per_window_;
@@ -145,7 +145,7 @@ PixelPick PixelPicker::pick_of_panorama(double x, double y, const Draw& random) 
         for (int turn = -1; turn <= 1; ++turn) {
             const double half = pole == 0 ? 0.0 : (x < 0.5 * whole_width_ ? 0.5 : -0.5) * whole_width_;
             const double down = pole == 0 ? y : (pole == 1 ? -y : 2 * whole_height_ - y);
-            const PixelPick pick = pick_place(x + half + turn * whole_width_, down, random);
+            const PixelPick pick = pick_point(x + half + turn * whole_width_, down, random);
             if (!pick.found) continue;
             picks[count++] = pick;
             sum += pick.weight;
@@ -160,7 +160,7 @@ PixelPick PixelPicker::pick_of_panorama(double x, double y, const Draw& random) 
 }
 
 PixelPick PixelPicker::pick(double x, double y, const Draw& random) const {
-    return panoramic_ ? pick_of_panorama(x, y, random) : pick_place(x, y, random);
+    return panoramic_ ? pick_of_panorama(x, y, random) : pick_point(x, y, random);
 }
 
 }  // namespace treefarm

@@ -74,9 +74,9 @@ class PixelPicker {
         int pixel = 0;
         double sum = 0;
     };
-    /// One of pixels [begin, end).
+    /// A pixel among [begin, end) along one axis.
     Axis pick_along(double x, int begin, int end, std::uint32_t random) const;
-    PixelPick pick_place(double x, double y, const Draw& random) const;
+    PixelPick pick_point(double x, double y, const Draw& random) const;
     PixelPick pick_of_panorama(double x, double y, const Draw& random) const;
 
     FilterSampler filter_;

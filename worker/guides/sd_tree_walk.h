@@ -279,7 +279,7 @@ struct SdTreeWalk {
 
     static Target target(const Guidance& guidance) { return {guidance.region, guidance.view}; }
 
-    /// One for a view goes to that of the same direction there, if there is one.
+    /// A target in `region`: a view's becomes the view of the same direction there, if there is one.
     static Target moved(const Sampler& guide, std::uint32_t region, Outgoing outgoing_code, Target target) {
         target.region = region;
         if (kViews && target.has_view()) {
@@ -306,8 +306,8 @@ struct SdTreeWalk {
         return flux > 0.0f ? flux * s.guide_pdf : -1.0f;
     }
 
-    /// As published a view alone learns, and the radiance; otherwise the region learns that as it would without, and
-    /// the view what is reflected.
+    /// Adds the records of a vertex. As published, a view alone learns, and the radiance; otherwise the region learns
+    /// the radiance as it would without views, and the view what is reflected.
     template <class Taught>
     [[gnu::always_inline]] static Record* teach(const RecordRules& rules, std::uint32_t rounding, const Target& target,
                                                 const Taught& l, RecordLog& log, Record* end) {

@@ -53,7 +53,7 @@ struct AreaLight {
     /// Throws RunError if it has a texture and there are none.
     AreaLight(const AreaEmitter& emitter, const LightScene& scene);
 
-    /// Its mean over the surface, masks aside.
+    /// Mean radiance over the surface, masks aside.
     Rgb mean_radiance(const LightScene& scene) const;
     /// Mean of the channels, in watts.
     double power(const LightScene& scene) const;
@@ -69,7 +69,7 @@ struct AreaLight {
     /// The place and the light of a patch's points.
     LightBounds bounds(const LightScene& scene, std::uint32_t patch) const;
 
-    /// Its radiance where a texture varies it.
+    /// Radiance of what was hit, where a texture varies it.
     Channels textured(const LightScene& scene, const Hit& hit) const;
 
     /// Whatever it is, as if there were no other light or patch. random[1] chooses the triangle, [2] and [3] the place.
@@ -148,7 +148,7 @@ struct AreaLight {
         return patches.count() > 0 ? patches.density() : area_density;
     }
 
-    /// Any shape but a sphere, uniformly by area.
+    /// A sample of any shape but a sphere, uniform by area.
     DirectSample sample_flat(const LightScene& scene, std::uint32_t patch, const Vec3& p, const Draw& random,
                              const Vec3* front) const {
         if (scene.geometry->triangle_count(shape) > 0) return sample_mesh(scene, patch, p, random, front);

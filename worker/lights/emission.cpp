@@ -30,7 +30,7 @@ EmissionSample Emitters::emit_by(const EmissionChoice& choice, const Draw& place
 EmissionSample Emitters::emit_from_point(std::size_t index, float selection, const Draw& direction) const {
     EmissionSample sample = delta_lights_[index].emit(ball_, direction);
     sample.weight *= 1.0f / selection;
-    sample.place_pdf *= selection;
+    sample.position_pdf *= selection;
     sample.delta_light = static_cast<std::uint32_t>(index);
     return sample;
 }
@@ -41,15 +41,15 @@ EmissionSample Emitters::emit_from_area(const AreaLight& light, float selection,
     float density;
     sample.start = light.point(scene_, place, density);
     const Vec3 local = square_to_cosine_hemisphere({to_unit(direction[0]), to_unit(direction[1])});
-    sample.place_pdf = selection * density;
-    if (!(sample.place_pdf > 0.0f)) return sample;
+    sample.position_pdf = selection * density;
+    if (!(sample.position_pdf > 0.0f)) return sample;
     sample.from = EmissionFrom::surface;
     sample.radiance = light.radiance_at(scene_, sample.start);
     // At the rim of the hemisphere: a cosine of 0 is as good as none.
     if (!(local.z > 0.0f)) return sample;
     const Vec3 away = normalize(Frame(sample.start.ng).to_world(local));
     sample.ray = {offset_origin(sample.start, away), away};
-    sample.weight = sample.radiance * (kPi / sample.place_pdf);
+    sample.weight = sample.radiance * (kPi / sample.position_pdf);
     sample.direction_pdf = cosine_hemisphere_pdf(local.z);
     return sample;
 }
@@ -63,7 +63,7 @@ EmissionSample Emitters::emit_from_infinity(std::uint32_t entry, const Draw& pla
         if (!(pdf > 0.0f)) return;
         sample = emitted_across(ball_, -drawn.direction, environments_.radiance(drawn.direction) * (1.0f / pdf),
                                 {to_unit(direction[0]), to_unit(direction[1])}, EmissionFrom::environment);
-        sample.place_pdf = pdf;
+        sample.position_pdf = pdf;
     });
     return sample;
 }
@@ -101,7 +101,7 @@ double Emitters::next_event_pdf(const EmissionSample& start, const LightReceiver
     if (start.is_delta()) return double(choice_.probability(area_entries_ + start.delta_light, receiver));
     if (start.from == EmissionFrom::environment) return double(pdf_environment(receiver, wi));
     if (start.from != EmissionFrom::surface) return 0.0;
-    const double pdf = double(pdf_direct(receiver, wi, start.start)) * start.place_factor(receiver.p);
+    const double pdf = double(pdf_direct(receiver, wi, start.start)) * start.position_factor(receiver.p);
     return std::isfinite(pdf) ? pdf : 0.0;  // it left along the surface
 }
 

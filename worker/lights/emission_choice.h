@@ -49,7 +49,7 @@ class EmissionChoice {
     DiscreteTable learned_;
 };
 
-/// Its probabilities of parts of what shines from infinity, which next event numbers otherwise.
+/// Probabilities by EmissionChoice of parts of what shines from infinity, which next event numbers otherwise.
 struct EmissionProbabilities {
     const EmissionChoice* choice = nullptr;  ///< nullptr: by power
     std::uint32_t offset = 0;                ///< of next event's entries against its own, modulo 2^32

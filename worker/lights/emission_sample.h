@@ -38,7 +38,7 @@ enum class EmissionFrom : std::uint8_t {
     environment,  ///< what shines from infinity in many directions
 };
 
-/// A ray that leaves an emitter, with the densities of place and direction (docs/design/transport.md).
+/// A ray that leaves an emitter, with the densities of position and direction (docs/design/transport.md).
 struct EmissionSample {
     EmissionFrom from = EmissionFrom::nothing;
     Ray ray{Vec3(0.0f), Vec3(0.0f)};  ///< direction of length 1
@@ -49,7 +49,7 @@ struct EmissionSample {
     std::uint32_t delta_light = 0;  ///< number of an emitter without extent among those
     /// Surfaces: per area; environment: of the direction that light comes from, per steradian; otherwise a probability.
     /// The choice of the emitter is in it.
-    float place_pdf = 0;
+    float position_pdf = 0;
     /// Per steradian; of what comes from infinity: of the place across the direction, per area.
     float direction_pdf = 0;
 
@@ -62,9 +62,9 @@ struct EmissionSample {
         const double cosine = std::abs(double(dot(ng, ray.direction)));
         return double(direction_pdf) * cosine / (from_infinity() ? 1.0 : distance2(p));
     }
-    /// Factor that turns a density per steradian at the next vertex `p` into one in the measure of place_pdf; 0 where
-    /// only sampling the emitter finds it.
-    double place_factor(const Vec3& p) const {
+    /// Factor that turns a density per steradian at the next vertex `p` into one in the measure of position_pdf; 0
+    /// where only sampling the emitter finds it.
+    double position_factor(const Vec3& p) const {
         if (is_delta()) return 0.0;
         return from_infinity() ? 1.0 : std::abs(double(dot(start.ng, ray.direction))) / distance2(p);
     }
@@ -78,7 +78,7 @@ struct EmissionSample {
 
 /// Densities of a ray that leaves an emitter, as EmissionSample has them.
 struct EmissionDensity {
-    float place = 0, direction = 0;
+    float position = 0, direction = 0;
 };
 
 /// Light of a point that has this intensity (W / sr) in a direction drawn with density `pdf`.
@@ -88,7 +88,7 @@ inline EmissionSample emitted_from_point(const Vec3& position, const Vec3& direc
     sample.ray = {position, direction};
     sample.weight = intensity * (1.0f / pdf);
     sample.start.p = position;
-    sample.place_pdf = 1.0f;
+    sample.position_pdf = 1.0f;
     sample.direction_pdf = pdf;
     return sample;
 }
@@ -102,7 +102,7 @@ inline EmissionSample emitted_across(const SceneBall& ball, const Vec3& directio
     sample.from = from;
     sample.ray = {ball.center + (frame.s * disk.x + frame.t * disk.y - direction) * ball.radius, direction};
     sample.weight = irradiance * ball.section();
-    sample.place_pdf = 1.0f;
+    sample.position_pdf = 1.0f;
     sample.direction_pdf = 1.0f / ball.section();
     return sample;
 }

@@ -84,8 +84,8 @@ void Emitters::select(std::vector<double> power, LightSelection how) {
     for (AreaLight& light : area_lights_)
         light.selection = selection_.probability(next++);
     area_entries_ = next;
-    if (LightChoice::by_place(how))
-        select_by_place(power, how);
+    if (LightChoice::by_point(how))
+        select_by_point(power, how);
     else
         choice_ = LightChoice(how, power, {});
     const auto others = static_cast<std::uint32_t>(delta_lights_.size());
@@ -93,7 +93,7 @@ void Emitters::select(std::vector<double> power, LightSelection how) {
                          [&](std::uint32_t entry) { return selection_.probability(entry - area_entries_ + next); });
 }
 
-void Emitters::select_by_place(std::span<const double> power, LightSelection how) {
+void Emitters::select_by_point(std::span<const double> power, LightSelection how) {
     std::vector<double> of_entry;
     std::vector<LightBounds> bounds;
     for (std::uint32_t i = 0; i < area_lights_.size(); ++i) {

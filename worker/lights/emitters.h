@@ -109,7 +109,7 @@ class Emitters {
     EmissionDensity emission_density(const DirectSample& sample, const LightReceiver& receiver, const Draw& random,
                                      bool delta_alone, const EmissionChoice* choice = nullptr) const;
     /// Density with which sample_direct() at `receiver` finds the start of a light path, in the measure of its
-    /// place_pdf.
+    /// position_pdf.
     double next_event_pdf(const EmissionSample& start, const LightReceiver& receiver) const;
 
     /// Whether emitted() may be other than black on a shape.
@@ -142,7 +142,7 @@ class Emitters {
     double add_area_light(const AreaEmitter& emitter);
     void select(std::vector<double> power, LightSelection how);
     /// Lets next event choose among patches of area lights and all others, of that power each, by place.
-    void select_by_place(std::span<const double> power, LightSelection how);
+    void select_by_point(std::span<const double> power, LightSelection how);
 
     /// A patch of an area light.
     struct AreaEntry {
@@ -181,7 +181,7 @@ class Emitters {
     void file(LightBatch& batch, std::uint32_t lane) const;
     /// Whether next event's entry is a part of the environment map.
     bool is_map(std::uint32_t entry) const { return environments_.is_map(entry); }
-    /// That of next event's entry, if it is a sphere.
+    /// The light that next event's entry names, if it is a sphere that shines; otherwise nullptr.
     const AreaLight* sphere_light(std::uint32_t entry) const {
         if (!is_area(entry)) return nullptr;
         const AreaLight& light = area_lights_[area_entry(entry).light];

@@ -87,7 +87,7 @@ class Environments {
     Rgb radiance(const Vec3& direction) const {
         return sum_of([&](const auto& light) { return light.radiance(direction); });
     }
-    /// That where `of_light` says what one light of that type contributes.
+    /// Radiance from infinity, to which the light of type `Light` contributes what `of_light` says of it.
     template <class Light, class F>
     Rgb radiance_with(const Vec3& direction, F&& of_light) const {
         return sum_of([&]<class Other>(const Other& light) {
@@ -102,7 +102,7 @@ class Environments {
     float pdf(const Vec3& direction, const auto& probabilities) const {
         return density<void>(direction, direction, probabilities);
     }
-    /// That of a sample of one light.
+    /// Density of sample() for the direction that a light of type `Light` has drawn.
     template <class Light>
     float pdf_of(const typename Light::Sample& drawn, const auto& probabilities) const {
         return density<Light>(drawn.direction, drawn, probabilities);

@@ -63,7 +63,7 @@ struct FlatBatch {
 /// A choice among few emitters by what each brings to a point: all are looked at, and each is a cluster of its own.
 class FlatLights {
   public:
-    /// As many as there are clusters to learn by.
+    /// Number of emitters at most: as many as there are clusters to learn by.
     static constexpr std::size_t kMost = kLightClusters;
 
     /// `shares`: how often each is chosen where nothing is estimated; they sum to 1, and those without are never
@@ -86,7 +86,7 @@ class FlatLights {
 
     /// Chooses for all points of a batch: each what pick() chooses, to the bit.
     void pick(FlatBatch& batch) const;
-    /// That of the batch's point.
+    /// The emitter that was chosen for a point of the batch.
     LightPick picked(const FlatBatch& batch, std::uint32_t point) const {
         const std::uint32_t lane = batch.chosen[point];
         if (lane >= count_) return {};

@@ -12,8 +12,8 @@ LightChoice::LightChoice(LightSelection how, std::span<const double> power, std:
     const auto shining =
         static_cast<std::size_t>(std::count_if(weights.begin(), weights.end(), [](double p) { return p > 0; }));
     const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
-    if (shining > 1 && by_place(how)) {
-        by_place_ = true;
+    if (shining > 1 && by_point(how)) {
+        by_point_ = true;
         for (double& w : weights)
             w = w > 0 ? 0.5 * w / total + 0.5 / static_cast<double>(shining) : 0.0;
         if (shining <= FlatLights::kMost)
@@ -27,14 +27,14 @@ LightChoice::LightChoice(LightSelection how, std::span<const double> power, std:
     table_ = DiscreteTable(weights);
 }
 
-LightPick LightChoice::pick_by_place(const Draw& random, const LightReceiver& receiver) const {
+LightPick LightChoice::pick_by_point(const Draw& random, const LightReceiver& receiver) const {
     if (flat_) return flat_->pick(random[0], receiver);
     // Levels take bits of their own, which the numbers that then choose a point do not show.
     const std::uint64_t others = std::uint64_t{random[2]} << 32 | random[3];
     return tree_->pick((std::uint64_t{random[0]} << 32 | random[1]) ^ next_bits(others) >> 32, receiver);
 }
 
-float LightChoice::probability_by_place(std::uint32_t entry, const LightReceiver& receiver) const {
+float LightChoice::probability_by_point(std::uint32_t entry, const LightReceiver& receiver) const {
     return flat_ ? flat_->probability(entry, receiver) : tree_->probability(entry, receiver).probability;
 }
 

@@ -21,7 +21,7 @@ class LightChoice {
     LightChoice(LightSelection how, std::span<const double> power, std::span<const LightBounds> bounds);
 
     /// Whether `how` needs bounds.
-    static bool by_place(LightSelection how) { return how == LightSelection::tree || how == LightSelection::learned; }
+    static bool by_point(LightSelection how) { return how == LightSelection::tree || how == LightSelection::learned; }
 
     bool empty() const { return table_.empty(); }
     /// Whether it is that by power, everywhere.
@@ -29,15 +29,15 @@ class LightChoice {
 
     /// Chooses by random[0], or by all four numbers: then none tells anything of which emitter it was.
     LightPick pick(const Draw& random, const LightReceiver& receiver) const {
-        if (by_place_) [[unlikely]]
-            return pick_by_place(random, receiver);
+        if (by_point_) [[unlikely]]
+            return pick_by_point(random, receiver);
         const std::uint32_t entry = table_.pick(random[0]);
         return {entry, table_.probability(entry)};
     }
 
     /// Probability with which pick() chooses an entry.
     float probability(std::uint32_t entry, const LightReceiver& receiver) const {
-        return by_place_ ? probability_by_place(entry, receiver) : table_.probability(entry);
+        return by_point_ ? probability_by_point(entry, receiver) : table_.probability(entry);
     }
 
     /// The choice among few, which many points make together; nullptr where it is another.
@@ -47,11 +47,11 @@ class LightChoice {
     std::size_t bytes() const { return tree_ ? tree_->bytes() : 0; }
 
   private:
-    [[gnu::noinline]] LightPick pick_by_place(const Draw& random, const LightReceiver& receiver) const;
-    [[gnu::noinline]] float probability_by_place(std::uint32_t entry, const LightReceiver& receiver) const;
+    [[gnu::noinline]] LightPick pick_by_point(const Draw& random, const LightReceiver& receiver) const;
+    [[gnu::noinline]] float probability_by_point(std::uint32_t entry, const LightReceiver& receiver) const;
 
     DiscreteTable table_;
-    bool by_power_ = true, by_place_ = false;
+    bool by_power_ = true, by_point_ = false;
     std::optional<FlatLights> flat_;
     std::optional<LightTree> tree_;
 };

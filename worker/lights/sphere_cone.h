@@ -21,7 +21,7 @@ struct SphereCone {
     float pdf() const { return cone_pdf(one_minus_cos); }
 };
 
-/// That of a sphere with its centre at `to_center`, as seen from a point outside.
+/// The cone of a sphere with its centre at `to_center`, as seen from a point outside.
 inline SphereCone cone_from_outside(const Vec3& to_center, float radius) {
     SphereCone cone;
     const float distance2 = dot(to_center, to_center);

@@ -34,7 +34,7 @@ class SpotLight {
         v_axis_ = spot.y_axis * scale;
     }
 
-    /// As if it were sharp, halfway down the falloff: 2 pi (1 - cos x) = 4 pi sin^2(x / 2).
+    /// Power as if the edge were sharp, halfway down the falloff: 2 pi (1 - cos x) = 4 pi sin^2(x / 2).
     double power(double) const {
         const float sine = sincos_turn(0.25f * kInvPi * 0.5f * (cutoff_ + beam_)).sin;
         const double mean = textures_ ? double(average(mean_color(*textures_, texture_))) : 1.0;

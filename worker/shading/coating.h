@@ -25,7 +25,8 @@ struct LayeredBsdf {
 
     /// f cos and density of the light that passes the boundary along both directions, per unit of what it lets pass.
     inline BsdfValue value(const Vec3& wo, const Vec3& wi) const;
-    /// Its wi is the one outside. A smooth lobe's value and density are not those outside: value() has them.
+    /// A direction of the inner BSDF, with wi as it leaves the coat. A smooth lobe's value and density are not those
+    /// outside: value() has them.
     inline BsdfSample sample(const Vec3& wo, const BsdfRandom& random) const;
 
     /// w refracted by an index of `ratio`, on the same side; z is 0 where it is reflected totally.

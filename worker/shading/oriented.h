@@ -29,7 +29,7 @@ struct OrientedBsdf {
         const float cos2 = wi.z * wi.z, sin2 = wi.x * wi.x + wi.y * wi.y;
         return cos2 > 0.0f ? 2.0f / (1.0f + std::sqrt(1.0f + shadow_alpha2 * (sin2 / cos2))) : 0.0f;
     }
-    /// That paper's alpha^2 of a normal that is tilted to n.
+    /// The alpha^2 that shadowing() has for a normal that is tilted to n.
     static float shadow_alpha2_of(const Vec3& n) {
         return std::min(0.125f * (n.x * n.x + n.y * n.y) / std::max(n.z * n.z, 1e-12f), 1.0f);
     }

@@ -248,7 +248,7 @@ PlaceTruth trace_with(const TraceScene& scene, const Resolved& job, const typena
 
 }  // namespace
 
-std::optional<InspectedPlace> seen_place(const TraceScene& scene, int x, int y) {
+std::optional<InspectedPlace> seen_point(const TraceScene& scene, int x, int y) {
     const Ray ray = scene.camera().generate(x, y, Draw{kMiddle, kMiddle, kMiddle, kMiddle});
     InspectedPlace place;
     if (!scene.geometry().intersect(ray, place.hit)) return std::nullopt;

@@ -39,7 +39,7 @@ struct PlaceFacts {
 };
 
 /// The place that the centre of a pixel sees (through the centre of a lens); nothing if it sees no surface.
-std::optional<InspectedPlace> seen_place(const TraceScene& scene, int x, int y);
+std::optional<InspectedPlace> seen_point(const TraceScene& scene, int x, int y);
 
 PlaceFacts place_facts(const TraceScene& scene, const AnySampler& guide, const InspectedPlace& place);
 

@@ -39,8 +39,8 @@ Box3 finite_bounds(const Scene& scene) {
 constexpr double kFarSizes = 64.0;
 
 /// A shape that the camera stands at, however far from the origin it is, counted from where a render moves the scene:
-/// the positions on it are blurred, and rays that start in a corner may do so behind the other wall. Measured in rooms
-/// of one size at 1,000 and 10,000 of it, 2^-25 of the diffuse rays leave per size.
+/// the positions on it are blurred, and rays that start in a corner may do so behind the other wall. Per size
+/// of distance about 2^-25 of the diffuse rays leave (bench/log/2026-11-26-watertight.md).
 void lint_room(const Scene& scene, const Imath::V3d& origin, std::vector<Finding>& findings) {
     const Imath::V3d camera(scene.camera.origin);
     const Shape* worst = nullptr;

@@ -29,14 +29,14 @@ LoadedScene load_scene(const std::filesystem::path& path, const std::map<std::st
                        bool lenient = false, int width = 0, int height = 0, const std::string& sensor = "",
                        const SceneLimits& limits = {});
 
-/// A scene for inspect(): before anything is repaired; what a render would refuse to read is left out.
+/// A scene for lint(): before anything is repaired; what a render would refuse to read is left out.
 struct SceneToCheck {
     Scene scene;
     std::vector<Setting> settings;  ///< as of LoadedScene
     std::vector<Finding> findings;  ///< what its reader has to say
 };
 
-/// Loads a scene for inspect(). Throws InputError only if there is no scene to look at.
+/// Loads a scene for lint(). Throws InputError only if there is no scene to look at.
 SceneToCheck load_scene_to_check(const std::filesystem::path& path,
                                  const std::map<std::string, std::string>& defines = {}, bool lenient = false,
                                  const std::string& sensor = "");

@@ -150,7 +150,7 @@ class BidirectionalTracer {
         if (rules_.compare)
             met_alone_ += luminance(path.throughput * light) *
                           technique_weight(TechniqueSums{sums.join, 0.0}.sum(next_event, 0.0, rules_.heuristic));
-        const double others = sums.sum(next_event, double(pdf.place) * double(pdf.direction), rules_.heuristic);
+        const double others = sums.sum(next_event, double(pdf.position) * double(pdf.direction), rules_.heuristic);
         return light * static_cast<float>(rules_.weight(others));
     }
 
@@ -179,7 +179,7 @@ class BidirectionalTracer {
                                                                        rules_.delta_alone, &choice_);
         // Densities of the place and of what is drawn from there, in the measures of next event's and per area.
         // Where only lights without extent are sampled, both ends are taken to choose them alike.
-        double place = rules_.delta_alone ? 1.0 : double(pdf.place) / double(light.pdf);
+        double place = rules_.delta_alone ? 1.0 : double(pdf.position) / double(light.pdf);
         double next = double(pdf.direction) * double(geometric_cosine(z.hit, light.wi));
         if (!light.at_infinity()) {
             const double distance2 = squared_distance(z.hit.p, light.on_light.p);

@@ -51,7 +51,7 @@ class LightSubpath {
         if (!is_black(start.weight)) walk(start, key);
     }
 
-    /// That it starts from, an entry of EmissionChoice; 0 where there is none.
+    /// The emitter that the path starts from, an entry of EmissionChoice; 0 where there is none.
     std::uint32_t emitter() const { return emitter_; }
     int size() const { return count_; }
     /// Vertex y_(i + 1).
@@ -98,14 +98,14 @@ class LightSubpath {
     /// Techniques that draw the emitter by next event, or find it by chance, where this path began there.
     TechniqueSums first_sums(const EmissionSample& start, const Hit& hit, const Surface& surface) const {
         const Heuristic& m = rules_.heuristic;
-        const double pdf = double(start.place_pdf) * start.next_pdf(hit.p, hit.ng);
+        const double pdf = double(start.position_pdf) * start.next_pdf(hit.p, hit.ng);
         if (!(pdf > 0.0)) return {};
         double sampled = 0.0;
         if (rules_.next_event)
             sampled = scene_.emitters().next_event_pdf(start, receiver_at(hit, surface));
         else if (start.is_delta())
-            sampled = double(start.place_pdf);  // as BidirectionalTracer has it
-        return {m(sampled / pdf), m(start.place_factor(hit.p) / pdf)};
+            sampled = double(start.position_pdf);  // as BidirectionalTracer has it
+        return {m(sampled / pdf), m(start.position_factor(hit.p) / pdf)};
     }
 
     /// The vertex after the last one: vertices stay where they are, since surfaces point to their hits.

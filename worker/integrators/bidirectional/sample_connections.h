@@ -24,11 +24,12 @@ class SampleConnections {
         double splats = 0, splat_squares = 0;  ///< sums over what they bring to others: luminances, and those squared
     };
 
-    /// One that brings light of a vertex of the light path to the sample's own pixel.
+    /// Adds a connection that brings light of a vertex of the light path to the sample's own pixel.
     void add(const Ray& ray, const Rgb& value) { add(ray, {value, 0.0, kOwn, 0}); }
-    /// One that brings light of a sampled emitter there; `alone`: its luminance if there were no light path.
+    /// Adds a connection that brings light of a sampled emitter to the sample's own pixel; `alone`: its luminance if
+    /// there were no light path.
     void add_direct(const Ray& ray, const Rgb& value, double alone) { add(ray, {value, alone, kDirect, 0}); }
-    /// One that brings light to any, from so numbered a vertex of the light path.
+    /// Adds a connection that brings light to any pixel, from the vertex of the light path with this number.
     void add_splat(const Ray& ray, const Rgb& value, std::uint32_t pixel, std::uint32_t vertex) {
         add(ray, {value, 0.0, pixel, vertex});
     }

@@ -152,7 +152,7 @@ class LightTracer {
         const FilmConnection to = sensor_.importance.connect(start.start.p, lens);
         const float cosine = dot(start.start.ng, to.direction);
         if (!to.seen || !(cosine > 0.0f)) return;
-        add(start.start, to, start.radiance, double(cosine) / double(start.place_pdf), {key, 0, start.entry});
+        add(start.start, to, start.radiance, double(cosine) / double(start.position_pdf), {key, 0, start.entry});
     }
 
     /// Connects a vertex at which so much light arrives from `in`.

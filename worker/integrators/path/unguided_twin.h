@@ -37,7 +37,8 @@ class UnguidedTwin {
     float moment() const { return moment_; }
     float cost() const { return cost_; }
 
-    /// That of one of the paths that the path goes on as: it has found what the path has, but others count that.
+    /// The twin of one of the paths that a split path goes on as: it has found what the path has, but its moment and
+    /// cost begin at 0, since the path's own twin counts those.
     UnguidedTwin split_off() const {
         UnguidedTwin twin = *this;
         twin.moment_ = twin.cost_ = 0.0f;

@@ -13,7 +13,7 @@ struct BlendChoice {
     float rest;
 };
 
-/// As BlendBsdf::sample() chooses.
+/// The choice that BlendBsdf::sample() makes.
 BlendChoice choose(const BlendBsdf& blend, float lobe) {
     const float first = 1.0f - blend.weight;
     const bool takes_second = !(lobe < first);

@@ -11,7 +11,7 @@ struct BlendMaterial {
     FloatInput weight{0.5f};
     std::int32_t first = kNone, second = kNone;  ///< indices in Scene::materials, below this material's own
 
-    /// Its back is the blend of its parts' backs.
+    /// Whether its sides are those of its parts: the back of a blend is the blend of their backs.
     static constexpr bool kSidesOfParts = true;
     Lobes lobes() const { return {}; }
     static void fields(auto& self, auto& visitor) {

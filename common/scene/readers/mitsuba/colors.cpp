@@ -25,7 +25,7 @@ SpectrumSamples extend_to_zero(SpectrumSamples samples) {
 
 /// Mitsuba 0.5 swaps the ends when it interpolates: between two samples a spectrum runs backwards, from the second
 /// value to the first (its InterpolatedSpectrum::eval; mended in 0.6). Scenes of that version look as published only
-/// so: the light of the published Cornell box would be 13 % too bright in red. The result has each inner wavelength
+/// so: the light of the published Cornell box would be too bright in red. The result has each inner wavelength
 /// twice.
 SpectrumSamples reverse_segments(const SpectrumSamples& samples) {
     SpectrumSamples reversed;

@@ -31,8 +31,8 @@ SceneReading read_mitsuba(const std::filesystem::path& path, const std::map<std:
                           bool lenient, const Imath::V3d& shift, const mitsuba::FilmSize& film_size = {},
                           const std::string& sensor = "", const SceneLimits& limits = {});
 
-/// Reads a Mitsuba scene for inspect(): parts that are refused
-/// are findings, and left out. Throws InputError only if there is no scene to look at: bad XML, no sensor.
+/// Reads a Mitsuba scene for lint(): parts that are refused are findings, and left out. Throws InputError only if there
+/// is no scene to look at: bad XML, no sensor.
 SceneReading read_mitsuba_to_check(const std::filesystem::path& path, const std::map<std::string, std::string>& defines,
                                    bool lenient, const std::string& sensor = "");
 
