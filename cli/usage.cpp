@@ -64,7 +64,7 @@ std::string unknown_option(const std::string& argument, const CLI::App& app, con
 
 /// The name of the only file that a command takes.
 std::string input_of(const CLI::App& command) {
-    const std::string name = command.get_name();
+    const std::string& name = command.get_name();
     if (name == "render" || name == "plan") return "a scene (.xml) or a job (.toml)";
     if (name == "check") return "a scene (.xml)";
     if (name == "study") return "a study file (.toml)";

@@ -204,7 +204,7 @@ class RenderRun {
     const Resolved& job() const { return request_.plan.job; }
 
     static std::string size_text(const Film& film) {
-        const std::string size = fmt::format("{} x {}", film.width, film.height);
+        std::string size = fmt::format("{} x {}", film.width, film.height);
         if (!film.crop.is_window()) return size;
         return fmt::format("{} at {},{} of {} x {}", size, film.crop.x, film.crop.y, film.whole_width(),
                            film.whole_height());

@@ -193,7 +193,7 @@ class StudyRun {
         if (interrupted_()) throw Interrupted();
         fs::remove_all(folder);
         request.checkpoints = false;
-        const RenderOutcome outcome = series_.render(request, folder);
+        RenderOutcome outcome = series_.render(request, folder);
         if (outcome.state == RunState::interrupted) throw Interrupted();
         return outcome;
     }
