@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
+
 #include "common/math/warp.h"
 #include "worker/shading/bsdf_sample.h"
 
@@ -29,8 +31,14 @@ struct CoatedBase {
 /// The base of plastic with this albedo, where the coat does not send back the share `escapes` of diffuse light from
 /// inside: 1 - fdr.
 inline Rgb coated_base(const Rgb& albedo, float escapes, float eta, bool nonlinear) {
-    const float inverse = 1.0f / (eta * eta), fdr = 1.0f - escapes;
-    const auto channel = [&](float a) { return a * inverse / (nonlinear ? 1.0f - a * fdr : escapes); };
+    const float inverse = 1.0f / (eta * eta);
+    // Of extreme indices next to nothing enters, or leaves: the base stays finite, and what `in` and `out` leave of it
+    // is nothing.
+    constexpr float kMost = 1e15f;
+    const auto channel = [&](float a) {
+        const float lost = nonlinear ? (1.0f - a) + a * escapes : escapes;  // 1 - a fdr
+        return lost > 0.0f ? std::min(a * inverse / lost, kMost) : 0.0f;
+    };
     return {channel(albedo.x), channel(albedo.y), channel(albedo.z)};
 }
 
