@@ -59,6 +59,12 @@ const Job& checked(const Job& job) {
     return job;
 }
 
+/// Where the passes do not follow from the job alone, a resolved.toml names the file that lists them.
+Experiment experiment_of(const Job& job, const RunFacts& facts, bool resumed) {
+    const bool listed = !facts.schedule.empty() || job.budget.seconds > 0 || job.budget.error > 0 || resumed;
+    return {kProgramVersion, hash_text(facts.scene_hash), listed ? "schedule.toml" : ""};
+}
+
 /// Whether an image gets a preview. Larger ones no viewer opens, nor does the format hold them.
 bool has_preview(std::size_t pixels) {
     constexpr std::size_t kMostPixels = std::size_t{1} << 28;
@@ -80,7 +86,7 @@ RunDirectory::RunDirectory(const Job& job, RunFacts facts, const EffectPlan& pla
     : job_(checked(job)),
       job_toml_(job_without_output(job)),
       facts_(std::move(facts)),
-      resolved_toml_(write_resolved(plan.job)),
+      resolved_toml_(write_resolved(plan.job, experiment_of(job, facts_, options.resumed != nullptr))),
       folder_(job, options.use, options.interrupted),
       plan_text_(plan_text(plan, job.scene.file)),
       plan_json_(plan_json(plan, job.scene.file)),

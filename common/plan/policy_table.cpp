@@ -5,16 +5,13 @@
 #include <array>
 #include <string_view>
 #include <type_traits>
+#include <vector>
 
-#include "common/base/error.h"
-#include "common/config/job_keys.h"
 #include "common/config/parse_text.h"
 #include "common/plan/policy.h"
 
 namespace treefarm {
 namespace {
-
-constexpr std::string_view kPrefix = "policy.";
 
 constexpr const char* kAuto = "bench/log/2026-11-25-auto.md";
 constexpr const char* kSplits = "bench/log/2026-11-25-splitting.md";
@@ -286,43 +283,32 @@ std::string write_policy() {
     return text;
 }
 
-std::vector<Setting> without_policy(std::vector<Setting> settings) {
-    const auto is_policy = [](const Setting& s) { return s.key.starts_with(kPrefix); };
-    const auto first = std::find_if(settings.begin(), settings.end(), is_policy);
-    if (first == settings.end()) return settings;
-    const Location file{first->where.file};
-    const auto find = [&](const std::string& key) {
-        return std::find_if(settings.begin(), settings.end(), [&](const Setting& s) { return s.key == key; });
-    };
-    constexpr const char* kCure =
-        "render job.toml instead, which leaves it to the program, or use the build that wrote it";
+void check_policy(std::span<const Setting> settings, const Location& file) {
     std::vector<std::string> known;
     known.reserve(kEntries.size());
     for (const PolicyEntry& entry : kEntries)
-        known.push_back(std::string(kPrefix) + entry.name);
+        known.push_back(std::string(kPolicyPrefix) + entry.name);
     for (const Setting& setting : settings) {
-        if (!is_policy(setting) || std::find(known.begin(), known.end(), setting.key) != known.end()) continue;
+        if (!setting.key.starts_with(kPolicyPrefix) ||
+            std::find(known.begin(), known.end(), setting.key) != known.end())
+            continue;
         const std::string nearest = nearest_word(setting.key, known);
         throw InputError(setting.where, setting.key + " is no constant of this build",
-                         (nearest.empty() ? "" : "did you mean " + nearest + "? Otherwise ") + kCure);
+                         (nearest.empty() ? "" : "did you mean " + nearest + "? Otherwise ") + kResolvedCure);
     }
     for (const PolicyEntry& entry : kEntries) {
-        const auto written = find(std::string(kPrefix) + entry.name);
+        const std::string key = std::string(kPolicyPrefix) + entry.name;
+        const auto written =
+            std::find_if(settings.begin(), settings.end(), [&](const Setting& s) { return s.key == key; });
         if (written == settings.end())
-            throw InputError(
-                file, std::string(kPrefix) + entry.name + " is not in it: the build that wrote it had no such constant",
-                kCure);
+            throw InputError(file,
+                             key + " is not in it: the build that wrote it had no such constant, or it was taken out",
+                             kResolvedCure);
         if (written->value != value_text(entry))
             throw InputError(written->where,
-                             std::string(kPrefix) + entry.name + " was " + written->value + ", and is " +
-                                 value_text(entry) + " in this build",
-                             kCure);
+                             key + " was " + written->value + ", and is " + value_text(entry) + " in this build",
+                             kResolvedCure);
     }
-    for (const JobKey& key : job_keys())
-        if (key.stored() && !key.name.starts_with("output.") && find(key.name) == settings.end())
-            throw InputError(file, key.name + " is not in it: the build that wrote it had no such key", kCure);
-    std::erase_if(settings, is_policy);
-    return settings;
 }
 
 std::string policy_documentation() {

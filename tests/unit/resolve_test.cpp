@@ -10,6 +10,7 @@
 #include "common/config/job_reader.h"
 #include "common/plan/policy.h"
 #include "common/plan/policy_table.h"
+#include "common/plan/resolved_file.h"
 #include "common/plan/schedule.h"
 #include "tests/support/support.h"
 
@@ -122,15 +123,35 @@ TEST(PolicyTable, ExplainsEveryConstant) {
     EXPECT_GT(explained.size(), 60u);
 }
 
+constexpr char kHash[] = "0123456789abcdef";
+
 std::string resolved_toml(const Job& job) {
-    return write_job(resolve(job, glossy())) + "\n" + write_policy();
+    return write_resolved(resolve(job, glossy()), {"1.2.3", kHash});
 }
 
 TEST(ResolvedToml, GivesTheJobBack) {
     const Job asked = with({{"budget.spp", "60"}, {"sampler.seed", "7"}});
-    Job job;
-    apply_layer(job, without_policy(parse_job_settings(resolved_toml(asked), "resolved.toml")));
-    EXPECT_EQ(write_job(job), write_job(resolve(asked, glossy())));
+    EXPECT_EQ(write_job(read_resolved(resolved_toml(asked), "resolved.toml")), write_job(resolve(asked, glossy())));
+}
+
+TEST(ResolvedToml, TellsOfWhichRenderItIs) {
+    const auto experiment = [](const std::string& text) {
+        return sort_settings(parse_job_settings(text, "resolved.toml")).experiment.value();
+    };
+    const Experiment plain = experiment(resolved_toml(Job()));
+    EXPECT_EQ(plain.version, "1.2.3");
+    EXPECT_EQ(plain.scene_hash, kHash);
+    EXPECT_EQ(plain.schedule, "");
+    EXPECT_EQ(plain.where.file, "resolved.toml");
+    EXPECT_EQ(plain.where.line, 6);
+    EXPECT_EQ(experiment(write_resolved(resolve(Job(), glossy()), {"1.2.3", kHash, "schedule.toml"})).schedule,
+              "schedule.toml");
+}
+
+std::string cut(std::string text, const std::string& from, const std::string& to = "") {
+    const std::size_t at = text.find(from);
+    EXPECT_NE(at, std::string::npos) << from;
+    return text.erase(at, to.empty() ? std::string::npos : text.find(to, at) - at);
 }
 
 TEST(ResolvedToml, OfAnotherBuildIsRefusedByName) {
@@ -142,27 +163,57 @@ TEST(ResolvedToml, OfAnotherBuildIsRefusedByName) {
         text.replace(at, from.size(), to);
         return text;
     };
+    const std::string results = "results = " + std::to_string(kResults);
     const struct {
         std::string text, named;
-    } cases[] = {{changed("giving_up = 0.85", "giving_up = 0.8"), "guiding.giving_up was 0.8, and is 0.85"},
-                 {changed("giving_up = 0.85\n", ""), "guiding.giving_up is not in it"},
-                 {changed("giving_up = 0.85", "giving_up = 0.85\nlosing_all = 1"), "guiding.losing_all is no constant"},
-                 {changed("rr_depth = 5\n", ""), "integrator.rr_depth is not in it"},
-                 {changed("giving_up = 0.85", "giving_up = \"much\""), "is no number"}};
+    } cases[] = {
+        {changed("giving_up = 0.85", "giving_up = 0.8"), "guiding.giving_up was 0.8, and is 0.85"},
+        {changed("giving_up = 0.85\n", ""), "guiding.giving_up is not in it"},
+        {changed("giving_up = 0.85", "giving_up = 0.85\nlosing_all = 1"), "guiding.losing_all is no constant"},
+        {changed("rr_depth = 5\n", ""), "integrator.rr_depth is not in it"},
+        {changed("giving_up = 0.85", "giving_up = \"much\""), "guiding.giving_up was much"},
+        {cut(toml, "[policy."), "policy.guiding.least_judged_spp is not in it"},
+        {cut(toml, "[experiment]", "[scene]"), "experiment.version is not in it"},
+        {changed(results, ""), "experiment.results is not in it"},
+        {changed(results, "results = 1000"), "experiment.results was 1000, and is " + std::to_string(kResults)},
+        {changed(results, results + "\nodd = 1"), "experiment.odd is nothing that this build knows"}};
     for (const auto& [text, named] : cases) {
         try {
-            without_policy(parse_job_settings(text, "resolved.toml"));
+            sort_settings(parse_job_settings(text, "resolved.toml"));
             ADD_FAILURE() << named;
         } catch (const InputError& error) {
             EXPECT_NE(std::string(error.what()).find(named), std::string::npos) << error.what();
+            EXPECT_NE(std::string(error.what()).find("render job.toml instead"), std::string::npos) << error.what();
             EXPECT_EQ(error.where().file, "resolved.toml");
         }
     }
 }
 
-TEST(ResolvedToml, AJobFileHasNoPolicy) {
-    const auto settings = parse_job_settings("[budget]\nspp = 4\n", "job.toml");
-    EXPECT_EQ(without_policy(settings).size(), 1u);
+TEST(ResolvedToml, OfAnotherSceneIsRefused) {
+    const Experiment experiment{"1.2.3", kHash, "", {"resolved.toml", 6, 1}};
+    EXPECT_NO_THROW(require_scene(experiment, kHash, "1.2.3", ""));
+    EXPECT_NO_THROW(require_scene(experiment, kHash, "1.3.0", "-D width"));
+    const auto refusal = [&](const std::string& version, const std::string& changed_by) -> std::string {
+        try {
+            require_scene(experiment, "fedcba9876543210", version, changed_by);
+        } catch (const InputError& error) {
+            return error.what();
+        }
+        return "";
+    };
+    EXPECT_EQ(refusal("1.2.3", "")
+                  .find("resolved.toml:6:1: experiment.scene_hash was 0123456789abcdef, and is "
+                        "fedcba9876543210 now: the scene has changed since; render job.toml"),
+              0u)
+        << refusal("1.2.3", "");
+    EXPECT_NE(refusal("1.2.3", "-D width").find("or -D width makes another of it"), std::string::npos);
+    EXPECT_NE(refusal("1.3.0", "").find("or version 1.2.3 read it otherwise than 1.3.0"), std::string::npos);
+}
+
+TEST(ResolvedToml, AJobFileIsNone) {
+    const JobFile file = sort_settings(parse_job_settings("[budget]\nspp = 4\n", "job.toml"));
+    EXPECT_EQ(file.settings.size(), 1u);
+    EXPECT_FALSE(file.experiment);
 }
 
 }  // namespace
