@@ -85,6 +85,7 @@ std::vector<std::uint8_t> encode_image(const fs::path& path, const CombinedImage
 RunDirectory::RunDirectory(const Job& job, RunFacts facts, const EffectPlan& plan, const RunDirectoryOptions& options)
     : job_(checked(job)),
       job_toml_(job_without_output(job)),
+      storage_(plan.job.output),
       facts_(std::move(facts)),
       resolved_toml_(write_resolved(plan.job, experiment_of(job, facts_, options.resumed != nullptr))),
       folder_(job, options.use, options.interrupted),
@@ -232,7 +233,7 @@ void RunDirectory::write_image(const RenderResult& result) {
          attributes = image_attributes(result)] {
             write_bytes(
                 "image.exr",
-                encode_image(path() / "image.exr", *image, *aovs, width, height, facts_.crop, attributes, job_.output),
+                encode_image(path() / "image.exr", *image, *aovs, width, height, facts_.crop, attributes, storage_),
                 Outlives::power);
             const std::lock_guard lock(on_disk_mutex_);
             on_disk_ = image;
@@ -257,7 +258,7 @@ std::vector<LastFile> RunDirectory::last_files(const RenderResult& result, Outli
         const auto image = [this, encoded, &result]() -> const std::vector<std::uint8_t>& {
             if (encoded->empty())
                 *encoded = encode_image(path() / "image.exr", *result.image, *result.aovs, result.width, result.height,
-                                        facts_.crop, image_attributes(result), job_.output);
+                                        facts_.crop, image_attributes(result), storage_);
             return *encoded;
         };
         const auto picture = [&result] {

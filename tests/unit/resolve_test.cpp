@@ -42,7 +42,9 @@ TEST(Resolve, NothingIsLeftToTheProgram) {
     EXPECT_NEAR(job.guiding.spatial_threshold, 2000 / std::sqrt(8.0), 1e-9);
     EXPECT_EQ(job.image.width, 64);
     EXPECT_TRUE(job.guides && job.learns_views && job.learns_lights && job.cells_follow_use);
-    for (const char* word : {"\"usual\"", "'usual'"})
+    EXPECT_EQ(job.integrator.next_event, NextEvent::while_it_pays);
+    EXPECT_EQ(job.output.compression, "rle");
+    for (const char* word : {"\"usual\"", "'usual'", "\"auto\"", "'auto'"})
         EXPECT_EQ(write_job(job).find(word), std::string::npos) << write_job(job);
 }
 
@@ -51,7 +53,9 @@ TEST(Resolve, OfAResolvedJobItGivesTheSame) {
     for (const auto& job :
          {Job(), with({{"guiding.type", "none"}}), with({{"guiding.type", "ppg"}, {"guiding.splitting", "4"}}),
           with({{"guiding.type", "view"}, {"guiding.roulette", "constant"}}), with({{"guiding.preset", "thesis"}}),
-          with({{"integrator.next_event", "never"}}), with({{"guiding.splitting_rule", "always"}})}) {
+          with({{"integrator.next_event", "never"}}), with({{"integrator.next_event", "while_it_pays"}}),
+          with({{"output.half", "true"}, {"integrator.light_samples", "0.5"}}),
+          with({{"guiding.splitting_rule", "always"}})}) {
         const Resolved once = resolve(job, glossy()), twice = resolve(once, glossy());
         EXPECT_EQ(write_job(once), write_job(twice));
         EXPECT_EQ(once.guides, twice.guides);
@@ -59,6 +63,24 @@ TEST(Resolve, OfAResolvedJobItGivesTheSame) {
         EXPECT_EQ(once.learns_lights, twice.learns_lights);
         EXPECT_EQ(once.cells_follow_use, twice.cells_follow_use);
     }
+}
+
+TEST(Resolve, NextEventIsDecidedByPassesOrAlways) {
+    const auto of = [](const char* word, const char* preset) {
+        return resolve(with({{"guiding.preset", preset}, {"integrator.next_event", word}}), glossy());
+    };
+    for (const char* word : {"auto", "while_it_pays"}) {
+        EXPECT_EQ(of(word, "").integrator.next_event, NextEvent::while_it_pays);
+        EXPECT_TRUE(of(word, "").decides_next_event);
+        EXPECT_EQ(of(word, "thesis").integrator.next_event, NextEvent::always);
+        EXPECT_FALSE(of(word, "thesis").decides_next_event);
+    }
+}
+
+TEST(Resolve, WhatAnImageIsPackedByIsWhatItsChannelsAskFor) {
+    EXPECT_EQ(resolve(with({{"output.half", "true"}}), glossy()).output.compression, "zip");
+    EXPECT_EQ(resolve(with({{"output.half", "true"}, {"output.compression", "piz"}}), glossy()).output.compression,
+              "piz");
 }
 
 TEST(Resolve, WhatASceneDoesNotCallForIsNotLearned) {
