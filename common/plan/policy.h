@@ -120,6 +120,9 @@ struct Policy {
         double least_share = 1.0 / 16;
         double error_margin = 1.02;
         double strict_error_margin = 1.10;
+        double least_left = 0.25;
+        double worth_hedging = 0.5;
+        double most_late = 0.75;
     } budget;
 
     /// The progress that trees to come will bring.

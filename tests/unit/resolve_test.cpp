@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 
@@ -143,6 +146,59 @@ TEST(PolicyTable, ExplainsEveryConstant) {
     }
     EXPECT_EQ(explained, constants_of_policy_h());
     EXPECT_GT(explained.size(), 60u);
+}
+
+/// What of our sources but the table itself reads the policy.
+std::vector<std::string> sources_with_policy() {
+    namespace fs = std::filesystem;
+    std::vector<std::string> texts;
+    for (const char* folder : {"common", "coordinator", "worker", "report", "serve", "cli"})
+        for (const auto& entry : fs::recursive_directory_iterator(fs::path(TREEFARM_SOURCE_DIR) / folder)) {
+            const fs::path& file = entry.path();
+            if ((file.extension() != ".h" && file.extension() != ".cpp") || file.stem() == "policy_table") continue;
+            std::string text = (std::stringstream() << std::ifstream(file).rdbuf()).str();
+            if (text.find("kPolicy.") != std::string::npos) texts.push_back(std::move(text));
+        }
+    return texts;
+}
+
+bool is_name(char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
+}
+
+/// Whether a text has this word, not as a part of a longer one.
+bool has_word(const std::string& text, const std::string& word) {
+    for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1))
+        if ((at == 0 || !is_name(text[at - 1])) &&
+            (at + word.size() == text.size() || !is_name(text[at + word.size()])))
+            return true;
+    return false;
+}
+
+/// Whether a text reads a constant: "kPolicy.group.member", or "kOf.member" after "kOf = kPolicy.group;".
+bool reads(const std::string& text, const std::string& group, const std::string& member) {
+    if (has_word(text, "kPolicy." + group + "." + member)) return true;
+    const std::string whole = " = kPolicy." + group + ";";
+    for (std::size_t at = text.find(whole); at != std::string::npos; at = text.find(whole, at + 1)) {
+        std::size_t begin = at;
+        while (begin > 0 && is_name(text[begin - 1]))
+            --begin;
+        if (has_word(text, text.substr(begin, at - begin) + "." + member)) return true;
+    }
+    return false;
+}
+
+TEST(PolicyTable, EveryConstantIsReadWhereItDecides) {
+    const std::vector<std::string> sources = sources_with_policy();
+    ASSERT_GT(sources.size(), 10u);
+    for (const PolicyEntry& entry : policy_table()) {
+        const std::string name = entry.name;
+        const std::size_t dot = name.find('.');
+        EXPECT_TRUE(std::any_of(
+            sources.begin(), sources.end(),
+            [&](const std::string& text) { return reads(text, name.substr(0, dot), name.substr(dot + 1)); }))
+            << name << " decides nothing";
+    }
 }
 
 constexpr char kHash[] = "0123456789abcdef";
