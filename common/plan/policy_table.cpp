@@ -38,7 +38,11 @@ constexpr Policy::Splitting kSplitting = kPolicy.splitting;
 constexpr Policy::LightSubpaths kLightSubpaths = kPolicy.light_subpaths;
 constexpr Policy::Walk kWalk = kPolicy.walk;
 constexpr Policy::Learning kLearning = kPolicy.learning;
+constexpr Policy::Grids kGrids = kPolicy.grids;
+constexpr Policy::Lights kLamps = kPolicy.lights;
+constexpr Policy::Splats kSplats = kPolicy.splats;
 constexpr Policy::Schedule kSchedule = kPolicy.schedule;
+constexpr Policy::Farm kFarm = kPolicy.farm;
 constexpr Policy::Budget kBudget = kPolicy.budget;
 constexpr Policy::Forecast kForecast = kPolicy.forecast;
 constexpr Policy::Tails kTails = kPolicy.tails;
@@ -171,6 +175,33 @@ constexpr std::array kEntries = {
           "depth of a region's quadtree before anything is known: where the rule \"more than 1 % of the energy\" ends "
           "for even light",
           "Mueller et al. 2017, section 3.2"),
+    entry(
+        "learning.kept_evidence", kLearning.kept_evidence,
+        "what regions know of emitters, next event, mixtures and a qtable's visits counts so much with each pass after",
+        kGuess),
+    entry("grids.halvings", kGrids.halvings, "a grid has 2^this regions (guiding.grid_halvings = 0)", kGuess),
+    entry("grids.table_halvings", kGrids.table_halvings,
+          "a qtable too: its cells learn means, which need fewer records", kGuess),
+    entry("grids.even_part", kGrids.even_part,
+          "part of a grid's samples that all strata of directions share alike: light that no record has found must be "
+          "found",
+          kGuess),
+    entry("grids.table_floor", kGrids.table_floor, "least weight of a qtable's stratum, of its region's mean", kGuess),
+    entry("lights.least_cut", kLamps.least_cut,
+          "area lights whose longest side is shorter than this share of the scene's radius are not cut", kGuess),
+    entry("lights.few_triangles", kLamps.few_triangles, "nor are patches of a mesh with so many triangles at most",
+          kGuess),
+    entry("lights.small_share", kLamps.small_share, "nor those of at most this share of the mesh's area", kGuess),
+    entry(
+        "lights.least_area", kLamps.least_area,
+        "of the squared diagonal of all lamps: what boxes count in the light tree's cost at least, so that lamps in a "
+        "line have some as well",
+        kGuess),
+    entry("lights.far_lanes", kLamps.far_lanes, "of the tree's root that emitters at infinity may have", kGuess),
+    entry("splats.nearest", kSplats.nearest,
+          "light of a lamp at the lens is seen from this squared distance at least, over that of the scene", kGuess),
+    entry("splats.alike", kSplats.alike,
+          "but that counts only where it is more than so many times that from the scene's distance", kGuess),
     entry("schedule.kickstart_spp", kSchedule.kickstart_spp,
           "kick-start samples emitters directly in passes that begin with fewer samples per pixel", kProgram2017),
     entry("schedule.teaching_share", kSchedule.teaching_share,
@@ -181,6 +212,14 @@ constexpr std::array kEntries = {
           "samples of a work unit, at most: around half a second of a core; no influence on the image", kGuess),
     entry("schedule.least_weighed_spp", kSchedule.least_weighed_spp,
           "shorter passes know too little of their own variance to be weighed by it", kProgram2019),
+    entry("schedule.kickstart_weight", kSchedule.kickstart_weight,
+          "weight of each record of a kick-start pass, in which light samples are records, too", kProgram2019),
+    entry("farm.half_life", kFarm.half_life, "of a worker's measured speed, seconds", kGuess),
+    entry("farm.most_seconds", kFarm.most_seconds, "of work that a worker is handed at once", kGuess),
+    entry("farm.part", kFarm.part, "of a worker's part of what is left, that it is handed at once", kGuess),
+    entry("farm.copy_gain", kFarm.copy_gain, "a unit is given to a second worker that saves so many seconds ...",
+          kGuess),
+    entry("farm.copy_ratio", kFarm.copy_ratio, "... and so many times what it takes there", kGuess),
     entry("budget.time_tolerance", kBudget.time_tolerance, "how far a render may be from budget.seconds, share of it",
           kBudgets),
     entry("budget.least_tolerance", kBudget.least_tolerance, "but not less than so many seconds ...", kBudgets),

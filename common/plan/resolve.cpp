@@ -14,9 +14,6 @@
 namespace treefarm {
 namespace {
 
-/// Fixed grids of 2^this regions. That of a table is finer: its cells learn means, which need fewer records.
-constexpr int kGridHalvings = 12, kQTableHalvings = 15;
-
 bool chooses_lights(const Scene& scene) {
     bool with_image = false;
     for (const Emitter& emitter : scene.emitters)
@@ -117,7 +114,8 @@ Resolved resolve(const Job& job, const SceneFacts& scene) {
     if (guiding.splitting == 0)
         guiding.splitting = by_view && guiding.roulette == GuidingRoulette::adjoint ? kPolicy.splitting.usual : 1;
     const bool table = guiding.type == GuidingType::qtable;
-    if (guiding.grid_halvings == 0) guiding.grid_halvings = table ? kQTableHalvings : kGridHalvings;
+    if (guiding.grid_halvings == 0)
+        guiding.grid_halvings = table ? kPolicy.grids.table_halvings : kPolicy.grids.halvings;
     if (guiding.bootstrap == kUsualBootstrap) guiding.bootstrap = table ? 1.0f : 0.0f;
     if (guiding.spatial_threshold == 0)
         guiding.spatial_threshold = usual_spatial_threshold(static_cast<double>(scene.film_pixels));
