@@ -270,31 +270,32 @@ constexpr std::array kEntries = {
 struct Sensitivity {
     std::string_view name;
     const char* at_half_and_twice;
+    const char* when;  ///< the page of bench/log, by its date, and what has changed since
 };
 
+constexpr const char *kFirst = "2026-11-26", *kSecond = "2026-11-28";  // bench/log/{this}-policy.md
+
 constexpr Sensitivity kSensitivities[] = {
-    // bench/log/2026-11-28-policy.md
-    {"guiding.giving_up", "0.96, 0.98"},
-    {"guiding.giving_up_errors", "1.00, 0.96"},
-    {"guiding.taking_up", "1.00, 1.00"},
-    {"guiding.mistrusted", "1.00, 1.00"},
-    {"guiding.ray_cost", "0.98, 1.19"},
-    {"next_event.lent_vertices", "1.00, 1.00"},
-    {"next_event.standard_errors", "0.99, 1.02"},
-    {"next_event.least_gain", "1.00, 1.00"},
-    {"next_event.learned", "1.02, 0.99"},
-    {"next_event.sample_cost", "1.01, 0.99"},
-    // bench/log/2026-11-26-policy.md
-    {"splitting.usual", "1.00, 0.99"},
-    {"splitting.least_share", "1.00, 0.98"},
-    {"walk.adjoint_window", "0.99, 1.02"},
-    {"walk.unguided_most", "0.98, 1.13"},
-    {"walk.candidate_fair", "1.00, 1.00"},
-    {"learning.spatial_threshold", "0.97, 1.03"},
-    {"learning.product_cells", "1.00, 1.00"},
-    {"learning.lights_unlearned", "0.97, 1.05"},
-    {"learning.mixture_prior_records", "0.99, 0.99"},
-    {"schedule.kickstart_spp", "1.00, 1.00"},
+    {"guiding.giving_up", "0.96, 0.98", kSecond},
+    {"guiding.giving_up_errors", "1.00, 0.96", kSecond},
+    {"guiding.taking_up", "1.00, 1.00", kSecond},
+    {"guiding.mistrusted", "1.00, 1.00", kSecond},
+    {"guiding.ray_cost", "0.98, 1.19", kSecond},
+    {"next_event.lent_vertices", "1.00, 1.00", kSecond},
+    {"next_event.standard_errors", "0.99, 1.02", kSecond},
+    {"next_event.least_gain", "1.00, 1.00", kSecond},
+    {"next_event.learned", "1.02, 0.99", kSecond},
+    {"next_event.sample_cost", "1.01, 0.99", kSecond},
+    {"splitting.usual", "1.00, 0.99", kFirst},
+    {"splitting.least_share", "1.00, 0.98", kFirst},
+    {"walk.adjoint_window", "0.99, 1.02", kFirst},
+    {"walk.unguided_most", "0.98, 1.13", "2026-11-26, before unguided_window"},
+    {"walk.candidate_fair", "1.00, 1.00", kFirst},
+    {"learning.spatial_threshold", "0.97, 1.03", kFirst},
+    {"learning.product_cells", "1.00, 1.00", kFirst},
+    {"learning.lights_unlearned", "0.97, 1.05", "2026-11-26, as lights_by_power, before the light tree"},
+    {"learning.mixture_prior_records", "0.99, 0.99", kFirst},
+    {"schedule.kickstart_spp", "1.00, 1.00", kFirst},
 };
 
 static_assert(std::all_of(std::begin(kSensitivities), std::end(kSensitivities), [](const Sensitivity& sensitivity) {
@@ -304,7 +305,7 @@ static_assert(std::all_of(std::begin(kSensitivities), std::end(kSensitivities), 
 
 std::string sensitivity_of(std::string_view name) {
     for (const Sensitivity& sensitivity : kSensitivities)
-        if (sensitivity.name == name) return sensitivity.at_half_and_twice;
+        if (sensitivity.name == name) return std::string(sensitivity.at_half_and_twice) + " (" + sensitivity.when + ")";
     return "";
 }
 
