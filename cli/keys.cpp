@@ -49,7 +49,7 @@ const char* type_name(ValueKind kind) {
         case ValueKind::boolean:
             return "boolean";
         case ValueKind::off_switch:
-            return "false or \"auto\"";
+            return "false or text";
         case ValueKind::text_list:
             return "list of texts";
         case ValueKind::text:

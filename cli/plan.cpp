@@ -36,6 +36,7 @@ std::pair<RenderRequest, double> smaller_request(const PlanOptions& options, con
     const double scale = std::sqrt(kProbePixels / (width * height));
     if (scale >= 1) return {whole, 1.0};
     RenderOptions smaller = options.render;
+    smaller.holds_to_scene = false;  // its film is another
     const auto pixels = [&](double side) { return std::to_string(static_cast<int>(std::ceil(scale * side))); };
     // The size that a job sets is that of the whole film.
     smaller.set.push_back("image.width=" + pixels(whole.scene.film.whole_width()));

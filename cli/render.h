@@ -33,6 +33,7 @@ struct RenderOptions {
     bool resume = false;         ///< --resume
     bool carry_model = false;    ///< --carry-model
     bool reads_model = true;     ///< guiding.initial_model is still to be read
+    bool holds_to_scene = true;  ///< the scene has to be that of a resolved.toml
     std::string display_server;  ///< --display-server
     FarmOptions farm;
     std::string debug_sample;  ///< "pass,x,y,sample"

@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <utility>
 
 #include "cli/initial_model.h"
 #include "cli/input_kind.h"
 #include "cli/render.h"
 #include "cli/this_build.h"
+#include "common/base/hash.h"
 #include "common/config/check_job.h"
 #include "common/config/job_keys.h"
 #include "common/config/job_reader.h"
 #include "common/config/parse_text.h"
-#include "common/plan/policy_table.h"
+#include "common/plan/resolved_file.h"
 #include "common/plan/schedule_file.h"
+#include "common/scene/pack/scene_codec.h"
 #include "common/scene/readers/load.h"
 #include "coordinator/display/display_server.h"
 
@@ -82,15 +85,40 @@ void replay(const std::string& file, RenderRequest& request) {
     request.job.budget.spp = request.schedule.back().first_sample + request.schedule.back().spp;
 }
 
+/// Where the passes of a job file stand that has them listed, unless the command line says how long to render.
+std::string schedule_of(const RenderOptions& options, const JobFile& file, const std::vector<Setting>& line) {
+    const bool has_budget = std::any_of(line.begin(), line.end(), [](const Setting& s) {
+        return s.key.starts_with("budget.") && s.key != "budget.strict";
+    });
+    if (!options.schedule.empty() || has_budget || !file.experiment || file.experiment->schedule.empty())
+        return options.schedule;
+    const std::filesystem::path schedule =
+        std::filesystem::path(options.input).parent_path() / file.experiment->schedule;
+    if (!std::filesystem::exists(schedule))
+        throw InputError(file.experiment->where,
+                         "its passes are those of " + schedule.string() + ", which is not there",
+                         "name it with --schedule FILE, or say how long to render with --spp N");
+    return schedule.string();
+}
+
+/// What on the command line changes the scene: "-D width", or "".
+std::string scene_change(const std::vector<Setting>& line) {
+    for (const Setting& s : line)
+        if (s.key.starts_with("scene.") || s.key.starts_with("image.") || s.key.starts_with("effects."))
+            return s.where.file.starts_with("--set") ? s.where.file : s.where.file + " (" + s.key + ")";
+    return "";
+}
+
 }  // namespace
 
 RenderRequest read_request(const RenderOptions& options) {
     require_scene_or_job(options.input);
     if (!options.display_server.empty()) parse_display_server(options.display_server);  // before the scene is read
     const std::filesystem::path input(options.input);
-    std::vector<Setting> file_layer;
+    JobFile file;
+    std::vector<Setting>& file_layer = file.settings;
     if (input.extension() == ".toml")
-        file_layer = without_policy(read_job_settings(input));
+        file = sort_settings(read_job_settings(input));
     else
         file_layer.push_back({"scene.file", std::filesystem::absolute(input).string(), Location{options.input, 0, 0}});
     const std::vector<Setting> line_layer = command_line_layer(options);
@@ -112,9 +140,13 @@ RenderRequest read_request(const RenderOptions& options) {
     // --set scene.file=... is relative to the current folder, a name in job.toml to that of job.toml.
     request.job.scene.file = std::filesystem::absolute(request.job.scene.file).lexically_normal().string();
     request.scene = std::move(loaded.scene);
-    if (!options.schedule.empty()) replay(options.schedule, request);
+    if (const std::string schedule = schedule_of(options, file, line_layer); !schedule.empty())
+        replay(schedule, request);
     if (options.reads_model) read_initial_model(request);
     request.plan = plan_effects(request.scene, request.job);
+    if (file.experiment && options.holds_to_scene)
+        require_scene(*file.experiment, hash_text(hash_bytes(encode_scene(request.scene))), kProgramVersion,
+                      scene_change(line_layer));
     request.plan.passes_guessed |= !request.schedule.empty();
     for (const Warning& warning : loaded.warnings)
         request.warnings.push_back(warning.text());

@@ -59,6 +59,12 @@ const Job& checked(const Job& job) {
     return job;
 }
 
+/// Where the passes do not follow from the job alone, a resolved.toml names the file that lists them.
+Experiment experiment_of(const Job& job, const RunFacts& facts, bool resumed) {
+    const bool listed = !facts.schedule.empty() || job.budget.seconds > 0 || job.budget.error > 0 || resumed;
+    return {kProgramVersion, hash_text(facts.scene_hash), listed ? "schedule.toml" : ""};
+}
+
 /// Whether an image gets a preview. Larger ones no viewer opens, nor does the format hold them.
 bool has_preview(std::size_t pixels) {
     constexpr std::size_t kMostPixels = std::size_t{1} << 28;
@@ -79,8 +85,9 @@ std::vector<std::uint8_t> encode_image(const fs::path& path, const CombinedImage
 RunDirectory::RunDirectory(const Job& job, RunFacts facts, const EffectPlan& plan, const RunDirectoryOptions& options)
     : job_(checked(job)),
       job_toml_(job_without_output(job)),
+      storage_(plan.job.output),
       facts_(std::move(facts)),
-      resolved_toml_(write_resolved(plan.job)),
+      resolved_toml_(write_resolved(plan.job, experiment_of(job, facts_, options.resumed != nullptr))),
       folder_(job, options.use, options.interrupted),
       plan_text_(plan_text(plan, job.scene.file)),
       plan_json_(plan_json(plan, job.scene.file)),
@@ -226,7 +233,7 @@ void RunDirectory::write_image(const RenderResult& result) {
          attributes = image_attributes(result)] {
             write_bytes(
                 "image.exr",
-                encode_image(path() / "image.exr", *image, *aovs, width, height, facts_.crop, attributes, job_.output),
+                encode_image(path() / "image.exr", *image, *aovs, width, height, facts_.crop, attributes, storage_),
                 Outlives::power);
             const std::lock_guard lock(on_disk_mutex_);
             on_disk_ = image;
@@ -251,7 +258,7 @@ std::vector<LastFile> RunDirectory::last_files(const RenderResult& result, Outli
         const auto image = [this, encoded, &result]() -> const std::vector<std::uint8_t>& {
             if (encoded->empty())
                 *encoded = encode_image(path() / "image.exr", *result.image, *result.aovs, result.width, result.height,
-                                        facts_.crop, image_attributes(result), job_.output);
+                                        facts_.crop, image_attributes(result), storage_);
             return *encoded;
         };
         const auto picture = [&result] {

@@ -102,6 +102,7 @@ class RunDirectory {
 
     const Job job_;
     const std::string job_toml_;  ///< without its output: whoever repeats a run must not replace it
+    const Job::Output storage_;   ///< of a resolved job: how image.exr holds its channels
     const RunFacts facts_;
     const std::string resolved_toml_;
     RunFolder folder_;

@@ -4,18 +4,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/plan/policy.h"
+
 namespace treefarm {
 
 namespace {
 
-constexpr double kHalfLife = 2.0;     ///< of what was measured, seconds
-constexpr double kMostSeconds = 2.0;  ///< of work that are handed out at once
-constexpr double kPart = 0.25;        ///< of a worker's part of what is left that it gets at once
-constexpr double kLeastSpeed = 1.0;   ///< of one that stands still: it may move again
-
-/// A copy is worth it from so many seconds on, and so many times what it takes here. Both may end together, and then
-/// the slower one's whole result is dropped.
-constexpr double kLeastGain = 0.1, kLeastRatio = 1.0;
+constexpr double kLeastSpeed = 1.0;  ///< of one that stands still: it may move again
 
 }  // namespace
 
@@ -23,7 +18,7 @@ void WorkerSpeed::beat(double now, std::uint64_t samples, bool busy) {
     if (busy && last_ && now > last_->at && samples >= last_->samples) {
         const double seconds = now - last_->at;
         const double rate = static_cast<double>(samples - last_->samples) / seconds;
-        const double kept = speed_ ? std::exp2(-seconds / kHalfLife) : 0.0;
+        const double kept = speed_ ? std::exp2(-seconds / kPolicy.farm.half_life) : 0.0;
         speed_ = kept * speed_.value_or(0.0) + (1.0 - kept) * rate;
     }
     last_.reset();
@@ -54,8 +49,8 @@ Portion Speeds::portion(int worker, std::size_t credit, std::uint64_t queued, st
     const auto found = hands_.find(worker);
     if (found == hands_.end()) return {};
     const double mine = speed(worker);
-    double paths = kPart * static_cast<double>(waiting) * mine / std::max(total_, mine);
-    if (per_thread_ > 0) paths = std::min(paths, kMostSeconds * mine);
+    double paths = kPolicy.farm.part * static_cast<double>(waiting) * mine / std::max(total_, mine);
+    if (per_thread_ > 0) paths = std::min(paths, kPolicy.farm.most_seconds * mine);
     const double left = paths - static_cast<double>(queued);
     if (left < 1 && queued > 0) return {};
     const double piece = std::max(paths / found->second.threads, 1.0);
@@ -71,7 +66,8 @@ double Speeds::gain(int here, std::uint64_t paths, int holder, std::uint64_t out
     // Who has done all before his speed was known is quick.
     const double takes = per_thread_ > 0 || known(here) ? static_cast<double>(paths) / speed(here) : 0.0;
     const double saved = static_cast<double>(outstanding) / speed(holder) - takes;
-    return saved > std::max(kLeastGain, kLeastRatio * takes) ? saved : 0;
+    // Both may end together, and then the slower one's whole result is dropped.
+    return saved > std::max(kPolicy.farm.copy_gain, kPolicy.farm.copy_ratio * takes) ? saved : 0;
 }
 
 }  // namespace treefarm

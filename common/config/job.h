@@ -15,9 +15,10 @@ namespace treefarm {
 enum class NextEvent : std::uint8_t {
     never,
     always,
-    kickstart,  ///< only in passes that start with fewer than 128 spp done: it teaches the tree, then guiding takes
-                ///< over
-    automatic,  ///< always, but at as few vertices as finished passes show to be enough
+    kickstart,      ///< only in passes that start with fewer than 128 spp done: it teaches the tree, then guiding takes
+                    ///< over
+    automatic,      ///< as while_it_pays; only a job has it, never a resolved one
+    while_it_pays,  ///< always, but at as few vertices as finished passes show to be enough, where they may decide
 };
 
 /// Weights of multiple importance sampling between next event and scattering (Veach 1997).
@@ -94,7 +95,7 @@ struct Job {
         int bsdf_samples = 1;
         float ao_distance = 0;    ///< scene units; 0: by the scene's size
         bool split_glass = true;  ///< at the first surface: both ways out of smooth glass
-        float light_samples = 0;  ///< of next event at each vertex, on average; 0: as next_event says
+        float light_samples = 0;  ///< of next event at each vertex, on average; 0: by_next_event, as that says
     } integrator;
 
     struct Bidirectional {
@@ -168,7 +169,7 @@ struct Job {
         std::string file;                  ///< -o: also write the image here
         std::string aovs;                  ///< layers besides colour, with commas between (aov_list.h)
         bool half = false;                 ///< EXR stores colours as 16-bit floats
-        std::string compression = "auto";  ///< of EXR: auto, none, rle, zips, zip, piz
+        std::string compression = "auto";  ///< of EXR: auto, never of a resolved job; none, rle, zips, zip, piz
         int tiles = 0;                     ///< edge of the EXR file's tiles, pixels; 0: scan lines
         bool keep_checkpoint = true;       ///< of a render that is done
     } output;

@@ -33,20 +33,42 @@ JobKey estimator_key() {
     return key;
 }
 
+/// An effect that is not forced off, in a word.
+constexpr const char* kWhereCalledFor = "where_called_for";
+
 /// Forces an effect off.
 JobKey effect_key(const EffectSwitch& effect) {
     const std::string name = effect.name;
     return {kEffectsPrefix + name,
             ValueKind::off_switch,
-            "\"auto\" or false",
-            "auto: as the scene calls for it; false: " + effect.replacement,
+            in_quotes(kWhereCalledFor) + " or false",
+            std::string(kWhereCalledFor) + " (or auto): as the scene calls for it; false: " + effect.replacement,
             [name](Job& job, const std::string& text) {
                 if (text == "false") job.effects.off.insert(name);
-                if (text == "auto") job.effects.off.erase(name);
-                return text == "false" || text == "auto";
+                const bool called_for = text == kWhereCalledFor || text == "auto";
+                if (called_for) job.effects.off.erase(name);
+                return text == "false" || called_for;
             },
-            [name](const Job& job) { return std::string(job.effects.off.contains(name) ? "false" : "auto"); },
+            [name](const Job& job) { return std::string(job.effects.off.contains(name) ? "false" : kWhereCalledFor); },
             {}};
+}
+
+/// The key whose value is a number, or (by default, 0) that next event decides.
+JobKey light_samples_key() {
+    constexpr const char* kByNextEvent = "by_next_event";
+    JobKey key = number_key(
+        "integrator.light_samples", "0 to 1, or \"by_next_event\"",
+        "part of the vertices at which next event samples an emitter, everywhere the same, to compare; lights without "
+        "extent always; by_next_event, or 0: as integrator.next_event says",
+        [](auto& j) -> auto& { return j.integrator.light_samples; }, [](float v) { return v >= 0.0f && v <= 1.0f; });
+    key.kind = ValueKind::number_or_text;
+    key.parse = [number = key.parse](Job& job, const std::string& text) {
+        return number(job, text == kByNextEvent ? "0" : text);
+    };
+    key.print = [number = key.print](const Job& job) {
+        return job.integrator.light_samples == 0 ? std::string(kByNextEvent) : number(job);
+    };
+    return key;
 }
 
 /// The layers of the image besides colour.
@@ -143,18 +165,16 @@ std::vector<JobKey> make_job_keys() {
         [](auto& j) -> auto& { return j.integrator.rr_depth; }, 1, kMaxInt));
     add(word_key(
         "integrator.next_event",
-        "when emitters are sampled directly; kickstart: in passes that start with fewer than 128 spp done; auto: at "
-        "every vertex, a quarter or a sixteenth of them, as finished passes show",
+        "when emitters are sampled directly; kickstart: in passes that start with fewer than 128 spp done; "
+        "while_it_pays: at every vertex, a quarter or a sixteenth of them, as finished passes show, and always where "
+        "they may not decide (presets, budget.strict, other weights); auto: left to the program, as while_it_pays",
         [](auto& j) -> auto& { return j.integrator.next_event; },
         std::vector<std::pair<std::string, NextEvent>>{{"always", NextEvent::always},
                                                        {"never", NextEvent::never},
                                                        {"kickstart", NextEvent::kickstart},
+                                                       {"while_it_pays", NextEvent::while_it_pays},
                                                        {"auto", NextEvent::automatic}}));
-    add(number_key(
-        "integrator.light_samples", "0 to 1",
-        "part of the vertices at which next event samples an emitter, everywhere the same, to compare; lights without "
-        "extent always; 0: as integrator.next_event says",
-        [](auto& j) -> auto& { return j.integrator.light_samples; }, [](float v) { return v >= 0.0f && v <= 1.0f; }));
+    add(light_samples_key());
     add(word_key(
         "integrator.mis", "heuristic that weighs next event against scattering (Veach 1997); equal: half and half",
         [](auto& j) -> auto& { return j.integrator.mis; },

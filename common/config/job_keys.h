@@ -20,7 +20,7 @@ enum class ValueKind {
     boolean,
     text,
     text_list,   ///< a list of texts, or one with commas between
-    off_switch,  ///< false, or the text "auto"
+    off_switch,  ///< false, or a text that says when it is on
 };
 
 /// A value that is planned but not there yet, and what to use in its place.

@@ -48,18 +48,20 @@ std::string toml_key(const std::string& key) {
     return !key.empty() && key.find_first_not_of(bare) == std::string::npos ? key : toml_string(key);
 }
 
-/// Constants that a resolved.toml records: numbers by names that this room does not know.
-void read_policy(const toml::table& section, const std::string& prefix, const std::string& file,
+/// Sections that only a resolved.toml has: values by names that this room does not know. What they may be, others know.
+void read_record(const toml::table& section, const std::string& prefix, const std::string& file,
                  std::vector<Setting>& settings) {
     for (const auto& [key, node] : section) {
         const std::string name = prefix + std::string(key.str());
         const Location where = toml_location(node.source(), file);
         if (const toml::table* part = node.as_table())
-            read_policy(*part, name + ".", file, settings);
+            read_record(*part, name + ".", file, settings);
+        else if (const auto text = node.value<std::string>(); text)
+            settings.push_back({name, *text, where});
         else if (const auto value = node.value<double>())
             settings.push_back({name, number_text(*value), where});
         else
-            throw InputError(where, name + " is no number", "write what the render wrote");
+            throw InputError(where, name + " is neither number nor text", "write what the render wrote");
     }
 }
 
@@ -124,13 +126,15 @@ std::vector<Setting> parse_job_settings(const std::string& toml, const std::stri
     try {
         toml::table table = toml::parse(toml, std::string_view(name));
         require_kind(table, name, TomlKind::job);
-        std::vector<Setting> policy;
-        if (const toml::table* section = table["policy"].as_table()) {
-            read_policy(*section, "policy.", name, policy);
-            table.erase("policy");
+        std::vector<Setting> record;
+        for (const std::string section : {"experiment", "policy"}) {
+            const toml::table* part = table[section].as_table();
+            if (part == nullptr) continue;
+            read_record(*part, section + ".", name, record);
+            table.erase(section);
         }
         settings = read_settings(table, name);
-        settings.insert(settings.end(), policy.begin(), policy.end());
+        settings.insert(settings.end(), record.begin(), record.end());
     } catch (const toml::parse_error& error) {
         throw InputError(toml_location(error.source(), name), "this is not TOML: " + one_line(error.description()),
                          "write key = value, text in quotes");

@@ -33,8 +33,9 @@ std::string read_settings_text(const std::filesystem::path& path, const std::str
 /// relative to the job file's folder. Throws InputError with file:line:column.
 std::vector<Setting> read_job_settings(const std::filesystem::path& path);
 
-/// The settings in TOML text; `name` stands for the file in messages. Paths are left as they are. Numbers below
-/// [policy] come back as settings "policy....", which are no keys of a job (plan/policy_table.h).
+/// The settings in TOML text; `name` stands for the file in messages. Paths are left as they are. What stands
+/// below [policy] and [experiment] comes back as settings "policy....", which are no keys of a job
+/// (plan/resolved_file.h).
 std::vector<Setting> parse_job_settings(const std::string& toml, const std::string& name);
 
 /// A setting from the text of --set: "key=value". Quotes around the value are optional.

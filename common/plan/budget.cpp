@@ -82,7 +82,8 @@ class OpenBudget {
 
     double hedge(const RenderHistory& state) const {
         const double uncertain = (1 - kPolicy.budget.hedge) * (job_.budget.seconds - state.seconds);
-        const double worthwhile = std::max(0.5 * tolerance(), seconds_of_pass(2 * least_spp()));
+        const double worthwhile =
+            std::max(kPolicy.budget.worth_hedging * tolerance(), seconds_of_pass(2 * least_spp()));
         return job_.budget.strict || uncertain < worthwhile ? 1.0 : kPolicy.budget.hedge;
     }
 
@@ -90,12 +91,12 @@ class OpenBudget {
     double by_time(const RenderHistory& state, double fraction) const {
         if (job_.budget.seconds == 0) return kUnlimited;
         const double left = job_.budget.seconds - state.seconds;
-        if (left < 0.25 * tolerance()) return 0;
+        if (left < kPolicy.budget.least_left * tolerance()) return 0;
         const double of_one = seconds_of_pass(1) - seconds_of_pass(0);
         const double spp = std::floor(std::max(0.0, fraction * left - seconds_of_pass(0)) / of_one);
         // The shortest pass may be a little too long: that may still be nearer to the budget than to stop here.
         const double too_long = seconds_of_pass(least_spp()) - left;
-        return too_long < std::min(left, 0.75 * tolerance()) ? std::max(spp, least_spp()) : spp;
+        return too_long < std::min(left, kPolicy.budget.most_late * tolerance()) ? std::max(spp, least_spp()) : spp;
     }
 
     /// Samples that are still needed for the target.

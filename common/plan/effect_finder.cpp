@@ -20,6 +20,8 @@ const char* next_event_name(NextEvent next_event) {
             return "kickstart";
         case NextEvent::automatic:
             return "auto";
+        case NextEvent::while_it_pays:
+            return "while_it_pays";
     }
     return "";
 }

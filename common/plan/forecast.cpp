@@ -82,7 +82,7 @@ bool shows_last_tree_only(const Resolved& job) {
 }
 
 double ending_margin(const Resolved& job) {
-    return job.budget.strict ? 1.10 : 1.02;
+    return job.budget.strict ? kPolicy.budget.strict_error_margin : kPolicy.budget.error_margin;
 }
 
 double ending_variance(const Outlook& outlook, const Resolved& job, int trees) {

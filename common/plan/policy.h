@@ -97,7 +97,31 @@ struct Policy {
         double least_view_gain = 0.1;
         double least_view_gain_of_all = 0.015;
         int initial_depth = 4;
+        double kept_evidence = 0.5;
     } learning;
+
+    /// Guides of even regions and strata of directions.
+    struct Grids {
+        int halvings = 12;
+        int table_halvings = 15;
+        double even_part = 0.1;
+        double table_floor = 0.02;
+    } grids;
+
+    /// How lamps are cut, and the tree of them that next event chooses by.
+    struct Lights {
+        float least_cut = 1.0f / 32;
+        std::size_t few_triangles = 16;
+        double small_share = 1.0 / 64;
+        double least_area = 1e-3;
+        std::size_t far_lanes = 4;
+    } lights;
+
+    /// How bright a splat is expected to be.
+    struct Splats {
+        double nearest = 0x1p-16;
+        double alike = 16.0;
+    } splats;
 
     /// Lengths of passes, and which of them count.
     struct Schedule {
@@ -106,7 +130,17 @@ struct Policy {
         std::uint32_t guessed_spp = 64;
         std::uint32_t samples_per_unit = 1u << 18;
         std::uint32_t least_weighed_spp = 4;
+        double kickstart_weight = 0.5;
     } schedule;
+
+    /// How work is handed out: no influence on the image.
+    struct Farm {
+        double half_life = 2.0;
+        double most_seconds = 2.0;
+        double part = 0.25;
+        double copy_gain = 0.1;
+        double copy_ratio = 1.0;
+    } farm;
 
     /// How renders end that have seconds or an error for a budget.
     struct Budget {
@@ -120,6 +154,9 @@ struct Policy {
         double least_share = 1.0 / 16;
         double error_margin = 1.02;
         double strict_error_margin = 1.10;
+        double least_left = 0.25;
+        double worth_hedging = 0.5;
+        double most_late = 0.75;
     } budget;
 
     /// The progress that trees to come will bring.

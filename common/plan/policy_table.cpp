@@ -5,16 +5,13 @@
 #include <array>
 #include <string_view>
 #include <type_traits>
+#include <vector>
 
-#include "common/base/error.h"
-#include "common/config/job_keys.h"
 #include "common/config/parse_text.h"
 #include "common/plan/policy.h"
 
 namespace treefarm {
 namespace {
-
-constexpr std::string_view kPrefix = "policy.";
 
 constexpr const char* kAuto = "bench/log/2026-11-25-auto.md";
 constexpr const char* kSplits = "bench/log/2026-11-25-splitting.md";
@@ -41,7 +38,11 @@ constexpr Policy::Splitting kSplitting = kPolicy.splitting;
 constexpr Policy::LightSubpaths kLightSubpaths = kPolicy.light_subpaths;
 constexpr Policy::Walk kWalk = kPolicy.walk;
 constexpr Policy::Learning kLearning = kPolicy.learning;
+constexpr Policy::Grids kGrids = kPolicy.grids;
+constexpr Policy::Lights kLamps = kPolicy.lights;
+constexpr Policy::Splats kSplats = kPolicy.splats;
 constexpr Policy::Schedule kSchedule = kPolicy.schedule;
+constexpr Policy::Farm kFarm = kPolicy.farm;
 constexpr Policy::Budget kBudget = kPolicy.budget;
 constexpr Policy::Forecast kForecast = kPolicy.forecast;
 constexpr Policy::Tails kTails = kPolicy.tails;
@@ -174,6 +175,33 @@ constexpr std::array kEntries = {
           "depth of a region's quadtree before anything is known: where the rule \"more than 1 % of the energy\" ends "
           "for even light",
           "Mueller et al. 2017, section 3.2"),
+    entry(
+        "learning.kept_evidence", kLearning.kept_evidence,
+        "what regions know of emitters, next event, mixtures and a qtable's visits counts so much with each pass after",
+        kGuess),
+    entry("grids.halvings", kGrids.halvings, "a grid has 2^this regions (guiding.grid_halvings = 0)", kGuess),
+    entry("grids.table_halvings", kGrids.table_halvings,
+          "a qtable too: its cells learn means, which need fewer records", kGuess),
+    entry("grids.even_part", kGrids.even_part,
+          "part of a grid's samples that all strata of directions share alike: light that no record has found must be "
+          "found",
+          kGuess),
+    entry("grids.table_floor", kGrids.table_floor, "least weight of a qtable's stratum, of its region's mean", kGuess),
+    entry("lights.least_cut", kLamps.least_cut,
+          "area lights whose longest side is shorter than this share of the scene's radius are not cut", kGuess),
+    entry("lights.few_triangles", kLamps.few_triangles, "nor are patches of a mesh with so many triangles at most",
+          kGuess),
+    entry("lights.small_share", kLamps.small_share, "nor those of at most this share of the mesh's area", kGuess),
+    entry(
+        "lights.least_area", kLamps.least_area,
+        "of the squared diagonal of all lamps: what boxes count in the light tree's cost at least, so that lamps in a "
+        "line have some as well",
+        kGuess),
+    entry("lights.far_lanes", kLamps.far_lanes, "of the tree's root that emitters at infinity may have", kGuess),
+    entry("splats.nearest", kSplats.nearest,
+          "light of a lamp at the lens is seen from this squared distance at least, over that of the scene", kGuess),
+    entry("splats.alike", kSplats.alike,
+          "but that counts only where it is more than so many times that from the scene's distance", kGuess),
     entry("schedule.kickstart_spp", kSchedule.kickstart_spp,
           "kick-start samples emitters directly in passes that begin with fewer samples per pixel", kProgram2017),
     entry("schedule.teaching_share", kSchedule.teaching_share,
@@ -184,6 +212,14 @@ constexpr std::array kEntries = {
           "samples of a work unit, at most: around half a second of a core; no influence on the image", kGuess),
     entry("schedule.least_weighed_spp", kSchedule.least_weighed_spp,
           "shorter passes know too little of their own variance to be weighed by it", kProgram2019),
+    entry("schedule.kickstart_weight", kSchedule.kickstart_weight,
+          "weight of each record of a kick-start pass, in which light samples are records, too", kProgram2019),
+    entry("farm.half_life", kFarm.half_life, "of a worker's measured speed, seconds", kGuess),
+    entry("farm.most_seconds", kFarm.most_seconds, "of work that a worker is handed at once", kGuess),
+    entry("farm.part", kFarm.part, "of a worker's part of what is left, that it is handed at once", kGuess),
+    entry("farm.copy_gain", kFarm.copy_gain, "a unit is given to a second worker that saves so many seconds ...",
+          kGuess),
+    entry("farm.copy_ratio", kFarm.copy_ratio, "... and so many times what it takes there", kGuess),
     entry("budget.time_tolerance", kBudget.time_tolerance, "how far a render may be from budget.seconds, share of it",
           kBudgets),
     entry("budget.least_tolerance", kBudget.least_tolerance, "but not less than so many seconds ...", kBudgets),
@@ -200,6 +236,13 @@ constexpr std::array kEntries = {
     entry("budget.error_margin", kBudget.error_margin,
           "passes that end for an error have so many times the samples needed", kBudgets),
     entry("budget.strict_error_margin", kBudget.strict_error_margin, "the same of a strict render", kBudgets),
+    entry("budget.least_left", kBudget.least_left,
+          "no pass begins where less time is left than this share of the tolerance", kGuess),
+    entry("budget.worth_hedging", kBudget.worth_hedging,
+          "an ending pass takes all the time left where hedge would leave less than this share of the tolerance",
+          kGuess),
+    entry("budget.most_late", kBudget.most_late,
+          "the shortest pass may end late by less than this share of the tolerance, and than the time left", kGuess),
     entry("forecast.learned", kForecast.learned,
           "after two trees that brought the variance below this share, a forecast is a bound", kError),
     entry("forecast.noisy", kForecast.noisy,
@@ -227,31 +270,32 @@ constexpr std::array kEntries = {
 struct Sensitivity {
     std::string_view name;
     const char* at_half_and_twice;
+    const char* when;  ///< the page of bench/log, by its date, and what has changed since
 };
 
+constexpr const char *kFirst = "2026-11-26", *kSecond = "2026-11-28";  // bench/log/{this}-policy.md
+
 constexpr Sensitivity kSensitivities[] = {
-    // bench/log/2026-11-28-policy.md
-    {"guiding.giving_up", "0.96, 0.98"},
-    {"guiding.giving_up_errors", "1.00, 0.96"},
-    {"guiding.taking_up", "1.00, 1.00"},
-    {"guiding.mistrusted", "1.00, 1.00"},
-    {"guiding.ray_cost", "0.98, 1.19"},
-    {"next_event.lent_vertices", "1.00, 1.00"},
-    {"next_event.standard_errors", "0.99, 1.02"},
-    {"next_event.least_gain", "1.00, 1.00"},
-    {"next_event.learned", "1.02, 0.99"},
-    {"next_event.sample_cost", "1.01, 0.99"},
-    // bench/log/2026-11-26-policy.md
-    {"splitting.usual", "1.00, 0.99"},
-    {"splitting.least_share", "1.00, 0.98"},
-    {"walk.adjoint_window", "0.99, 1.02"},
-    {"walk.unguided_most", "0.98, 1.13"},
-    {"walk.candidate_fair", "1.00, 1.00"},
-    {"learning.spatial_threshold", "0.97, 1.03"},
-    {"learning.product_cells", "1.00, 1.00"},
-    {"learning.lights_unlearned", "0.97, 1.05"},
-    {"learning.mixture_prior_records", "0.99, 0.99"},
-    {"schedule.kickstart_spp", "1.00, 1.00"},
+    {"guiding.giving_up", "0.96, 0.98", kSecond},
+    {"guiding.giving_up_errors", "1.00, 0.96", kSecond},
+    {"guiding.taking_up", "1.00, 1.00", kSecond},
+    {"guiding.mistrusted", "1.00, 1.00", kSecond},
+    {"guiding.ray_cost", "0.98, 1.19", kSecond},
+    {"next_event.lent_vertices", "1.00, 1.00", kSecond},
+    {"next_event.standard_errors", "0.99, 1.02", kSecond},
+    {"next_event.least_gain", "1.00, 1.00", kSecond},
+    {"next_event.learned", "1.02, 0.99", kSecond},
+    {"next_event.sample_cost", "1.01, 0.99", kSecond},
+    {"splitting.usual", "1.00, 0.99", kFirst},
+    {"splitting.least_share", "1.00, 0.98", kFirst},
+    {"walk.adjoint_window", "0.99, 1.02", kFirst},
+    {"walk.unguided_most", "0.98, 1.13", "2026-11-26, before unguided_window"},
+    {"walk.candidate_fair", "1.00, 1.00", kFirst},
+    {"learning.spatial_threshold", "0.97, 1.03", kFirst},
+    {"learning.product_cells", "1.00, 1.00", kFirst},
+    {"learning.lights_unlearned", "0.97, 1.05", "2026-11-26, as lights_by_power, before the light tree"},
+    {"learning.mixture_prior_records", "0.99, 0.99", kFirst},
+    {"schedule.kickstart_spp", "1.00, 1.00", kFirst},
 };
 
 static_assert(std::all_of(std::begin(kSensitivities), std::end(kSensitivities), [](const Sensitivity& sensitivity) {
@@ -261,7 +305,7 @@ static_assert(std::all_of(std::begin(kSensitivities), std::end(kSensitivities), 
 
 std::string sensitivity_of(std::string_view name) {
     for (const Sensitivity& sensitivity : kSensitivities)
-        if (sensitivity.name == name) return sensitivity.at_half_and_twice;
+        if (sensitivity.name == name) return std::string(sensitivity.at_half_and_twice) + " (" + sensitivity.when + ")";
     return "";
 }
 
@@ -286,43 +330,32 @@ std::string write_policy() {
     return text;
 }
 
-std::vector<Setting> without_policy(std::vector<Setting> settings) {
-    const auto is_policy = [](const Setting& s) { return s.key.starts_with(kPrefix); };
-    const auto first = std::find_if(settings.begin(), settings.end(), is_policy);
-    if (first == settings.end()) return settings;
-    const Location file{first->where.file};
-    const auto find = [&](const std::string& key) {
-        return std::find_if(settings.begin(), settings.end(), [&](const Setting& s) { return s.key == key; });
-    };
-    constexpr const char* kCure =
-        "render job.toml instead, which leaves it to the program, or use the build that wrote it";
+void check_policy(std::span<const Setting> settings, const Location& file) {
     std::vector<std::string> known;
     known.reserve(kEntries.size());
     for (const PolicyEntry& entry : kEntries)
-        known.push_back(std::string(kPrefix) + entry.name);
+        known.push_back(std::string(kPolicyPrefix) + entry.name);
     for (const Setting& setting : settings) {
-        if (!is_policy(setting) || std::find(known.begin(), known.end(), setting.key) != known.end()) continue;
+        if (!setting.key.starts_with(kPolicyPrefix) ||
+            std::find(known.begin(), known.end(), setting.key) != known.end())
+            continue;
         const std::string nearest = nearest_word(setting.key, known);
         throw InputError(setting.where, setting.key + " is no constant of this build",
-                         (nearest.empty() ? "" : "did you mean " + nearest + "? Otherwise ") + kCure);
+                         (nearest.empty() ? "" : "did you mean " + nearest + "? Otherwise ") + kResolvedCure);
     }
     for (const PolicyEntry& entry : kEntries) {
-        const auto written = find(std::string(kPrefix) + entry.name);
+        const std::string key = std::string(kPolicyPrefix) + entry.name;
+        const auto written =
+            std::find_if(settings.begin(), settings.end(), [&](const Setting& s) { return s.key == key; });
         if (written == settings.end())
-            throw InputError(
-                file, std::string(kPrefix) + entry.name + " is not in it: the build that wrote it had no such constant",
-                kCure);
+            throw InputError(file,
+                             key + " is not in it: the build that wrote it had no such constant, or it was taken out",
+                             kResolvedCure);
         if (written->value != value_text(entry))
             throw InputError(written->where,
-                             std::string(kPrefix) + entry.name + " was " + written->value + ", and is " +
-                                 value_text(entry) + " in this build",
-                             kCure);
+                             key + " was " + written->value + ", and is " + value_text(entry) + " in this build",
+                             kResolvedCure);
     }
-    for (const JobKey& key : job_keys())
-        if (key.stored() && !key.name.starts_with("output.") && find(key.name) == settings.end())
-            throw InputError(file, key.name + " is not in it: the build that wrote it had no such key", kCure);
-    std::erase_if(settings, is_policy);
-    return settings;
 }
 
 std::string policy_documentation() {

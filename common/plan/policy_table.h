@@ -3,8 +3,8 @@
 
 #include <span>
 #include <string>
-#include <vector>
 
+#include "common/base/error.h"
 #include "common/config/setting.h"
 
 namespace treefarm {
@@ -27,9 +27,16 @@ std::span<const PolicyEntry> policy_table();
 /// The section [policy] of resolved.toml.
 std::string write_policy();
 
-/// The settings of a job file without those of [policy]. Where there are any, it is a resolved.toml: each constant has
-/// to be there with this build's value, and each key of a job. Throws InputError, which names the first that is not.
-std::vector<Setting> without_policy(std::vector<Setting> settings);
+/// What its constants begin with among settings: "policy.guiding.giving_up".
+inline constexpr char kPolicyPrefix[] = "policy.";
+
+/// What to do with a resolved.toml that this build cannot repeat.
+inline constexpr char kResolvedCure[] =
+    "render job.toml instead, which leaves it to the program, or use the build that wrote it";
+
+/// Throws InputError where the settings of a resolved.toml lack a constant, have one that this build has not, or give
+/// one another value. `file`: for what is missing.
+void check_policy(std::span<const Setting> settings, const Location& file);
 
 /// A Markdown table of all constants, for docs/.
 std::string policy_documentation();

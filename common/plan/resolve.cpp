@@ -14,9 +14,6 @@
 namespace treefarm {
 namespace {
 
-/// Fixed grids of 2^this regions. That of a table is finer: its cells learn means, which need fewer records.
-constexpr int kGridHalvings = 12, kQTableHalvings = 15;
-
 bool chooses_lights(const Scene& scene) {
     bool with_image = false;
     for (const Emitter& emitter : scene.emitters)
@@ -108,18 +105,22 @@ Resolved resolve(const Job& job, const SceneFacts& scene) {
     resolve_estimator(resolved);
     resolve_rules(guiding);
     NextEvent& next_event = resolved.integrator.next_event;
-    if (next_event == NextEvent::automatic && !may_decide_next_event(resolved)) next_event = NextEvent::always;
-    resolved.decides_next_event = next_event == NextEvent::automatic;
+    if (next_event == NextEvent::automatic || next_event == NextEvent::while_it_pays)
+        next_event = may_decide_next_event(resolved) ? NextEvent::while_it_pays : NextEvent::always;
+    resolved.decides_next_event = next_event == NextEvent::while_it_pays;
     resolve_light_subpaths(resolved.bidirectional, scene);
     if (resolved.integrator.ao_distance == 0) resolved.integrator.ao_distance = scene.ao_reach;
     const bool by_view = guiding.type == GuidingType::view;
     if (guiding.splitting == 0)
         guiding.splitting = by_view && guiding.roulette == GuidingRoulette::adjoint ? kPolicy.splitting.usual : 1;
     const bool table = guiding.type == GuidingType::qtable;
-    if (guiding.grid_halvings == 0) guiding.grid_halvings = table ? kQTableHalvings : kGridHalvings;
+    if (guiding.grid_halvings == 0)
+        guiding.grid_halvings = table ? kPolicy.grids.table_halvings : kPolicy.grids.halvings;
     if (guiding.bootstrap == kUsualBootstrap) guiding.bootstrap = table ? 1.0f : 0.0f;
     if (guiding.spatial_threshold == 0)
         guiding.spatial_threshold = usual_spatial_threshold(static_cast<double>(scene.film_pixels));
+    // By what packs best: floats with noise hardly shrink (packed_by in image/exr_write.cpp).
+    if (resolved.output.compression == "auto") resolved.output.compression = resolved.output.half ? "zip" : "rle";
     resolved.guides = guiding.type != GuidingType::none;
     resolved.learns_views = by_view && scene.view_dependent;
     LightSelection& lights = resolved.integrator.light_selection;

@@ -24,7 +24,7 @@ struct SceneFacts {
 
 SceneFacts facts_of(const Scene& scene);
 
-/// A job as it is carried out on one scene. None of its values says "as usual": type is no "auto", rules, splitting,
+/// A job as it is carried out on one scene. None of its values says "as usual" or "auto": type, rules, splitting,
 /// light selection and thresholds are set. What only finished passes can decide stands there as a rule. resolve() of it
 /// gives it back, so it can be written as a job (resolved.toml) and sent to workers.
 struct Resolved : Job {

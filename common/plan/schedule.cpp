@@ -37,7 +37,8 @@ std::vector<WorkUnit> cut_pass(const PassPlan& pass, int width, int height, int 
 
 void set_next_event(PassPlan& pass, const Resolved& job, bool next_event) {
     pass.next_event = next_event;
-    pass.record_weight = next_event && job.integrator.next_event == NextEvent::kickstart ? 0.5 : 1.0;
+    const bool kickstart = next_event && job.integrator.next_event == NextEvent::kickstart;
+    pass.record_weight = kickstart ? kPolicy.schedule.kickstart_weight : 1.0;
 }
 
 void set_record(PassPlan& pass, const Resolved& job, bool record) {

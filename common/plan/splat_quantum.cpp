@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "common/film/splat_film.h"
+#include "common/plan/policy.h"
 #include "common/scene/kinds/shape_area.h"
 
 namespace treefarm {
@@ -77,9 +78,8 @@ std::int16_t usual_splat_exponent(const Scene& scene) {
                               static_cast<double>(scene.film.pixel_count());
     // A lamp at the lens may light what is far: so near a one is not believed. A coarser quantum is only needed where
     // splats would come near its caps, 2^30 times the usual one; what is left of these is for rare paths.
-    constexpr double kNearest = 0x1p-16, kAlike = 16;
-    const double power =
-        std::max(power_seen(scene, radius2, distance2, 1.0), power_seen(scene, radius2, distance2, kNearest) / kAlike);
+    const double power = std::max(power_seen(scene, radius2, distance2, 1.0),
+                                  power_seen(scene, radius2, distance2, kPolicy.splats.nearest) / kPolicy.splats.alike);
     const double splat = power / (2 * M_PI) * per_window;
     return splat_exponent(splat * kFiner * kOfExponent);
 }

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 
@@ -10,6 +13,7 @@
 #include "common/config/job_reader.h"
 #include "common/plan/policy.h"
 #include "common/plan/policy_table.h"
+#include "common/plan/resolved_file.h"
 #include "common/plan/schedule.h"
 #include "tests/support/support.h"
 
@@ -41,7 +45,9 @@ TEST(Resolve, NothingIsLeftToTheProgram) {
     EXPECT_NEAR(job.guiding.spatial_threshold, 2000 / std::sqrt(8.0), 1e-9);
     EXPECT_EQ(job.image.width, 64);
     EXPECT_TRUE(job.guides && job.learns_views && job.learns_lights && job.cells_follow_use);
-    for (const char* word : {"\"usual\"", "'usual'"})
+    EXPECT_EQ(job.integrator.next_event, NextEvent::while_it_pays);
+    EXPECT_EQ(job.output.compression, "rle");
+    for (const char* word : {"\"usual\"", "'usual'", "\"auto\"", "'auto'"})
         EXPECT_EQ(write_job(job).find(word), std::string::npos) << write_job(job);
 }
 
@@ -50,7 +56,9 @@ TEST(Resolve, OfAResolvedJobItGivesTheSame) {
     for (const auto& job :
          {Job(), with({{"guiding.type", "none"}}), with({{"guiding.type", "ppg"}, {"guiding.splitting", "4"}}),
           with({{"guiding.type", "view"}, {"guiding.roulette", "constant"}}), with({{"guiding.preset", "thesis"}}),
-          with({{"integrator.next_event", "never"}}), with({{"guiding.splitting_rule", "always"}})}) {
+          with({{"integrator.next_event", "never"}}), with({{"integrator.next_event", "while_it_pays"}}),
+          with({{"output.half", "true"}, {"integrator.light_samples", "0.5"}}),
+          with({{"guiding.splitting_rule", "always"}})}) {
         const Resolved once = resolve(job, glossy()), twice = resolve(once, glossy());
         EXPECT_EQ(write_job(once), write_job(twice));
         EXPECT_EQ(once.guides, twice.guides);
@@ -58,6 +66,24 @@ TEST(Resolve, OfAResolvedJobItGivesTheSame) {
         EXPECT_EQ(once.learns_lights, twice.learns_lights);
         EXPECT_EQ(once.cells_follow_use, twice.cells_follow_use);
     }
+}
+
+TEST(Resolve, NextEventIsDecidedByPassesOrAlways) {
+    const auto of = [](const char* word, const char* preset) {
+        return resolve(with({{"guiding.preset", preset}, {"integrator.next_event", word}}), glossy());
+    };
+    for (const char* word : {"auto", "while_it_pays"}) {
+        EXPECT_EQ(of(word, "").integrator.next_event, NextEvent::while_it_pays);
+        EXPECT_TRUE(of(word, "").decides_next_event);
+        EXPECT_EQ(of(word, "thesis").integrator.next_event, NextEvent::always);
+        EXPECT_FALSE(of(word, "thesis").decides_next_event);
+    }
+}
+
+TEST(Resolve, WhatAnImageIsPackedByIsWhatItsChannelsAskFor) {
+    EXPECT_EQ(resolve(with({{"output.half", "true"}}), glossy()).output.compression, "zip");
+    EXPECT_EQ(resolve(with({{"output.half", "true"}, {"output.compression", "piz"}}), glossy()).output.compression,
+              "piz");
 }
 
 TEST(Resolve, WhatASceneDoesNotCallForIsNotLearned) {
@@ -122,15 +148,88 @@ TEST(PolicyTable, ExplainsEveryConstant) {
     EXPECT_GT(explained.size(), 60u);
 }
 
+/// What of our sources but the table itself reads the policy.
+std::vector<std::string> sources_with_policy() {
+    namespace fs = std::filesystem;
+    std::vector<std::string> texts;
+    for (const char* folder : {"common", "coordinator", "worker", "report", "serve", "cli"})
+        for (const auto& entry : fs::recursive_directory_iterator(fs::path(TREEFARM_SOURCE_DIR) / folder)) {
+            const fs::path& file = entry.path();
+            if ((file.extension() != ".h" && file.extension() != ".cpp") || file.stem() == "policy_table") continue;
+            std::string text = (std::stringstream() << std::ifstream(file).rdbuf()).str();
+            if (text.find("kPolicy.") != std::string::npos) texts.push_back(std::move(text));
+        }
+    return texts;
+}
+
+bool is_name(char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
+}
+
+/// Whether a text has this word, not as a part of a longer one.
+bool has_word(const std::string& text, const std::string& word) {
+    for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1))
+        if ((at == 0 || !is_name(text[at - 1])) &&
+            (at + word.size() == text.size() || !is_name(text[at + word.size()])))
+            return true;
+    return false;
+}
+
+/// Whether a text reads a constant: "kPolicy.group.member", or "kOf.member" after "kOf = kPolicy.group;".
+bool reads(const std::string& text, const std::string& group, const std::string& member) {
+    if (has_word(text, "kPolicy." + group + "." + member)) return true;
+    const std::string whole = " = kPolicy." + group + ";";
+    for (std::size_t at = text.find(whole); at != std::string::npos; at = text.find(whole, at + 1)) {
+        std::size_t begin = at;
+        while (begin > 0 && is_name(text[begin - 1]))
+            --begin;
+        if (has_word(text, text.substr(begin, at - begin) + "." + member)) return true;
+    }
+    return false;
+}
+
+TEST(PolicyTable, EveryConstantIsReadWhereItDecides) {
+    const std::vector<std::string> sources = sources_with_policy();
+    ASSERT_GT(sources.size(), 10u);
+    for (const PolicyEntry& entry : policy_table()) {
+        const std::string name = entry.name;
+        const std::size_t dot = name.find('.');
+        EXPECT_TRUE(std::any_of(
+            sources.begin(), sources.end(),
+            [&](const std::string& text) { return reads(text, name.substr(0, dot), name.substr(dot + 1)); }))
+            << name << " decides nothing";
+    }
+}
+
+constexpr char kHash[] = "0123456789abcdef";
+
 std::string resolved_toml(const Job& job) {
-    return write_job(resolve(job, glossy())) + "\n" + write_policy();
+    return write_resolved(resolve(job, glossy()), {"1.2.3", kHash});
 }
 
 TEST(ResolvedToml, GivesTheJobBack) {
     const Job asked = with({{"budget.spp", "60"}, {"sampler.seed", "7"}});
-    Job job;
-    apply_layer(job, without_policy(parse_job_settings(resolved_toml(asked), "resolved.toml")));
-    EXPECT_EQ(write_job(job), write_job(resolve(asked, glossy())));
+    EXPECT_EQ(write_job(read_resolved(resolved_toml(asked), "resolved.toml")), write_job(resolve(asked, glossy())));
+}
+
+TEST(ResolvedToml, TellsOfWhichRenderItIs) {
+    const auto experiment = [](const std::string& text) {
+        return sort_settings(parse_job_settings(text, "resolved.toml")).experiment.value();
+    };
+    const Experiment plain = experiment(resolved_toml(Job()));
+    EXPECT_EQ(plain.version, "1.2.3");
+    EXPECT_EQ(plain.scene_hash, kHash);
+    EXPECT_EQ(plain.schedule, "");
+    EXPECT_EQ(plain.where.file, "resolved.toml");
+    EXPECT_EQ(plain.where.line, 6);
+    EXPECT_EQ(experiment(write_resolved(resolve(Job(), glossy()), {"1.2.3", kHash, "schedule.toml"})).schedule,
+              "schedule.toml");
+}
+
+std::string cut(std::string text, const std::string& from, const std::string& to = "") {
+    const std::size_t at = text.find(from);
+    EXPECT_NE(at, std::string::npos) << from;
+    return text.erase(at, to.empty() ? std::string::npos : text.find(to, at) - at);
 }
 
 TEST(ResolvedToml, OfAnotherBuildIsRefusedByName) {
@@ -142,27 +241,57 @@ TEST(ResolvedToml, OfAnotherBuildIsRefusedByName) {
         text.replace(at, from.size(), to);
         return text;
     };
+    const std::string results = "results = " + std::to_string(kResults);
     const struct {
         std::string text, named;
-    } cases[] = {{changed("giving_up = 0.85", "giving_up = 0.8"), "guiding.giving_up was 0.8, and is 0.85"},
-                 {changed("giving_up = 0.85\n", ""), "guiding.giving_up is not in it"},
-                 {changed("giving_up = 0.85", "giving_up = 0.85\nlosing_all = 1"), "guiding.losing_all is no constant"},
-                 {changed("rr_depth = 5\n", ""), "integrator.rr_depth is not in it"},
-                 {changed("giving_up = 0.85", "giving_up = \"much\""), "is no number"}};
+    } cases[] = {
+        {changed("giving_up = 0.85", "giving_up = 0.8"), "guiding.giving_up was 0.8, and is 0.85"},
+        {changed("giving_up = 0.85\n", ""), "guiding.giving_up is not in it"},
+        {changed("giving_up = 0.85", "giving_up = 0.85\nlosing_all = 1"), "guiding.losing_all is no constant"},
+        {changed("rr_depth = 5\n", ""), "integrator.rr_depth is not in it"},
+        {changed("giving_up = 0.85", "giving_up = \"much\""), "guiding.giving_up was much"},
+        {cut(toml, "[policy."), "policy.guiding.least_judged_spp is not in it"},
+        {cut(toml, "[experiment]", "[scene]"), "experiment.version is not in it"},
+        {changed(results, ""), "experiment.results is not in it"},
+        {changed(results, "results = 1000"), "experiment.results was 1000, and is " + std::to_string(kResults)},
+        {changed(results, results + "\nodd = 1"), "experiment.odd is nothing that this build knows"}};
     for (const auto& [text, named] : cases) {
         try {
-            without_policy(parse_job_settings(text, "resolved.toml"));
+            sort_settings(parse_job_settings(text, "resolved.toml"));
             ADD_FAILURE() << named;
         } catch (const InputError& error) {
             EXPECT_NE(std::string(error.what()).find(named), std::string::npos) << error.what();
+            EXPECT_NE(std::string(error.what()).find("render job.toml instead"), std::string::npos) << error.what();
             EXPECT_EQ(error.where().file, "resolved.toml");
         }
     }
 }
 
-TEST(ResolvedToml, AJobFileHasNoPolicy) {
-    const auto settings = parse_job_settings("[budget]\nspp = 4\n", "job.toml");
-    EXPECT_EQ(without_policy(settings).size(), 1u);
+TEST(ResolvedToml, OfAnotherSceneIsRefused) {
+    const Experiment experiment{"1.2.3", kHash, "", {"resolved.toml", 6, 1}};
+    EXPECT_NO_THROW(require_scene(experiment, kHash, "1.2.3", ""));
+    EXPECT_NO_THROW(require_scene(experiment, kHash, "1.3.0", "-D width"));
+    const auto refusal = [&](const std::string& version, const std::string& changed_by) -> std::string {
+        try {
+            require_scene(experiment, "fedcba9876543210", version, changed_by);
+        } catch (const InputError& error) {
+            return error.what();
+        }
+        return "";
+    };
+    EXPECT_EQ(refusal("1.2.3", "")
+                  .find("resolved.toml:6:1: experiment.scene_hash was 0123456789abcdef, and is "
+                        "fedcba9876543210 now: the scene has changed since; render job.toml"),
+              0u)
+        << refusal("1.2.3", "");
+    EXPECT_NE(refusal("1.2.3", "-D width").find("or -D width makes another of it"), std::string::npos);
+    EXPECT_NE(refusal("1.3.0", "").find("or version 1.2.3 read it otherwise than 1.3.0"), std::string::npos);
+}
+
+TEST(ResolvedToml, AJobFileIsNone) {
+    const JobFile file = sort_settings(parse_job_settings("[budget]\nspp = 4\n", "job.toml"));
+    EXPECT_EQ(file.settings.size(), 1u);
+    EXPECT_FALSE(file.experiment);
 }
 
 }  // namespace

@@ -14,9 +14,8 @@ namespace treefarm {
 /// than far ones. Within a patch triangles are chosen by area.
 class AreaPatches {
   public:
-    /// Patches of at most this many triangles, or this share of the area, are not cut any more; nor are there more.
-    static constexpr std::size_t kFewTriangles = 16, kMostPatches = 256;
-    static constexpr double kSmallShare = 1.0 / 64;
+    /// At most so many, whatever the areas are; lights.few_triangles and small_share end cutting before.
+    static constexpr std::size_t kMostPatches = 256;
 
     AreaPatches() = default;  ///< uncut
     /// `center` of each triangle that has an area. A mesh that has few triangles stays uncut.

@@ -7,6 +7,7 @@
 #include <type_traits>
 
 #include "common/base/error.h"
+#include "common/plan/policy.h"
 
 namespace treefarm {
 namespace {
@@ -21,8 +22,6 @@ DirectSample towards_infinity(const Vec3& direction, const Vec3* front) {
     return sample;
 }
 
-/// Area lights whose longest side is shorter than this share of the scene's radius are not cut.
-constexpr float kLeastCut = 1.0f / 32;
 constexpr std::uint32_t kNoLight = 0xffffffffu;
 
 double bounding_radius(const Box3& bounds) {
@@ -98,7 +97,7 @@ void Emitters::select_by_point(std::span<const double> power, LightSelection how
     std::vector<LightBounds> bounds;
     for (std::uint32_t i = 0; i < area_lights_.size(); ++i) {
         AreaLight& light = area_lights_[i];
-        light.cut(scene_, ball_.radius * kLeastCut);
+        light.cut(scene_, ball_.radius * kPolicy.lights.least_cut);
         first_entry_.push_back(static_cast<std::uint32_t>(of_entry.size()));
         for (std::uint32_t patch = 0; patch < light.patch_count(); ++patch) {
             light_of_entry_.push_back(i);

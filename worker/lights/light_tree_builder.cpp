@@ -5,12 +5,10 @@
 #include <limits>
 #include <numeric>
 
+#include "common/plan/policy.h"
+
 namespace treefarm {
 namespace {
-
-constexpr double kLeastArea = 1e-3;  ///< of the squared diagonal: lamps in a line have some as well
-/// Lanes of the root that emitters at infinity may have.
-constexpr std::size_t kFarLanes = 4;
 
 double diagonal2(const Box3& box) {
     if (box.isEmpty()) return 0.0;
@@ -19,7 +17,7 @@ double diagonal2(const Box3& box) {
 }
 
 double least_area(const Box3& box) {
-    const double area = kLeastArea * diagonal2(box);
+    const double area = kPolicy.lights.least_area * diagonal2(box);
     return area > 0 ? area : 1.0;
 }
 
@@ -44,7 +42,7 @@ void LightTreeBuilder::build(std::span<const double> shares) {
     std::vector<std::uint32_t> root;
     if (!far.empty()) {
         root.push_back(binary(far, 0));
-        if (!near.empty()) open(root, kFarLanes);
+        if (!near.empty()) open(root, kPolicy.lights.far_lanes);
     }
     if (!near.empty()) {
         std::vector<std::uint32_t> others{binary(near, 0)};

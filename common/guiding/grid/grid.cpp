@@ -8,6 +8,7 @@
 
 #include "common/base/error.h"
 #include "common/math/elementary.h"
+#include "common/plan/policy.h"
 
 namespace treefarm {
 namespace {
@@ -21,8 +22,8 @@ GridSampler::GridSampler(const GridModel& model) : RegionSampler(model), strata_
 
 float GridSampler::radiance(std::uint32_t region, std::uint32_t code) const {
     if (!(flux(region) > 0.0f)) return -1.0f;
-    constexpr auto kEven = static_cast<float>(kEvenPart);
-    return flux(region) * std::max(pdf(region, code) - kEven * kInvFourPi, 0.0f) / (1.0f - kEven);
+    const auto even = static_cast<float>(kPolicy.grids.even_part);
+    return flux(region) * std::max(pdf(region, code) - even * kInvFourPi, 0.0f) / (1.0f - even);
 }
 
 GridModel GridLearner::learn(const GridModel& model, const CellSums& sums, const RefineSettings& settings,
@@ -44,7 +45,7 @@ GridModel GridLearner::learn(const GridModel& model, const CellSums& sums, const
         if (settings.target == GuidingTarget::variance)
             for (double& e : energy)
                 e = std::sqrt(e);
-        if (recorded > 0) set_strata(energy, kEvenPart, &next.mass[r * kStrata]);
+        if (recorded > 0) set_strata(energy, kPolicy.grids.even_part, &next.mass[r * kStrata]);
     }
     if (model.learns_lights()) lights_.learn(model, sums, report.origins, next);
     if (model.decides_next_event()) next_event_.learn(model, sums, settings, report, next);

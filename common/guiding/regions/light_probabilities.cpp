@@ -49,9 +49,10 @@ void LightLearner::learn(const RegionModel& tree, const CellSums& sums, std::spa
         Evidence& evidence = evidence_[r];
         const auto fresh = sums.lights(r);
         for (std::size_t c = 0; c < kLightClusters; ++c)
-            evidence.moments[c] = 0.5 * evidence.moments[c] + std::ldexp(static_cast<double>(fresh[c]),
-                                                                         light_sum_exponent(tree.quantum_exponent[r]));
-        evidence.vertices = 0.5 * evidence.vertices + static_cast<double>(sums.counts()[r]);
+            evidence.moments[c] =
+                kPolicy.learning.kept_evidence * evidence.moments[c] +
+                std::ldexp(static_cast<double>(fresh[c]), light_sum_exponent(tree.quantum_exponent[r]));
+        evidence.vertices = kPolicy.learning.kept_evidence * evidence.vertices + static_cast<double>(sums.counts()[r]);
         learned[r] = learned_probabilities(evidence.moments, evidence.vertices, tree.light_probabilities[r]);
     }
     std::vector<Evidence> inherited;

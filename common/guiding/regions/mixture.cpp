@@ -48,7 +48,7 @@ void MixtureLearner::learn(const RegionModel& tree, const CellSums& sums, std::s
         double fresh = 0;
         for (std::size_t b = 0; b < kMixtureBins; ++b) {
             const double h = std::ldexp(static_cast<double>(bins[b]), tree.quantum_exponent[r]);
-            histogram[b] = 0.5 * histogram[b] + h;
+            histogram[b] = kPolicy.learning.kept_evidence * histogram[b] + h;
             fresh += h;
         }
         const std::uint64_t records = sums.counts()[r];

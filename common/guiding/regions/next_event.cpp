@@ -60,7 +60,7 @@ std::size_t best_choice(const NextEventEvidence& e, std::size_t now, std::size_t
 
 void add_halved(NextEventEvidence& evidence, std::span<const std::uint64_t> fresh) {
     for (std::size_t i = 0; i < kNextEventSums; ++i)
-        evidence[i] = 0.5 * evidence[i] + static_cast<double>(fresh[i]) * next_event_unit(i);
+        evidence[i] = kPolicy.learning.kept_evidence * evidence[i] + static_cast<double>(fresh[i]) * next_event_unit(i);
 }
 
 /// Means over the vertices of a cube, and the variance of what is known of d, the last moment less the first.
@@ -183,7 +183,7 @@ void NextEventLearner::learn(const RegionModel& tree, const CellSums& sums, cons
     evidence_.resize(regions);
     for (std::uint32_t r = 0; r < regions; ++r)
         add_halved(evidence_[r], sums.next_event(r));
-    paths_ = 0.5 * paths_ + settings.next_event.paths;
+    paths_ = kPolicy.learning.kept_evidence * paths_ + settings.next_event.paths;
     std::vector<std::uint8_t> codes = tree.next_event;
     report.next_event = decide_next_event(pool_next_event(tree, evidence_), paths_, settings.next_event,
                                           settings.last_update ? TreesLearn::no_more : TreesLearn::on, codes);
@@ -202,7 +202,7 @@ void NextEventLearner::learn(const RegionModel& tree, const CellSums& sums, cons
 NextEventVerdict ImageNextEventLearner::learn(const NextEventSums& sums, const NextEventPrice& price,
                                               std::uint8_t& code) {
     add_halved(evidence_, sums);
-    paths_ = 0.5 * paths_ + price.paths;
+    paths_ = kPolicy.learning.kept_evidence * paths_ + price.paths;
     return decide_next_event({&evidence_, 1}, paths_, price, TreesLearn::nothing, {&code, 1});
 }
 

@@ -45,7 +45,7 @@ std::vector<ViewAdvice> ViewLearner::judge(const SdTree& tree, const CellSums& s
         double fresh = 0;
         for (std::size_t b = 0; b < kMixtureBins; ++b) {
             const double h = std::ldexp(static_cast<double>(bins[b]), tree.quantum_exponent[distribution]);
-            evidence.histogram[b] = 0.5 * evidence.histogram[b] + h;
+            evidence.histogram[b] = kPolicy.learning.kept_evidence * evidence.histogram[b] + h;
             fresh += h;
         }
         const auto records = static_cast<double>(sums.counts()[distribution]);
