@@ -95,7 +95,7 @@ std::string schedule_of(const RenderOptions& options, const JobFile& file, const
     const std::filesystem::path schedule =
         std::filesystem::path(options.input).parent_path() / file.experiment->schedule;
     if (!std::filesystem::exists(schedule))
-        throw InputError(file.experiment->where,
+        throw InputError(file.experiment->schedule_where,
                          "its passes are those of " + schedule.string() + ", which is not there",
                          "name it with --schedule FILE, or say how long to render with --spp N");
     return schedule.string();

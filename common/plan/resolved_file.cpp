@@ -40,8 +40,10 @@ Experiment read_experiment(const std::vector<Setting>& settings, const Location&
                          results.key + " was " + results.value + ", and is " + std::to_string(kResults) +
                              " in this build: equal jobs render to other images than by version " + experiment.version,
                          kResolvedCure);
-    if (const Setting* schedule = find(settings, std::string(kExperiment) + "schedule"))
+    if (const Setting* schedule = find(settings, std::string(kExperiment) + "schedule")) {
         experiment.schedule = schedule->value;
+        experiment.schedule_where = schedule->where;
+    }
     return experiment;
 }
 

@@ -21,7 +21,8 @@ struct Experiment {
     std::string version;     ///< of the program that wrote it
     std::string scene_hash;  ///< as summary.json has it
     std::string schedule{};  ///< file beside it that lists the passes; "": they follow from the job
-    Location where{};        ///< in the file, for messages
+    Location where{};        ///< of the scene's hash in the file, for messages
+    Location schedule_where{};
 };
 
 /// What a job file says. Only a resolved.toml has an experiment.

@@ -117,6 +117,7 @@ TEST_F(ResolvedCommand, TakesListedPassesFromBesideIt) {
     EXPECT_EQ(summary("longer")["spp"], 31);
     fs::remove_all(folder() / "again");
     fs::remove(folder() / "first/schedule.toml");
+    expect_refusal("first/resolved.toml:7:12: its passes are those of ");
     expect_refusal("which is not there; name it with --schedule FILE");
 }
 
