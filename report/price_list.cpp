@@ -100,14 +100,22 @@ std::string price_list(const std::vector<StudyResults>& studies, const std::vect
     for (const StudyResults& study : studies)
         for (const SceneResult& scene : study.scenes)
             text += scene_table(study, scene);
-    if (!benches.empty())
+    std::vector<BenchChoice> exactness, materials;
+    for (const BenchChoice& choice : benches)
+        (choice.name == "materials" ? materials : exactness).push_back(choice);
+    if (!materials.empty())
+        text +=
+            "## Materials\n\nWhat a kind of material costs a vertex of a path: one sample and one value, by "
+            "`bench/material_bench` alone on one\nthread. Scenes without a kind do not pay for it.\n\n" +
+            bench_table(materials) + "\n";
+    if (!exactness.empty())
         text +=
             "## Exactness\n\nChoices that no job key makes, measured by `bench/precision_bench` alone on one thread: "
             "what "
             "the renderer does comes\nfirst. Sums that depend on the order of their records would give other images "
             "with "
             "other numbers of workers.\n\n" +
-            bench_table(benches);
+            bench_table(exactness);
     while (text.ends_with("\n\n"))
         text.pop_back();
     return text;

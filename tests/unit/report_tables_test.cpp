@@ -166,6 +166,11 @@ TEST(BenchTable, PairsRepetitions) {
     const StudyResults study = study_of({{"all", {}}}, {cell("all", 0, {pass_row(1, 0.1)})});
     EXPECT_NE(price_list({study}, choices).find("## Exactness"), std::string::npos);
     EXPECT_EQ(price_list({study}, {}).find("## Exactness"), std::string::npos);
+    BenchChoice materials = choices[0];
+    materials.name = "materials";
+    const std::string list = price_list({study}, {choices[0], materials});
+    EXPECT_LT(list.find("## Materials"), list.find("## Exactness"));
+    EXPECT_EQ(price_list({study}, choices).find("## Materials"), std::string::npos);
 }
 
 TEST(PriceList, NamesStudyAndScene) {  // two studies may have one scene

@@ -1,28 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/scene/kinds/kind_documentation.h"
 
-#include <cxxabi.h>
-
-#include <cstdlib>
-#include <memory>
-#include <typeinfo>
-
 #include "common/config/parse_text.h"
+#include "common/scene/kinds/kind_name.h"
 #include "common/scene/model/scene.h"
 
 namespace treefarm {
 namespace {
-
-/// The name of a struct, without its namespace.
-template <class Kind>
-std::string type_name() {
-    int failed = 0;
-    const std::unique_ptr<char, decltype(&std::free)> name(
-        abi::__cxa_demangle(typeid(Kind).name(), nullptr, nullptr, &failed), &std::free);
-    const std::string text = failed == 0 ? name.get() : typeid(Kind).name();
-    const std::size_t colon = text.rfind(':');
-    return colon == std::string::npos ? text : text.substr(colon + 1);
-}
 
 /// Writes down what a kind's values are, and what is refused of them together.
 class DescribeFields {
@@ -102,7 +86,7 @@ std::string table_of(const std::string& family) {
         DescribeFields fields;
         const Kind kind;
         Kind::fields(kind, fields);
-        table += "| `" + type_name<Kind>() + "` | " + fields.values() + " | " + fields.rules() + " |\n";
+        table += "| `" + kind_name<Kind>() + "` | " + fields.values() + " | " + fields.rules() + " |\n";
     });
     return table;
 }
