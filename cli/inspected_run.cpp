@@ -72,7 +72,7 @@ InspectedRun read_inspected_run(const std::filesystem::path& directory) {
     run.tree = std::move(stored.model);
     run.tree_bytes = stored.bytes;
     run.request = read_request(options);
-    if (hash_text(hash_bytes(encode_scene(run.request.scene))) != summary_text(summary, summary_file, "scene_hash"))
+    if (hash_text(content_hash(encode_scene(run.request.scene))) != summary_text(summary, summary_file, "scene_hash"))
         refuse(run.request.job.scene.file, "is not the scene that " + job.string() + " rendered: it has changed since",
                "render again");
     const std::filesystem::path schedule = directory / "schedule.toml";

@@ -105,7 +105,7 @@ std::string schedule_of(const RenderOptions& options, const JobFile& file, const
 std::string scene_change(const std::vector<Setting>& line) {
     for (const Setting& s : line)
         if (s.key.starts_with("scene.") || s.key.starts_with("image.") || s.key.starts_with("effects."))
-            return s.where.file.starts_with("--set") ? s.where.file : s.where.file + " (" + s.key + ")";
+            return s.where.file;
     return "";
 }
 
@@ -145,7 +145,7 @@ RenderRequest read_request(const RenderOptions& options) {
     if (options.reads_model) read_initial_model(request);
     request.plan = plan_effects(request.scene, request.job);
     if (file.experiment && options.holds_to_scene)
-        require_scene(*file.experiment, hash_text(hash_bytes(encode_scene(request.scene))), kProgramVersion,
+        require_scene(*file.experiment, hash_text(content_hash(encode_scene(request.scene))), kProgramVersion,
                       scene_change(line_layer));
     request.plan.passes_guessed |= !request.schedule.empty();
     for (const Warning& warning : loaded.warnings)

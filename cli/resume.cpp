@@ -52,7 +52,7 @@ void check_origin(const fs::path& run, const CheckpointOrigin& origin, const Ren
                set.empty() ? "is not the job of the render: " + changed : "would make another render: " + changed,
                "only farm.*, output.* and the budget may change; for the new job: " + new_job);
     }
-    if (origin.scene_hash != hash_bytes(encode_scene(request.scene)) ||
+    if (origin.scene_hash != content_hash(encode_scene(request.scene)) ||
         origin.pixels != request.scene.film.pixel_count())
         refuse(request.job.scene.file, "the scene has changed since " + run.string() + " began",
                "resume needs the old files; for the new scene: " + again);

@@ -47,7 +47,7 @@ class RenderRun {
           interrupted_(interrupted),
           scene_(encode_scene(request.scene)),
           directory_(request.job,
-                     {request.command, hash_bytes(scene_), request.fingerprint, request.plan.approximations,
+                     {request.command, content_hash(scene_), request.fingerprint, request.plan.approximations,
                       request.scene.film.crop, request.schedule, request.life ? request.life->attempt() : ""},
                      request.plan, {folder_use(request), interrupted, request.resumed.get()}),
           log_(make_log("treefarm", directory_.log_file(), request.console, request.loudness)),

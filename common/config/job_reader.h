@@ -34,7 +34,7 @@ std::string read_settings_text(const std::filesystem::path& path, const std::str
 std::vector<Setting> read_job_settings(const std::filesystem::path& path);
 
 /// The settings in TOML text; `name` stands for the file in messages. Paths are left as they are. What stands
-/// below [policy] and [experiment] comes back as settings "policy....", which are no keys of a job
+/// below [policy] and [experiment] comes back as settings "policy..." and "experiment...", which are no keys of a job
 /// (plan/resolved_file.h).
 std::vector<Setting> parse_job_settings(const std::string& toml, const std::string& name);
 

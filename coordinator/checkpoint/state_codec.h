@@ -16,7 +16,7 @@ namespace treefarm {
 struct CheckpointOrigin {
     std::uint64_t fingerprint = 0;   ///< of the build
     std::string build;               ///< for a person
-    std::uint64_t scene_hash = 0;    ///< packed
+    std::uint64_t scene_hash = 0;    ///< content_hash() of the packed scene
     std::string resolved;            ///< job in TOML, as it was used
     std::string output_file;         ///< -o
     std::vector<PassPlan> schedule;  ///< passes of --schedule; none: the job's own

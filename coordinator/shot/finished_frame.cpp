@@ -62,7 +62,7 @@ bool holds_result_of(const fs::path& folder, const RenderRequest& request) {
     const Json summary = read_summary(folder);
     return read_text(folder / "job.toml") == job_without_output(request.job) &&
            text_at(summary, "fingerprint") == hash_text(request.fingerprint.hash()) &&
-           text_at(summary, "scene_hash") == hash_text(hash_bytes(encode_scene(request.scene)));
+           text_at(summary, "scene_hash") == hash_text(content_hash(encode_scene(request.scene)));
 }
 
 bool restore_output(const fs::path& folder, const std::string& file) {

@@ -57,7 +57,7 @@ std::vector<Setting> cell_settings(const Study& study, const StudyCell& cell) {
 std::uint64_t request_key(const RenderRequest& request, const std::string& more) {
     Job job = request.job;
     job.output = {};
-    const std::string text = write_job(job) + hash_text(hash_bytes(encode_scene(request.scene))) +
+    const std::string text = write_job(job) + hash_text(content_hash(encode_scene(request.scene))) +
                              hash_text(request.fingerprint.hash()) + more;
     return hash_bytes({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
 }

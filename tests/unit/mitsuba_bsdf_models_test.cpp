@@ -42,8 +42,12 @@ TEST_F(MitsubaBsdfModels, DiffuseTransmitters) {
 
 TEST_F(MitsubaBsdfModels, ThinLayers) {
     const auto skin = of_type<ThinLayerMaterial>("hk");
-    EXPECT_EQ(skin.scattering.value, Rgb(0.74f, 0.88f, 1.01f)) << "as in Mitsuba, skin1";
-    EXPECT_EQ(skin.absorption.value, Rgb(0.032f, 0.17f, 0.48f));
+    EXPECT_EQ(skin.scattering.value, Rgb(0.74f, 0.88f, 1.01f) * 100.0f) << "as in Mitsuba 0.6, Skin1";
+    EXPECT_EQ(skin.absorption.value, Rgb(0.032f, 0.17f, 0.48f) * 100.0f);
+    const std::string milk = "<string name=\"material\" value=\"Regular Milk\"/>";
+    EXPECT_NEAR(of_type<ThinLayerMaterial>("hk", milk).scattering.value.x, 100.0f * 18.2052f * 0.25f, 1e-3f);
+    EXPECT_NEAR(of_type<ThinLayerMaterial>("hk", milk + "<float name=\"scale\" value=\"0.01\"/>").absorption.value.y,
+                0.0046f, 1e-8f);
     EXPECT_EQ(skin.mean_cosine.value, 0.0f);
     const std::string thick = "<float name=\"thickness\" value=\"0.5\"/>";
     const auto given = of_type<ThinLayerMaterial>(
@@ -57,8 +61,10 @@ TEST_F(MitsubaBsdfModels, ThinLayers) {
     EXPECT_TRUE(of_type<ThinLayerMaterial>("hk", board("sigmaS")).scattering.varies());
     const std::string forward = "<phase type=\"hg\"><float name=\"g\" value=\"1\"/></phase>";
     for (const std::string& bad :
-         {rgb("sigmaT", "4 4 4"), rgb("albedo", "1 1 1"), rgb("sigmaS", "-1 0 0"), forward,
-          std::string("<phase type=\"rayleigh\"/>"), std::string("<string name=\"material\" value=\"ketchupp\"/>"),
+         {milk + rgb("sigmaS", "1 1 1"), milk + rgb("sigmaT", "4 4 4") + rgb("albedo", "1 1 1"),
+          rgb("sigmaS", "1 1 1") + rgb("sigmaT", "4 4 4") + rgb("albedo", "1 1 1"), rgb("sigmaT", "4 4 4"),
+          rgb("albedo", "1 1 1"), rgb("sigmaS", "-1 0 0"), forward, std::string("<phase type=\"rayleigh\"/>"),
+          std::string("<string name=\"material\" value=\"ketchupp\"/>"),
           std::string("<float name=\"thickness\" value=\"-1\"/>")})
         EXPECT_THROW(material(bsdf("hk", bad)), InputError) << bad;
 }

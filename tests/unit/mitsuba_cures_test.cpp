@@ -114,6 +114,8 @@ std::vector<Fault> faults() {
         {bsdf("irawan", "")},
         {bsdf("hk", value("string", "material", "ketchupp"))},
         {bsdf("hk", value("float", "sigmaT", "1"))},
+        {bsdf("hk", value("string", "material", "ketchup") + value("float", "sigmaS", "1"))},
+        {bsdf("hk", value("float", "sigmaA", "1") + value("float", "sigmaT", "1") + value("float", "albedo", "1"))},
         {bsdf("hk", "<phase type=\"rayleigh\"/>")},
         {bsdf("hk", "<phase type=\"hg\">" + value("float", "g", "1") + "</phase>")},
         {bsdf("ward", value("string", "variant", "new"))},

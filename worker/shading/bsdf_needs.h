@@ -8,6 +8,7 @@
 
 namespace treefarm {
 
+/// What a kind asks for that asks for nothing.
 struct NoBsdfNeeds {
     using Kept = void;                    ///< what Context::keep() keeps aside for as long as the BSDF lives
     static constexpr bool kCoat = false;  ///< Context::coat() and smooth_escapes() of its roughness and eta

@@ -64,7 +64,7 @@ struct RoughDiffuseBsdf {
         const float tan_half = (sin_alpha + sin_beta) / (cos_alpha + cos_beta);
         const float once = c1 + cos_phi * c2 * sin_beta / cos_beta + (1.0f - std::abs(cos_phi)) * c3 * tan_half;
         const float twice = c4 * (1.0f - cos_phi * b * b);
-        // Very rough surfaces across from the light: the fit of equation 27 is below 0.
+        // Equation 27's fit falls below 0 on very rough surfaces that are lit from across.
         return reflectance * std::max(0.0f, once) + reflectance * reflectance * twice;
     }
 };

@@ -9,14 +9,13 @@
 
 namespace treefarm {
 
-/// How a medium scatters and absorbs light, per millimetre, in linear Rec. 709; scattering as if it were isotropic
-/// (Jensen et al. 2001, "A practical model for subsurface light transport", figure 5).
+/// How a medium scatters and absorbs light, per millimetre, in linear Rec. 709; scattering as if it were isotropic:
+/// reduced by 1 - g (Jensen et al. 2001, "A practical model for subsurface light transport"; Narasimhan et al. 2006).
 struct ScatteringMedium {
-    const char* name;
     Rgb scattering, absorption;
 };
 
-/// The medium of Mitsuba's name, "skin1" or "ketchup" for instance; nothing if there is none.
+/// The medium of this name in lower case, "skin1" or "regular milk" for instance; nothing if there is none.
 std::optional<ScatteringMedium> find_medium(const std::string& name);
 
 std::vector<std::string> medium_names();

@@ -7,12 +7,12 @@
 
 namespace treefarm::packed {
 
-///     emitter  := kind:u8 value* location
+///     emitter  := kind:u8 value*
 ///
 /// kind: its place in EmitterKind (kinds/emitters.h); values: as fields() of that kind names them, vectors and colours
 /// as three f32, a color as rgb texture:i32, indices as i32, flags as u8.
 
-inline constexpr std::size_t kMinEmitterBytes = 22;
+inline constexpr std::size_t kMinEmitterBytes = 13;
 
 void put_emitter(ByteWriter& out, const Emitter& emitter);
 Emitter get_emitter(ByteReader& in, const PackedCounts& counts);

@@ -18,7 +18,6 @@ void put_material(ByteWriter& out, const Material& material) {
     put_flag(out, material.detail.flip_invalid);
     put_flag(out, material.detail.shadowed);
     out.put_string(material.name);
-    put_location(out, material.where);
 }
 
 Material get_material(ByteReader& in, std::size_t index, std::size_t texture_count) {
@@ -38,7 +37,6 @@ Material get_material(ByteReader& in, std::size_t index, std::size_t texture_cou
     material.detail.flip_invalid = get_flag(in, "flip_invalid");
     material.detail.shadowed = get_flag(in, "shadowed");
     material.name = in.get_string();
-    material.where = get_location(in);
     return material;
 }
 

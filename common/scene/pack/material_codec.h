@@ -7,14 +7,14 @@
 namespace treefarm::packed {
 
 ///     material  := kind:u8 value* twosided:u8 back:i32 unlimited:u8 opacity:number bump:i32 bump_scale:f32
-///                  normal_map:i32 normal_scale:rgb flip_invalid:u8 shadowed:u8 name location
+///                  normal_map:i32 normal_scale:rgb flip_invalid:u8 shadowed:u8 name
 ///     roughness := distribution:u8 number number
 ///     color     := rgb texture:i32
 ///     number    := f32 texture:i32
 ///
 /// kind: its place in MaterialKind (kinds/materials.h); values: as fields() of that kind names them.
 
-inline constexpr std::size_t kMinMaterialBytes = 36;
+inline constexpr std::size_t kMinMaterialBytes = 27;
 
 void put_material(ByteWriter& out, const Material& material);
 

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "common/base/hash.h"
 #include "common/scene/pack/emitter_codec.h"
 #include "common/scene/pack/material_codec.h"
 #include "common/scene/pack/packed_values.h"
@@ -16,7 +17,34 @@ namespace {
 using namespace packed;
 
 constexpr std::uint32_t kMagic = 0x43534654;  // "TFSC"
-constexpr std::uint32_t kVersion = 7;
+constexpr std::uint32_t kVersion = 8;
+
+/// Calls f for everything that says where something stands: f(std::string& file) for images, f(Location&) for others.
+template <class AnyScene, class F>
+void for_each_origin(AnyScene& scene, F&& f) {
+    for (auto& image : scene.images)
+        f(image.name);
+    for (auto& texture : scene.textures)
+        f(texture.where);
+    for (auto& material : scene.materials)
+        f(material.where);
+    for (auto& shape : scene.shapes)
+        f(shape.where);
+    for (auto& emitter : scene.emitters)
+        f(emitter.where);
+}
+
+struct PutOrigins {
+    ByteWriter& out;
+    void operator()(const std::string& file) const { out.put_string(file); }
+    void operator()(const Location& where) const { put_location(out, where); }
+};
+
+struct GetOrigins {
+    ByteReader& in;
+    void operator()(std::string& file) const { file = in.get_string(); }
+    void operator()(Location& where) const { where = get_location(in); }
+};
 
 Camera get_camera(ByteReader& in) {
     Camera camera;
@@ -127,7 +155,15 @@ Bytes encode_scene(const Scene& scene) {
         put_vector(out, v);
     out.put<std::uint8_t>(camera.panoramic);
     put_film(out, scene.film);
+    const std::uint64_t content = out.size();
+    for_each_origin(scene, PutOrigins{out});
+    out.put(content);
     return out.take();
+}
+
+std::uint64_t content_hash(std::span<const std::uint8_t> packed) {
+    ByteReader end(packed.last(sizeof(std::uint64_t)));
+    return hash_bytes(packed.first(static_cast<std::size_t>(end.get<std::uint64_t>())));
 }
 
 Scene decode_scene(std::span<const std::uint8_t> bytes) {
@@ -156,6 +192,10 @@ Scene decode_scene(std::span<const std::uint8_t> bytes) {
     check_environments(scene);
     scene.camera = get_camera(in);
     scene.film = get_film(in);
+    const std::uint64_t content = bytes.size() - in.remaining();
+    for_each_origin(scene, GetOrigins{in});
+    if (const auto said = in.get<std::uint64_t>(); said != content)
+        throw FormatError("scene: its content has " + std::to_string(content) + " bytes, not " + std::to_string(said));
     in.expect_end();
     return scene;
 }

@@ -31,7 +31,6 @@ void put_shape(ByteWriter& out, const Shape& shape) {
     out.put(shape.emitter);
     out.put(shape.group);
     out.put_string(shape.name);
-    put_location(out, shape.where);
 }
 
 Shape get_shape(ByteReader& in, std::size_t material_count, std::size_t group_count) {
@@ -49,7 +48,6 @@ Shape get_shape(ByteReader& in, std::size_t material_count, std::size_t group_co
     if (!is_instance && shape.material == kNone) throw FormatError("scene: a shape has no material");
     if (shape.group != kNone && shape.emitter != kNone) throw FormatError("scene: an emitter is in a group");
     shape.name = in.get_string();
-    shape.where = get_location(in);
     return shape;
 }
 

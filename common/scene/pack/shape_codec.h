@@ -6,13 +6,13 @@
 
 namespace treefarm::packed {
 
-///     shape    := kind:u8 value* material:i32 emitter:i32 group:i32 name location
+///     shape    := kind:u8 value* material:i32 emitter:i32 group:i32 name
 ///
 /// kind: its place in ShapeKind (kinds/shapes.h), or kMeshWithAttributes (shape_codec.cpp); values: as fields() of that
 /// kind names them. Lists of a mesh are a count and the bytes of its elements; attributes, each a name and a list,
 /// stand where there are some; a transform is the first three columns of its rows, since the fourth is 0 0 0 1.
 
-inline constexpr std::size_t kMinShapeBytes = 27;
+inline constexpr std::size_t kMinShapeBytes = 18;
 
 /// FormatError if an instance's transform is not affine: it has no packed form.
 void put_shape(ByteWriter& out, const Shape& shape);

@@ -8,7 +8,6 @@ void put_image(ByteWriter& out, const TextureImage& image) {
     out.put(static_cast<std::uint16_t>(image.width));
     out.put(static_cast<std::uint16_t>(image.height));
     out.put(static_cast<std::uint8_t>(image.channels));
-    out.put_string(image.name);
     const bool floating = image.bytes.empty();
     put_flag(out, floating);
     if (floating) {
@@ -28,7 +27,6 @@ TextureImage get_image(ByteReader& in) {
     if (image.width < 1 || image.height < 1 || (image.channels != 1 && image.channels != 3))
         throw FormatError("scene: an image of " + std::to_string(image.width) + " x " + std::to_string(image.height) +
                           " pixels and " + std::to_string(image.channels) + " channels");
-    image.name = in.get_string();
     const std::uint64_t expected =
         std::uint64_t(image.width) * std::uint64_t(image.height) * std::uint64_t(image.channels);
     if (get_flag(in, "floating")) {
@@ -47,7 +45,6 @@ void put_texture(ByteWriter& out, const Texture& texture) {
     out.put(static_cast<std::uint8_t>(texture.kind.index()));
     visit_fields(texture.kind, PutFields(out));
     out.put_string(texture.name);
-    put_location(out, texture.where);
 }
 
 Texture get_texture(ByteReader& in, std::size_t image_count) {
@@ -55,7 +52,6 @@ Texture get_texture(ByteReader& in, std::size_t image_count) {
     texture.kind = kind_of<TextureKind>(in.get<std::uint8_t>(), "texture");
     visit_fields(texture.kind, GetFields(in, {.images = image_count}));
     texture.name = in.get_string();
-    texture.where = get_location(in);
     return texture;
 }
 

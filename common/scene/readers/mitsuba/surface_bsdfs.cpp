@@ -112,18 +112,12 @@ class SurfaceReader {
 
     Bsdf diffuse_transmitter() { return DiffuseTransmitterMaterial{reflectance("transmittance", 0.5f)}; }
 
-    /// Depths are coefficients times the thickness; those of a named medium are there unless coefficients are given.
+    /// Depths are coefficients times the thickness; a medium stands for those that are not given.
     Bsdf thin_layer() {
-        const std::string name = properties_.text("material", "skin1");
-        const auto medium = find_medium(name);
-        if (!medium) {
-            const std::string nearest = nearest_word(name, medium_names());
-            throw InputError(properties_.where("material"), "no scattering medium is called " + in_quotes(name),
-                             nearest.empty() ? "give sigmaS and sigmaA" : "did you mean " + in_quotes(nearest) + "?");
-        }
-        const float thickness = this->thickness();
         ThinLayerMaterial layer;
-        if (has_input("sigma_t") || has_input("albedo")) {
+        const bool by_extinction = has_input("sigma_t") || has_input("albedo");
+        if (by_extinction) {
+            refuse_beside(has_input("albedo") ? "albedo" : "sigma_t", {"material", "sigma_s", "sigma_a"});
             if (!has_input("sigma_t") || !has_input("albedo"))
                 throw InputError(properties_.where(has_input("albedo") ? "albedo" : "sigma_t"),
                                  "one of sigmaT and albedo is given alone", "give both, or sigmaS and sigmaA");
@@ -132,9 +126,13 @@ class SurfaceReader {
             layer.scattering = sigma_t * albedo;
             layer.absorption = sigma_t * (Rgb(1.0f) - albedo);
         } else {
-            layer.scattering = coefficient("sigma_s", medium->scattering);
-            layer.absorption = coefficient("sigma_a", medium->absorption);
+            for (const char* name : {"sigma_s", "sigma_a"})
+                if (has_input(name)) refuse_beside(name, {"material"});
+            const ScatteringMedium medium = scattering_medium();
+            layer.scattering = coefficient("sigma_s", medium.scattering);
+            layer.absorption = coefficient("sigma_a", medium.absorption);
         }
+        const float thickness = this->thickness();
         layer.scattering.value *= thickness;
         layer.absorption.value *= thickness;
         if (const XmlElement* phase = properties_.only_child("phase")) layer.mean_cosine = mean_cosine(*phase);
@@ -225,6 +223,26 @@ class SurfaceReader {
 
     ColorInput coefficient(const char* name, const Rgb& otherwise) {
         return textures_.color(properties_, name, otherwise, ColorUse::coefficient);
+    }
+
+    /// The one that is named, in Mitsuba 0.6's unit: a hundred times what it is per millimetre.
+    ScatteringMedium scattering_medium() {
+        const std::string name = properties_.text("material", "skin1");
+        auto medium = find_medium(lower(name));
+        if (!medium) {
+            const std::string nearest = nearest_word(lower(name), medium_names());
+            throw InputError(properties_.where("material"), "no scattering medium is called " + in_quotes(name),
+                             nearest.empty() ? "give sigmaS and sigmaA" : "did you mean " + in_quotes(nearest) + "?");
+        }
+        const float scale = 100.0f * static_cast<float>(properties_.positive("scale", 1.0));
+        return {medium->scattering * scale, medium->absorption * scale};
+    }
+
+    void refuse_beside(const char* given, std::initializer_list<const char*> others) {
+        for (const char* other : others)
+            if (has_input(other))
+                throw InputError(properties_.where(other), std::string(other) + " is given beside " + given,
+                                 "keep one of them");
     }
 
     float thickness() {
