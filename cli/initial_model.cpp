@@ -31,6 +31,16 @@ void check_guide(const fs::path& run, const Job& before, const Job& now) {
     }
 }
 
+/// The job of an earlier run, by this build.
+Job job_of(const fs::path& run) {
+    try {
+        return read_resolved(read_settings_text(run / "resolved.toml", "job"), (run / "resolved.toml").string());
+    } catch (const InputError& error) {
+        throw InputError(error.where(), std::string(kKey) + " is of another build: " + error.problem(),
+                         std::string("render that run again, or leave ") + kKey + " away");
+    }
+}
+
 }  // namespace
 
 void read_initial_model(RenderRequest& request) {
@@ -41,8 +51,7 @@ void read_initial_model(RenderRequest& request) {
     const fs::path run = guiding.initial_model, file = run / "tree.bin";
     if (!fs::exists(run / "resolved.toml") || !fs::exists(run / "schedule.toml"))
         refuse(run, "is no run directory", std::string("name one with ") + kKey);
-    const Job before =
-        read_resolved(read_settings_text(run / "resolved.toml", "job"), (run / "resolved.toml").string());
+    const Job before = job_of(run);
     check_guide(run, before, resolved);
     const std::vector<PassPlan> passes = parse_schedule(read_settings_text(run / "schedule.toml", "schedule"),
                                                         (run / "schedule.toml").string(), resolved);

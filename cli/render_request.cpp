@@ -103,8 +103,11 @@ std::string schedule_of(const RenderOptions& options, const JobFile& file, const
 
 /// What on the command line changes the scene: "-D width", or "".
 std::string scene_change(const std::vector<Setting>& line) {
+    constexpr std::string_view kDefine = "scene.defines.";
     for (const Setting& s : line)
-        if (s.key.starts_with("scene.") || s.key.starts_with("image.") || s.key.starts_with("effects."))
+        if (s.key.starts_with(kDefine))
+            return "-D " + s.key.substr(kDefine.size());
+        else if (s.key.starts_with("scene.") || s.key.starts_with("image.") || s.key.starts_with("effects."))
             return s.where.file;
     return "";
 }
@@ -118,7 +121,7 @@ RenderRequest read_request(const RenderOptions& options) {
     JobFile file;
     std::vector<Setting>& file_layer = file.settings;
     if (input.extension() == ".toml")
-        file = sort_settings(read_job_settings(input));
+        file = checked_job_file(read_job_settings(input));
     else
         file_layer.push_back({"scene.file", std::filesystem::absolute(input).string(), Location{options.input, 0, 0}});
     const std::vector<Setting> line_layer = command_line_layer(options);

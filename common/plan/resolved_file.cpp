@@ -66,7 +66,7 @@ std::string write_resolved(const Resolved& job, const Experiment& experiment) {
     return text + "\n" + job_without_output(job) + "\n" + write_policy();
 }
 
-JobFile sort_settings(std::vector<Setting> settings) {
+JobFile checked_job_file(std::vector<Setting> settings) {
     const auto is_experiment = [](const Setting& s) { return s.key.starts_with(kExperiment); };
     const auto is_policy = [](const Setting& s) { return s.key.starts_with(kPolicyPrefix); };
     const auto first = std::find_if(settings.begin(), settings.end(),
@@ -75,6 +75,11 @@ JobFile sort_settings(std::vector<Setting> settings) {
     const Location file{first->where.file};
     JobFile sorted;
     sorted.experiment = read_experiment(settings, file);
+    for (const char* key : {"budget.seconds", "budget.error"})
+        if (const Setting* budget = find(settings, key);
+            budget && budget->value != "0" && sorted.experiment->schedule.empty())
+            throw InputError(file, "experiment.schedule is not in it, though " + std::string(key) + " chose the passes",
+                             kResolvedCure);
     check_policy(settings, file);
     for (const JobKey& key : job_keys())
         if (key.stored() && !key.name.starts_with("output.") && find(settings, key.name) == nullptr)
@@ -98,7 +103,7 @@ void require_scene(const Experiment& experiment, const std::string& scene_hash, 
 
 Job read_resolved(const std::string& toml, const std::string& name) {
     Job job;
-    apply_layer(job, sort_settings(parse_job_settings(toml, name)).settings);
+    apply_layer(job, checked_job_file(parse_job_settings(toml, name)).settings);
     return job;
 }
 

@@ -40,7 +40,7 @@ std::string write_resolved(const Resolved& job, const Experiment& experiment = {
 /// Settings of a file, by what they are. One with [experiment] or [policy] is a resolved.toml: it has to tell all of
 /// the experiment, each constant with this build's value, and each key of a job. Throws InputError, which names the
 /// first that is missing or differs.
-JobFile sort_settings(std::vector<Setting> settings);
+JobFile checked_job_file(std::vector<Setting> settings);
 
 /// Throws InputError where the scene that the job names is not the experiment's. `version`: of this program;
 /// `changed_by`: what else than the file may have changed it, "-D width" for one, or "".

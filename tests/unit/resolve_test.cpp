@@ -214,7 +214,7 @@ TEST(ResolvedToml, GivesTheJobBack) {
 
 TEST(ResolvedToml, TellsOfWhichRenderItIs) {
     const auto experiment = [](const std::string& text) {
-        return sort_settings(parse_job_settings(text, "resolved.toml")).experiment.value();
+        return checked_job_file(parse_job_settings(text, "resolved.toml")).experiment.value();
     };
     const Experiment plain = experiment(resolved_toml(Job()));
     EXPECT_EQ(plain.version, "1.2.3");
@@ -250,6 +250,7 @@ TEST(ResolvedToml, OfAnotherBuildIsRefusedByName) {
         {changed("giving_up = 0.85", "giving_up = 0.85\nlosing_all = 1"), "guiding.losing_all is no constant"},
         {changed("rr_depth = 5\n", ""), "integrator.rr_depth is not in it"},
         {changed("giving_up = 0.85", "giving_up = \"much\""), "guiding.giving_up was much"},
+        {changed("seconds = 0", "seconds = 5"), "experiment.schedule is not in it, though budget.seconds"},
         {cut(toml, "[policy."), "policy.guiding.least_judged_spp is not in it"},
         {cut(toml, "[experiment]", "[scene]"), "experiment.version is not in it"},
         {changed(results, ""), "experiment.results is not in it"},
@@ -257,7 +258,7 @@ TEST(ResolvedToml, OfAnotherBuildIsRefusedByName) {
         {changed(results, results + "\nodd = 1"), "experiment.odd is nothing that this build knows"}};
     for (const auto& [text, named] : cases) {
         try {
-            sort_settings(parse_job_settings(text, "resolved.toml"));
+            checked_job_file(parse_job_settings(text, "resolved.toml"));
             ADD_FAILURE() << named;
         } catch (const InputError& error) {
             EXPECT_NE(std::string(error.what()).find(named), std::string::npos) << error.what();
@@ -289,7 +290,7 @@ TEST(ResolvedToml, OfAnotherSceneIsRefused) {
 }
 
 TEST(ResolvedToml, AJobFileIsNone) {
-    const JobFile file = sort_settings(parse_job_settings("[budget]\nspp = 4\n", "job.toml"));
+    const JobFile file = checked_job_file(parse_job_settings("[budget]\nspp = 4\n", "job.toml"));
     EXPECT_EQ(file.settings.size(), 1u);
     EXPECT_FALSE(file.experiment);
 }

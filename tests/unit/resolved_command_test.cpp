@@ -89,10 +89,23 @@ TEST_F(ResolvedCommand, AnEditedSceneIsRefused) {
     render_first("--spp 3");
     const std::string hash = summary("first")["scene_hash"];
     expect_refusal("or --set image.width=25 makes another of it", "--set image.width=25");
+    expect_refusal("or -D width makes another of it", "-D width=25");
     edit("scene.xml", "<shape", "<shape type=\"sphere\"><float name=\"radius\" value=\"0.1\"/></shape>\n<shape");
     expect_refusal("experiment.scene_hash was " + hash + ", and is ");
     expect_refusal("the scene has changed since; render job.toml for the scene as it is now");
     EXPECT_EQ(render("first/job.toml", "anew").code, 0);
+}
+
+TEST_F(ResolvedCommand, ASceneThatWasMovedOrGotACommentIsTheSame) {
+    render_first("--spp 3");
+    edit("scene.xml", "<shape", "<!-- a line -->\n\n<shape");
+    fs::create_directories(folder() / "elsewhere");
+    fs::rename(folder() / "scene.xml", folder() / "elsewhere/scene.xml");
+    fs::create_directory_symlink(folder() / "meshes", folder() / "elsewhere/meshes");
+    const test::Ended again =
+        render("first/resolved.toml", "again", "--set scene.file=" + (folder() / "elsewhere/scene.xml").string());
+    ASSERT_EQ(again.code, 0) << again.output;
+    EXPECT_EQ(summary("again")["image_hash"], summary("first")["image_hash"]);
 }
 
 TEST_F(ResolvedCommand, WhatWasTakenOutIsMissed) {
