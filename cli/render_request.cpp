@@ -90,8 +90,15 @@ std::string schedule_of(const RenderOptions& options, const JobFile& file, const
     const bool has_budget = std::any_of(line.begin(), line.end(), [](const Setting& s) {
         return s.key.starts_with("budget.") && s.key != "budget.strict";
     });
-    if (!options.schedule.empty() || has_budget || !file.experiment || file.experiment->schedule.empty())
-        return options.schedule;
+    if (!options.schedule.empty() || has_budget || !file.experiment) return options.schedule;
+    if (file.experiment->schedule.empty()) {
+        for (const Setting& s : file.settings)
+            if ((s.key == "budget.seconds" || s.key == "budget.error") && s.value != "0")
+                throw InputError(s.where,
+                                 s.key + " chose the passes, but experiment.schedule does not say where they are",
+                                 "give that line back, name them with --schedule FILE, or say how long with --spp N");
+        return "";
+    }
     const std::filesystem::path schedule =
         std::filesystem::path(options.input).parent_path() / file.experiment->schedule;
     if (!std::filesystem::exists(schedule))

@@ -19,7 +19,7 @@ const char* run_state_name(RunState state);
 
 /// Facts about a run, for its files.
 struct RunFacts {
-    std::string command;  ///< that started it
+    std::string command;           ///< that started it
     std::uint64_t scene_hash = 0;  ///< content_hash() of the packed scene
     Fingerprint fingerprint;
     std::vector<Approximation> approximations;

@@ -75,11 +75,6 @@ JobFile checked_job_file(std::vector<Setting> settings) {
     const Location file{first->where.file};
     JobFile sorted;
     sorted.experiment = read_experiment(settings, file);
-    for (const char* key : {"budget.seconds", "budget.error"})
-        if (const Setting* budget = find(settings, key);
-            budget && budget->value != "0" && sorted.experiment->schedule.empty())
-            throw InputError(file, "experiment.schedule is not in it, though " + std::string(key) + " chose the passes",
-                             kResolvedCure);
     check_policy(settings, file);
     for (const JobKey& key : job_keys())
         if (key.stored() && !key.name.starts_with("output.") && find(settings, key.name) == nullptr)

@@ -250,7 +250,6 @@ TEST(ResolvedToml, OfAnotherBuildIsRefusedByName) {
         {changed("giving_up = 0.85", "giving_up = 0.85\nlosing_all = 1"), "guiding.losing_all is no constant"},
         {changed("rr_depth = 5\n", ""), "integrator.rr_depth is not in it"},
         {changed("giving_up = 0.85", "giving_up = \"much\""), "guiding.giving_up was much"},
-        {changed("seconds = 0", "seconds = 5"), "experiment.schedule is not in it, though budget.seconds"},
         {cut(toml, "[policy."), "policy.guiding.least_judged_spp is not in it"},
         {cut(toml, "[experiment]", "[scene]"), "experiment.version is not in it"},
         {changed(results, ""), "experiment.results is not in it"},

@@ -89,7 +89,6 @@ TEST_F(ResolvedCommand, AnEditedSceneIsRefused) {
     render_first("--spp 3");
     const std::string hash = summary("first")["scene_hash"];
     expect_refusal("or --set image.width=25 makes another of it", "--set image.width=25");
-    expect_refusal("or -D width makes another of it", "-D width=25");
     edit("scene.xml", "<shape", "<shape type=\"sphere\"><float name=\"radius\" value=\"0.1\"/></shape>\n<shape");
     expect_refusal("experiment.scene_hash was " + hash + ", and is ");
     expect_refusal("the scene has changed since; render job.toml for the scene as it is now");
@@ -137,6 +136,10 @@ TEST_F(ResolvedCommand, TakesListedPassesFromBesideIt) {
 TEST_F(ResolvedCommand, TakesPassesThatTheClockChoseFromBesideIt) {
     render_first("--seconds 0.5");
     expect_equal_images();
+    edit("first/resolved.toml", "schedule = \"schedule.toml\"", "");
+    fs::remove_all(folder() / "again");
+    expect_refusal("budget.seconds chose the passes, but experiment.schedule does not say where they are");
+    EXPECT_EQ(render("first/resolved.toml", "longer", "--spp 3").code, 0) << "a budget of one's own";
 }
 
 TEST_F(ResolvedCommand, TakesThePassesOfARenderThatWentOn) {
