@@ -250,8 +250,9 @@ TEST(Resume, ASceneThatHasChangedIsRefused) {
     command[2] = scene.string();
     kill_after(command, 1, folder, 0.0);
     std::string text = (std::stringstream() << std::ifstream(scene).rdbuf()).str();
-    const std::size_t at = text.find("0.");
-    text[at + 2] = text[at + 2] == '9' ? '8' : '9';
+    const std::size_t at = text.find("reflectance\" value=\"0.");
+    ASSERT_NE(at, std::string::npos);
+    text.replace(text.find("0.", at), 3, "0.5");
     std::ofstream(scene) << text;
     EXPECT_NE(refusal(folder).find("the scene has changed since"), std::string::npos);
 }
