@@ -78,7 +78,7 @@ int main(int argc, char** argv) {
         if constexpr (requires { kind.roughness.smooth(); }) {
             const bool smooth = kind.roughness.smooth();
             add((smooth ? "smooth " : "rough ") + name, kind);
-            kind.roughness.alpha_u = kind.roughness.alpha_v = 0.2f;
+            kind.roughness = {Microfacets::ggx, {0.2f}, {0.2f}};
             if (smooth) add("rough " + name, kind);
         } else {
             add(name, kind);
