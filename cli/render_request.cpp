@@ -111,11 +111,11 @@ std::string schedule_of(const RenderOptions& options, const JobFile& file, const
 /// What on the command line changes the scene: "-D width", or "".
 std::string scene_change(const std::vector<Setting>& line) {
     constexpr std::string_view kDefine = "scene.defines.";
-    for (const Setting& s : line)
-        if (s.key.starts_with(kDefine))
-            return "-D " + s.key.substr(kDefine.size());
-        else if (s.key.starts_with("scene.") || s.key.starts_with("image.") || s.key.starts_with("effects."))
+    for (const Setting& s : line) {
+        if (s.key.starts_with(kDefine)) return "-D " + s.key.substr(kDefine.size());
+        if (s.key.starts_with("scene.") || s.key.starts_with("image.") || s.key.starts_with("effects."))
             return s.where.file;
+    }
     return "";
 }
 

@@ -39,11 +39,7 @@ class SurfaceReader {
             throw InputError(properties_.where("material"), "both a material and eta are given", "keep one of them");
         if (lower(name) != "none") {
             const auto metal = find_metal(name);
-            if (!metal) {
-                const std::string nearest = nearest_word(name, metal_names());
-                throw InputError(properties_.where("material"), "no metal is called " + in_quotes(name),
-                                 nearest.empty() ? "give eta and k" : "did you mean " + in_quotes(nearest) + "?");
-            }
+            if (!metal) throw unknown_material("no metal", name, nearest_word(name, metal_names()), "give eta and k");
             conductor.eta = metal->eta;
             conductor.k = metal->k;
         }
@@ -225,15 +221,19 @@ class SurfaceReader {
         return textures_.color(properties_, name, otherwise, ColorUse::coefficient);
     }
 
+    InputError unknown_material(const std::string& none, const std::string& name, const std::string& nearest,
+                                const char* otherwise) const {
+        return {properties_.where("material"), none + " is called " + in_quotes(name),
+                nearest.empty() ? otherwise : "did you mean " + in_quotes(nearest) + "?"};
+    }
+
     /// The one that is named, in Mitsuba 0.6's unit: a hundred times what it is per millimetre.
     ScatteringMedium scattering_medium() {
         const std::string name = properties_.text("material", "skin1");
         auto medium = find_medium(lower(name));
-        if (!medium) {
-            const std::string nearest = nearest_word(lower(name), medium_names());
-            throw InputError(properties_.where("material"), "no scattering medium is called " + in_quotes(name),
-                             nearest.empty() ? "give sigmaS and sigmaA" : "did you mean " + in_quotes(nearest) + "?");
-        }
+        if (!medium)
+            throw unknown_material("no scattering medium", name, nearest_word(lower(name), medium_names()),
+                                   "give sigmaS and sigmaA");
         const float scale = 100.0f * static_cast<float>(properties_.positive("scale", 1.0));
         return {medium->scattering * scale, medium->absorption * scale};
     }
