@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "cli/launched_command.h"
+#include "coordinator/launch/launched_command.h"
 #include "coordinator/run/folder_lock.h"
 #include "coordinator/run/life_status.h"
 

@@ -15,7 +15,6 @@
 #include <random>
 #include <sstream>
 
-#include "cli/launched_command.h"
 #include "common/base/error.h"
 #include "common/base/host.h"
 #include "common/base/interrupt.h"
@@ -29,9 +28,11 @@
 #include "coordinator/launch/launch_folder.h"
 #include "coordinator/launch/launch_plan.h"
 #include "coordinator/launch/launch_signals.h"
+#include "coordinator/launch/launched_command.h"
 #include "coordinator/launch/supervisor.h"
 #include "coordinator/launch/sweep.h"
 #include "coordinator/run/folder_content.h"
+#include "coordinator/run/sign_of_life.h"
 
 namespace treefarm {
 
@@ -287,9 +288,9 @@ class LaunchRun {
 
 }  // namespace
 
-int run_launch(const LaunchOptions& options) {
+int run_launch(const LaunchOptions& options, LaunchedCommand command) {
     ignore_broken_pipes();
-    return LaunchRun(options, read_launched_command(options.command)).run();
+    return LaunchRun(options, std::move(command)).run();
 }
 
 }  // namespace treefarm

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/launch_environment.h"
+#include "coordinator/launch/launched_command.h"
 
 namespace treefarm {
 
@@ -21,7 +21,8 @@ struct LaunchOptions {
     std::vector<std::string> command;  ///< behind "--"
 };
 
-/// Keeps the command alive until it has ended, and returns its exit code. Throws InputError.
-int run_launch(const LaunchOptions& options);
+/// Keeps `command`, which stands in `options` as words, alive until it has ended, and returns its exit code. Throws
+/// InputError.
+int run_launch(const LaunchOptions& options, LaunchedCommand command);
 
 }  // namespace treefarm

@@ -2,8 +2,11 @@
 #include "common/scene/kinds/kind_documentation.h"
 
 #include "common/base/text/parse_text.h"
+#include "common/scene/kinds/emitters.h"
 #include "common/scene/kinds/kind_name.h"
-#include "common/scene/model/scene.h"
+#include "common/scene/kinds/materials.h"
+#include "common/scene/kinds/shapes.h"
+#include "common/scene/kinds/textures.h"
 
 namespace treefarm {
 namespace {

@@ -4,7 +4,7 @@
 #include <optional>
 #include <span>
 
-#include "common/scene/model/texture.h"
+#include "common/scene/kinds/traits/inputs.h"
 
 namespace treefarm {
 

@@ -23,7 +23,4 @@ struct LaunchedCommand {
     std::vector<std::string> again(bool has_checkpoint) const;
 };
 
-/// Reads what stands behind "--", and checks its options as the command itself would. Throws InputError.
-LaunchedCommand read_launched_command(const std::vector<std::string>& words);
-
 }  // namespace treefarm

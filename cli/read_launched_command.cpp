@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/launched_command.h"
+#include "cli/read_launched_command.h"
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 
 #include "cli/refuse.h"
 #include "cli/render.h"
@@ -91,19 +90,6 @@ void add_commands(CLI::App& app, int& no_code) {
 }
 
 }  // namespace
-
-Words LaunchedCommand::again(bool has_checkpoint) const {
-    if (kind != Kind::render || goes_on) return words;
-    if (has_checkpoint) {
-        Words resume = {"resume", folder.string()};
-        resume.insert(resume.end(), farm_options.begin(), farm_options.end());
-        return resume;
-    }
-    Words anew = words;
-    // What lies there is an attempt's own beginning.
-    if (std::find(words.begin(), words.end(), "--overwrite") == words.end()) anew.emplace_back("--overwrite");
-    return anew;
-}
 
 LaunchedCommand read_launched_command(const Words& words) {
     if (words.empty()) refuse("launch", "has nothing to launch", "write treefarm launch -n 3 -- render scene.xml");
