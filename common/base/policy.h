@@ -8,7 +8,7 @@ namespace treefarm {
 
 /// Every constant that was tuned on scenes rather than derived, by what it decides: docs/generated/policy.md tells
 /// what each means and where it comes from. A render records them (resolved.toml).
-/// This header includes nothing of ours, so that every room may include it.
+/// This header includes nothing of ours, so that every module may include it.
 struct Policy {
     /// When paths are unguided ("auto"), by what guided samples tell of unguided ones.
     struct Guiding {

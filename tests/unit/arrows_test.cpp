@@ -93,7 +93,8 @@ std::string violation(const std::string& path, const Include& include) {
             return top_of(folder) + " never includes " + top_of(target);
         if (*target_floor >= *floor) return folder + " must not look at " + target;
     }
-    if (is_guide(target) && (below(folder, "worker/integrators") || below(folder, "coordinator") || folder == "cli"))
+    if (is_guide(target) &&
+        (below(folder, "worker/integrators") || folder == "worker" || below(folder, "coordinator") || folder == "cli"))
         return "integrators, coordinator and commands know guides by common/guiding/any_guide.h alone";
     if (is_guide(target) && folder == "common/guiding" && path != "common/guiding/guides.h")
         return "common/guiding/guides.h alone lists the guides";

@@ -15,7 +15,7 @@
 namespace treefarm {
 
 /// Every effect that the program knows, those that it never simulates last: names, words, what finds each, and how it
-/// is switched off. Rooms below `plan` see names and words; what finds and removes becomes code in `plan` alone.
+/// is switched off. Modules below `plan` see names and words; what finds and removes becomes code in `plan` alone.
 inline constexpr auto kEffectRows =
     std::tuple_cat(kLightEffects, kMaterialEffects, kShapeEffects, kCameraEffects, kTransportEffects, kNeverEffects);
 inline constexpr std::size_t kEffectCount = std::tuple_size_v<decltype(kEffectRows)>;

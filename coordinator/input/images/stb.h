@@ -7,7 +7,7 @@
 
 #include "coordinator/input/images/pixels.h"
 
-/// The only door to the stb libraries, used within this room.
+/// The only includer of the stb libraries, used within this module.
 namespace treefarm::stb {
 
 /// Pixels of a BMP or TGA file. Nothing, and `why`, if it cannot be decoded.
