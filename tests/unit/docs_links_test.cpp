@@ -205,6 +205,14 @@ std::set<fs::path> pages_within(int clicks, const fs::path& page) {
     return pages;
 }
 
+TEST(DocsLinks, ReadmeLeadsToEveryPageOfTheDocumentation) {
+    const auto pages = pages_within(1, kRoot / "README.md");
+    for (const fs::path& page : test::markdown_pages())
+        if (name_of(page).starts_with("docs/")) {
+            EXPECT_TRUE(pages.contains(page)) << "README.md does not link " << name_of(page);
+        }
+}
+
 TEST(DocsLinks, AStrangersQuestionsAreTwoClicksAway) {
     const auto pages = pages_within(2, kRoot / "README.md");
     for (const char* answer : {
