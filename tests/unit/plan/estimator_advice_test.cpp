@@ -65,7 +65,8 @@ TEST(EstimatorAdvice, OfPointsOverMirrors) {
     EXPECT_EQ(advice(scene).substr(0, 14), "bidirectional:");
 }
 
-/// As measured (bench/log/2026-11-27-bidir.md): the estimator that is ahead at equal time.
+/// As measured (bench/log/bidirectional.md, "where is it ahead of path tracing"): the estimator that is ahead at equal
+/// time.
 TEST(EstimatorAdvice, OfOurScenes) {
     for (const auto& [name, type] : {std::pair("fixtures", "bidirectional:"),
                                      {"door-ajar", "bidirectional:"},

@@ -33,15 +33,18 @@ std::string lower(std::string text) {
     return text;
 }
 
+bool has_anchor(const fs::path& page, const std::string& anchor) {
+    const auto known = test::anchors(page);
+    return std::find(known.begin(), known.end(), anchor) != known.end();
+}
+
 /// The fault of a link of a page; empty: none.
 std::string fault(const fs::path& page, const test::MarkdownLink& link) {
     const fs::path target = link.path.empty() ? page : (page.parent_path() / link.path).lexically_normal();
     if (!fs::exists(target)) return "there is no " + name_of(target);
     if (link.anchor.empty()) return "";
     if (target.extension() != ".md") return "only pages have anchors";
-    const auto known = test::anchors(target);
-    const bool found = std::find(known.begin(), known.end(), link.anchor) != known.end();
-    return found ? "" : name_of(target) + " has no heading for #" + link.anchor;
+    return has_anchor(target, link.anchor) ? "" : name_of(target) + " has no heading for #" + link.anchor;
 }
 
 TEST(DocsLinks, LeadToPagesAndHeadings) {
@@ -55,7 +58,7 @@ TEST(DocsLinks, LeadToPagesAndHeadings) {
 }
 
 TEST(DocsLinks, TheCheckSeesBadOnes) {
-    const fs::path page = kRoot / "docs/README.md";
+    const fs::path page = kRoot / "docs/glossary.md";
     EXPECT_EQ(fault(page, {1, "design/guiding.md", "the-tree"}), "");
     EXPECT_NE(fault(page, {1, "design/guiding.md", "the-bush"}), "");
     EXPECT_NE(fault(page, {1, "design/gliding.md", ""}), "");
@@ -83,17 +86,19 @@ std::string running_text(const fs::path& file) {
     return std::regex_replace(text_of(file), mark, " ");
 }
 
-/// Faults of a text's citations of pages, as in: docs/design/error.md, "error".
+/// Faults of a text's citations of pages, as in: docs/design/error.md, "error", or docs/design/error.md#error.
 std::vector<std::string> faults_of_citations(const std::string& text) {
-    static const std::regex citation(R"re(([\w./-]*\w\.md)\b(?:, "([^"]+)")?)re");
+    static const std::regex citation(R"re(([\w./-]*\w\.md)\b(?:#([\w-]+))?(?:, "([^"]+)")?)re");
     std::vector<std::string> faults;
     for (std::sregex_iterator it(text.begin(), text.end(), citation), end; it != end; ++it) {
-        const std::string page = (*it)[1], title = (*it)[2];
+        const std::string page = (*it)[1], anchor = (*it)[2], title = (*it)[3];
         const bool has_folder = page.starts_with("docs/") || page.starts_with("bench/log/");
         if (!has_folder && !title.empty()) faults.push_back(page + " is cited without its folder");
         if (!has_folder) continue;
         if (!fs::exists(kRoot / page))
             faults.push_back("there is no " + page);
+        else if (!anchor.empty() && !has_anchor(kRoot / page, anchor))
+            faults.push_back(page + " has no heading for #" + anchor);
         else if (!title.empty() && !has_section(kRoot / page, title))
             faults.push_back(page + " has no section \"" + title + "\"");
     }
@@ -121,6 +126,8 @@ TEST(DocsLinks, CommentsCiteSectionsThatExist) {
 TEST(DocsLinks, TheCheckSeesBadCitations) {
     EXPECT_TRUE(faults_of_citations("see docs/design/guiding.md, \"the tree\", and docs/glossary.md.").empty());
     EXPECT_EQ(faults_of_citations("docs/design/guiding.md, \"the bush\"").size(), 1u);
+    EXPECT_TRUE(faults_of_citations("docs/design/guiding.md#the-tree").empty());
+    EXPECT_EQ(faults_of_citations("docs/design/guiding.md#the-bush").size(), 1u);
     EXPECT_EQ(faults_of_citations("docs/guiding.md").size(), 1u);
     EXPECT_EQ(faults_of_citations("(architecture.md, \"faults\")").size(), 1u);
 }
@@ -136,10 +143,15 @@ std::vector<std::string> named_files(const fs::path& page) {
     return files;
 }
 
+/// Whether a page is a subject of the log, which is frozen.
+bool is_of_the_log(const fs::path& page) {
+    return page.parent_path() == kRoot / "bench/log" && page.filename() != "README.md";
+}
+
 TEST(DocsLinks, FilesThatPagesNameExist) {
     std::size_t names = 0;
     for (const fs::path& page : test::markdown_pages()) {
-        if (name_of(page).starts_with("bench/log/2")) continue;  // frozen
+        if (is_of_the_log(page)) continue;  // frozen
         for (const std::string& file : named_files(page)) {
             ++names;
             const bool is_program = fs::exists(kRoot / (file + ".cpp"));  // bench/guide_bench
@@ -147,6 +159,37 @@ TEST(DocsLinks, FilesThatPagesNameExist) {
         }
     }
     EXPECT_GT(names, 100u);
+}
+
+TEST(DocsLog, SectionsAreQuestionsWithTheirDay) {
+    static const std::regex day(R"(\*.*\b20\d\d\b.*)");
+    std::size_t sections = 0;
+    for (const fs::path& page : test::markdown_pages()) {
+        if (!is_of_the_log(page)) continue;
+        std::string question;
+        for (const test::MarkdownLine& line : test::markdown_lines(page)) {
+            if (line.text.starts_with("## ")) {
+                ++sections;
+                question = line.text;
+                EXPECT_TRUE(question.ends_with("?")) << name_of(page) << ":" << line.number;
+            } else if (!question.empty() && !line.text.empty()) {
+                EXPECT_TRUE(std::regex_match(line.text, day)) << name_of(page) << " has no day below " << question;
+                question.clear();
+            }
+        }
+    }
+    EXPECT_GT(sections, 80u);
+}
+
+TEST(DocsLog, TablesAreLinked) {
+    std::set<fs::path> linked;
+    for (const fs::path& page : test::markdown_pages())
+        for (const test::MarkdownLink& link : test::local_links(page))
+            linked.insert((page.parent_path() / link.path).lexically_normal());
+    for (const auto& entry : fs::recursive_directory_iterator(kRoot / "bench/log"))
+        if (entry.path().extension() == ".csv") {
+            EXPECT_TRUE(linked.contains(entry.path())) << "no page says what " << name_of(entry.path()) << " holds";
+        }
 }
 
 /// Pages within so many clicks of another.
@@ -160,6 +203,14 @@ std::set<fs::path> pages_within(int clicks, const fs::path& page) {
         pages = std::move(next);
     }
     return pages;
+}
+
+TEST(DocsLinks, ReadmeLeadsToEveryPageOfTheDocumentation) {
+    const auto pages = pages_within(1, kRoot / "README.md");
+    for (const fs::path& page : test::markdown_pages())
+        if (name_of(page).starts_with("docs/")) {
+            EXPECT_TRUE(pages.contains(page)) << "README.md does not link " << name_of(page);
+        }
 }
 
 TEST(DocsLinks, AStrangersQuestionsAreTwoClicksAway) {
