@@ -44,9 +44,10 @@ if(TREEFARM_TRAP)
 endif()
 target_compile_options(treefarm_flags INTERFACE -march=${TREEFARM_ARCH} -ffp-contract=off -fno-math-errno ${trapping} -Wall -Wextra -Wconversion)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-    # GCC 12 warns of overlapping copies inside std::string's operator+ (GCC bug 105651).
-    # It also takes the alternatives that a std::variant does not hold for values that may be read (GCC bug 80635).
-    target_compile_options(treefarm_flags INTERFACE -Wno-restrict -Wno-maybe-uninitialized)
+    # GCC 12 warns of overlapping copies, bounds and overflows inside std::string's operator+ (GCC bug 105651), and takes the
+    # alternatives that a std::variant does not hold for values that may be read (GCC bug 80635).
+    target_compile_options(treefarm_flags INTERFACE -Wno-restrict -Wno-stringop-overflow -Wno-stringop-overread
+                           -Wno-array-bounds -Wno-maybe-uninitialized)
     # Its way of clearing a struct of a hundred bytes, `rep stos`, was a third of what sampling a mesh emitter took.
     set(inline_up_to vector_loop:1024:noalign,libcall:-1:noalign)
     target_compile_options(treefarm_flags INTERFACE -mmemset-strategy=${inline_up_to} -mmemcpy-strategy=${inline_up_to})

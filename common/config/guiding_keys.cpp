@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/config/guiding_keys.h"
 
-#include <limits>
 
 #include "common/config/job_key_makers.h"
 
 namespace treefarm {
 namespace {
 
-constexpr std::int64_t kMaxInt = std::numeric_limits<int>::max();
-constexpr std::int64_t kMaxSpp = std::int64_t{1} << 30;
 
 /// The key whose value is a number, or (by default) that it is learned.
 JobKey bsdf_fraction_key() {

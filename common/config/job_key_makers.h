@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -13,6 +15,9 @@
 #include "common/config/job_keys.h"
 
 namespace treefarm {
+
+inline constexpr std::int64_t kMaxInt = std::numeric_limits<int>::max();
+inline constexpr std::int64_t kMaxSpp = std::int64_t{1} << 30;
 
 /// Keys of a job by what their value is. `member` gives the place of the value in a job, const or not.
 

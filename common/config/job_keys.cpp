@@ -16,8 +16,6 @@
 namespace treefarm {
 namespace {
 
-constexpr std::int64_t kMaxInt = std::numeric_limits<int>::max();
-constexpr std::int64_t kMaxSpp = std::int64_t{1} << 30;
 
 /// The estimator, by the list of all.
 JobKey estimator_key() {

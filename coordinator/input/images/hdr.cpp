@@ -29,9 +29,9 @@ bool parse_size(std::string_view line, HdrHeader& header) {
     return take("-Y ", header.height) && take(" +X ", header.width) && line.empty();
 }
 
-class Decoder {
+class HdrDecoder {
   public:
-    Decoder(std::span<const std::uint8_t> data, std::size_t width) : data_(data), line_(width * 4) {}
+    HdrDecoder(std::span<const std::uint8_t> data, std::size_t width) : data_(data), line_(width * 4) {}
 
     /// The next line, four bytes per pixel; nullptr, and `why`, if it is malformed.
     const std::vector<std::uint8_t>* next(std::string& why) {
@@ -121,7 +121,7 @@ std::optional<HdrHeader> read_hdr_header(std::span<const std::uint8_t> bytes, st
 std::optional<std::vector<float>> decode_hdr(std::span<const std::uint8_t> bytes, const HdrHeader& header,
                                              std::string& why) {
     const auto width = static_cast<std::size_t>(header.width), height = static_cast<std::size_t>(header.height);
-    Decoder decoder(bytes.subspan(header.data_begin), width);
+    HdrDecoder decoder(bytes.subspan(header.data_begin), width);
     std::vector<float> values;
     values.reserve(3 * width * height);
     for (std::size_t y = 0; y < height; ++y) {

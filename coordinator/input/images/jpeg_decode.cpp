@@ -12,19 +12,19 @@ namespace {
 
 /// libjpeg reports errors by a long jump, which may leave out no destructor: what has one lives outside of the
 /// functions that are jumped out of.
-class Decoder {
+class JpegDecoder {
   public:
-    Decoder(std::span<const std::uint8_t> bytes, std::string& why) : bytes_(bytes), why_(why) {
+    JpegDecoder(std::span<const std::uint8_t> bytes, std::string& why) : bytes_(bytes), why_(why) {
         info_.err = jpeg_std_error(&errors_);
         info_.client_data = this;
-        errors_.error_exit = &Decoder::fail;
-        errors_.emit_message = &Decoder::hear;
+        errors_.error_exit = &JpegDecoder::fail;
+        errors_.emit_message = &JpegDecoder::hear;
         errors_.output_message = [](j_common_ptr) {};
-        progress_.progress_monitor = &Decoder::watch;
+        progress_.progress_monitor = &JpegDecoder::watch;
     }
-    ~Decoder() { jpeg_destroy_decompress(&info_); }
-    Decoder(const Decoder&) = delete;
-    Decoder& operator=(const Decoder&) = delete;
+    ~JpegDecoder() { jpeg_destroy_decompress(&info_); }
+    JpegDecoder(const JpegDecoder&) = delete;
+    JpegDecoder& operator=(const JpegDecoder&) = delete;
 
     bool read_size(ImageSize& size) {
         if (setjmp(jump_) != 0) return false;
@@ -79,7 +79,7 @@ class Decoder {
     }
 
     [[noreturn]] static void fail(j_common_ptr info) {
-        auto* self = static_cast<Decoder*>(info->client_data);
+        auto* self = static_cast<JpegDecoder*>(info->client_data);
         char message[JMSG_LENGTH_MAX];
         info->err->format_message(info, message);
         self->why_ = message;
@@ -94,7 +94,7 @@ class Decoder {
     /// A few bytes may ask for one more scan over all pixels.
     static void watch(j_common_ptr info) {
         constexpr int kMostScans = 500;
-        auto* self = static_cast<Decoder*>(info->client_data);
+        auto* self = static_cast<JpegDecoder*>(info->client_data);
         if (self->info_.input_scan_number <= kMostScans) return;
         self->why_ = "it has more than 500 scans";
         std::longjmp(self->jump_, 1);
@@ -112,13 +112,13 @@ class Decoder {
 
 std::optional<ImageSize> jpeg_size(std::span<const std::uint8_t> bytes, std::string& why) {
     ImageSize size;
-    if (!Decoder(bytes, why).read_size(size)) return std::nullopt;
+    if (!JpegDecoder(bytes, why).read_size(size)) return std::nullopt;
     return size;
 }
 
 std::optional<Pixels> decode_jpeg(std::span<const std::uint8_t> bytes, std::string& why) {
     Pixels pixels;
-    if (!Decoder(bytes, why).run(pixels)) return std::nullopt;
+    if (!JpegDecoder(bytes, why).run(pixels)) return std::nullopt;
     return pixels;
 }
 

@@ -15,22 +15,22 @@ namespace {
 
 /// libpng reports errors by a long jump, which may leave out no destructor: what has one lives in decode_png(), and
 /// only run() is jumped out of.
-class Decoder {
+class PngDecoder {
   public:
-    Decoder(std::span<const std::uint8_t> bytes, std::string& why)
+    PngDecoder(std::span<const std::uint8_t> bytes, std::string& why)
         : rest_(bytes),
           why_(why),
-          png_(png_create_read_struct(PNG_LIBPNG_VER_STRING, this, &Decoder::fail, &Decoder::ignore)),
+          png_(png_create_read_struct(PNG_LIBPNG_VER_STRING, this, &PngDecoder::fail, &PngDecoder::ignore)),
           info_(png_ != nullptr ? png_create_info_struct(png_) : nullptr) {}
-    ~Decoder() { png_destroy_read_struct(&png_, &info_, nullptr); }
-    Decoder(const Decoder&) = delete;
-    Decoder& operator=(const Decoder&) = delete;
+    ~PngDecoder() { png_destroy_read_struct(&png_, &info_, nullptr); }
+    PngDecoder(const PngDecoder&) = delete;
+    PngDecoder& operator=(const PngDecoder&) = delete;
 
     bool run(Pixels& pixels, std::vector<std::uint8_t>& wide) {
         if (info_ == nullptr) return false;
         if (setjmp(png_jmpbuf(png_)) != 0) return false;
         png_set_user_limits(png_, kMaxImageSide, kMaxImageSide);
-        png_set_read_fn(png_, this, &Decoder::read);
+        png_set_read_fn(png_, this, &PngDecoder::read);
         png_read_info(png_, info_);
         png_set_expand(png_);
         if (std::endian::native == std::endian::little) png_set_swap(png_);
@@ -51,12 +51,12 @@ class Decoder {
 
   private:
     [[noreturn]] static void fail(png_structp png, png_const_charp message) {
-        static_cast<Decoder*>(png_get_error_ptr(png))->why_ = message;
+        static_cast<PngDecoder*>(png_get_error_ptr(png))->why_ = message;
         png_longjmp(png, 1);
     }
     static void ignore(png_structp, png_const_charp) {}
     static void read(png_structp png, png_bytep to, std::size_t count) {
-        auto& rest = static_cast<Decoder*>(png_get_io_ptr(png))->rest_;
+        auto& rest = static_cast<PngDecoder*>(png_get_io_ptr(png))->rest_;
         if (count > rest.size()) png_error(png, "it is cut short");
         std::memcpy(to, rest.data(), count);
         rest = rest.subspan(count);
@@ -84,7 +84,7 @@ std::optional<ImageSize> png_size(std::span<const std::uint8_t> bytes) {
 std::optional<Pixels> decode_png(std::span<const std::uint8_t> bytes, std::string& why) {
     Pixels pixels;
     std::vector<std::uint8_t> wide;
-    if (!Decoder(bytes, why).run(pixels, wide)) {
+    if (!PngDecoder(bytes, why).run(pixels, wide)) {
         if (why.empty()) why = "out of memory";
         return std::nullopt;
     }

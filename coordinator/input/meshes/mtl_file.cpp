@@ -10,9 +10,9 @@
 namespace treefarm {
 namespace {
 
-class Reader {
+class MtlReader {
   public:
-    Reader(std::string_view text, const std::string& file) : scanner_(text, file) {}
+    MtlReader(std::string_view text, const std::string& file) : scanner_(text, file) {}
 
     std::vector<MtlMaterial> read() {
         std::string_view keyword;
@@ -91,7 +91,7 @@ class Reader {
 }  // namespace
 
 std::vector<MtlMaterial> parse_mtl(std::string_view text, const std::string& file) {
-    return Reader(text, file).read();
+    return MtlReader(text, file).read();
 }
 
 std::vector<MtlMaterial> read_mtl(const std::filesystem::path& path, const Location& asked_from) {

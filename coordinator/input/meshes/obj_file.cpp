@@ -22,9 +22,9 @@ struct LargestIndex {
     Location where;
 };
 
-class Reader {
+class ObjReader {
   public:
-    Reader(std::string_view text, const std::string& file) : scanner_(text, file) {}
+    ObjReader(std::string_view text, const std::string& file) : scanner_(text, file) {}
 
     ObjFile read() {
         std::string_view keyword;
@@ -201,7 +201,7 @@ class Reader {
 }  // namespace
 
 ObjFile parse_obj(std::string_view text, const std::string& file) {
-    return Reader(text, file).read();
+    return ObjReader(text, file).read();
 }
 
 ObjFile read_obj(const std::filesystem::path& path, const Location& asked_from) {
