@@ -35,7 +35,7 @@ std::vector<Setting> read_job_settings(const std::filesystem::path& path);
 
 /// The settings in TOML text; `name` stands for the file in messages. Paths are left as they are. What stands
 /// below [policy] and [experiment] comes back as settings "policy..." and "experiment...", which are no keys of a job
-/// (plan/resolved_file.h).
+/// (plan/resolve/resolved_file.h).
 std::vector<Setting> parse_job_settings(const std::string& toml, const std::string& name);
 
 /// A setting from the text of --set: "key=value". Quotes around the value are optional.

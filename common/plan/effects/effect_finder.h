@@ -17,8 +17,9 @@ Effect effect_on(const std::string& reason, std::uint64_t bytes = 0);
 /// "1 disk", "2 disks", "2 meshes".
 std::string plural(std::size_t count, const std::string& what);
 
-/// Looks in a scene and its job for what calls for each effect. The rows of effects/table.h say what they ask it: its
-/// members without arguments are named as the effects whose state they find. The scene and the job must outlive it.
+/// Looks in a scene and its job for what calls for each effect. The rows of config/effects/table.h say what they ask
+/// it: its members without arguments are named as the effects whose state they find. The scene and the job must outlive
+/// it.
 class EffectFinder {
   public:
     EffectFinder(const Scene& scene, const Resolved& job);
