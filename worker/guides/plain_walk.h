@@ -41,7 +41,7 @@ struct PlainWalk {
     static constexpr std::uint32_t kRecordsPerVertex = 1;
     static constexpr Bins kDeltaBins = kMixtureBins - 1;
 
-    /// Draws from bsdf_fraction * p_BSDF + (1 - bsdf_fraction) * p_guide.
+    /// Batch of directions sampled from bsdf_fraction * p_BSDF + (1 - bsdf_fraction) * p_guide.
     template <bool kGuided, bool kConverts>
     struct ScatterBatch {
         void clear() {}
@@ -82,7 +82,7 @@ struct PlainWalk {
         }
     };
 
-    /// Codes of the directions of next event.
+    /// Codes of next event's directions.
     class LightBatch {
       public:
         void clear() { count_ = 0; }
@@ -108,7 +108,7 @@ struct PlainWalk {
     static Target target(const Guidance& guidance) { return {guidance.region}; }
     static Target moved(const Sampler&, std::uint32_t region, Outgoing, Target) { return {region}; }
     static Direction direction(const Scatter& s) { return s.code; }
-    /// The direction of a point of the direction square.
+    /// Direction of a point of the direction square.
     static Direction direction_at(const Vec2& square) { return square_to_code(square); }
     static Bins bins(const Guidance&, const Scatter& s) { return mixture_bin(s.bsdf_pdf, s.guide_pdf); }
     static float radiance(const Sampler& guide, const Guidance& guidance, const Scatter& s) {
