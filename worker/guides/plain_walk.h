@@ -10,14 +10,16 @@
 
 namespace treefarm {
 
-/// How the path walk uses a guide that knows directions by region alone, one at a time (docs/use/write-a-guide.md):
+/// Path-walk adapter of a guide whose directional distributions depend on the region alone, and which samples one
+/// direction at a time (docs/use/write-a-guide.md):
 ///
 ///   S::Sample sample(std::uint32_t region, const Draw& random) const   random[1] to [3] are uniform; a Sample has the
 ///                     direction, its Z-order code on the direction square, and its density per steradian, or 0 if the
 ///                     draw failed
-///   float pdf(std::uint32_t region, std::uint32_t code) const          of the direction with this code: the function
-///                     that sample() returned
-///   float radiance(std::uint32_t region, std::uint32_t code) const     mean that was learned of it; negative: nothing
+///   float pdf(std::uint32_t region, std::uint32_t code) const          density per steradian of the direction with
+///   this
+///                     code, equal to the one that sample() returned
+///   float radiance(std::uint32_t region, std::uint32_t code) const     mean radiance learned for it; negative: unknown
 template <class S>
 struct PlainWalk {
     using Sampler = S;

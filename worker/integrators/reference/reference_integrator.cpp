@@ -8,20 +8,20 @@
 #include "worker/integrators/subpath/roulette.h"
 #include "worker/integrators/subpath/surface_light.h"
 
-// The radiance that reaches the camera along a ray is an integral over all paths by which light gets there (Kajiya
-// 1986, "The rendering equation"). A path tracer draws one path, backwards and vertex by vertex, and sums up what each
-// adds:
+// The radiance that reaches the camera along a ray is an integral over all paths of light to it (Kajiya 1986, "The
+// rendering equation"). A path tracer samples one path, backwards and vertex by vertex, and sums the vertices'
+// contributions:
 //
 //     L = sum over k = 1, 2, ... of T_(k-1) (E_k + D_k)        T_0 = 1,  T_k = T_(k-1) f |cos| / pdf
 //
-// E_k is what vertex k emits towards the one before. D_k, next event, is what a sampled emitter sends to vertex k, and
-// the surface on from there. T_k, the throughput, is how much of what arrives at vertex k gets to the camera, over the
-// density with which the path's directions were drawn.
+// E_k is the radiance that vertex k emits towards the previous one. D_k, next event, is the light of a sampled emitter
+// that vertex k reflects. T_k, the throughput, is the fraction of the light at vertex k that reaches the camera, over
+// the density of the path's directions.
 //
-// E_(k+1) and D_k estimate the same light, one by a direction of the BSDF, one by a place on an emitter. Each is
-// weighed by how likely its technique was to go there; the two weights of a direction sum to one (multiple importance
-// sampling, Veach 1997). Russian roulette ends paths at random, and weighs up those that go on. No step changes the
-// expectation: the mean of many samples is the image, whatever the numbers.
+// E_(k+1) and D_k estimate the same light, one by a direction of the BSDF, one by a point on an emitter. Each is
+// weighted by its technique's density against the other's; the two weights of a direction sum to one (multiple
+// importance sampling, Veach 1997). Russian roulette ends paths at random, and scales up those that continue. No step
+// changes the expectation: the mean of many samples is the image.
 
 namespace treefarm {
 
