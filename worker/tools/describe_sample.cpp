@@ -12,7 +12,7 @@ std::ostream& operator<<(std::ostream& out, const Vec3& v) {
     return out << '(' << v.x << ", " << v.y << ", " << v.z << ')';
 }
 
-/// Writes one line per event of a path.
+/// Writer of one line of text per event of a path.
 class TextEvents : public PathEvents {
   public:
     explicit TextEvents(const TraceScene& scene) : scene_(scene) {}
