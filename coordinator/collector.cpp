@@ -113,7 +113,7 @@ Verdict Collector::take(int worker, Result result, Ledger& ledger) {
         if (verdict == Verdict::late) ledger.drop(worker, units);
         return verdict;
     }
-    // merge_encoded checks everything before it adds anything: a result counts whole or not at all.
+    // merge_encoded checks everything before it adds anything: a result counts as a whole or not at all.
     Timer timer;
     if (plan_.record) touched_cells_ += sums_.merge_encoded(result.update);
     merge_seconds_ += timer.seconds();

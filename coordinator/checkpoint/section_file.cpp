@@ -11,7 +11,7 @@ namespace treefarm {
 namespace {
 
 constexpr std::uint32_t kMagic = section_tag("TFCP"), kEnd = section_tag("END!");
-/// magic, format, generation; tag, version, length; a check sum.
+/// Bytes of a section's head (tag, version, length), and of a checksum.
 constexpr std::size_t kSectionHead = 16, kCheck = 16;
 
 void put_check(ByteWriter& out, const Hash128& hash) {

@@ -11,7 +11,7 @@ namespace treefarm {
 
 namespace {
 
-/// Time from image to image within a pass, at least, over what one takes of all processors.
+/// Least time between images within a pass, over the time that one takes of all processors.
 constexpr double kInterval = 200.0;
 constexpr double kLeastSeconds = 1.0;
 
