@@ -12,12 +12,12 @@ namespace treefarm {
 
 namespace {
 
-constexpr double kDecades = 3;                          ///< that false colours span, below white
-constexpr int kPanelPixels = 256;                       ///< the least side of a panel
-constexpr int kGap = 8;                                 ///< between panels
+constexpr double kDecades = 3;                          ///< decades of the false-colour scale, below white
+constexpr int kPanelPixels = 256;                       ///< least side of a panel
+constexpr int kGap = 8;                                 ///< gap between panels
 constexpr double kSphere = 4 * 3.14159265358979323846;  ///< steradians
 
-/// Numbers apart by commas; nothing if any is none.
+/// Numbers separated by commas; empty if any is invalid.
 std::vector<double> numbers_in(const std::string& text) {
     std::vector<double> numbers;
     for (std::size_t at = 0; at <= text.size();) {
@@ -34,10 +34,10 @@ Vec3 vector_of(const std::vector<double>& v) {
     return {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])};
 }
 
-/// One density among those that a picture shows.
+/// One density of a picture.
 struct Panel {
     std::string title;
-    std::vector<float> density;  ///< per steradian; integrates to one unless all is 0
+    std::vector<float> density;  ///< per steradian; integrates to one unless all are 0
 };
 
 /// Integral over the sphere of directions.
@@ -99,7 +99,7 @@ Comparison compare(const std::string& kind, const std::vector<Panel>& panels, in
     return comparison;
 }
 
-/// Panels of the learned density, of what it should be and, where next event takes a part of that away, of the whole.
+/// Panels of the learned density, of its true target and, if next event removes a part of it, of the whole.
 std::vector<Panel> panels_of(const std::string& title, std::vector<float> learned, const std::string& true_title,
                              const std::vector<float>& all, const std::vector<float>& left) {
     std::vector<Panel> panels = {{title, normalized(std::move(learned))}};

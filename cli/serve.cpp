@@ -27,7 +27,7 @@ struct ServeOptions {
     std::string token_file;
 };
 
-/// The address as a browser elsewhere would write it.
+/// Host part of the address as another machine's browser would write it.
 std::string host_of(const std::string& address) {
     if (address == "0.0.0.0" || address == "::") return host_name();
     return address.find(':') == std::string::npos ? address : "[" + address + "]";

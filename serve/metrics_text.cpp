@@ -15,7 +15,7 @@ namespace {
 
 using Labels = std::vector<std::pair<const char*, std::string>>;
 
-/// A label's value: backslash, quote and line end are escaped, as the format asks.
+/// Escaped value of a label: backslash, quote and line end, as the format requires.
 std::string escaped(const std::string& value) {
     std::string text;
     for (const char c : value) {
@@ -28,7 +28,7 @@ std::string escaped(const std::string& value) {
     return text;
 }
 
-/// A metric: its head, then its samples one after the other.
+/// A metric: its header, then its samples.
 class Metric {
   public:
     Metric(const char* name, const char* type, const char* help)
@@ -41,12 +41,12 @@ class Metric {
         text_ += fmt::format("{}{{{}}} {}\n", name_, list, value);
         empty_ = false;
     }
-    /// A figure that may be null.
+    /// Adds a sample, unless `value` is null.
     void add(const Labels& labels, const FileJson& value) {
         if (value.is_number()) add(labels, value.get<double>());
     }
 
-    /// Nothing where there is no sample.
+    /// Text of the metric; empty without samples.
     std::string text() const { return empty_ ? "" : text_; }
 
   private:
