@@ -127,12 +127,12 @@ int run_check(const CheckOptions& options, std::ostream& out) {
 
 void add_check_command(CLI::App& app, const LaunchEnvironment& launch, int& exit_code) {
     const auto options = std::make_shared<CheckOptions>();
-    CLI::App* command = app.add_subcommand("check", "Tells what in a scene is risky, with places");
+    CLI::App* command = app.add_subcommand("check", "Reports the risks in a scene, with their positions in the file");
     command->add_option("scene", options->scene, "Mitsuba scene (.xml)")->required();
     command->add_flag("--json", options->json, "print JSON instead of lines");
     add_texts_option(*command, "-D", options->defines, "name=value: gives $name in the scene a value");
     add_text_option(*command, "--sensor", options->sensor, "which of several sensors, by number from 0 on or by id");
-    command->add_flag("--lenient", options->lenient, "replace what the scene reader does not know instead of refusing");
+    command->add_flag("--lenient", options->lenient, "replace unknown elements of the scene instead of refusing them");
     command->callback([options, launch, &exit_code] {
         if (launch.rank == 0) exit_code = run_check(*options, std::cout);  // under mpirun one process is enough
     });

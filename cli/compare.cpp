@@ -94,10 +94,9 @@ void run_z_tests(const CompareOptions& options, const Side& image, Side& referen
     result.reference_noise = reference_variance(options, image, reference);
     if (reference.half) result.reference_noise += ", and rounding to half";
     if (!image.variance) {
-        result.z_unavailable =
-            options.image +
-            " has no variance channels (variance.R, variance.G, variance.B), so what its noise alone "
-            "would explain is not known";
+        result.z_unavailable = options.image +
+                               " has no variance channels (variance.R, variance.G, variance.B), so the effect of its "
+                               "noise alone is unknown";
         return;
     }
     const ZTestInput input{
@@ -186,8 +185,8 @@ void add_compare_command(CLI::App& app, const LaunchEnvironment& launch, int& ex
     add_integer_option(
         *command, "--reference-spp", options->reference_spp, {1, 1099511627776, "samples per pixel", "4096"},
         "samples per pixel of a reference without variance channels: its noise is taken from the image's");
-    add_number_option(*command, "--reference-error", options->reference_error, {0, 1, "a share", "0.001"},
-                      "standard deviation of a relative error that all of the reference shares, e.g. 0.001");
+    add_number_option(*command, "--reference-error", options->reference_error, {0, 1, "a fraction", "0.001"},
+                      "standard deviation of a relative error common to all of the reference, e.g. 0.001");
     command->callback([options, launch, &exit_code] {
         if (launch.rank == 0) exit_code = run_compare(*options, std::cout);  // under mpirun one process is enough
     });

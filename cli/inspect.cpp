@@ -127,13 +127,13 @@ void add_inspect_command(CLI::App& app, const LaunchEnvironment& launch, int& ex
     command->add_option("run", options->directory, "run directory of a guided render")->required();
     command->add_flag("--json", options->json, "print JSON instead of text");
     add_texts_option(*command, "--pixel", options->pixels,
-                     "X,Y: pictures of what is learned where this pixel sees a surface");
+                     "X,Y: pictures of the learned distribution at the surface that this pixel sees");
     add_texts_option(*command, "--point", options->points, "x,y,z or x,y,z:nx,ny,nz: the same at a point of the scene");
     command->add_flag("--maps", options->maps, "pictures over the film: regions, mixtures, memory");
     add_integer_option(*command, "--size", options->size, {16, 256, "squares, a power of two", "64"},
                        "squares along a side of the direction square (default: 64)");
     add_integer_option(*command, "--spp", options->spp, {1, 1 << 20, "paths per square", "256"},
-                       "paths that find the truth, per square (default: 256)");
+                       "paths per square for the true distribution (default: 256)");
     add_threads_option(*command, options->threads, "tracing threads (default: the processors)");
     add_text_option(*command, "-o,--output", options->output, "folder of the pictures (default: inspect in the run's)");
     command->callback([options, launch, &exit_code] {

@@ -117,7 +117,7 @@ NamedPlace pixel_place(const std::string& text, const TraceScene& scene, const A
     const auto pixel = [](double v, int size) { return v >= 0 && v < size && v == std::floor(v); };
     if (at.size() != 2 || !pixel(at[0], width) || !pixel(at[1], height))
         throw InputError(
-            where, "names no pixel of the image",
+            where, "is no pixel of the image",
             "write X,Y from 0,0 at the top left to " + std::to_string(width - 1) + "," + std::to_string(height - 1));
     const int x = static_cast<int>(at[0]), y = static_cast<int>(at[1]);
     const auto place = seen_point(scene, x, y);
@@ -137,7 +137,7 @@ NamedPlace point_place(const std::string& text, const AnySampler& guide) {
     const std::vector<double> at = numbers_in(text.substr(0, colon));
     const std::vector<double> normal = colon == std::string::npos ? at : numbers_in(text.substr(colon + 1));
     if (at.size() != 3 || normal.size() != 3)
-        throw InputError(where, "names no point", "write x,y,z or, with a normal, x,y,z:nx,ny,nz");
+        throw InputError(where, "is no point", "write x,y,z or, with a normal, x,y,z:nx,ny,nz");
     NamedPlace named{"point-" + text, "point " + text, {}};
     std::replace(named.name.begin(), named.name.end(), ',', '_');
     std::replace(named.name.begin(), named.name.end(), ':', '-');
@@ -145,7 +145,7 @@ NamedPlace point_place(const std::string& text, const AnySampler& guide) {
     Hit& hit = named.place.hit;
     hit.p = vector_of(at);
     if (!guide.regions().contains(hit.p))
-        throw InputError(where, "lies outside of the cube that the tree divides",
+        throw InputError(where, "is outside of the cube that the tree divides",
                          "give a point of the scene, in its world's coordinates");
     if (colon == std::string::npos) return named;
     hit.ng = vector_of(normal);

@@ -56,7 +56,7 @@ fs::path ticket_file(const JoinOptions& options) {
         refuse(run, "is no run directory", "name the folder that a render writes its files to");
     if (fs::exists(run / "summary.json"))
         refuse(run, "is over: there is nothing to join", "treefarm resume adds samples to it");
-    refuse(run, "takes no workers in: it was started without farm.join, or was killed",
+    refuse(run, "accepts no workers: it was started without farm.join, or was killed",
            "start it with --set farm.join=true");
 }
 
@@ -205,20 +205,20 @@ int join(const LaunchEnvironment& launch, const JoinOptions& options) {
 
 void add_join_command(CLI::App& app, const LaunchEnvironment& launch, int& exit_code) {
     const auto options = std::make_shared<JoinOptions>();
-    CLI::App* command = app.add_subcommand("join", "Works for a render that runs, from this or another machine");
+    CLI::App* command = app.add_subcommand("join", "Joins a running render as a worker, from this or another machine");
     command->add_option("run", options->run, "run directory of a render with farm.join = true");
     add_text_option(*command, "--file", options->file, "a copy of that folder's file join, where no disk is shared");
     add_integer_option(*command, "-n", options->workers, {1, 1024, "workers", "2"},
-                       "processes that each are a worker, as for each processor's memory; they share the processors "
+                       "number of worker processes, as one for each processor's memory; they share the processors "
                        "(default: 1)");
     add_seconds_option(*command, "--wait", options->wait_seconds,
-                       "how long to wait for a render that is not there yet, or has gone without being done "
-                       "(default: not for one that is not there, 60 s for one that has gone)");
+                       "how long to wait for a render that has not started, or was lost before it was done (default: 0 "
+                       "s for one that has not started, 60 s for a lost one)");
     add_voice_options(*command, options->farm);
     command->footer(std::string("treefarm render scene.xml --run-dir RUN_DIR --set farm.join=true\n") +
                     "treefarm join RUN_DIR\n" +
                     "Exit codes: 0 the render is over, or this worker was told to leave, 1 the connection was lost, 2 "
-                    "bad usage, or the\nrender did not let it in");
+                    "bad usage, or the\nrender refused it");
     command->callback([options, launch, &exit_code] { exit_code = join(launch, *options); });
 }
 

@@ -80,12 +80,11 @@ bool is_separate_world(const LaunchEnvironment& launch) {
     if (launch.lone_tasks <= 1) return false;
     if (launch.lone_task > 0) return true;
     const std::string count = std::to_string(launch.lone_tasks);
-    throw InputError(
-        Location{launch.by_slurm ? "srun" : "mpiexec", 0, 0},
-        "started " + count + " tasks that do not know of each other: each would render all of it, into the same folder",
-        launch.by_slurm ? "write srun --mpi=pmix treefarm ..., or, in an allocation, mpirun -n " + count +
-                              " treefarm ...; to render in one process, srun -n 1"
-                        : "use Open MPI's: mpirun -n " + count + " treefarm ...");
+    throw InputError(Location{launch.by_slurm ? "srun" : "mpiexec", 0, 0},
+                     "started " + count + " unconnected tasks: each would render everything, into the same folder",
+                     launch.by_slurm ? "write srun --mpi=pmix treefarm ..., or, in an allocation, mpirun -n " + count +
+                                           " treefarm ...; to render in one process, srun -n 1"
+                                     : "use Open MPI's: mpirun -n " + count + " treefarm ...");
 }
 
 void skip_network_search() {

@@ -75,7 +75,7 @@ int run(int argc, char** argv) {
     add_study_command(app, launch, joined(argc, argv), exit_code);
     add_report_command(app, launch);
     add_keys_command(app, launch, exit_code);
-    app.footer(std::string("treefarm COMMAND --help tells the options of a command and their defaults, treefarm keys "
+    app.footer(std::string("treefarm COMMAND --help lists the options of a command and their defaults, treefarm keys "
                            "those of a job.\n") +
                kExitCodesText);
     const std::vector<std::string> arguments(argv + std::min(argc, 1), argv + argc);

@@ -92,7 +92,7 @@ double checked_seconds(const std::string& option, const std::string& text) {
 }
 
 double checked_error(const std::string& text) {
-    const std::string cure = "give a share of the mean, or a percentage: --error 0.05 or --error 5%";
+    const std::string cure = "give a fraction of the mean, or a percentage: --error 0.05 or --error 5%";
     const auto error = parse_fraction(text);
     if (!error) refuse("--error", not_a_number(text), cure);
     if (*error == 0) refuse("--error", "an error of 0 takes forever", cure);

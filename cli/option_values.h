@@ -19,7 +19,7 @@ inline constexpr const char* kExitCodesText =
 inline constexpr const char* kDefaultsText =
     "Settings come from the scene, a job, --set and the options above, later ones over earlier ones; treefarm keys "
     "lists\n"
-    "them with their defaults, and the run directory's job.toml says what they were";
+    "them with their defaults, and the run directory's job.toml has the ones used";
 
 /// Allowed numbers of an option, with texts for messages.
 struct NumberRange {

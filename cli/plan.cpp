@@ -100,7 +100,7 @@ void add_plan_command(CLI::App& app, const LaunchEnvironment& launch, int& exit_
     add_texts_option(*command, "--set", render.set, "key=value: sets a key of the job (treefarm keys lists them)");
     add_texts_option(*command, "-D", render.defines, "name=value: gives $name in the scene a value");
     add_text_option(*command, "--sensor", render.sensor, "which of several sensors, by number from 0 on or by id");
-    command->add_flag("--lenient", render.lenient, "replace what the scene reader does not know instead of refusing");
+    command->add_flag("--lenient", render.lenient, "replace unknown elements of the scene instead of refusing them");
     command->callback([options, launch, &exit_code] {
         if (launch.rank == 0) exit_code = run_plan(*options, std::cout);  // under mpirun one process is enough
     });

@@ -102,7 +102,7 @@ void Farm::open_books(const AnyModel& tree, int width, int height, const BegunPa
     try {
         if (begun) collector_->restore(*begun);
     } catch (const FormatError& error) {
-        log_->warn("what the run has of pass {} cannot be used ({}): it is traced again", plan.index, error.what());
+        log_->warn("the partial results of pass {} are unusable ({}): it is traced again", plan.index, error.what());
         collector_ = new_collector();
         begun = nullptr;
     }

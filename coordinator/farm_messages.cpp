@@ -87,7 +87,7 @@ void Farm::on(int peer, const Hello& m) {
     }
     if (Member* earlier = roster_.find(peer)) {
         if (earlier->state == MemberState::barred) return;
-        if (earlier->lives >= kMostLives) throw FormatError("a worker that begins anew for ever");
+        if (earlier->lives >= kMostLives) throw FormatError("a worker that restarts without end");
         if (earlier->state == MemberState::present) {
             if (earlier->hello.incarnation == m.incarnation) return;
             give_up(*earlier, MemberState::lost, "started anew");

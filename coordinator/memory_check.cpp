@@ -55,10 +55,10 @@ void check_memory(const MemoryPlan& plan, const Host& own, const Roster& roster,
         if (need.available > 0 && need.bytes > need.available)
             throw InputError(
                 Location{scene, 0, 0},
-                fmt::format("{} of memory are expected to be taken on {}, by {}, and {} can be had",
+                fmt::format("{} of memory are expected to be needed on {}, by {}, but {} are available",
                             gigabytes(need.bytes), name, who(need), gigabytes(need.available)),
                 "render a smaller image (--set image.width=...), start fewer workers a host with more threads each, or "
-                "go on regardless with --set farm.memory_check=false; treefarm plan lists what takes it");
+                "go on regardless with --set farm.memory_check=false; treefarm plan lists it by use");
 }
 
 }  // namespace treefarm

@@ -98,7 +98,7 @@ void RunFolder::check() const {
         case FolderContent::study:
             refuse(path_, "holds a study, which a render does not replace", "name another folder with --run-dir");
         case FolderContent::shot:
-            refuse(path_, "holds a shot, which a lone render does not replace", "name another folder with --run-dir");
+            refuse(path_, "holds a shot, which a single render does not replace", "name another folder with --run-dir");
         case FolderContent::other:
             refuse(path_, "is no run directory, but a folder that holds other files",
                    "name an empty or a new one with --run-dir");

@@ -126,7 +126,7 @@ class WorkerLoop {
     /// Handles a message of another worker: pieces of scene and trees are accepted, all other messages are protocol
     /// errors.
     void take_from_worker(const Received& received) {
-        std::string wrong = "it gives orders, which only the coordinator may";
+        std::string wrong = "it sent a message that only the coordinator may send";
         try {
             const Message message = decode(received.bytes);
             if (const auto* chunk = std::get_if<Chunk>(&message)) {
@@ -137,7 +137,7 @@ class WorkerLoop {
             wrong = error.what();
         }
         if (ignored_.insert(received.peer).second)
-            log_->warn("what worker {} says is ignored: {}", received.peer, wrong);
+            log_->warn("messages of worker {} are ignored: {}", received.peer, wrong);
     }
 
     void on(const Welcome& m) {
@@ -242,7 +242,7 @@ class WorkerLoop {
 
     void watch_for_leave() {
         if (leaving_since_ || !settings_.told_to_leave || !settings_.told_to_leave()) return;
-        log_->info("told to leave: finishing what is begun, for at most {:.0f} s", job_.farm.leave_seconds);
+        log_->info("told to leave: finishing the units in progress, for at most {:.0f} s", job_.farm.leave_seconds);
         leaving_since_ = clock_.seconds();
         if (pool_) pool_->cancel();
         coming_.reset();
@@ -269,7 +269,8 @@ class WorkerLoop {
         if (!chain_.mistrust(name, total, clock_.seconds()))
             throw FormatError(std::string(name.blob == Blob::tree ? "the tree" : "the scene") +
                               " arrived from the coordinator with a wrong hash");
-        log_->warn("a {} was changed on its way: asking the coordinator", name.blob == Blob::tree ? "tree" : "scene");
+        log_->warn("a {} was corrupted in transit: requesting it from the coordinator",
+                   name.blob == Blob::tree ? "tree" : "scene");
         return false;
     }
 

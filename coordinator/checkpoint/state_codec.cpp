@@ -312,7 +312,7 @@ std::optional<BegunPass> decode_begun(const SectionFile& file, std::size_t pixel
     read(file, kBegun, begun);
     for (const auto& [tag, layer] : begun_layers())
         begun.*layer = file.at(tag, version_of(tag)).bytes;
-    require(begun.plan.spp > 0 && has_possible_units(begun, pixels), "a pass in hand of another image");
+    require(begun.plan.spp > 0 && has_possible_units(begun, pixels), "a partial pass of another image");
     return begun;
 }
 
@@ -336,11 +336,11 @@ RenderState decode_state(const SectionFile& file, std::size_t pixels, std::span<
     require(state.history.guiding <= Guiding::loses, "an unknown verdict on guiding");
     state.begun = decode_begun(file, pixels);
     require(fits(state.history.emission) && (!state.begun || fits(state.begun->stats.emission)),
-            "light paths without what they brought");
+            "light paths without their splats");
     require(state.reports.size() == state.history.passes.size(), "not a report for each pass");
     require(!state.reports.empty() || state.begun, "no pass");
     require(state.films.empty() == state.reports.empty(), "no film");
-    require(!state.begun || state.begun->plan.index == state.reports.size(), "a pass in hand that is not the next");
+    require(!state.begun || state.begun->plan.index == state.reports.size(), "a partial pass that is not the next one");
     for (std::size_t k = 0; k < state.films.size(); ++k) {
         require(is_film_name(state.films[k].stored), "a film without a file");
         require(fits(state.films[k].noise, state.films.size() - k), "noise of other films");
@@ -348,7 +348,7 @@ RenderState decode_state(const SectionFile& file, std::size_t pixels, std::span<
     for (const PassReport& report : state.reports)
         require(report.guiding <= Guiding::loses && report.halving.trust <= Trust::firm &&
                     report.target.trust <= Trust::firm && report.plan.spp > 0,
-                "a report that no pass makes");
+                "an impossible report of a pass");
     require(state.aovs.fits(), "AOVs of another image");
     return state;
 }

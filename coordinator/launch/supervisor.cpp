@@ -91,8 +91,7 @@ void Supervisor::start(double now) {
 void Supervisor::look(const Sight& sight) {
     const double now = sight.now;
     if (!sight.readable) {  // no kill without evidence
-        if (!std::exchange(told_unreadable_, true))
-            hands_.say("the sign of life cannot be read: nothing is ended for its silence");
+        if (!std::exchange(told_unreadable_, true)) hands_.say("the sign of life cannot be read: its age is ignored");
         began_ = beat_at_ = progress_at_ = now;
     }
     if (code(sight) && !code_at_) code_at_ = now;
@@ -123,7 +122,7 @@ void Supervisor::watch(const Sight& sight) {
     const double now = sight.now;
     if (code_at_) {
         if (now - std::max(*code_at_, beat_at_) > limits_.leave || now - *code_at_ > limits_.leave_all)
-            end_attempt(now, "the render has ended, but its launcher goes on: it is ended");
+            end_attempt(now, "the render has ended, but its launcher still runs: it is ended");
         return;
     }
     if (!own_) {
@@ -161,8 +160,8 @@ void Supervisor::push_stop(double now) {
     heeded_stops_ = stops_;
     if (state_ == State::terminating || state_ == State::killed) return;
     // Before its first heartbeat a process does not handle SIGUSR1, and has nothing to write.
-    if (!first || !own_) return end_attempt(now, first ? "stopping" : "giving up what is not written");
-    hands_.say("stopping: writing what is finished; once more, and it is given up");
+    if (!first || !own_) return end_attempt(now, first ? "stopping" : "stopping at once: unwritten results are lost");
+    hands_.say("stopping: writing the finished passes; a second signal stops at once");
     state_ = State::stopping;
     acted_at_ = now;
     hands_.ask_to_stop();
@@ -200,13 +199,12 @@ std::optional<SupervisorEnd> Supervisor::restart_or_end(const Sight& sight, cons
     }
     const std::string again = restarts_.common_place();
     const int times = restarts_.in_a_row();
-    return SupervisorEnd{
-        kFailed,
-        fmt::format("{} in {}{}; {}", why, place, host,
-                    times > 1 ? fmt::format("given up after {} attempts in a row that brought nothing{}", times,
-                                            again.empty() ? "" : ", all of which ended there")
-                              : "no restarts are left"),
-        true};
+    return SupervisorEnd{kFailed,
+                         fmt::format("{} in {}{}; {}", why, place, host,
+                                     times > 1 ? fmt::format("given up after {} attempts in a row without progress{}",
+                                                             times, again.empty() ? "" : ", all of which ended there")
+                                               : "no restarts are left"),
+                         true};
 }
 
 }  // namespace treefarm

@@ -16,11 +16,12 @@ class EmissionChoice {
     /// `emphasis`: factor per entry, or empty. Throws RunError if its size is not that of `power`.
     explicit EmissionChoice(const DiscreteTable& power, std::span<const float> emphasis = {}) : power_(power) {
         if (emphasis.empty()) return;
-        if (emphasis.size() != power.size()) throw RunError("a pass over other emitters");
+        if (emphasis.size() != power.size()) throw RunError("a pass for a different number of emitters");
         std::vector<double> weights;
         double sum = 0;
         for (std::uint32_t i = 0; i < power.size(); ++i) {
-            if (!(emphasis[i] >= 0.0f && emphasis[i] < 1e30f)) throw RunError("an emitter that is chosen in no way");
+            if (!(emphasis[i] >= 0.0f && emphasis[i] < 1e30f))
+                throw RunError("an emphasis of an emitter that is negative or too large");
             weights.push_back(double(power.probability(i)) * double(emphasis[i]));
             sum += weights.back();
         }

@@ -52,7 +52,7 @@ class TextEvents : public PathEvents {
         text_ << "the other way at depth 1: (delta) along " << ray.direction << " throughput " << throughput << '\n';
     }
     void split(std::uint32_t paths, const Rgb& throughput) override {
-        text_ << "  goes on as " << paths << ", throughput of each " << throughput << '\n';
+        text_ << "  splits into " << paths << ", throughput of each " << throughput << '\n';
     }
     void split_path(const SplitPath& path) override {
         text_ << "copy " << int{path.split_budget.number} << " from depth " << path.depth << " throughput "
