@@ -11,77 +11,14 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/arrow_table.h"
+
 namespace {
 
 namespace fs = std::filesystem;
+using namespace treefarm::test::arrows;
 
 const fs::path kRoot = TREEFARM_SOURCE_DIR;
-
-/// Rooms by level (docs/design/architecture.md): a room includes itself and rooms of lower levels, never its siblings.
-const std::map<std::string, int> kLevels = {{"common/base", 0},
-                                            {"common/math", 1},
-                                            {"common/image", 2},
-                                            {"common/film", 3},
-                                            {"common/guiding", 3},
-                                            {"common/metrics", 4},
-                                            {"common/config", 4},
-                                            {"common/scene", 5},
-                                            {"common/scene/colour", 4},
-                                            {"common/scene/readers", 6},
-                                            {"common/plan", 7},
-                                            {"common/protocol", 8},
-                                            {"common/comm", 9},
-                                            {"coordinator", 10},
-                                            {"report", 10},
-                                            {"serve", 10},
-                                            {"worker/textures", 10},
-                                            {"worker/geometry", 11},
-                                            {"worker/shading", 11},
-                                            {"worker/lights", 12},
-                                            {"worker/camera", 12},
-                                            {"worker/scene", 13},
-                                            {"worker/integrators", 14},
-                                            {"worker/guides", 15},
-                                            {"worker/tools", 16},
-                                            {"worker", 17},
-                                            {"tests/support", 18},
-                                            {"bench", 19},
-                                            {"cli", 19}};
-
-/// Beginnings of headers that include nothing of ours but each other, so that any room may include them.
-const std::vector<std::string> kLeaves = {"common/plan/policy.h", "common/plan/effects/"};
-
-const std::set<std::string> kPure = {"common/metrics", "common/guiding", "common/film", "common/plan"};
-
-/// Clocks, threads, files, terminals and unkeyed randomness; our own headers that bring them along.
-const std::vector<std::string> kImpure = {"chrono",
-                                          "ctime",
-                                          "thread",
-
-                                          "fstream",
-                                          "iostream",
-                                          "filesystem",
-                                          "random",
-                                          "spdlog/",
-                                          "mpi.h",
-                                          "embree",
-                                          "common/base/log.h",
-                                          "common/base/timer.h",
-                                          "common/image/exr.h",
-                                          "common/image/png.h",
-                                          "common/image/atomic_file.h"};
-
-/// A library and the only room that may see it.
-struct Owner {
-    std::string header;  ///< how its includes begin
-    std::string room;
-};
-const std::vector<Owner> kOwners = {
-    {"mpi.h", "common/comm"},      {"mpi-ext.h", "common/comm"}, {"embree3/", "worker/geometry"},
-    {"embree", "worker/geometry"}, {"Imf", "common/image"},      {"OpenEXR/", "common/image"},
-    {"Iex", "common/image"},       {"stb/", "common/image"},     {"png.h", "common/image"},
-    {"jpeglib", "common/image"},   {"stb_", "common/image"},     {"CLI/", "cli"},
-    {"sodium", "common/comm"},     {"httplib.h", "serve"}};
 
 struct Include {
     std::string target;
@@ -93,12 +30,25 @@ bool starts_with(const std::string& text, const std::string& start) {
     return text.compare(0, start.size(), start) == 0;
 }
 
-/// The room that a path from the root lies in; nothing for other files.
-std::optional<std::string> room_of(const std::string& path) {
-    std::optional<std::string> best;
-    for (const auto& [room, level] : kLevels)
-        if (starts_with(path, room + "/") && (!best || room.size() > best->size())) best = room;
-    return best;
+/// Whether a path is this folder or lies below it.
+bool below(const std::string& path, const std::string& folder) {
+    return path == folder || starts_with(path, folder + "/");
+}
+
+std::string folder_of(const std::string& path) {
+    const std::size_t end = path.rfind('/');
+    return end == std::string::npos ? "" : path.substr(0, end);
+}
+
+std::string top_of(const std::string& path) {
+    return path.substr(0, path.find('/'));
+}
+
+/// The floor of a folder; nothing for one that is not in the table.
+std::optional<std::size_t> floor_of(const std::string& folder) {
+    for (std::size_t floor = 0; floor < kFloors.size(); ++floor)
+        if (std::count(kFloors[floor].begin(), kFloors[floor].end(), folder) > 0) return floor;
+    return std::nullopt;
 }
 
 /// The include that a line holds, if any. By hand: GCC 12 warns about std::regex under the address sanitizer.
@@ -125,58 +75,38 @@ std::vector<Include> includes_of(std::istream& source) {
     return includes;
 }
 
-bool is_leaf(const std::string& path) {
-    return std::any_of(kLeaves.begin(), kLeaves.end(), [&](const auto& leaf) { return starts_with(path, leaf); });
-}
-
-/// The folder of one estimator that a path lies in; none for what several share.
-std::string estimator_of(const std::string& path) {
-    const std::string room = "worker/integrators/";
-    const std::size_t end = path.find('/', room.size());
-    if (!starts_with(path, room) || end == std::string::npos) return "";
-    const std::string folder = path.substr(room.size(), end - room.size());
-    return folder == "subpath" ? "" : folder;
-}
-
-/// The folder of one guide that a path lies in; none for what they share.
-std::string guide_of(const std::string& path) {
-    const std::string room = "common/guiding/";
-    const std::size_t end = path.find('/', room.size());
-    if (!starts_with(path, room) || end == std::string::npos) return "";
-    const std::string folder = path.substr(room.size(), end - room.size());
-    return folder == "regions" || folder == "statistics" ? "" : folder;
+/// Whether a folder is that of one guide: all below common/guiding but for what guides share.
+bool is_guide(const std::string& folder) {
+    return starts_with(folder, "common/guiding/") && folder != "common/guiding/regions" &&
+           folder != "common/guiding/statistics";
 }
 
 /// The fault of one include of one file; empty if it has none.
 std::string violation(const std::string& path, const Include& include) {
-    const auto room = room_of(path);
-    if (!room) return "the file lies in no room of docs/design/architecture.md";
-    if (include.quoted && is_leaf(include.target)) return "";
-    const auto target = room_of(include.target);
-    if (is_leaf(path) && target) return "a leaf includes nothing of ours";
-    if (target && *target != *room) {
-        const bool worker = starts_with(*room, "worker"), to_worker = starts_with(*target, "worker");
-        if ((worker && *target == "coordinator") || (*room == "coordinator" && to_worker))
-            return "coordinator and worker never include each other";
-        if (kLevels.at(*target) >= kLevels.at(*room)) return *room + " must not look at " + *target;
+    const std::string folder = folder_of(path), target = folder_of(include.target);
+    const auto floor = floor_of(folder), target_floor = floor_of(target);
+    if (!floor) return "the folder " + folder + " is not in the table of this test";
+    if (include.quoted && !target_floor) return "a quoted include must be a full path from the root into a module";
+    if (!include.quoted && target_floor) return "our own headers are included in quotes";
+    if (target_floor && target != folder) {
+        if (top_of(target) != top_of(folder) && kSides.at(top_of(folder)).count(top_of(target)) == 0)
+            return top_of(folder) + " never includes " + top_of(target);
+        if (*target_floor >= *floor) return folder + " must not look at " + target;
     }
-    const std::string from = estimator_of(path), to = estimator_of(include.target);
-    if (!from.empty() && !to.empty() && from != to) return "integrators never include each other";
-    const std::string guide = guide_of(include.target);
-    if (!guide.empty() && (starts_with(path, "worker/integrators/") || *room == "coordinator" || *room == "cli"))
+    if (is_guide(target) &&
+        (below(folder, "worker/integrators") || folder == "worker" || below(folder, "coordinator") || folder == "cli"))
         return "integrators, coordinator and commands know guides by common/guiding/any_guide.h alone";
-    if (!guide.empty() && *room == "common/guiding" && guide != guide_of(path) && path != "common/guiding/guides.h")
-        return "guides never include each other, nor does what they share";
-    if (include.quoted && !target) return "a quoted include must be a full path from the root into a room";
-    if (!include.quoted && target) return "our own headers are included in quotes";
+    if (is_guide(target) && folder == "common/guiding" && path != "common/guiding/guides.h")
+        return "common/guiding/guides.h alone lists the guides";
     // Benchmarks hold a library, used as it is, against our use of it.
     for (const Owner& owner : kOwners)
-        if (starts_with(include.target, owner.header) && *room != owner.room && *room != "bench")
-            return "only " + owner.room + " sees " + owner.header;
-    if (kPure.count(*room) > 0)
+        if (!include.quoted && starts_with(include.target, owner.header) && folder != owner.folder && folder != "bench")
+            return "only " + owner.folder + " sees " + owner.header;
+    for (const std::string& pure : kPure)
         for (const std::string& impure : kImpure)
-            if (include.target == impure || (impure.back() == '/' && starts_with(include.target, impure)))
-                return *room + " is pure: no " + impure;
+            if (below(folder, pure) &&
+                (include.target == impure || (impure.back() == '/' && starts_with(include.target, impure))))
+                return pure + " is pure: no " + impure;
     return "";
 }
 
@@ -212,9 +142,24 @@ TEST(Arrows, EveryIncludePointsDownwards) {
     }
 }
 
-TEST(Arrows, LeavesAreThere) {
-    for (const std::string& leaf : kLeaves)
-        EXPECT_TRUE(fs::exists(kRoot / leaf)) << leaf;
+TEST(Arrows, TheTableHasEveryFolderWithSourcesAndNoOther) {
+    std::set<std::string> there = {"tests/support"};
+    for (const fs::path& file : sources())
+        there.insert(folder_of(fs::relative(file, kRoot).generic_string()));
+    std::multiset<std::string> listed;
+    for (const auto& floor : kFloors)
+        listed.insert(floor.begin(), floor.end());
+    for (const std::string& folder : there)
+        EXPECT_EQ(listed.count(folder), 1u) << folder << " has sources, so it stands in the table once";
+    for (const std::string& folder : listed)
+        EXPECT_EQ(there.count(folder), 1u) << folder << " is in the table, but has no sources";
+}
+
+TEST(Arrows, TheCoordinatorsFilesHaveFoldersOfTheirOwn) {
+    std::size_t files = 0;
+    for (const auto& entry : fs::directory_iterator(kRoot / "coordinator"))
+        files += entry.is_regular_file();
+    EXPECT_LE(files, 6u);
 }
 
 TEST(Arrows, TheRulesCatchWhatTheyForbid) {
@@ -224,44 +169,58 @@ TEST(Arrows, TheRulesCatchWhatTheyForbid) {
         {"common/base/hash.cpp", "#include \"common/math/vec.h\""},
         {"common/film/pass_film.h", "#include \"common/guiding/sd_tree/sd_tree_sampler.h\""},
         {"common/metrics/z_test.h", "#include \"common/config/job.h\""},
-        {"common/plan/schedule.cpp", "#include \"common/comm/channel.h\""},
-        {"coordinator/pass_loop.cpp", "#include \"worker/worker.h\""},
-        {"coordinator/pass_loop.cpp", "#include \"worker/geometry/scene.h\""},
-        {"worker/tile.cpp", "#include \"coordinator/ledger.h\""},
-        {"worker/shading/diffuse.h", "#include \"coordinator/ledger.h\""},
+        {"common/plan/schedule/schedule.cpp", "#include \"common/comm/channel.h\""},
+        {"coordinator/passes/pass_loop.cpp", "#include \"worker/worker.h\""},
+        {"coordinator/passes/pass_loop.cpp", "#include \"worker/geometry/scene.h\""},
+        {"worker/tile.cpp", "#include \"coordinator/farm/ledger.h\""},
+        {"worker/shading/diffuse.h", "#include \"coordinator/farm/ledger.h\""},
         {"worker/shading/diffuse.h", "#include \"worker/geometry/device.h\""},
         {"worker/lights/area.h", "#include \"worker/integrators/walk.h\""},
         {"common/comm/channel.h", "#include \"cli/compare.h\""},
         {"cli/main.cpp", "#include <mpi.h>"},
-        {"coordinator/pass_loop.cpp", "#include <mpi.h>"},
+        {"coordinator/passes/pass_loop.cpp", "#include <mpi.h>"},
         {"worker/integrators/walk.cpp", "#include <embree3/rtcore.h>"},
         {"worker/lights/area.cpp", "#include <embree4/rtcore.h>"},
         {"cli/compare.cpp", "#include <ImfInputFile.h>"},
         {"common/scene/model/texture.cpp", "#include <OpenEXR/ImfRgbaFile.h>"},
         {"common/scene/model/texture.cpp", "#  include <stb/stb_image.h>"},
-        {"coordinator/study.cpp", "#include <CLI/CLI.hpp>"},
+        {"coordinator/study/study_run.cpp", "#include <CLI/CLI.hpp>"},
         {"common/metrics/a.cpp", "#include <chrono>"},
         {"common/guiding/a.cpp", "#include <thread>"},
         {"common/film/a.cpp", "#include <fstream>"},
-        {"common/plan/a.cpp", "#include <iostream>"},
+        {"common/plan/schedule/a.cpp", "#include <iostream>"},
         {"common/guiding/a.cpp", "#include <random>"},
-        {"common/plan/a.cpp", "#include <spdlog/spdlog.h>"},
+        {"common/plan/resolve/a.cpp", "#include <spdlog/spdlog.h>"},
         {"common/film/a.cpp", "#include \"common/base/log.h\""},
         {"common/metrics/a.cpp", "#include \"common/image/exr.h\""},
         {"common/film/a.cpp", "#include \"pixel_estimate.h\""},
         {"common/film/a.cpp", "#include <common/film/pixel_estimate.h>"},
         {"common/other/a.cpp", "#include <vector>"},
-        {"common/plan/policy.h", "#include \"common/math/vec.h\""},
-        {"common/plan/effects/light.h", "#include \"common/plan/effect_finder.h\""},
+        {"common/base/policy.h", "#include \"common/math/vec.h\""},
+        {"common/config/effects/light.h", "#include \"common/plan/effects/effect_finder.h\""},
         {"worker/integrators/light/walk.h", "#include \"worker/integrators/path/path_walk.h\""},
         {"worker/integrators/path/path_walk.h", "#include \"worker/guides/sd_tree_walk.h\""},
         {"worker/integrators/path/path_walk.h", "#include \"common/guiding/sd_tree/sd_tree.h\""},
-        {"coordinator/collector.h", "#include \"common/guiding/sd_tree/sd_tree.h\""},
+        {"coordinator/farm/collector.h", "#include \"common/guiding/sd_tree/sd_tree.h\""},
         {"cli/inspect.cpp", "#include \"common/guiding/sd_tree/sd_tree.h\""},
         {"common/guiding/regions/mixture.h", "#include \"common/guiding/sd_tree/sd_tree.h\""},
         {"common/guiding/lobes/lobes.h", "#include \"common/guiding/sd_tree/sd_tree.h\""},
-        {"report/html.cpp", "#include \"coordinator/farm.h\""},
-        {"serve/site.cpp", "#include \"coordinator/farm.h\""},
+        {"common/guiding/grid/grid.h", "#include \"common/guiding/sd_tree/sd_tree.h\""},
+        {"common/guiding/any_guide.h", "#include \"common/guiding/sd_tree/sd_tree.h\""},
+        {"common/guiding/statistics/cell_sums.h", "#include \"common/guiding/regions/region_model.h\""},
+        {"common/film/a.cpp", "#include \"common/base/files/atomic_file.h\""},
+        {"common/scene/kinds/materials/blend.h", "#include \"common/scene/model/texture.h\""},
+        {"common/scene/model/scene.cpp", "#include \"common/scene/uses/material_uses.h\""},
+        {"common/plan/resolve/resolve.cpp", "#include \"common/plan/schedule/schedule.h\""},
+        {"common/plan/effects/effects.cpp", "#include \"coordinator/input/lint/light_reach.h\""},
+        {"worker/scene/trace_scene.cpp", "#include \"coordinator/input/load.h\""},
+        {"coordinator/input/load.cpp", "#include \"coordinator/run/render_run.h\""},
+        {"coordinator/farm/farm.h", "#include \"coordinator/run/render_run.h\""},
+        {"coordinator/run/render_run.h", "#include \"coordinator/launch/supervisor.h\""},
+        {"coordinator/launch/launch_run.cpp", "#include \"cli/launch_environment.h\""},
+        {"common/image/a.cpp", "#include <png.h>"},
+        {"report/html.cpp", "#include \"coordinator/farm/farm.h\""},
+        {"serve/site.cpp", "#include \"coordinator/farm/farm.h\""},
         {"cli/serve.cpp", "#include <httplib.h>"},
     };
     for (const auto& [file, include] : forbidden)
@@ -278,19 +237,21 @@ TEST(Arrows, TheRulesLetThroughWhatIsAllowed) {
         {"common/image/exr_read.cpp", "#include <ImfHeader.h>"},
         {"common/math/vec.h", "#include <Imath/ImathVec.h>"},
         {"common/film/combine.cpp", "#include \"common/film/combine.h\""},
-        {"worker/integrators/walk.cpp", "#include \"worker/geometry/device.h\""},
+        {"worker/integrators/sample_loop.cpp", "#include \"worker/geometry/device.h\""},
         {"worker/integrators/light/walk.h", "#include \"worker/integrators/subpath/mis.h\""},
-        {"worker/integrators/registry.cpp", "#include \"worker/integrators/path/path_integrator.h\""},
+        {"worker/registry.cpp", "#include \"worker/integrators/path/path_integrator.h\""},
         {"worker/worker.cpp", "#include \"common/comm/channel.h\""},
         {"worker/guides/sd_tree_walk.h", "#include \"common/guiding/sd_tree/sd_tree_sampler.h\""},
         {"worker/guides/sd_tree_walk.h", "#include \"worker/integrators/path/path_walk.h\""},
-        {"coordinator/collector.h", "#include \"common/guiding/any_guide.h\""},
+        {"coordinator/farm/collector.h", "#include \"common/guiding/any_guide.h\""},
         {"cli/render.cpp", "#include \"worker/worker.h\""},
         {"serve/web_server.cpp", "#include <httplib.h>"},
-        {"coordinator/pass_loop.cpp", "#include <chrono>"},
+        {"coordinator/passes/pass_loop.cpp", "#include <chrono>"},
         {"common/metrics/z_test.cpp", "#include \"common/image/image.h\""},
-        {"common/config/effect_switches.cpp", "#include \"common/plan/effects/table.h\""},
-        {"common/plan/effects/table.h", "#include \"common/plan/effects/light.h\""},
+        {"coordinator/input/images/png_decode.cpp", "#include <png.h>"},
+        {"coordinator/run/run_directory.cpp", "#include \"common/image/png.h\""},
+        {"common/config/effect_switches.cpp", "#include \"common/config/effects/table.h\""},
+        {"common/config/effects/table.h", "#include \"common/config/effects/light.h\""},
     };
     for (const auto& [file, include] : allowed)
         EXPECT_EQ(check(file, include), "") << file << ": " << include;

@@ -8,8 +8,8 @@
 
 #include "common/base/random.h"
 #include "common/image/exr.h"
-#include "common/image/png.h"
 #include "tests/support/command.h"
+#include "tests/support/read_ldr.h"
 
 namespace treefarm {
 namespace {

@@ -10,8 +10,8 @@
 #include <string>
 
 #include "common/image/exr.h"
-#include "common/image/png.h"
 #include "tests/support/command.h"
+#include "tests/support/read_ldr.h"
 #include "tests/support/support.h"
 
 namespace treefarm {

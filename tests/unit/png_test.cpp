@@ -10,6 +10,7 @@
 
 #include "common/base/error.h"
 #include "common/image/srgb.h"
+#include "tests/support/read_ldr.h"
 
 namespace treefarm {
 namespace {

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "coordinator/launch/host_pool.h"
+#include "coordinator/launch/launch_run.h"
+#include "coordinator/launch/start_command.h"
+
+namespace treefarm {
+
+/// Planner of attempts on this machine, on given hosts, or in a Slurm allocation.
+class LaunchPlanner {
+  public:
+    /// Throws InputError if nothing could be started.
+    explicit LaunchPlanner(const LaunchOptions& options);
+
+    /// Files and folders of an attempt.
+    struct Places {
+        std::filesystem::path hostfile, temporary, shared_memory;
+    };
+    /// Plan of the next attempt; probes the hosts and writes a hostfile of those that answer. Throws RunError if none
+    /// does.
+    StartPlan plan(const Places& places) const;
+
+    /// Records the end of an attempt with its workers.
+    void note_end(const std::vector<LifeWorker>& workers);
+
+    /// Whether attempts are one process, without mpirun.
+    bool stands_alone() const { return starter_ == Starter::alone; }
+
+  private:
+    Starter choose_starter() const;
+    void use_hosts(const Places& places, StartPlan& plan) const;
+
+    const LaunchOptions& options_;
+    std::optional<HostPool> hosts_;
+    Starter starter_;
+};
+
+}  // namespace treefarm

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+
+#include "common/film/combine.h"
+#include "common/film/tail_samples.h"
+#include "coordinator/passes/pass_report.h"
+
+namespace treefarm {
+
+/// Report on the samples that carry an image's noise (docs/design/error.md, "fireflies").
+struct TailReport {
+    std::optional<double> share;  ///< fraction of pixels that carry kPolicy.tails.noise_part of it; no value: unknown
+    TailSamples worst;            ///< of all passes in the image; noise relative to the image
+    std::string origin;           ///< in words, of most of their noise; "": unknown
+
+    /// Whether few samples carry so much noise that the user should be told.
+    bool stands_out = false;
+};
+TailReport tail_report(const CombinedImage& image, std::span<const PassReport> passes);
+
+/// Text of the report at the end of a render; `debug_command` and `debug_options` precede and follow the worst sample's
+/// name.
+std::string tail_text(const TailReport& tails, const std::string& debug_command, const std::string& debug_options);
+
+}  // namespace treefarm
