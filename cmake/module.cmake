@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # treefarm_module(NAME SOURCES ... LINKS ... PRIVATE_LINKS ...)
 # A module is a static library `tf_NAME`. LINKS are the modules (and libraries) that its headers may use; a module that
-# is not linked is not on the include path of its dependents' link line, and tests/unit/arrows_test checks the includes too.
+# is not linked is not on the include path of its dependents' link line, and tests/unit/tree/arrows_test checks the includes too.
 function(treefarm_module NAME)
     cmake_parse_arguments(MODULE "" "" "SOURCES;LINKS;PRIVATE_LINKS" ${ARGN})
     add_library(tf_${NAME} STATIC ${MODULE_SOURCES})

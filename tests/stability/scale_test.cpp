@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Whole renders of scenes in any size and far from the origin.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-/// What tests/unit/arrows_test.cpp holds includes against.
+/// What tests/unit/tree/arrows_test.cpp holds includes against.
 namespace treefarm::test::arrows {
 
 /// Folders that hold sources, floor by floor (docs/design/architecture.md): a file includes its own folder's headers

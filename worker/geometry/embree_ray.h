@@ -9,7 +9,7 @@
 namespace treefarm {
 
 /// Writes four floats with one store, as Embree reads them: a load that spans several recent stores stalls until they
-/// have reached the cache (bench/log/2026-11-25-paths.md).
+/// have reached the cache (bench/log/speed.md, "what made paths faster").
 inline void write_together(float* to, const Vec3& v, float fourth) {
     using Four [[gnu::vector_size(16)]] = float;
     const Four four = {v.x, v.y, v.z, fourth};

@@ -42,7 +42,7 @@ struct TreeSize {
 /// Bytes that an emitter takes beside its table.
 inline constexpr std::uint64_t kEmitterBytes = 128;
 /// Bytes and microseconds that the hierarchy takes for each of many emitters, about
-/// (bench/log/2026-11-27-light-tree.md).
+/// (bench/log/next-event.md, "emitters by what they bring to the point").
 inline constexpr std::uint64_t kLightTreeBytes = 180, kLightTreeMicroseconds = 10, kPatchTriangleBytes = 18;
 /// Embree's hierarchy over triangles, and over other shapes with their geometry objects, measured
 /// (docs/generated/effects.md).

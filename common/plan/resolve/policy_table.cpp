@@ -13,22 +13,22 @@
 namespace treefarm {
 namespace {
 
-constexpr const char* kAuto = "bench/log/2026-11-25-auto.md";
-constexpr const char* kSplits = "bench/log/2026-11-25-splitting.md";
-constexpr const char* kRoulette = "bench/log/2026-11-25-roulette.md";
-constexpr const char* kTree = "bench/log/2026-11-25-tree.md";
-constexpr const char* kViews = "bench/log/2026-11-25-views.md";
-constexpr const char* kLights = "bench/log/2026-11-25-emitters.md";
-constexpr const char* kBudgets = "bench/log/2026-11-25-error.md";
-constexpr const char* kError = "bench/log/2026-11-25-error.md";
+constexpr const char* kAuto = "bench/log/decisions.md#when-is-guiding-given-up";
+constexpr const char* kSplits = "bench/log/splitting-and-roulette.md";
+constexpr const char* kRoulette = "bench/log/splitting-and-roulette.md";
+constexpr const char* kTree = "bench/log/guiding.md";
+constexpr const char* kViews = "bench/log/guiding.md#what-do-views-bring";
+constexpr const char* kLights = "bench/log/next-event.md#emitters-by-power-or-as-learned";
+constexpr const char* kBudgets = "bench/log/error.md";
+constexpr const char* kError = "bench/log/error.md";
 constexpr const char* kProgram2017 = "the program of Mueller et al. 2017";
 constexpr const char* kProgram2019 = "the program of Mueller et al. 2019";
-constexpr const char* kDecisions = "bench/log/2026-11-27-decisions.md";
-constexpr const char* kJoint = "bench/log/2026-11-27-joint.md";
-constexpr const char* kEnds = "bench/log/2026-11-27-ends.md";
-constexpr const char* kMissed = "bench/log/2026-11-27-missed-light.md";
-constexpr const char* kRare = "bench/log/2026-11-27-rare-light.md";
-constexpr const char* kHeld = "bench/log/2026-11-28-held-out.md";
+constexpr const char* kDecisions = "bench/log/decisions.md#does-next-event-by-region-pay";
+constexpr const char* kJoint = "bench/log/decisions.md#why-did-classroom-lose";
+constexpr const char* kEnds = "bench/log/bidirectional.md#when-should-light-subpaths-be-given-up";
+constexpr const char* kMissed = "bench/log/bidirectional.md";
+constexpr const char* kRare = "bench/log/decisions.md#what-does-a-light-sample-cost";
+constexpr const char* kHeld = "bench/log/decisions.md#does-auto-hold-in-scenes-that-nobody-tuned-it-on";
 constexpr const char* kGuess = "chosen, not measured";
 
 constexpr Policy::Guiding kGuiding = kPolicy.guiding;
@@ -124,7 +124,8 @@ constexpr std::array kEntries = {
           "else differs",
           kMissed),
     entry("light_subpaths.missed_errors", kLightSubpaths.missed_errors,
-          "light that samples without them have missed is noise where it is more than so many standard errors", kRare),
+          "light that samples without them have missed is noise where it is more than so many standard errors",
+          kMissed),
     entry("light_subpaths.prior_paths", kLightSubpaths.prior_paths,
           "light paths of an emitter that count as if they had brought what all do", kGuess),
     entry("light_subpaths.unlearned", kLightSubpaths.unlearned,
@@ -136,7 +137,7 @@ constexpr std::array kEntries = {
     entry("walk.adjoint_least", kWalk.adjoint_least, "least probability to survive it", kRoulette),
     entry("walk.adjoint_most", kWalk.adjoint_most, "greatest probability to survive it", kRoulette),
     entry("walk.unguided_window", kWalk.unguided_window, "unguided paths survive with this times their throughput",
-          kDecisions),
+          kRoulette),
     entry("walk.unguided_most", kWalk.unguided_most, "the same of unguided paths, by throughput", "Mitsuba 0.6"),
     entry("walk.untrained_least", kWalk.untrained_least, "least probability to survive before the first tree",
           kProgram2017),
@@ -144,10 +145,10 @@ constexpr std::array kEntries = {
           "probability to survive by guiding.roulette = \"constant\", and at most before the first tree", kProgram2017),
     entry("walk.candidate_fair", kWalk.candidate_fair,
           "least share of a candidate direction in what is taken, times their number",
-          "bench/log/2026-11-25-candidates.md"),
+          "bench/log/guiding.md#one-direction-a-vertex-or-several"),
     entry("walk.split_often", kWalk.split_often,
           "glass before the camera: the other way is followed with so many times its weight",
-          "bench/log/2026-11-24-split-glass.md"),
+          "bench/log/splitting-and-roulette.md#glass-before-the-camera-toss-or-split"),
     entry("walk.split_least", kWalk.split_least, "and at least this probability", kGuess),
     entry("learning.spatial_threshold", kLearning.spatial_threshold,
           "c of the spatial split rule for 512 x 512 pixels, in proportion to their fourth root", kTree),
@@ -270,10 +271,10 @@ constexpr std::array kEntries = {
 struct Sensitivity {
     std::string_view name;
     const char* at_half_and_twice;
-    const char* when;  ///< the page of bench/log, by its date, and what has changed since
+    const char* when;  ///< the day of the section of bench/log/decisions.md, and what has changed since
 };
 
-constexpr const char *kFirst = "2026-11-26", *kSecond = "2026-11-28";  // bench/log/{this}-policy.md
+constexpr const char *kFirst = "2026-11-26", *kSecond = "2026-11-28";  // bench/log/decisions.md
 
 constexpr Sensitivity kSensitivities[] = {
     {"guiding.giving_up", "0.96, 0.98", kSecond},

@@ -15,7 +15,7 @@ struct PolicyEntry {
     double value;
     bool single;           ///< a float: its shortest text is shorter than the double's
     const char* meaning;   ///< with the unit
-    const char* evidence;  ///< where it comes from: a publication, a page of bench/log, or that it is a guess
+    const char* evidence;  ///< where it comes from: a publication, a section of bench/log, or that it is a guess
 };
 
 /// The value, as resolved.toml and the docs have it.

@@ -9,7 +9,7 @@ namespace treefarm {
 namespace {
 
 // From where on next event hardly finds the lamps: chosen so that scenes of ours get what was ahead of the other, water
-// apart (bench/log/2026-11-27-ends.md).
+// apart (bench/log/bidirectional.md, "when should light subpaths be given up").
 constexpr double kMostlyHidden = 0.5, kOftenBehindGlass = 0.25, kMostlyFromInfinity = 0.5;
 
 constexpr const char* kPrice = "; a sample takes two to six times that of path";

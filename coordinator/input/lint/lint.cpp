@@ -40,7 +40,7 @@ constexpr double kFarSizes = 64.0;
 
 /// A shape that the camera stands at, however far from the origin it is, counted from where a render moves the scene:
 /// the positions on it are blurred, and rays that start in a corner may do so behind the other wall. Per size
-/// of distance about 2^-25 of the diffuse rays leave (bench/log/2026-11-26-watertight.md).
+/// of distance about 2^-25 of the diffuse rays leave (bench/log/scenes.md, "do closed rooms leak").
 void lint_room(const Scene& scene, const Imath::V3d& origin, std::vector<Finding>& findings) {
     const Imath::V3d camera(scene.camera.origin);
     const Shape* worst = nullptr;

@@ -56,7 +56,7 @@ class Candidates {
 
   private:
     /// Radiance assumed from everywhere, since the tree may not have seen a light: that of an even tree. A fifth of it
-    /// was too little for rare light (bench/log/2026-11-25-candidates.md).
+    /// was too little for rare light (bench/log/guiding.md, "how much regard to light that the tree has not seen").
     static constexpr float kUnseen = 1.0f / (4.0f * kPi);
 
     std::uint32_t count_ = 0;

@@ -77,7 +77,7 @@ class PathKernel {
     static constexpr std::uint32_t kOtherWayVertices = 1u << 28;
 
     /// Whether a path that ends makes its slot free for the next. For guided paths this was slower: their next batch
-    /// waits for the last path (bench/log/2026-11-25-paths.md).
+    /// waits for the last path (bench/log/speed.md, "what made paths faster").
     static constexpr bool kRefills = !kGuided;
 
     /// Number of paths that walk together; whole batches are slower for guided paths without next event.
