@@ -16,7 +16,7 @@ namespace treefarm {
 
 namespace {
 
-/// A sample is traced in one process.
+/// Runs --debug-sample, in one process.
 int debug(const LaunchEnvironment& launch, const RenderOptions& options) {
     if (launch.rank != 0) return 0;
     if (launch.under_mpi)
