@@ -79,7 +79,7 @@ std::set<std::string> film_names(const RenderState& state) {
     return names;
 }
 
-/// Films named by the candidate that is not chosen, so that they are kept as long as it is.
+/// Films named by the candidate that is not chosen; they are kept as long as its file.
 std::set<std::string> films_of(const Candidate& candidate, const Job& job) {
     if (!candidate.fault.empty()) return {};
     try {

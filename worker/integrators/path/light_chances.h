@@ -17,8 +17,8 @@ class LightChances {
     LightChances(const typename G::Sampler& guide, const PathSettings& settings, const NextEventCounts<kRecord>& counts)
         : guide_(guide), settings_(settings), counts_(counts) {}
 
-    /// Decides the number of light samples of a vertex; a fraction is decided at random by the second word of the
-    /// path's numbers.
+    /// Sets the average number of light samples of a vertex and, by the second word of the path's numbers, whether one
+    /// is drawn.
     template <class Path>
     void ask(Path& path, const DrawBatch& draws) const {
         path.light_samples = 1.0f;

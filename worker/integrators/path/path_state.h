@@ -21,7 +21,7 @@ struct PathState {
     Ray ray;
     Rgb radiance, throughput;
     float scatter_pdf;  ///< infinite after a delta lobe: next event cannot have sampled that direction
-    /// product of eta^2: refraction takes it from the throughput and gives it back on leaving
+    /// product of eta^2, by which refraction has scaled the throughput; undone on leaving
     float spread;
     float scatter_light_samples;     ///< number of light samples at the vertex that the ray left
     std::uint32_t scatter_region;    ///< of that vertex
