@@ -22,7 +22,7 @@ float plain(float shown) {
     return srgb_decode(shown > 0.0f ? std::min(shown, 1.0f) : 0.0f);
 }
 
-/// The least and the greatest finite value; nothing (0) apart where there is anything else.
+/// Least and greatest finite value; 0, which means nothing, is left out if there is any other.
 struct Range {
     float low = 0, high = 0;
 

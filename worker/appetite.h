@@ -45,8 +45,8 @@ class Appetite {
     }
 
   private:
-    /// Queue depth per thread in units, plus the units of so many camera paths: small units are finished before an
-    /// answer arrives.
+    /// Queue depth of a thread: kUnitsPerThread units, plus the units of kPathsPerThread camera paths, since small
+    /// units are finished before an answer arrives.
     static constexpr std::size_t kUnitsPerThread = 3, kPathsPerThread = 8192;
 
     std::size_t threads_;

@@ -271,7 +271,7 @@ class PassLoop {
     const PassChooser& choose_;
     const PassHooks& hooks_;
     RenderState state_;
-    RenderResult result_;  ///< the state's visible result
+    RenderResult result_;  ///< result shown to the callbacks
     std::uint64_t coming_tree_hash_ = 0;
     std::optional<AnyModel> ended_with_;  ///< the last pass's tree, if a later one was learned that guides no pass
     /// A pass whose results are being collected.

@@ -29,7 +29,7 @@ constexpr double kFolderPatience = 5.0;
 /// Seconds for which the end retries writing the index.
 constexpr double kIndexPatience = 1.0;
 
-/// Throws InputError where a folder holds something else.
+/// Throws InputError if a folder has other content.
 void check_shot_folder(const fs::path& folder) {
     const auto refuse = [&](const std::string& what) {
         throw InputError(Location{folder.string(), 0, 0}, what, "name another folder with --run-dir");

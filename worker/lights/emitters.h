@@ -167,7 +167,7 @@ class Emitters {
     EmissionProbabilities emission_probabilities(const EmissionChoice* choice) const {
         return {choice, area_entries_ - static_cast<std::uint32_t>(area_lights_.size())};
     }
-    /// Out of line, so that plain meshes pay nothing for the other kinds.
+    /// Sample of an emitter other than a plain mesh; out of line, so that plain meshes pay nothing for the other kinds.
     [[gnu::noinline]] DirectSample sample_other(const LightPick& chosen, const LightReceiver& receiver,
                                                 const Draw& random) const;
     DirectSample sample_without_area(const LightPick& chosen, const LightReceiver& receiver, const Draw& random) const;

@@ -32,7 +32,7 @@ class ProjectorLight {
         return area_ * double(average(irradiance_)) * mean;
     }
 
-    /// Brightest at the image's corners.
+    /// Bounds of the projected light, which is brightest at the image's corners.
     LightBounds bounds() const {
         const double mean = texture_ != kNone ? double(luminance(mean_color(*textures_, texture_))) : 1.0;
         const double u = 0.25 / double(dot(u_axis_, u_axis_)), v = 0.25 / double(dot(v_axis_, v_axis_));

@@ -41,7 +41,7 @@ class SpotLight {
         return 4.0 * double(kPi) * double(sine) * double(sine) * double(average(intensity_)) * mean;
     }
 
-    /// A falloff linear in the angle is below the cosine, within a quarter turn.
+    /// Bounds of the spot. Its linear falloff is below the cosine of these bounds, within a quarter turn.
     LightBounds bounds() const {
         const double mean = textures_ ? double(luminance(mean_color(*textures_, texture_))) : 1.0;
         LightBounds bounds = LightBounds::in_box(Box3(position_, position_), double(luminance(intensity_)) * mean);

@@ -53,7 +53,7 @@ struct CoatingBsdf {
     LobeBits lobes() const { return static_cast<LobeBits>(layer.lobes() | kDeltaLobe); }
     float refraction() const { return layer.refraction(); }
 
-    /// Out of line, as those of dielectrics.
+    /// Value and density; out of line, as those of dielectrics.
     [[gnu::noinline]] BsdfValue value(const Vec3& wo, const Vec3& wi) const {
         const float reflected = reflectance(wo);
         BsdfValue v = layer.value(wo, wi);

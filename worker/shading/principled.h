@@ -84,7 +84,7 @@ struct PrincipledBsdf {
     }
     float refraction() const { return in->spec_trans > 0.0f ? in->eta : 1.0f; }
 
-    /// Out of line, as those of dielectrics.
+    /// Value and density; out of line, as those of dielectrics.
     [[gnu::noinline]] BsdfValue value(const Vec3& wo, const Vec3& wi) const {
         if (wi.z > 0.0f) return reflected_value(wo, wi);
         if (!(wi.z < 0.0f) || !(in->spec_trans > 0.0f)) return {};

@@ -19,7 +19,7 @@ struct PrincipledThinBsdf {
     }
     float refraction() const { return 1.0f; }
 
-    /// Out of line, as those of dielectrics.
+    /// Value and density; out of line, as those of dielectrics.
     [[gnu::noinline]] BsdfValue value(const Vec3& wo, const Vec3& wi) const {
         if (wi.z > 0.0f) return reflected_value(wo, wi);
         return wi.z < 0.0f && transmits() ? transmitted_value(wo, wi) : BsdfValue{};

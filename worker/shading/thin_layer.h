@@ -23,7 +23,7 @@ struct ThinLayerBsdf {
     }
     float refraction() const { return 1.0f; }
 
-    /// Out of line, as those of dielectrics.
+    /// Value and density; out of line, as those of dielectrics.
     [[gnu::noinline]] BsdfValue value(const Vec3& wo, const Vec3& wi) const {
         return value(wo, wi, 1.0f - average(straight_on(wo)));
     }

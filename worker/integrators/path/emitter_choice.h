@@ -67,7 +67,7 @@ class EmitterChoice {
             draws_.word[i][path.lane] = draw[i];
     }
 
-    /// Out of line: most scenes pay one test for it.
+    /// Sample from a batch, or of a light without extent; out of line, since most scenes only pay one test for it.
     [[gnu::noinline]] DirectSample sample_specially(const Vec3& p, std::uint32_t lane) const {
         if (delta_alone_) return emitters_.sample_delta(p, draws_[lane]);
         return emitters_.sample_direct(batch_, lane, draws_[lane]);

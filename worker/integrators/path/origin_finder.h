@@ -37,7 +37,7 @@ class OriginFinder : public PathEvents {
     Way way_;
     int depth_ = 0;
     bool left_scene_ = false;
-    Vec3 view_{0.0f}, first_normal_{0.0f};  ///< the camera ray's direction; where it arrived
+    Vec3 view_{0.0f}, first_normal_{0.0f};  ///< the camera ray's direction; geometric normal at its hit
     std::vector<Way> waiting_;              ///< of paths that were split off, in their order
     std::size_t taken_ = 0;                 ///< number of them that have been traced
     float largest_ = 0.0f;

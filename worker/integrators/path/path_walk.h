@@ -290,7 +290,7 @@ class PathWalk {
         return false;
     }
 
-    /// Out of line: most scenes pay one test for it.
+    /// Samples emitters in batches; out of line, since most scenes only pay one test for it.
     [[gnu::noinline]] void sample_emitters_together(std::uint32_t alive) {
         std::array<std::uint8_t, kBatch> smooth;
         std::uint32_t count = 0;
