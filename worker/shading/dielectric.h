@@ -25,7 +25,8 @@ struct DielectricBsdf {
 
     BsdfValue value(const Vec3&, const Vec3&) const { return {}; }
 
-    /// Out of line, as those of the other dielectrics, so that the code for opaque surfaces does not depend on it.
+    /// Sample of a direction; out of line, as in the other dielectrics, so that the code for opaque surfaces does not
+    /// depend on it.
     [[gnu::noinline]] BsdfSample sample(const Vec3& wo, const BsdfRandom& random) const {
         const DielectricFresnel f = fresnel_dielectric(wo.z, eta);
         const float mirror = mirror_probability(f.reflectance, reflectance, transmittance);
