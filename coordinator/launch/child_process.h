@@ -33,7 +33,7 @@ class ChildProcess {
 
     /// Read end of its output pipe; does not block.
     int words_descriptor() const { return words_; }
-    /// Its output since the last call.
+    /// Output since the last call.
     std::string take_words();
 
   private:

@@ -14,7 +14,7 @@ struct LaunchedCommand {
     std::vector<std::string> words;         ///< as typed: "render", "room.xml", "--spp", "64"
     std::filesystem::path folder;           ///< folder of the results; empty: a render without one
     std::string scene;                      ///< scene of a render, for the name of a folder
-    std::vector<std::string> farm_options;  ///< those of the words that a resume takes, too
+    std::vector<std::string> farm_options;  ///< options among them that a resume takes, too
     bool goes_on = false;                   ///< the words resume by themselves
 
     /// Words of the first attempt, and of one after an attempt that died before it owned the folder.
