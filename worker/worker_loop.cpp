@@ -123,8 +123,7 @@ class WorkerLoop {
         }
     }
 
-    /// Handles a message of another worker: pieces of scene and trees are accepted, all other messages are protocol
-    /// errors.
+    /// Handles another worker's message: only pieces of scene and trees are accepted.
     void take_from_worker(const Received& received) {
         std::string wrong = "it sent a message that only the coordinator may send";
         try {
@@ -175,8 +174,7 @@ class WorkerLoop {
         if (pass_ && m.pass == pass_->plan().index && pool_) pool_->drop(m.units);
     }
 
-    /// Drops all work: the coordinator has reissued this worker's units, or has ended the job, and accepts no more
-    /// results.
+    /// Drops all units, which the coordinator has issued again, or whose job has ended.
     void on(const Rejoin& m) {
         if (leaving_since_) return;
         drop_work();
@@ -248,9 +246,8 @@ class WorkerLoop {
         coming_.reset();
     }
 
-    /// Sends the finished units once tracing is done, and says good-bye, which returns the others. The process then
-    /// waits until it is dismissed (a guest is at once) or killed: mpirun ends the whole job if one process ends before
-    /// the others.
+    /// Sends the finished units after tracing, and says good-bye, which returns the others. Then waits to be dismissed
+    /// (guests are at once) or killed: mpirun ends the whole job if one process ends before the others.
     void leave() {
         const bool is_late = clock_.seconds() - *leaving_since_ > job_.farm.leave_seconds;
         if (has_left_ || (pool_ && !pool_->idle() && !is_late)) return;
@@ -262,20 +259,17 @@ class WorkerLoop {
 
     BlobName scene_name() const { return {Blob::scene, job_number_, 0}; }
 
-    /// Whether a received blob has the announced hash. Otherwise a worker along the chain has changed it, and it is
-    /// requested from the coordinator.
+    /// Whether a received blob has the announced hash; if not, requests it from the coordinator.
     bool is_what_was_announced(const BlobName& name, const Bytes& bytes, std::uint64_t hash, std::uint64_t total) {
         if (hash_bytes(bytes) == hash) return true;
         if (!chain_.mistrust(name, total, clock_.seconds()))
             throw FormatError(std::string(name.blob == Blob::tree ? "the tree" : "the scene") +
                               " arrived from the coordinator with a wrong hash");
-        log_->warn("a {} was corrupted in transit: requesting it from the coordinator",
-                   name.blob == Blob::tree ? "tree" : "scene");
+        log_->warn("a {} was corrupted in transit: requesting it again", name.blob == Blob::tree ? "tree" : "scene");
         return false;
     }
 
-    /// Builds the renderer in the background, once scene and job have arrived and the previous one is gone; then starts
-    /// the threads.
+    /// Builds the renderer in the background from scene and job, once the last one is gone; starts the threads.
     void prepare_renderer() {
         if (coming_scene_hash_ != 0) {  // 0: no Welcome yet
             auto scene = chain_.collect(scene_name());

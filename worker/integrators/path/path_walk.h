@@ -77,8 +77,7 @@ class PathWalk {
     PhaseClock& clock() { return clock_; }
 
   private:
-    /// kConverts: directions are converted to the guide's codes before a path continues; kLocal: guidance depends on
-    /// more than the region.
+    /// kConverts: directions are converted to codes; kLocal: guidance depends on more than the region.
     static constexpr bool kConverts = kGuided || kRecord, kLocal = kConverts && G::kLocal;
 
     /// Traces one more edge of the first `alive` of alive_; returns how many paths continue.
@@ -193,8 +192,7 @@ class PathWalk {
         directions_.draw_numbers(seed, keys, paths_, {alive_.data(), alive});
         emitters_.draw_numbers(seed, keys, alive);
         if (settings_.thin_next_event || (depth > 1 && settings_.roulette.plays(depth - 1)))
-            // for the roulette of the vertex before
-            draw_batch(seed, keys, alive, ~0u, Stream::roulette, roulette_draws_);
+            draw_batch(seed, keys, alive, ~0u, Stream::roulette, roulette_draws_);  // of the previous vertex
         if constexpr (kRecord) direction_records_.draw_numbers(seed, keys, alive);
     }
 
