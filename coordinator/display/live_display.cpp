@@ -11,7 +11,7 @@ namespace treefarm {
 
 namespace {
 
-/// Least time between images within a pass, over the time that one takes of all processors.
+/// Least interval of images within a pass, as a multiple of one image's cost in seconds of all processors.
 constexpr double kInterval = 200.0;
 constexpr double kLeastSeconds = 1.0;
 

@@ -12,8 +12,8 @@ namespace treefarm {
 
 namespace {
 
-/// Least interval of checkpoints over this process's time for one: at most a hundredth of its time. kPace: of their
-/// writes, at most a tenth of the disk's time.
+/// Least interval of checkpoints, as a multiple of this process's time for one: at most a hundredth of its time is
+/// used. kPace: at most a tenth of the disk's time.
 constexpr double kInterval = 100.0;
 constexpr Pace kPace{0.0, 10.0};
 /// Seconds for which the end of a run retries a failed write.

@@ -26,7 +26,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kStatusSeconds = 1.0;
-/// Least time between previews, over the time that one takes of all processors.
+/// Least interval of previews, as a multiple of one preview's cost in seconds of all processors.
 constexpr double kPreviewInterval = 200.0;
 /// Expected core-seconds per pixel of the first preview.
 constexpr double kPreviewSecondsPerPixel = 4e-8;

@@ -33,7 +33,7 @@ class EmissionChoice {
         learned_ = DiscreteTable(weights);
     }
 
-    /// Whether the choice is not by power alone.
+    /// Whether contributions of earlier passes affect the choice.
     bool learned() const { return !learned_.empty(); }
     std::uint32_t size() const { return power_.size(); }
     std::uint32_t pick(std::uint32_t bits) const { return table().pick(bits); }

@@ -26,7 +26,7 @@ struct PathSettings {
     float light_samples;     ///< at each vertex; 0: the guide decides
     bool thin_next_event;    ///< some vertices have less than one light sample on average
     bool few_light_samples;  ///< so rare that numbers are drawn per vertex, not per batch
-    bool count_next_event;   ///< counts from which the sampling rate is decided
+    bool count_next_event;   ///< the pass counts contributions, to decide the sampling rate
     bool twin;               ///< guided paths estimate the cost and variance of unguided ones
     bool delta_lights;       ///< there are lights without extent: they are always sampled
     MisHeuristic mis;
