@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// How close whole renders come to Embree: paths of a scene are traced by the renderer, then exactly their rays by a
-// bare loop over Embree, in turns, on one thread. What the renderer does besides is given per vertex. There are two
-// bare loops: one asks for rays one by one, as Embree's examples do ("bare"), the other for packets of nearest hits and
+// Efficiency of whole renders relative to Embree: paths of a scene are traced by the renderer, then exactly their rays
+// by a bare loop over Embree, in turns, on one thread. The renderer's additional time is printed per vertex. There are
+// two bare loops: one intersects rays one by one, as Embree's examples do ("bare"), the other intersects packets and
 // many shadow rays together, as the renderer does ("best bare").
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -24,7 +24,7 @@
 namespace treefarm {
 namespace {
 
-/// Keeps what rays a path sends.
+/// Observer that stores the rays of a path.
 struct RayObserver : NoObserver {
     std::vector<Ray>* rays = nullptr;
     std::vector<Ray>* shadow_rays = nullptr;
@@ -44,13 +44,13 @@ struct Options {
     std::vector<std::string> modes{};
 };
 
-/// A way of rendering; what the renderer took for it, and the bare loop for its rays.
+/// A kind of render, with its times: the renderer's, and the bare loop's for the same rays.
 struct Mode {
     const char* name;
     bool guided, next_event, record;
     std::vector<Ray> rays, shadow_rays;
     TraceStats stats;
-    std::size_t log_records = 0;  ///< of directions and of emitters, those that taught nothing left out
+    std::size_t log_records = 0;  ///< of directions and of emitters, without those that taught nothing
     std::vector<double> render_seconds{}, bare_seconds{}, best_bare_seconds{}, splat_seconds{};
 };
 
@@ -133,7 +133,7 @@ class Limit {
         return pass;
     }
 
-    /// Unit by unit, as workers do; `learn` gets what each recorded.
+    /// Renders unit by unit, as workers do; `learn` receives each unit's records.
     template <class Learn>
     void render(PassPlan pass, const Resolved& job, const AnySampler& guide, TraceStats& stats, Learn learn) {
         pass.kernel = kernel_of(job, pass, facts_of(guide));
@@ -144,7 +144,7 @@ class Limit {
         }
     }
 
-    /// The tree after the job's passes.
+    /// Tree after the job's passes.
     AnyModel train() {
         AnyModel tree = first_;
         AnyLearner learner;
@@ -190,7 +190,7 @@ class Limit {
             }
     }
 
-    /// Field by field, as in Embree's own examples.
+    /// RTCRay set field by field, as in Embree's own examples.
     static RTCRay by_fields(const Ray& r) {
         return {r.origin.x, r.origin.y, r.origin.z, 0.0f, r.direction.x, r.direction.y, r.direction.z, 0.0f,
                 r.length,   ~0u,        0,          0};
@@ -211,7 +211,7 @@ class Limit {
         }
     }
 
-    /// Traces as many rays at a time as the renderer may have.
+    /// Traces as many rays together as the renderer may have.
     void trace_together(const Mode& mode) const {
         constexpr std::size_t kMost = EmbreeScene::kMostTogether;
         std::array<EmbreeScene::EmbreeHit, kMost> embree_hits;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What guiding costs per operation: region look-up, direction sample, density, record, merge, refine.
-// Trees of about 1 MB and 32 MB: in cache and out of it.
+// Cost of guiding per operation: region look-up, direction sample, density, record, merge, refine. Trees of about 1 MB
+// and 32 MB: inside and outside of the cache.
 #include <benchmark/benchmark.h>
 
 #include <map>
@@ -31,7 +31,7 @@ struct Trained {
     }
 };
 
-/// A tree per size, built once.
+/// Trained tree per size, built once.
 const Trained& trained(benchmark::State& state) {
     static std::map<int, std::unique_ptr<Trained>> trees;
     auto& entry = trees[static_cast<int>(state.range(0))];

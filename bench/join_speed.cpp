@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the channel of workers that join costs on the loopback: round trips of 8 bytes, and MiB/s of long messages from
-// the coordinator to a guest, MACs included.
+// Speed of the guests' channel on the loopback: round trips of 8 bytes, and MiB/s of long messages from the coordinator
+// to a guest, MACs included.
 #include <cstdio>
 #include <cstdlib>
 #include <thread>
@@ -20,7 +20,7 @@ Received await(Channel& channel) {
     }
 }
 
-/// Sends short messages back; answers a long one by an empty one.
+/// Guest that echoes short messages, and answers a long one with an empty one.
 void answer(const JoinTicket& ticket) {
     const auto channel = join_run(ticket, 1);
     channel->send(0, std::make_shared<const Bytes>(8));

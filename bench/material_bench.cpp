@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a kind of material costs a vertex: one sample and one value, as it is by default and, where it may be smooth or
-// rough, rough. Names are CHOICE/WAY: docs/generated/cost-of-accuracy.md reads them.
+// Cost of a kind of material per vertex: one sample and one value, with its default inputs and, if it has a roughness,
+// rough. Names are CHOICE/WAY: docs/generated/cost-of-accuracy.md reads them.
 #include <benchmark/benchmark.h>
 
 #include "common/base/random.h"
@@ -49,7 +49,7 @@ void measure(benchmark::State& state, const MaterialKind& kind) {
     state.counters["bytes"] = double(std::visit([]<class Kind>(const Kind&) { return sizeof(Kind); }, bsdf->kind));
 }
 
-/// "RoughDiffuseMaterial" -> "rough diffuse".
+/// Words of a type name: "RoughDiffuseMaterial" -> "rough diffuse".
 std::string words(const std::string& type) {
     std::string text;
     for (const char c : type.substr(0, type.find("Material"))) {

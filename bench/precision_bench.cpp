@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What exactness costs and buys: integer sums against floats, integer probability tables against floats. Names are
-// CHOICE/WITH/...: the first of a choice is what the renderer does (docs/generated/cost-of-accuracy.md reads them).
+// Cost and benefit of exactness: integer sums against floats, integer probability tables against floats. Names are
+// CHOICE/WITH/...: the first of a choice is the renderer's method (docs/generated/cost-of-accuracy.md reads them).
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -31,7 +31,7 @@ const Trained& trained() {
     return all;
 }
 
-/// CellAccumulator without its integers: records sorted by region, a lock per stripe of regions, one float per cell.
+/// CellAccumulator with float sums: records sorted by region, a lock per stripe of regions, one float per cell.
 class FloatSums {
   public:
     FloatSums(const SdTreeSampler& guide) : guide_(guide), cells_(guide.cell_count()), counts_(guide.region_count()) {}
@@ -77,7 +77,7 @@ void sums_exact(benchmark::State& state) {
     state.counters["bytes_per_cell"] = sizeof(std::uint64_t);
 }
 
-/// Share of the touched cells whose bits depend on the order in which two workers' records come.
+/// Fraction of the touched cells whose bits depend on the order in which two workers' records arrive.
 double order_dependence(const Trained& t) {
     std::vector<Record> backwards(t.records.rbegin(), t.records.rend());
     FloatSums a(t.guide), b(t.guide);
@@ -101,7 +101,7 @@ void sums_float(benchmark::State& state) {
     state.counters["bytes_per_cell"] = sizeof(float);
 }
 
-/// One region's directions by a cumulative table of another type, found as SdTreeSampler finds them: 64 look-up
+/// One region's directions by a cumulative table of another number type, searched as in SdTreeSampler: 64 look-up
 /// entries, then a search without branches.
 template <class Mass>
 class Table {
@@ -133,7 +133,7 @@ class Table {
         }
     }
 
-    /// Code at which the picked cell begins and its probability.
+    /// First code of the picked cell, and the cell's probability.
     std::pair<std::uint32_t, float> sample(std::uint32_t pick) const {
         const std::uint32_t entry = pick >> 26;
         const Mass key = key_of(pick);
@@ -143,7 +143,7 @@ class Table {
         return {at->code_begin, static_cast<float>(at[1].mass_begin - at[0].mass_begin) / static_cast<float>(whole_)};
     }
 
-    /// Largest relative error of a cell's probability, and the share of the cells that have none though they should.
+    /// Largest relative error of a cell's probability, and the fraction of cells that wrongly have probability 0.
     std::pair<double, double> errors(const SdTree& tree, std::uint32_t region) const {
         double worst = 0, lost = 0, all = 0;
         for (std::uint32_t c = tree.cell_begin[region], k = 0; c < tree.cell_begin[region + 1]; ++c, ++k) {

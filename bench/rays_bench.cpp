@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The bare Embree loop over the rays that paths of the same scene send: what trace_bench is to be measured against.
+// Bare Embree loop over the rays that paths of the same scene send: the yardstick of trace_bench.
 #include <benchmark/benchmark.h>
 
 #include "common/math/frame.h"
@@ -16,7 +16,7 @@ struct Segment {
     float length;
 };
 
-/// Rays of cosine-scattered paths (as the unguided walk sends them, depth 10), or the shadow rays of their vertices.
+/// Rays of cosine-scattered paths (as in the unguided walk, depth 10), or their vertices' shadow rays.
 std::vector<Segment> collect(const TraceScene& scene, bool shadow) {
     std::vector<Segment> segments;
     for (std::uint32_t pixel = 0; pixel < 64 * 64; ++pixel)
@@ -85,7 +85,7 @@ void closest_hit_with_surface(benchmark::State& state) {
     count_rays(state, segments.size());
 }
 
-/// Closest hits of the same segments with farm.robust: its price.
+/// Closest hits of the same segments with farm.robust, to measure its cost.
 void closest_hit_watertight(benchmark::State& state) {
     const TraceScene scene = make_scene(true);
     const std::vector<Segment> segments = collect(scene, false);
@@ -112,7 +112,7 @@ void any_hit(benchmark::State& state) {
     count_rays(state, segments.size());
 }
 
-/// Tracing, scattering and random numbers in the barest loop, nothing stored: the bound for any path tracer on Embree.
+/// Tracing, scattering and random numbers in a minimal loop, nothing stored: the bound for any path tracer on Embree.
 void bare_paths(benchmark::State& state) {
     const TraceScene scene = make_scene();
     std::size_t rays = 0;

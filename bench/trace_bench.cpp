@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a whole path costs: camera, intersection, scattering, next event, guiding, recording, film.
+// Cost of a whole path: camera, intersection, scattering, next event, guiding, recording, film.
 #include <benchmark/benchmark.h>
 
 #include "common/guiding/sd_tree/refine.h"
@@ -23,7 +23,7 @@ PassPlan make_pass(std::uint32_t index, std::uint32_t spp, bool next_event, bool
     return pass;
 }
 
-/// A tree that has learned the scene in passes of 4 to 64 spp.
+/// Tree that has learned the scene in passes of 4 to 64 spp.
 SdTree train(const TraceScene& scene, const Job& job, const Box3& bounds) {
     SdTree tree = initial_tree(bounds, 1.0f);
     std::vector<PixelEstimate> pixels;
@@ -41,7 +41,7 @@ SdTree train(const TraceScene& scene, const Job& job, const Box3& bounds) {
     return tree;
 }
 
-/// A scene of diffuse surfaces, or one with metals, glass and plastic.
+/// Traces a scene of diffuse surfaces, or one with metals, glass and plastic.
 void trace_in(benchmark::State& state, Scene box, bool guided, bool next_event, bool record) {
     test::set_film(box, kSize, kSize);
     const Box3 bounds = box.bounds();

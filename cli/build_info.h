@@ -3,10 +3,10 @@
 
 namespace treefarm {
 
-/// Source that this program was built from: `git describe --always --dirty`, or "release" without a repository.
+/// Source version of this program: `git describe --always --dirty`, or "release" without a repository.
 const char* build_source();
 
-/// How it was built: kind of build, instruction set, sanitizer, effects that were left out.
+/// Build configuration: kind of build, instruction set, sanitizer, omitted effects.
 const char* build_options();
 
 }  // namespace treefarm

@@ -19,7 +19,7 @@ namespace treefarm {
 
 namespace {
 
-/// Exit codes: the first is that of any command whose input is bad, 1 to 4 have a meaning for all of them.
+/// Exit codes: kRefused is every command's code for bad input, and 1 to 4 have one meaning for all commands.
 constexpr int kRefused = 2, kFoundSomething = 5;
 
 struct CheckOptions {
@@ -45,7 +45,7 @@ Finding refusal(const InputError& error) {
     return {Finding::Severity::error, "refused", error.where(), error.problem(), error.cure()};
 }
 
-/// Whether the scene itself asks for farm.robust.
+/// Whether the scene itself sets farm.robust.
 bool is_robust(const std::vector<Setting>& settings) {
     const auto at =
         std::find_if(settings.begin(), settings.end(), [](const Setting& s) { return s.key == "farm.robust"; });
@@ -56,16 +56,17 @@ bool is_error(const Finding& finding) {
     return finding.severity == Finding::Severity::error;
 }
 
-/// Findings of the reader, of inspection and, if none of them is an error, of what a render would refuse.
+/// Findings of the reader and of inspection and, if none of them is an error, reasons for which a render would refuse
+/// it.
 std::vector<Finding> check(const CheckOptions& options) {
     SceneToCheck read = load_scene_to_check(options.scene, defined(options.defines), options.lenient, options.sensor);
     std::vector<Finding> findings = std::move(read.findings);
     const bool is_whole = std::none_of(findings.begin(), findings.end(), &is_error);
     for (Finding& finding : lint(read.scene))
-        // Of a scene whose parts were left out it means nothing that it lacks some.
+        // A scene that was read in part may lack objects for that reason.
         if ((is_whole || !finding.kind.starts_with("no ")) && !(finding.kind == "far room" && is_robust(read.settings)))
             findings.push_back(std::move(finding));
-    std::vector<Warning> repaired;  // each has a finding of its own
+    std::vector<Warning> repaired;  // each of these has a finding of its own
     try {
         if (std::none_of(findings.begin(), findings.end(), &is_error)) validate_scene(read.scene, repaired);
     } catch (const InputError& error) {
@@ -90,7 +91,7 @@ std::string to_json(const std::vector<Finding>& findings, const std::string& sce
     return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
-/// "1 error, 2 warnings".
+/// Summary: "1 error, 2 warnings".
 std::string verdict(std::ptrdiff_t errors, std::ptrdiff_t warnings) {
     const auto counted = [](std::ptrdiff_t count, const char* what) {
         return count == 0 ? "" : std::to_string(count) + what + (count == 1 ? "" : "s");
@@ -126,12 +127,12 @@ int run_check(const CheckOptions& options, std::ostream& out) {
 
 void add_check_command(CLI::App& app, const LaunchEnvironment& launch, int& exit_code) {
     const auto options = std::make_shared<CheckOptions>();
-    CLI::App* command = app.add_subcommand("check", "Tells what in a scene is risky, with places");
+    CLI::App* command = app.add_subcommand("check", "Reports the risks in a scene, with their positions in the file");
     command->add_option("scene", options->scene, "Mitsuba scene (.xml)")->required();
     command->add_flag("--json", options->json, "print JSON instead of lines");
     add_texts_option(*command, "-D", options->defines, "name=value: gives $name in the scene a value");
     add_text_option(*command, "--sensor", options->sensor, "which of several sensors, by number from 0 on or by id");
-    command->add_flag("--lenient", options->lenient, "replace what the scene reader does not know instead of refusing");
+    command->add_flag("--lenient", options->lenient, "replace unknown elements of the scene instead of refusing them");
     command->callback([options, launch, &exit_code] {
         if (launch.rank == 0) exit_code = run_check(*options, std::cout);  // under mpirun one process is enough
     });

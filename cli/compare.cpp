@@ -25,7 +25,7 @@ constexpr double kFloorPerSample = 1e-4;  ///< least variance of one sample, as 
 constexpr std::uint64_t kAssumedSpp = 10000;
 constexpr double kLeastPpd = 1.0, kGreatestPpd = 1000.0;
 
-/// Colour, variance (where the file has it) and what the header says.
+/// An image with its colours, variance (if the file has it) and header data.
 struct Side {
     RgbImage colour;
     std::optional<RgbImage> variance;
@@ -61,7 +61,7 @@ Side read_side(const std::string& path) {
     return side;
 }
 
-/// Cuts out of a whole image the part that the other shows.
+/// Cuts the part of `window` out of a whole image.
 void cut_to_window(Side& whole, const Side& window) {
     const CropWindow& crop = window.crop;
     if (whole.crop.is_window() || !crop.is_window() || whole.colour.width != crop.whole_width ||
@@ -72,7 +72,7 @@ void cut_to_window(Side& whole, const Side& window) {
     whole.crop = crop;
 }
 
-/// The reference's variance from the image's, if --reference-spp says how; the text says where it comes from.
+/// Sets the reference's variance from the image's, by --reference-spp; returns a description of its origin.
 std::string reference_variance(const CompareOptions& options, const Side& image, Side& reference) {
     if (options.reference_spp == 0) {
         if (reference.variance) return "variance channels of the reference";
@@ -94,10 +94,9 @@ void run_z_tests(const CompareOptions& options, const Side& image, Side& referen
     result.reference_noise = reference_variance(options, image, reference);
     if (reference.half) result.reference_noise += ", and rounding to half";
     if (!image.variance) {
-        result.z_unavailable =
-            options.image +
-            " has no variance channels (variance.R, variance.G, variance.B), so what its noise alone "
-            "would explain is not known";
+        result.z_unavailable = options.image +
+                               " has no variance channels (variance.R, variance.G, variance.B), so the effect of its "
+                               "noise alone is unknown";
         return;
     }
     const ZTestInput input{
@@ -115,7 +114,7 @@ bool has_extension(const std::string& path, const char* extension) {
     return std::filesystem::path(path).extension() == extension;
 }
 
-/// Checks what CLI11 does not find: its ranges let NaN through.
+/// Checks option values that CLI11 misses: its ranges accept NaN.
 void check_options(const CompareOptions& options) {
     if (!(options.reference_error >= 0.0 && options.reference_error <= 1.0))
         throw InputError(Location{"--reference-error"}, "is not a number", "give 0 to 1, e.g. 0.001");
@@ -186,8 +185,8 @@ void add_compare_command(CLI::App& app, const LaunchEnvironment& launch, int& ex
     add_integer_option(
         *command, "--reference-spp", options->reference_spp, {1, 1099511627776, "samples per pixel", "4096"},
         "samples per pixel of a reference without variance channels: its noise is taken from the image's");
-    add_number_option(*command, "--reference-error", options->reference_error, {0, 1, "a share", "0.001"},
-                      "standard deviation of a relative error that all of the reference shares, e.g. 0.001");
+    add_number_option(*command, "--reference-error", options->reference_error, {0, 1, "a fraction", "0.001"},
+                      "standard deviation of a relative error common to all of the reference, e.g. 0.001");
     command->callback([options, launch, &exit_code] {
         if (launch.rank == 0) exit_code = run_compare(*options, std::cout);  // under mpirun one process is enough
     });

@@ -12,15 +12,15 @@
 
 namespace treefarm {
 
-/// Everything that `treefarm compare` found.
+/// Results of `treefarm compare`.
 struct Comparison {
     std::string image, reference;
     int width = 0, height = 0;
     std::optional<std::uint64_t> image_spp;
     ErrorMetrics errors;
     FlipMetrics flip;
-    std::string reference_noise;  ///< where the reference's variance comes from
-    std::string z_unavailable;    ///< why there are no z-tests; empty if there are
+    std::string reference_noise;  ///< origin of the reference's variance
+    std::string z_unavailable;    ///< reason why there are no z-tests; empty if there are
     ZTestOptions z_options;
     PixelZTest pixel_test;
     BlockZTest block_test;
@@ -28,7 +28,7 @@ struct Comparison {
 
 void print_table(const Comparison& comparison, std::ostream& out);
 
-/// One JSON object; undefined figures are null.
+/// Prints the comparison as one JSON object; undefined figures are null.
 void print_json(const Comparison& comparison, std::ostream& out);
 
 }  // namespace treefarm

@@ -22,7 +22,7 @@ namespace {
 
 constexpr double kMostStops = 60;
 
-/// The layer alone: its channels without its name, colours by the exposure.
+/// Image of one layer: its channels without the layer's name, colours scaled by the exposure.
 Image layer_alone(const Image& image, const ImageLayer& layer, float factor) {
     Image alone{image.width, image.height, {}, {}, image.crop};
     for (const std::size_t c : layer.channels) {
@@ -35,7 +35,7 @@ Image layer_alone(const Image& image, const ImageLayer& layer, float factor) {
     return alone;
 }
 
-/// A PFM file (little-endian, rows from the bottom) of one or three channels; two get a third of zeros.
+/// PFM file (little-endian, rows from the bottom) of one or three channels; two get a third one of zeros.
 std::vector<std::uint8_t> encode_pfm(const Image& image) {
     const std::size_t channels = image.channel_names.size() == 1 ? 1 : 3;
     const std::string header = std::string(channels == 1 ? "Pf\n" : "PF\n") + std::to_string(image.width) + " " +

@@ -12,16 +12,16 @@ class App;
 
 namespace treefarm {
 
-/// treefarm convert IMAGE.exr OUT.png
+/// Options of treefarm convert IMAGE.exr OUT.png
 struct ConvertOptions {
     std::string image, output;
-    std::string layer;         ///< empty: the image itself
-    double exposure = 0;       ///< stops
+    std::string layer;         ///< empty: the beauty image
+    double exposure = 0;       ///< in stops
     std::string tonemap = "";  ///< empty: srgb
 };
 
-/// Writes one layer of an EXR image as a PNG to look at, or as an EXR or PFM of its own. Throws InputError for what
-/// cannot be read or asked for, RunError if the file cannot be written.
+/// Writes one layer of an EXR image as a PNG for viewing, or as an EXR or PFM file. Throws InputError for unreadable
+/// files and invalid options, RunError if the file cannot be written.
 void run_convert(const ConvertOptions& options, std::ostream& out);
 
 /// Registers the subcommand.

@@ -26,7 +26,7 @@ namespace {
 
 const Location kHere{"--debug-sample", 0, 0};
 
-/// Whether the checkpoint is one of these passes: their kernels may not be known yet.
+/// Whether a checkpoint's passes begin these ones; kernels are ignored, since later ones may be unknown.
 bool begins(const std::vector<PassPlan>& plans, const RenderState& state) {
     const auto alike = [](const PassReport& done, PassPlan plan) {
         plan.kernel = done.plan.kernel;
@@ -36,11 +36,11 @@ bool begins(const std::vector<PassPlan>& plans, const RenderState& state) {
            std::equal(state.reports.begin(), state.reports.end(), plans.begin(), alike);
 }
 
-/// The state after the pass before, as far as a checkpoint knows it; otherwise that before any pass.
+/// State before the sample's pass, as far as a checkpoint has it; otherwise the state before any pass.
 RenderState nearest_state(const RenderRequest& request, const std::vector<PassPlan>& plans, std::uint32_t pass) {
     if (request.resumed && begins(plans, request.resumed->state)) {
         RenderState& state = request.resumed->state;
-        // Unless the pass taught it anything: of next event an unguided one does.
+        // Unless the pass taught it something: an unguided pass may decide on next event.
         const PassPlan* const last = state.reports.empty() ? nullptr : &state.reports.back().plan;
         const bool has_its_tree = last && state.reports.size() == pass + 1 && !last->record &&
                                   (last->guided || !request.plan.job.decides_next_event);
@@ -49,8 +49,8 @@ RenderState nearest_state(const RenderRequest& request, const std::vector<PassPl
     return starting_state(request);
 }
 
-/// The tree of a pass, which may decide on next event alone, learned by rendering the passes before it, but for those
-/// that a checkpoint knows.
+/// Tree of a pass, learned by rendering the passes before it that the checkpoint lacks; it may only decide on next
+/// event.
 AnyModel learn_tree(const RenderRequest& request, const std::vector<PassPlan>& plans, std::uint32_t pass) {
     RenderState state = nearest_state(request, plans, pass);
     const bool learns = request.plan.job.guides || request.plan.job.decides_next_event;
@@ -89,7 +89,7 @@ AnyModel learn_tree(const RenderRequest& request, const std::vector<PassPlan>& p
     return tree;
 }
 
-/// The tree that guides a pass, and the pass with the kernel that goes with it.
+/// Tree that guides a pass, and the pass with the matching kernel.
 std::pair<AnyModel, PassPlan> tree_and_pass(const RenderRequest& request, const std::vector<PassPlan>& plans,
                                             std::uint32_t index) {
     AnyModel tree = learn_tree(request, plans, index);
@@ -98,7 +98,7 @@ std::pair<AnyModel, PassPlan> tree_and_pass(const RenderRequest& request, const 
     return {std::move(tree), pass};
 }
 
-/// As many numbers, separated by commas; InputError if the text is not that.
+/// Numbers separated by commas, `count` of them; throws InputError for other texts.
 std::vector<std::uint32_t> parse_numbers(const std::string& text, std::size_t count) {
     std::vector<std::uint32_t> values(count);
     const char* at = text.data();

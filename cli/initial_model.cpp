@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kKey = "guiding.initial_model";
 
-/// Keys that say what a model's densities are of.
+/// Throws InputError if keys that define a model's densities differ.
 void check_guide(const fs::path& run, const Job& before, const Job& now) {
     for (const char* name : {"guiding.type", "guiding.target", "guiding.view_records"}) {
         const JobKey& key = *find_job_key(name);
@@ -31,7 +31,7 @@ void check_guide(const fs::path& run, const Job& before, const Job& now) {
     }
 }
 
-/// The job of an earlier run, by this build.
+/// Job of an earlier run by this build.
 Job job_of(const fs::path& run) {
     try {
         return read_resolved(read_settings_text(run / "resolved.toml", "job"), (run / "resolved.toml").string());
@@ -56,7 +56,7 @@ void read_initial_model(RenderRequest& request) {
     const std::vector<PassPlan> passes = parse_schedule(read_settings_text(run / "schedule.toml", "schedule"),
                                                         (run / "schedule.toml").string(), resolved);
     const auto teacher = std::find_if(passes.rbegin(), passes.rend(), [](const PassPlan& pass) { return pass.record; });
-    // One whose passes taught nothing hands on the model that it began with.
+    // A run whose passes taught nothing passes on its own initial model.
     const bool has_learned = teacher != passes.rend() || !before.guiding.initial_model.empty();
     if (!fs::exists(file) || !has_learned || !passes.back().guided) {
         request.warnings.push_back(run.string() + " has no model to begin with: it " +

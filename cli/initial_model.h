@@ -5,9 +5,9 @@
 
 namespace treefarm {
 
-/// Reads the model that guiding.initial_model of the request's job names, and completes the job by its hash and by the
-/// samples that taught it. A render that gave guiding up leaves none: a warning, and the job begins with nothing.
-/// Throws InputError for what is no run directory, another guide's model, or another model than the job's hash says.
+/// Reads the model that guiding.initial_model of the request's job names, and adds its hash and number of samples to
+/// the job. A render that gave guiding up has none: the job then begins without a model, with a warning. Throws
+/// InputError if it is no run directory, or the model is another guide's, or not the one of the job's hash.
 void read_initial_model(RenderRequest& request);
 
 }  // namespace treefarm

@@ -14,7 +14,7 @@ namespace {
 constexpr const char* kSceneOrJob = "give a Mitsuba scene (.xml) or a job (.toml)";
 constexpr const char* kStudy = "give a study file (.toml)";
 
-/// Refuses a folder, and says what to do with it.
+/// Throws InputError for a folder, with advice.
 [[noreturn]] void refuse_folder(const std::filesystem::path& folder, const char* otherwise) {
     const auto has = [&](const char* name) {
         std::error_code error;

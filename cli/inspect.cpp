@@ -39,7 +39,7 @@ int bits_of(int size) {
     return bits;
 }
 
-/// A map of values from 0 to `white`.
+/// Writes a map of values from 0 to `white`.
 MapReport write_map(const std::string& kind, Plane map, double white, const std::filesystem::path& folder) {
     MapReport report{kind, (folder / ("map-" + kind + ".png")).string(), white, 0};
     std::size_t count = 0;
@@ -79,7 +79,7 @@ std::filesystem::path picture_folder(const InspectOptions& options) {
     return folder;
 }
 
-/// How many of the regions have each number of light samples, as parts of all.
+/// Fraction of the regions by number of light samples.
 std::vector<double> next_event_parts(const RegionModel& regions) {
     if (!regions.decides_next_event()) return {};
     std::vector<double> parts(kNextEventSamples.size());
@@ -91,7 +91,7 @@ std::vector<double> next_event_parts(const RegionModel& regions) {
 void look(const InspectOptions& options, const InspectedRun& run, InspectReport& report) {
     const AnySampler guide(run.tree);
     const TraceScene scene(run.request.scene, run.request.job);
-    std::vector<NamedPlace> places;  // all of them are understood before any is traced
+    std::vector<NamedPlace> places;  // all of them are parsed before any is traced
     for (const std::string& pixel : options.pixels)
         places.push_back(pixel_place(pixel, scene, guide));
     for (const std::string& point : options.points)
@@ -102,7 +102,7 @@ void look(const InspectOptions& options, const InspectedRun& run, InspectReport&
     for (const NamedPlace& place : places)
         report.places.push_back(look_at_place(place, run, scene, guide, settings, folder));
     if (options.maps) report.maps = write_maps(scene, run.tree, guide, folder);
-    std::ostringstream json;  // so that a study's page can show the pictures
+    std::ostringstream json;  // a study's page shows the pictures by it
     print_json(report, json);
     const std::string text = json.str();
     write_file_atomically(folder / "inspect.json", {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
@@ -127,13 +127,13 @@ void add_inspect_command(CLI::App& app, const LaunchEnvironment& launch, int& ex
     command->add_option("run", options->directory, "run directory of a guided render")->required();
     command->add_flag("--json", options->json, "print JSON instead of text");
     add_texts_option(*command, "--pixel", options->pixels,
-                     "X,Y: pictures of what is learned where this pixel sees a surface");
+                     "X,Y: pictures of the learned distribution at the surface that this pixel sees");
     add_texts_option(*command, "--point", options->points, "x,y,z or x,y,z:nx,ny,nz: the same at a point of the scene");
     command->add_flag("--maps", options->maps, "pictures over the film: regions, mixtures, memory");
     add_integer_option(*command, "--size", options->size, {16, 256, "squares, a power of two", "64"},
                        "squares along a side of the direction square (default: 64)");
     add_integer_option(*command, "--spp", options->spp, {1, 1 << 20, "paths per square", "256"},
-                       "paths that find the truth, per square (default: 256)");
+                       "paths per square for the true distribution (default: 256)");
     add_threads_option(*command, options->threads, "tracing threads (default: the processors)");
     add_text_option(*command, "-o,--output", options->output, "folder of the pictures (default: inspect in the run's)");
     command->callback([options, launch, &exit_code] {

@@ -9,7 +9,7 @@ class App;
 
 namespace treefarm {
 
-/// treefarm inspect RUN_DIR: statistics and pictures of the tree that a run learned (docs/use/inspect.md).
+/// treefarm inspect RUN_DIR: statistics and pictures of a run's learned tree (docs/use/inspect.md).
 void add_inspect_command(CLI::App& app, const LaunchEnvironment& launch, int& exit_code);
 
 }  // namespace treefarm

@@ -32,7 +32,7 @@ void print_spreads(const TreeStatistics& s, std::ostream& out) {
         << spread_line("       a_T2", s.views_mixture.t2);
 }
 
-/// Counts by depth, side by side, each with a bar.
+/// Prints counts by depth side by side, each with a bar.
 void print_depths(const TreeStatistics& s, std::ostream& out) {
     struct Column {
         const char* name;

@@ -10,19 +10,19 @@
 
 namespace treefarm {
 
-/// A picture over the film.
+/// A map over the film.
 struct MapReport {
     std::string kind;  ///< "regions", "bsdf-fraction", "view-fraction", "cells"
-    std::string file;  ///< of the picture
-    double white = 0;  ///< what is shown white; 0: colours are no numbers
+    std::string file;  ///< path of the picture
+    double white = 0;  ///< value shown as white; 0: colours are no numbers
     double mean = 0;   ///< over the pixels that have a value
 };
 
-/// All that `treefarm inspect` found.
+/// Results of `treefarm inspect`.
 struct InspectReport {
     std::string directory;
     TreeStatistics statistics;
-    std::vector<double> next_event;  ///< part of the regions by kNextEventSamples; empty: nothing is decided
+    std::vector<double> next_event;  ///< fraction of the regions by kNextEventSamples; empty: not decided
     std::vector<PlaceReport> places;
     std::vector<MapReport> maps;
 };

@@ -12,12 +12,12 @@ namespace treefarm {
 
 namespace {
 
-constexpr double kDecades = 3;                          ///< that false colours span, below white
-constexpr int kPanelPixels = 256;                       ///< the least side of a panel
-constexpr int kGap = 8;                                 ///< between panels
+constexpr double kDecades = 3;                          ///< decades of the false-colour scale, below white
+constexpr int kPanelPixels = 256;                       ///< least side of a panel
+constexpr int kGap = 8;                                 ///< gap between panels
 constexpr double kSphere = 4 * 3.14159265358979323846;  ///< steradians
 
-/// Numbers apart by commas; nothing if any is none.
+/// Numbers separated by commas; empty if any is invalid.
 std::vector<double> numbers_in(const std::string& text) {
     std::vector<double> numbers;
     for (std::size_t at = 0; at <= text.size();) {
@@ -34,10 +34,10 @@ Vec3 vector_of(const std::vector<double>& v) {
     return {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])};
 }
 
-/// One density among those that a picture shows.
+/// One density of a picture.
 struct Panel {
     std::string title;
-    std::vector<float> density;  ///< per steradian; integrates to one unless all is 0
+    std::vector<float> density;  ///< per steradian; integrates to one unless all are 0
 };
 
 /// Integral over the sphere of directions.
@@ -99,7 +99,7 @@ Comparison compare(const std::string& kind, const std::vector<Panel>& panels, in
     return comparison;
 }
 
-/// Panels of the learned density, of what it should be and, where next event takes a part of that away, of the whole.
+/// Panels of the learned density, of its true target and, if next event removes a part of it, of the whole.
 std::vector<Panel> panels_of(const std::string& title, std::vector<float> learned, const std::string& true_title,
                              const std::vector<float>& all, const std::vector<float>& left) {
     std::vector<Panel> panels = {{title, normalized(std::move(learned))}};
@@ -117,7 +117,7 @@ NamedPlace pixel_place(const std::string& text, const TraceScene& scene, const A
     const auto pixel = [](double v, int size) { return v >= 0 && v < size && v == std::floor(v); };
     if (at.size() != 2 || !pixel(at[0], width) || !pixel(at[1], height))
         throw InputError(
-            where, "names no pixel of the image",
+            where, "is no pixel of the image",
             "write X,Y from 0,0 at the top left to " + std::to_string(width - 1) + "," + std::to_string(height - 1));
     const int x = static_cast<int>(at[0]), y = static_cast<int>(at[1]);
     const auto place = seen_point(scene, x, y);
@@ -137,7 +137,7 @@ NamedPlace point_place(const std::string& text, const AnySampler& guide) {
     const std::vector<double> at = numbers_in(text.substr(0, colon));
     const std::vector<double> normal = colon == std::string::npos ? at : numbers_in(text.substr(colon + 1));
     if (at.size() != 3 || normal.size() != 3)
-        throw InputError(where, "names no point", "write x,y,z or, with a normal, x,y,z:nx,ny,nz");
+        throw InputError(where, "is no point", "write x,y,z or, with a normal, x,y,z:nx,ny,nz");
     NamedPlace named{"point-" + text, "point " + text, {}};
     std::replace(named.name.begin(), named.name.end(), ',', '_');
     std::replace(named.name.begin(), named.name.end(), ':', '-');
@@ -145,7 +145,7 @@ NamedPlace point_place(const std::string& text, const AnySampler& guide) {
     Hit& hit = named.place.hit;
     hit.p = vector_of(at);
     if (!guide.regions().contains(hit.p))
-        throw InputError(where, "lies outside of the cube that the tree divides",
+        throw InputError(where, "is outside of the cube that the tree divides",
                          "give a point of the scene, in its world's coordinates");
     if (colon == std::string::npos) return named;
     hit.ng = vector_of(normal);

@@ -9,38 +9,38 @@
 
 namespace treefarm {
 
-/// A place as a person names it.
+/// A point as the user names it.
 struct NamedPlace {
-    std::string name;  ///< begins the names of its pictures
-    std::string text;  ///< as it was given, for messages
+    std::string name;  ///< prefix of its pictures' file names
+    std::string text;  ///< the user's text, for messages
     InspectedPlace place;
 };
 
-/// "x,y" of --pixel. Throws InputError where there is no such pixel, or nothing that the tree could be seen at.
+/// Point from "x,y" of --pixel. Throws InputError if there is no such pixel, or no guided surface in it.
 NamedPlace pixel_place(const std::string& text, const TraceScene& scene, const AnySampler& guide);
 
-/// "x,y,z" or "x,y,z:nx,ny,nz" of --point. Throws InputError if it lies outside of the tree's cube.
+/// Point from "x,y,z" or "x,y,z:nx,ny,nz" of --point. Throws InputError if it is outside the tree's cube.
 NamedPlace point_place(const std::string& text, const AnySampler& guide);
 
 /// A learned distribution beside true ones.
 struct Comparison {
-    std::string kind;    ///< "t1", "t2" or "sampled"
-    double overlap = 0;  ///< of the learned with the first true one: the integral of the lesser, 1: the same
-    double white = 0;    ///< what is shown white, per steradian
-    std::string file;    ///< of the picture
-    std::vector<std::string> panels;  ///< what it shows, from left to right
+    std::string kind;                 ///< "t1", "t2" or "sampled"
+    double overlap = 0;               ///< integral of the minimum of the learned and the first true density; 1: equal
+    double white = 0;                 ///< density shown as white, per steradian
+    std::string file;                 ///< path of the picture
+    std::vector<std::string> panels;  ///< titles from left to right
 };
 
-/// Report of what was seen at a place.
+/// Results at one point.
 struct PlaceReport {
     std::string text;
     Vec3 position{0.0f};
     PlaceFacts facts;
-    double reflected = 0;  ///< radiance (mean of the channels) that the surface sends to the pixel, by brute force
+    double reflected = 0;  ///< radiance (mean of the channels) from the surface to the pixel, by brute force
     std::vector<Comparison> comparisons;
 };
 
-/// Traces the truth at a place and writes its pictures to `folder`.
+/// Traces the true distributions at a point and writes its pictures to `folder`.
 PlaceReport look_at_place(const NamedPlace& named, const InspectedRun& run, const TraceScene& scene,
                           const AnySampler& guide, const BruteForce& settings, const std::filesystem::path& folder);
 

@@ -27,7 +27,7 @@ void check_directory(const std::filesystem::path& directory) {
                "wait for it, or render again");
 }
 
-/// The text of a key in summary.json.
+/// Text value of a key in summary.json.
 std::string summary_text(const nlohmann::json& summary, const std::filesystem::path& file, const char* key) {
     const auto found = summary.find(key);
     if (found == summary.end() || !found->is_string())

@@ -34,9 +34,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// For a render to come back, whose connection was lost.
+/// Seconds to reconnect.
 constexpr double kReturnSeconds = 60;
-/// Between two attempts, at first and at most.
+/// Seconds between two attempts to connect: the first, and the largest.
 constexpr double kFirstPause = 0.5, kLongestPause = 10;
 
 struct JoinOptions {
@@ -47,7 +47,7 @@ struct JoinOptions {
     FarmOptions farm;
 };
 
-/// The ticket's file; refuses a run directory without one with what is known of the run.
+/// Ticket file of the options; throws InputError for a run directory without one, with the run's state.
 fs::path ticket_file(const JoinOptions& options) {
     if (!options.file.empty()) return options.file;
     const fs::path run = options.run;
@@ -56,18 +56,18 @@ fs::path ticket_file(const JoinOptions& options) {
         refuse(run, "is no run directory", "name the folder that a render writes its files to");
     if (fs::exists(run / "summary.json"))
         refuse(run, "is over: there is nothing to join", "treefarm resume adds samples to it");
-    refuse(run, "takes no workers in: it was started without farm.join, or was killed",
+    refuse(run, "accepts no workers: it was started without farm.join, or was killed",
            "start it with --set farm.join=true");
 }
 
-/// A render that will not come back.
+/// Whether the render has ended for good.
 bool is_done(const JoinOptions& options) {
     std::ifstream file(fs::path(options.run) / "summary.json", std::ios::binary);
     const auto summary = nlohmann::json::parse(file, nullptr, false);
     return !options.run.empty() && summary.is_object() && summary.value("state", "") == "done";
 }
 
-/// A worker that joins a run, and again after each loss of its connection.
+/// A worker that joins a run, and rejoins after each loss of its connection.
 class Guest {
   public:
     Guest(const JoinOptions& options, unsigned threads, const Voice& voice, const std::string& name)
@@ -75,11 +75,11 @@ class Guest {
           settings_(worker_settings(threads)),
           log_(make_log(name, {}, voice.console, voice.loudness)) {}
 
-    /// The exit code.
+    /// Runs the worker; returns the exit code.
     int run() {
         std::unique_ptr<Channel> channel = knock(options_.wait_seconds.value_or(0.0));
         for (;;) {
-            InterruptWatch watch;  // not before: nothing has to be given back while it knocks for the first time
+            InterruptWatch watch;  // not before the first connection: until then there is nothing to give back
             settings_.told_to_leave = [&] { return told_ = told_ || watch.interrupted(); };
             const bool lost = run_worker(*channel, settings_, make_renderer, log_) == WorkerEnd::orphaned;
             channel.reset();
@@ -106,7 +106,7 @@ class Guest {
         return channel;
     }
 
-    /// Throws InputError where nobody lets it in for so long; nothing where it is told to leave meanwhile.
+    /// Connects; throws InputError if that fails for `patience` seconds. Returns nullptr if told to leave meanwhile.
     std::unique_ptr<Channel> knock(double patience) {
         const Timer timer;
         for (double pause = kFirstPause;; pause = std::min(2 * pause, kLongestPause)) {
@@ -124,7 +124,7 @@ class Guest {
         return 0;
     }
 
-    /// Waits; true if it is told to leave meanwhile.
+    /// Waits `seconds`; true if told to leave meanwhile.
     bool rest(double seconds) {
         const Timer timer;
         while (!told_ && timer.seconds() < seconds) {
@@ -140,8 +140,8 @@ class Guest {
     bool told_ = false;
 };
 
-/// Starts processes that each are a worker, and waits for them. Returns the number of the worker that this process is;
-/// 0: it is the one that has waited, and `code` the worst of their exit codes.
+/// Forks `workers` worker processes and waits for them. Returns the worker's number in a worker process; 0 in the
+/// parent, after the wait, with `code` set to the worst exit code.
 int as_many(int workers, int& code) {
     std::vector<pid_t> processes;
     const pid_t parent = getpid();
@@ -150,7 +150,7 @@ int as_many(int workers, int& code) {
         if (process < 0) throw RunError(std::string("cannot start a worker: ") + std::strerror(errno));
         if (process == 0) {
             prctl(PR_SET_PDEATHSIG, SIGTERM);
-            if (getppid() != parent) std::_Exit(1);  // it died before we asked to be told
+            if (getppid() != parent) std::_Exit(1);  // the parent died before prctl
             return k;
         }
         processes.push_back(process);
@@ -180,7 +180,7 @@ void check(const JoinOptions& options) {
     if (options.file.empty() && options.run.empty())
         refuse("join", "does not know which run to join",
                "name its run directory, or a copy of its file join by --file");
-    if (!options.wait_seconds) read_ticket(ticket_file(options));  // now rather than once from each process
+    if (!options.wait_seconds) read_ticket(ticket_file(options));  // fails once here rather than in each process
 }
 
 int join(const LaunchEnvironment& launch, const JoinOptions& options) {
@@ -205,20 +205,20 @@ int join(const LaunchEnvironment& launch, const JoinOptions& options) {
 
 void add_join_command(CLI::App& app, const LaunchEnvironment& launch, int& exit_code) {
     const auto options = std::make_shared<JoinOptions>();
-    CLI::App* command = app.add_subcommand("join", "Works for a render that runs, from this or another machine");
+    CLI::App* command = app.add_subcommand("join", "Joins a running render as a worker, from this or another machine");
     command->add_option("run", options->run, "run directory of a render with farm.join = true");
     add_text_option(*command, "--file", options->file, "a copy of that folder's file join, where no disk is shared");
     add_integer_option(*command, "-n", options->workers, {1, 1024, "workers", "2"},
-                       "processes that each are a worker, as for each processor's memory; they share the processors "
+                       "number of worker processes, as one for each processor's memory; they share the processors "
                        "(default: 1)");
     add_seconds_option(*command, "--wait", options->wait_seconds,
-                       "how long to wait for a render that is not there yet, or has gone without being done "
-                       "(default: not for one that is not there, 60 s for one that has gone)");
+                       "how long to wait for a render that has not started, or was lost before it was done (default: 0 "
+                       "s for one that has not started, 60 s for a lost one)");
     add_voice_options(*command, options->farm);
     command->footer(std::string("treefarm render scene.xml --run-dir RUN_DIR --set farm.join=true\n") +
                     "treefarm join RUN_DIR\n" +
                     "Exit codes: 0 the render is over, or this worker was told to leave, 1 the connection was lost, 2 "
-                    "bad usage, or the\nrender did not let it in");
+                    "bad usage, or the\nrender refused it");
     command->callback([options, launch, &exit_code] { exit_code = join(launch, *options); });
 }
 

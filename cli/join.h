@@ -9,8 +9,8 @@ class App;
 
 namespace treefarm {
 
-/// treefarm join RUN_DIR: registers the subcommand. Its callback keeps the command alive and stores its exit code;
-/// InputError leaves CLI::App::parse.
+/// treefarm join RUN_DIR: registers the subcommand. Its callback runs the workers and stores the exit code; InputError
+/// leaves CLI::App::parse.
 void add_join_command(CLI::App& app, const LaunchEnvironment& launch, int& exit_code);
 
 }  // namespace treefarm

@@ -20,7 +20,7 @@ std::string lower(std::string text) {
     return text;
 }
 
-/// A pattern is part of a key's name or meaning.
+/// Whether a pattern is part of a key's name or meaning.
 bool matches(const JobKey& key, const std::string& pattern) {
     return lower(key.name).find(pattern) != std::string::npos || lower(key.doc).find(pattern) != std::string::npos;
 }

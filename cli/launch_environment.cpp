@@ -18,8 +18,8 @@ namespace treefarm {
 
 namespace {
 
-/// srun without PMIx, or with PMI-2, and MPICH's mpiexec give numbers that Open MPI does not read. In a batch script
-/// SLURM_PROCID is set, too, but no step.
+/// Finds tasks that Open MPI cannot connect: srun without PMIx or with PMI-2, and MPICH's mpiexec, number tasks in
+/// variables that it does not read. In a batch script SLURM_PROCID is set, too, but no step.
 void find_lone_tasks(LaunchEnvironment& launch) {
     if (is_set("PMI_RANK") && number_in("PMI_SIZE") > 1) {
         launch.lone_tasks = number_in("PMI_SIZE");
@@ -33,7 +33,8 @@ void find_lone_tasks(LaunchEnvironment& launch) {
     launch.by_slurm = is_set("SLURM_PROCID");
 }
 
-/// NO_COLOR: no-color.org. A terminal without a name, or a dumb one, understands no escape sequences.
+/// Capabilities of the terminal. NO_COLOR: no-color.org. A terminal without a name, or a dumb one, has no escape
+/// sequences.
 TerminalKind read_terminal(bool under_mpi) {
     const char* const name = std::getenv("TERM");
     TerminalKind terminal;
@@ -61,7 +62,8 @@ LaunchEnvironment read_launch_environment() {
     const char* const all = std::getenv("OMPI_COMM_WORLD_SIZE");
     launch.in_slurm = is_set("SLURM_JOB_ID");
     launch.one_host = here && all && std::string_view(here) == all;
-    if (!launch.under_mpi && !isatty(STDIN_FILENO)) find_lone_tasks(launch);  // a person has a shell, not many tasks
+    // an interactive shell does not start many tasks
+    if (!launch.under_mpi && !isatty(STDIN_FILENO)) find_lone_tasks(launch);
     launch.terminal = read_terminal(launch.under_mpi);
     if (const char* text = std::getenv(kAttemptVariable))
         if (const LifeAttempt attempt = parse_attempt(text); !attempt.name.empty()) {
@@ -78,12 +80,11 @@ bool is_separate_world(const LaunchEnvironment& launch) {
     if (launch.lone_tasks <= 1) return false;
     if (launch.lone_task > 0) return true;
     const std::string count = std::to_string(launch.lone_tasks);
-    throw InputError(
-        Location{launch.by_slurm ? "srun" : "mpiexec", 0, 0},
-        "started " + count + " tasks that do not know of each other: each would render all of it, into the same folder",
-        launch.by_slurm ? "write srun --mpi=pmix treefarm ..., or, in an allocation, mpirun -n " + count +
-                              " treefarm ...; to render in one process, srun -n 1"
-                        : "use Open MPI's: mpirun -n " + count + " treefarm ...");
+    throw InputError(Location{launch.by_slurm ? "srun" : "mpiexec", 0, 0},
+                     "started " + count + " unconnected tasks: each would render everything, into the same folder",
+                     launch.by_slurm ? "write srun --mpi=pmix treefarm ..., or, in an allocation, mpirun -n " + count +
+                                           " treefarm ...; to render in one process, srun -n 1"
+                                     : "use Open MPI's: mpirun -n " + count + " treefarm ...");
 }
 
 void skip_network_search() {
@@ -94,7 +95,7 @@ unsigned affinity_threads() {
     cpu_set_t set;
     CPU_ZERO(&set);
     if (sched_getaffinity(0, sizeof set, &set) == 0) return static_cast<unsigned>(CPU_COUNT(&set));
-    return std::max(1u, std::thread::hardware_concurrency());  // more processors than the set holds
+    return std::max(1u, std::thread::hardware_concurrency());  // more processors than the set can hold
 }
 
 unsigned host_processors() {

@@ -38,14 +38,14 @@ std::string joined(int argc, char** argv) {
     return line;
 }
 
-/// How long other ranks let rank 0 speak for all: where all have the same bad option mpirun ends them in that time. One
-/// that still lives has something of its own to say.
+/// Delay in which rank 0 reports an error for all ranks: if all have the same bad option, mpirun ends them within it. A
+/// rank still alive then has an error of its own to report.
 constexpr std::chrono::seconds kFirstRankSpeaks{3};
 
 int fail(const LaunchEnvironment& launch, const std::string& message, int exit_code) {
     if (launch.rank == 0) {
         std::fprintf(stderr, "treefarm: %s\n", message.c_str());
-        if (launch.life) {  // a supervisor need not start again what is wrong
+        if (launch.life) {  // a supervisor need not restart after a user's error
             launch.life->begin();
             launch.life->end(exit_code);
         }
@@ -75,7 +75,7 @@ int run(int argc, char** argv) {
     add_study_command(app, launch, joined(argc, argv), exit_code);
     add_report_command(app, launch);
     add_keys_command(app, launch, exit_code);
-    app.footer(std::string("treefarm COMMAND --help tells the options of a command and their defaults, treefarm keys "
+    app.footer(std::string("treefarm COMMAND --help lists the options of a command and their defaults, treefarm keys "
                            "those of a job.\n") +
                kExitCodesText);
     const std::vector<std::string> arguments(argv + std::min(argc, 1), argv + argc);

@@ -26,11 +26,11 @@ namespace treefarm {
 
 namespace {
 
-/// How long the end waits for workers, and MPI_Finalize for everybody.
+/// Seconds that the end waits for workers, and MPI_Finalize for all processes.
 constexpr double kDismissSeconds = FarmLimits().dismiss;
 constexpr double kFinalizeSeconds = 10.0;
 
-/// Coordinator and one worker in this process.
+/// Runs the coordinator and one worker in this process.
 int run_here(const FarmOptions& options, const Voice& voice, const FarmTask& task) {
     task.prepare();
     InterruptWatch watch;
@@ -40,7 +40,7 @@ int run_here(const FarmOptions& options, const Voice& voice, const FarmTask& tas
         [&own = *channels[1], threads = options.threads > 0 ? options.threads : affinity_threads(), &voice] {
             const Log log = make_log("worker", {}, voice.console, voice.loudness);
             WorkerSettings settings = worker_settings(threads);
-            settings.silence_seconds = 1e9;  // nobody is gone who is in the same process
+            settings.silence_seconds = 1e9;  // a worker in the same process is never lost
             try {
                 run_worker(own, settings, make_renderer, log);
             } catch (const std::exception& error) {  // the coordinator notices the silence
@@ -62,7 +62,7 @@ int run_here(const FarmOptions& options, const Voice& voice, const FarmTask& tas
     }
 }
 
-/// Prints what is wrong, as main() would, since the job must be ended in order before.
+/// Prints an error as main() would, since the MPI job must be ended in order before that.
 int complain(const std::exception& error, int code) {
     std::fprintf(stderr, "treefarm: %s\n", error.what());
     return code;
@@ -78,13 +78,13 @@ CoordinatorEnd guarded(const std::function<CoordinatorEnd()>& act) {
     }
 }
 
-/// Whether mpirun alone wanted an end. Slurm tells a step's tasks by their parent, too, but a job that is preempted is
-/// to end.
+/// Whether mpirun alone wanted the end. Slurm signals a step's tasks through their parent, too, but a preempted job
+/// must end.
 bool ended_by_launcher(const LaunchEnvironment& launch, const InterruptWatch& watch) {
     return watch.told_by_parent() && !launch.in_slurm;
 }
 
-/// Sends every worker away and leaves: a signal came while the scene was being read, which nothing can break off.
+/// Dismisses every worker and exits: a signal came while the scene was being read, which cannot be interrupted.
 [[noreturn]] void leave_reading(const LaunchEnvironment& launch, MpiSession& session, bool by_launcher) {
     if (launch.life) launch.life->end(3, by_launcher);
     const bool orderly = dismiss_workers(session.channel(), {}, kDismissSeconds);
@@ -93,7 +93,7 @@ bool ended_by_launcher(const LaunchEnvironment& launch, const InterruptWatch& wa
     std::_Exit(3);
 }
 
-/// The input is read aside, so that workers hear from this process however long that takes.
+/// Reads the input in the background, so that workers receive heartbeats however long it takes.
 void prepare(const LaunchEnvironment& launch, MpiSession& session, const FarmTask& task, InterruptWatch& watch) {
     Pulse pulse(session.channel());
     run_aside(task.prepare, [&] {
@@ -142,7 +142,7 @@ int work(MpiSession& session, const FarmOptions& options, const Voice& voice, In
     }
 }
 
-/// The secret that treefarm launch left for its processes, where this host sees it.
+/// Key that treefarm launch left for its processes, if this host sees it.
 std::optional<JoinKey> run_key(const LaunchEnvironment& launch) {
     if (launch.key_file.empty()) return std::nullopt;
     try {
@@ -153,7 +153,7 @@ std::optional<JoinKey> run_key(const LaunchEnvironment& launch) {
     }
 }
 
-/// Says what nothing guards, where it goes over a network.
+/// Logs which messages are not authenticated, if they go over a network.
 void tell_trust(const LaunchEnvironment& launch, const MpiSession& session, const Voice& voice) {
     if (session.size() == 1 || session.rank() != 0 || session.is_sealed()) return;
     const Log log = make_log("coordinator", {}, voice.console, voice.loudness);

@@ -16,47 +16,47 @@ class App;
 
 namespace treefarm {
 
-/// How the coordinator's part ended.
+/// Result of the coordinator's part.
 struct CoordinatorEnd {
     int code = 0;        ///< exit code
     std::set<int> lost;  ///< workers that were given up
 };
 
-/// The coordinator's part, between the start of the workers and their dismissal.
+/// The coordinator's part of a command, between the start of the workers and their dismissal.
 struct FarmTask {
-    std::function<void()> prepare;  ///< reads and checks the input; without mpirun a signal breaks it off
+    std::function<void()> prepare;  ///< reads and checks the input; without mpirun a signal interrupts it
     std::function<CoordinatorEnd(Channel&, const std::function<bool()>& interrupted)> coordinate;
 };
 
-/// How this program's part in the farm is run.
+/// Options for running a command on a farm.
 struct FarmOptions {
-    unsigned threads = 0;         ///< that trace in each worker; 0: its processors
+    unsigned threads = 0;         ///< tracing threads of each worker; 0: its processors
     bool quiet = false;           ///< only errors on the terminal
     bool verbose = false;         ///< every figure of each pass
-    double start_seconds = 25.0;  ///< in which all processes of an MPI job have to come together
+    double start_seconds = 25.0;  ///< limit for all processes of an MPI job to come together
 };
 
-/// --threads, --quiet, --verbose
+/// Adds --threads, --quiet, --verbose
 void add_voice_options(CLI::App& command, FarmOptions& options);
-/// --threads, --quiet, --verbose, --start-seconds
+/// Adds --threads, --quiet, --verbose, --start-seconds
 void add_farm_options(CLI::App& command, FarmOptions& options);
 
-/// A worker in this process, as the coordinator is told.
+/// Settings of a worker in this process.
 struct WorkerSettings;
 WorkerSettings worker_settings(unsigned threads);
 
-/// The voice of this process: where it speaks, and how much it says.
+/// Console output of this process: its stream and verbosity.
 struct Voice {
     ConsolePtr console;
     Loudness loudness = Loudness::normal;
 };
 Voice make_voice(const LaunchEnvironment& launch, const FarmOptions& options);
 
-/// Runs the task over all processes of the MPI job, or over coordinator and one worker in this process. Returns the
-/// exit code; InputError and RunError leave it in one process only.
+/// Runs the task over all processes of the MPI job, or as coordinator and one worker in this process. Returns the exit
+/// code; InputError and RunError leave it in one process only.
 int run_on_farm(const LaunchEnvironment& launch, const FarmOptions& options, const Voice& voice, const FarmTask& task);
 
-/// Warns where more threads were asked for than processors are there.
+/// Adds a warning if there are more threads than processors.
 void warn_if_crowded(unsigned threads, std::vector<std::string>& warnings);
 
 }  // namespace treefarm

@@ -11,7 +11,7 @@ namespace treefarm {
 
 namespace {
 
-/// Options by the names that other renderers give them, and what there is instead.
+/// Options of other renderers, with their equivalents here.
 struct Foreign {
     std::vector<std::string_view> options;
     const char* advice;
@@ -54,7 +54,7 @@ const std::vector<Foreign>& foreign_options() {
     return table;
 }
 
-/// Whether an option is a key of the job, or the last part of one: "--guiding.type", "--max-depth".
+/// Whether an option is a job key, or the last part of one: "--guiding.type", "--max-depth".
 bool names_key(const std::string& option, const std::string& key) {
     std::string name = option.substr(std::min(option.find_first_not_of('-'), option.size()));
     std::replace(name.begin(), name.end(), '-', '_');

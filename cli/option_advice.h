@@ -5,8 +5,8 @@
 
 namespace treefarm {
 
-/// Advice in place of an option that other renderers have and this one has not, or has as a key of the job: "--frames"
-/// -> "start one render for each frame ...". "" if nothing is known of it.
+/// Advice for an option that other renderers have, and this one lacks or has as a job key: "--frames" -> "start one
+/// render for each frame ...". "" if there is none.
 std::string option_advice(const std::string& option, const std::string& command);
 
 }  // namespace treefarm

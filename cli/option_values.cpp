@@ -19,7 +19,7 @@ std::string text_of(double number) {
                                                                    : number_text(number);
 }
 
-/// "--spp 64", "--output x.exr": an example of how to type an option.
+/// Example of an option as typed: "--spp 64", "--output x.exr".
 std::string typed(const std::string& option, const std::string& example) {
     return option + " " + example;
 }
@@ -28,7 +28,7 @@ std::string typed(const std::string& option, const std::string& example) {
     throw InputError(Location{option, 0, 0}, what, cure);
 }
 
-/// The reason why a text is no number; a name of no number ("nan") is none, either.
+/// Reason why a text is no number; "nan" is none, either.
 std::string not_a_number(const std::string& text) {
     return trim(text).empty() ? "the value is empty" : in_quotes(text) + " is not a number";
 }
@@ -47,7 +47,7 @@ double within(const std::string& option, const std::string& text, const NumberRa
     return *number;
 }
 
-/// The value of -o and its like: not empty, and not the next option.
+/// Checks the value of a text option as -o: not empty, and not the next option.
 void check_text(const std::string& option, const std::string& text) {
     if (text.empty()) refuse(option, "the value is empty", "give one, or leave " + option + " away");
     if (text.starts_with("--"))
@@ -57,7 +57,7 @@ void check_text(const std::string& option, const std::string& text) {
         refuse(option, "its value would begin with \"=\"", "write " + typed(option, text.substr(1)));
 }
 
-/// The name to speak of: the first of "-o,--output".
+/// First name of "-o,--output", for messages.
 std::string first_name(const std::string& names) {
     return names.substr(0, names.find(','));
 }
@@ -92,7 +92,7 @@ double checked_seconds(const std::string& option, const std::string& text) {
 }
 
 double checked_error(const std::string& text) {
-    const std::string cure = "give a share of the mean, or a percentage: --error 0.05 or --error 5%";
+    const std::string cure = "give a fraction of the mean, or a percentage: --error 0.05 or --error 5%";
     const auto error = parse_fraction(text);
     if (!error) refuse("--error", not_a_number(text), cure);
     if (*error == 0) refuse("--error", "an error of 0 takes forever", cure);

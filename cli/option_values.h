@@ -9,8 +9,8 @@
 
 namespace treefarm {
 
-// Options whose values are checked where they are typed. What is wrong leaves CLI::App::parse as an InputError that
-// names the option, the value, why it will not do, and what to type.
+// Options whose values are checked while parsing. A bad value leaves CLI::App::parse as an InputError that names the
+// option, the value, the reason and a valid example.
 
 /// Exit codes, for the end of a command's help.
 inline constexpr const char* kExitCodesText =
@@ -19,32 +19,32 @@ inline constexpr const char* kExitCodesText =
 inline constexpr const char* kDefaultsText =
     "Settings come from the scene, a job, --set and the options above, later ones over earlier ones; treefarm keys "
     "lists\n"
-    "them with their defaults, and the run directory's job.toml says what they were";
+    "them with their defaults, and the run directory's job.toml has the ones used";
 
-/// Allowed numbers of an option, and how to speak of them.
+/// Allowed numbers of an option, with texts for messages.
 struct NumberRange {
     double low = 0, high = 0;
     const char* meaning = "";  ///< "samples per pixel"
     const char* example = "";  ///< "64"
 };
 
-/// A number within the range; throws InputError.
+/// Number within the range; throws InputError.
 double checked_number(const std::string& option, const std::string& text, const NumberRange& range);
-/// A whole number within the range (at most 2^53); throws InputError.
+/// Whole number within the range (at most 2^53); throws InputError.
 std::int64_t checked_integer(const std::string& option, const std::string& text, const NumberRange& range);
 
-/// --spp
+/// Value of --spp
 std::uint32_t checked_samples(const std::string& text);
-/// --seconds and its like: with a unit (s, min, h), too
+/// Value of --seconds and similar options; may have a unit (s, min, h)
 double checked_seconds(const std::string& option, const std::string& text);
-/// --error: in percent, too
+/// Value of --error; may be in percent
 double checked_error(const std::string& text);
-/// --threads
+/// Value of --threads
 unsigned checked_threads(const std::string& text);
 
-/// A name of a file or folder, or another text that cannot be empty.
+/// Adds an option for a file or folder name, or another text that cannot be empty.
 CLI::Option* add_text_option(CLI::App& command, const std::string& names, std::string& value, const std::string& help);
-/// A text option that may come any number of times: --set a=1 --set b=2.
+/// Adds a text option that may be repeated: --set a=1 --set b=2.
 CLI::Option* add_texts_option(CLI::App& command, const std::string& names, std::vector<std::string>& values,
                               const std::string& help);
 
@@ -53,10 +53,10 @@ CLI::Option* add_seconds_option(CLI::App& command, const std::string& name, std:
                                 const std::string& help);
 CLI::Option* add_error_option(CLI::App& command, std::optional<double>& error, const std::string& help);
 CLI::Option* add_threads_option(CLI::App& command, unsigned& threads, const std::string& help);
-/// --display-server
+/// Adds --display-server
 CLI::Option* add_display_option(CLI::App& command, std::string& server);
 
-/// An option whose value is a whole number within `range`.
+/// Adds an option whose value is a whole number within `range`.
 template <class T>
 CLI::Option* add_integer_option(CLI::App& command, const std::string& name, T& value, const NumberRange& range,
                                 const std::string& help) {
@@ -70,7 +70,7 @@ CLI::Option* add_integer_option(CLI::App& command, const std::string& name, T& v
         ->type_name("N");
 }
 
-/// An option whose value is a number within `range`.
+/// Adds an option whose value is a number within `range`.
 CLI::Option* add_number_option(CLI::App& command, const std::string& name, double& value, const NumberRange& range,
                                const std::string& help);
 

@@ -17,12 +17,12 @@ std::string layer_of(const std::string& channel) {
     return dot == std::string::npos ? "" : channel.substr(0, dot);
 }
 
-/// A value that the sRGB curve takes to `shown`, which is no light.
+/// Inverse of the sRGB curve: the linear value of `shown`.
 float plain(float shown) {
     return srgb_decode(shown > 0.0f ? std::min(shown, 1.0f) : 0.0f);
 }
 
-/// The least and the greatest finite value; nothing (0) apart where there is anything else.
+/// Least and greatest finite value; 0, which means nothing, is left out if there is any other.
 struct Range {
     float low = 0, high = 0;
 
@@ -35,7 +35,7 @@ struct Range {
             any = true;
         }
     }
-    /// 0.1 to 1, so that the least is no black.
+    /// Maps to 0.1 to 1, so that the least value is not black.
     float place(float v) const {
         if (v == 0.0f || std::isnan(v)) return 0.0f;
         return high > low ? 0.1f + 0.9f * (v - low) / (high - low) : 1.0f;
@@ -49,7 +49,7 @@ std::string range_text(const std::string& channel, const Range& range) {
     return channel + text;
 }
 
-/// A colour of its own for each number.
+/// Colour of a number, different for each.
 Rgb colour_of(float number) {
     if (!(number > 0.0f)) return Rgb(0.0f);
     const float hue = number * 0.6180339887f - std::floor(number * 0.6180339887f);  // far from those of neighbours

@@ -27,10 +27,10 @@ struct PlanOptions {
     bool asks() const { return render.spp || render.seconds || render.error; }
 };
 
-/// Larger films are probed at this many pixels: noise per pixel hardly depends on their number, time does.
+/// Number of pixels of a probe of a larger film: noise per pixel hardly depends on it, time does.
 constexpr double kProbePixels = 1 << 17;
 
-/// The request on a smaller film, and by how much it is smaller.
+/// Request on a smaller film, with the ratio of the numbers of pixels.
 std::pair<RenderRequest, double> smaller_request(const PlanOptions& options, const RenderRequest& whole) {
     const double width = whole.scene.film.width, height = whole.scene.film.height;
     const double scale = std::sqrt(kProbePixels / (width * height));
@@ -38,7 +38,7 @@ std::pair<RenderRequest, double> smaller_request(const PlanOptions& options, con
     RenderOptions smaller = options.render;
     smaller.holds_to_scene = false;  // its film is another
     const auto pixels = [&](double side) { return std::to_string(static_cast<int>(std::ceil(scale * side))); };
-    // The size that a job sets is that of the whole film.
+    // A job's size is that of the whole film.
     smaller.set.push_back("image.width=" + pixels(whole.scene.film.whole_width()));
     smaller.set.push_back("image.height=" + pixels(whole.scene.film.whole_height()));
     RenderRequest request = read_request(smaller);
@@ -100,7 +100,7 @@ void add_plan_command(CLI::App& app, const LaunchEnvironment& launch, int& exit_
     add_texts_option(*command, "--set", render.set, "key=value: sets a key of the job (treefarm keys lists them)");
     add_texts_option(*command, "-D", render.defines, "name=value: gives $name in the scene a value");
     add_text_option(*command, "--sensor", render.sensor, "which of several sensors, by number from 0 on or by id");
-    command->add_flag("--lenient", render.lenient, "replace what the scene reader does not know instead of refusing");
+    command->add_flag("--lenient", render.lenient, "replace unknown elements of the scene instead of refusing them");
     command->callback([options, launch, &exit_code] {
         if (launch.rank == 0) exit_code = run_plan(*options, std::cout);  // under mpirun one process is enough
     });

@@ -9,8 +9,8 @@ class App;
 
 namespace treefarm {
 
-/// treefarm plan SCENE.xml|JOB.toml: says what a render would simulate, and, if asked by a budget, what it would take
-/// by a probe of a few seconds. Writes no file. Registers the subcommand; InputError leaves CLI::App::parse.
+/// treefarm plan SCENE.xml|JOB.toml: describes what a render would simulate and, with a budget, its expected cost from
+/// a probe of a few seconds. Writes no file. Registers the subcommand; InputError leaves CLI::App::parse.
 void add_plan_command(CLI::App& app, const LaunchEnvironment& launch, int& exit_code);
 
 }  // namespace treefarm

@@ -39,7 +39,7 @@ const char* end_word(RenderEnd end) {
     return end == RenderEnd::error ? "error" : end == RenderEnd::seconds ? "seconds" : "spp";
 }
 
-/// Samples per pixel that a render never goes beyond.
+/// Limit of a render's samples per pixel.
 std::uint32_t most_spp(const Resolved& job) {
     return has_open_budget(job) ? job.budget.max_spp : job.budget.spp;
 }
@@ -53,7 +53,7 @@ nlohmann::ordered_json figure_json(const Expected& figure) {
     return {{"value", figure.value}, {"low", figure.low}, {"high", figure.high}};
 }
 
-/// "1,840" -> three figures of it, so that a forecast does not look like a count.
+/// Three significant digits of a count, so that a forecast does not look like a count.
 double rounded(double count) {
     if (count < 1000) return std::round(count);
     const double unit = std::pow(10.0, std::floor(std::log10(count)) - 2);
@@ -66,7 +66,7 @@ Expectation expected_of(const Resolved& job, const RenderHistory& state, RenderE
     return expect_after_spp(state, job, most_spp(job));
 }
 
-/// The budget that ends the render, with what it comes to then.
+/// Sets the budget that ends the render, with its expected result.
 void find_end(const Resolved& job, const RenderHistory& state, PlanAnswer& answer) {
     const bool by_error = job.budget.error > 0, by_seconds = job.budget.seconds > 0;
     answer.end = by_error ? RenderEnd::error : by_seconds ? RenderEnd::seconds : RenderEnd::spp;

@@ -18,13 +18,13 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-/// Last value of an option; "" without.
+/// Last value of an option; "" if it is absent.
 std::string value_of(const CLI::App& command, const std::string& option) {
     const Words values = command.get_option(option)->results();
     return values.empty() ? "" : values.back();
 }
 
-/// Value of a setting, "" where nobody sets it; later ones hold.
+/// Value of a setting, "" if it is absent; the last one counts.
 std::string value_of(const std::vector<Setting>& settings, const std::string& key) {
     std::string value;
     for (const Setting& setting : settings)
@@ -77,10 +77,10 @@ void read_study_command(const CLI::App& command, LaunchedCommand& launched) {
     launched.folder = folder.empty() ? read_study(value_of(command, "input")).directory : folder;
 }
 
-/// Leaves the parser when all is read and checked, and before anything is done.
+/// Exception that leaves the parser after all options are checked, before the command runs.
 struct Checked {};
 
-/// The commands that can be launched.
+/// Adds the commands that can be launched.
 void add_commands(CLI::App& app, int& no_code) {
     const LaunchEnvironment nowhere;
     add_render_command(app, nowhere, "", no_code);

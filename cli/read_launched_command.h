@@ -8,7 +8,7 @@
 
 namespace treefarm {
 
-/// Reads what stands behind "--", and checks its options as the command itself would. Throws InputError.
+/// Parses the words after "--", with the option checks of the command itself. Throws InputError.
 LaunchedCommand read_launched_command(const std::vector<std::string>& words);
 
 }  // namespace treefarm

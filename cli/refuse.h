@@ -8,7 +8,7 @@
 
 namespace treefarm {
 
-/// Refuses a file or folder of the user's as a whole: throws InputError.
+/// Throws InputError about a user's file or folder as a whole.
 [[noreturn]] inline void refuse(const std::filesystem::path& path, const std::string& what, const std::string& cure) {
     throw InputError(Location{path.string(), 0, 0}, what, cure);
 }

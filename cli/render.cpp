@@ -16,7 +16,7 @@ namespace treefarm {
 
 namespace {
 
-/// A sample is traced in one process.
+/// Runs --debug-sample, in one process.
 int debug(const LaunchEnvironment& launch, const RenderOptions& options) {
     if (launch.rank != 0) return 0;
     if (launch.under_mpi)
@@ -80,7 +80,7 @@ void add_render_command(CLI::App& app, const LaunchEnvironment& launch, const st
                     "--set, and for #### in -o");
     command->add_flag("--carry-model", options->carry_model,
                       "of a shot: each frame begins with what the one before has learned");
-    command->add_flag("--lenient", options->lenient, "replace what the scene reader does not know instead of refusing");
+    command->add_flag("--lenient", options->lenient, "replace unknown elements of the scene instead of refusing them");
     add_text_option(*command, "--run-dir", options->run_directory, "where results go (default: runs/<scene>-<time>)");
     command->add_flag("--overwrite", options->overwrite,
                       "replace the render that the folder holds, once this one is done");

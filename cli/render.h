@@ -15,7 +15,7 @@ class App;
 
 namespace treefarm {
 
-/// treefarm render SCENE.xml|JOB.toml
+/// Options of treefarm render SCENE.xml|JOB.toml
 struct RenderOptions {
     std::string input;
     std::string output;                ///< -o
@@ -32,8 +32,8 @@ struct RenderOptions {
     bool overwrite = false;      ///< --overwrite
     bool resume = false;         ///< --resume
     bool carry_model = false;    ///< --carry-model
-    bool reads_model = true;     ///< guiding.initial_model is still to be read
-    bool holds_to_scene = true;  ///< the scene has to be that of a resolved.toml
+    bool reads_model = true;     ///< guiding.initial_model has not been read yet
+    bool holds_to_scene = true;  ///< the scene must be that of the resolved.toml
     std::string display_server;  ///< --display-server
     FarmOptions farm;
     std::string debug_sample;  ///< "pass,x,y,sample"
@@ -41,23 +41,24 @@ struct RenderOptions {
 };
 
 /// Registers the subcommand. Its callback runs the render and stores the exit code; InputError and RunError leave
-/// CLI::App::parse, after the other processes of the job were sent away.
+/// CLI::App::parse, after the job's other processes were dismissed.
 void add_render_command(CLI::App& app, const LaunchEnvironment& launch, const std::string& command_line,
                         int& exit_code);
 
-/// Lets a request that was read go on with what lies in its folder. Returns the exit code where its result is there.
+/// Callback that lets a request resume from the content of its folder. Returns the exit code if the result exists
+/// already.
 using GoOn = std::function<std::optional<int>(RenderRequest&)>;
 
-/// Renders what `read` gives on all processes of the job, whatever its part in it; `name` is for the time in which it
-/// is read. Returns the exit code.
+/// Renders the request that `read` returns on all processes of the job, whatever this one's role; `name` is shown while
+/// it is read. Returns the exit code.
 int render_on_farm(const LaunchEnvironment& launch, const FarmOptions& farm, const std::string& name,
                    const std::function<RenderRequest()>& read, const GoOn& go_on = {});
 
-/// Reads job and scene. The job's layers, each over the one before: defaults, the scene file's integrator and sampler,
-/// the job file, the command line. Throws InputError.
+/// Reads job and scene. Layers of the job, each over the previous one: defaults, the scene file's integrator and
+/// sampler, the job file, the command line. Throws InputError.
 RenderRequest read_request(const RenderOptions& options);
 
-/// The command that traces one sample again, but for the sample.
+/// Command that traces one sample again, without the sample's name.
 std::string debug_command(const RenderOptions& options);
 
 }  // namespace treefarm

@@ -33,7 +33,7 @@ Setting define_setting(const std::string& define) {
     return option_setting("-D", kDefinesPrefix + define.substr(0, equals), define.substr(equals + 1));
 }
 
-/// One budget on the command line replaces whatever budget the job has; spp leaves no room for another.
+/// Adds the command line's budget, which replaces the job's; with spp no other budget is allowed.
 void add_budget(std::vector<Setting>& layer, const RenderOptions& options) {
     if (!options.spp && !options.seconds && !options.error) return;
     if (!options.schedule.empty())
@@ -62,7 +62,7 @@ std::vector<Setting> command_line_layer(const RenderOptions& options) {
     return layer;
 }
 
-/// A budget that --set gives and another one makes void would be ignored in silence.
+/// Refuses budget keys of --set that another budget overrides, which would be ignored without a message.
 void check_budget_keys(const std::vector<Setting>& line, const RenderOptions& options, RenderRequest& request) {
     const Job::Budget& budget = request.job.budget;
     const char* const open = budget.seconds > 0 ? "budget.seconds" : budget.error > 0 ? "budget.error" : nullptr;
@@ -78,14 +78,14 @@ void check_budget_keys(const std::vector<Setting>& line, const RenderOptions& op
     }
 }
 
-/// The passes of a schedule file instead of the job's budget.
+/// Sets the passes of a schedule file in place of the job's budget.
 void replay(const std::string& file, RenderRequest& request) {
     request.schedule = parse_schedule(read_settings_text(file, "schedule"), file, resolve(request.job, request.scene));
     request.job.budget.seconds = request.job.budget.error = 0;
     request.job.budget.spp = request.schedule.back().first_sample + request.schedule.back().spp;
 }
 
-/// Where the passes of a job file stand that has them listed, unless the command line says how long to render.
+/// Schedule file of a job file with listed passes, unless the command line gives a budget.
 std::string schedule_of(const RenderOptions& options, const JobFile& file, const std::vector<Setting>& line) {
     const bool has_budget = std::any_of(line.begin(), line.end(), [](const Setting& s) {
         return s.key.starts_with("budget.") && s.key != "budget.strict";
@@ -108,7 +108,7 @@ std::string schedule_of(const RenderOptions& options, const JobFile& file, const
     return schedule.string();
 }
 
-/// What on the command line changes the scene: "-D width", or "".
+/// Option on the command line that changes the scene: "-D width", or "".
 std::string scene_change(const std::vector<Setting>& line) {
     constexpr std::string_view kDefine = "scene.defines.";
     for (const Setting& s : line) {
@@ -133,7 +133,7 @@ RenderRequest read_request(const RenderOptions& options) {
         file_layer.push_back({"scene.file", std::filesystem::absolute(input).string(), Location{options.input, 0, 0}});
     const std::vector<Setting> line_layer = command_line_layer(options);
 
-    Job where;  // which scene, and how to read it, stands in the upper layers
+    Job where;  // the upper layers name the scene, and how to read it
     apply_layer(where, file_layer);
     apply_layer(where, line_layer);
     if (where.scene.file.empty())
@@ -147,7 +147,7 @@ RenderRequest read_request(const RenderOptions& options) {
     apply_layer(request.job, line_layer);
     check_job(request.job);
     check_budget_keys(line_layer, options, request);
-    // --set scene.file=... is relative to the current folder, a name in job.toml to that of job.toml.
+    // --set scene.file=... is relative to the current folder, a name in job.toml to that file's folder.
     request.job.scene.file = std::filesystem::absolute(request.job.scene.file).lexically_normal().string();
     request.scene = std::move(loaded.scene);
     if (const std::string schedule = schedule_of(options, file, line_layer); !schedule.empty())
@@ -168,7 +168,7 @@ RenderRequest read_request(const RenderOptions& options) {
         request.warnings.push_back(
             std::to_string(request.job.budget.spp) + " spp become " + std::to_string(spp) +
             ": passes take multiples of guiding.spp_unit = " + std::to_string(request.job.guiding.spp_unit));
-    request.plan.warnings = request.warnings;  // what the reader had to replace belongs to the plan, too
+    request.plan.warnings = request.warnings;  // replacements by the reader belong to the plan, too
     request.command = options.command;
     request.debug_command = debug_command(options);
     request.fingerprint = this_build();
@@ -178,7 +178,7 @@ RenderRequest read_request(const RenderOptions& options) {
 }
 
 std::string debug_command(const RenderOptions& options) {
-    std::error_code error;  // whole paths, so that it can be pasted anywhere
+    std::error_code error;  // absolute paths, so that the command works from any folder
     const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
     std::string text = shell_quoted(error ? "treefarm" : program.string()) + " render " +
                        shell_quoted(std::filesystem::absolute(options.input).string());
@@ -186,7 +186,7 @@ std::string debug_command(const RenderOptions& options) {
         text += " --set " + shell_quoted(argument);
     for (const std::string& define : options.defines)
         text += " -D " + shell_quoted(define);
-    // --spp, --seconds and --error are left out: the passes that they led to come as a schedule.
+    // --spp, --seconds and --error are omitted: their passes are listed in a schedule.
     if (!options.schedule.empty())
         text += " --schedule " + shell_quoted(std::filesystem::absolute(options.schedule).string());
     if (!options.sensor.empty()) text += " --sensor " + shell_quoted(options.sensor);

@@ -16,7 +16,7 @@ namespace treefarm {
 
 namespace {
 
-/// The options of one frame's render: its number stands where the shot's have %d.
+/// Options of one frame's render: %d is replaced by its number.
 RenderOptions frame_options(RenderOptions options, int frame) {
     const auto put = [frame](std::string& text) { text = for_frame(text, frame); };
     put(options.input);
@@ -26,8 +26,8 @@ RenderOptions frame_options(RenderOptions options, int frame) {
     return options;
 }
 
-/// The run directory whose model a frame begins with: as it did, if it was begun before; else that of the nearest frame
-/// before it that has left one. Empty: there is none.
+/// Run directory of the model with which a frame begins: that of an earlier start, if there was one; else that of the
+/// nearest earlier frame with a model. Empty: none.
 std::string carried_model(const Shot& shot, int frame) {
     if (const std::filesystem::path own = shot.directory / frame_folder(frame) / "job.toml";
         std::filesystem::exists(own))

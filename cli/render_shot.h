@@ -5,7 +5,7 @@
 
 namespace treefarm {
 
-/// The folder of a shot.
+/// Folder of a shot.
 std::filesystem::path shot_directory(const RenderOptions& options);
 
 /// treefarm render --frames: renders every frame of a shot over all processes. Returns the exit code.

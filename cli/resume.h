@@ -16,12 +16,12 @@ class App;
 
 namespace treefarm {
 
-/// treefarm resume RUN_DIR
+/// Options of treefarm resume RUN_DIR
 struct ResumeOptions {
     std::string run;                   ///< the run directory
     std::string output;                ///< -o
-    std::optional<std::uint32_t> spp;  ///< --spp: in all, what is done included
-    std::optional<double> seconds;     ///< --seconds: in all lives of the render
+    std::optional<std::uint32_t> spp;  ///< --spp: in total, including finished samples
+    std::optional<double> seconds;     ///< --seconds: in total, including the time before
     std::optional<double> error;       ///< --error
     std::vector<std::string> set;      ///< --set key=value
     std::string display_server;        ///< --display-server
@@ -33,19 +33,19 @@ struct ResumeOptions {
 void add_resume_command(CLI::App& app, const LaunchEnvironment& launch, const std::string& command_line,
                         int& exit_code);
 
-/// Refuses what is no run directory, or not yet: throws InputError.
+/// Throws InputError if a folder is no run directory, or not yet.
 void check_run_folder(const std::filesystem::path& run);
 
-/// Reads a run directory's job, its scene and its newest usable checkpoint. Throws InputError where the render cannot
-/// go on from there to the same bits; nothing has been written then.
+/// Reads a run directory's job, its scene and its newest usable checkpoint. Throws InputError, before anything is
+/// written, if the render could not continue to the same bits.
 RenderRequest read_resumed(const ResumeOptions& options);
 
-/// Lets a request go on with what the folder that it names holds of it: from its newest usable checkpoint, or from the
-/// start where there is none. Returns the exit code where its result is there, and has its output file made if that is
-/// missing. Throws InputError where the folder holds a checkpoint of another render, and overwriting is not asked for.
+/// Lets a request resume from its folder: from the newest usable checkpoint, or from the start without one. Returns the
+/// exit code if its result exists already, after restoring a missing output file. Throws InputError if the folder holds
+/// another render's checkpoint, unless overwriting is allowed.
 std::optional<int> go_on_in_folder(RenderRequest& request);
 
-/// The newest usable checkpoint of this very render in a run directory; nullptr where there is none.
+/// Newest usable checkpoint of this render in a run directory; nullptr if there is none.
 std::shared_ptr<LoadedCheckpoint> find_checkpoint(const std::filesystem::path& run, const RenderRequest& request);
 
 }  // namespace treefarm

@@ -27,7 +27,7 @@ struct ServeOptions {
     std::string token_file;
 };
 
-/// The address as a browser elsewhere would write it.
+/// Host part of the address as another machine's browser would write it.
 std::string host_of(const std::string& address) {
     if (address == "0.0.0.0" || address == "::") return host_name();
     return address.find(':') == std::string::npos ? address : "[" + address + "]";
@@ -66,11 +66,11 @@ void add_serve_command(CLI::App& app, const LaunchEnvironment& launch, int& exit
     CLI::App* command = app.add_subcommand("serve", "Shows renders in a browser while they run, and after");
     command->add_option("folder", options->folder, "a run directory, or a folder that holds some")->required();
     add_integer_option(*command, "--port", options->port, {0, 65535, "a port", "7878"},
-                       "where it listens; 0: any that is free (default: 7878)");
+                       "port to listen on; 0: any free one (default: 7878)");
     add_text_option(*command, "--address", options->address,
-                    "of which network; any but the loopback's demands a token (default: 127.0.0.1)");
+                    "address to listen on; any but the loopback requires a token (default: 127.0.0.1)");
     add_text_option(*command, "--token", options->token_file,
-                    "file with the token that is demanded (default: one is made and printed, on the loopback none)");
+                    "file with the required token (default: a new one, printed; none on the loopback)");
     command->footer(
         "It reads run directories and changes nothing. /status.json and /metrics are for programs.\n"
         "Exit codes: 0 ended by a signal, 2 bad usage or input");

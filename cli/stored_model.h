@@ -9,15 +9,15 @@
 
 namespace treefarm {
 
-/// A model as a run directory's tree.bin holds it.
+/// A model as stored in a run directory's tree.bin.
 struct StoredModel {
     AnyModel model;
-    std::string hash;  ///< of the file's bytes, as summary.json has it
+    std::string hash;  ///< hash of the file's bytes, as in summary.json
     std::uint64_t bytes = 0;
 };
 
-/// Reads the file. Throws InputError where it cannot be read, or its hash is not `expected_hash` (`otherwise` says what
-/// that means; an empty hash expects nothing), or it holds no model.
+/// Reads the file. Throws InputError if it is unreadable, its hash differs from `expected_hash` (empty: any;
+/// `otherwise`: the meaning of a difference), or it holds no model.
 StoredModel read_model(const std::filesystem::path& file, const std::string& expected_hash,
                        const std::string& otherwise);
 

@@ -78,7 +78,7 @@ int study(const LaunchEnvironment& launch, const StudyOptions& options) {
     return code;
 }
 
-/// The page's path for scripts, what it says for people.
+/// Prints the page's path on standard output for scripts, and its summary for the user.
 void tell(const WrittenReport& report) {
     for (const std::string& answer : report.answers)
         std::cerr << answer << "\n";
@@ -86,7 +86,7 @@ void tell(const WrittenReport& report) {
     std::cout << report.page.string() << "\n";
 }
 
-/// Exports figures, into a folder of their own where there are several results.
+/// Exports figures, into subfolders if there are several results.
 void export_figures_of(const StudyResults& results, const ReportOptions& options, bool several) {
     if (options.figures.empty()) return;
     std::filesystem::path folder = options.figures;

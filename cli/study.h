@@ -15,7 +15,7 @@ namespace treefarm {
 /// RunError leave CLI::App::parse.
 void add_study_command(CLI::App& app, const LaunchEnvironment& launch, const std::string& command_line, int& exit_code);
 
-/// treefarm report FOLDER: writes tables and page of a study again, whole or not.
+/// treefarm report FOLDER: rewrites tables and page of a study, complete or not.
 void add_report_command(CLI::App& app, const LaunchEnvironment& launch);
 
 }  // namespace treefarm

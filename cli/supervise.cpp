@@ -39,16 +39,17 @@ void add_launch_command(CLI::App& app, const LaunchEnvironment& launch, int& exi
     add_text_option(*command, "--hostfile", options->hostfile,
                     "hosts, as mpirun takes them; those that answer are used");
     add_integer_option(*command, "--restarts", options->restarts, {0, 1e3, "restarts", "5"},
-                       "in a row that bring nothing, before it is given up (default: 5)");
+                       "in a row without progress, after which launch gives up (default: 5)");
     add_number_option(*command, "--stall-seconds", options->stall_seconds, {10, 1e6, "seconds", "600"},
-                      "without progress, after which a render that lives is started again (default: 300)");
+                      "without progress, after which a running render is restarted (default: 300)");
     command->add_flag("--no-recovery", options->no_recovery,
                       "let the death of a worker end mpirun: the render goes on from its checkpoint");
-    add_text_option(*command, "--network", options->network, "that Open MPI is to use between hosts: 10.0.0.0/24");
+    add_text_option(*command, "--network", options->network, "network that Open MPI uses between hosts: 10.0.0.0/24");
     add_text_option(*command, "--mpirun", options->mpirun, "Open MPI's mpirun (default: the one in PATH)");
-    command->add_flag("--sweep", options->sweep,
-                      "only remove what dead processes of yours have left in /dev/shm and the folder for temporary "
-                      "files");
+    command->add_flag(
+        "--sweep", options->sweep,
+        "only remove files that dead processes of yours have left in /dev/shm and the folder for temporary "
+        "files");
     command->footer(std::string("treefarm launch -n 3 -- render scene.xml\n") + kExitCodesText);
     command->callback([options, launch, &exit_code] { exit_code = launch_or_sweep(*options, launch); });
 }

@@ -9,7 +9,7 @@ class App;
 
 namespace treefarm {
 
-/// treefarm launch ... -- COMMAND: registers the subcommand. Its callback keeps the command alive and stores its exit
+/// treefarm launch ... -- COMMAND: registers the subcommand. Its callback supervises the command and stores its exit
 /// code; InputError leaves CLI::App::parse.
 void add_launch_command(CLI::App& app, const LaunchEnvironment& launch, int& exit_code);
 

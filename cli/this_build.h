@@ -5,8 +5,7 @@
 
 namespace treefarm {
 
-/// The fingerprint of this program, complete: with what it was built from, and with which Embree it runs. Of the
-/// calling thread.
+/// Complete fingerprint of this program: with its source version and the loaded Embree. Of the calling thread.
 Fingerprint this_build();
 
 }  // namespace treefarm

@@ -11,7 +11,7 @@ namespace treefarm {
 
 namespace {
 
-/// "--run-dir", "-o" of a command, without those for help.
+/// Names of a command's options, as "--run-dir" and "-o", without those for help.
 std::vector<std::string> option_names(const CLI::App& command) {
     std::vector<std::string> names;
     for (const CLI::Option* option : command.get_options()) {
@@ -27,7 +27,7 @@ std::vector<const CLI::App*> commands_of(const CLI::App& app) {
     return app.get_subcommands([](const CLI::App*) { return true; });
 }
 
-/// The command that was typed, or nullptr.
+/// Command that was typed, or nullptr.
 const CLI::App* typed_command(const CLI::App& app) {
     const auto typed = app.get_subcommands();
     return typed.empty() ? nullptr : typed.front();
@@ -62,7 +62,7 @@ std::string unknown_option(const std::string& argument, const CLI::App& app, con
     return text + "see treefarm " + command.get_name() + " --help";
 }
 
-/// The name of the only file that a command takes.
+/// Name of a command's only input file.
 std::string input_of(const CLI::App& command) {
     const std::string& name = command.get_name();
     if (name == "render" || name == "plan") return "a scene (.xml) or a job (.toml)";
@@ -86,18 +86,18 @@ std::string left_over(const std::vector<std::string>& arguments, const CLI::App&
            input_of(command) + "; start it once for each, and put a value with blanks in quotes";
 }
 
-/// How often an option was typed.
+/// Number of times that an option was typed.
 std::ptrdiff_t count_of(const std::string& option, std::span<const std::string> arguments) {
     return std::count_if(arguments.begin(), arguments.end(),
                          [&](const std::string& argument) { return before_equals(argument) == option; });
 }
 
-/// The option of an error like "--spp: 1 required TEXT missing".
+/// Option of a parser's message like "--spp: 1 required TEXT missing".
 std::string option_of(const std::string& what) {
     return what.substr(0, what.find(':'));
 }
 
-/// An option takes its last name in the parser's messages: "-o" for "-o,--output" may have been typed.
+/// Number of times that an option was typed by any name: the parser's messages use the last of "-o,--output".
 std::ptrdiff_t count_of_any_name(const std::string& name, const CLI::App& command,
                                  std::span<const std::string> arguments) {
     const CLI::Option* option = command.get_option_no_throw(name);
@@ -143,7 +143,7 @@ std::string usage_message(const CLI::App& app, const CLI::ParseError& error, std
     if (command == nullptr)
         return app.remaining().empty() ? "no command was given; see treefarm --help"
                                        : unknown_option(app.remaining().front(), app, app);
-    // Also where something else is wrong: an option that was misspelled is why an input is missing.
+    // Even beside another error: a misspelled option may be the reason for a missing input.
     if (const std::vector<std::string> extra = command->remaining(); !extra.empty())
         return left_over(extra, app, *command);
     const std::string help = "see treefarm " + command->get_name() + " --help";

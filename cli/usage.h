@@ -10,8 +10,8 @@ namespace treefarm {
 /// Message about a first word that is no command; "" if it is one, or an option.
 std::string unknown_command(const CLI::App& app, const std::string& word);
 
-/// The fault of these arguments before anything reads them; "" if none: "--option=" without a value would swallow the
-/// argument that follows.
+/// Error in these arguments, found before parsing; "" if none: "--option=" without a value would swallow the next
+/// argument.
 std::string malformed_argument(std::span<const std::string> arguments);
 
 /// Message about arguments that the parser refused with this error.

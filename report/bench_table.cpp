@@ -17,14 +17,14 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Figures that Google Benchmark gives of every benchmark; all other numbers are counters of the program.
+/// Figures that Google Benchmark reports for every benchmark; all other numbers are the program's own counters.
 const std::set<std::string> kOfEveryBenchmark = {"family_index",     "per_family_instance_index",
                                                  "repetitions",      "repetition_index",
                                                  "threads",          "iterations",
                                                  "real_time",        "cpu_time",
                                                  "items_per_second", "bytes_per_second"};
 
-/// The last element of this name, made where there is none.
+/// Last element of this name; appended if there is none.
 template <class Named>
 Named& named(std::vector<Named>& all, const std::string& name) {
     const auto at = std::find_if(all.begin(), all.end(), [&](const Named& one) { return one.name == name; });
@@ -38,7 +38,7 @@ void add_measurement(const Json& json, std::vector<BenchChoice>& choices) {
     const std::string name = json.at("run_name");
     const std::size_t slash = name.find('/');
     if (slash == std::string::npos) return;
-    std::string variant_name = name.substr(slash + 1);  // options that stand behind it are none of the reader's
+    std::string variant_name = name.substr(slash + 1);  // its options, which follow the name, are not part of it
     variant_name = variant_name.substr(0, variant_name.find('/'));
     BenchVariant& variant = named(named(choices, name.substr(0, slash)).variants, variant_name);
     variant.nanoseconds.push_back(1e9 / json.at("items_per_second").get<double>());
@@ -48,7 +48,7 @@ void add_measurement(const Json& json, std::vector<BenchChoice>& choices) {
         if (value.is_number() && !kOfEveryBenchmark.contains(key)) variant.counters[key] = value;
 }
 
-/// The file's text. Google Benchmark writes NaN where JSON has no word for it: spreads of counters that are zero.
+/// Content of a file. Google Benchmark writes NaN, which is no JSON, for spreads of counters that are zero.
 std::string read_text(const std::filesystem::path& file) {
     std::ifstream stream(file);
     std::string text{std::istreambuf_iterator<char>(stream), {}};
@@ -89,7 +89,7 @@ std::vector<BenchChoice> read_bench(const std::filesystem::path& file) {
         throw InputError(Location{file.string()}, std::string("is no output of a benchmark: ") + error.what(),
                          "run it with --benchmark_out=FILE --benchmark_out_format=json");
     }
-    // Repetitions may be interleaved at random: the program's own order is that of its families.
+    // Repetitions may be interleaved at random; the program's own order is that of its families.
     for (BenchChoice& choice : choices)
         std::stable_sort(choice.variants.begin(), choice.variants.end(),
                          [](const BenchVariant& a, const BenchVariant& b) { return a.index < b.index; });

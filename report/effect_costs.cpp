@@ -20,7 +20,7 @@ using Json = nlohmann::ordered_json;
 
 const std::string kPrefix = "effects.";
 
-/// The one effect that `off` has off and `with` not, all else being equal; empty: they differ otherwise.
+/// The one effect that is off in `off` and on in `with`, all else being equal; empty if they differ otherwise.
 std::string only_effect_off(const MethodResult& with, const MethodResult& off) {
     std::string effect;
     for (const auto& [key, value] : off.settings) {
@@ -49,7 +49,7 @@ std::string read_text(const std::filesystem::path& path) {
     return {std::istreambuf_iterator<char>(file), {}};
 }
 
-/// The costs of a method's effects, by name.
+/// Costs of a method's effects, by name.
 std::map<std::string, std::string> costs_of(const std::vector<EffectCost>& costs, const std::string& method) {
     std::map<std::string, std::string> texts;
     for (const EffectCost& cost : costs) {

@@ -8,17 +8,17 @@
 
 namespace treefarm {
 
-/// Cost of an effect, by a method that differs from another only by having it off.
+/// Cost of an effect, from two methods that differ only by its switch.
 struct EffectCost {
-    std::string effect;     ///< the switch's name, without "effects."
+    std::string effect;     ///< name of the switch, without "effects."
     std::string with, off;  ///< methods
-    Interval core_seconds;  ///< with over without, by pairs of seeds: 1.2 is a fifth more
+    Interval core_seconds;  ///< ratio with over without, by pairs of seeds: 1.2 means a fifth more
 };
 
-/// Costs of all effects that a study switches off on this scene.
+/// Costs of all effects that a study switches off in this scene.
 std::vector<EffectCost> effect_costs(const StudyResults& results, const SceneResult& scene);
 
-/// The plan of each method as a table, those that are alike once, with what was measured of its effects.
+/// Each method's plan as a table, equal ones once, with the measured costs of its effects.
 std::string plan_tables(const StudyResults& results, const SceneResult& scene);
 
 }  // namespace treefarm

@@ -9,7 +9,7 @@ namespace treefarm {
 
 namespace {
 
-/// Intervals that are wider say only that nothing is known.
+/// Ratio of its bounds above which an interval is not shown.
 constexpr double kWidest = 10;
 
 bool has_interval(const Interval& interval) {

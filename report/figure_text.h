@@ -7,29 +7,29 @@
 
 namespace treefarm {
 
-// Figures as they stand in pages and messages: three digits.
+// Figures as texts in pages and messages: three significant digits.
 
-/// Fewer seeds say nothing of chance: Student's t of two is 12.7 standard errors.
+/// Least number of seeds for an interval: Student's t of two is 12.7 standard errors.
 inline constexpr std::size_t kLeastSeeds = 3;
 
-/// True where a ratio can be told from 1: enough values, and a 95 % interval without 1.
+/// Whether a ratio differs significantly from 1: enough values, and a 95 % interval without 1.
 bool differs_from_one(const Interval& ratio);
 
-/// "1.23 [1.1, 1.4]"; without the interval where too few values make it.
+/// "1.23 [1.1, 1.4]"; without the interval if there are too few values.
 std::string interval_text(const Interval& interval);
 
-/// How many times: "2.1 [1.8, 2.4]"; says "cannot tell" where the ratio cannot be told from 1.
+/// Ratio in words: "2.1 [1.8, 2.4]", with "cannot tell" if it does not differ significantly from 1.
 std::string gain_text(const Interval& ratio);
 
-/// "3.2 s", "4.1 min", with the letter of its unit; core-seconds: "3.2 core-s".
+/// Time with its unit: "3.2 s", "4.1 min"; core-seconds: "3.2 core-s".
 std::string time_text(double seconds, bool of_cores);
-/// A time with its interval, unless that is wider than one to ten.
+/// Time with its interval, unless that spans more than a factor of ten.
 std::string time_text(const Interval& seconds, bool of_cores);
 
-/// "12.3 %"
+/// Percentage: "12.3 %"
 std::string percent_text(double fraction);
 
-/// "3 seeds"
+/// Number of seeds: "3 seeds"
 std::string seeds_text(std::size_t seeds);
 
 }  // namespace treefarm

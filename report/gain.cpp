@@ -23,7 +23,7 @@ Interval gain(const StudyResults& results, std::span<const SceneResult> scenes, 
         const PassRow& last = cell.passes.back();
         return 2 * std::log(measure.value(last)) + std::log(clock.value(last));
     };
-    std::map<std::size_t, std::vector<double>> logarithms;  // by repetition, a value per scene
+    std::map<std::size_t, std::vector<double>> logarithms;  // per repetition: a value per scene
     std::size_t compared = 0;
     for (const SceneResult& scene : scenes) {
         const auto [with, without] = paired(results.of(scene.name, own), results.of(scene.name, base));
@@ -33,7 +33,7 @@ Interval gain(const StudyResults& results, std::span<const SceneResult> scenes, 
     }
     std::vector<double> ratios;
     for (const auto& [repetition, values] : logarithms) {
-        if (values.size() != compared) continue;  // a seed that not all scenes have is of other scenes
+        if (values.size() != compared) continue;  // a seed that only some scenes have
         double sum = 0;
         for (const double value : values)
             sum += value;

@@ -22,7 +22,7 @@ namespace treefarm {
 
 namespace {
 
-/// A folder that goes with its owner.
+/// A temporary folder, removed with this object.
 class TemporaryFolder {
   public:
     TemporaryFolder() {
@@ -49,7 +49,7 @@ std::string read_text(const std::filesystem::path& path) {
     return text.str();
 }
 
-/// gnuplot's exit code; 127 where there is none.
+/// Exit code of gnuplot; 127 if it is not installed.
 int run_gnuplot(const std::filesystem::path& script, const std::filesystem::path& messages) {
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
@@ -66,7 +66,7 @@ int run_gnuplot(const std::filesystem::path& script, const std::filesystem::path
     return WIFEXITED(status) ? WEXITSTATUS(status) : 128;
 }
 
-/// A drawing without `<title>` elements: gnuplot's are names of plots, and a browser shows them as tooltips.
+/// SVG without `<title>` elements: gnuplot's are plot names, which a browser shows as tooltips.
 std::string without_titles(std::string svg) {
     constexpr std::string_view begin = "<title>", end = "</title>";
     for (std::size_t at = 0; (at = svg.find(begin, at)) != std::string::npos;) {
@@ -77,7 +77,7 @@ std::string without_titles(std::string svg) {
     return svg;
 }
 
-/// A drawing with words on what it shows, for readers that cannot see it, instead of gnuplot's own.
+/// SVG with a title and a description for blind readers, in place of gnuplot's.
 std::string described(const std::string& drawn, const Picture& picture) {
     std::string svg = without_titles(drawn);
     const std::size_t from = svg.find("<desc>"), to = svg.find("</desc>");
@@ -91,7 +91,7 @@ std::string described(const std::string& drawn, const Picture& picture) {
     return svg;
 }
 
-/// A picture as gnuplot draws it on a terminal; nothing where it fails, with its words in `messages`.
+/// Output of gnuplot for a picture on a terminal; no value if it fails, with its output in `messages`.
 std::optional<std::string> drawn(const Picture& picture, const std::string& terminal, std::string& messages) {
     const TemporaryFolder folder;
     const std::filesystem::path file = folder / "plot.gp", out = folder / "plot", log = folder / "log.txt";

@@ -6,31 +6,31 @@
 
 namespace treefarm {
 
-/// A plot, to be drawn for the page or as files.
+/// A plot, for the page or as files.
 struct Picture {
-    std::string name;         ///< of files and ids: letters, digits, _
-    std::string title;        ///< for readers that cannot see
-    std::string description;  ///< what it shows, for the same
-    std::string script;       ///< gnuplot's, without terminal or output; empty: there is nothing to draw
-    std::string data;         ///< what it shows as CSV
+    std::string name;         ///< base of files and ids: letters, digits, _
+    std::string title;        ///< for blind readers
+    std::string description;  ///< content in words, for blind readers
+    std::string script;       ///< commands for gnuplot, without terminal or output; empty: nothing to draw
+    std::string data;         ///< plotted data as CSV
     int width = 460, height = 400;
 };
 
-/// How figures in files look.
+/// Style of figures in files.
 struct FigureStyle {
     double width_inches = 3.3;
     std::string font = "Helvetica";
     double font_points = 8;
 };
 
-/// The picture as SVG, without the XML header, ready to stand in a page; "" where there is nothing to draw. Throws
-/// RunError where gnuplot is missing or complains.
+/// SVG of a picture without the XML header, for embedding in a page; "" if there is nothing to draw. Throws RunError if
+/// gnuplot is missing or fails.
 std::string draw_svg(const Picture& picture);
 
-/// Writes NAME.svg, NAME.pdf and NAME.csv into a folder. False where this gnuplot cannot make PDF.
+/// Writes NAME.svg, NAME.pdf and NAME.csv into a folder. False if gnuplot cannot write PDF.
 bool write_figure(const Picture& picture, const FigureStyle& style, const std::filesystem::path& folder);
 
-/// Text in gnuplot's quotes, without its enhanced-text marks.
+/// Text as a gnuplot string, without enhanced-text marks.
 std::string gnuplot_quoted(const std::string& text);
 
 }  // namespace treefarm

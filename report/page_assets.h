@@ -3,7 +3,7 @@
 
 namespace treefarm {
 
-/// page.css and viewer.js, as they stand beside this file.
+/// Contents of page.css and viewer.js in this folder.
 extern const char* const kPageStyle;
 extern const char* const kViewerScript;
 

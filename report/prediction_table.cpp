@@ -13,7 +13,7 @@ namespace treefarm {
 
 namespace {
 
-/// Fraction by which a forecast may be off.
+/// Largest relative deviation of a correct forecast.
 constexpr double kTolerance = 0.15;
 
 Held* kind_of(Predictions& predictions, const std::string& trust) {
@@ -59,7 +59,7 @@ Predictions predictions_of(const std::vector<const CellResult*>& cells) {
             }
             const Crossing half = time_to(curve, 0.5 * measured);
             if (!half.extrapolated) judge(predictions, row.halving, half.seconds - row.run_seconds);
-            // A render that was to reach an error ended when it had.
+            // A render with a target error ended when it was reached.
             if (&row != &cell->passes.back())
                 judge(predictions, row.target, cell->passes.back().run_seconds - row.run_seconds);
         }

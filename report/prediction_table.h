@@ -8,23 +8,25 @@
 
 namespace treefarm {
 
-/// Forecasts of one kind that a render made, against when it came.
+/// Forecasts of one kind, compared with the actual times.
 struct Held {
     int made = 0;
-    int within = 0;              ///< off by 15 % at most; of bounds ("learning"): at most 15 % beyond
+    /// number of forecasts off by at most 15 %; of bounds ("learning"): at most 15 % too low
+    int within = 0;
     std::vector<double> ratios;  ///< forecast over actual seconds from the pass on
 };
 
-/// Predictions by the passes of some cells, against what was.
+/// Forecasts of some cells' passes, compared with the actual results.
 struct Predictions {
     std::vector<double> error_ratios;  ///< estimated over measured error
-    int intervals = 0, covered = 0;    ///< 95 % intervals of the error, and those that held the measured one
-    Held firm, learning, noisy;        ///< forecasts of half the error, and of budget.error
+    /// number of 95 % intervals of the error, and of those that contain the measured one
+    int intervals = 0, covered = 0;
+    Held firm, learning, noisy;  ///< forecasts of half the error, and of budget.error
 };
 
 Predictions predictions_of(const std::vector<const CellResult*>& cells);
 
-/// Predicted against actual, a row per method, as HTML.
+/// Forecast against actual values, a row per method, as HTML.
 std::string prediction_table(const StudyResults& results, const SceneResult& scene);
 
 }  // namespace treefarm

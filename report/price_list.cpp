@@ -31,7 +31,7 @@ const Column kColumns[] = {
     {"trimmed x core-seconds", [](const PassRow& r) { return square(measures()[2].value(r)) * r.core_seconds; }},
 };
 
-/// Ratio of a figure of a method to that of the baseline, by pairs of seeds.
+/// Ratio of a method's figure to the baseline's, by pairs of seeds.
 Interval ratio(const std::vector<const CellResult*>& own, const std::vector<const CellResult*>& base, Figure figure) {
     std::vector<double> a, b;
     for (const CellResult* cell : own)
@@ -43,7 +43,7 @@ Interval ratio(const std::vector<const CellResult*>& own, const std::vector<cons
     return geometric_ratio(a, b);
 }
 
-/// Bold where the interval, as it is printed, does not hold 1.
+/// Text of an interval, bold if it does not contain 1 in its printed digits.
 std::string cell_text(const Interval& interval) {
     if (!std::isfinite(interval.mean)) return "";
     std::string text = fmt::format("{:.2f}", interval.mean);

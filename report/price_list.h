@@ -10,13 +10,12 @@
 
 namespace treefarm {
 
-/// Costs and gains of each method of the studies, against its study's baseline, as a Markdown page: a table per scene,
-/// ratios over pairs of seeds with 95 % intervals. For studies at equal samples. `benches`: choices that no job key
-/// makes.
+/// Costs and gains of each method of the studies against its study's baseline, as a Markdown page: a table per scene,
+/// ratios over pairs of seeds with 95 % intervals. For studies at equal samples. `benches`: choices without a job key.
 std::string price_list(const std::vector<StudyResults>& studies, const std::vector<BenchChoice>& benches);
 
-/// Writes the list of these folders' studies, and of what benchmarks wrote to files. Throws InputError where one is
-/// none, RunError where it cannot be written.
+/// Writes the list of these folders' studies and of benchmark output files. Throws InputError if one cannot be read,
+/// RunError if the list cannot be written.
 void write_price_list(const std::vector<std::filesystem::path>& folders,
                       const std::vector<std::filesystem::path>& benches, const std::filesystem::path& file);
 

@@ -7,17 +7,17 @@
 
 namespace treefarm {
 
-/// Below this the workers' seconds are not their own.
+/// Fraction of the processors below which seconds were affected by other programs.
 inline constexpr double kLeastProcessorFraction = 0.8;
 
-/// The part of their processors that a cell's workers had while they traced: core-seconds over seconds x threads. NaN
-/// where it is not known.
+/// Fraction of their processors that a cell's workers had while tracing: core-seconds over seconds x threads. NaN if
+/// unknown.
 double processor_fraction(const CellResult& cell);
 
-/// True where some cell's workers had less than kLeastProcessorFraction.
+/// Whether some cell's workers had less than kLeastProcessorFraction.
 bool was_busy(const StudyResults& results);
 
-/// Warning about times that were taken beside a busy processor; "" where none were.
+/// Warning about times measured on a busy processor; "" if there are none.
 std::string busy_warning(const StudyResults& results);
 
 }  // namespace treefarm

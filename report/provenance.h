@@ -9,10 +9,10 @@ namespace treefarm {
 
 struct CellResult;
 
-/// Origin of a render: where, when and by what it was made. Empty or 0: its summary.json does not say.
+/// Origin of a render: place, time and program. Members are empty or 0 if its summary.json lacks them.
 struct Provenance {
-    std::string source;     ///< what the program was built from, as git describes it
-    std::string host;       ///< the coordinator's
+    std::string source;     ///< source version of the program, as git describes it
+    std::string host;       ///< of the coordinator
     std::string processor;  ///< of that host
     std::string started;    ///< UTC, "2026-11-25 21:22"
     int workers = 0;

@@ -19,11 +19,11 @@ namespace {
 using Json = nlohmann::json;
 using Settings = std::map<std::string, std::string>;
 
-/// A render as its folder tells of it.
+/// A render with the data of its folder.
 struct Run {
     CellResult cell;
     std::string scene_file;
-    Settings settings;  ///< keys of job.toml but for the seed, the budget and the image's size
+    Settings settings;  ///< keys of job.toml without seed, budget and image size
 };
 
 double number(const Json& json, const char* key) {
@@ -31,7 +31,7 @@ double number(const Json& json, const char* key) {
     return at != json.end() && at->is_number() ? at->get<double>() : std::numeric_limits<double>::quiet_NaN();
 }
 
-/// job.toml as this program writes it: [section] lines, then key = value.
+/// Settings of a job.toml in the form that this program writes: [section] lines, then key = value.
 Settings read_settings(const std::filesystem::path& file) {
     Settings settings;
     std::ifstream in(file);
@@ -97,7 +97,7 @@ Run read_run(const std::filesystem::path& folder) {
     }
 }
 
-/// The keys in which runs differ.
+/// Keys in which runs differ.
 std::set<std::string> differing_keys(const std::vector<Run>& runs) {
     std::set<std::string> keys;
     for (const Run& run : runs)
@@ -127,7 +127,7 @@ std::string method_name(const Settings& settings) {
     return name.empty() ? "render" : name;
 }
 
-/// Adds a scene or a method that is not there yet.
+/// Appends a scene or a method unless its name is there.
 template <class Named>
 void add_once(std::vector<Named>& list, Named one) {
     if (std::none_of(list.begin(), list.end(), [&](const Named& there) { return there.name == one.name; }))

@@ -8,12 +8,12 @@
 
 namespace treefarm {
 
-/// True for a run directory whose render has ended.
+/// Whether a folder is a run directory whose render has ended.
 bool is_run_folder(const std::filesystem::path& folder);
 
 /// Single renders as a study without references: a scene per scene file and size, a method per set of settings, named
-/// by those in which the renders differ; the first is the baseline. Errors are what the renders estimated of
-/// themselves. Throws InputError where a folder is no run directory, or its error is not known.
+/// by the settings in which the renders differ; the first is the baseline. Errors are the renders' own estimates.
+/// Throws InputError if a folder is no run directory, or its error is unknown.
 StudyResults read_run_results(std::span<const std::filesystem::path> folders);
 
 }  // namespace treefarm

@@ -13,7 +13,7 @@ namespace treefarm {
 
 namespace {
 
-/// Okabe and Ito's colours (2008), which the colour-blind tell apart.
+/// Colours of Okabe and Ito (2008), distinguishable by colour-blind readers.
 constexpr const char* kColours[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000"};
 constexpr int kGridPoints = 25;
 constexpr int kPlotHeight = 340, kLegendLine = 18, kLetterWidth = 8, kKeyWidth = 60;
@@ -22,7 +22,7 @@ const char* colour(std::size_t k) {
     return kColours[k % std::size(kColours)];
 }
 
-/// A block of data lines under a name.
+/// A named block of data lines.
 std::string block(const std::string& name, const std::string& lines) {
     return "$" + name + " << EOD\n" + lines + "EOD\n";
 }
@@ -31,7 +31,7 @@ std::string csv_quoted(const std::string& text) {
     return text.find_first_of(",\"") == std::string::npos ? text : '"' + text + '"';
 }
 
-/// The range that an axis must show.
+/// Range of an axis.
 struct Range {
     double low = INFINITY, high = 0;
     void include(double value) {
@@ -40,8 +40,8 @@ struct Range {
     }
 };
 
-/// A logarithmic axis a little longer than its range, with enough marks on it: 1, 2, 5 where it spans few decades.
-/// `unit` is a format: %% for a percent sign.
+/// Logarithmic axis slightly longer than its range, with enough tick marks: 1, 2, 5 if it spans few decades. `unit` is
+/// a format: %% for a percent sign.
 std::string log_axis(const char* axis, const Range& range, const char* unit) {
     const double low = range.low / 1.25, high = range.high * 1.25;
     const bool is_long = high / low > 1000;
@@ -55,7 +55,7 @@ std::string log_axis(const char* axis, const Range& range, const char* unit) {
     return fmt::format("set {0}range [{1:g}:{2:g}]\nset {0}tics ({3})\n", axis, low, high, marks);
 }
 
-/// Mean and interval over the seeds, at times that all of them cover; without an interval where seeds are too few.
+/// Mean and interval over the seeds, at times covered by all of them; without an interval for too few seeds.
 std::vector<std::pair<double, Interval>> band(const std::vector<std::vector<CurvePoint>>& curves) {
     double first = 0, last = INFINITY;
     for (const auto& curve : curves) {
@@ -86,7 +86,7 @@ std::string file_name(const std::string& kind, const StudyResults& results, cons
     return name;
 }
 
-/// A legend below, and the height that it takes.
+/// Adds a legend below the picture, and its height.
 void add_legend(Picture& picture, const StudyResults& results, std::size_t more) {
     std::size_t longest = 10;
     for (const MethodResult& method : results.methods)
@@ -99,7 +99,7 @@ void add_legend(Picture& picture, const StudyResults& results, std::size_t more)
 
 const std::string kLogAxes = "set logscale xy\nset grid xtics ytics lc rgb '#dddddd'\n";
 
-/// One method's part of a picture of errors over time.
+/// Parts of one method in a picture of errors over time.
 struct MethodCurves {
     std::string points, band, csv;
 };
@@ -124,7 +124,7 @@ MethodCurves method_curves(const Cells& cells, const std::string& method, const 
     return of;
 }
 
-/// Points of all methods under logarithmic axes with the diagonal on which both would agree.
+/// Points of all methods on logarithmic axes, with the diagonal of perfect agreement.
 Picture agreement_chart(Picture picture, const StudyResults& results,
                         const std::vector<std::vector<std::pair<double, double>>>& points, const std::string& labels,
                         const char* unit) {

@@ -23,7 +23,7 @@ namespace treefarm {
 
 namespace {
 
-/// A reference is good for errors of so many times its own.
+/// Multiple of a reference's own error above which it is accurate enough.
 constexpr double kReferenceMargin = 3;
 
 std::string section(const std::string& title, const std::string& note, const std::string& content) {
@@ -31,7 +31,7 @@ std::string section(const std::string& title, const std::string& note, const std
     return "<h3>" + title + "</h3>\n" + (note.empty() ? "" : "<p class=\"note\">" + note + "</p>\n") + content;
 }
 
-/// A part of the page by every clock; the switch on top of the page shows one of them.
+/// One part of the page for each clock; the switch at the top of the page shows one of them.
 template <class Make>
 std::string by_clock(Make make) {
     std::string html;
@@ -86,7 +86,7 @@ std::string predictions(const StudyResults& results, const SceneResult& scene) {
                    prediction_table(results, scene) + "<div class=\"charts\">\n" + pictures + "</div>\n");
 }
 
-/// A scene's part of the page, for one budget.
+/// HTML of one scene, for one budget.
 std::string scene_part(const StudyResults& results, const SceneResult& scene) {
     std::string html =
         section("At the end of the budget",
@@ -158,7 +158,7 @@ std::string method_table(const StudyResults& results) {
     return "<div class=\"keys\">" + html_table(rows) + "</div>\n";
 }
 
-/// Cells that were rendered by different numbers of threads cannot be compared by time.
+/// Warning that seconds cannot be compared, if cells had different numbers of threads.
 std::string thread_warning(const StudyResults& results) {
     std::set<int> threads;
     for (const CellResult& cell : results.cells)
@@ -169,7 +169,7 @@ std::string thread_warning(const StudyResults& results) {
            "compare.</p>\n";
 }
 
-/// The answer to the page's title.
+/// HTML of the page's summary.
 std::string answer_part(const StudyResults& results) {
     return "<div class=\"answer\">\n" + by_clock([&](const Clock& clock) {
                std::string html;
@@ -183,7 +183,7 @@ std::string answer_part(const StudyResults& results) {
            "</div>\n";
 }
 
-/// Two buttons that need no script: the style sheet shows what belongs to the one that is pressed.
+/// Two buttons without a script: the style sheet shows the parts of the pressed one.
 std::string clock_inputs(const Clock& chosen) {
     std::string html;
     for (const Clock& clock : clocks())

@@ -7,7 +7,7 @@
 
 namespace treefarm {
 
-/// The report as one HTML page that needs nothing beside it. Throws RunError where gnuplot cannot draw.
+/// Report as one self-contained HTML page. Throws RunError if gnuplot fails.
 std::string study_page(const StudyResults& results);
 
 }  // namespace treefarm

@@ -9,15 +9,15 @@
 
 namespace treefarm {
 
-/// A report that was written.
+/// Result of writing a report.
 struct WrittenReport {
     std::filesystem::path page;
-    std::vector<std::string> answers;  ///< who won and what 5 % costs, by the clock that is to be read first
-    std::string warning;               ///< of times that were taken beside a busy processor; "" for none
+    std::vector<std::string> answers;  ///< winner and price of 5 % error, by the clock to be read first
+    std::string warning;               ///< about times measured on a busy processor; "" for none
 };
 
-/// Writes cells.csv, passes.csv and report.html of a study into its folder. Throws InputError where the folder is none
-/// of a study, RunError where a file cannot be written or gnuplot is missing; the CSV files come first.
+/// Writes cells.csv, passes.csv and report.html of a study into its folder. Throws InputError if the folder is no
+/// study's, RunError if a file cannot be written or gnuplot is missing; the CSV files are written first.
 WrittenReport write_study_report(const std::filesystem::path& folder);
 
 /// Writes the page of any results to a file.

@@ -35,7 +35,7 @@ std::map<std::string, double> numbers(const Json& object) {
     return values;
 }
 
-/// Folders of earlier versions do not know how far a forecast was trusted, and have none of the target.
+/// Forecast of a pass; folders of earlier versions have no trust, and no forecast of the target.
 Prediction read_prediction(const Json& json, const std::string& of) {
     const std::string seconds = of + "_seconds", trust = of + "_trust";
     Prediction prediction{std::numeric_limits<double>::quiet_NaN(), ""};
@@ -88,7 +88,7 @@ CellResult read_cell(const Json& entry, const std::filesystem::path& folder, con
     return cell;
 }
 
-/// Each budget's text; folders of earlier versions have one, and no list of its values.
+/// Texts of the budgets; folders of earlier versions have one, without a list of values.
 std::vector<std::string> read_budgets(const Json& budget) {
     std::vector<std::string> budgets;
     for (const auto& [key, values] : budget.items()) {

@@ -13,18 +13,18 @@
 
 namespace treefarm {
 
-/// How long a render said that it would take from a pass on.
+/// Forecast of a render's remaining time after a pass.
 struct Prediction {
     double seconds = 0;  ///< NaN: none
     std::string trust;   ///< "firm", "noisy", "learning" (a bound); empty: none
 };
 
-/// One pass of a cell, as cell.json has it.
+/// One pass of a cell, as in cell.json.
 struct PassRow {
     int pass = 0, spp = 0, spp_done = 0, threads = 0;
-    double run_seconds = 0, core_seconds = 0;    ///< both since the render began
+    double run_seconds = 0, core_seconds = 0;    ///< both since the start of rendering
     std::map<std::string, double> measured;      ///< rmse_over_mean, rel_mse, ...
-    double estimate = 0;                         ///< relative error that the render claimed; NaN: none
+    double estimate = 0;                         ///< relative error estimated by the render; NaN: none
     double estimate_low = 0, estimate_high = 0;  ///< its 95 % interval; NaN: none
     Prediction halving;                          ///< until half of that error
     Prediction target;                           ///< until budget.error
@@ -48,7 +48,7 @@ struct CellResult {
 
 struct SceneResult {
     std::string name, file, reference_file;
-    double reference_error = 0;  ///< that it claims of itself; NaN: not known
+    double reference_error = 0;  ///< its own estimate; NaN: unknown
     bool reference_rendered = false;
 };
 
@@ -57,35 +57,36 @@ struct MethodResult {
     std::map<std::string, std::string> settings;
 };
 
-/// How errors are measured in tables and plots.
+/// Measure of errors in tables and plots.
 struct Measure {
     const char* key;
-    const char* name;  ///< for people
+    const char* name;  ///< for readers
     double (*value)(const PassRow&);
 };
-/// RMSE / mean; the root of relMSE; that root without the worst 0.1 % of the pixels. A claim needs both of the latter.
+/// Error measures: RMSE / mean; the root of relMSE; that root without the worst 0.1 % of the pixels. A claim needs both
+/// of the latter.
 const std::vector<Measure>& measures();
 
-/// A way of counting time.
+/// Clock by which time is counted.
 struct Clock {
     const char* key;
-    const char* name;  ///< for people, in the plural
+    const char* name;  ///< for readers, in the plural
     double (*value)(const PassRow&);
 };
-/// Seconds, which other programs on the machine lengthen, and core-seconds, which they hardly do.
+/// Clocks: seconds, which other programs on the machine lengthen, and core-seconds, which they hardly affect.
 const std::vector<Clock>& clocks();
 
-/// A study as far as it has come.
+/// Results of a study, complete or not.
 struct StudyResults {
     std::filesystem::path folder;
     std::string study, baseline;
     std::vector<std::string> budgets;               ///< "seconds = 2", in the study's order
-    std::vector<Measure> measured_by = measures();  ///< the first decides who won
-    bool has_references = true;                     ///< without, errors are those that renders claim of themselves
+    std::vector<Measure> measured_by = measures();  ///< the first one decides the winner
+    bool has_references = true;                     ///< false: errors are the renders' own estimates
     std::vector<SceneResult> scenes;
     std::vector<MethodResult> methods;
-    std::size_t planned = 0;        ///< cells
-    std::vector<CellResult> cells;  ///< done ones, in order
+    std::size_t planned = 0;        ///< number of cells
+    std::vector<CellResult> cells;  ///< finished ones, in order
 
     /// Cells of a scene and method, by repetition.
     std::vector<const CellResult*> of(const std::string& scene, const std::string& method) const;
@@ -94,7 +95,7 @@ struct StudyResults {
     StudyResults of_budget(const std::string& budget) const;
 };
 
-/// Reads the folder that `treefarm study` left. Throws InputError where it is none, or damaged.
+/// Results in a folder that `treefarm study` wrote. Throws InputError if it is none, or damaged.
 StudyResults read_study_results(const std::filesystem::path& folder);
 
 std::vector<CurvePoint> curve_of(const CellResult& cell, const Measure& measure, const Clock& clock = clocks().front());

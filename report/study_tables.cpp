@@ -33,7 +33,7 @@ double mean(const Cells& cells, Get get) {
     return sum / static_cast<double>(cells.size());
 }
 
-/// A figure and what stands below it in a narrow column.
+/// A figure with a second line below it, for a narrow column.
 std::string two_lines(const std::string& first, const std::string& second) {
     return first + "<br><small>" + second + "</small>";
 }
@@ -47,12 +47,12 @@ std::string gain_cell(const Interval& gain) {
     return two_lines("&times;" + text.substr(0, blank), text.substr(blank + 1));
 }
 
-/// Beyond 1 on opposite sides: the choice of measure decides who wins.
+/// Whether two gains are significantly on opposite sides of 1: the choice of measure would decide the winner.
 bool contradict(const Interval& a, const Interval& b) {
     return differs_from_one(a) && differs_from_one(b) && (a.mean > 1) != (b.mean > 1);
 }
 
-/// The accuracies that some method reached, and the next: beyond that all would be extrapolated.
+/// Accuracies that some method reached, and the next one; further ones would all be extrapolated.
 std::vector<double> targets_of(const StudyResults& results, const SceneResult& scene, const Measure& measure) {
     std::vector<double> targets;
     for (const double target : kTargets) {

@@ -9,23 +9,23 @@ namespace treefarm {
 
 // Tables of a scene's cells, as HTML, of one budget. Intervals are 95 %, of geometric means over the seeds.
 
-/// Errors at the end of the budget, each with the gain over the baseline by it.
+/// Errors at the end of the budget, each with the gain over the baseline by that measure.
 std::string final_table(const StudyResults& results, const SceneResult& scene, const Clock& clock);
 
-/// Other figures at the end of the budget: seconds, core-seconds, the share of the processors, other errors.
+/// Other figures at the end of the budget: seconds, core-seconds, fraction of the processors, other errors.
 std::string figures_table(const StudyResults& results, const SceneResult& scene);
 
-/// Time to 10, 5, 2, 1 and 0.5 %, and how many times as fast as the baseline.
+/// Time to 10, 5, 2, 1 and 0.5 % error, with the speed-up over the baseline.
 std::string time_table(const StudyResults& results, const SceneResult& scene, const Measure& measure,
                        const Clock& clock);
 
-/// Error and gain at the end of each budget, of a study with several.
+/// Error and gain at the end of each budget, for a study with several.
 std::string budget_table(const StudyResults& results, const SceneResult& scene, const Clock& clock);
 
-/// Nonzero-path share and memory of the tree by pass: the form of the thesis' tables 3.1 to 3.4.
+/// Fraction of nonzero paths and memory of the tree by pass, in the form of the thesis' tables 3.1 to 3.4.
 std::string pass_table(const StudyResults& results, const SceneResult& scene);
 
-/// Where the seconds of the coordinator's clock went, phase by phase.
+/// Seconds of the coordinator's clock by phase.
 std::string phase_table(const StudyResults& results, const SceneResult& scene);
 
 /// Thread-seconds of each worker, busy and idle.

@@ -16,7 +16,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// A picture that lies beside inspect.json, inside the page. Only its name counts: folders are moved.
+/// HTML of a picture beside inspect.json, embedded. Only its name counts, since folders may be moved.
 std::string figure(const std::filesystem::path& folder, const Json& picture, const std::string& caption) {
     const std::filesystem::path file = folder / std::filesystem::path(picture.at("file").get<std::string>()).filename();
     return R"(<figure><img alt="" src="data:image/png;base64,)" +

@@ -7,8 +7,8 @@
 
 namespace treefarm {
 
-/// Pictures that `treefarm inspect` drew of the trees of a scene's cells (the first of each method that it was asked
-/// about), as HTML; "" where it was never asked. Throws InputError where an inspect.json is damaged.
+/// Pictures by `treefarm inspect` of the trees of a scene's cells (the first inspected cell of each method), as HTML;
+/// "" without any. Throws InputError if an inspect.json is damaged.
 std::string tree_pictures(const StudyResults& results, const SceneResult& scene);
 
 }  // namespace treefarm

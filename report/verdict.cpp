@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kTarget = 0.05;
 
-/// A method's gain over another, for a ranking.
+/// A method with its gain, for a ranking.
 struct Rival {
     std::string name;
     Interval gain;
@@ -42,7 +42,7 @@ std::vector<Rival> ranking(const StudyResults& results, std::span<const SceneRes
     return rivals;
 }
 
-/// "; by root of relMSE X is better than it", where another measure contradicts beyond chance.
+/// "; by root of relMSE X is better than it", if another measure significantly contradicts.
 std::string contradictions(const StudyResults& results, std::span<const SceneResult> scenes, const Clock& clock,
                            const std::string& best) {
     std::string text;
@@ -63,7 +63,7 @@ std::string times_as_fast(const Interval& gain) {
     return fmt::format("{} times as fast as ", interval_text(gain));
 }
 
-/// A method's time to the target, or how far it came.
+/// A method's time to the target, or the error that it reached.
 std::string price(const StudyResults& results, const SceneResult& scene, const std::string& method,
                   const Clock& clock) {
     const Measure& measure = results.measured_by.front();

@@ -12,7 +12,7 @@ namespace treefarm {
 
 namespace {
 
-/// Images in the page are no larger than this, in pixels.
+/// Largest side of images in the page, in pixels.
 constexpr int kLongestSide = 640;
 
 nlohmann::json viewer_image(const std::string& name, const std::string& caption, const std::filesystem::path& file) {
@@ -48,7 +48,7 @@ std::string viewer_data(const StudyResults& results, const SceneResult& scene) {
             viewer_image("reference", scene.reference_rendered ? "rendered" : "given", scene.reference_file));
     if (images.empty()) return "";
     std::string json =
-        images.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);  // text in a script ends at "</"
+        images.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);  // a text in a script would end at "</"
     for (std::size_t at = 0; (at = json.find("</", at)) != std::string::npos; at += 3)
         json.replace(at, 2, "<\\/");
     return R"(<div class="viewer"><script type="application/json">)" + json + "</script></div>\n";

@@ -7,7 +7,7 @@
 
 namespace treefarm {
 
-/// Each method's image of the first seed, and the reference where there is one, for viewer.js.
+/// JSON for viewer.js: each method's image of the first seed, and the reference if there is one.
 std::string viewer_data(const StudyResults& results, const SceneResult& scene);
 
 }  // namespace treefarm

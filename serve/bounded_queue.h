@@ -12,15 +12,14 @@
 
 namespace treefarm {
 
-/// Threads that answer requests, and a queue before them that does not grow without end: a task that finds it full is
-/// run by the caller at once.
+/// Thread pool that answers requests, with a bounded queue: a task that finds it full is run by its caller at once.
 class BoundedQueue final : public httplib::TaskQueue {
   public:
     BoundedQueue(std::size_t threads, std::size_t waiting);
     ~BoundedQueue() override { shutdown(); }
 
     void enqueue(std::function<void()> task) override;
-    /// Ends the threads, once all tasks that wait are done.
+    /// Ends the threads, once all waiting tasks are done.
     void shutdown() override;
 
   private:

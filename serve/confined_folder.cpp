@@ -17,7 +17,7 @@ namespace treefarm {
 
 namespace {
 
-/// Names of a path from the root on; nothing if it could lead elsewhere.
+/// Names of a relative path; no value if it could lead outside.
 std::optional<std::vector<std::string>> names_of(const std::string& path) {
     std::vector<std::string> names;
     if (path.empty()) return names;
@@ -34,11 +34,12 @@ std::optional<std::vector<std::string>> names_of(const std::string& path) {
 
 constexpr int kFolder = O_RDONLY | O_DIRECTORY | O_CLOEXEC;
 
-/// Opens what a path names, a link nowhere. The root itself may be one: it was named by who started the program.
+/// Opens a path without following links. The root itself may be a link: it was named by the user who started the
+/// program.
 Descriptor open_within(const std::filesystem::path& root, const std::string& path, int flags) {
     const auto names = names_of(path);
     if (!names) return Descriptor(-1);
-    Descriptor at(::open(root.c_str(), kFolder));  // each time: a render makes its folder again where it vanished
+    Descriptor at(::open(root.c_str(), kFolder));  // each time: a render recreates its folder if it vanished
     for (std::size_t k = 0; k < names->size() && at; ++k) {
         const bool is_last = k + 1 == names->size();
         at = Descriptor(::openat(at.fd(), (*names)[k].c_str(), (is_last ? flags : kFolder) | O_NOFOLLOW));
@@ -46,7 +47,7 @@ Descriptor open_within(const std::filesystem::path& root, const std::string& pat
     return at;
 }
 
-/// A plain file; O_NONBLOCK, so that a pipe in its place keeps nobody waiting.
+/// Opens a regular file; O_NONBLOCK, so that a pipe blocks no thread.
 Descriptor open_file(const std::filesystem::path& root, const std::string& path, struct stat& facts) {
     if (path.empty()) return Descriptor(-1);
     Descriptor file = open_within(root, path, O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
@@ -60,7 +61,7 @@ std::string read_part(int file, std::size_t size, std::size_t offset) {
     std::size_t done = 0;
     while (done < size) {
         const ssize_t got = ::pread(file, text.data() + done, size - done, static_cast<off_t>(offset + done));
-        if (got <= 0) break;  // it became shorter, or its disk is gone
+        if (got <= 0) break;  // the file was truncated, or its disk is gone
         done += static_cast<std::size_t>(got);
     }
     text.resize(done);

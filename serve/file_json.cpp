@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::size_t kMostBytes = 16 << 20;
 
-/// So deep a render writes nothing, and a parser that calls itself would need much stack to print it.
+/// Greatest depth of JSON: renders write less, and the recursive printer would need much stack for more.
 constexpr int kMostDepth = 32;
 
 FileJson member(const FileJson& object, const char* key, bool (FileJson::*is_kind)() const noexcept) {

@@ -11,16 +11,16 @@ namespace treefarm {
 
 using FileJson = nlohmann::ordered_json;
 
-/// A file that holds a JSON object; an empty object if it does not.
+/// JSON object of a file; empty if it holds none.
 FileJson read_object(const ConfinedFolder& root, const std::string& path);
 
-/// A member of an object, of the kind that is expected; null else. What comes from files may be anything.
+/// Member of an object if it has the expected type; else null. Files may contain anything.
 FileJson number_of(const FileJson& object, const char* key);
 FileJson text_of(const FileJson& object, const char* key);
 FileJson object_of(const FileJson& object, const char* key);
 FileJson array_of(const FileJson& object, const char* key);
 
-/// Text of a JSON value, bytes that are no UTF-8 replaced.
+/// Text of a JSON value; invalid UTF-8 is replaced.
 std::string json_text(const FileJson& json);
 
 }  // namespace treefarm

@@ -15,7 +15,7 @@ namespace {
 
 using Labels = std::vector<std::pair<const char*, std::string>>;
 
-/// A label's value: backslash, quote and line end are escaped, as the format asks.
+/// Escaped value of a label: backslash, quote and line end, as the format requires.
 std::string escaped(const std::string& value) {
     std::string text;
     for (const char c : value) {
@@ -28,7 +28,7 @@ std::string escaped(const std::string& value) {
     return text;
 }
 
-/// A metric: its head, then its samples one after the other.
+/// A metric: its header, then its samples.
 class Metric {
   public:
     Metric(const char* name, const char* type, const char* help)
@@ -41,12 +41,12 @@ class Metric {
         text_ += fmt::format("{}{{{}}} {}\n", name_, list, value);
         empty_ = false;
     }
-    /// A figure that may be null.
+    /// Adds a sample, unless `value` is null.
     void add(const Labels& labels, const FileJson& value) {
         if (value.is_number()) add(labels, value.get<double>());
     }
 
-    /// Nothing where there is no sample.
+    /// Text of the metric; empty without samples.
     std::string text() const { return empty_ ? "" : text_; }
 
   private:
@@ -59,9 +59,9 @@ struct Figure {
 };
 
 constexpr std::array kRunFigures = {
-    Figure{"treefarm_run_progress_ratio", "gauge", "Samples that are done, of all that are expected.", "fraction"},
+    Figure{"treefarm_run_progress_ratio", "gauge", "Fraction of the expected samples that is done.", "fraction"},
     Figure{"treefarm_run_elapsed_seconds", "gauge", "Time since the run began.", "elapsed_seconds"},
-    Figure{"treefarm_run_left_seconds", "gauge", "Time that is expected to be left.", "seconds_left"},
+    Figure{"treefarm_run_left_seconds", "gauge", "Expected remaining time.", "seconds_left"},
     Figure{"treefarm_run_samples_per_pixel", "gauge", "Samples per pixel of finished passes.", "spp_done"},
     Figure{"treefarm_run_relative_error_ratio", "gauge", "RMSE of the image over its mean luminance, as estimated.",
            "error"},
@@ -77,12 +77,12 @@ constexpr std::array kFarmFigures = {
     Figure{"treefarm_run_dropped_results_total", "counter", "Results that came too late to count.", "dropped_results"},
 };
 constexpr std::array kWorkerFigures = {
-    Figure{"treefarm_worker_threads", "gauge", "Threads of a worker that trace.", "threads"},
+    Figure{"treefarm_worker_threads", "gauge", "Tracing threads of a worker.", "threads"},
     Figure{"treefarm_worker_paths_per_second", "gauge", "Speed of a worker: a mean over some seconds.",
            "paths_per_second"},
-    Figure{"treefarm_worker_idle_ratio", "gauge", "Part of the last finished pass in which its threads did nothing.",
+    Figure{"treefarm_worker_idle_ratio", "gauge", "Fraction of the last finished pass in which its threads were idle.",
            "idle_share"},
-    Figure{"treefarm_worker_losses_total", "counter", "Lives of a worker that ended while it was needed.", "losses"},
+    Figure{"treefarm_worker_losses_total", "counter", "Losses of a worker while it was needed.", "losses"},
 };
 constexpr std::array kStates = {"running", "done", "interrupted", "failed", "killed", "silent", "unknown"};
 

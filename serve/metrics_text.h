@@ -8,11 +8,11 @@
 
 namespace treefarm {
 
-/// The content type of the text below.
+/// Content type of metrics_text().
 inline constexpr const char* kMetricsType = "text/plain; version=0.0.4; charset=utf-8";
 
 /// Figures of runs (run_view()) in Prometheus' text format (prometheus.io, "Exposition formats", 0.0.4). Seconds,
-/// shares from 0 to 1 ("ratio"), counts ("total"); what is not known is left out.
+/// fractions from 0 to 1 ("ratio"), counts ("total"); unknown figures are omitted.
 std::string metrics_text(const std::vector<FileJson>& runs);
 
 }  // namespace treefarm

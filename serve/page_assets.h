@@ -3,8 +3,8 @@
 
 namespace treefarm {
 
-/// The page with its style and script: watch.html with watch.css and watch.js inside. "@NONCE@" stands where a response
-/// puts its nonce.
+/// Page with its style and script: watch.html with watch.css and watch.js inlined. A response replaces "@NONCE@" by its
+/// nonce.
 extern const char* const kWatchPage;
 
 }  // namespace treefarm

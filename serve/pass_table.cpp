@@ -39,7 +39,7 @@ FileJson number_in(std::string_view text) {
 
 FileJson pass_table(const std::string& csv) {
     FileJson rows = FileJson::array();
-    // What follows the last line end is a line that is being written.
+    // Text after the last line end is a line being written.
     std::vector<std::string_view> lines = split(std::string_view(csv).substr(0, csv.rfind('\n') + 1), '\n');
     if (lines.size() < 2) return rows;
     lines.pop_back();

@@ -7,8 +7,8 @@
 
 namespace treefarm {
 
-/// Rows of passes.csv as objects, the last 1000 at most: columns that the page shows, as numbers, or null where a field
-/// is empty. A last line that is only half written is left out.
+/// Rows of passes.csv as objects, the last 1000 at most: the columns shown by the page, as numbers, or null for an
+/// empty field. An incomplete last line is omitted.
 FileJson pass_table(const std::string& csv);
 
 }  // namespace treefarm

@@ -28,7 +28,7 @@ class Search {
         ++looked_into_;
         if (const auto version = root_.version(joined_path(path, "status.json"))) {
             found_.push_back({version->nanoseconds, path});
-            return;  // what lies within are its checkpoints and earlier runs
+            return;  // a run's subfolders are its checkpoints and earlier runs
         }
         if (depth == limits_.depth) return;
         for (const std::string& name : root_.folders(path, limits_.folders))

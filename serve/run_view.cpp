@@ -17,22 +17,22 @@ namespace treefarm {
 
 namespace {
 
-/// Silence after which a render is not believed to live, seconds: docs/use/outputs.md.
+/// Seconds of silence after which a render's state is "silent": docs/use/outputs.md.
 constexpr double kSilence = 60.0;
 
-/// Seconds after which one is that has no process on this machine either.
+/// Seconds of silence after which a render without a process on this machine is "killed".
 constexpr double kGone = 3.0;
 
 constexpr std::size_t kLogBytes = 16 << 10;
 constexpr std::size_t kTableBytes = 16 << 20;
 
-/// What of a run's files both views need.
+/// Contents of a run's files for both views.
 struct RunFiles {
     FileJson status, summary;
     std::string state;
 };
 
-/// The number of a process; 0: none.
+/// Number of the process; 0: none.
 int process_of(const FileJson& status) {
     const FileJson pid = number_of(status, "pid");
     if (!pid.is_number_integer()) return 0;
@@ -47,7 +47,7 @@ std::string state_of(const FileJson& status, const Here& here) {
     if (state != "running" || !time.is_number()) return state;
     const double age = static_cast<double>(here.now) - time.get<double>();
     const int process = process_of(status);
-    // Numbers of processes may be those of a container that is called like this machine: one that writes lives.
+    // Process numbers may be those of a container with this machine's name: a render that still writes is alive.
     if (age > kGone && process > 0 && text_of(status, "host") == here.host && !here.has_process(process))
         return "killed";
     return age > kSilence ? "silent" : state;
@@ -58,13 +58,13 @@ RunFiles read_files(const ConfinedFolder& root, const std::string& path, const H
     files.status = read_object(root, joined_path(path, "status.json"));
     files.state = state_of(files.status, here);
     files.summary = read_object(root, joined_path(path, "summary.json"));
-    // Until the end it is of an earlier life of the run.
+    // Before the end, summary.json is from before a resume.
     if (files.summary.value("state", FileJson()) != files.status.value("state", FileJson()))
         files.summary = FileJson::object();
     return files;
 }
 
-/// The folder's name; of the root its own.
+/// Name of the folder; for the root, its own.
 std::string title_of(const ConfinedFolder& root, const std::string& path) {
     std::error_code error;
     std::filesystem::path whole = path;
@@ -102,7 +102,7 @@ FileJson entry_of(const ConfinedFolder& root, const std::string& path, const Her
         {"picture", picture ? FileJson(picture->text()) : FileJson()}};
 }
 
-/// A worker as status.json or summary.json lists it, and nothing else.
+/// A worker's members in status.json or summary.json that the page shows.
 FileJson worker_of(const FileJson& worker) {
     return {{"worker", number_of(worker, "worker")},
             {"host", text_of(worker, "host")},
@@ -149,12 +149,12 @@ FileJson launch_of(const ConfinedFolder& root, const std::string& path) {
             {"code", number_of(launch, "code")}};
 }
 
-/// The last lines of a log, harmless to whoever prints them.
+/// Last lines of a log, safe to print.
 FileJson log_lines(const ConfinedFolder& root, const std::string& path) {
     FileJson lines = FileJson::array();
     const auto text = root.read_end(joined_path(path, "log.txt"), kLogBytes);
     if (!text) return lines;
-    std::size_t begin = text->size() == kLogBytes ? text->find('\n') : 0;  // not from the middle of a line on
+    std::size_t begin = text->size() == kLogBytes ? text->find('\n') : 0;  // skips the first, incomplete line
     begin = begin == std::string::npos ? 0 : begin;
     for (; begin < text->size();) {
         const std::size_t end = std::min(text->find('\n', begin), text->size());

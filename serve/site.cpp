@@ -18,7 +18,7 @@ namespace {
 constexpr double kFreshSeconds = 0.5;
 constexpr std::size_t kMostAnswers = 64;
 constexpr std::size_t kMostPictureBytes = 64 << 20;
-/// Runs that /metrics tells of: the last written ones.
+/// Largest number of runs in /metrics: the last written ones.
 constexpr std::size_t kMostMeasuredRuns = 100;
 
 SiteResponse refusal(int status, const std::string& why) {
@@ -35,7 +35,7 @@ SiteResponse json_response(std::string body) {
     return response;
 }
 
-/// The value of a cookie; "" without it.
+/// Value of a cookie; "" if it is absent.
 std::string cookie_value(const std::string& header, const std::string& name) {
     for (std::size_t begin = 0; begin < header.size();) {
         const std::size_t end = std::min(header.find(';', begin), header.size());
@@ -72,7 +72,7 @@ SiteResponse Site::respond(const SiteRequest& request) {
         response = let_in(request);
     }
     response.headers["X-Content-Type-Options"] = "nosniff";
-    response.headers["Referrer-Policy"] = "no-referrer";  // it would tell the token
+    response.headers["Referrer-Policy"] = "no-referrer";  // the referrer would reveal the token
     response.headers["Cross-Origin-Resource-Policy"] = "same-origin";
     response.headers.try_emplace("Cache-Control", "no-store");
     return response;
@@ -177,7 +177,7 @@ SiteResponse Site::picture(const SiteRequest& request, const std::string& run) c
     return response;
 }
 
-/// An answer that is made again where it is older than half a second; while one is made the others wait.
+/// Cached answer, made again if it is older than half a second; other readers wait meanwhile.
 std::string Site::remembered(const std::string& name, const std::function<std::string()>& make) {
     const std::lock_guard lock(mutex_);
     const auto found = answers_.find(name);

@@ -12,7 +12,7 @@
 
 namespace treefarm {
 
-/// A request, as far as it matters here. Texts are decoded; what was not sent is empty.
+/// A request's parts that the site uses. Texts are decoded; parts that were not sent are empty.
 struct SiteRequest {
     std::string method = "GET", path = "/";
     std::map<std::string, std::string> parameters;
@@ -26,15 +26,15 @@ struct SiteResponse {
     std::map<std::string, std::string> headers;
 };
 
-/// Who is let in.
+/// Access rules.
 struct SiteDoor {
-    std::string token;        ///< that is demanded; "": none is, but the Host header has to be of this machine
-    std::string cookie_name;  ///< under which a browser keeps it
+    std::string token;        ///< required token; "": none, but the Host header must be this machine's
+    std::string cookie_name;  ///< cookie in which a browser stores the token
 };
 
-/// What the page is made of: answers requests about the runs in a folder, or about the one run that it is. Reads files
-/// and changes none. Of the same answer no more than one is made in half a second, however many ask, so that readers
-/// cost a render nothing. May be used by several threads.
+/// The site: answers requests about the runs in a folder, or about the folder's own run. Reads files and changes none.
+/// Each answer is made at most once in half a second, for any number of readers, so that readers cost a render nothing.
+/// Thread-safe.
 class Site {
   public:
     Site(ConfinedFolder folder, SiteDoor door, std::function<Here()> here = this_place);

@@ -16,7 +16,7 @@ constexpr double kSlice = 0.05, kLinger = 0.3;
 
 }  // namespace
 
-/// Waits until the socket is ready; false when the time is over.
+/// Waits until the socket is ready; false at the end of the time.
 bool TimedStream::wait(short events, const Timer& timer, double seconds) const {
     while (!stopping_) {
         const double left = seconds - timer.seconds();
@@ -69,7 +69,7 @@ void TimedStream::end() {
     }
 }
 
-// Nobody asks who it is.
+// Unused by the site.
 void TimedStream::get_remote_ip_and_port(std::string& ip, int& port) const {
     ip.clear();
     port = 0;

@@ -12,11 +12,11 @@
 
 namespace treefarm {
 
-/// A client's connection with a time for the whole of a request and one for the whole of a response, however its bytes
-/// are spread over them: httplib's own times begin anew with each byte.
+/// A client's connection with one time limit for a whole request and one for a whole response, however slowly their
+/// bytes arrive: httplib's own limits restart with each byte.
 class TimedStream final : public httplib::Stream {
   public:
-    /// `stopping`: ends any wait once it is true. All must outlive the stream.
+    /// `stopping`: true ends any wait. All arguments must outlive the stream.
     TimedStream(int socket, const WebLimits& limits, const std::atomic<bool>& stopping)
         : socket_(socket), limits_(limits), stopping_(stopping) {}
 
@@ -28,8 +28,8 @@ class TimedStream final : public httplib::Stream {
     void get_local_ip_and_port(std::string& ip, int& port) const override;
     socket_t socket() const override { return socket_; }
 
-    /// Says that no more comes, and takes in what is still on its way for a moment: closed at once, the connection
-    /// would be reset and the client might lose its response.
+    /// Ends the connection: signals its end, and reads what is in transit for a moment. An immediate close would reset
+    /// it and might lose the client's response.
     void end();
 
   private:
@@ -41,7 +41,7 @@ class TimedStream final : public httplib::Stream {
     Timer reading_, writing_;
     bool wrote_ = false;
     std::array<char, 4096> buffer_{};
-    std::size_t begin_ = 0, end_ = 0;  ///< of what waits in the buffer
+    std::size_t begin_ = 0, end_ = 0;  ///< range of unread bytes in the buffer
     std::size_t received_ = 0;
 };
 

@@ -16,7 +16,7 @@ namespace {
 constexpr const char* kHexadecimal = "0123456789abcdef";
 constexpr std::size_t kLeast = 16, kMost = 256;
 
-/// A character that stands for itself in a URL (RFC 3986, "unreserved").
+/// Whether a character needs no escape in a URL (RFC 3986, "unreserved").
 bool is_plain(char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_' ||
            c == '.' || c == '~';

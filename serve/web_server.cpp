@@ -54,7 +54,7 @@ class WebServer::Server final : public httplib::Server {
   public:
     Server(Respond respond, const WebLimits& limits) : respond_(std::move(respond)), limits_(limits) {
         new_task_queue = [this] { return new BoundedQueue(limits_.threads, limits_.waiting); };
-        // httplib shares a port with whoever has it by default.
+        // By default httplib shares a port with another process.
         set_socket_options([](socket_t socket) {
             const int yes = 1;
             setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
@@ -97,7 +97,7 @@ class WebServer::Server final : public httplib::Server {
             bool closed = false;
             process_request(stream, true, closed, [](httplib::Request& request) {
                 request.headers.erase(
-                    "Accept-Encoding");  // to pack what is asked for each second costs more than it saves
+                    "Accept-Encoding");  // compressing what is requested each second would cost more than it saves
                 request.headers.erase("Range");
                 request.ranges.clear();
             });

@@ -9,17 +9,17 @@
 
 namespace treefarm {
 
-/// What clients may cost.
+/// Limits of the clients' cost.
 struct WebLimits {
-    std::size_t threads = 16;        ///< requests that are answered at once
-    std::size_t waiting = 64;        ///< connections that wait for one; more are sent away
-    double request_seconds = 5.0;    ///< until a request has come in whole
-    double response_seconds = 30.0;  ///< until a response has been taken whole
+    std::size_t threads = 16;        ///< requests answered at the same time
+    std::size_t waiting = 64;        ///< connections waiting for a thread; further ones are closed
+    double request_seconds = 5.0;    ///< until a request has arrived completely
+    double response_seconds = 30.0;  ///< until a response has been read completely
     std::size_t request_bytes = 32 << 10;
 };
 
-/// Answers HTTP requests, one for each connection. A client that is slow, says nothing or too much is let go when its
-/// time is over.
+/// HTTP server with one request per connection. A client that is slow, silent or sends too much is disconnected at its
+/// time limit.
 class WebServer {
   public:
     using Respond = std::function<SiteResponse(const SiteRequest&)>;  ///< called by several threads
@@ -29,11 +29,11 @@ class WebServer {
     WebServer(const WebServer&) = delete;
     WebServer& operator=(const WebServer&) = delete;
 
-    /// Takes a port (0: any that is free) of an address; returns it. Throws InputError where it cannot be had.
+    /// Binds a port (0: any free one) of an address; returns it. Throws InputError if that fails.
     int bind(const std::string& address, int port);
-    /// Begins to answer, in threads of its own.
+    /// Starts answering, in threads of its own.
     void start();
-    /// Ends in a moment, whatever clients do.
+    /// Stops promptly, whatever clients do.
     void stop();
 
   private:

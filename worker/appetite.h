@@ -9,27 +9,28 @@
 
 namespace treefarm {
 
-/// How much work a worker asks for: so much that no thread waits while more is under way, and no more, since what it
-/// has others cannot get. Pure bookkeeping.
+/// Prefetch of units: how many units a worker requests. Enough that no thread waits while units are left; no more,
+/// since a unit held here cannot be given to another worker. Pure bookkeeping.
 class Appetite {
   public:
     explicit Appetite(std::size_t threads) : threads_(threads) {}
 
-    /// A pass begins.
+    /// Start of a pass: resets all counts.
     void begin() { *this = Appetite(threads_); }
-    /// Units have come, or none, since for now nothing is left.
+    /// Arrival of `units`; `nothing_left`: the coordinator has none to give for now.
     void receive(std::size_t units, bool nothing_left) {
         credit_ -= std::min(credit_, units);
         nothing_left_ = nothing_left;
         asked_at_.reset();
     }
 
-    /// Units to ask for now, where so many are queued; nothing: better not to ask. None: to say how little is left.
+    /// Number of units to request now, with `queued` units waiting here; no value: request nothing yet. A request for 0
+    /// units only tells the coordinator how few are left here.
     std::optional<std::size_t> ask(const PassPlan& plan, int tile_size, std::size_t queued) {
         const std::size_t per_thread = kUnitsPerThread + kPathsPerThread / plan.unit_paths(tile_size);
         const std::size_t depth = per_thread * threads_;
         const std::size_t more = depth - std::min(depth, queued + credit_);
-        // A coordinator that owes much of it, and sees how little is left here, gives some more.
+        // A coordinator that still owes units, and sees how few are left here, sends some more.
         const bool hungry = !nothing_left_ && queued < threads_ && (!asked_at_ || queued < *asked_at_);
         if (!hungry && (more == 0 || (more < std::max<std::size_t>(1, threads_ / 2) && queued > 0))) return {};
         credit_ += more;
@@ -38,20 +39,21 @@ class Appetite {
     }
 
     bool nothing_left() const { return nothing_left_; }
-    /// Whether what is asked for need not come soon.
+    /// Whether requested units may arrive late: enough are queued.
     bool is_well_stocked(const PassPlan& plan, int tile_size, std::size_t queued) const {
         return !nothing_left_ && plan.has_long_units(tile_size) && queued >= 2 * threads_;
     }
 
   private:
-    /// Units to have for each thread, and so many camera paths beside: small units are done before an answer comes.
+    /// Queue depth of a thread: kUnitsPerThread units, plus the units of kPathsPerThread camera paths, since small
+    /// units are finished before an answer arrives.
     static constexpr std::size_t kUnitsPerThread = 3, kPathsPerThread = 8192;
 
     std::size_t threads_;
-    std::size_t credit_ = 0;  ///< units asked for that have not come
+    std::size_t credit_ = 0;  ///< units requested that have not arrived
     std::optional<std::size_t>
         asked_at_;               ///< units that were queued when more were asked for, and none have come since
-    bool nothing_left_ = false;  ///< the last work that came was none
+    bool nothing_left_ = false;  ///< the last answer brought no units
 };
 
 }  // namespace treefarm

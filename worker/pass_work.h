@@ -15,8 +15,8 @@
 
 namespace treefarm {
 
-/// A worker's state for one pass: the plan, the guide, and the bundle of finished units with exactly what these units
-/// taught the tree and splatted. Tracing threads deliver while the communication thread closes bundles.
+/// State of a worker for one pass: the plan, the guide, and the open bundle of finished units, with the sums of exactly
+/// these units' records and splats. Tracing threads deliver units while the communication thread closes bundles.
 class PassWork {
   public:
     PassWork(const PassPlan& plan, const AnyModel& model, DirectionalFilter filter);
@@ -24,12 +24,12 @@ class PassWork {
     const PassPlan& plan() const { return plan_; }
     const AnySampler& guide() const { return guide_; }
 
-    /// Adds a finished unit and its records to the open bundle. Thread-safe; `output` gives up its pixels and AOVs, and
+    /// Adds a finished unit and its records to the open bundle. Thread-safe; `output` loses its pixels and AOVs, and
     /// its records are reordered.
     void deliver(const WorkUnit& unit, UnitOutput& output);
 
-    /// Closes the bundle and opens a new one; nothing if no unit was delivered since. The message's incarnation is the
-    /// caller's to fill in. Waits for deliveries that are under way, not for tracing.
+    /// Closes the bundle and opens a new one; no value if no unit was delivered since the last one. The caller sets the
+    /// message's incarnation. Waits for deliveries in progress, not for tracing.
     std::optional<Result> close();
 
     /// Bytes of the pixels in the open bundle.
@@ -45,9 +45,9 @@ class PassWork {
     std::vector<UnitResult> units_;
     std::atomic<std::size_t> bundle_bytes_{0};
     TraceStats stats_;
-    std::optional<AnyAccumulator> accumulator_;  ///< of passes that record
+    std::optional<AnyAccumulator> accumulator_;  ///< in passes that record
     std::mutex splats_lock_;
-    SplatSums splats_;  ///< made when the first unit splats
+    SplatSums splats_;  ///< allocated when the first unit splats
     bool splatted_ = false;
 };
 

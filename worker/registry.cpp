@@ -32,7 +32,7 @@ constexpr Integrator kIntegrators[] = {
     {"bidirectional", prepare_bidirectional},
 };
 
-/// Units come in messages, and a message may say anything.
+/// Throws RunError for a unit that does not fit pass and film: units come in messages, which may contain anything.
 void check_unit(const WorkUnit& unit, const PassPlan& pass, const TraceScene& scene) {
     const Film& film = scene.film();
     const auto within = [&](std::uint64_t count) { return unit.first <= count && unit.count <= count - unit.first; };
@@ -52,11 +52,11 @@ void check_unit(const WorkUnit& unit, const PassPlan& pass, const TraceScene& sc
     if (!fits) throw RunError("a work unit that does not fit the film");
 }
 
-/// Renders units as an integrator does that knows nothing of AOVs, and fills these, too.
+/// Renderer with AOVs, from an integrator that knows none.
 ///
-/// Direct light is what the same integrator makes of the same unit where paths end after two edges. Random numbers are
-/// keyed, and neither roulette nor splitting comes before: each sample is the other's up to there, by the same guide.
-/// What it would teach the guide is dropped.
+/// The direct-light AOV is the result of the same integrator for the same unit with paths of at most two edges. Random
+/// numbers are keyed, and roulette and splitting begin later, so that each of its samples equals the beginning of the
+/// full one, by the same guide. Its records are dropped.
 RenderUnit with_aovs(const Integrator& integrator, const std::shared_ptr<const TraceScene>& scene, const Camera& camera,
                      const Resolved& job, const AovLayout& layout) {
     constexpr int kDirectDepth = 2;

@@ -5,17 +5,17 @@
 
 namespace treefarm {
 
-/// How long the coordinator has been silent, as far as this process could have heard it.
+/// Timer of the coordinator's silence, limited to the time in which this process could have received messages.
 class SilenceWatch {
   public:
-    /// `limit_seconds`: a coordinator silent for so long is gone.
+    /// `limit_seconds`: silence after which the coordinator counts as lost.
     explicit SilenceWatch(double limit_seconds) : limit_(limit_seconds) {}
 
-    /// Something was heard.
+    /// Receipt of any message: restarts the timer.
     void broken() { seconds_ = 0; }
 
-    /// Called every turn of the loop, with the time. While the process was stopped, or starved, nobody could be heard:
-    /// long turns count as short ones.
+    /// Advances the timer to `now`, once per turn of the loop; true if the silence exceeds the limit. A long turn
+    /// counts as a short one: while stopped or starved, the process could receive nothing.
     bool too_long(double now) {
         constexpr double kLongestTurnSeconds = 0.5;
         seconds_ += std::min(now - turned_, kLongestTurnSeconds);
@@ -23,7 +23,7 @@ class SilenceWatch {
         return seconds_ > limit_;
     }
 
-    /// A coordinator that speaks more rarely may be silent for longer.
+    /// Raises the limit, for a coordinator with longer heartbeat intervals.
     void allow(double seconds) { limit_ = std::max(limit_, seconds); }
 
     double seconds() const { return seconds_; }

@@ -10,7 +10,7 @@ TracerPool::TracerPool(unsigned threads, RenderUnit render) : render_(std::move(
     try {
         for (unsigned t = 0; t < threads; ++t)
             threads_.emplace_back([this] { run(); });
-    } catch (...) {  // no more threads to be had: those that run must not outlive the pool
+    } catch (...) {  // thread creation failed: threads already running must not outlive the pool
         stop();
         throw;
     }

@@ -17,31 +17,32 @@
 
 namespace treefarm {
 
-/// The threads that trace. Fed by the communication thread; each takes a unit, renders it, and delivers it to its pass.
+/// Pool of tracing threads, fed by the communication thread: each takes a unit, renders it, and delivers it to its
+/// pass.
 class TracerPool {
   public:
     TracerPool(unsigned threads, RenderUnit render);
     ~TracerPool();
 
-    /// Begins a pass: from now on units are of it. Units still queued are dropped; those being traced go to the pass
-    /// they are of.
+    /// Begins a pass, to which later units belong. Queued units are dropped; those being traced are delivered to their
+    /// own pass.
     void begin(std::shared_ptr<PassWork> pass);
     void add(std::span<const WorkUnit> units);
-    /// Drops what is queued.
+    /// Drops all queued units.
     void cancel();
-    /// Drops these units where they are queued.
+    /// Drops these units if they are queued.
     void drop(std::span<const WorkUnit> units);
 
     std::size_t queued() const;
-    /// Sum of the weights of what is queued (work_unit.h).
+    /// Sum of the queued units' weights (work_unit.h).
     std::uint64_t queued_weight() const;
-    /// Whether nothing is queued and nothing being traced.
+    /// Whether no unit is queued or being traced.
     bool idle() const;
-    /// Why a thread could not go on, if so.
+    /// Error message of a failed thread, if any.
     std::optional<std::string> failure() const;
 
     unsigned thread_count() const { return static_cast<unsigned>(threads_.size()); }
-    /// Traced since the start.
+    /// Samples and rays traced since the start.
     std::uint64_t samples() const { return samples_; }
     std::uint64_t rays() const { return rays_; }
 

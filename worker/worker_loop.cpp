@@ -22,23 +22,23 @@ namespace treefarm {
 
 namespace {
 
-/// A tree or scene of which nothing was heard for so many heartbeats is asked for again.
+/// Heartbeats without progress of a tree or scene, after which it is requested again.
 constexpr double kPatienceHeartbeats = 5.0;
 
-/// Heartbeats of silence after which the coordinator is gone.
+/// Heartbeats of silence after which the coordinator counts as lost.
 constexpr double kSilentHeartbeats = 10.0;
 
-/// Where nothing is left, what was finished is sent at once, unless that was done so many seconds ago.
+/// Least interval of updates once the coordinator has no units left: finished ones are then sent at once.
 constexpr double kLeastUpdateSeconds = 0.05;
 
-/// Messages taken in before anything else is done again.
+/// Messages handled before the loop's other duties.
 constexpr int kMostLooks = 256;
 
-/// Pixels that are sent without waiting for the next update: many threads fill much memory in that time, and no message
-/// may be as long as one that is refused (mpi_channel.h).
+/// Bytes of pixels that are sent without waiting for the next update: many threads fill much memory in that time, and
+/// messages above a limit are refused (mpi_channel.h).
 constexpr std::size_t kBundleBytes = std::size_t{64} << 20;
 
-/// Bytes of a failure's message that are told.
+/// Limit of a reported failure's text in bytes.
 constexpr std::size_t kMostFailureBytes = 4096;
 
 template <class T>
@@ -47,7 +47,7 @@ bool ready(const std::future<T>& task) {
 }
 
 std::uint64_t draw_incarnation() {
-    std::random_device device;  // names a process, enters no result
+    std::random_device device;  // identifies a process, affects no result
     return (static_cast<std::uint64_t>(device()) << 32 | device()) | 1;
 }
 
@@ -65,7 +65,7 @@ class WorkerLoop {
     WorkerEnd run() {
         say_hello();
         while (!end_) {
-            int looks = 0;  // a flood must not keep this loop from its other duties
+            int looks = 0;  // a flood of messages must not starve the loop's other duties
             for (auto message = channel_.poll(); message;
                  message = ++looks < kMostLooks ? channel_.poll() : std::nullopt) {
                 if (message->peer == 0)
@@ -123,9 +123,9 @@ class WorkerLoop {
         }
     }
 
-    /// Orders come from the coordinator alone. Other workers pass pieces of scene and trees on, and nothing else.
+    /// Handles another worker's message: only pieces of scene and trees are accepted.
     void take_from_worker(const Received& received) {
-        std::string wrong = "it gives orders, which only the coordinator may";
+        std::string wrong = "it sent a message that only the coordinator may send";
         try {
             const Message message = decode(received.bytes);
             if (const auto* chunk = std::get_if<Chunk>(&message)) {
@@ -136,7 +136,7 @@ class WorkerLoop {
             wrong = error.what();
         }
         if (ignored_.insert(received.peer).second)
-            log_->warn("what worker {} says is ignored: {}", received.peer, wrong);
+            log_->warn("messages of worker {} are ignored: {}", received.peer, wrong);
     }
 
     void on(const Welcome& m) {
@@ -146,11 +146,11 @@ class WorkerLoop {
         coming_scene_hash_ = m.scene_hash;
         coming_scene_bytes_ = m.scene_bytes;
         if (m.scene_hash != scene_hash_) chain_.expect(scene_name(), m.scene_bytes, clock_.seconds());
-        if (m.job == job_text_ && m.scene_hash == scene_hash_) return;  // what traces is there, or being built
+        if (m.job == job_text_ && m.scene_hash == scene_hash_) return;  // the renderer exists, or is being built
         job_ = Job{};
         apply_layer(job_, parse_job_settings(m.job, "job from the coordinator"));
         job_text_ = m.job;
-        drop_work();  // what traces from now on knows nothing of a pass that went on
+        drop_work();  // the next renderer knows nothing of the present pass
         retire_pool();
         build_renderer_ = scene_ && m.scene_hash == scene_hash_;
     }
@@ -158,13 +158,13 @@ class WorkerLoop {
     void on(const PassBegin& m) {
         if (leaving_since_) return;
         coming_ = m;
-        if (pass_ && pass_->plan().index != m.plan.index) end_pass();  // others have done what is still here
+        if (pass_ && pass_->plan().index != m.plan.index) end_pass();  // its remaining units are finished elsewhere
         chain_.expect({Blob::tree, job_number_, m.plan.index}, m.tree_bytes, clock_.seconds());
     }
 
     void on(const Work& m) {
-        if (!pass_ || m.pass != pass_->plan().index || !pool_) return;  // of a life that was given up
-        if (leaving_since_) return;                                     // given back by the good-bye
+        if (!pass_ || m.pass != pass_->plan().index || !pool_) return;  // of an earlier incarnation
+        if (leaving_since_) return;                                     // returned by the good-bye
         appetite_.receive(m.units.size(), m.units.empty() || m.alone);
         if (appetite_.nothing_left() && clock_.seconds() - last_update_ > kLeastUpdateSeconds) send_bundle();
         pool_->add(m.units);
@@ -174,7 +174,7 @@ class WorkerLoop {
         if (pass_ && m.pass == pass_->plan().index && pool_) pool_->drop(m.units);
     }
 
-    /// The coordinator has issued again what this worker had, or is done with it: none of it may be sent any more.
+    /// Drops all units, which the coordinator has issued again, or whose job has ended.
     void on(const Rejoin& m) {
         if (leaving_since_) return;
         drop_work();
@@ -185,7 +185,7 @@ class WorkerLoop {
             job_number_ = m.job;
             chain_.begin_job(m.job);
             coming_scene_hash_ = 0;
-            if (failed_) {  // what was wrong may have been the job
+            if (failed_) {  // the job may have been the cause
                 retire_pool();
                 job_text_.clear();
                 scene_hash_ = 0;
@@ -195,7 +195,7 @@ class WorkerLoop {
         say_hello();
     }
 
-    /// Retires the pool: its threads end when they have traced what they began.
+    /// Retires the pool: its threads end after their present units.
     void retire_pool() {
         if (!pool_) return;
         pool_->cancel();
@@ -217,7 +217,7 @@ class WorkerLoop {
         pass_.reset();
     }
 
-    /// Does everything that becomes possible without a message.
+    /// Performs every action that needs no message.
     void advance() {
         chain_.complain(clock_.seconds(), kPatienceHeartbeats * heartbeat_seconds_);
         prepare_renderer();
@@ -240,14 +240,14 @@ class WorkerLoop {
 
     void watch_for_leave() {
         if (leaving_since_ || !settings_.told_to_leave || !settings_.told_to_leave()) return;
-        log_->info("told to leave: finishing what is begun, for at most {:.0f} s", job_.farm.leave_seconds);
+        log_->info("told to leave: finishing the units in progress, for at most {:.0f} s", job_.farm.leave_seconds);
         leaving_since_ = clock_.seconds();
         if (pool_) pool_->cancel();
         coming_.reset();
     }
 
-    /// Sends what was begun once it is done, and says good-bye, which gives back the rest. Stays until it is dismissed,
-    /// as a guest is at once, or killed: mpirun ends the whole job where one of its processes ends before the others.
+    /// Sends the finished units after tracing, and says good-bye, which returns the others. Then waits to be dismissed
+    /// (guests are at once) or killed: mpirun ends the whole job if one process ends before the others.
     void leave() {
         const bool is_late = clock_.seconds() - *leaving_since_ > job_.farm.leave_seconds;
         if (has_left_ || (pool_ && !pool_->idle() && !is_late)) return;
@@ -259,19 +259,19 @@ class WorkerLoop {
 
     BlobName scene_name() const { return {Blob::scene, job_number_, 0}; }
 
-    /// Some worker along the chain may have put in something of its own; then the coordinator is asked.
+    /// Whether a received blob has the announced hash; if not, requests it from the coordinator.
     bool is_what_was_announced(const BlobName& name, const Bytes& bytes, std::uint64_t hash, std::uint64_t total) {
         if (hash_bytes(bytes) == hash) return true;
         if (!chain_.mistrust(name, total, clock_.seconds()))
             throw FormatError(std::string(name.blob == Blob::tree ? "the tree" : "the scene") +
                               " arrived from the coordinator with a wrong hash");
-        log_->warn("a {} was changed on its way: asking the coordinator", name.blob == Blob::tree ? "tree" : "scene");
+        log_->warn("a {} was corrupted in transit: requesting it again", name.blob == Blob::tree ? "tree" : "scene");
         return false;
     }
 
-    /// Builds what traces, aside, once scene and job are there and the last one is gone; then starts the threads.
+    /// Builds the renderer in the background from scene and job, once the last one is gone; starts the threads.
     void prepare_renderer() {
-        if (coming_scene_hash_ != 0) {  // 0: not welcomed yet
+        if (coming_scene_hash_ != 0) {  // 0: no Welcome yet
             auto scene = chain_.collect(scene_name());
             if (scene && is_what_was_announced(scene_name(), *scene, coming_scene_hash_, coming_scene_bytes_)) {
                 scene_ = std::make_shared<const Bytes>(std::move(*scene));
@@ -293,7 +293,7 @@ class WorkerLoop {
         if (!keep_scene_) scene_.reset();
     }
 
-    /// Tree arrived: build the guide, aside; guide built: start the pass.
+    /// Builds the guide in the background once the tree has arrived; once it is built, starts the pass.
     void prepare_pass() {
         if (coming_ && !pass_task_.valid()) {
             const BlobName name{Blob::tree, job_number_, coming_->plan.index};
@@ -317,8 +317,8 @@ class WorkerLoop {
         last_update_ = clock_.seconds();
     }
 
-    /// Sends finished units from time to time, and at the end. Without a unit for a moment is not the end: the more
-    /// results, the less time has the coordinator to hand out work.
+    /// Sends finished units at intervals, and at the end of a pass. A briefly empty queue is not the end: more results
+    /// leave the coordinator less time to hand out units.
     void send_finished() {
         const bool at_end = appetite_.nothing_left() && pool_->idle(), enough = pass_->bundle_bytes() >= kBundleBytes;
         if (at_end || enough || clock_.seconds() - last_update_ >= result_seconds_) send_bundle();
@@ -351,7 +351,7 @@ class WorkerLoop {
         tell(Heartbeat{incarnation_, pool_ ? pool_->samples() : 0, pool_ ? pool_->rays() : 0});
     }
 
-    /// Tells the coordinator once, then waits to be dismissed.
+    /// Reports a failure to the coordinator once, then waits to be dismissed.
     void fail(const std::string& whole) {
         const std::string text = whole.substr(0, kMostFailureBytes);
         log_->error("{}", text);
@@ -373,18 +373,18 @@ class WorkerLoop {
     SilenceWatch silence_;
     double last_beat_ = 0, last_update_ = 0, result_seconds_ = 0;
     bool quitting_ = false, said_bye_ = false, failed_ = false, has_left_ = false;
-    std::optional<double> leaving_since_;  ///< told to leave
+    std::optional<double> leaving_since_;  ///< time of the order to leave
     std::optional<WorkerEnd> end_;
-    std::set<int> ignored_;  ///< other workers that said what only the coordinator may; told once
+    std::set<int> ignored_;  ///< workers whose messages are ignored, reported once each
 
-    std::uint32_t job_number_ = 0, pass_task_job_ = 0;  ///< of the renderer, of the pass being built
+    std::uint32_t job_number_ = 0, pass_task_job_ = 0;  ///< of the renderer, and of the pass being built
     std::string job_text_;                              ///< of job_; empty: none yet
     std::shared_ptr<const Bytes> scene_;
     std::uint64_t scene_hash_ = 0, coming_scene_hash_ = 0, coming_scene_bytes_ = 0;
-    bool keep_scene_ = false, build_renderer_ = false;  ///< scene and job are there, nothing was made of them yet
+    bool keep_scene_ = false, build_renderer_ = false;  ///< scene and job are there, no renderer is built yet
     std::future<RenderUnit> renderer_task_;
     std::unique_ptr<TracerPool> pool_, retired_;
-    std::optional<PassBegin> coming_;  ///< announced, its guide not yet built
+    std::optional<PassBegin> coming_;  ///< announced, its guide not built yet
     std::future<std::shared_ptr<PassWork>> pass_task_;
     std::shared_ptr<PassWork> pass_;
     Appetite appetite_;

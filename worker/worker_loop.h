@@ -12,23 +12,23 @@
 namespace treefarm {
 
 struct WorkerSettings {
-    unsigned threads = 1;  ///< that trace, besides the one that talks
+    unsigned threads = 1;  ///< tracing threads, besides the communication thread
     std::string host;
     std::uint64_t fingerprint = 0;
-    double silence_seconds = 30.0;          ///< a coordinator silent for so long is gone
-    std::uint64_t memory = 0;               ///< bytes that the host can still give; 0: not known
-    std::function<bool()> told_to_leave{};  ///< asked often; true: this worker has to go. Empty: it never has
+    double silence_seconds = 30.0;          ///< silence after which the coordinator counts as lost
+    std::uint64_t memory = 0;               ///< free memory of the host in bytes; 0: unknown
+    std::function<bool()> told_to_leave{};  ///< polled often; true: this worker has to leave. Empty: never
 };
 
-/// How a worker's part ended.
+/// Way in which a worker ended.
 enum class WorkerEnd : std::uint8_t {
-    orderly,     ///< told to leave, nobody was lost
-    disorderly,  ///< told to leave, somebody was lost: do not wait for the others
+    orderly,     ///< told to leave, no worker was lost
+    disorderly,  ///< told to leave, a worker was lost: do not wait for the others
     orphaned,    ///< the coordinator fell silent
 };
 
-/// A worker from hello to leave: receives scene and trees, traces what it is given, sends what is finished. The calling
-/// thread is the one that talks; heartbeats go on while the others trace, build and learn.
+/// Runs a worker from its Hello to its Leave: receives scene and trees, traces its units, sends results. The calling
+/// thread communicates; heartbeats continue while the others trace, build and learn.
 WorkerEnd run_worker(Channel& channel, const WorkerSettings& settings, const MakeRenderer& make_renderer,
                      const Log& log);
 

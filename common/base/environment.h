@@ -5,13 +5,13 @@
 
 namespace treefarm {
 
-/// Whether an environment variable is there and not empty: NAME= is how a shell or a queue's script takes one back.
+/// Whether an environment variable is set and not empty: shells and queue scripts unset one by NAME=.
 inline bool is_set(const char* name) {
     const char* const text = std::getenv(name);
     return text && *text;
 }
 
-/// The whole number that an environment variable begins with; 0 where it is not there, or no number.
+/// Whole number at the start of an environment variable; 0 if it is unset, or no number.
 inline int number_in(const char* name) {
     const char* const text = std::getenv(name);
     return text ? std::atoi(text) : 0;

@@ -20,7 +20,7 @@ InterruptWatch::InterruptWatch() : parent_(getppid()) {
     sigaddset(&watched_, SIGINT);
     sigaddset(&watched_, SIGTERM);
     sigaddset(&watched_, SIGUSR1);
-    // A blocked signal is kept even if it is ignored.
+    // A blocked signal stays pending even if it is ignored.
     if (!is_ignored(SIGHUP)) sigaddset(&watched_, SIGHUP);
     pthread_sigmask(SIG_BLOCK, &watched_, nullptr);
 }

@@ -6,24 +6,24 @@
 
 namespace treefarm {
 
-/// A reader that closes (`treefarm render ... | head`) ends nothing from now on: writing to it fails instead.
+/// Makes writes to a closed pipe fail instead of ending this process (`treefarm render ... | head`).
 void ignore_broken_pipes();
 
-/// Whether who started this process had it ignore a signal, as nohup does.
+/// Whether the parent process had a signal ignored, as nohup does.
 bool is_ignored(int number);
 
-/// SIGINT, SIGTERM, SIGHUP and SIGUSR1 (treefarm launch asks by it, through mpirun) as something to ask about. Blocks
-/// them for this thread and the threads it starts from now on; no handler, no global state. A SIGHUP that was ignored
-/// before stays so: nohup.
+/// Watch of SIGINT, SIGTERM, SIGHUP and SIGUSR1 (sent by treefarm launch, through mpirun), to be polled. Blocks them
+/// for this thread and threads that it starts later; no handler, no global state. A SIGHUP that was ignored before
+/// stays ignored: nohup.
 class InterruptWatch {
   public:
     InterruptWatch();
-    /// True once a signal has come.
+    /// Whether any of the signals has arrived.
     bool interrupted();
-    /// True once SIGTERM has come, whatever else: a worker does not heed the others.
+    /// Whether SIGTERM has arrived: a worker ignores the others.
     bool terminated();
-    /// Whether what came was SIGTERM from the process that started this one: mpirun, when it ends a job of its own
-    /// accord, since it has lost a host.
+    /// Whether the signal was SIGTERM from the parent process: mpirun sends it when it ends the job by itself after
+    /// losing a host.
     bool told_by_parent() const { return told_by_parent_; }
 
   private:

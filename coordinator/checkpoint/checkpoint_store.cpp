@@ -31,7 +31,7 @@ bool is_ours(const std::string& name) {
     return is_film_name(name) || std::any_of(kGenerationNames.begin(), kGenerationNames.end(), is);
 }
 
-/// A whole file, however large. Throws FormatError where it cannot be read.
+/// Content of a whole file of any size. Throws FormatError if it cannot be read.
 Bytes read_file(const fs::path& path) {
     try {
         return read_bytes(path, "", std::numeric_limits<std::uintmax_t>::max());
@@ -40,7 +40,7 @@ Bytes read_file(const fs::path& path) {
     }
 }
 
-/// A generation's file, or why it is not usable.
+/// A generation's file, or the reason why it is unusable.
 struct Candidate {
     fs::path path;
     std::size_t slot = 0;
@@ -79,7 +79,7 @@ std::set<std::string> film_names(const RenderState& state) {
     return names;
 }
 
-/// Films that a candidate names which is not taken, so that they stay while it does.
+/// Films named by the candidate that is not chosen; they are kept as long as its file.
 std::set<std::string> films_of(const Candidate& candidate, const Job& job) {
     if (!candidate.fault.empty()) return {};
     try {
@@ -208,9 +208,9 @@ void CheckpointStore::make_folder() const {
     if (fs::create_directories(folder_)) make_durable(folder_);
 }
 
-/// Removes films that neither generation names, and what a killed program was writing.
+/// Removes films that neither generation names, and partial files of a killed program.
 void CheckpointStore::remove_unnamed() const {
-    std::error_code ignored;  // what stays takes room, no more
+    std::error_code ignored;  // a file that stays only takes space
     for (const auto& entry : fs::directory_iterator(folder_, ignored)) {
         const std::string name = entry.path().filename().string();
         const bool temporary = name.find(".tmp-") != std::string::npos;

@@ -19,41 +19,41 @@ namespace treefarm {
 /// Folder of the checkpoints in a run directory.
 inline constexpr const char* kCheckpointFolder = "checkpoint";
 
-/// A checkpoint as it was read.
+/// A checkpoint read from disk.
 struct LoadedCheckpoint {
     std::uint64_t generation = 0;
-    std::uint64_t newest = 0;  ///< generation that any file said, usable or not
-    std::size_t slot = 0;      ///< of its file: 0 of a, 1 of b
+    std::uint64_t newest = 0;  ///< highest generation in either file, usable or not
+    std::size_t slot = 0;      ///< file that it was read from: 0 for a, 1 for b
     CheckpointOrigin origin;
     RenderState state;
-    std::set<std::string> other_films;  ///< that the other file names
-    std::vector<std::string> warnings;  ///< of a newer one that is damaged
+    std::set<std::string> other_films;  ///< films named by the other file
+    std::vector<std::string> warnings;  ///< damage of a newer checkpoint, if any
 };
 
-/// The newest generation that the files of a run say they are, usable or not; 0: there is none.
+/// Highest generation stated by a run's checkpoint files, usable or not; 0: none.
 std::uint64_t newest_generation(const std::filesystem::path& run);
 
-/// The newest usable checkpoint of a run. `check` refuses one whose origin does not fit, by throwing. Throws InputError
-/// where there is none, with what is wrong with each.
+/// Loads the newest usable checkpoint of a run. `check` throws if the origin does not fit. Throws InputError if there
+/// is none, with the fault of each.
 LoadedCheckpoint load_checkpoint(const std::filesystem::path& run,
                                  const std::function<void(const CheckpointOrigin&)>& check);
 
-/// Writes checkpoints in two generations, a and b, by turns, and films in files of their own, each once. At any moment
-/// one that was written whole is there. Every file outlives the power before one that names it is begun.
+/// Writer of checkpoints in two alternating generations, a and b, with each film in a file of its own, written once. At
+/// any moment one complete checkpoint exists. Every file is synced to disk before a file that names it is begun.
 class CheckpointStore {
   public:
-    /// `loaded`: what the render goes on from, or nullptr.
+    /// `loaded`: the checkpoint being resumed, or nullptr.
     explicit CheckpointStore(const std::filesystem::path& run, const LoadedCheckpoint* loaded = nullptr);
 
-    /// Takes what has to be written of a state, naming its films; a pass in hand leaves it. The result writes it, in
-    /// any thread, as often as it takes, and throws FileError.
+    /// Prepares the writing of a state: names its films and takes its partial pass. The returned function writes it, in
+    /// any thread and any number of times, and throws FileError.
     std::function<void()> prepare(const CheckpointOrigin& origin, RenderState& state);
 
-    /// Writes a checkpoint of the state now, one film after the other: it takes no memory for a copy of them all.
-    /// Nothing that was prepared may be on its way. Throws FileError.
+    /// Writes a checkpoint of the state now, one film after the other, without a copy of all films. No prepared
+    /// checkpoint may be in progress. Throws FileError.
     void write(const CheckpointOrigin& origin, RenderState& state);
 
-    /// Removes the folder, where its files are all ours.
+    /// Removes the folder if it contains no files but ours.
     void remove();
 
   private:
@@ -66,11 +66,11 @@ class CheckpointStore {
     void remove_unnamed() const;
 
     const std::filesystem::path folder_;
-    std::uint64_t generation_ = 0;  ///< of the last that was prepared or written
-    std::mutex mutex_;              ///< of what follows
-    Films unwritten_;               ///< of the last that was prepared
-    std::size_t slot_ = 0;          ///< of the file that is written next
-    std::array<Names, 2> named_;    ///< films, by slot
+    std::uint64_t generation_ = 0;  ///< of the checkpoint last prepared or written
+    std::mutex mutex_;              ///< guards the members below
+    Films unwritten_;               ///< of the checkpoint last prepared
+    std::size_t slot_ = 0;          ///< file that is written next: 0 for a, 1 for b
+    std::array<Names, 2> named_;    ///< names of films, by slot
 };
 
 }  // namespace treefarm

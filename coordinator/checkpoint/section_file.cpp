@@ -11,7 +11,7 @@ namespace treefarm {
 namespace {
 
 constexpr std::uint32_t kMagic = section_tag("TFCP"), kEnd = section_tag("END!");
-/// magic, format, generation; tag, version, length; a check sum.
+/// Bytes of a section's head (tag, version, length), and of a checksum.
 constexpr std::size_t kSectionHead = 16, kCheck = 16;
 
 void put_check(ByteWriter& out, const Hash128& hash) {
@@ -43,11 +43,11 @@ const Section& SectionFile::at(std::uint32_t tag, std::uint32_t version) const {
     for (const Section& section : sections) {
         if (section.tag != tag) continue;
         if (section.version != version)
-            throw FormatError("its part " + tag_text(tag) + " has version " + std::to_string(section.version) +
+            throw FormatError("its section " + tag_text(tag) + " has version " + std::to_string(section.version) +
                               ", this program reads " + std::to_string(version));
         return section;
     }
-    throw FormatError("its part " + tag_text(tag) + " is missing");
+    throw FormatError("its section " + tag_text(tag) + " is missing");
 }
 
 std::uint64_t generation_of(std::span<const std::uint8_t, kSectionFileHead> head) {
@@ -125,7 +125,7 @@ SectionFile decode_sections(std::span<const std::uint8_t> bytes) {
         const auto content = in.get_bytes(static_cast<std::size_t>(length));
         const Hash128 check = get_check(in);
         if (check != hash128_bytes(bytes.subspan(begin, kSectionHead + content.size())))
-            throw FormatError("is damaged in its part " + tag_text(tag));
+            throw FormatError("is damaged in its section " + tag_text(tag));
         section.bytes.assign(content.begin(), content.end());
         put_check(checks, check);
         file.sections.push_back(std::move(section));

@@ -15,7 +15,7 @@
 
 namespace treefarm {
 
-// The fields of what a state consists of. A change of any of them raises the version of its section.
+// Fields of each part of a state. A change of any of them raises the version of its section.
 
 template <class Archive>
 void serialize(Archive& a, Rgb64& v) {
@@ -63,7 +63,7 @@ void serialize(Archive& a, LightSubpathGain& g) {
     a(g.noise, g.rays, g.found);
 }
 
-/// But for the threads, which each life of a render has of its own.
+/// All fields but threads, which may change on resume.
 template <class Archive>
 void serialize(Archive& a, RenderHistory& h) {
     a(h.passes, h.seconds, h.error, h.guiding, h.splitting, h.light_subpaths, h.emission, h.budget);
@@ -84,7 +84,7 @@ void serialize(Archive& a, PassPart& p) {
     a(p.spp, p.spp_before);
 }
 
-/// But for the pixels.
+/// All fields but the pixels.
 template <class Archive>
 void serialize(Archive& a, PassResult& p) {
     a(p.spp, p.spp_before, p.same_tree, p.new_technique, p.guided, p.noise, p.parts, p.stored);
@@ -157,7 +157,7 @@ void serialize(Archive& a, SplatCaps& c) {
     a(c.capped, c.rejected);
 }
 
-/// But for the origins, which nobody asks for any more.
+/// All fields but the origins, which are not needed after a resume.
 template <class Archive>
 void serialize(Archive& a, RefineReport& r) {
     a(r.spatial_depth_capped, r.directional_depth_capped, r.memory_capped, r.spatial_depth, r.directional_depth,
@@ -182,7 +182,7 @@ void serialize(Archive& a, DeadlyUnit& d) {
     a(d.unit, d.deaths);
 }
 
-/// But for the layers, which are sections of their own.
+/// All fields but the layers, which are sections of their own.
 template <class Archive>
 void serialize(Archive& a, BegunPass& p) {
     a(p.plan, p.memory, p.done, p.stats, p.update_bytes, p.splat_bytes, p.touched_cells, p.deadly, p.collect_seconds,
@@ -207,7 +207,7 @@ constexpr std::uint32_t version_of(std::uint32_t tag) {
     return tag == kLearner ? 2 : 1;
 }
 
-/// `room`: bytes that it may take at the most, where they are many.
+/// `room`: capacity to reserve in bytes, for large sections.
 template <class... T>
 Section section_with_room(std::size_t room, std::uint32_t tag, const T&... values) {
     ByteWriter writer;
@@ -222,7 +222,7 @@ Section section(std::uint32_t tag, const T&... values) {
     return section_with_room(0, tag, values...);
 }
 
-/// Bytes that the sums of a pixel's AOVs take, if a job asks for all of them.
+/// Upper bound of the bytes of a pixel's AOV sums, with all AOVs.
 std::size_t most_aov_bytes() {
     std::vector<AovRequest> all;
     for (const AovKind& kind : aov_kinds())
@@ -246,7 +246,7 @@ bool fits(const EmissionSums& emission) {
     return emission.paths.size() == emission.squares.size();
 }
 
-/// Whether noise that was measured is of the films from number `first` on.
+/// Whether a noise measurement belongs to the films from number `first` on.
 bool fits(const SampleNoise& noise, std::size_t films) {
     return noise.passes <= films && std::all_of(noise.half.begin(), noise.half.end(), [&](const HalfNoise& half) {
                return half.samples.size() <= noise.passes;
@@ -262,11 +262,11 @@ bool is_film_name(const std::string& name) {
 
 namespace {
 
-/// All but the layers of a pass in hand.
+/// All sections but the layers of a partial pass.
 std::vector<Section> encode_fields(const CheckpointOrigin& origin, const RenderState& state) {
-    // As it grows it would be copied, and lie in memory twice.
+    // Reserved at once: growth would copy it, with both copies in memory.
     const std::size_t room = state.aovs.requested() ? 64 + most_aov_bytes() * origin.pixels : 0;
-    std::vector<Section> sections;  // a list in braces would copy each
+    std::vector<Section> sections;  // an initialiser list would copy each
     sections.push_back(section(kOrigin, origin));
     sections.push_back(section(kHistory, state.history, state.guiding_memory));
     sections.push_back(section(kFilms, state.films));
@@ -278,7 +278,7 @@ std::vector<Section> encode_fields(const CheckpointOrigin& origin, const RenderS
     return sections;
 }
 
-/// The layers of a pass in hand.
+/// Layers of a partial pass.
 std::array<std::pair<std::uint32_t, Bytes BegunPass::*>, 4> begun_layers() {
     return {{{kBegunFilm, &BegunPass::film},
              {kBegunAovs, &BegunPass::aovs},
@@ -305,14 +305,14 @@ std::vector<Section> take_state(const CheckpointOrigin& origin, RenderState& sta
     return sections;
 }
 
-/// The pass that a state goes on within, if it does.
+/// Partial pass of a state, if it has one.
 std::optional<BegunPass> decode_begun(const SectionFile& file, std::size_t pixels) {
     if (!file.has(kBegun)) return std::nullopt;
     BegunPass begun;
     read(file, kBegun, begun);
     for (const auto& [tag, layer] : begun_layers())
         begun.*layer = file.at(tag, version_of(tag)).bytes;
-    require(begun.plan.spp > 0 && has_possible_units(begun, pixels), "a pass in hand of another image");
+    require(begun.plan.spp > 0 && has_possible_units(begun, pixels), "a partial pass of another image");
     return begun;
 }
 
@@ -336,11 +336,11 @@ RenderState decode_state(const SectionFile& file, std::size_t pixels, std::span<
     require(state.history.guiding <= Guiding::loses, "an unknown verdict on guiding");
     state.begun = decode_begun(file, pixels);
     require(fits(state.history.emission) && (!state.begun || fits(state.begun->stats.emission)),
-            "light paths without what they brought");
+            "light paths without their splats");
     require(state.reports.size() == state.history.passes.size(), "not a report for each pass");
     require(!state.reports.empty() || state.begun, "no pass");
     require(state.films.empty() == state.reports.empty(), "no film");
-    require(!state.begun || state.begun->plan.index == state.reports.size(), "a pass in hand that is not the next");
+    require(!state.begun || state.begun->plan.index == state.reports.size(), "a partial pass that is not the next one");
     for (std::size_t k = 0; k < state.films.size(); ++k) {
         require(is_film_name(state.films[k].stored), "a film without a file");
         require(fits(state.films[k].noise, state.films.size() - k), "noise of other films");
@@ -348,7 +348,7 @@ RenderState decode_state(const SectionFile& file, std::size_t pixels, std::span<
     for (const PassReport& report : state.reports)
         require(report.guiding <= Guiding::loses && report.halving.trust <= Trust::firm &&
                     report.target.trust <= Trust::firm && report.plan.spp > 0,
-                "a report that no pass makes");
+                "an impossible report of a pass");
     require(state.aovs.fits(), "AOVs of another image");
     return state;
 }

@@ -24,18 +24,18 @@ struct DisplayClient::Shared {
 
     mutable std::mutex mutex;
     std::condition_variable changed;
-    Make next;            ///< empty: nothing waits
-    bool busy = false;    ///< one is being sent
-    bool ending = false;  ///< no more will come
+    Make next;            ///< the waiting image; empty: none
+    bool busy = false;    ///< an image is being sent
+    bool ending = false;  ///< no further images
     bool gone = false;    ///< the thread has ended
     double core_seconds = 0;
     std::vector<std::string> news;
 
     std::atomic<bool> stopping = false;  ///< at once
 
-    // The thread's own.
+    // Members of the client's thread only.
     std::optional<TcpSender> connection;
-    int width = 0, height = 0;  ///< of the image that the server has
+    int width = 0, height = 0;  ///< size of the server's image
     bool reported = false;
 
     void send(const RgbImage& image) {

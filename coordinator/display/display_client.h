@@ -11,42 +11,41 @@
 
 namespace treefarm {
 
-/// How long a display server is waited for, seconds.
+/// Time limits of the connection to a display server, seconds.
 struct DisplayLimits {
     double connect = 2.0;
-    double stall = 10.0;  ///< in which it has to take at least something
-    double retry = 10.0;  ///< after what went wrong until it is tried again
+    double stall = 10.0;  ///< without any byte accepted
+    double retry = 10.0;  ///< between a failure and the next attempt
     double last = 2.0;    ///< at the end, for the newest image
 };
 
-/// Shows a render's images in a viewer that speaks tev's protocol, in a thread of its own. Nobody waits for the viewer:
-/// of images that it has not got only the newest is kept, and one that is absent, slow or gone is a piece of news,
-/// once.
+/// Client of a viewer with tev's protocol, in a thread of its own. The render never waits for the viewer: only the
+/// newest unsent image is kept, and a missing, slow or closed viewer is reported once.
 class DisplayClient {
   public:
     using Make = std::function<RgbImage()>;  ///< makes the image; called by the client's thread
 
-    /// `name`: of the image in the viewer.
+    /// `name`: name of the image in the viewer.
     DisplayClient(const DisplayServer& server, const std::string& name, const DisplayLimits& limits = {});
     /// Waits for the newest image to be sent, up to DisplayLimits::last.
     ~DisplayClient();
     DisplayClient(const DisplayClient&) = delete;
     DisplayClient& operator=(const DisplayClient&) = delete;
 
-    /// Puts an image in the place of what waits.
+    /// Replaces the waiting image.
     void show(Make make);
-    /// Whether nothing waits or is being sent.
+    /// Whether no image waits or is being sent.
     bool idle() const;
-    /// Seconds of a core that the last image took to make and to send; 0 before.
+    /// Core-seconds in which the last image was made and sent; 0 before the first.
     double core_seconds() const;
-    /// News since the last call: why nothing is shown, once.
+    /// News since the last call: the reason why nothing is shown, reported once.
     std::vector<std::string> take_news();
 
   private:
     struct Shared;
     static void work(const std::shared_ptr<Shared>& shared);
 
-    /// Kept by the thread too: one that looks up a name cannot be stopped, and outlives this.
+    /// Shared with the thread: during a name look-up it cannot be stopped, and outlives this object.
     std::shared_ptr<Shared> shared_;
     const double last_seconds_;
 };

@@ -10,7 +10,7 @@ namespace treefarm {
 
 namespace {
 
-/// Nothing but a port, or 0.
+/// Port number from a text of digits only; 0 for other texts.
 std::uint16_t port_of(const std::string& text) {
     std::uint16_t port = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), port);
@@ -30,7 +30,7 @@ DisplayServer parse_display_server(const std::string& text) {
     if (server.host.starts_with('[') && server.host.ends_with(']'))
         server.host = server.host.substr(1, server.host.size() - 2);
     else if (server.host.find(':') != std::string::npos)
-        server.host.clear();  // it cannot be told where the address ends
+        server.host.clear();  // an address without brackets: its end is ambiguous
     if (server.host.empty() || server.port == 0)
         throw InputError(Location{"--display-server " + printable(text), 0, 0}, "is no HOST:PORT",
                          "name where the viewer listens: tev by itself at 127.0.0.1:14158");

@@ -6,7 +6,7 @@
 
 namespace treefarm {
 
-/// Where a viewer listens that speaks tev's protocol.
+/// Address of a viewer with tev's protocol.
 struct DisplayServer {
     std::string host;
     std::uint16_t port = 0;
@@ -14,7 +14,7 @@ struct DisplayServer {
     std::string text() const;
 };
 
-/// "HOST:PORT" or "[IPv6]:PORT". Throws InputError, which names --display-server.
+/// Address from "HOST:PORT" or "[IPv6]:PORT". Throws InputError, which names --display-server.
 DisplayServer parse_display_server(const std::string& text);
 
 }  // namespace treefarm

@@ -11,7 +11,7 @@ namespace treefarm {
 
 namespace {
 
-/// Time from image to image within a pass, at least, over what one takes of all processors.
+/// Least interval of images within a pass, as a multiple of one image's cost in seconds of all processors.
 constexpr double kInterval = 200.0;
 constexpr double kLeastSeconds = 1.0;
 

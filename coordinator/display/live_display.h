@@ -11,23 +11,23 @@
 
 namespace treefarm {
 
-/// A render's image in a viewer while it renders: after each pass, and within passes so seldom that it takes half a
+/// Display of a render in progress in a viewer: after each pass, and within passes so rarely that it costs half a
 /// percent of the time.
 class LiveDisplay {
   public:
-    /// `server`: as --display-server names it; "": nothing is shown. `name`: of the image in the viewer.
+    /// `server`: value of --display-server; "": nothing is shown. `name`: name of the image in the viewer.
     LiveDisplay(const std::string& server, const std::string& name);
 
     void show(const RenderResult& finished);
-    /// With what has come of the pass in hand; `now`: seconds of the render's clock.
+    /// Shows the image with the results so far of the present pass; `now`: seconds of the render's clock.
     void show(std::span<const PixelEstimate> film, int width, int height, double now);
     std::vector<std::string> take_news();
 
   private:
-    std::unique_ptr<DisplayClient> client_;  ///< nullptr: none
+    std::unique_ptr<DisplayClient> client_;  ///< nullptr: no display
     std::shared_ptr<const CombinedImage> newest_ = std::make_shared<CombinedImage>();
     std::uint32_t newest_spp_ = 0;
-    double next_ = 0;  ///< not before
+    double next_ = 0;  ///< earliest time of the next image
 };
 
 }  // namespace treefarm

@@ -11,20 +11,20 @@
 
 namespace treefarm {
 
-/// Pixels of a pass in hand: sums over their samples, since a pixel is whole or empty.
+/// Pixels of a pass in progress: sums over their samples; a pixel is complete or empty.
 struct PartialPass {
     struct Pixel {
         Rgb mean{0.0f};
-        float samples = 0;  ///< 0: nothing has come
+        float samples = 0;  ///< 0: no results yet
     };
     std::vector<Pixel> pixels;
 };
 
-/// Reduces the film of a pass in hand to what a preview needs: 16 bytes of 112 a pixel.
+/// Reduces the film of a pass in progress to the needs of a preview: 16 of 112 bytes per pixel.
 PartialPass partial_pass(std::span<const PixelEstimate> film);
 
-/// The image so far: finished passes (`image`, of `spp` samples; empty before the first) and what has come of the pass
-/// in hand, by their numbers of samples. Pixels that nothing is known of are black. For looking at only.
+/// The image so far, for viewing only: finished passes (`image`, of `spp` samples; empty before the first) and the
+/// results of the pass in progress, weighted by their numbers of samples. Pixels without samples are black.
 RgbImage preview_image(const CombinedImage& image, std::uint32_t spp, const PartialPass& pass, int width, int height);
 
 }  // namespace treefarm

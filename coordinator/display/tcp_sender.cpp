@@ -12,7 +12,7 @@
 
 namespace treefarm {
 
-/// Waits until something can be sent.
+/// Waits until the socket accepts bytes.
 void TcpSender::wait(double seconds) {
     constexpr int kSliceMilliseconds = 50;
     const Timer timer;

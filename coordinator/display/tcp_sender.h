@@ -10,15 +10,14 @@
 
 namespace treefarm {
 
-/// A connection that only sends, and waits for nobody longer than it was told to. Throws std::runtime_error with what
-/// went wrong, in a few words.
+/// A send-only TCP connection with time limits on every wait. Throws std::runtime_error with the cause in a few words.
 class TcpSender {
   public:
-    /// Connects within `seconds`, the look-up of the name not counted. `stopping`: ends any wait once it is true.
+    /// Connects within `seconds`, not counting the name look-up. `stopping`: true ends any wait.
     TcpSender(const std::string& host, std::uint16_t port, double seconds, const std::atomic<bool>& stopping)
         : socket_(connect_to(host, port, seconds, [&] { return stopping.load(); })), stopping_(stopping) {}
 
-    /// Sends all bytes; gives up where none is taken for `seconds`.
+    /// Sends all bytes; throws if none is accepted for `seconds`.
     void send(std::span<const std::uint8_t> bytes, double seconds);
 
   private:

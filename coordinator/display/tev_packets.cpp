@@ -16,9 +16,9 @@ constexpr std::array<char, 3> kChannels = {'R', 'G', 'B'};
 class Packet {
   public:
     explicit Packet(Operation operation, const std::string& name) {
-        writer_.put(std::uint32_t{0});  // the length, once it is known
+        writer_.put(std::uint32_t{0});  // placeholder of the length
         writer_.put(static_cast<std::uint8_t>(operation));
-        writer_.put(std::uint8_t{0});  // the viewer keeps the image that its user looks at
+        writer_.put(std::uint8_t{0});  // do not select the image in the viewer
         put_text(name);
     }
 
@@ -43,7 +43,7 @@ class Packet {
 
   private:
     void put_text(const std::string& text) {
-        // A zero byte within would end it early.
+        // The protocol's texts end at the first zero byte.
         const std::string whole = text.substr(0, text.find('\0'));
         writer_.put_bytes({reinterpret_cast<const std::uint8_t*>(whole.c_str()), whole.size() + 1});
     }
@@ -70,9 +70,9 @@ Bytes tev_update_rows(const std::string& name, const RgbImage& image, int first,
     for (const int field : {0, first, image.width, end - first})
         packet.put(std::int32_t{field});
     for (std::int64_t channel = 0; channel < std::ssize(kChannels); ++channel)
-        packet.put(channel);  // where its first value lies
+        packet.put(channel);  // offset of its first value
     for (std::size_t channel = 0; channel < kChannels.size(); ++channel)
-        packet.put(static_cast<std::int64_t>(kChannels.size()));  // from pixel to pixel
+        packet.put(static_cast<std::int64_t>(kChannels.size()));  // stride between pixels
     const auto width = static_cast<std::size_t>(image.width), rows = static_cast<std::size_t>(end - first);
     const auto pixels = std::span(image.pixels).subspan(static_cast<std::size_t>(first) * width, rows * width);
     packet.reserve(pixels.size_bytes());

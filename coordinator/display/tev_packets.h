@@ -12,13 +12,13 @@ namespace treefarm {
 // reads them): the length of the whole packet, a byte for the operation, its fields. Numbers are little-endian, texts
 // end with a zero byte.
 
-/// CreateImage: a black image with the channels R, G and B. It replaces one of this name.
+/// CreateImage: a black image with the channels R, G and B. Replaces an image of this name.
 Bytes tev_create_image(const std::string& name, int width, int height);
 
-/// UpdateImage, version 3: the rows from `first` to below `end`, each pixel's R, G and B beside each other.
+/// UpdateImage, version 3: the rows from `first` to below `end`, with each pixel's R, G and B interleaved.
 Bytes tev_update_rows(const std::string& name, const RgbImage& image, int first, int end);
 
-/// Rows of one packet, so that it has about a quarter of a megabyte.
+/// Number of rows in one packet of about a quarter of a megabyte.
 int tev_rows_per_packet(int width);
 
 }  // namespace treefarm

@@ -5,7 +5,7 @@ namespace treefarm {
 
 namespace {
 
-/// Ends of the ranges that a pass may have, by kind.
+/// Upper ends of the unit ranges that a pass may have, by kind.
 std::array<std::uint64_t, kUnitKinds> range_ends(const PassPlan& plan, std::uint64_t pixels) {
     std::array<std::uint64_t, kUnitKinds> ends{};
     ends[static_cast<std::size_t>(UnitKind::light_paths)] = pixels * plan.units.light_paths;

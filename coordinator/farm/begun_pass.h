@@ -13,22 +13,22 @@
 
 namespace treefarm {
 
-/// What has come in of a pass that is not whole. With the state before the pass it is all that a render needs to go on
-/// within it, on any farm.
+/// Results received so far of an incomplete pass. Together with the state before the pass they suffice to resume within
+/// it, on any farm.
 struct BegunPass {
     PassPlan plan;
     BudgetMemory memory;  ///< NextPass::memory
     DoneWork done;
-    Bytes film, aovs, splats, sums;  ///< each by the codec of its layer; empty where the pass has none
+    Bytes film, aovs, splats, sums;  ///< each encoded by its layer's codec; empty if the pass lacks the layer
     TraceStats stats;
     std::uint64_t update_bytes = 0, splat_bytes = 0, touched_cells = 0;
     std::vector<DeadlyUnit> deadly;
-    double collect_seconds = 0;  ///< of all lives of the render
-    double run_seconds = 0;      ///< since its first request for work, of all lives
+    double collect_seconds = 0;  ///< including the time before a resume
+    double run_seconds = 0;      ///< since the first request for work, including the time before a resume
 };
 
-/// Whether the units are those that a pass of an image of this size can have: what is done, and of the rest some that
-/// are deadly. The layers are another matter (Collector::restore).
+/// Whether the units are possible for a pass of an image of this size: finished ones, and some poison units among the
+/// rest. The layers are checked by Collector::restore.
 bool has_possible_units(const BegunPass& begun, std::uint64_t pixels);
 
 }  // namespace treefarm

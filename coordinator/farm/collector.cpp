@@ -57,7 +57,7 @@ void Collector::check_pixels(const UnitResult& result) const {
                       ? (std::isfinite(half.mean.x) && std::isfinite(half.mean.y) && std::isfinite(half.mean.z))
                       : possible(half.mean)) ||
                 !possible(half.m2))
-                throw FormatError("a pixel that is negative or no finite number");
+                throw FormatError("a pixel that is negative or not finite");
 }
 
 void Collector::check_stats(const Result& result) const {
@@ -75,8 +75,9 @@ void Collector::check_stats(const Result& result) const {
     }
     if (!is_duration(s.trace_seconds) || !is_duration(s.splat_seconds) ||
         !std::all_of(s.phase_seconds.begin(), s.phase_seconds.end(), is_duration))
-        throw FormatError("seconds that no clock shows");
-    if (s.first_invalid.size() > TraceStats::kMaxReported) throw FormatError("more invalid samples than are reported");
+        throw FormatError("an impossible number of seconds");
+    if (s.first_invalid.size() > TraceStats::kMaxReported)
+        throw FormatError("more invalid samples than the limit of reports");
     for (const InvalidSample& sample : s.first_invalid)
         if (sample.pass != plan_.index || sample.x >= width_ || sample.y >= height_ || sample.sample >= plan_.spp)
             throw FormatError("an invalid sample outside the film");
@@ -84,13 +85,13 @@ void Collector::check_stats(const Result& result) const {
 }
 
 void Collector::check_tails(const TailSamples& tails) const {
-    if (tails.worst.size() > TailSamples::kMost) throw FormatError("more samples of much noise than are reported");
+    if (tails.worst.size() > TailSamples::kMost) throw FormatError("more worst samples than the limit of reports");
     for (const TailSample& sample : tails.worst)
         if (!(sample.noise > 0) || !std::isfinite(sample.noise) || sample.pass != plan_.index || sample.x >= width_ ||
             sample.y >= height_ || sample.sample >= plan_.spp)
-            throw FormatError("a sample of much noise that cannot be");
+            throw FormatError("an impossible worst sample");
     if (!std::is_sorted(tails.worst.begin(), tails.worst.end(), comes_before))
-        throw FormatError("samples of much noise that are not sorted by it");
+        throw FormatError("worst samples that are not sorted by noise");
 }
 
 void Collector::check_splats(const Result& result) const {
@@ -113,7 +114,7 @@ Verdict Collector::take(int worker, Result result, Ledger& ledger) {
         if (verdict == Verdict::late) ledger.drop(worker, units);
         return verdict;
     }
-    // merge_encoded checks everything before it adds anything: a result counts whole or not at all.
+    // merge_encoded checks everything before it adds anything: a result counts as a whole or not at all.
     Timer timer;
     if (plan_.record) touched_cells_ += sums_.merge_encoded(result.update);
     merge_seconds_ += timer.seconds();
@@ -154,7 +155,7 @@ void Collector::restore(const BegunPass& begun) {
     if (!(begun.plan == plan_) || !has_possible_units(begun, pixels)) throw FormatError("units of another pass");
     if (begun.film.empty() != (begun.done.estimate_count() == 0 || !plan_.layers.estimates) ||
         begun.splats.empty() != (plan_.layers.splats.pixels == 0) || begun.sums.empty() == plan_.record)
-        throw FormatError("other layers than the pass has");
+        throw FormatError("layers that differ from the pass's");
     if (plan_.layers.estimates) film_.restore(begun.done, begun.film);
     aovs_.restore(begun.done, begun.aovs);
     if (!begun.splats.empty()) splats_.merge_encoded(begun.splats);

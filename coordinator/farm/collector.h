@@ -19,29 +19,29 @@ namespace treefarm {
 /// One worker's contribution to a pass.
 struct WorkerContribution {
     TraceStats stats;
-    std::uint64_t work = 0;  ///< sum of the weights of the units accepted
+    std::uint64_t work = 0;  ///< sum of the accepted units' weights
 };
 
-/// Gathers the results of one pass: the layers of its film, tree sums and figures, each unit exactly once.
+/// Collector of the results of one pass: the layers of its film, tree sums and figures, each unit exactly once.
 class Collector {
   public:
-    /// `signed_pixels`: of a filter with negative lobes, so that means may be negative.
+    /// `signed_pixels`: the filter has negative lobes, so that means may be negative.
     Collector(const PassPlan& plan, const AnyModel& model, int width, int height, bool signed_pixels,
               const AovLayout& aovs = {});
 
-    /// Merges a worker's result if the ledger accepts it; otherwise nothing changes here, and what it has of a late one
-    /// the ledger drops. Throws FormatError if the content does not fit the pass (nothing was accepted then).
+    /// Merges a worker's result if the ledger accepts it. A late result changes nothing here, and the ledger drops its
+    /// units. Throws FormatError if the content does not fit the pass, before anything is accepted.
     Verdict take(int worker, Result result, Ledger& ledger);
 
-    /// Sets what has come in so far, in a copy of its own: the pass, what is done, layers, sums and figures.
+    /// Copies the results received so far: the pass, finished units, layers, sums and figures.
     void fill(BegunPass& begun) const;
-    /// Takes what fill() gave, before anything else. Throws FormatError where it is of another pass or image, and is
-    /// then of no use any more.
+    /// Restores the results that fill() copied, before anything else. Throws FormatError if they are of another pass or
+    /// image; the collector is then unusable.
     void restore(const BegunPass& begun);
 
-    /// Pixels for a look at the pass while it goes on; none where they are but a layer of it.
+    /// Pixels of the incomplete pass, for a preview; empty if they are only one layer of it.
     std::span<const PixelEstimate> pixels_so_far() const;
-    std::vector<PixelEstimate> take_pixels();  ///< once, of a complete pass: all layers together
+    std::vector<PixelEstimate> take_pixels();  ///< once, of a complete pass: sum of all layers
     const SplatSums& splats() const { return splats_; }
     AovPixels take_aovs() { return aovs_.take(); }  ///< as take_pixels()
     const CellSums& sums() const { return sums_; }
@@ -50,30 +50,30 @@ class Collector {
     std::uint64_t update_bytes() const { return update_bytes_; }
     std::uint64_t splat_bytes() const { return splat_bytes_; }
     std::uint64_t touched_cells() const { return touched_cells_; }
-    double merge_seconds() const { return merge_seconds_; }  ///< adding tree updates
-    double film_seconds() const { return film_seconds_; }    ///< adding pixels
+    double merge_seconds() const { return merge_seconds_; }  ///< seconds spent adding tree updates
+    double film_seconds() const { return film_seconds_; }    ///< seconds spent adding pixels
 
   private:
-    // Throw FormatError where a result cannot be: what is merged cannot be taken out again.
+    // Throw FormatError for an impossible result, before the merge, which cannot be undone.
     void check_pixels(const UnitResult& result) const;
     void check_stats(const Result& result) const;
     void check_tails(const TailSamples& tails) const;
     void check_splats(const Result& result) const;
-    std::uint32_t unit_samples(const WorkUnit& unit) const;  ///< of a pixel in a tile
+    std::uint32_t unit_samples(const WorkUnit& unit) const;  ///< samples of a pixel in a tile
 
     PassPlan plan_;
     int width_, height_;
     bool signed_pixels_;
     DoneWork done_;
-    TraceStats earlier_;  ///< of earlier lives of the render
+    TraceStats earlier_;  ///< from before a resume
     PassFilm film_;
     AovFilm aovs_;
     SplatSums splats_;
     CellSums sums_;
     std::map<int, WorkerContribution> contributions_;
-    std::uint64_t update_bytes_ = 0;   ///< of all encoded tree updates
-    std::uint64_t splat_bytes_ = 0;    ///< of all encoded splats
-    std::uint64_t touched_cells_ = 0;  ///< of all of them, a cell once per update that touches it
+    std::uint64_t update_bytes_ = 0;   ///< total of the encoded tree updates
+    std::uint64_t splat_bytes_ = 0;    ///< total of the encoded splats
+    std::uint64_t touched_cells_ = 0;  ///< sum over the tree updates of the cells that each touches
     double merge_seconds_ = 0, film_seconds_ = 0;
 };
 

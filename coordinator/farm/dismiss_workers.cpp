@@ -20,7 +20,7 @@ bool dismiss_workers(Channel& channel, const std::set<int>& lost, double patienc
         if (const auto message = channel.poll()) {
             try {
                 if (std::holds_alternative<Bye>(decode(message->bytes))) gone.insert(message->peer);
-            } catch (const std::exception&) {  // whatever it was, nobody needs it any more
+            } catch (const std::exception&) {  // no message matters any more
             }
         } else {
             rest(channel);

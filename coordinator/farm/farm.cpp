@@ -17,16 +17,17 @@ namespace {
 
 constexpr double kLostHeartbeats = 10.0;
 
-/// Between two copies of a tree or of the scene for one worker; workers complain after five of silence.
+/// Least time between two copies of a tree or scene for one worker; workers request it again after five of silence.
 constexpr double kResendHeartbeats = 2.0;
 
-/// Messages taken in before anything else is done again: a flood must not keep the farm from its other duties.
+/// Messages handled before the farm's other duties, which a flood of messages must not starve.
 constexpr int kMostLooks = 1024;
 
-/// After so many seconds from when nothing was left to hand out, who has not sent what it had is slow.
+/// kSettleSeconds: delay after the last unit was issued until a worker with unsent units counts as slow; kLookSeconds:
+/// interval of the search for such workers.
 constexpr double kSettleSeconds = 0.05, kLookSeconds = 0.02;
 
-/// While more are left, and all are long, workers have enough to trace.
+/// Waiting units per thread above which workers have enough to trace, if all units are long.
 constexpr std::size_t kCalmUnitsPerThread = 4;
 
 }  // namespace
@@ -45,7 +46,7 @@ Farm::Farm(Channel& channel, const Job& job, Bytes scene, std::uint64_t fingerpr
       roster_(std::max(limits.lost, kLostHeartbeats * job.farm.heartbeat_seconds)) {}
 
 void Farm::gather(const std::function<bool()>& interrupted) {
-    std::size_t expected = 0;  // guests come when they come
+    std::size_t expected = 0;  // guests are not waited for
     for (const int peer : channel_.peers())
         expected += !channel_.is_guest(peer) && !turn_.absent.contains(peer) && !turn_.left.contains(peer);
     expected = std::max<std::size_t>(1, expected);
@@ -62,7 +63,7 @@ void Farm::gather(const std::function<bool()>& interrupted) {
         throw RunError(last_failure_.empty() ? "no worker said hello" : "no worker can be used: " + last_failure_);
     if (roster_.present_count() < expected)
         log_->warn("going on with {} of {} workers; the others may join later", roster_.present_count(), expected);
-    if (turn_.number > 0)  // nor need later jobs wait for those that did not come
+    if (turn_.number > 0)  // later jobs do not wait for workers that never came
         for (const int peer : channel_.peers())
             if (!channel_.is_guest(peer) && !roster_.find(peer) && !turn_.left.contains(peer))
                 turn_.absent.insert(peer);
@@ -88,7 +89,7 @@ void Farm::begin_pass(const PassPlan& plan, const AnyModel& tree, Bytes encoded_
     }
     if (!std::exchange(scene_sent_, true)) send_blob(Blob::scene, 0, chain_without_scene());
     send_blob(Blob::tree, 0, chain_of_present());
-    // Sums take a while to make, as the workers do to unpack the tree.
+    // Allocating sums takes time, as does unpacking the tree on the workers.
     open_books(tree, width, height, begun);
 }
 
@@ -101,7 +102,7 @@ void Farm::open_books(const AnyModel& tree, int width, int height, const BegunPa
     try {
         if (begun) collector_->restore(*begun);
     } catch (const FormatError& error) {
-        log_->warn("what the run has of pass {} cannot be used ({}): it is traced again", plan.index, error.what());
+        log_->warn("the partial results of pass {} are unusable ({}): it is traced again", plan.index, error.what());
         collector_ = new_collector();
         begun = nullptr;
     }
@@ -124,7 +125,7 @@ BlobName Farm::name_of(Blob blob) const {
     return {blob, turn_.number, blob == Blob::tree ? pass_->plan.index : 0};
 }
 
-/// Along a chain of those that can speak to each other, and to each guest directly.
+/// Sends a blob along a chain of the peers that can reach each other, and to each guest directly.
 void Farm::send_blob(Blob blob, std::uint64_t offset, std::span<const std::uint32_t> peers) {
     std::vector<std::uint32_t> chain, guests;
     for (const std::uint32_t peer : peers)
@@ -134,7 +135,8 @@ void Farm::send_blob(Blob blob, std::uint64_t offset, std::span<const std::uint3
     send_to_each(channel_, name_of(blob), bytes, offset, guests);
 }
 
-/// Whether a peer may have a copy. One on its way takes memory here: nobody gets two at a time, however often he asks.
+/// Whether a peer may get a copy now. Copies in flight take memory here: a peer gets only one at a time, however often
+/// it asks.
 bool Farm::may_have_copy(Blob blob, int peer) {
     double& last = copied_.try_emplace({peer, name_of(blob)}, -1e9).first->second;
     if (clock_.seconds() - last < kResendHeartbeats * job_.farm.heartbeat_seconds) return false;
@@ -142,8 +144,8 @@ bool Farm::may_have_copy(Blob blob, int peer) {
     return true;
 }
 
-/// Sends what was asked for. Workers behind one that died in the chain ask at about the same time: one chain of them
-/// all gets one copy, not each its own.
+/// Sends requested blobs. Workers behind one that died in the chain ask at about the same time: they get one copy,
+/// along one chain.
 void Farm::serve_askers() {
     for (auto& [blob, askers] : askers_) {
         if (askers.offsets.empty() || clock_.seconds() - askers.since < limits_.asking) continue;
@@ -152,7 +154,8 @@ void Farm::serve_askers() {
         for (const auto& [peer, from] : askers.offsets) {
             const Member* member = roster_.find(peer);
             if (!member || member->state != MemberState::present) continue;
-            if (channel_.unsent(peer) > kChunkBytes || !may_have_copy(blob, peer)) continue;  // it may be on its way
+            // an earlier copy may be in flight
+            if (channel_.unsent(peer) > kChunkBytes || !may_have_copy(blob, peer)) continue;
             chain.push_back(static_cast<std::uint32_t>(peer));
             offset = std::min(offset, from);
         }
@@ -176,7 +179,7 @@ std::vector<std::uint32_t> Farm::chain_without_scene() {
 }
 
 void Farm::step() {
-    // Between steps the caller combines, refines and writes, and a message that waits may need more than one look.
+    // Between steps the caller combines, refines and writes, and messages may wait for more than one step.
     roster_.excuse(clock_.seconds() - listened_);
     bool busy = false;
     for (int looks = 0; looks < kMostLooks && !pass_complete(); ++looks) {
@@ -211,7 +214,7 @@ void Farm::watch_for_silence() {
     if (!wait || now - *alone_since_ > limits_.grace) throw RunError("no worker is left" + why_nobody());
 }
 
-/// A unit in words, and the command that traces it alone.
+/// Description of a unit, with the command that traces it alone.
 std::string Farm::blame(const WorkUnit& unit) const {
     const std::string of_pass = " of pass " + std::to_string(unit.pass);
     if (unit.kind != UnitKind::tile)
@@ -225,7 +228,7 @@ std::string Farm::blame(const WorkUnit& unit) const {
            "; to trace them alone: " + debug_command_ + " " + name + debug_options_;
 }
 
-/// What is known of how the last ones were lost.
+/// Cause of the loss of the last workers, as far as known.
 std::string Farm::why_nobody() const {
     if (!last_failure_.empty()) return ": " + last_failure_;
     const auto [unit, deaths] = deadliest();
@@ -236,7 +239,7 @@ std::pair<WorkUnit, std::size_t> Farm::deadliest() const {
     return ledger_ ? ledger_->deadliest() : std::pair<WorkUnit, std::size_t>();
 }
 
-/// Looks now and then, where nothing waits any more, for whom somebody idle could help.
+/// Once no unit waits, looks at intervals for slow workers whose units idle workers could copy.
 void Farm::watch_for_slowness() {
     if (!ledger_ || ledger_->complete() || ledger_->waiting() > 0) return;
     if (clock_.seconds() - last_look_ < kLookSeconds) return;
@@ -269,7 +272,7 @@ void Farm::beat() {
         const Member* member = roster_.find(peer);
         if (!member || member->state != MemberState::lost) tell(peer, Heartbeat{});
     }
-    channel_.drained();  // they move only when they are looked at
+    channel_.drained();  // messages are sent only while the channel is polled
 }
 
 void Farm::beat_during(const std::function<void()>& work) {
@@ -283,8 +286,8 @@ Speeds Farm::speeds() const {
     return Speeds(hands);
 }
 
-/// Gives a worker its portion of what is left. One that got less than it wants asks again when it has finished
-/// something. False if nothing is left, not even a copy of what somebody slow has.
+/// Gives a worker its portion of the waiting units. A worker that got less than it requested requests again when it has
+/// finished some. False if nothing is left, not even a copy of a slow worker's unit.
 bool Farm::serve(Member& member, const Speeds& all) {
     if (ledger_->waiting() + ledger_->suspects() == 0) return serve_copies(member, all);
     const Portion portion = all.portion(member.peer, member.credit, member.queued, ledger_->waiting_paths());
@@ -301,15 +304,15 @@ bool Farm::serve(Member& member, const Speeds& all) {
     return true;
 }
 
-/// Says once to everybody that nothing waits: they send what they have finished, and soon, so that it shows who is
-/// slow.
+/// Tells every worker, once, that no unit waits: each then sends its finished units at once, which reveals the slow
+/// ones.
 void Farm::tell_end() {
     ended_ = clock_.seconds();
     for (Member* member : roster_.present())
         if (!std::exchange(member->told_end, true)) tell(member->peer, Work{pass_->plan.index, {}});
 }
 
-/// Gives an idle worker copies of what slower ones still have.
+/// Gives an idle worker copies of slower workers' units.
 bool Farm::serve_copies(Member& member, const Speeds& all) {
     if (member.credit == 0 || clock_.seconds() - ended_ < kSettleSeconds) return false;
     Work work{pass_->plan.index, ledger_->issue_copies(member.peer, std::min(member.credit, member.hello.threads),

@@ -19,82 +19,82 @@
 
 namespace treefarm {
 
-/// Limits of the conversation with workers, seconds.
+/// Time limits of the communication with workers, seconds.
 struct FarmLimits {
-    double gather = 20.0;  ///< how long the start waits for workers that have not said hello
-    double lost = 2.0;     ///< least silence after which a worker is given up; ten heartbeats if that is longer
-    double dismiss = 5.0;  ///< how long the end waits for good-byes
-    double grace = 15.0;   ///< how long nobody at all may be there, where somebody may come back
-    double asking = 0.2;   ///< in which workers that ask for the same tree or scene are served together
+    double gather = 20.0;  ///< wait at the start for workers that have not said hello
+    double lost = 2.0;     ///< least silence after which a worker counts as lost; ten heartbeats if that is longer
+    double dismiss = 5.0;  ///< wait at the end for good-byes
+    double grace = 15.0;   ///< time without any worker before the render fails, if one may come back
+    double asking = 0.2;   ///< window in which requests for the same tree or scene are served together
 };
 
-/// A job's place among those of one allocation.
+/// Number of a job within one allocation, with the workers that are missing.
 struct JobTurn {
-    std::uint32_t number = 0;  ///< 0: the only one; from 1 on: workers stay, and are told to join this one
-    std::set<int> absent;      ///< peers that an earlier job lost: nobody waits for them
-    std::set<int> left{};      ///< peers that left an earlier job: they only wait to be dismissed
+    std::uint32_t number = 0;  ///< 0: the only job; from 1 on: workers stay, and are told to join this one
+    std::set<int> absent;      ///< peers lost in an earlier job, which are not waited for
+    std::set<int> left{};      ///< peers that left in an earlier job and only wait to be dismissed
 };
 
-/// The workers, as the coordinator talks to them: who is there, who has what, what came back. One step() at a time,
-/// never blocking on anybody.
+/// The workers of a render from the coordinator's side: members, issued units, results. Driven by step(), which never
+/// blocks on one worker.
 class Farm {
   public:
-    /// `scene`: encoded. `fingerprint`: this program's own; a worker that differs is refused.
+    /// `scene`: encoded. `fingerprint`: this program's; workers with another one are refused.
     Farm(Channel& channel, const Job& job, Bytes scene, std::uint64_t fingerprint, const Log& log,
          const FarmLimits& limits = {}, const JobTurn& turn = {});
 
-    /// Waits for the workers' hellos; nothing large is sent yet. Throws RunError if none can be used. `interrupted` is
-    /// asked now and then; true ends the wait.
+    /// Waits for the workers' hellos, before anything large is sent. Throws RunError if no worker is usable.
+    /// `interrupted` is polled; true ends the wait.
     void gather(const std::function<bool()>& interrupted);
 
-    /// What stands before and after a unit's name in the command that traces it alone: for units that killed workers.
+    /// Sets the text before and after a unit's name in the command that traces it alone, for poison units.
     void debug_by(std::string command, std::string options) {
         debug_command_ = std::move(command);
         debug_options_ = std::move(options);
     }
 
-    /// Whether pixels may be negative: those of a film that is_signed(). Otherwise they are refused.
+    /// Whether pixels may be negative, as in a film that is_signed(); otherwise negative ones are refused.
     void allow_negative(bool allowed) { negative_allowed_ = allowed; }
 
-    /// Announces a pass and sends its tree along the chain of those present; before the first one, the scene. `begun`:
-    /// what an earlier life of the render has of it, or nullptr.
+    /// Announces a pass and sends its tree along the chain of present workers; before the first pass, the scene.
+    /// `begun`: partial results from before a resume, or nullptr.
     void begin_pass(const PassPlan& plan, const AnyModel& tree, Bytes encoded_tree, int width, int height,
                     const BegunPass* begun = nullptr);
-    /// Sets what has come in of the pass, and whom it cost.
+    /// Copies the pass's results so far, with its poison units.
     void fill(BegunPass& begun) const;
 
-    /// Takes what has arrived, hands out work, watches for silence; rests if nothing happened. Throws RunError when no
-    /// worker is left, and none has come back within FarmLimits::grace.
+    /// Handles messages, issues units and watches for silence; rests if nothing happened. Throws RunError if no worker
+    /// is left, and none has come back within FarmLimits::grace.
     void step();
 
     bool has_pass() const { return ledger_ != nullptr; }
     bool pass_complete() const { return ledger_ && ledger_->complete(); }
     const Collector& collector() const { return *collector_; }
     std::vector<PixelEstimate> take_pixels() { return collector_->take_pixels(); }  ///< of the complete pass, once
-    AovPixels take_aovs() { return collector_->take_aovs(); }                       ///< of it, once
+    AovPixels take_aovs() { return collector_->take_aovs(); }                       ///< of the complete pass, once
     const Ledger& ledger() const { return *ledger_; }
-    /// Seconds from begin_pass() until the last of those present asked for work.
+    /// Seconds from begin_pass() until the last present worker requested units.
     double broadcast_seconds() const { return broadcast_seconds_; }
-    /// Seconds from begin_pass() until the first of them did: before the first pass that takes reading in the scene.
+    /// Seconds from begin_pass() until the first worker did; before the first pass this includes preparing the scene.
     double first_request_seconds() const { return first_request_seconds_; }
     const Roster& roster() const { return roster_; }
-    /// Peers that were given up, in this job or an earlier one, and are not back.
+    /// Peers lost in this job or an earlier one that are not back.
     std::set<int> lost_peers() const;
-    /// Peers that left, in this job or an earlier one.
+    /// Peers that left in this job or an earlier one.
     std::set<int> left_peers() const;
-    /// Sends heartbeats that are due: call it between long computations.
+    /// Sends due heartbeats; to be called between long computations.
     void beat();
-    /// Runs a computation of any length aside, while workers go on hearing from here. What it throws leaves this.
+    /// Runs a computation of any length in the background, while heartbeats continue. Rethrows its exceptions.
     void beat_during(const std::function<void()>& work);
-    /// Units that were issued again.
+    /// Number of units that were issued again.
     std::uint64_t reissued_units() const { return reissued_units_; }
-    /// Results that came from lost lives, or after another worker's of the same units, and were dropped.
+    /// Number of dropped results: from lost incarnations, or later than another worker's result for the same units.
     std::uint64_t dropped_results() const { return dropped_results_; }
-    /// Units that a second worker was given because the first was slow.
+    /// Number of units of which a second worker got a copy because the first was slow.
     std::uint64_t copied_units() const { return copied_units_ + (ledger_ ? ledger_->copies() : 0); }
-    /// Messages that were no messages, or said what cannot be.
+    /// Number of invalid messages.
     std::uint64_t bad_messages() const { return bad_messages_; }
-    /// Rays of all workers in their present lives, as their heartbeats say.
+    /// Rays of all workers in their present incarnations, by their heartbeats.
     std::uint64_t rays_traced() const;
 
   private:
@@ -113,7 +113,7 @@ class Farm {
     std::string blame(const WorkUnit& unit) const;
     std::string why_nobody() const;
     std::pair<WorkUnit, std::size_t> deadliest() const;
-    bool may_come_back() const;  ///< somebody who is not there now
+    bool may_come_back() const;  ///< a worker that is not present
     void on(int peer, const Hello& m);
     void on(int peer, const Resend& m);
     void on(int peer, const Want& m);
@@ -154,40 +154,40 @@ class Farm {
     Roster roster_;
     std::string debug_command_ = "treefarm render SCENE --debug-sample", debug_options_;
     bool negative_allowed_ = false;
-    bool scene_sent_ = false;  ///< whoever comes from now on gets it at once
+    bool scene_sent_ = false;  ///< later workers get it at once
     std::optional<OpenPass> pass_;
     std::unique_ptr<Ledger> ledger_;
     std::unique_ptr<Collector> collector_;
-    std::vector<int> not_ready_;  ///< peers that have not yet asked for work of this pass
-    bool requested_ = false;      ///< somebody has
+    std::vector<int> not_ready_;  ///< peers that have not yet requested units of this pass
+    bool requested_ = false;      ///< some worker has requested units
     double pass_began_ = 0, first_request_seconds_ = 0, broadcast_seconds_ = 0, last_beat_ = 0;
-    double listened_ = 0;                                ///< when step() last looked for messages
-    std::optional<double> alone_since_;                  ///< nobody has been there since
-    std::set<int> told_job_;                             ///< peers that were told to join this one
-    std::map<std::pair<int, BlobName>, double> copied_;  ///< when a worker got a copy of its own
-    /// Who asked for what, from which byte on, and since when somebody waits.
+    double listened_ = 0;                                ///< time at which step() last polled for messages
+    std::optional<double> alone_since_;                  ///< time since when no worker is present
+    std::set<int> told_job_;                             ///< peers that were told to join this job
+    std::map<std::pair<int, BlobName>, double> copied_;  ///< time at which a worker got a copy of its own
+    /// Requests for a blob: the first missing byte of each peer, and the time of the first request.
     struct Askers {
         std::map<int, std::uint64_t> offsets;
         double since = 0;
     };
     std::map<Blob, Askers> askers_;
     std::string last_failure_;
-    double ended_ = 0, last_look_ = 0;  ///< when nothing of the pass was left to hand out; for who is slow
+    /// time at which the pass had no more units to issue; time of the last search for slow workers
+    double ended_ = 0, last_look_ = 0;
     std::uint64_t reissued_units_ = 0, copied_units_ = 0, dropped_results_ = 0, bad_messages_ = 0;
 };
 
-/// Sends every worker one message, whoever is there.
+/// Sends one message to every peer.
 template <class M>
 void tell_workers(Channel& channel, const M& message) {
     const auto payload = std::make_shared<const Bytes>(encode(message));
     for (const int peer : channel.peers())
         channel.send(peer, payload);
-    channel.drained();  // they move only when they are looked at
+    channel.drained();  // messages are sent only while the channel is polled
 }
 
-/// Sends every worker away, those included that never said hello, and waits up to `patience` seconds for the good-byes
-/// of those not known as lost. Returns whether all but guests went in order, so that the message layer can be shut
-/// down.
+/// Dismisses every worker, also those that never said hello, and waits up to `patience` seconds for the good-byes of
+/// those not known as lost. Returns whether all but guests said good-bye, so that the message layer can be shut down.
 bool dismiss_workers(Channel& channel, const std::set<int>& lost, double patience);
 
 }  // namespace treefarm

@@ -5,20 +5,20 @@
 #include "common/base/hash.h"
 #include "coordinator/farm/farm.h"
 
-// What the farm makes of each message. Any peer may say anything at any time: what is wrong costs its sender its place,
-// never the farm its life, its memory or a pixel.
+// Handling of each message. Any peer may send any bytes at any time: an invalid message costs its sender its
+// membership, and never the farm's process, memory or pixels.
 
 namespace treefarm {
 
 namespace {
 
-/// Units that a worker may be owed: more than any can want.
+/// Limit of the units that a worker may request.
 constexpr std::uint32_t kMostCredit = 1u << 20;
 
-/// Lives of one worker process: one that begins anew so often never gets anywhere.
+/// Incarnations of one worker process, after which it counts as failing for good.
 constexpr std::uint32_t kMostLives = 1000;
 
-/// Messages of one kind that are worth a line in the log.
+/// Number of messages of one kind that are logged.
 constexpr std::uint64_t kMostLogged = 20;
 
 }  // namespace
@@ -28,7 +28,7 @@ void Farm::take(const Received& received) {
     Message message;
     try {
         message = decode(received.bytes);
-    } catch (const std::exception& error) {  // also a count that memory does not suffice for
+    } catch (const std::exception& error) {  // also a count for which memory does not suffice
         on_bad_message(peer, error.what());
         return;
     }
@@ -45,7 +45,7 @@ void Farm::take(const Received& received) {
                        [&](const Bye& m) {
                            if (Member* member = hear(peer, m.incarnation)) {
                                give_up(*member, MemberState::left, "leaves, as it was told");
-                               // Processes of mpirun stay to its end: it would end all others with them.
+                               // Processes of mpirun stay to its end: ending one would end all others.
                                if (channel_.is_guest(peer)) tell(peer, Leave{true});
                            }
                        },
@@ -63,7 +63,7 @@ void Farm::on_bad_message(int peer, const std::string& why) {
     Member* member = roster_.find(peer);
     if (member) ++member->bad_messages;
     if (member && member->state == MemberState::present)
-        give_up(*member, MemberState::barred, "sent a bad message: " + why);  // it may do so for ever
+        give_up(*member, MemberState::barred, "sent a bad message: " + why);  // it might repeat it without end
     else if (log_it)
         log_->warn("{}", last_failure_);
 }
@@ -81,13 +81,13 @@ Member* Farm::hear(int peer, std::uint64_t incarnation) {
 }
 
 void Farm::on(int peer, const Hello& m) {
-    if (m.job != turn_.number) {  // of an earlier job; the answer to this one's rejoin is on its way
+    if (m.job != turn_.number) {  // of an earlier job; the answer to this one's Rejoin is in flight
         if (told_job_.insert(peer).second) tell(peer, Rejoin{turn_.number});
         return;
     }
     if (Member* earlier = roster_.find(peer)) {
         if (earlier->state == MemberState::barred) return;
-        if (earlier->lives >= kMostLives) throw FormatError("a worker that begins anew for ever");
+        if (earlier->lives >= kMostLives) throw FormatError("a worker that restarts without end");
         if (earlier->state == MemberState::present) {
             if (earlier->hello.incarnation == m.incarnation) return;
             give_up(*earlier, MemberState::lost, "started anew");
@@ -158,7 +158,7 @@ void Farm::on(int peer, Result&& m) {
             log_->warn("a result of worker {} came too late and was dropped: its work was issued again", peer);
         return;
     }
-    if (pass_ && m.pass < pass_->plan.index) {  // others were quicker, and the pass is over
+    if (pass_ && m.pass < pass_->plan.index) {  // others were faster, and the pass is complete
         ++dropped_results_;
         return;
     }
@@ -180,7 +180,7 @@ void Farm::on(int peer, const Failure& m) {
     Member* member = hear(peer, m.incarnation);
     if (!member) return;
     last_failure_ = "worker " + std::to_string(peer) + " on " + member->hello.host + ": " + m.text;
-    give_up(*member, MemberState::barred, "failed: " + m.text);  // it cannot go on
+    give_up(*member, MemberState::barred, "failed: " + m.text);  // it cannot continue
 }
 
 }  // namespace treefarm

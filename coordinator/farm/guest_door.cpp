@@ -21,7 +21,7 @@ GuestDoor::GuestDoor(Channel& channel, const Job::Farm& farm, std::uint64_t fing
     ticket_ = path;
     log->info("workers may join at {} port {}: treefarm join {}", ticket.address, ticket.port,
               shell_quoted(run.string()));
-    log->debug("only who joins is authenticated: the network between processes of MPI is trusted");
+    log->debug("only guests are authenticated: the network between MPI processes is trusted");
 }
 
 GuestDoor::~GuestDoor() {

@@ -9,12 +9,12 @@
 
 namespace treefarm {
 
-/// The way for workers to join a running render: a channel that takes guests, and the ticket in the run directory,
-/// which is removed at the end. Guests that are in stay.
+/// Entry point for guest workers: a channel that lets them join a running render, and the ticket in the run directory,
+/// which is removed at the end. Guests that have joined stay.
 class GuestDoor {
   public:
-    /// Opens it where the job says so. `fingerprint`: guests must have the same. Throws InputError where nobody can
-    /// listen as the job says, RunError where the ticket cannot be written.
+    /// Opens the entry point if the job asks for it. `fingerprint`: required of guests. Throws InputError if the job's
+    /// address cannot be listened on, and RunError if the ticket cannot be written.
     GuestDoor(Channel& channel, const Job::Farm& farm, std::uint64_t fingerprint, const std::filesystem::path& run,
               const Log& log);
     ~GuestDoor();

@@ -7,11 +7,11 @@ namespace treefarm {
 
 namespace {
 
-/// A piece of fewer paths, 2 ms or so, costs more in messages than it saves in waiting.
+/// Least paths of a piece, about 2 ms: a smaller one costs more in messages than it saves in waiting.
 constexpr std::uint32_t kLeastPaths = 2048;
-/// Pixels that a piece has at least, however many samples they have.
+/// Least pixels of a piece, whatever their samples.
 constexpr std::uint32_t kLeastPixels = 16;
-/// From here on downwards: workers that an earlier life of the render lost. They have no numbers in this one.
+/// Numbers from this downwards: workers lost before a resume, which have no peer number now.
 constexpr int kOfEarlierLives = -2;
 
 }  // namespace
@@ -57,7 +57,7 @@ std::uint64_t Ledger::least_weight(UnitKind kind) const {
     return 1;
 }
 
-/// Cuts the unit that comes next, if it has more paths than these and its pieces are not too small.
+/// Cuts the next unit if it has more than `most_paths` paths and its pieces are not too small.
 bool Ledger::cut_front(std::uint64_t most_paths) {
     const WorkUnit front = waiting_.front();
     if (paths(front) <= most_paths) return false;
@@ -184,7 +184,7 @@ void Ledger::put_back(const WorkUnit& unit) {
     waiting_paths_ += paths(unit);
 }
 
-/// Takes a unit from one who has it. Whether nobody has it now, and it was put back.
+/// Takes a unit from one of its workers. Returns whether no worker has it now, and it was put back.
 bool Ledger::release(std::map<WorkUnit, Holders>::iterator held, int worker) {
     const WorkUnit unit = held->first;
     lighten(worker, unit);
@@ -220,7 +220,7 @@ std::size_t Ledger::reclaim(int worker, bool lost) {
     if (lost)
         for (const WorkUnit& unit : units)
             deaths_[unit].insert(worker);
-    for (auto unit = units.rbegin(); unit != units.rend(); ++unit)  // so that the first one comes out first
+    for (auto unit = units.rbegin(); unit != units.rend(); ++unit)  // so that the first one is issued first
         release(holders_.find(*unit), worker);
     std::erase_if(superseded_, [&](const auto& entry) { return entry.first == worker; });
     std::erase_if(told_, [&](const auto& entry) { return entry.first == worker; });

@@ -16,14 +16,14 @@
 
 namespace treefarm {
 
-/// What becomes of a worker's result.
+/// Verdict on a worker's result.
 enum class Verdict : std::uint8_t {
-    accepted,  ///< the worker has all of these units, and each is still to be done
-    late,      ///< it had them, but of some another worker's copy was quicker
-    lie,       ///< of some it never had, or names one twice
+    accepted,  ///< the worker has all of these units, and each is unfinished
+    late,      ///< it had them, but another worker's copy of some was faster
+    lie,       ///< a protocol error: some it never had, or one is named twice
 };
 
-/// A unit over which workers were lost.
+/// A poison unit: workers were lost while they had it.
 struct DeadlyUnit {
     WorkUnit unit;
     std::uint32_t deaths = 0;
@@ -31,84 +31,83 @@ struct DeadlyUnit {
     bool operator==(const DeadlyUnit&) const = default;
 };
 
-/// How much of a pass a worker gets at once.
+/// Limits of the units that a worker gets at once.
 struct Portion {
-    std::size_t units = 0;    ///< at most
-    std::uint64_t paths = 0;  ///< at most, but for one unit
-    std::uint64_t piece = 0;  ///< paths of a unit at most, but for what is not cut
+    std::size_t units = 0;    ///< largest number of units
+    std::uint64_t paths = 0;  ///< largest number of paths, unless one unit has more
+    std::uint64_t piece = 0;  ///< largest number of paths of a unit, if it can be cut
 };
 
-/// The work of one pass: what is still to be issued, who has what, and what is done. Every atom of the film is accepted
+/// Work of one pass: waiting units, issued units with their workers, and finished units. Every film atom is accepted
 /// exactly once, though several workers may have it: the first result counts. Pure bookkeeping: no clock, no messages.
 class Ledger {
   public:
-    /// Workers that may lose their lives over a unit before it is given up.
+    /// Worker losses over one unit after which the render fails.
     static constexpr std::size_t kMostDeaths = 3;
 
-    /// The units of a pass, tiles of `tile_size` pixels, but for what is `done` and, of an earlier life of the render,
-    /// those that are `deadly`: none of these is done, and each is issued as it is.
+    /// All units of a pass, in tiles of `tile_size` pixels, except those in `done`. `deadly`: poison units from before
+    /// a resume, which are not in `done` and are issued uncut.
     Ledger(const PassPlan& plan, int width, int height, int tile_size, const DoneWork& done = {},
            std::span<const DeadlyUnit> deadly = {});
 
-    /// Takes a portion for a worker. A unit of more paths than a piece may have is issued in pieces (halve), but in
-    /// none so small that to ask for it takes longer than to trace it. A unit over which a worker was lost is issued
-    /// alone: to a worker that has nothing, and gets nothing until it is done.
+    /// Issues a portion to a worker. A unit with more paths than portion.piece is cut in halves, but into no piece that
+    /// takes less time than its request. A unit over which a worker was lost is issued alone: to a worker without
+    /// units, which gets no other until it is done.
     std::vector<WorkUnit> issue(int worker, Portion portion);
 
-    /// Whether what the worker has was issued alone.
+    /// Whether the worker has a unit that was issued alone.
     bool has_suspect(int worker) const;
 
-    /// Takes second copies for a worker that has nothing, where nothing waits: units that nobody else has a copy of, of
-    /// the worker with the longest way to go, those first that it will begin last. `gain(other, paths)`: seconds that
-    /// such a copy is expected to save; none is issued unless above 0.
+    /// Issues second copies to an idle worker, once no unit waits: units without a copy, of the worker with most paths
+    /// to go, those first that it will begin last. `gain(other, paths)`: expected saving of such a copy in seconds;
+    /// none is issued unless it is above 0.
     std::vector<WorkUnit> issue_copies(int worker, std::size_t count,
                                        const std::function<double(int, std::uint64_t)>& gain);
 
-    /// What a result with these units would be.
+    /// Verdict on a result with these units, without accepting it.
     Verdict judge(int worker, std::span<const WorkUnit> units) const;
 
-    /// The units are done, if the verdict on them is `accepted`; otherwise nothing changes. Returns the verdict.
+    /// Marks the units as finished if the verdict is `accepted`; otherwise nothing changes. Returns the verdict.
     Verdict accept(int worker, std::span<const WorkUnit> units);
-    /// Drops a late result: what nobody has now is issued again first.
+    /// Drops a late result: units that no worker has now are issued again first.
     void drop(int worker, std::span<const WorkUnit> units);
 
-    /// Units that a worker has though others have done them: not worth beginning. Each is told once.
+    /// Units of a worker that others have finished, so that it need not begin them. Each is returned once.
     std::vector<WorkUnit> take_superseded(int worker);
 
-    /// Takes back what a worker has, to be issued again first; `lost`: it may be that one of these units did it.
-    /// Returns the number of units.
+    /// Takes back a worker's units, to be issued again first; `lost`: one of them may be the cause of its loss. Returns
+    /// the number of units.
     std::size_t reclaim(int worker, bool lost = false);
-    /// The worker is back: no unit was its death.
+    /// Clears the worker's losses, since it is back: no unit caused one.
     void forgive(int worker);
-    /// The unit over which most workers were lost, and how many; none: 0.
+    /// The unit over which most workers were lost, and their number; 0: none.
     std::pair<WorkUnit, std::size_t> deadliest() const;
-    /// All units over which workers were lost, for a checkpoint. One that would end the render does so in its next life
-    /// at the next death.
+    /// All poison units, for a checkpoint. One that is about to end the render does so after a resume at the next loss.
     std::vector<DeadlyUnit> deadly() const;
 
     bool complete() const { return done_ == total_; }
     std::size_t waiting() const { return waiting_.size(); }
-    /// Units that wait, but to be issued alone.
+    /// Number of waiting units that are issued alone.
     std::size_t suspects() const { return suspects_.size(); }
-    /// Paths of all units that wait, suspects aside.
+    /// Paths of all waiting units that are not issued alone.
     std::uint64_t waiting_paths() const { return waiting_paths_; }
     std::size_t outstanding() const { return holders_.size(); }
     std::size_t outstanding(int worker) const;
-    /// Paths of the units that a worker has.
+    /// Paths of a worker's units.
     std::uint64_t outstanding_paths(int worker) const;
-    /// Copies that were issued, and results that came too late.
+    /// Number of copies that were issued, and of late results.
     std::uint64_t copies() const { return copies_; }
-    /// Paths of a unit: chains count as one each.
+    /// Paths of a unit; a chain counts as one.
     std::uint64_t paths(const WorkUnit& unit) const;
-    /// Sum of the units' weights: of all, and of those done.
+    /// Sum of the units' weights: of all, and of the finished ones.
     std::uint64_t total() const { return total_; }
     std::uint64_t done() const { return done_; }
 
   private:
-    /// Who has a unit: the first, and who got a copy (-1: nobody).
+    /// Workers that have a unit: the first, and the one with a copy (-1: none).
     struct Holders {
         int first = -1, second = -1;
-        std::uint64_t issued = 0;  ///< the first's number among all that were issued
+        std::uint64_t issued = 0;  ///< sequence number of the first issue
         bool has(int worker) const { return first == worker || second == worker; }
         int other_than(int worker) const { return first == worker ? second : first; }
     };
@@ -124,10 +123,10 @@ class Ledger {
     const std::uint32_t unit_spp_;  ///< samples of a pixel in a tile
     std::deque<WorkUnit> waiting_;
     std::deque<WorkUnit> suspects_;             ///< each to be issued alone
-    std::map<WorkUnit, Holders> holders_;       ///< units that were issued
+    std::map<WorkUnit, Holders> holders_;       ///< issued units
     std::map<WorkUnit, std::set<int>> deaths_;  ///< workers that had a unit when they were lost
     std::set<std::pair<int, WorkUnit>> superseded_, told_;
-    /// What a worker has.
+    /// Units and paths of a worker.
     struct Load {
         std::size_t units = 0;
         std::uint64_t paths = 0;

@@ -12,7 +12,7 @@ namespace treefarm {
 namespace {
 
 struct HostNeed {
-    std::uint64_t available = 0;  ///< 0: not known
+    std::uint64_t available = 0;  ///< 0: unknown
     std::uint64_t bytes = 0;
     int workers = 0;
     bool coordinator = false;
@@ -30,7 +30,7 @@ std::string who(const HostNeed& need) {
     return workers.empty() ? "the coordinator" : "the coordinator and " + workers;
 }
 
-/// The scene is in memory when this is asked.
+/// Memory still to be allocated; the scene is in memory already.
 std::uint64_t still_to_come(const MemoryPlan& plan) {
     std::uint64_t bytes = 0;
     for (const MemoryItem& item : plan.coordinator)
@@ -48,17 +48,17 @@ void check_memory(const MemoryPlan& plan, const Host& own, const Roster& roster,
         HostNeed& need = hosts[member.hello.host];
         need.bytes += plan.worker_bytes();
         ++need.workers;
-        if (!need.coordinator && member.hello.memory > 0)  // the least of what its processes saw
+        if (!need.coordinator && member.hello.memory > 0)  // the least that its processes reported
             need.available = need.available == 0 ? member.hello.memory : std::min(need.available, member.hello.memory);
     }
     for (const auto& [name, need] : hosts)
         if (need.available > 0 && need.bytes > need.available)
             throw InputError(
                 Location{scene, 0, 0},
-                fmt::format("{} of memory are expected to be taken on {}, by {}, and {} can be had",
+                fmt::format("{} of memory are expected to be needed on {}, by {}, but {} are available",
                             gigabytes(need.bytes), name, who(need), gigabytes(need.available)),
                 "render a smaller image (--set image.width=...), start fewer workers a host with more threads each, or "
-                "go on regardless with --set farm.memory_check=false; treefarm plan lists what takes it");
+                "go on regardless with --set farm.memory_check=false; treefarm plan lists it by use");
 }
 
 }  // namespace treefarm

@@ -10,10 +10,9 @@
 
 namespace treefarm {
 
-/// Throws InputError, with the way to go on regardless, where the processes of a host are expected to take more memory
-/// than it has: the kernel would end one of them, or all, in mid-render. `own`: the coordinator's host, as it was
-/// measured with the scene already read. `roster`: the workers, with what they said of theirs. What is not known is
-/// not held against anybody.
+/// Throws InputError, with the option to proceed anyway, if the processes of a host are expected to need more memory
+/// than it has: the kernel would end one of them, or all, during the render. `own`: the coordinator's host, measured
+/// with the scene already read. `roster`: the workers, with their reported memory. Unknown values count as sufficient.
 void check_memory(const MemoryPlan& plan, const Host& own, const Roster& roster, const std::string& scene);
 
 }  // namespace treefarm

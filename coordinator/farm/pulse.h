@@ -8,16 +8,16 @@
 
 namespace treefarm {
 
-/// Runs `work` on a thread of its own while this one, which talks, calls `meanwhile` every few milliseconds. What
-/// either throws leaves this, when the work has ended.
+/// Runs `work` in a thread of its own, while this thread calls `meanwhile` every few milliseconds, for communication.
+/// Rethrows exceptions of either when the work has ended.
 void run_aside(const std::function<void()>& work, const std::function<void()>& meanwhile);
 
-/// The coordinator's sign of life where there is no farm: before it knows what to render, and between two jobs.
+/// Coordinator's heartbeat to workers while there is no farm: before the job is known, and between two jobs.
 class Pulse {
   public:
     explicit Pulse(Channel& channel) : channel_(channel) {}
 
-    /// Tells every worker once a second, however often it is called.
+    /// Sends the heartbeat to every worker once a second, however often it is called.
     void beat();
 
   private:

@@ -10,7 +10,7 @@ namespace treefarm {
 
 namespace {
 
-constexpr double kLeastSpeed = 1.0;  ///< of one that stands still: it may move again
+constexpr double kLeastSpeed = 1.0;  ///< of a worker without progress: it may resume
 
 }  // namespace
 
@@ -37,7 +37,7 @@ Speeds::Speeds(const std::map<int, Hand>& hands) : hands_(hands) {
         total_ += speed(worker);
 }
 
-/// Paths per second; where nobody's speed is known, threads.
+/// Paths per second; number of threads if no speed is known.
 double Speeds::speed(int worker) const {
     const auto found = hands_.find(worker);
     if (found == hands_.end()) return kLeastSpeed;
@@ -63,10 +63,10 @@ double Speeds::gain(int here, std::uint64_t paths, int holder, std::uint64_t out
         return found != hands_.end() && found->second.speed.has_value();
     };
     if (per_thread_ == 0 && !known(holder)) return 0;
-    // Who has done all before his speed was known is quick.
+    // A worker that finished all before its speed was known is fast.
     const double takes = per_thread_ > 0 || known(here) ? static_cast<double>(paths) / speed(here) : 0.0;
     const double saved = static_cast<double>(outstanding) / speed(holder) - takes;
-    // Both may end together, and then the slower one's whole result is dropped.
+    // If both end at the same time, the slower one's whole result is dropped.
     return saved > std::max(kPolicy.farm.copy_gain, kPolicy.farm.copy_ratio * takes) ? saved : 0;
 }
 

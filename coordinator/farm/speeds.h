@@ -9,14 +9,15 @@
 
 namespace treefarm {
 
-/// Speed of a worker by its heartbeats, which say what it has traced so far, delivered or not.
+/// Speed of a worker, from the samples that its heartbeats report, delivered or not.
 class WorkerSpeed {
   public:
-    /// Takes in a heartbeat at `now`, seconds of any clock: `samples` traced since the start, and whether the worker
-    /// had work. Only what lies between two with work counts.
+    /// Adds a heartbeat at `now`, in seconds of any clock: `samples` traced since the start; `busy`: the worker had
+    /// units. Only intervals between two busy heartbeats count.
     void beat(double now, std::uint64_t samples, bool busy);
 
-    /// Paths per second, an exponential mean with a half-life of two seconds; nothing before two heartbeats with work.
+    /// Paths per second, an exponential mean with a half-life of two seconds; no value before two heartbeats with
+    /// units.
     std::optional<double> paths_per_second() const { return speed_; }
 
   private:
@@ -24,35 +25,35 @@ class WorkerSpeed {
         double at = 0;
         std::uint64_t samples = 0;
     };
-    std::optional<Beat> last_;  ///< with work
+    std::optional<Beat> last_;  ///< last heartbeat with units
     std::optional<double> speed_;
 };
 
-/// A worker that work may be handed to.
+/// Threads and speed of a present worker.
 struct Hand {
     unsigned threads = 1;
     std::optional<double> speed;  ///< paths per second
 };
 
-/// Speeds of workers beside each other, by peer; one without a speed is taken for as fast as others by its threads.
+/// Speeds of all workers, by peer; one of unknown speed counts with the mean speed per thread of the others.
 class Speeds {
   public:
     explicit Speeds(const std::map<int, Hand>& hands);
 
-    /// How much a worker gets that asks with `credit` and has `queued` paths to begin, while so many wait: for two
-    /// seconds at most, and a quarter of its part of what is left, so that pieces shrink by themselves for the slow and
-    /// towards the end. With nothing queued it gets something.
+    /// Limits of the units for a worker that requests `credit` units and has `queued` paths to begin, with `waiting`
+    /// paths in all: two seconds of work at most, and a quarter of its part of the rest, so that pieces shrink for slow
+    /// workers and towards the end. At least one path if nothing is queued.
     Portion portion(int worker, std::size_t credit, std::uint64_t queued, std::uint64_t waiting) const;
 
-    /// Seconds that a copy of a unit of `paths` here saves, whose holder has `outstanding` paths to go; 0: none, or not
-    /// enough for what may be lost where both end together.
+    /// Seconds saved by a copy of a unit of `paths` paths at worker `here`, if its holder has `outstanding` paths to
+    /// go; 0 if none, or too few to outweigh the loss if both end at the same time.
     double gain(int here, std::uint64_t paths, int holder, std::uint64_t outstanding) const;
 
   private:
     double speed(int worker) const;
 
     std::map<int, Hand> hands_;
-    double per_thread_ = 0;  ///< paths per second of a thread, of those known; 0: none is
+    double per_thread_ = 0;  ///< mean speed of a thread, paths per second; 0: unknown
     double total_ = 0;
 };
 

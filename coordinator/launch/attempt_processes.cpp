@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Environment of a process; another user's cannot be read.
+/// Environment of a process; empty for another user's, which is unreadable.
 std::string environment_of(const fs::path& process) {
     std::ifstream file(process / "environ", std::ios::binary);
     return '\0' + std::string(std::istreambuf_iterator<char>(file), {});

@@ -8,11 +8,11 @@
 
 namespace treefarm {
 
-/// Processes of this user on this host whose environment names an attempt of treefarm launch: whoever their parents
-/// are, and however their launcher ended.
+/// Processes of this user on this host whose environment names an attempt of treefarm launch, whatever their parents
+/// and their launcher's end.
 std::vector<pid_t> attempt_processes(const std::string& attempt);
 
-/// Kills them, and waits up to `patience` seconds until they are gone. Returns whether they are.
+/// Kills an attempt's processes, and waits up to `patience` seconds for their end. Returns whether all have ended.
 bool kill_attempt(const std::string& attempt, double patience);
 
 }  // namespace treefarm

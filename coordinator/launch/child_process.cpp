@@ -34,12 +34,12 @@ std::vector<std::string> environment_with(const std::string& variable) {
     return variables;
 }
 
-/// Between fork and exec: only what is safe there.
+/// Runs in the child between fork and exec: async-signal-safe calls only.
 [[noreturn]] void become(pid_t parent, int words, bool all, const char* input, char* const* arguments,
                          char* const* variables) {
     setsid();
     prctl(PR_SET_PDEATHSIG, SIGTERM);
-    if (getppid() != parent) _exit(127);  // it died before we asked to be told
+    if (getppid() != parent) _exit(127);  // the parent died before prctl
     for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGUSR1, SIGTSTP, SIGCONT, SIGCHLD, SIGPIPE})
         ::signal(number, SIG_DFL);
     sigset_t none;

@@ -8,32 +8,32 @@
 
 namespace treefarm {
 
-/// A program in a session and process group of its own, which gets SIGTERM where this process dies before it. What it
-/// says on its standard error can be read.
+/// A child process in a session and process group of its own; it gets SIGTERM if this process dies first. Its standard
+/// error can be read.
 class ChildProcess {
   public:
-    enum class Heard { errors, all };  ///< its standard error, or its standard output with it
-    /// `variable`: "NAME=value", added to its environment. `input`: a file to read from; empty: none. Throws RunError
-    /// where it cannot be started; a program that is not there ends with code 127.
+    enum class Heard { errors, all };  ///< standard error alone, or with standard output
+    /// `variable`: "NAME=value", added to its environment. `input`: a file for its standard input; empty: none. Throws
+    /// RunError if it cannot be started; a missing program ends with code 127.
     ChildProcess(const std::vector<std::string>& words, const std::string& variable, Heard heard = Heard::errors,
                  const std::string& input = "");
-    /// Kills it.
+    /// Kills the process.
     ~ChildProcess();
     ChildProcess(const ChildProcess&) = delete;
     ChildProcess& operator=(const ChildProcess&) = delete;
 
     bool running();
     void signal(int number);
-    /// To the whole group.
+    /// Sends a signal to the whole group.
     void signal_group(int number);
     pid_t pid() const { return pid_; }
     bool succeeded() const;  ///< ended with code 0
-    /// How it ended: "exit code 1", "signal 9".
+    /// Way in which it ended: "exit code 1", "signal 9".
     std::string ending() const;
 
-    /// End of the pipe of what it says; does not block.
+    /// Read end of its output pipe; does not block.
     int words_descriptor() const { return words_; }
-    /// What it has said since the last call.
+    /// Output since the last call.
     std::string take_words();
 
   private:

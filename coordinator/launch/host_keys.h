@@ -9,15 +9,15 @@
 
 namespace treefarm {
 
-/// How files with an attempt's secret begin, on hosts; the attempt's name follows.
+/// Prefix of the files with an attempt's key on hosts; the attempt's name follows.
 inline constexpr const char* kHostKeyName = "treefarm-key-";
 
-/// Where a host that does not see the run directory finds an attempt's secret: in its folder for temporary files.
+/// File with an attempt's key on a host that does not share the run directory: in its folder for temporary files.
 std::filesystem::path host_key_file(const std::string& attempt);
 
-/// An attempt's secret on other hosts: a file that this user alone can read, sent over ssh's standard input, never by a
-/// command line. A host that cannot be told goes without (its processes look into the run directory, too). Taken back
-/// when this is destroyed.
+/// An attempt's key on other hosts: a file readable by this user alone, sent through ssh's standard input, never on a
+/// command line. A host that cannot be reached has none (its processes look into the run directory, too). The files are
+/// removed by the destructor.
 class HostKeys {
   public:
     HostKeys(const std::vector<HostLine>& hosts, const std::filesystem::path& key, const std::string& attempt);

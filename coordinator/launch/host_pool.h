@@ -10,38 +10,39 @@
 
 namespace treefarm {
 
-/// A line of a hostfile that names a host.
+/// A hostfile line that names a host.
 struct HostLine {
     std::string host;
     int slots = 1;
     std::string text;  ///< the whole line
 };
 
-/// The hosts of a hostfile; comments and empty lines are left out.
+/// Hosts of a hostfile; comments and empty lines are skipped.
 std::vector<HostLine> parse_hostfile(const std::string& text);
-/// A hostfile of these hosts.
+/// Text of a hostfile with these hosts.
 std::string hostfile_text(const std::vector<HostLine>& hosts);
 
-/// "node1.cluster.org" and "node1" are one host.
+/// Whether two names mean one host, as "node1.cluster.org" and "node1" do.
 bool is_same_host(const std::string& a, const std::string& b);
 
-/// The hosts that a render may use, and those that it has lost workers on.
+/// Hosts available to a render, with the record of lost workers.
 class HostPool {
   public:
-    /// `here`: this host's name; its line comes first, since files and signals reach it most surely.
+    /// `here`: name of this host; its line comes first, since files and signals reach it most reliably.
     HostPool(std::vector<HostLine> hosts, const std::string& here);
 
-    /// The hosts of the next attempt; `unreachable` have not answered just now.
+    /// Hosts of the next attempt, without the `unreachable` ones.
     std::vector<HostLine> choose(const std::set<std::string>& unreachable) const;
-    /// An attempt has ended with these workers. A host that lost some in two attempts is left out of the next one.
+    /// Records the end of an attempt with these workers. A host that lost workers in two attempts is skipped in the
+    /// next one.
     void note_end(const std::vector<LifeWorker>& workers);
 
     const std::vector<HostLine>& all() const { return hosts_; }
 
   private:
     std::vector<HostLine> hosts_;
-    std::map<std::string, int> losses_;  ///< attempts that lost workers there
-    std::set<std::string> resting_;      ///< left out of the next attempt
+    std::map<std::string, int> losses_;  ///< per host: number of attempts that lost workers there
+    std::set<std::string> resting_;      ///< hosts skipped in the next attempt
 };
 
 }  // namespace treefarm

@@ -20,10 +20,10 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-/// For a host to answer.
+/// Seconds for a host's answer.
 constexpr double kProbeSeconds = 10.0;
 
-/// A variable that changes nothing.
+/// A variable without any effect.
 const char* const kNothing = "TREEFARM_PROBE=1";
 
 Words host_command(const std::string& host, const std::string& line) {

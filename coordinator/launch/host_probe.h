@@ -10,19 +10,19 @@
 
 namespace treefarm {
 
-/// Hosts where a line of shell does not end well within `seconds`, by ssh or by the agent that Open MPI is told to use
-/// (OMPI_MCA_plm_rsh_agent). All are asked side by side; this host is not asked. `input`: a file that the line can
-/// read, or empty.
+/// Hosts on which a shell line does not succeed within `seconds`, by ssh or by Open MPI's agent
+/// (OMPI_MCA_plm_rsh_agent). All are tried at the same time, except this host. `input`: a file for the line's standard
+/// input, or empty.
 std::set<std::string> failing_hosts(const std::vector<HostLine>& hosts, const std::string& line, double seconds,
                                     const std::filesystem::path& input = {});
 
 /// Hosts that do not answer.
 std::set<std::string> unreachable_hosts(const std::vector<HostLine>& hosts);
 
-/// Whether a program is found where the shell would find it.
+/// Whether a program is in the shell's search path.
 bool is_program(const std::string& name);
 
-/// What a program prints, killed after `seconds`; "" where it is not there.
+/// Output of a program, which is killed after `seconds`; "" if it does not exist.
 std::string words_of(const std::vector<std::string>& command, double seconds);
 
 }  // namespace treefarm

@@ -55,7 +55,8 @@ LaunchFolder::LaunchFolder(LaunchedCommand& command) {
 
 std::optional<LifeStatus> LaunchFolder::life(bool& readable) const {
     errno = 0;
-    std::ifstream file(life_file(), std::ios::binary);  // opened anew each time: network disks look again then
+    // opened anew each time, so that network file systems check for changes
+    std::ifstream file(life_file(), std::ios::binary);
     readable = file.is_open() || errno == ENOENT;
     if (!file.is_open()) return std::nullopt;
     return parse_life_status(std::string(std::istreambuf_iterator<char>(file), {}));
@@ -80,7 +81,7 @@ bool LaunchFolder::was_taken_by(const std::string& launch) const {
 std::uint64_t LaunchFolder::checkpoint() const {
     try {
         return newest_generation(run_);
-    } catch (const std::exception&) {  // a folder that vanished
+    } catch (const std::exception&) {  // the folder vanished
         return 0;
     }
 }
@@ -88,7 +89,7 @@ std::uint64_t LaunchFolder::checkpoint() const {
 void LaunchFolder::give_back() const {
     std::error_code ignored;
     if (made_own_) fs::remove_all(own(), ignored);
-    if (made_run_) fs::remove(run_, ignored);  // if nothing is in it
+    if (made_run_) fs::remove(run_, ignored);  // if it is empty
 }
 
 }  // namespace treefarm

@@ -11,28 +11,28 @@
 
 namespace treefarm {
 
-/// The run directory of what is launched, and launch's own folder in it: signs of life, hostfiles, what mpirun said.
+/// Run directory of a launched command, with launch's own subfolder: heartbeats, hostfiles, mpirun's output.
 class LaunchFolder {
   public:
-    /// Makes both; a render that names no folder gets one, and says so in its words from now on. Throws InputError
-    /// where that cannot be, or another launch is at work there.
+    /// Makes both folders; a render without a folder gets one, added to its command line. Throws InputError if that
+    /// fails, or another launch is running there.
     explicit LaunchFolder(LaunchedCommand& command);
 
     const std::filesystem::path& run() const { return run_; }
     std::filesystem::path own() const { return run_ / kLaunchFolder; }
-    /// Where the coordinator's sign of life goes: a whole path, for other hosts.
+    /// Heartbeat file of the coordinator: an absolute path, for other hosts.
     std::filesystem::path life_file() const { return std::filesystem::absolute(own() / "status.json"); }
 
-    /// The sign of life that is there; sets `readable` to whether it could be looked for.
+    /// Content of the heartbeat file; sets `readable` to whether it could be looked for.
     std::optional<LifeStatus> life(bool& readable) const;
-    /// Exit code by the summary.json of this attempt; nothing where there is none.
+    /// Exit code in the summary.json of this attempt; no value without one.
     std::optional<int> summary(const std::string& attempt) const;
-    /// Whether an attempt of this launch has had the run directory.
+    /// Whether an attempt of this launch has owned the run directory.
     bool was_taken_by(const std::string& launch) const;
-    /// Generation of the newest checkpoint; 0: there is none.
+    /// Generation of the newest checkpoint; 0: none.
     std::uint64_t checkpoint() const;
 
-    /// Removes what this launch has made, where nothing else came of it.
+    /// Removes the folders that this launch has made, if they have no other content.
     void give_back() const;
 
   private:

@@ -26,13 +26,13 @@ std::vector<HostLine> read_hostfile(const std::string& file) {
     return hosts;
 }
 
-/// Slurm's srun can start MPI processes.
+/// Whether Slurm's srun can start MPI processes.
 bool has_pmix() {
     constexpr double kSeconds = 10.0;
     return words_of({"srun", "--mpi=list"}, kSeconds).find("pmix") != std::string::npos;
 }
 
-/// Tasks that the allocation was asked for; else a worker for each of its nodes, and rank 0.
+/// Number of tasks requested from Slurm; else one worker per node, and rank 0.
 int slurm_tasks() {
     if (const int tasks = number_in("SLURM_NTASKS"); tasks > 0) return tasks;
     const int nodes = number_in("SLURM_JOB_NUM_NODES");
@@ -86,7 +86,7 @@ StartPlan LaunchPlanner::plan(const Places& places) const {
     return plan;
 }
 
-/// The hosts that answer and are not resting; those that rest rather than none.
+/// Uses the hosts that answer, without the skipped ones; with them if no other is left.
 void LaunchPlanner::use_hosts(const Places& places, StartPlan& plan) const {
     const std::vector<HostLine> hosts = hosts_->choose(unreachable_hosts(hosts_->all()));
     if (hosts.empty()) throw RunError(options_.hostfile + ": no host answers, or all of them lost their workers twice");

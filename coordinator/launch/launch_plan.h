@@ -12,24 +12,24 @@
 
 namespace treefarm {
 
-/// Decides how attempts are started on this machine, or these hosts, or this Slurm allocation.
+/// Planner of attempts on this machine, on given hosts, or in a Slurm allocation.
 class LaunchPlanner {
   public:
-    /// Throws InputError where nothing could be started.
+    /// Throws InputError if nothing could be started.
     explicit LaunchPlanner(const LaunchOptions& options);
 
     /// Files and folders of an attempt.
     struct Places {
         std::filesystem::path hostfile, temporary, shared_memory;
     };
-    /// How the next attempt is started; asks hosts whether they answer, and writes a hostfile of those that do. Throws
-    /// RunError where none is left.
+    /// Plan of the next attempt; probes the hosts and writes a hostfile of those that answer. Throws RunError if none
+    /// does.
     StartPlan plan(const Places& places) const;
 
-    /// An attempt has ended, and its coordinator had these workers.
+    /// Records the end of an attempt with its workers.
     void note_end(const std::vector<LifeWorker>& workers);
 
-    /// One process, without mpirun.
+    /// Whether attempts are one process, without mpirun.
     bool stands_alone() const { return starter_ == Starter::alone; }
 
   private:

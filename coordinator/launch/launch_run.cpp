@@ -38,11 +38,11 @@ namespace treefarm {
 
 namespace {
 
-/// Between two looks at the sign of life.
+/// Interval of reading the heartbeat file.
 constexpr int kLookMilliseconds = 1000;
-/// For killed processes to go.
+/// Seconds for killed processes to end.
 constexpr double kKillPatience = 5.0;
-/// For whoever still has the run directory, on another host.
+/// Seconds for another host's process to release the run directory.
 constexpr double kFolderPatience = 30.0;
 
 std::string random_name() {
@@ -56,7 +56,7 @@ bool is_gone(pid_t process) {
     return ::kill(process, 0) != 0 && errno == ESRCH;
 }
 
-/// The command as it was typed, up to "--": what a person adds to go on.
+/// The command as it was typed, up to "--"; the user repeats it to resume.
 std::string typed(const LaunchOptions& options) {
     const LaunchOptions usual;
     std::vector<std::string> words = {"treefarm", "launch"};
@@ -74,7 +74,7 @@ std::string typed(const LaunchOptions& options) {
     return shell_line(words) + " --";
 }
 
-/// Words for the terminal; a terminal that is gone ends nothing.
+/// Prints to the terminal; a closed terminal ends nothing.
 void tell(const std::string& text) {
     if (write(STDERR_FILENO, text.data(), text.size()) < 0) return;
 }
@@ -134,7 +134,7 @@ class LaunchRun {
         sight.not_started = not_started_;
         if (child_ && !sight.running) end_child();
         sight.coordinator_gone = seen_ && seen_->host == host_name() && is_gone(seen_->pid);
-        // After the processes are gone: what they still said counts.
+        // Read after the processes have ended, so that their last heartbeat counts.
         sight.status = folder_.life(sight.readable);
         if (supervisor_.attempt() > 0) sight.summary = folder_.summary(name());
         if (!sight.running) sight.checkpoint = folder_.checkpoint();
@@ -143,7 +143,7 @@ class LaunchRun {
         return sight;
     }
 
-    /// The launcher has gone: nothing of its attempt may go on beside the next one.
+    /// Ends all processes of an attempt after its launcher: none may run beside the next attempt.
     void end_child() {
         relay();
         note("launcher: " + child_->ending());
@@ -165,7 +165,8 @@ class LaunchRun {
 
     std::filesystem::path key_file() const { return folder_.own() / kRunKeyName; }
 
-    /// An attempt. That it cannot be started is an end of it like others, but for the first: hosts come back.
+    /// Starts an attempt. A failed start counts as an end of the attempt, except for the first one: hosts may come
+    /// back.
     void start(int number) {
         not_started_.clear();
         try {
@@ -193,24 +194,24 @@ class LaunchRun {
         child_ = std::make_unique<ChildProcess>(command, std::string(kAttemptVariable) + "=" + attempt_text(attempt));
     }
 
-    /// A coordinator on another host may have outlived its launcher.
+    /// Waits for the run directory: a coordinator on another host may outlive its launcher.
     void wait_for_folder() const {
         const FolderLock lock(folder_.run(), kFolderPatience, nullptr);
         if (lock.refused()) throw RunError(folder_.run().string() + " is still in use by an attempt that was ended");
     }
 
-    /// A coordinator that stands still leaves a core, where the host keeps such.
+    /// Makes a coordinator without progress dump core, if the host allows.
     void dump(const LifeStatus& status) const {
         if (status.host != host_name()) return;
         for (const pid_t process : attempt_processes(name()))
             if (process == status.pid) ::kill(process, SIGABRT);
     }
 
-    /// Until something happens, or it is time to look again.
+    /// Waits for an event, or for the next reading of the heartbeat.
     void wait() {
         pollfd ends[2] = {{signals_.descriptor(), POLLIN, 0}, {child_ ? child_->words_descriptor() : -1, POLLIN, 0}};
         poll(ends, 2, kLookMilliseconds);
-        // A launcher whose end is closed is at its end: its exit is what comes next.
+        // A launcher that closed its pipe is about to exit.
         if ((ends[1].revents & POLLHUP) != 0) poll(ends, 1, kLookMilliseconds / 10);
         for (const int number : signals_.take())
             take(number);
@@ -232,7 +233,7 @@ class LaunchRun {
         }
     }
 
-    /// What the launcher and the ranks say goes to the terminal and to the log.
+    /// Copies the output of launcher and ranks to the terminal and to the log.
     void relay() {
         if (!child_) return;
         const std::string words = child_->take_words();
@@ -255,7 +256,7 @@ class LaunchRun {
         return end.code;
     }
 
-    /// What there is, and the command that goes on.
+    /// Description of the saved state, and the command that resumes.
     std::string what_is_kept() const {
         const std::string again = typed(options_);
         if (command_.kind == LaunchedCommand::Kind::render || command_.kind == LaunchedCommand::Kind::resume) {
@@ -278,9 +279,9 @@ class LaunchRun {
     LaunchFolder folder_;
     const OwnFolder temporary_, shared_memory_;
     std::ofstream log_;
-    std::optional<LifeStatus> seen_;  ///< the attempt's last sign of life
-    std::string not_started_;         ///< why the attempt could not be started; "" if it was
-    bool started_ = false;            ///< whether any was
+    std::optional<LifeStatus> seen_;  ///< last heartbeat of the attempt
+    std::string not_started_;         ///< reason why the attempt could not be started; "" if it was
+    bool started_ = false;            ///< whether any attempt was started
     std::unique_ptr<ChildProcess> child_;
     std::unique_ptr<HostKeys> host_keys_;
     Supervisor supervisor_;

@@ -8,9 +8,9 @@
 
 namespace treefarm {
 
-/// treefarm launch
+/// Options of treefarm launch
 struct LaunchOptions {
-    int processes = 0;                 ///< -n; 0: as many as the hosts, or the allocation, ask for
+    int processes = 0;                 ///< -n; 0: the number that the hosts, or the allocation, imply
     std::string hostfile;              ///< --hostfile
     int restarts = 5;                  ///< --restarts
     double stall_seconds = 300;        ///< --stall-seconds
@@ -18,10 +18,10 @@ struct LaunchOptions {
     std::string network;               ///< --network
     std::string mpirun = "mpirun";     ///< --mpirun
     bool sweep = false;                ///< --sweep
-    std::vector<std::string> command;  ///< behind "--"
+    std::vector<std::string> command;  ///< the words after "--"
 };
 
-/// Keeps `command`, which stands in `options` as words, alive until it has ended, and returns its exit code. Throws
+/// Supervises `command`, the parsed form of `options.command`, until it has ended, and returns its exit code. Throws
 /// InputError.
 int run_launch(const LaunchOptions& options, LaunchedCommand command);
 

@@ -7,8 +7,8 @@
 
 namespace treefarm {
 
-/// Signals of a supervisor as a descriptor to wait for, blocked for this process; no handler, no global state. One that
-/// was ignored before stays so: nohup.
+/// Signals of a supervisor as a descriptor to wait for, blocked for this process; no handler, no global state. An
+/// ignored signal stays ignored: nohup.
 class LaunchSignals {
   public:
     LaunchSignals();
@@ -17,7 +17,7 @@ class LaunchSignals {
     LaunchSignals& operator=(const LaunchSignals&) = delete;
 
     int descriptor() const { return descriptor_; }
-    /// Numbers of those that have come since the last call.
+    /// Numbers of the signals since the last call.
     std::vector<int> take();
 
   private:

@@ -13,7 +13,7 @@ std::vector<std::string> LaunchedCommand::again(bool has_checkpoint) const {
         return resume;
     }
     std::vector<std::string> anew = words;
-    // What lies there is an attempt's own beginning.
+    // Files in the folder are of the attempt's own beginning.
     if (std::find(words.begin(), words.end(), "--overwrite") == words.end()) anew.emplace_back("--overwrite");
     return anew;
 }

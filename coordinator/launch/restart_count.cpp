@@ -7,7 +7,7 @@
 namespace treefarm {
 
 bool RestartCount::died(const AttemptReach& reach, const std::string& place) {
-    // What a series has finished is not rendered again, so any number is progress.
+    // Finished renders of a series are not repeated, so that any number of them is progress.
     if (reach.checkpoint > best_.checkpoint || reach.passes > best_.passes || reach.renders > 0) places_.clear();
     best_.checkpoint = std::max(best_.checkpoint, reach.checkpoint);
     best_.passes = std::max(best_.passes, reach.passes);

@@ -7,34 +7,34 @@
 
 namespace treefarm {
 
-/// How far an attempt came, as far as it is kept or was seen.
+/// Progress of an attempt, as far as it is stored or was observed.
 struct AttemptReach {
-    std::uint64_t checkpoint = 0;  ///< generation of the newest on disk
-    std::uint64_t passes = 0;      ///< finished, in all lives of the render
-    std::uint64_t renders = 0;     ///< of a series, that this attempt has finished
+    std::uint64_t checkpoint = 0;  ///< newest generation on disk
+    std::uint64_t passes = 0;      ///< finished passes, including those before a resume
+    std::uint64_t renders = 0;     ///< finished renders of this attempt, in a series
 };
 
-/// Counts restarts that brought nothing: an attempt that came farther than any before it begins the count anew.
+/// Counter of restarts without progress: an attempt with more progress than any before it resets the count.
 class RestartCount {
   public:
-    /// `fruitless`: so many restarts in a row may bring nothing.
+    /// `fruitless`: allowed restarts in a row without progress; `all`: allowed restarts in total.
     RestartCount(int fruitless, int all) : most_fruitless_(fruitless), most_(all) {}
 
-    /// An attempt has died at a place, "pass 3". Returns whether there may be another one.
+    /// Records the death of an attempt at `place`, as "pass 3". Returns whether another one is allowed.
     bool died(const AttemptReach& reach, const std::string& place);
 
     /// Seconds until the next attempt: 1, 2, 4, ... 30.
     double pause() const;
-    /// Attempts in a row, the last included, that brought nothing after the first of them.
+    /// Number of attempts in a row without progress since the first of them, the last one included.
     int in_a_row() const { return static_cast<int>(places_.size()); }
-    /// The place where all of them died; "" if they are several.
+    /// Point at which all of them died; "" if there are several.
     std::string common_place() const;
 
   private:
     const int most_fruitless_, most_;
     int all_ = 0;
     AttemptReach best_;
-    std::vector<std::string> places_;  ///< of deaths since the last progress
+    std::vector<std::string> places_;  ///< points of death since the last progress
 };
 
 }  // namespace treefarm

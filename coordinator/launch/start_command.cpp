@@ -17,7 +17,7 @@ void add_parameter(Words& words, const std::string& name, const std::string& val
     add(words, {"--mca", name, value});
 }
 
-/// Daemons notice a host that is gone in 20 s instead of ten minutes.
+/// Adds keep-alive options: daemons notice a lost host in 20 s instead of ten minutes.
 void add_keepalive(Words& words) {
     add_parameter(words, "oob_tcp_keepalive_time", "10");
     add_parameter(words, "oob_tcp_keepalive_intvl", "3");
@@ -51,7 +51,7 @@ Words mpirun_words(const StartPlan& plan) {
         add_one_host(words, plan);
     else
         add_hosts(words, plan);
-    // Where ranks outnumber cores a message would wait for a time slice.
+    // With more ranks than cores a message would wait for a time slice.
     if (alone || plan.oversubscribed) add_parameter(words, "mpi_yield_when_idle", "1");
     add_parameter(words, "pml", "ob1");
     if (!plan.temporary.empty()) add_parameter(words, "orte_tmpdir_base", plan.temporary.string());
@@ -59,9 +59,9 @@ Words mpirun_words(const StartPlan& plan) {
     return words;
 }
 
-/// -K0: a task that dies ends no other. A worker is one process with a thread for each processor of its node: bound to
-/// one, it would use one, and rank 0 needs none of its own. Variables go along even where sbatch was told
-/// --export=NONE.
+/// Words of an srun command. -K0: a task that dies ends no other. A worker is one process with a thread for each
+/// processor of its node: binding would limit it to one, and rank 0 needs none of its own. Environment variables are
+/// exported even under sbatch --export=NONE.
 Words srun_words(const StartPlan& plan) {
     Words words = {"srun", "--mpi=pmix", "-n", std::to_string(plan.processes), "--cpu-bind=none", "--overcommit"};
     words.push_back("--export=ALL" + (plan.network.empty() ? "" : ",OMPI_MCA_btl_tcp_if_include=" + plan.network));

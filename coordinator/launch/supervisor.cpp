@@ -12,7 +12,7 @@ namespace treefarm {
 
 namespace {
 
-/// Between two steps of one that was not stopped itself: longer, and nobody could have been heard.
+/// Seconds between two steps above which the supervisor itself was stopped, and could not see a heartbeat.
 constexpr double kLongestStep = 5.0;
 
 constexpr int kFailed = 1, kInterrupted = 3;
@@ -67,7 +67,7 @@ std::optional<SupervisorEnd> Supervisor::step(const Sight& sight) {
     return std::nullopt;
 }
 
-/// Where the supervisor was stopped itself, and its host asleep, nobody was silent.
+/// Excuses the silence of a gap in which the supervisor itself, or its host, was stopped.
 void Supervisor::forgive_gap(double now) {
     const double gap = now - std::exchange(last_step_, now);
     if (gap <= kLongestStep) return;
@@ -87,12 +87,11 @@ void Supervisor::start(double now) {
     hands_.start(attempt_);
 }
 
-/// Takes in the sign of life.
+/// Reads the heartbeat.
 void Supervisor::look(const Sight& sight) {
     const double now = sight.now;
-    if (!sight.readable) {  // who cannot see must not kill
-        if (!std::exchange(told_unreadable_, true))
-            hands_.say("the sign of life cannot be read: nothing is ended for its silence");
+    if (!sight.readable) {  // no kill without evidence
+        if (!std::exchange(told_unreadable_, true)) hands_.say("the sign of life cannot be read: its age is ignored");
         began_ = beat_at_ = progress_at_ = now;
     }
     if (code(sight) && !code_at_) code_at_ = now;
@@ -109,7 +108,7 @@ void Supervisor::look(const Sight& sight) {
     own_ = status;
 }
 
-/// The exit code of this attempt, as the coordinator said it or its summary has it.
+/// Exit code of this attempt, from the coordinator's heartbeat or its summary.
 std::optional<int> Supervisor::code(const Sight& sight) const {
     if (sight.status && sight.status->attempt == name_(attempt_) && sight.status->code) return sight.status->code;
     return sight.summary;
@@ -123,7 +122,7 @@ void Supervisor::watch(const Sight& sight) {
     const double now = sight.now;
     if (code_at_) {
         if (now - std::max(*code_at_, beat_at_) > limits_.leave || now - *code_at_ > limits_.leave_all)
-            end_attempt(now, "the render has ended, but its launcher goes on: it is ended");
+            end_attempt(now, "the render has ended, but its launcher still runs: it is ended");
         return;
     }
     if (!own_) {
@@ -139,7 +138,7 @@ void Supervisor::watch(const Sight& sight) {
     }
 }
 
-/// Waits as long as something is written; who goes on rendering has not heard.
+/// Watches an attempt that was told to stop: it may take as long as it makes progress outside of a pass.
 void Supervisor::watch_stop(const Sight& sight) {
     if (code_at_ || sight.coordinator_gone) return watch(sight);
     const bool writes = own_ && own_->phase != LifePhase::pass;
@@ -160,9 +159,9 @@ void Supervisor::push_stop(double now) {
     const bool first = heeded_stops_ == 0;
     heeded_stops_ = stops_;
     if (state_ == State::terminating || state_ == State::killed) return;
-    // Before its first sign of life a process knows no SIGUSR1, and has nothing to write.
-    if (!first || !own_) return end_attempt(now, first ? "stopping" : "giving up what is not written");
-    hands_.say("stopping: writing what is finished; once more, and it is given up");
+    // Before its first heartbeat a process does not handle SIGUSR1, and has nothing to write.
+    if (!first || !own_) return end_attempt(now, first ? "stopping" : "stopping at once: unwritten results are lost");
+    hands_.say("stopping: writing the finished passes; a second signal stops at once");
     state_ = State::stopping;
     acted_at_ = now;
     hands_.ask_to_stop();
@@ -172,7 +171,7 @@ std::optional<SupervisorEnd> Supervisor::gone(const Sight& sight) {
     const std::optional<int> known = code(sight);
     const bool stood_still = state_ == State::terminating || state_ == State::killed;
     const bool by_launcher = own_ && own_->ended_by_launcher;
-    // One that we ended for its silence, or mpirun with a host that it lost, may have taken that for a person's wish.
+    // An attempt ended for its silence, or by mpirun after losing a host, may report that as a user's interruption.
     if (known && *known != kFailed && !(*known == kInterrupted && (stood_still || by_launcher) && stops_ == 0))
         return SupervisorEnd{*known, "", *known == kInterrupted};
     if (stops_ > 0) return SupervisorEnd{kInterrupted, "interrupted in " + life_place(own_), true};
@@ -200,13 +199,12 @@ std::optional<SupervisorEnd> Supervisor::restart_or_end(const Sight& sight, cons
     }
     const std::string again = restarts_.common_place();
     const int times = restarts_.in_a_row();
-    return SupervisorEnd{
-        kFailed,
-        fmt::format("{} in {}{}; {}", why, place, host,
-                    times > 1 ? fmt::format("given up after {} attempts in a row that brought nothing{}", times,
-                                            again.empty() ? "" : ", all of which ended there")
-                              : "no restarts are left"),
-        true};
+    return SupervisorEnd{kFailed,
+                         fmt::format("{} in {}{}; {}", why, place, host,
+                                     times > 1 ? fmt::format("given up after {} attempts in a row without progress{}",
+                                                             times, again.empty() ? "" : ", all of which ended there")
+                                               : "no restarts are left"),
+                         true};
 }
 
 }  // namespace treefarm

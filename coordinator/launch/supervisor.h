@@ -11,60 +11,62 @@
 
 namespace treefarm {
 
-/// Limits of a supervisor's patience, seconds.
+/// Time limits of a supervisor, seconds.
 struct SupervisorLimits {
-    double start = 60;          ///< until the first sign of life
-    double beat = 30;           ///< between two beats
-    double stall = 300;         ///< without progress, or so many times what the phase took before:
+    double start = 60;          ///< until the first heartbeat
+    double beat = 30;           ///< between two heartbeats
+    double stall = 300;         ///< without progress; or stall_multiple times the longest so far in this phase,
     double stall_multiple = 5;  ///< whichever is longer
-    double leave = 15;       ///< between the last beat of a coordinator that knows its exit code and its launcher's end
-    double leave_all = 600;  ///< between that code and the launcher's end, whatever still beats
-    double stop = 30;        ///< without progress, once it was told to stop
+    /// from the last heartbeat of a coordinator that knows its exit code to its launcher's end
+    double leave = 15;
+    double leave_all = 600;  ///< from that code to the launcher's end, with or without heartbeats
+    double stop = 30;        ///< without progress, after it was told to stop
     double terminate = 3;    ///< between SIGTERM and SIGKILL
-    int restarts = 5;        ///< in a row that bring nothing
-    int attempts = 100;      ///< in all
+    int restarts = 5;        ///< in a row without progress
+    int attempts = 100;      ///< in total
 };
 
-/// What a supervisor sees at one moment.
+/// Observations of a supervisor at one moment.
 struct Sight {
     double now = 0;                    ///< seconds of its own clock
-    bool running = false;              ///< the process that it started is there
-    std::string not_started;           ///< why the attempt could not be started at all
-    bool readable = true;              ///< the sign of life could be looked for
-    bool coordinator_gone = false;     ///< its process was here, and is not any more
-    std::optional<LifeStatus> status;  ///< what is there, of this attempt or another
-    std::optional<int> summary;        ///< exit code by the attempt's summary.json
-    std::uint64_t checkpoint = 0;      ///< generation of the newest on disk
+    bool running = false;              ///< the started process exists
+    std::string not_started;           ///< reason why the attempt could not be started
+    bool readable = true;              ///< the heartbeat file could be looked for
+    bool coordinator_gone = false;     ///< its process existed and has ended
+    std::optional<LifeStatus> status;  ///< content of the heartbeat file, of this attempt or another
+    std::optional<int> summary;        ///< exit code in the attempt's summary.json
+    std::uint64_t checkpoint = 0;      ///< newest generation on disk
 };
 
-/// What a supervisor has done. Each may throw InputError, which leaves Supervisor::step().
+/// Actions of a supervisor, as functions. Each may throw InputError, which leaves Supervisor::step().
 struct SupervisorHands {
     std::function<void(int)> start;               ///< an attempt, by its number
     std::function<void()> ask_to_stop;            ///< SIGUSR1: write, and leave
-    std::function<void(const LifeStatus&)> dump;  ///< SIGABRT to a coordinator that stands still
+    std::function<void(const LifeStatus&)> dump;  ///< SIGABRT to a coordinator without progress
     std::function<void()> terminate;              ///< SIGTERM
-    std::function<void()> kill;                   ///< SIGKILL to all that the attempt has started
+    std::function<void()> kill;                   ///< SIGKILL to all processes of the attempt
     std::function<void(const std::string&)> say;
 };
 
-/// How it all ended.
+/// Result of a supervised render.
 struct SupervisorEnd {
     int code = 1;
-    std::string words;  ///< why, where it is no exit code of the render's own; "" otherwise
+    std::string words;  ///< reason, unless the render itself set the exit code; "" otherwise
     bool resumable = false;
 };
 
-/// Keeps a render alive: starts attempts, watches their signs of life, ends those that stand still, and starts the next
-/// one. Knows no process, file or clock: it is told what is there, and says what is to be done.
+/// Supervisor of a render: starts attempts, watches their heartbeats, ends those without progress, and starts the next
+/// one. Independent of processes, files and clocks: it receives observations and calls actions.
 class Supervisor {
   public:
-    /// `name` gives an attempt's name by its number.
+    /// `name`: name of an attempt by its number.
     Supervisor(SupervisorLimits limits, SupervisorHands hands, std::function<std::string(int)> name);
 
-    /// A person or a batch system wants an end: first in order, then at once.
+    /// Records a request to stop, by a user or a batch system: the first one stops in order, the second at once.
     void ask_to_stop();
 
-    /// To be called often, at least while something changes. Returns how it ended, once it has.
+    /// Advances the supervisor; to be called often, at least while something changes. Returns the result, once there is
+    /// one.
     std::optional<SupervisorEnd> step(const Sight& sight);
 
     int attempt() const { return attempt_; }
@@ -90,17 +92,17 @@ class Supervisor {
     RestartCount restarts_;
     State state_ = State::waiting;
     int attempt_ = 0;
-    int stops_ = 0, heeded_stops_ = 0;  ///< asked for, and acted upon
+    int stops_ = 0, heeded_stops_ = 0;  ///< stop requests received, and acted upon
     double last_step_ = 0, due_ = 0;
     double began_ = 0, beat_at_ = 0, progress_at_ = 0, phase_at_ = 0, acted_at_ = 0;
-    std::optional<double> code_at_;                 ///< the exit code has been known since
-    std::optional<LifeStatus> own_;                 ///< last sign of life of this attempt
-    std::array<double, kLifePhases> longest_ = {};  ///< that each phase was without progress so far
+    std::optional<double> code_at_;                 ///< time since when the exit code is known
+    std::optional<LifeStatus> own_;                 ///< last heartbeat of this attempt
+    std::array<double, kLifePhases> longest_ = {};  ///< per phase: longest time without progress so far
     bool told_unreadable_ = false;
-    std::string why_, place_;  ///< why the attempt is ended by us, and where it was then
+    std::string why_, place_;  ///< reason for ending the attempt, and where it was then
 };
 
-/// Words of an attempt's place: "pass 3", "reading the input".
+/// Phase of an attempt in words: "pass 3", "reading the input".
 std::string life_place(const std::optional<LifeStatus>& status);
 
 }  // namespace treefarm

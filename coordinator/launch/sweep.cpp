@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kOwnName = "treefarm-launch-";
 
-/// Not a link, of this user, and at least so many seconds old.
+/// Whether a file is no link, is of this user, and is at least `age` seconds old.
 bool is_ours(const fs::path& path, std::time_t age = 0) {
     struct stat facts {};
     return lstat(path.c_str(), &facts) == 0 && facts.st_uid == geteuid() && !S_ISLNK(facts.st_mode) &&
@@ -36,7 +36,7 @@ bool is_dead(std::uint64_t pid) {
     return pid > 0 && pid < (std::uint64_t{1} << 31) && ::kill(static_cast<pid_t>(pid), 0) != 0 && errno == ESRCH;
 }
 
-/// "treefarm-launch-123-abc" of a dead process 123.
+/// Whether a name is of a dead launch: "treefarm-launch-123-abc" of a dead process 123.
 bool is_dead_launch(const std::string& name) {
     const std::string start = kOwnName;
     if (!name.starts_with(start)) return false;
@@ -58,7 +58,7 @@ int sweep_launches(const fs::path& folder) {
     return removed;
 }
 
-/// TMP/ompi.HOST.UID/pid.123 of a dead mpirun 123.
+/// Removes TMP/ompi.HOST.UID/pid.123 of a dead mpirun 123; returns their number.
 int sweep_sessions() {
     const fs::path sessions =
         temporary_folder() / ("ompi." + fs::path(host_name()).string() + "." + std::to_string(geteuid()));
@@ -74,7 +74,7 @@ int sweep_sessions() {
     return removed;
 }
 
-/// Files below a folder that any process which we may look into has in its memory.
+/// Files below a folder that any accessible process has mapped.
 std::set<std::string> mapped_files(const std::string& folder) {
     std::set<std::string> files;
     std::error_code error;
@@ -90,7 +90,7 @@ std::set<std::string> mapped_files(const std::string& folder) {
 int sweep_shared_memory() {
     const fs::path folder = shared_memory_folder();
     const std::string start = "vader_segment." + host_name() + "." + std::to_string(geteuid()) + ".";
-    constexpr std::time_t kSeconds = 10;  // between a file's making and its mapping
+    constexpr std::time_t kSeconds = 10;  // between a file's creation and its mapping
     std::set<fs::path> found;
     std::error_code error;
     for (const auto& entry : fs::directory_iterator(folder, error))
@@ -104,9 +104,9 @@ int sweep_shared_memory() {
     return removed;
 }
 
-/// Secrets of attempts that have no process here: a launch on another host was killed, or lost this host.
+/// Removes keys of attempts without a process here: a launch on another host was killed, or lost this host.
 int sweep_keys() {
-    constexpr std::time_t kSeconds = 600;  // between a secret's arrival and the process that it is for
+    constexpr std::time_t kSeconds = 600;  // between a key's arrival and the start of its process
     const std::string start = kHostKeyName;
     int removed = 0;
     std::error_code error;

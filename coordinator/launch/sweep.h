@@ -6,18 +6,18 @@
 
 namespace treefarm {
 
-/// A folder of this process alone, mode 0700, for what Open MPI leaves; removed with it. Its name says whose it is, so
-/// that sweep() removes it where its process was killed.
+/// A private folder of this process, mode 0700, for Open MPI's files; removed with it. Its name contains the process,
+/// so that sweep() removes it after a kill.
 class OwnFolder {
   public:
-    /// Below `parent`; has no path where it cannot be made.
+    /// Makes the folder below `parent`; the path is empty if that fails.
     explicit OwnFolder(const std::filesystem::path& parent);
     ~OwnFolder();
     OwnFolder(const OwnFolder&) = delete;
     OwnFolder& operator=(const OwnFolder&) = delete;
 
     const std::filesystem::path& path() const { return path_; }
-    /// Removes what is in it.
+    /// Removes the folder's content.
     void empty() const;
 
   private:
@@ -28,8 +28,8 @@ class OwnFolder {
 std::filesystem::path temporary_folder();
 std::filesystem::path shared_memory_folder();
 
-/// Removes what dead processes of this user have left on this host: folders of killed launches, Open MPI's folders of
-/// dead launchers, and its shared memory that no process maps. Returns how many there were.
+/// Removes files that dead processes of this user have left on this host: folders of killed launches, Open MPI's
+/// folders of dead launchers, and its shared memory that no process maps. Returns their number.
 int sweep();
 
 }  // namespace treefarm

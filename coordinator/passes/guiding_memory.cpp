@@ -21,15 +21,15 @@ GuidingVerdict GuidingMemory::after_guided(const PassPlan& pass, const GuidingEv
     const Guiding verdict = judge_guiding(pass, worth, before_, std::min(mistrust_, noisier()));
     if (counts) before_ = worth;
     mistrust_ = std::sqrt(mistrust_);
-    if (verdict == Guiding::loses) first_to_take_up_ = pass.index + 2;  // the first unguided pass alone has no say
+    if (verdict == Guiding::loses) first_to_take_up_ = pass.index + 2;  // the first unguided pass alone proves nothing
     return {verdict, worth};
 }
 
 GuidingWorth GuidingMemory::worth_with(const PassPlan& pass, const GuidingEvidence& evidence, const GuidingWorth& own) {
-    // The light that the noise of short passes is relative to is that of an image of few samples.
+    // In short passes, noise is relative to the light level of an image of few samples.
     if (pass.spp >= kOf.least_settled_spp && told_.samples < kOf.least_settled_spp) told_ = {};
     told_.add(evidence);
-    // Passes that each know too little may know enough together, and what one has missed others have met.
+    // Passes that each have too few samples may suffice together, and one may have missed light that others found.
     const GuidingWorth all = told_.worth();
     const bool knows_less =
         own.known < kOf.least_known || all.unguided_variance > kOf.mistrusted * own.unguided_variance;

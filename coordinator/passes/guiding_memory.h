@@ -8,20 +8,20 @@
 
 namespace treefarm {
 
-/// Verdict on guiding after a pass, and the worth that it rests on; zeros where nothing is known.
+/// Verdict on guiding after a pass, with the efficiency that it is based on; zeros if unknown.
 struct GuidingVerdict {
     Guiding guiding;
     GuidingWorth worth;
 };
 
-/// What is remembered of a render's passes to decide whether the next ones are guided. Guided passes say what unguided
-/// ones would be like; where those were noisier, they have the last word.
+/// Evidence on guiding from a render's passes, which decides whether the next ones are guided. Guided passes estimate
+/// the variance of unguided ones; if unguided passes were in fact noisier than estimated, that counts more.
 class GuidingMemory {
   public:
-    /// Verdict after a guided pass that taught.
+    /// Verdict after a guided pass that recorded.
     GuidingVerdict after_guided(const PassPlan& pass, const GuidingEvidence& evidence);
-    /// Verdict after an unguided pass with such a variance of a sample, as GuidingWorth::unguided_variance; 0: not
-    /// known. Where it says nothing new, it is `now`.
+    /// Verdict after an unguided pass; `variance`: of a sample, as GuidingWorth::unguided_variance; 0: unknown. It is
+    /// `now` if the pass tells nothing new.
     GuidingVerdict after_unguided(const PassPlan& pass, double variance, Guiding now);
 
     bool operator==(const GuidingMemory&) const = default;
@@ -32,18 +32,17 @@ class GuidingMemory {
     }
 
   private:
-    /// Worth of guiding by a pass that said `own`; adds that to what all have told.
+    /// Guiding efficiency after a pass with the result `own`; adds its evidence to that of all passes.
     GuidingWorth worth_with(const PassPlan& pass, const GuidingEvidence& evidence, const GuidingWorth& own);
-    /// How many times as noisy unguided passes have been as guided ones say; 1 where nobody knows, or where it is the
-    /// same but for chance.
+    /// Variance of unguided passes over the guided ones' estimate of it; 1 if unknown, or not significant.
     double noisier() const;
 
-    GuidingWorth before_;                 ///< by which guiding was judged last
-    GuidingEvidence told_;                ///< by the guided passes so far
-    double unguided_samples_ = 0;         ///< of each pixel
-    double unguided_variance_ = 0;        ///< of those samples, by themselves
-    double mistrust_ = 1;                 ///< noisier() when guiding was taken up; fades with each guided pass
-    std::uint32_t first_to_take_up_ = 0;  ///< number of the first pass that may take guiding up again
+    GuidingWorth before_;                 ///< efficiency at the last verdict
+    GuidingEvidence told_;                ///< evidence of the guided passes so far
+    double unguided_samples_ = 0;         ///< samples of each pixel
+    double unguided_variance_ = 0;        ///< variance of those samples, measured in unguided passes
+    double mistrust_ = 1;                 ///< noisier() when guiding was resumed; fades with each guided pass
+    std::uint32_t first_to_take_up_ = 0;  ///< number of the first pass that may resume guiding
 };
 
 }  // namespace treefarm

@@ -41,7 +41,7 @@ class PassLoop {
     }
 
   private:
-    /// Gives away the state, unless a pass was being added to it.
+    /// Gives the state to on_last_state, unless a pass was being added to it.
     void hand_over() {
         if (!whole_ || !hooks_.on_last_state) return;
         try {
@@ -51,7 +51,7 @@ class PassLoop {
         if (!state_.reports.empty() || state_.begun) hooks_.on_last_state(std::move(state_));
     }
 
-    /// Adds to the state what has come in of the pass in hand.
+    /// Adds the partial results of the present pass to the state.
     void note_begun() {
         BegunPass begun;
         farm_.fill(begun);
@@ -62,7 +62,7 @@ class PassLoop {
         state_.begun = std::move(begun);
     }
 
-    /// The image of passes that an earlier life of the render finished.
+    /// Shows the image of passes that were finished before a resume.
     void show_finished() {
         farm_.beat_during([&] {
             PassVariance known;
@@ -70,12 +70,12 @@ class PassLoop {
             describe_image(state_, job_, result_, known);
         });
         set_result();
-        clock_.restart();  // to combine them again is not rendering
+        clock_.restart();  // combining them again is not rendering
     }
 
     void render_passes() {
         NextPass next = choose_next(true);
-        if (state_.begun) {  // it is finished in any case, and as it was begun
+        if (state_.begun) {  // a partial pass is finished in any case, with its own plan
             next.pass = state_.begun->plan;
             next.memory = state_.begun->memory;
         }
@@ -102,7 +102,7 @@ class PassLoop {
         }
     }
 
-    /// The next pass. A tree that is there already guides it as it was refined, whatever was expected of the pass then.
+    /// Next pass. An existing tree guides it as it was refined, even if the pass was planned differently then.
     NextPass choose_next(bool has_tree) {
         state_.history.threads = thread_count();
         NextPass next = choose_(state_.history);
@@ -112,14 +112,14 @@ class PassLoop {
     }
 
     void broadcast(const PassPlan& plan, PassReport& report) {
-        state_.tree.set_pass(plan.index);  // also where the pass before taught nothing
+        state_.tree.set_pass(plan.index);  // also if the previous pass taught nothing
         Bytes encoded = state_.tree.encode();
         coming_tree_hash_ = hash_bytes(encoded);
         report.tree = tree_figures(state_.tree, encoded.size());
         farm_.begin_pass(plan, state_.tree, std::move(encoded), result_.width, result_.height,
                          state_.begun ? &*state_.begun : nullptr);
         report.seconds.all = state_.begun ? state_.begun->collect_seconds : 0.0;
-        state_.begun.reset();  // it grows in the farm from now on
+        state_.begun.reset();  // from now on the farm collects it
     }
 
     /// Collects the results of a pass; false if it was interrupted.
@@ -139,7 +139,7 @@ class PassLoop {
         return true;
     }
 
-    /// A state that says no more than the one on disk would look to a supervisor as if the render got on.
+    /// Offers the state with the partial pass, if it has grown: a supervisor counts a repeated state as progress.
     void show_begun() {
         const std::uint64_t value = kept_value();
         if (value == std::exchange(collecting_->kept, value)) return;
@@ -148,7 +148,7 @@ class PassLoop {
         state_.begun.reset();
     }
 
-    /// Changes with what is worth keeping of the pass in hand.
+    /// Value that changes with the partial pass's results worth saving.
     std::uint64_t kept_value() const {
         std::uint64_t value = farm_.ledger().done();
         for (const DeadlyUnit& unit : farm_.ledger().deadly())
@@ -203,7 +203,7 @@ class PassLoop {
     void learn_from(const PassPlan& plan, const NextPass& next, PassReport& report) {
         if (!plan.record) return;
         if (!next.pass) {
-            if (!hooks_.on_state) return;  // nobody can go on from here
+            if (!hooks_.on_state) return;  // no resume is possible here
             ended_with_ = state_.tree;
         }
         const Timer timer;
@@ -217,7 +217,7 @@ class PassLoop {
         report.workers = farm_.roster().present_count();
         report.threads = thread_count();
         count_idle(report);
-        // All at once: whatever fails before leaves the pass before, whole.
+        // Without exceptions in between: an earlier failure leaves the state of the previous pass complete.
         state_.reports.push_back(report);
         state_.tree_hash = coming_tree_hash_;
         whole_ = true;
@@ -237,7 +237,7 @@ class PassLoop {
 
     std::uint32_t thread_count() const { return static_cast<std::uint32_t>(farm_.roster().thread_count()); }
 
-    /// Reading in the scene, before the first pass, is not rendering.
+    /// Seconds of rendering; preparing the scene before the first pass does not count.
     double run_seconds() const {
         if (!is_first_) return seconds_before_ + clock_.seconds() - loading_seconds_;
         const double loading = farm_.first_request_seconds();
@@ -271,22 +271,22 @@ class PassLoop {
     const PassChooser& choose_;
     const PassHooks& hooks_;
     RenderState state_;
-    RenderResult result_;  ///< what of the state is shown
+    RenderResult result_;  ///< result shown to the callbacks
     std::uint64_t coming_tree_hash_ = 0;
-    std::optional<AnyModel> ended_with_;  ///< the last pass's tree, where a later one was learned that nobody uses
-    /// A pass that comes in.
+    std::optional<AnyModel> ended_with_;  ///< the last pass's tree, if a later one was learned that guides no pass
+    /// A pass whose results are being collected.
     struct Collecting {
         BudgetMemory memory;  ///< NextPass::memory
-        double before;        ///< seconds that earlier lives of the render collected
-        std::uint64_t kept;   ///< kept_value() of the newest state that was offered or gone on from
+        double before;        ///< seconds of collecting before a resume
+        std::uint64_t kept;   ///< kept_value() of the newest state that was offered or resumed
         Timer clock{};
     };
     std::optional<Collecting> collecting_;
     Timer clock_;
-    const double seconds_before_;  ///< that earlier lives of the render took
-    double loading_seconds_ = 0;   ///< until the first worker had scene and tree and asked for work
-    bool is_first_ = true;         ///< pass of this life
-    bool whole_ = true;            ///< the state is that between two passes
+    const double seconds_before_;  ///< seconds of the render before a resume
+    double loading_seconds_ = 0;   ///< until the first worker had scene and tree and requested units
+    bool is_first_ = true;         ///< first pass since the start or resume
+    bool whole_ = true;            ///< the state is one between two passes
 };
 
 }  // namespace

@@ -22,12 +22,12 @@ Column column(const char* name, Get get) {
     return {name, [get](const PassReport& r) { return fmt::format("{}", get(r)); }};
 }
 
-/// An empty field where a figure is not known.
+/// Number as text; empty if unknown.
 std::string only_if(bool known, double value) {
     return known ? fmt::format("{}", value) : std::string();
 }
 
-/// Thread-seconds, empty where nobody timed them.
+/// Column of thread-seconds; empty without profiling.
 Column phase_column(const char* name, TracePhase phase) {
     return {name, [phase](const PassReport& r) {
                 const double seconds = r.stats.phase_seconds[static_cast<std::size_t>(phase)];

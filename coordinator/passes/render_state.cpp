@@ -32,13 +32,14 @@ std::uint64_t hash_aovs(const std::vector<AovChannel>& channels) {
     return hash_bytes({reinterpret_cast<const std::uint8_t*>(hashes.data()), hashes.size() * sizeof(std::uint64_t)});
 }
 
-/// What the model knows of an image; nothing where it is of another one, as in a damaged checkpoint.
+/// Light levels stored in the model; none if they are of another image, as in a damaged checkpoint.
 ImageLevels levels_of(const RegionModel& model, std::size_t pixels, std::size_t width) {
     ImageLevels levels{model.image.columns, model.image.inverse_levels};
     return levels.fits(pixels, width) ? levels : ImageLevels();
 }
 
-/// Judges guiding by one image-wide number: a decision, not a weight, so no pixel is biased by its own samples.
+/// Judges guiding by one number for the whole image: a decision, not a weight, so that no pixel is biased by its own
+/// samples.
 void judge_guiding(RenderState& state, const Resolved& job, std::size_t width, double cost, PassReport& report) {
     Guiding& verdict = state.history.guiding;
     GuidingMemory& memory = state.guiding_memory;
@@ -63,7 +64,7 @@ void judge_splitting(RenderState& state, const Resolved& job, PassReport& report
     report.splitting = state.history.splitting;
 }
 
-/// Cost of a camera sample, in closest-hit rays of unguided paths, without what next event costs besides shadow rays.
+/// Cost of a camera sample in closest-hit rays of unguided paths; of next event only the shadow rays count.
 double sample_cost(const PassReport& report) {
     const TraceStats& stats = report.stats;
     const auto count = [](std::uint64_t n) { return static_cast<double>(n); };
@@ -73,7 +74,7 @@ double sample_cost(const PassReport& report) {
     return rays / count(stats.paths);
 }
 
-/// What the next pass is told of the image, and how often it samples emitters where nothing guides it.
+/// Sets the light levels for the next pass, and its rate of emitter sampling if it is unguided.
 void judge_next_event(RenderState& state, const Resolved& job, const CombinedImage& image, std::size_t width,
                       double cost, PassReport& report) {
     if (!job.decides_next_event && job.guiding.rule != Rule::while_it_pays) return;
@@ -82,7 +83,7 @@ void judge_next_event(RenderState& state, const Resolved& job, const CombinedIma
     const PassPlan& plan = report.plan;
     const auto asked = static_cast<double>(report.stats.next_event[kNextEventAsked]),
                drawn = static_cast<double>(report.stats.next_event[kNextEventDrawn]);
-    // Along which direct light was counted.
+    // Samples along which direct light was counted.
     const std::uint64_t samples = multiples_in(plan.first_sample, plan.spp, kPolicy.next_event.counted_every);
     const double paths =
         asked > 0 ? static_cast<double>(report.stats.paths) * static_cast<double>(samples) / plan.spp : 0;
@@ -94,12 +95,12 @@ void judge_next_event(RenderState& state, const Resolved& job, const CombinedIma
         report.refine.next_event =
             state.image_next_event.learn(report.stats.next_event, report.price, facts.next_event);
     else if (job.decides_next_event && asked > 0 && state.history.guiding == Guiding::loses)
-        facts.next_event = next_event_code(drawn / asked);  // what the regions did is what the worth was judged by
+        facts.next_event = next_event_code(drawn / asked);  // the efficiency was judged at the regions' own rates
     state.tree.set_image(std::move(facts));
 }
 
-/// Gain by light subpaths in all passes that had them, if this one has: rare light, which few samples find, is most of
-/// what there is to compare, and a single pass may have met it by one of both alone.
+/// Gain by light subpaths in all passes that had them, if this one has: most of the gain is rare light that few samples
+/// find, and a single pass may have found it by one method only.
 LightSubpathGain gain_so_far(const RenderState& state, const PassReport& report) {
     if (!report.plan.light_subpaths) return {};
     TraceStats all;

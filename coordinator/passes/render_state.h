@@ -17,31 +17,31 @@
 
 namespace treefarm {
 
-/// A render between two passes, or within one, as a value: whatever decides a later bit, and the reports of the passes
-/// so far. Nothing else outlives a pass, so who has it can go on, here or elsewhere, as if nothing had happened
+/// State of a render between two passes, or within one, as a value: all that decides later bits, and the reports of the
+/// passes so far. Nothing else outlives a pass, so that a copy can be resumed here or elsewhere with the same result
 /// (docs/design/checkpoint.md).
 struct RenderState {
     RenderHistory history;
-    std::vector<PassResult> films;  ///< that make the image, folded
+    std::vector<PassResult> films;  ///< summed up to the films that the image consists of
     AovSums aovs;
     GuidingMemory guiding_memory;
     AnyModel tree;                  ///< guides the next pass
-    std::optional<bool> last_tree;  ///< whether it was refined as the last one; nothing: it is the first
+    std::optional<bool> last_tree;  ///< whether it was refined as the last one; no value: it is the first
     AnyLearner learner;
     ImageNextEventLearner image_next_event;
     std::vector<PassReport> reports;  ///< of finished passes
-    std::uint64_t tree_hash = 0;      ///< of the encoded tree that guided the last of them
-    std::optional<BegunPass> begun;   ///< the pass after them, as far as it is, where the state goes on within it
+    std::uint64_t tree_hash = 0;      ///< of the encoded tree that guided the last finished pass
+    std::optional<BegunPass> begun;   ///< the partial pass after them, if the state is within one
 
     std::uint32_t spp() const { return history.spp(); }
-    /// The passes that are finished, and the one that is begun.
+    /// Plans of the finished passes and of the partial one.
     std::vector<PassPlan> plans() const;
 };
 
-/// The state before any pass; `tree`: the first one.
+/// State before any pass; `tree`: the first tree.
 RenderState first_state(const Resolved& job, AnyModel tree, std::size_t pixels);
 
-/// What a pass brought.
+/// Collected results of a pass.
 struct CollectedPass {
     PassPlan plan;
     std::vector<PixelEstimate> pixels;
@@ -58,19 +58,19 @@ struct DevelopedState {
     ErrorEstimate error;
 };
 
-// The steps from a state to the next, in this order. Each is pure but for the state that it changes.
+// Steps from a state to the next, in this order. Each is pure except for the state that it changes.
 
 /// Adds the pass's film to the others.
 void add_film(RenderState& state, const Resolved& job, CollectedPass pass);
-/// Combines the films; measures their noise where that is not known yet.
+/// Combines the films, and measures their noise if it is unknown.
 void combine_films(RenderState& state, const Resolved& job, DevelopedState& developed);
-/// The other figures of the combined image, the last pass's variance among them, in threads of their own.
+/// Computes the image's other figures, including the last pass's variance, in parallel threads.
 void describe_image(const RenderState& state, const Resolved& job, DevelopedState& developed, PassVariance& last_pass);
-/// Verdicts on guiding, splitting, light subpaths and, where nothing guides, next event, by the pass's figures and the
-/// image with it. Sets the report's.
+/// Verdicts on guiding, splitting, light subpaths and, in unguided passes, next event, from the pass's figures and the
+/// combined image. Sets those of the report.
 void judge(RenderState& state, const Resolved& job, const CombinedImage& image, std::size_t width, PassReport& report);
-/// The tree of the coming pass, by what the pass recorded. Without a coming one, as for a pass that goes on doubling:
-/// whoever continues an ended render needs it.
+/// Builds the tree of the coming pass from the pass's records. Without a coming pass it is built as if passes continued
+/// to double: a resume of an ended render needs it.
 void learn(RenderState& state, const Resolved& job, const PassPlan& pass, const std::optional<PassPlan>& coming,
            const CellSums& sums, const NextEventPrice& price, RefineReport& report);
 

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kRetrySeconds = 1.0;
 
-/// Kinds of trouble that are no errno.
+/// Kinds of errors without an errno.
 constexpr int kNoMemory = -1, kOther = -2;
 
 }  // namespace
@@ -92,7 +92,7 @@ void FileWriter::run(Slots::iterator slot, std::unique_lock<std::mutex>& lock) {
         message = error.what();
     }
     const double seconds = timer.seconds();
-    if (message.empty()) write = {};  // an image may be what it holds: not to be freed under the lock
+    if (message.empty()) write = {};  // it may hold an image, which is not to be freed under the lock
     lock.lock();
     writing_.clear();
     idle_.notify_all();

@@ -14,41 +14,41 @@
 
 namespace treefarm {
 
-/// How often a file may be written: the next time not before `least` seconds after the last, nor before `multiple`
-/// times the seconds that the last took.
+/// Rate limit of a file: the next write begins at least `least` seconds after the last one, and at least `multiple`
+/// times its duration.
 struct Pace {
     double least = 0;
     double multiple = 0;
 };
 
-/// Writes files beside the render, in a thread of its own: nobody waits for a disk. Of each file only the newest
-/// version is kept until it is written. What fails is tried again each second.
+/// Writer of files in a thread of its own, so that no other thread waits for a disk. Only the newest version of each
+/// file waits. A failed write is retried each second.
 class FileWriter {
   public:
-    using Write = std::function<void()>;  ///< makes the content and writes it; throws what went wrong
+    using Write = std::function<void()>;  ///< makes the content and writes it; throws on failure
 
     FileWriter() : thread_([this] { work(); }) {}
     ~FileWriter() { stop(); }
     FileWriter(const FileWriter&) = delete;
     FileWriter& operator=(const FileWriter&) = delete;
 
-    /// Puts `write` in the place of what waits under this name. The writer's thread calls it, possibly several times.
+    /// Replaces the version waiting under this name. The writer's thread calls `write`, possibly several times.
     void put(const std::string& name, Write write, Pace pace = {});
 
-    /// Drops what waits under this name, or waits for it where it is being written.
+    /// Drops the version waiting under this name, or waits until it is written if that has begun.
     void forget(const std::string& name);
 
-    /// News since the last call: each kind of trouble (an errno) once, and that all is written again.
+    /// News since the last call: each kind of error (an errno) once, and the end of all errors.
     std::vector<std::string> take_news();
 
-    /// Ends what is being written; what waits is forgotten. Returns the names that were put and not written since.
+    /// Completes the present write and drops those that wait. Returns the names that were put and not written since.
     std::vector<std::string> stop();
 
   private:
     struct Slot {
-        Write write;  ///< empty: nothing waits
+        Write write;  ///< empty: none waits
         Pace pace;
-        double due = 0;  ///< not before
+        double due = 0;  ///< earliest time
         bool failed = false;
     };
     using Slots = std::map<std::string, Slot>;
@@ -63,11 +63,11 @@ class FileWriter {
     std::condition_variable changed_, idle_;
     const Timer clock_;
     Slots slots_;
-    std::set<int> reported_;  ///< kinds of trouble
-    bool trouble_ = false;    ///< told, and not over
+    std::set<int> reported_;  ///< kinds of errors
+    bool trouble_ = false;    ///< reported, and not over
     std::vector<std::string> news_;
     bool stopping_ = false;
-    std::string writing_;  ///< the name; empty: none
+    std::string writing_;  ///< name of the file in progress; empty: none
     std::thread thread_;   ///< last: it uses the others
 };
 

@@ -28,7 +28,7 @@ bool has(const fs::path& path) {
     return fs::exists(fs::symlink_status(path, error));
 }
 
-/// An object without keys if there is no such file, or it is damaged.
+/// JSON object of a file; empty if it is missing or damaged.
 Json read_object(const fs::path& path) {
     std::ifstream file(path, std::ios::binary);
     Json json = Json::parse(file, nullptr, false);
@@ -45,7 +45,7 @@ std::string number_of(const Json& json, const char* key) {
     return found != json.end() && found->is_number_integer() ? std::to_string(found->get<std::int64_t>()) : "";
 }
 
-/// A killed run can leave nothing but the file that it was writing.
+/// Whether a file is a partial one of a killed run, which may be all that it left.
 bool is_leftover(const std::string& name) {
     for (const std::string_view file : kRunFiles)
         if (is_temporary_of(name, std::string(file))) return true;
@@ -69,7 +69,7 @@ bool holds_nothing(const fs::path& folder) {
     return true;
 }
 
-/// Frames of a shot that were rendered one by one, as a queue does it.
+/// Whether a folder holds frames of a shot that were rendered one by one, as by a queue.
 bool holds_frames(const fs::path& folder) {
     constexpr std::string_view kStart = "frame.";
     std::error_code error;
@@ -118,7 +118,7 @@ std::string render_words(const fs::path& folder) {
     std::string state = text_of(summary, "state"), spp = number_of(summary, "spp");
     if (state.empty()) state = text_of(status, "state");
     if (spp.empty()) spp = number_of(status, "spp_done");
-    if (state.empty() || state == "running") state = "broken off";  // nobody has the folder any more
+    if (state.empty() || state == "running") state = "broken off";  // no process uses the folder any more
     return state + ", " + (spp.empty() ? "0" : spp) + " spp";
 }
 

@@ -15,7 +15,7 @@ namespace treefarm {
 
 FolderLock::FolderLock(const std::filesystem::path& folder, double patience, const std::function<bool()>& interrupted)
     : fd_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
-    if (fd_ >= 0 && ::flock(fd_, LOCK_EX | LOCK_NB) != 0 && errno == EBADF) {  // NFS locks what can be written only
+    if (fd_ >= 0 && ::flock(fd_, LOCK_EX | LOCK_NB) != 0 && errno == EBADF) {  // NFS locks only writable files
         ::close(fd_);
         fd_ = ::open((folder / kLockFileName).c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
     }

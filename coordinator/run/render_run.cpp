@@ -25,9 +25,9 @@ namespace treefarm {
 
 namespace {
 
-/// Later jobs of a study take the place of the first in the memory of all processes.
+/// Whether memory is checked: not for later jobs of a study, which reuse the memory of the first.
 bool checks_memory(const RenderRequest& request) {
-    // What goes on was checked when it began, and its films are in memory already.
+    // A resumed render was checked when it began, and its films are in memory already.
     return request.job.farm.memory_check && request.turn.number <= 1 && !request.resumed;
 }
 
@@ -36,7 +36,7 @@ FolderUse folder_use(const RenderRequest& request) {
     return request.overwrite ? FolderUse::replace : FolderUse::fresh;
 }
 
-/// A render that has found no light in so many passes says so before it ends.
+/// Number of black passes after which a render reports that it has found no light.
 constexpr std::uint32_t kPassesInTheDark = 3;
 
 class RenderRun {
@@ -95,7 +95,7 @@ class RenderRun {
     }
 
   private:
-    /// Keeps what the finished passes gave, where that can still be written.
+    /// Saves the results of the finished passes, if that is still possible.
     void finish(RunEnd& end) {
         end.elapsed_seconds = clock_.seconds();
         enter(LifePhase::write);
@@ -105,10 +105,10 @@ class RenderRun {
             log_->error("{}", failure);
     }
 
-    /// Leaves what the render went on with as it was.
+    /// Leaves the files of the resumed run as they were.
     void leave(const RunEnd& end) { directory_.leave(end.state, spp_before_, end.elapsed_seconds); }
 
-    /// Logs the news of files that could not be written, and of a viewer that shows nothing.
+    /// Logs errors of files that could not be written, and of the viewer.
     void tell_news() {
         for (const std::string& news : display_.take_news())
             log_->warn("{}", news);
@@ -183,7 +183,7 @@ class RenderRun {
         if (request_.life) request_.life->enter(phase);
     }
 
-    /// For a supervisor: whether workers get on, and which are there.
+    /// Reports the workers and their progress to a supervisor.
     void show_life(const RenderProgress& progress) const {
         if (!request_.life) return;
         request_.life->see({progress.pass, directory_.passes(), farm_.ledger().done() + progress.rays});
@@ -195,7 +195,7 @@ class RenderRun {
         });
     }
 
-    /// What the render begins with, or goes on from.
+    /// Initial or resumed state of the render.
     RenderState take_state() const {
         if (request_.resumed) return std::move(request_.resumed->state);
         return starting_state(request_);
@@ -243,7 +243,7 @@ class RenderRun {
                        pass.splat_caps.capped, pass.saturated_splats, pass.splat_caps.rejected);
     }
 
-    /// Says, once, what in the scene makes an image black.
+    /// Logs, once, the probable cause of a black image.
     void tell_if_black(const CombinedImage& image, std::uint32_t spp) {
         const auto is_dark = [](const Rgb64& mean) { return mean == Rgb64(0.0); };
         if (reported_black_ || !std::all_of(image.mean.begin(), image.mean.end(), is_dark)) return;
@@ -291,7 +291,7 @@ class RenderRun {
                        100 * request_.job.budget.error, why_missed());
     }
 
-    /// What is kept of a render that is not done, and how it goes on.
+    /// Description of the saved results of an unfinished render, with the command that resumes it.
     std::string kept_text() const {
         const bool goes_on = request_.checkpoints && request_.job.farm.checkpoint_seconds > 0;
         double share = 0;
@@ -308,7 +308,7 @@ class RenderRun {
         return text;
     }
 
-    /// The image's file, where a person looks for it.
+    /// Path of the image that the user asked for.
     std::filesystem::path image_file() const {
         const std::string& asked = request_.job.output.file;
         return asked.empty() ? directory_.path() / "image.exr" : std::filesystem::path(asked);
@@ -325,7 +325,7 @@ class RenderRun {
         return "the last pass was planned too short";
     }
 
-    /// The options that make the passes known to --debug-sample, and the checkpoint.
+    /// Options that tell --debug-sample the passes, and the checkpoint.
     std::string replay_options() const {
         const std::filesystem::path run = std::filesystem::absolute(directory_.path());
         std::string options = " --run-dir " + shell_quoted(run.string());
@@ -346,8 +346,8 @@ class RenderRun {
     std::optional<GuestDoor> door_;
     bool reported_black_ = false;
     std::size_t pass_count_ = 0;      ///< 0: not known
-    const std::uint32_t spp_before_;  ///< of what the render goes on with
-    bool went_on_ = false;            ///< with that
+    const std::uint32_t spp_before_;  ///< of the resumed run
+    bool went_on_ = false;            ///< it has resumed that run
     RenderResult result_;
 };
 
@@ -365,7 +365,7 @@ PassChooser passes_of(const RenderRequest& request) {
 }
 
 RenderOutcome run_render(Channel& channel, const RenderRequest& request, const std::function<bool()>& interrupted) {
-    // Before any file is touched: what this process alone takes. With the workers', once they have said what they have.
+    // Before any file is touched: memory of this process alone. That of the workers follows once they have reported.
     if (checks_memory(request)) check_memory(request.plan.memory, this_host(), Roster(0), request.job.scene.file);
     return RenderRun(channel, request, interrupted).run();
 }

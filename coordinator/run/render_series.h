@@ -10,30 +10,30 @@
 
 namespace treefarm {
 
-/// How a series of renders was started, and where it speaks.
+/// Command and console of a series of renders.
 struct SeriesContext {
     std::string command;  ///< as it was typed
     Fingerprint build;    ///< of this program
     ConsolePtr console;
     Loudness loudness = Loudness::normal;
-    bool overwrite = false;                      ///< other results that its folder holds
+    bool overwrite = false;                      ///< other results in its folder may be replaced
     Log log;                                     ///< on that console
-    std::shared_ptr<SignOfLife> life = nullptr;  ///< that a supervisor watches
+    std::shared_ptr<SignOfLife> life = nullptr;  ///< heartbeat for a supervisor
 };
 
-/// Renders one after another in one allocation: workers stay, and are told to join the next one.
+/// Series of renders within one allocation: workers stay, and are told to join the next job.
 class RenderSeries {
   public:
     RenderSeries(Channel& channel, const SeriesContext& context, const std::function<bool()>& interrupted)
         : channel_(channel), context_(context), interrupted_(interrupted) {}
 
-    /// Runs the request in a folder. A series has a line per render on the console: what happens within stands in the
-    /// folder's log.txt. Throws InputError as run_render() does.
+    /// Runs the request in a folder. A series has one line per render on the console; details are in the folder's
+    /// log.txt. Throws InputError as run_render() does.
     RenderOutcome render(RenderRequest& request, const std::filesystem::path& folder);
 
-    /// Workers that were given up and are not back.
+    /// Workers that were lost and are not back.
     const std::set<int>& lost_peers() const { return turn_.absent; }
-    /// Nobody is left to render with.
+    /// Whether no worker is left.
     bool has_lost_all() const;
 
   private:

@@ -8,18 +8,18 @@
 
 namespace treefarm {
 
-/// An image with the form in which each of its channels is stored.
+/// An image with the storage format of each of its channels.
 struct StoredChannels {
     Image image;
     std::vector<PixelType> types;
 };
 
-/// The combined image as channels: R, G, B; variance.* (of the mean, per channel); halfA.*, halfB.* (two independent
-/// halves of the samples); then the AOVs. `half`: colours, and AOVs that are not precise, as 16-bit floats.
+/// Combined image as channels: R, G, B; variance.* (of the mean, per channel); halfA.*, halfB.* (two independent halves
+/// of the samples); then the AOVs. `half`: colours, and AOVs that are not precise, as 16-bit floats.
 StoredChannels result_channels(const CombinedImage& image, std::span<const AovChannel> aovs, int width, int height,
                                bool half);
 
-/// The combined image's R, G, B alone.
+/// R, G, B of the combined image.
 RgbImage result_colours(const CombinedImage& image, int width, int height);
 
 }  // namespace treefarm

@@ -12,10 +12,11 @@ namespace treefarm {
 
 namespace {
 
-/// What checkpoints may take: of this process's time a hundredth, of the disk's a tenth.
+/// Least interval of checkpoints, as a multiple of this process's time for one: at most a hundredth of its time is
+/// used. kPace: at most a tenth of the disk's time.
 constexpr double kInterval = 100.0;
 constexpr Pace kPace{0.0, 10.0};
-/// How long the end tries to write what it could not.
+/// Seconds for which the end of a run retries a failed write.
 constexpr double kPatience = 1.0;
 
 }  // namespace
@@ -38,7 +39,7 @@ bool RunCheckpoints::is_due(double elapsed_seconds) const {
 void RunCheckpoints::offer(RenderState& state, double elapsed_seconds) {
     if (interval_ == 0 || elapsed_seconds < next_) return;
     const Timer timer;
-    if (written_ == prepared_) last_prepared_ = {};  // no two copies of what is on disk
+    if (written_ == prepared_) last_prepared_ = {};  // frees the second copy of a checkpoint that is on disk
     try {
         last_prepared_ = [this, write = store_.prepare(origin_of(state), state), passes = state.reports.size(),
                           number = prepared_ + 1] {
@@ -48,7 +49,7 @@ void RunCheckpoints::offer(RenderState& state, double elapsed_seconds) {
         };
         ++prepared_;
         writer_.put("checkpoint", last_prepared_, kPace);
-    } catch (const std::bad_alloc&) {  // the next one may find room
+    } catch (const std::bad_alloc&) {  // the next checkpoint may find enough memory
     }
     next_ = elapsed_seconds + std::max(interval_, kInterval * timer.seconds());
 }

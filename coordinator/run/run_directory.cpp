@@ -26,13 +26,13 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kStatusSeconds = 1.0;
-/// Time from preview to preview, at least, over what one takes of all processors.
+/// Least interval of previews, as a multiple of one preview's cost in seconds of all processors.
 constexpr double kPreviewInterval = 200.0;
-/// Core-seconds for a pixel that the first preview is expected to take.
+/// Expected core-seconds per pixel of the first preview.
 constexpr double kPreviewSecondsPerPixel = 4e-8;
-/// Tables and images of short passes share a writing.
+/// Write rate of tables and images, so that short passes share a write.
 constexpr Pace kPassPace{0.0, 3.0};
-/// How long the end tries to write what it could not, and then what says so.
+/// Seconds for which the end of a run retries failed writes of results, and of summary and status.
 constexpr double kResultPatience = 4.0, kSummaryPatience = 1.0;
 
 double processors() {
@@ -53,19 +53,19 @@ void check_output_file(const std::string& file) {
                          "choose another place or change its permissions");
 }
 
-/// The job, for a run directory: the output file is found wanting before a folder is made.
+/// Job of a run directory, with its output file checked before a folder is made.
 const Job& checked(const Job& job) {
     check_output_file(job.output.file);
     return job;
 }
 
-/// Where the passes do not follow from the job alone, a resolved.toml names the file that lists them.
+/// Experiment of resolved.toml, which names the file of the passes if the job alone does not determine them.
 Experiment experiment_of(const Job& job, const RunFacts& facts, bool resumed) {
     const bool listed = !facts.schedule.empty() || job.budget.seconds > 0 || job.budget.error > 0 || resumed;
     return {kProgramVersion, hash_text(facts.scene_hash), listed ? "schedule.toml" : ""};
 }
 
-/// Whether an image gets a preview. Larger ones no viewer opens, nor does the format hold them.
+/// Whether an image gets a preview: viewers and the PNG format limit its size.
 bool has_preview(std::size_t pixels) {
     constexpr std::size_t kMostPixels = std::size_t{1} << 28;
     return pixels <= kMostPixels;
@@ -118,7 +118,7 @@ void RunDirectory::write_request_files() const {
     write_text("passes.csv", passes_csv_, Outlives::power);
 }
 
-/// Refuses a folder in which nothing can be written: better now than after the render.
+/// Runs the first write; throws InputError if the folder is not writable.
 void RunDirectory::write_first(const std::function<void()>& write) const {
     try {
         write();
@@ -198,7 +198,7 @@ void RunDirectory::add_pass(const PassReport& report) {
     put_text("schedule.toml", write_schedule(passes_), kPassPace);
 }
 
-/// image.exr's header.
+/// Header attributes of image.exr.
 Attributes RunDirectory::image_attributes(const RenderResult& result) const {
     const PassReport& last = result.passes.back();
     Attributes attributes = {
@@ -247,14 +247,14 @@ bool RunDirectory::image_is_on_disk(const RenderResult& result) const {
     return on_disk_.lock() == result.image && fs::exists(path() / "image.exr", none);
 }
 
-/// Last versions of the files that hold results, in the order of their worth.
+/// Final versions of the result files, most important first.
 std::vector<LastFile> RunDirectory::last_files(const RenderResult& result, Outlives outlives, RunEnd& end) {
     std::vector<LastFile> files;
     const auto add = [&](const std::string& name, std::function<void()> write) {
         files.push_back({(path() / name).string(), std::move(write)});
     };
     if (!result.passes.empty()) {
-        const auto encoded = std::make_shared<std::vector<std::uint8_t>>();  // once for both files
+        const auto encoded = std::make_shared<std::vector<std::uint8_t>>();  // shared by both files
         const auto image = [this, encoded, &result]() -> const std::vector<std::uint8_t>& {
             if (encoded->empty())
                 *encoded = encode_image(path() / "image.exr", *result.image, *result.aovs, result.width, result.height,
@@ -288,7 +288,7 @@ std::vector<LastFile> RunDirectory::last_files(const RenderResult& result, Outli
         if (has_preview(result.image->mean.size()))
             add("preview.png", [=, this] { write_bytes("preview.png", picture(), outlives); });
     }
-    // Only where the folder vanished: they were written at the start.
+    // Only if the folder vanished: they were written at the start.
     for (const auto& [name, text] : {std::pair("job.toml", &job_toml_), std::pair("resolved.toml", &resolved_toml_),
                                      std::pair("plan.txt", &plan_text_), std::pair("plan.json", &plan_json_)})
         if (std::error_code none; !fs::exists(path() / name, none))
@@ -296,7 +296,7 @@ std::vector<LastFile> RunDirectory::last_files(const RenderResult& result, Outli
     return files;
 }
 
-/// Last versions of the files that tell of the end.
+/// Final versions of summary.json and status.json.
 std::vector<LastFile> RunDirectory::end_files(const RenderResult& result, const Farm* farm, const RunEnd& end,
                                               Outlives outlives) const {
     return {{(path() / "summary.json").string(),
@@ -310,7 +310,7 @@ std::vector<LastFile> RunDirectory::end_files(const RenderResult& result, const 
 
 void RunDirectory::write_interruption(const RenderResult& result, const Farm* farm, double elapsed_seconds) {
     if (!result.passes.empty() && !image_is_on_disk(result)) return;
-    writer_.forget("status.json");  // "running" must not come after it
+    writer_.forget("status.json");  // a waiting "running" must not be written later
     const RunEnd end{RunState::interrupted, "", elapsed_seconds, ""};
     std::vector<LastFile> files = end_files(result, farm, end, Outlives::process);
     write_last_files(files, 0.0);
@@ -339,7 +339,7 @@ void RunDirectory::give_back() {
 std::vector<std::string> RunDirectory::finish(const RenderResult& result, const Farm* farm, RunEnd& end) {
     writer_.stop();
     checkpoints_.stop();
-    // One that may be killed soon does not wait for the disk, nor for what takes longer to write.
+    // A run that may be killed soon does not wait for the disk, nor for files that take longer.
     const bool hurry = end.state == RunState::interrupted;
     const Outlives outlives = hurry ? Outlives::process : Outlives::power;
     std::vector<LastFile> files = last_files(result, outlives, end);

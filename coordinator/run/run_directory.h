@@ -25,65 +25,64 @@
 
 namespace treefarm {
 
-/// How a run directory comes about.
+/// Options of opening a run directory.
 struct RunDirectoryOptions {
     FolderUse use = FolderUse::fresh;
-    std::function<bool()> interrupted;          ///< ends the wait for a folder that is in use; may be empty
-    const LoadedCheckpoint* resumed = nullptr;  ///< what the run goes on from
+    std::function<bool()> interrupted;          ///< ends the wait for a folder in use; may be empty
+    const LoadedCheckpoint* resumed = nullptr;  ///< checkpoint being resumed
 };
 
-/// The folder of one run: job.toml, plan.txt, plan.json, log.txt, status.json, passes.csv, schedule.toml, image.exr,
+/// Folder of one run: job.toml, plan.txt, plan.json, log.txt, status.json, passes.csv, schedule.toml, image.exr,
 /// preview.png, tree.bin, summary.json, checkpoint/. Every file is replaced as a whole or appended to by lines, so that
-/// a reader never sees half of one. While it renders all are written beside it, and none that cannot be written ends
-/// it; a folder that vanished is made again.
+/// a reader never sees an incomplete one. Files are written in the background during the render, and a failed write
+/// does not end it; a folder that vanished is made again.
 class RunDirectory {
   public:
-    /// Makes the folder and writes what is known before the render; of a run that goes on with another no more than
-    /// status.json. Throws InputError where that cannot be.
+    /// Makes the folder and writes the files known before the render; a resumed run writes only status.json. Throws
+    /// InputError on failure.
     RunDirectory(const Job& job, RunFacts facts, const EffectPlan& plan, const RunDirectoryOptions& options = {});
 
     const std::filesystem::path& path() const { return folder_.path(); }
     std::filesystem::path log_file() const { return path() / "log.txt"; }
-    std::size_t passes() const { return passes_.size(); }  ///< that are finished
+    std::size_t passes() const { return passes_.size(); }  ///< number of finished passes
 
-    /// What is known before the render, in the place of what the run goes on from had: once it goes on. Throws as the
+    /// Writes the files known before the render, in place of those of the resumed run, once it continues. Throws as the
     /// constructor.
     void write_request();
 
-    /// status.json, at most once a second. `farm`: its workers are told of; nullptr: they are not.
+    /// Writes status.json, at most once a second. `farm`: source of the workers' figures, or nullptr.
     void write_status(const RenderProgress& progress, double elapsed_seconds, const Farm* farm = nullptr);
-    /// preview.png, at most once a second, and so seldom that it takes half a percent of the time: finished passes, and
-    /// what has come of the pass in hand.
+    /// Writes preview.png, at most once a second and in at most half a percent of the time: the finished passes, and
+    /// the results so far of the present one.
     void write_preview(std::span<const PixelEstimate> film, int width, int height, double elapsed_seconds);
-    /// A line of passes.csv, a table of schedule.toml.
+    /// Adds a line to passes.csv and a table to schedule.toml.
     void add_pass(const PassReport& report);
-    /// image.exr of the passes so far.
+    /// Writes image.exr of the passes so far.
     void write_image(const RenderResult& result);
     bool checkpoint_is_due(double elapsed_seconds) const { return checkpoints_.is_due(elapsed_seconds); }
-    /// A checkpoint, where one is due; called after each pass, and within one by checkpoint_is_due().
+    /// Writes a checkpoint if one is due; called after each pass, and within one by checkpoint_is_due().
     void offer_checkpoint(RenderState& state, double elapsed_seconds) { checkpoints_.offer(state, elapsed_seconds); }
-    /// The state that the run ends in, for a checkpoint that finish() writes.
+    /// Stores the run's final state for the checkpoint that finish() writes.
     void take_last_state(RenderState state) { checkpoints_.take_last(std::move(state)); }
-    /// News of what went wrong with files since the last call, for a person.
+    /// File errors since the last call, for the user.
     std::vector<std::string> take_news();
 
-    /// summary.json and status.json of a run that was interrupted, if its image is on disk: finish() may come too late,
+    /// Writes summary.json and status.json of an interrupted run, if its image is on disk: finish() may come too late,
     /// since mpirun kills its ranks two seconds after a signal.
     void write_interruption(const RenderResult& result, const Farm* farm, double elapsed_seconds);
 
-    /// Writes what a run leaves: image.exr, the job's output.file, tree.bin (the result's tree, encoded) if
-    /// there is one that learned, preview.png, passes.csv, schedule.toml, summary.json and the last status.json, each
-    /// on its own and tried again for some seconds. `end` says how the run ended; where files cannot be written it
-    /// becomes failed, and they are returned, each with the reason.
+    /// Writes the final files: image.exr, the job's output.file, tree.bin (the result's encoded tree) if one was
+    /// learned, preview.png, passes.csv, schedule.toml, summary.json and the last status.json, each independently and
+    /// with retries for some seconds. `end`: result of the run; it becomes failed if files cannot be written, which are
+    /// returned with the reasons.
     std::vector<std::string> finish(const RenderResult& result, const Farm* farm, RunEnd& end);
 
-    /// Ends a run that went on with another and came to nothing: what that has left stays, status.json says how it
-    /// ended.
+    /// Ends a resumed run that has no results of its own: the earlier files stay, and status.json has the new state.
     void leave(RunState state, std::uint32_t spp, double elapsed_seconds);
 
-    /// Whether an earlier run lies aside in the folder.
+    /// Whether an earlier run is set aside in the folder.
     bool has_previous() const { return folder_.has_previous(); }
-    /// Leaves the folder as it was found: nothing comes of this run.
+    /// Restores the folder as it was found, for a run without results.
     void give_back();
 
   private:
@@ -101,24 +100,24 @@ class RunDirectory {
     bool image_is_on_disk(const RenderResult& result) const;
 
     const Job job_;
-    const std::string job_toml_;  ///< without its output: whoever repeats a run must not replace it
-    const Job::Output storage_;   ///< of a resolved job: how image.exr holds its channels
+    const std::string job_toml_;  ///< without its output, so that a repeated run does not replace it
+    const Job::Output storage_;   ///< of the resolved job: storage formats of image.exr
     const RunFacts facts_;
     const std::string resolved_toml_;
     RunFolder folder_;
     const std::string plan_text_, plan_json_;
     std::string passes_csv_;
     std::vector<PassPlan> passes_;         ///< the finished ones
-    std::optional<PassReport> last_pass_;  ///< of this life of the render
+    std::optional<PassReport> last_pass_;  ///< since the start or resume
     double last_status_ = -1e9;
     double next_preview_ = 0;
     std::shared_ptr<const CombinedImage> newest_ = std::make_shared<CombinedImage>();  ///< for previews
     std::uint32_t newest_spp_ = 0;
-    std::atomic<double> preview_seconds_ = 0;  ///< of a core, that the last one took the writer
+    std::atomic<double> preview_seconds_ = 0;  ///< core-seconds that the writer needed for the last one
     RunCheckpoints checkpoints_;
     mutable std::mutex on_disk_mutex_;
-    std::weak_ptr<const CombinedImage> on_disk_;  ///< whose image.exr is whole
-    FileWriter writer_;                           ///< last: it ends first
+    std::weak_ptr<const CombinedImage> on_disk_;  ///< image that image.exr holds completely
+    FileWriter writer_;                           ///< last: destroyed first
 };
 
 }  // namespace treefarm

@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A killed launcher's ranks have left the folder by then.
+/// Seconds within which a killed launcher's ranks have left the folder.
 constexpr double kPatience = 2.0;
 
 std::string time_stamp() {
@@ -42,7 +42,7 @@ fs::path make_folder(const Job& job) {
     return path;
 }
 
-/// A run's own files, and what treefarm inspect drew of it.
+/// Names of a run's files, and of the images that treefarm inspect made of it.
 std::vector<std::string> moved_names() {
     std::vector<std::string> names(run_file_names().begin(), run_file_names().end());
     names.emplace_back("inspect");
@@ -98,14 +98,14 @@ void RunFolder::check() const {
         case FolderContent::study:
             refuse(path_, "holds a study, which a render does not replace", "name another folder with --run-dir");
         case FolderContent::shot:
-            refuse(path_, "holds a shot, which a lone render does not replace", "name another folder with --run-dir");
+            refuse(path_, "holds a shot, which a single render does not replace", "name another folder with --run-dir");
         case FolderContent::other:
             refuse(path_, "is no run directory, but a folder that holds other files",
                    "name an empty or a new one with --run-dir");
     }
 }
 
-/// Files that a killed run was writing.
+/// Removes partial files of a killed run.
 void RunFolder::remove_leftovers() const {
     for (const auto& entry : fs::directory_iterator(path_))
         for (const std::string_view name : run_file_names())
@@ -113,12 +113,12 @@ void RunFolder::remove_leftovers() const {
                 fs::remove(entry.path());
 }
 
-/// Puts an earlier run's files aside; what is not a run's own stays where it is.
+/// Moves an earlier run's files to previous/; other files stay.
 void RunFolder::put_aside() {
     for (int k = 1; aside_.empty() || !fs::create_directory(aside_); ++k)
         aside_ = path_ / previous_name(k);
     const std::vector<std::string> names = moved_names();
-    // Its signs last: broken off half way, the folder still holds a render.
+    // Its status files last: if this is interrupted, the folder still counts as a render.
     for (auto name = names.rbegin(); name != names.rend(); ++name)
         if (fs::exists(fs::symlink_status(path_ / *name))) fs::rename(path_ / *name, aside_ / *name);
 }
@@ -131,7 +131,7 @@ void RunFolder::give_back() const {
         if (!aside_.empty()) fs::rename(aside_ / name, path_ / name, ignored);
     }
     if (!aside_.empty()) fs::remove(aside_, ignored);
-    fs::remove(path_, ignored);  // if nothing is in it
+    fs::remove(path_, ignored);  // if it is empty
 }
 
 bool RunFolder::has_previous() const {
@@ -139,7 +139,7 @@ bool RunFolder::has_previous() const {
 }
 
 void RunFolder::remove_previous() const {
-    std::error_code ignored;  // what stays is told by its name
+    std::error_code ignored;  // a remaining folder is visible by its name
     for (const fs::path& run : previous_runs(path_))
         fs::remove_all(run, ignored);
 }

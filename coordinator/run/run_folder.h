@@ -10,34 +10,34 @@
 
 namespace treefarm {
 
-/// A folder for a render of this scene that names none, runs/<scene>-<time>: made, and nobody else's. Throws
+/// Makes a folder for a render without one: runs/<scene>-<time>, new and owned by this process. Throws
 /// std::filesystem::filesystem_error.
 std::filesystem::path make_new_run_folder(const std::string& scene_file);
 
-/// Throws InputError where a render or study is at work in a folder: what it holds so far says little.
+/// Throws InputError if a render or study is running in a folder, whose content is then incomplete.
 void refuse_if_at_work(const std::filesystem::path& folder);
 
-/// Whose folder a run takes.
+/// How a run uses its folder.
 enum class FolderUse {
-    fresh,    ///< an empty or a new one
-    replace,  ///< an earlier run in it may be put aside
-    resume,   ///< that of the run which goes on
+    fresh,    ///< empty or new
+    replace,  ///< an earlier run in it may be set aside
+    resume,   ///< it belongs to the run that is resumed
 };
 
-/// The folder of a run as its own: made, locked, and without the files of an earlier run, which lie in previous/ (or
-/// previous-2, ...) until the new one is done. Not to be moved.
+/// Folder of a run, owned by it: made, locked, and without the files of an earlier run, which are set aside in
+/// previous/ (or previous-2, ...) until the new one is done. Not to be moved.
 class RunFolder {
   public:
-    /// runs/<scene>-<time> if the job names none. Throws InputError where the folder is in use, cannot be made, or
-    /// holds what must not be replaced.
+    /// Makes runs/<scene>-<time> if the job names no folder. Throws InputError if the folder is in use, cannot be made,
+    /// or its content must not be replaced.
     RunFolder(const Job& job, FolderUse use, const std::function<bool()>& interrupted);
 
     const std::filesystem::path& path() const { return path_; }
-    /// Removes the files of this run, unless it went on with them, and puts back those that it put aside.
+    /// Removes the files of this run, unless it resumed them, and restores those that it set aside.
     void give_back() const;
-    /// An earlier run lies aside.
+    /// Whether an earlier run is set aside.
     bool has_previous() const;
-    /// Removes what lies aside: something better is there.
+    /// Removes the earlier run that was set aside, once a better result exists.
     void remove_previous() const;
 
   private:

@@ -17,7 +17,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Null where something is not known. What is infinite becomes null by itself.
+/// Error as JSON; unknown and infinite values are null.
 Json error_json(const ErrorEstimate& error) {
     if (!error.known) return nullptr;
     const auto end = [&](double value) { return error.has_interval ? Json(value) : Json(); };
@@ -111,7 +111,7 @@ const char* member_state_name(MemberState state) {
     return "";
 }
 
-/// UTC, to the minute.
+/// UTC time, to the minute.
 std::string time_text(std::time_t time) {
     std::tm parts{};
     gmtime_r(&time, &parts);
@@ -120,7 +120,7 @@ std::string time_text(std::time_t time) {
     return text;
 }
 
-/// Adds what a reader needs to tell a run that lives from one that was killed.
+/// Adds process and host, by which a reader tells a live run from a killed one.
 void add_writer(Json& status, const RunFacts& facts) {
     if (!facts.attempt.empty()) status["attempt"] = facts.attempt;
     status["pid"] = getpid();
@@ -132,15 +132,14 @@ std::string text_of(const Json& json) {
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-/// A worker's part of the last finished pass in which its threads neither traced nor recorded; null where that is not
-/// known.
+/// Fraction of the last finished pass in which a worker's threads neither traced nor recorded; null if unknown.
 Json idle_share(const Member& member, const PassReport* last) {
     if (!last || !last->seconds.worker.contains(member.peer)) return nullptr;
     const double all = last->seconds.all * member.hello.threads;
     return all > 0 ? Json(std::clamp(1 - last->seconds.worker.at(member.peer) / all, 0.0, 1.0)) : Json();
 }
 
-/// Lives of a worker that ended while it was needed.
+/// Number of losses of a worker while it was needed.
 std::uint32_t losses(const Member& member) {
     const bool is_lost = member.state == MemberState::lost || member.state == MemberState::barred;
     return member.lives - (is_lost ? 0 : 1);
@@ -159,7 +158,7 @@ Json worker_json(const Member& member, const PassReport* last) {
             {"bad_messages", member.bad_messages}};
 }
 
-/// `last`: the last finished pass, if there is one.
+/// `last`: the last finished pass, or nullptr.
 Json farm_json(const Farm& farm, const PassReport* last) {
     Json workers = Json::array();
     for (const auto& [peer, member] : farm.roster().members())
@@ -171,7 +170,7 @@ Json farm_json(const Farm& farm, const PassReport* last) {
             {"bad_messages", farm.bad_messages()}};
 }
 
-/// Adds who carries the noise; nulls where none is known.
+/// Adds the samples that carry most noise; nulls if unknown.
 void add_tails(Json& summary, const TailReport& tails) {
     summary["tail_share"] = tails.share ? Json(*tails.share) : Json();
     summary["tail_origin"] = tails.origin.empty() ? Json() : Json(tails.origin);
@@ -186,7 +185,7 @@ void add_tails(Json& summary, const TailReport& tails) {
                                          {"origin", words(sample.origin)}});
 }
 
-/// Place of the image on the whole film; null if it is that.
+/// Window of the image on the whole film; null if it is the whole film.
 Json crop_json(const CropWindow& crop) {
     if (!crop.is_window()) return {};
     return {{"x", crop.x}, {"y", crop.y}, {"film_width", crop.whole_width}, {"film_height", crop.whole_height}};

@@ -17,11 +17,11 @@ namespace treefarm {
 
 namespace {
 
-/// What a process reads, writes and computes, in steps that one which only waits does not make in minutes.
+/// Seconds of processor time that count as one step of progress; an idle process does not reach one in minutes.
 constexpr double kStepSeconds = 5.0;
 constexpr std::uint64_t kStepBytes = std::uint64_t{1} << 20;
 
-/// Bytes that this process has read, and has given to disks, so far; 0 where the kernel does not tell.
+/// Bytes that this process has read and written to disks so far; 0 if the kernel does not report it.
 std::uint64_t moved_bytes() {
     std::ifstream file("/proc/self/io");
     std::uint64_t sum = 0, number = 0;
@@ -60,7 +60,8 @@ void SignOfLife::begin() {
     status_.attempt = attempt_.name;
     status_.host = host_name();
     status_.pid = getpid();
-    // Signals are for the main thread, which may not have blocked them yet: here they would end the process.
+    // Signals are handled by the main thread, which may not have blocked them yet: in this thread they would end the
+    // process.
     sigset_t all, before;
     sigfillset(&all);
     pthread_sigmask(SIG_SETMASK, &all, &before);
@@ -120,12 +121,12 @@ void SignOfLife::work() {
 }
 
 void SignOfLife::write() {
-    const std::lock_guard one(file_);  // before the text is made: an older one must not come after it
+    const std::lock_guard one(file_);  // before the text is made: an older text must not follow a newer one
     const std::uint64_t effort = effort_so_far();
     std::string text;
     {
         const std::lock_guard lock(mutex_);
-        // While workers trace this process is busy with asking them: that is no progress.
+        // While workers trace, polling them keeps this process busy: that is no progress.
         if (status_.phase != LifePhase::pass) effort_ = effort;
         status_.progress = told_ + effort_;
         text = life_status_text(status_);
@@ -133,7 +134,7 @@ void SignOfLife::write() {
     try {
         write_file_atomically(attempt_.file, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()},
                               Outlives::process);
-    } catch (const std::exception&) {  // a full disk ends no render
+    } catch (const std::exception&) {  // a full disk does not end a render
     }
 }
 

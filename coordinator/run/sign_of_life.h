@@ -13,21 +13,21 @@
 
 namespace treefarm {
 
-/// An attempt of `treefarm launch`, as a process that it started knows it.
+/// An attempt of `treefarm launch`, as seen by a process that it started.
 struct LifeAttempt {
-    std::string name;            ///< "3f19c2.4": of the launch, and its number
-    std::filesystem::path file;  ///< where signs of life go
+    std::string name;            ///< "3f19c2.4": id of the launch, number of the attempt
+    std::filesystem::path file;  ///< heartbeat file
 };
 
-/// Variable of the environment that names the attempt to a process.
+/// Environment variable that passes the attempt to a process.
 inline constexpr const char* kAttemptVariable = "TREEFARM_ATTEMPT";
 
-/// Text for it, and back; a text that is none gives an attempt without a name.
+/// Text of an attempt and its inverse; other texts give an attempt without a name.
 std::string attempt_text(const LifeAttempt& attempt);
 LifeAttempt parse_attempt(const std::string& text);
 
-/// Writes a coordinator's sign of life once a second, from a thread of its own, which touches nothing that is rendered
-/// with. A file that cannot be written is written at the next second.
+/// Writer of a coordinator's heartbeat file, once a second in a thread of its own, which shares nothing with rendering.
+/// A failed write is retried at the next second.
 class SignOfLife {
   public:
     explicit SignOfLife(LifeAttempt attempt) : attempt_(std::move(attempt)) {}
@@ -37,22 +37,22 @@ class SignOfLife {
 
     const std::string& attempt() const { return attempt_.name; }
 
-    /// Begins: the process has come so far as to speak.
+    /// Begins the heartbeats, once the process can report.
     void begin();
     void enter(LifePhase phase);
-    /// What the main loop sees; `work` is any figure that changes while workers get on. Called as often as one likes.
+    /// Progress as seen by the main loop; `work` is any figure that changes while workers make progress. May be set at
+    /// any rate.
     struct Pass {
         std::uint32_t pass = 0;
         std::uint64_t passes = 0;
         std::uint64_t work = 0;
     };
     void see(const Pass& pass);
-    /// Calls `list` where the workers were not listed within the last second.
+    /// Calls `list` if the workers were not listed within the last second.
     void see_workers(const std::function<std::vector<LifeWorker>()>& list);
-    /// A render of a series is done.
+    /// Counts a finished render of a series.
     void finish_render();
-    /// The exit code is known: written before this returns, if it can be. `by_launcher`: it is that of an interruption
-    /// by mpirun.
+    /// Sets the exit code, and writes it before returning, if possible. `by_launcher`: mpirun caused the interruption.
     void end(int code, bool by_launcher = false);
 
   private:
@@ -60,14 +60,14 @@ class SignOfLife {
     void write();
 
     const LifeAttempt attempt_;
-    std::mutex file_;   ///< one writes at a time
-    std::mutex mutex_;  ///< of what follows; taken after file_
+    std::mutex file_;   ///< serialises writes
+    std::mutex mutex_;  ///< guards the members below; locked after file_
     std::condition_variable changed_;
     LifeStatus status_;
-    std::uint64_t told_ = 0;       ///< progress that the main loop told
-    std::uint64_t last_work_ = 0;  ///< the figure that it told last
-    std::uint64_t effort_ = 0;     ///< progress by what the process takes, where the main loop does not speak
-    std::uint64_t listed_ = 0;     ///< beat of the last list of workers
+    std::uint64_t told_ = 0;       ///< progress reported by the main loop
+    std::uint64_t last_work_ = 0;  ///< last `work` value that it reported
+    std::uint64_t effort_ = 0;     ///< progress by processor and disk use, while the main loop is silent
+    std::uint64_t listed_ = 0;     ///< beat at the last list of workers
     bool has_list_ = false;
     bool stopping_ = false;
     std::thread thread_;  ///< last: it uses the others

@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-/// An object without keys if the render has not ended, or the file is damaged.
+/// JSON object of summary.json; empty if the render has not ended, or the file is damaged.
 Json read_summary(const fs::path& folder) {
     std::ifstream file(folder / "summary.json", std::ios::binary);
     Json json = Json::parse(file, nullptr, false);
@@ -67,7 +67,7 @@ bool holds_result_of(const fs::path& folder, const RenderRequest& request) {
 
 bool restore_output(const fs::path& folder, const std::string& file) {
     if (file.empty() || fs::exists(file)) return true;
-    // Of the picture to look at the run directory has a copy, too.
+    // The run directory has a copy of a PNG output, too: the preview.
     const fs::path from = folder / (fs::path(file).extension() == ".png" ? "preview.png" : "image.exr");
     const std::string bytes = read_text(from);
     if (bytes.empty()) return false;

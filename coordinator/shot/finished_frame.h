@@ -6,17 +6,17 @@
 
 namespace treefarm {
 
-/// Tells a record what the run directory says of its render, if that has ended: samples, seconds, error.
+/// Fills a record's figures from the run directory, if its render has ended: samples, seconds, error.
 void read_figures(const std::filesystem::path& folder, FrameRecord& record);
 
-/// Whether a run directory's render is done and was this request, by the same program: equal job, scene and fingerprint
-/// give equal images.
+/// Whether a run directory holds the finished render of this request, by the same program: equal job, scene and
+/// fingerprint give equal images.
 bool holds_result_of(const std::filesystem::path& folder, const RenderRequest& request);
 
-/// Whether a run directory's render is done, whatever it was.
+/// Whether a run directory holds a finished render of any request.
 bool holds_result(const std::filesystem::path& folder);
 
-/// Makes the request's output file of what the run directory holds, where it is missing. Returns whether it is there.
+/// Restores the request's output file from the run directory, if it is missing. Returns whether it exists.
 bool restore_output(const std::filesystem::path& folder, const std::string& file);
 
 }  // namespace treefarm

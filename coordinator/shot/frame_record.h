@@ -11,37 +11,37 @@
 
 namespace treefarm {
 
-/// How a frame stands.
+/// State of a frame.
 enum class FrameState : std::uint8_t {
     waiting,
     done,
-    kept,         ///< done before, by the same request
-    failed,       ///< its message says why
-    interrupted,  ///< what its finished passes gave is there
+    kept,         ///< finished before, by an equal request
+    failed,       ///< the message has the reason
+    interrupted,  ///< the image of its finished passes exists
 };
 
-/// A frame of a shot, and what is told of it.
+/// A frame of a shot, with its reported figures.
 struct FrameRecord {
     int frame = 0;
     FrameState state = FrameState::waiting;
     std::uint32_t spp = 0;
     double seconds = 0;
-    std::optional<double> error;  ///< relative; unknown of a frame of one sample, say
+    std::optional<double> error;  ///< relative; unknown with one sample per pixel
     bool missed_target = false;   ///< its error is above budget.error
-    std::string message;          ///< what went wrong
-    std::filesystem::path image;  ///< where it is
+    std::string message;          ///< reason of the failure
+    std::filesystem::path image;  ///< path of the image
 };
 
-/// Name of a frame's run directory in that of the shot: "frame.0007".
+/// Name of a frame's run directory within that of the shot: "frame.0007".
 std::string frame_folder(int frame);
 
-/// "done", "kept", "failed: scene.xml:3:7: ...": the state in words, and what went wrong.
+/// State in words, with the reason of a failure: "done", "kept", "failed: scene.xml:3:7: ...".
 std::string state_text(const FrameRecord& record);
 
-/// A table of all frames, a line each below its header.
+/// Table of all frames: a header, then a line for each.
 std::vector<std::string> frame_table(std::span<const FrameRecord> records);
 
-/// The file shot.json.
+/// Content of the file shot.json.
 nlohmann::ordered_json shot_json(const std::string& command, std::span<const FrameRecord> records);
 
 }  // namespace treefarm

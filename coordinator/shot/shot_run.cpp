@@ -24,12 +24,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A shot that was killed has left its folder by then.
+/// Seconds within which a killed shot has left its folder.
 constexpr double kFolderPatience = 5.0;
-/// How long the end tries to write the index.
+/// Seconds for which the end retries writing the index.
 constexpr double kIndexPatience = 1.0;
 
-/// Throws InputError where a folder holds something else.
+/// Throws InputError if a folder has other content.
 void check_shot_folder(const fs::path& folder) {
     const auto refuse = [&](const std::string& what) {
         throw InputError(Location{folder.string(), 0, 0}, what, "name another folder with --run-dir");
@@ -71,7 +71,7 @@ class ShotRun {
             throw InputError(Location{shot_.directory.string(), 0, 0}, "another shot is at work in this folder",
                              "wait for it, or name another folder with --run-dir");
         check_shot_folder(shot_.directory);
-        index_[0].write();  // better now than after the first frame
+        index_[0].write();  // now, not after the first frame
         log_->info("{} frames; results in {}", records_.size(), shot_.directory.string());
         for (FrameRecord& record : records_) {
             if (interrupted_()) break;
@@ -102,7 +102,7 @@ class ShotRun {
                               {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
     }
 
-    /// The index tells of frames, it is none: where it cannot be written, the next frame tries again.
+    /// Writes the index; a failed write is retried with the next frame.
     void try_index() {
         const bool was_written = index_[0].written;
         index_[0].written = false;
@@ -150,8 +150,8 @@ class ShotRun {
             return;
         }
         tell_warnings(request);
-        // What was broken off and cannot go on is begun again, but another request's result is replaced only where that
-        // is asked for.
+        // An unfinished frame that cannot be resumed is started again; another request's result is replaced only on
+        // request.
         request.overwrite = context_.overwrite || is_there || !holds_result(folder);
         request.status_frame = [this](const RenderWords& words) { return progress_.status(words); };
         const RenderOutcome outcome = series_.render(request, folder);
@@ -170,7 +170,7 @@ class ShotRun {
         }
     }
 
-    /// Goes on with the frame, if it was broken off.
+    /// Resumes an unfinished frame.
     void go_on(const fs::path& folder, RenderRequest& request) const {
         if (holds_result(folder)) return;
         request.resumed = shot_.find_checkpoint(folder, request);
@@ -181,7 +181,7 @@ class ShotRun {
         if (!request.job.output.file.empty()) record.image = request.job.output.file;
     }
 
-    /// Two frames cannot share an output file.
+    /// Prepares a frame's output file; throws InputError if another frame has the same.
     void prepare_output(const std::string& file, int frame) {
         if (file.empty()) return;
         const auto [at, is_new] = outputs_.try_emplace(file, frame);
@@ -192,7 +192,7 @@ class ShotRun {
             make_folder(folder, "cannot be the folder of images");
     }
 
-    /// Warnings of a frame, each once: frames of one scene have the same.
+    /// Logs warnings of frames, each once: frames of one scene have the same.
     void tell_warnings(const RenderRequest& request) {
         for (const std::string& warning : request.warnings)
             if (told_.insert(warning).second) log_->warn("{}", warning);

@@ -7,26 +7,26 @@
 
 namespace treefarm {
 
-/// The frames of a shot.
+/// Frames of a shot.
 struct Shot {
-    std::filesystem::path directory;                 ///< where they go
+    std::filesystem::path directory;                 ///< folder of their run directories
     std::vector<int> frames;                         ///< in the order in which they are rendered
     std::function<RenderRequest(int)> read_request;  ///< reads a frame's job and scene; throws InputError
-    /// What a request can go on from in the folder of a frame that was broken off; nullptr: nothing.
+    /// Finds the checkpoint of an unfinished frame's folder that a request can resume; nullptr: none.
     std::function<std::shared_ptr<LoadedCheckpoint>(const std::filesystem::path&, const RenderRequest&)>
         find_checkpoint;
 };
 
 struct ShotOutcome {
-    RunState state = RunState::failed;  ///< failed: at least one frame
-    bool missed_target = false;         ///< an error of one is above budget.error
+    RunState state = RunState::failed;  ///< failed: at least one frame failed
+    bool missed_target = false;         ///< at least one error is above budget.error
     std::set<int> lost_peers;
 };
 
-/// Renders the frames that are not there yet, in one allocation of workers, and leaves in the shot's folder:
-///   shot.json      how every frame stands
-///   frame.0001/    a run directory each
-/// A frame that fails stops no other. Throws InputError where the folder cannot be a shot's.
+/// Renders the missing frames within one allocation of workers, and writes to the shot's folder:
+///   shot.json      state of every frame
+///   frame.0001/    run directory of a frame
+/// A failing frame stops no other. Throws InputError if the folder has other content.
 ShotOutcome run_shot(Channel& channel, const Shot& shot, const SeriesContext& context,
                      const std::function<bool()>& interrupted);
 

@@ -9,14 +9,14 @@
 
 namespace treefarm {
 
-/// A pass of a cell, with the image as it was after it.
+/// A pass of a cell, with the image after it.
 struct MeasuredPass {
     PassReport report;
     RgbImage image;
 };
 
-/// Part of a cell's cell.json about its render: every pass with its figures and its true errors against the reference,
-/// and FLIP of the last (docs/use/studies.md).
+/// The render's part of a cell's cell.json: every pass with its figures and its true errors against the reference, and
+/// FLIP of the last one (docs/use/studies.md).
 nlohmann::ordered_json render_record(const std::vector<MeasuredPass>& passes, const RgbImage& reference);
 
 }  // namespace treefarm

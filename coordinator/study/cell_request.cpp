@@ -10,7 +10,7 @@ namespace treefarm {
 
 namespace {
 
-/// The job as far as it stands before the scene is read.
+/// Job with the layers that are known before the scene is read.
 Job scene_job(const Study& study, const StudyScene& scene) {
     Job job;
     apply_layer(job, study.job);

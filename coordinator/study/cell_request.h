@@ -13,19 +13,19 @@ namespace treefarm {
 /// Reads a scene of a study. Throws InputError.
 LoadedScene load_study_scene(const Study& study, const StudyScene& scene);
 
-/// A render of a study, everything but its folder and its turn. Layers, each over the one before: the scene's own, the
-/// study's [job], the scene's, `method`, `more`. Throws InputError.
+/// Request of a study's render, without its folder and turn. Layers, each over the previous one: the scene's own
+/// settings, the study's [job], the study's settings of the scene, `method`, `more`. Throws InputError.
 RenderRequest study_request(const Study& study, const StudyScene& scene, const LoadedScene& loaded,
                             std::span<const Setting> method, std::span<const Setting> more, const Fingerprint& build);
 
-/// Settings that a cell has beyond its method: a budget and the seed.
+/// Settings of a cell besides its method: budget and seed.
 std::vector<Setting> cell_settings(const Study& study, const StudyCell& cell);
 
-/// Names what a request renders: job without its output, scene, program, and `more` (the reference that it is measured
-/// against). Equal keys, equal numbers but for the clock's.
+/// Key of a request's result: a hash of job without its output, scene, program, and `more` (the reference that it is
+/// compared with). Equal keys mean equal figures, except for times.
 std::uint64_t request_key(const RenderRequest& request, const std::string& more);
 
-/// A folder's name that tells a person what is in it, and ends in the key.
+/// Folder name of `words`, readable for a person, and the key.
 std::string folder_name(const std::string& words, std::uint64_t key);
 
 }  // namespace treefarm

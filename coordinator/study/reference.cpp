@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Throws InputError unless cells of this film can be measured against it.
+/// Throws InputError unless cells of this film can be compared with the image.
 void check_given(const RgbImage& image, const Film& film, const Location& where) {
     if (image.width != film.width || image.height != film.height)
         throw InputError(where,
@@ -37,7 +37,7 @@ std::string reference_key(const Study& study, const StudyScene& scene, const Loa
     if (!scene.reference.empty()) {
         ExrRgb given = read_exr_rgb(scene.reference);
         const Film& film = loaded.scene.film;
-        // A picture of the whole film serves a crop window, too.
+        // An image of the whole film also fits a crop window.
         if (film.crop.is_window() && given.image.width == film.whole_width() &&
             given.image.height == film.whole_height())
             given.image = cut_out(given.image, film.crop, film.width, film.height);

@@ -11,18 +11,18 @@
 
 namespace treefarm {
 
-/// The image that cells of a scene are measured against.
+/// Reference image of a scene's cells.
 struct Reference {
     std::string file;
-    std::string key;  ///< of its pixels or of what renders it
+    std::string key;  ///< key of its pixels, or of the request that renders it
     RgbImage image;   ///< empty until it is needed
     nlohmann::ordered_json about;
 
-    /// The file that says that a rendered reference is whole: an interrupted one has an image, too, but not this.
+    /// Marker file of a completely rendered reference: an interrupted one has an image, too, but no marker.
     std::filesystem::path mark() const { return std::filesystem::path(file).parent_path() / "reference.json"; }
 };
 
-/// A reference that is given, or the request that renders one.
+/// Key of a given reference, or of the request that renders one.
 std::string reference_key(const Study& study, const StudyScene& scene, const LoadedScene& loaded, Reference& reference,
                           RenderRequest& request, const Fingerprint& build);
 

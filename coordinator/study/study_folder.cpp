@@ -11,7 +11,7 @@ namespace treefarm {
 
 namespace {
 
-/// The name of the study file that study.json was made from; "" if it does not say.
+/// Name of the study file that study.json was made from; "" if unknown.
 std::string study_file_name(const std::filesystem::path& folder) {
     std::ifstream file(folder / "study.json", std::ios::binary);
     const nlohmann::json json = nlohmann::json::parse(file, nullptr, false);

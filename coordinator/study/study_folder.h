@@ -7,8 +7,7 @@
 
 namespace treefarm {
 
-/// Throws InputError where a study does not belong into a folder: it holds a render, or another study and that is not
-/// to be replaced.
+/// Throws InputError if a folder does not fit a study: it holds a render, or another study that may not be replaced.
 void check_study_folder(const std::filesystem::path& folder, const Study& study, bool overwrite);
 
 }  // namespace treefarm

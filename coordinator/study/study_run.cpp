@@ -28,15 +28,15 @@ namespace {
 using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
-/// Cells that fail in a row: so many are no accident.
+/// Failing cells in a row after which the study ends: they are no accident.
 constexpr int kMostFailures = 3;
 
-/// A study that was killed has left its folder by then.
+/// Seconds within which a killed study has left its folder.
 constexpr double kFolderPatience = 5.0;
 
 struct Interrupted {};
 
-/// "1 scene", "2 scenes".
+/// Number with noun: "1 scene", "2 scenes".
 std::string counted(std::size_t number, const std::string& what) {
     return std::to_string(number) + " " + what + (number == 1 ? "" : "s");
 }
@@ -188,7 +188,7 @@ class StudyRun {
         if (of.reference.empty()) write_json(reference.mark(), reference.about);
     }
 
-    /// A run in a folder of its own. What a killed run left there goes first.
+    /// Renders in a folder of its own, after removing partial files of a killed run.
     RenderOutcome render(RenderRequest& request, const fs::path& folder) {
         if (interrupted_()) throw Interrupted();
         fs::remove_all(folder);
@@ -198,7 +198,7 @@ class StudyRun {
         return outcome;
     }
 
-    /// Caches, clocks and the worker's memory are as they will be.
+    /// Renders once to warm up caches, clocks and the workers' memory.
     void warm_up(std::size_t scene, std::vector<ReadyCell>& ready) {
         const bool needed = std::any_of(ready.begin(), ready.end(), [](const ReadyCell& c) { return !c.done(); });
         const std::string name = "warm-up of " + study_.scenes[scene].name;

@@ -12,7 +12,7 @@ namespace treefarm {
 
 namespace {
 
-/// "83 % of the work (between 75 and 89 %)": without the bounds where they are the same in whole percents.
+/// "83 % of the work (between 75 and 89 %)"; without the bounds if they are equal in whole percents.
 std::string saving(double saved, double at_least, double at_most) {
     const auto percent = [](double part) { return std::lround(100 * std::max(part, 0.0)); };
     std::string text = fmt::format("{} % of the work", percent(saved));
@@ -21,7 +21,7 @@ std::string saving(double saved, double at_least, double at_most) {
     return text;
 }
 
-/// "9 times the variance", or that it is about the same.
+/// "9 times the variance", or "about the same variance".
 std::string variance_ratio(double ratio) {
     if (ratio > 0.95 && ratio < 1.05) return "about the variance";
     return fmt::format("{:.2g} times the variance", ratio);
@@ -52,7 +52,7 @@ DecisionText guiding(Guiding verdict, const GuidingWorth& w) {
     return {"guiding", fmt::format("{}, which saves {}: {}", what, saving(saved(w.worth), at_least, at_most), why)};
 }
 
-/// Nothing where an emitter is sampled at nearly each vertex.
+/// Adds the decision on next event, unless an emitter is sampled at nearly each vertex.
 void add_next_event(const PassReport& r, std::vector<DecisionText>& texts) {
     const NextEventVerdict& verdict = r.refine.next_event;
     const bool saves = verdict.saved <= 0.98;

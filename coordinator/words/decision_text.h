@@ -8,13 +8,13 @@
 
 namespace treefarm {
 
-/// A decision as it stands after a pass, in a line for strangers: what, what it saves, how sure that is, and why.
+/// A decision after a pass in one line of plain words: the decision, its saving, its certainty, its reason.
 struct DecisionText {
-    const char* subject;  ///< which decision: "guiding", "next event", "splitting", "light subpaths"
+    const char* subject;  ///< name of the decision: "guiding", "next event", "splitting", "light subpaths"
     std::string words;
 };
 
-/// What is decided with a pass; nothing of a decision where nothing is known, or all is as usual.
+/// Decisions after a pass; without those of which nothing is known, or which are as usual.
 std::vector<DecisionText> decision_texts(const PassReport& report);
 
 }  // namespace treefarm

@@ -17,7 +17,7 @@ bool is_known(const ErrorForecast& forecast) {
            std::isfinite(forecast.seconds);
 }
 
-/// "half of it in about 1:10"; empty where nobody knows, or nothing is left to do.
+/// "half of it in about 1:10"; empty if unknown, or if nothing is left to do.
 std::string outlook_text(const PassReport& r) {
     const bool asked = r.target.relative_error > 0;
     const ErrorForecast& forecast = asked ? r.target : r.halving;
@@ -37,7 +37,7 @@ std::string pass_summary(const PassReport& r, std::size_t pass_count) {
     std::string text =
         fmt::format("{}: {} spp in {:.2f} s ({:.2f} core-s), {:.2f} Mrays/s", pass_name(r.plan.index, pass_count),
                     r.plan.spp, r.seconds.all, r.core_seconds(), 1e-6 * r.rays_per_second());
-    // One sample per pixel has no variance yet.
+    // With one sample per pixel there is no variance yet.
     if (r.variance.stuv > 0) text += fmt::format(", stuv {:.4g}, ttuv {:.4g} core-s", r.variance.stuv, r.ttuv());
     text += ", " + error_text(r.error);
     if (r.efficiency() > 0) text += fmt::format(", efficiency {:.3g}", r.efficiency());

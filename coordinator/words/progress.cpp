@@ -12,10 +12,10 @@ namespace treefarm {
 
 namespace {
 
-/// Seconds of preparing that are worth a word.
+/// Seconds of preparation above which it is reported.
 constexpr double kPreparingSeconds = 1.0;
 
-/// A whole percentage that says 100 only at the end.
+/// Whole percentage that is 100 only at the end.
 std::string percent(double fraction) {
     return fmt::format("{} %", static_cast<int>(100 * std::clamp(fraction, 0.0, 1.0) + 1e-6));
 }
@@ -24,7 +24,8 @@ bool has_error(const ErrorEstimate& error) {
     return error.known && error.rmse > 0;
 }
 
-/// Says how far a render is: by the clock, if it will end it, else by the error's forecast, else by samples.
+/// Sets the progress text: by time if the time limit will end the render, else by the error's forecast, else by
+/// samples.
 void say_how_far(const RenderProgress& p, const Job::Budget& budget, const TimeLeft& left, RenderWords& words) {
     if (budget.error > 0) {
         if (left.known()) words.fraction = p.run_seconds / (p.run_seconds + left.seconds);

@@ -9,9 +9,9 @@
 
 namespace treefarm {
 
-/// How far a render is, in the words of its budget. What is not known is empty.
+/// Progress of a render, in the terms of its budget. Unknown texts are empty.
 struct RenderWords {
-    double fraction = -1;     ///< negative: not known
+    double fraction = -1;     ///< negative: unknown
     std::string how_far;      ///< "54 % of 127 spp", "54 % of 60 s", "error 12 %, wanted 5 %"
     std::string left;         ///< "about 6 s left"
     std::string pass;         ///< "pass 6/7"
@@ -21,14 +21,14 @@ struct RenderWords {
 };
 RenderWords render_words(const RenderProgress& progress, const Job::Budget& budget, const TimeLeft& left);
 
-/// Words before the first worker asks for work: scene and tree are on their way, or being prepared.
+/// Texts before the first worker requests units: scene and tree are in transit, or being prepared.
 RenderWords preparing_words(double seconds);
 
-/// A render that stands for itself. What is rendered as a part of something more frames its words otherwise.
+/// Status line of a single render. Renders that are part of a series frame their texts differently.
 Status render_status(const RenderWords& words);
 using StatusFrame = std::function<Status(const RenderWords&)>;
 
-/// Shows on a console how far a render is, until it is destroyed.
+/// Display of a render's progress on a console, until it is destroyed.
 class Progress {
   public:
     Progress(ConsolePtr console, const Job::Budget& budget, StatusFrame frame);

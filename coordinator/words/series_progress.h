@@ -7,34 +7,34 @@
 
 namespace treefarm {
 
-/// How far a series of renders is, in words, and how long the others still take by those that it has rendered.
+/// Progress of a series of renders in words, with a forecast of the remaining time from those already rendered.
 class SeriesProgress {
   public:
-    /// `noun`: what each of them is called, "cell" or "frame".
+    /// `noun`: name of one render, "cell" or "frame".
     SeriesProgress(std::string noun, std::size_t count) : noun_(std::move(noun)), count_(count) {}
 
-    /// The next one begins; it has a name. One that is there from before needs no more than this.
+    /// Begins the next render; `name`: its name. For one that exists already this is the only call.
     void begin(const std::string& name);
-    /// The render is done, in so many seconds.
+    /// Ends the render, which took `seconds`.
     void end(double seconds);
 
     /// Status of this render.
     Status status(const RenderWords& words) const;
-    /// "cell 3/24".
+    /// Number of this render: "cell 3/24".
     std::string place() const;
-    /// "about 5:10 left", of the whole series, so many seconds after this one began; empty before one was rendered.
+    /// "about 5:10 left" for the whole series, `seconds` after this render began; empty before one was rendered.
     std::string left(double seconds) const;
 
   private:
     std::string noun_;
     std::size_t count_;
-    std::size_t number_ = 0;  ///< of this one, from 1 on
+    std::size_t number_ = 0;  ///< of this render, from 1 on
     std::string name_;
     std::size_t rendered_ = 0;
     double rendered_seconds_ = 0;
 };
 
-/// Status of a render for a study that is no cell: "reference of box", "warm-up of box".
+/// Status of a study's render that is not a cell: "reference of box", "warm-up of box".
 Status aside_status(const std::string& name, const RenderWords& words);
 
 }  // namespace treefarm

@@ -12,7 +12,7 @@
 namespace treefarm {
 namespace {
 
-/// The samples of passes that have weight in the image, which are the last ones.
+/// Worst samples of the passes that contribute to the image, which are the last ones.
 TailSamples samples_of_image(const CombinedImage& image, std::span<const PassReport> passes) {
     TailSamples all;
     const std::size_t count = std::min(image.weight.size(), passes.size());

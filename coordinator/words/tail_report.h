@@ -11,18 +11,18 @@
 
 namespace treefarm {
 
-/// Who carries the noise of an image (docs/design/error.md, "fireflies").
+/// Report on the samples that carry an image's noise (docs/design/error.md, "fireflies").
 struct TailReport {
-    std::optional<double> share;  ///< of the fewest pixels with kPolicy.tails.noise_part of it; nothing: none is known
-    TailSamples worst;            ///< of all passes in the image; noise is that of the image
-    std::string origin;           ///< in words, that of most of their noise; "": none is known
+    std::optional<double> share;  ///< fraction of pixels that carry kPolicy.tails.noise_part of it; no value: unknown
+    TailSamples worst;            ///< of all passes in the image; noise relative to the image
+    std::string origin;           ///< in words, of most of their noise; "": unknown
 
-    /// Whether so few samples carry so much that a person should hear of it.
+    /// Whether few samples carry so much noise that the user should be told.
     bool stands_out = false;
 };
 TailReport tail_report(const CombinedImage& image, std::span<const PassReport> passes);
 
-/// What it says at the end of a render; `debug_command` and `debug_options` stand before and after the worst sample's
+/// Text of the report at the end of a render; `debug_command` and `debug_options` precede and follow the worst sample's
 /// name.
 std::string tail_text(const TailReport& tails, const std::string& debug_command, const std::string& debug_options);
 

@@ -7,7 +7,7 @@ namespace treefarm {
 
 namespace {
 
-/// Earlier, the start is most of what is known.
+/// Fraction below which start-up dominates the forecast.
 constexpr double kLeastFraction = 0.01;
 
 TimeLeft not_over(double seconds, const char* trust) {

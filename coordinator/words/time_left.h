@@ -7,15 +7,15 @@
 
 namespace treefarm {
 
-/// How long a render still takes.
+/// Forecast of a render's remaining time.
 struct TimeLeft {
-    double seconds = std::numeric_limits<double>::infinity();  ///< infinite: not known
-    const char* trust = "";                                    ///< "about ", "at most "; empty: for sure
+    double seconds = std::numeric_limits<double>::infinity();  ///< infinite: unknown
+    const char* trust = "";                                    ///< "about ", "at most "; empty: certain
     bool known() const { return seconds < std::numeric_limits<double>::infinity(); }
 };
 
-/// Tells how long a render still takes, as its budget ends it. Between two finished units of work the time runs down:
-/// nothing new is known. Where it has run out and the render goes on, it is not known any more.
+/// Forecast of a render's remaining time, by the part of its budget that will end it. Between two finished units it
+/// counts down; if it reaches zero and the render continues, it is unknown.
 class TimeLeftClock {
   public:
     explicit TimeLeftClock(const Job::Budget& budget) : budget_(budget) {}
@@ -25,7 +25,7 @@ class TimeLeftClock {
     TimeLeft by_samples(const RenderProgress& progress);
 
     const Job::Budget budget_;
-    double fraction_ = 0;  ///< of all samples, when the last unit was finished
+    double fraction_ = 0;  ///< fraction of all samples, when the last unit was finished
     double seconds_ = 0;   ///< time when the last unit was finished
 };
 

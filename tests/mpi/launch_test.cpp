@@ -275,7 +275,7 @@ TEST(Launch, WhatAlwaysDiesEndsWithOneLineThatSaysWhatToDo) {
         Program(launch(2, {"--restarts", "2", "--mpirun", mpirun.string()}) + render(folder)).wait(kSoon);
     EXPECT_EQ(ending.code, 1) << ending.output;
     EXPECT_NE(ending.output.find("the render's processes are gone in the start, before any sign of life; given up "
-                                 "after 3 attempts in a row that brought nothing, all of which ended there; no pass is "
+                                 "after 3 attempts in a row without progress, all of which ended there; no pass is "
                                  "kept in " +
                                  folder.string() + "; begin again with treefarm launch -n 2 --mpirun " +
                                  mpirun.string() + " --restarts 2 -- render "),
@@ -322,7 +322,7 @@ TEST(Launch, DeathsAtOnePlaceNameIt) {
     const Ending ending = program.wait(1);
     EXPECT_EQ(ending.code, 1) << ending.output;
     EXPECT_NE(ending.output.find("in pass 10 on "), std::string::npos) << ending.output;
-    EXPECT_NE(ending.output.find("given up after 2 attempts in a row that brought nothing, all of which ended there; "
+    EXPECT_NE(ending.output.find("given up after 2 attempts in a row without progress, all of which ended there; "
                                  "kept in "),
               std::string::npos)
         << ending.output;

@@ -15,7 +15,7 @@
 
 namespace treefarm::test {
 
-/// A pass of unguided samples, in one piece.
+/// A pass of unguided samples, as one chunk.
 inline PassPlan one_pass(std::uint32_t spp) {
     PassPlan pass;
     pass.spp = spp;
@@ -23,7 +23,7 @@ inline PassPlan one_pass(std::uint32_t spp) {
     return pass;
 }
 
-/// A job's layers of a small film after unguided passes, channel by channel, with what the last one gave.
+/// AOV layers of a small film after a job's unguided passes, channel by channel, with the last pass's own result.
 struct Layers {
     std::vector<AovChannel> channels;
     std::vector<PixelEstimate> pixels, direct;
@@ -88,8 +88,8 @@ inline Layers render_layers(const Scene& scene, const std::string& aovs, std::ui
     return render_layers(scene, aovs, std::vector{one_pass(spp)}, std::move(job));
 }
 
-/// Looks along +z from the origin on a film of 8 x 8 pixels: the wall at z = 10 has x and y from -5 to 5, and is seen
-/// from the side that its normal (0, 0, -1) points to.
+/// A wall seen along +z from the origin on a film of 8 x 8 pixels: at z = 10, x and y from -5 to 5, with its normal (0,
+/// 0, -1) towards the camera.
 inline Scene wall_scene(float tan_half = 0.25f) {
     Scene scene;
     const std::int32_t blue = add_diffuse(scene, {0.1f, 0.2f, 0.7f});

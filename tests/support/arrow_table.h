@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
-/// What tests/unit/tree/arrows_test.cpp holds includes against.
+/// Rules that tests/unit/tree/arrows_test.cpp checks includes against.
 namespace treefarm::test::arrows {
 
-/// Folders that hold sources, floor by floor (docs/design/architecture.md): a file includes its own folder's headers
-/// and those of earlier floors, never those of its own floor's other folders.
+/// Folders with sources, floor by floor (docs/design/architecture.md): a file may include headers of its own folder and
+/// of earlier floors, but not of other folders on its own floor.
 inline const std::vector<std::vector<std::string>> kFloors = {
     {"common/base/text", "common/config/effects"},
     {"common/base"},
@@ -45,7 +45,7 @@ inline const std::vector<std::vector<std::string>> kFloors = {
     {"tests/support"},
     {"bench", "cli"}};
 
-/// Top folders and the other top folders that they may see.
+/// Top folders, with the other top folders that they may include.
 inline const std::map<std::string, std::set<std::string>> kSides = {
     {"common", {}},
     {"coordinator", {"common"}},
@@ -56,10 +56,10 @@ inline const std::map<std::string, std::set<std::string>> kSides = {
     {"bench", {"common", "coordinator", "worker", "tests"}},
     {"cli", {"common", "coordinator", "worker", "report", "serve"}}};
 
-/// Folders, with all below them, that are pure.
+/// Folders that are pure, with all below them.
 inline const std::vector<std::string> kPure = {"common/metrics", "common/guiding", "common/film", "common/plan"};
 
-/// Clocks, threads, files, terminals and unkeyed randomness; our own headers that bring them along.
+/// Headers of clocks, threads, files, terminals and unkeyed randomness, and our own headers that include them.
 inline const std::vector<std::string> kImpure = {"chrono",
                                                  "ctime",
                                                  "thread",
@@ -76,9 +76,9 @@ inline const std::vector<std::string> kImpure = {"chrono",
                                                  "common/image/exr.h",
                                                  "common/image/png.h"};
 
-/// A library and the only folder that may see it.
+/// A library, with the only folder that may include it.
 struct Owner {
-    std::string header;  ///< how its includes begin
+    std::string header;  ///< prefix of its includes
     std::string folder;
 };
 inline const std::vector<Owner> kOwners = {{"mpi.h", "common/comm"},

@@ -10,11 +10,11 @@
 
 namespace treefarm::test {
 
-/// Estimators whose paths start at lamps, and all that are held against each other.
+/// Estimators whose paths start at lamps, and all estimators that are compared.
 inline constexpr const char* kFromLamps[] = {"light", "bidirectional"};
 inline constexpr const char* kFromAnyEnd[] = {"path", "light", "bidirectional"};
 
-/// A plain_job() with next event by an estimator, which keeps its light subpaths.
+/// Render of a plain_job() with next event by an estimator; light subpaths are kept on.
 inline LocalRender render_by(const std::string& type, const Scene& scene, std::uint32_t spp, int max_depth,
                              const std::function<void(Job&)>& change = {}) {
     Job job = plain_job(spp, max_depth, NextEvent::always);
@@ -25,12 +25,12 @@ inline LocalRender render_by(const std::string& type, const Scene& scene, std::u
     return render_locally(scene, job);
 }
 
-/// A change of a job: lamps that are seen directly are most of the noise of small images.
+/// Change of a job that hides lamps seen directly: they are most of the noise of small images.
 inline void hide_emitters(Job& job) {
     job.integrator.hide_emitters = true;
 }
 
-/// Holds means of renders from the lamps against path tracing's; returns the largest difference, in standard errors.
+/// Compares means of renders from the lamps with path tracing's; returns the largest difference, in standard errors.
 inline double expect_mean_of_paths(const Scene& scene, int max_depth, std::uint32_t spp, const std::string& what,
                                    const std::function<void(Job&)>& change = {}) {
     const ImageMean path = mean_of(render_by("path", scene, 2 * spp, max_depth, change).image);

@@ -8,19 +8,19 @@
 
 namespace treefarm::test {
 
-/// The i-th random numbers for a BSDF.
+/// Random numbers number i for a BSDF.
 inline BsdfRandom uniform(std::uint32_t i) {
     const Draw r = draw({13, i, 0}, 0, Stream::scatter);
     return {to_unit(r[1]), {to_unit(r[2]), to_unit(r[3])}};
 }
 
-/// A direction with this cosine and azimuth.
+/// Direction with this cosine and azimuth.
 inline Vec3 at_cosine(float cos, float azimuth) {
     const float sin = std::sqrt(std::max(0.0f, 1.0f - cos * cos));
     return Vec3(sin * std::cos(azimuth), sin * std::sin(azimuth), cos);
 }
 
-/// Mean share of the power that a sample carries on, with the scaling of radiance undone.
+/// Mean fraction of the power that a sample carries on, with the scaling of radiance undone.
 inline double mean_power(const Bsdf& bsdf, const Vec3& wo, int samples) {
     const double eta2 = double(refraction_of(bsdf)) * double(refraction_of(bsdf));
     double sum = 0;

@@ -68,7 +68,7 @@ DirectionTest test_directions(const std::function<bool(std::uint32_t, Vec3&)>& s
     result.success /= samples;
     for (double& e : expected)
         e *= samples;
-    // What was not accepted is a cell of its own.
+    // Rejected samples are a cell of their own.
     counts.push_back((1 - result.success) * samples);
     expected.push_back(std::max(0.0, 1 - result.integral) * samples);
     if (counts.back() == 0) expected.back() = 0;

@@ -10,15 +10,15 @@
 
 namespace treefarm::test {
 
-/// A room without a gap, its middle where `at` says.
+/// A watertight room, with the position of its middle.
 struct ClosedRoom {
     std::string name;
     Imath::V3d at;
     std::vector<Shape> shapes;
 };
 
-/// A box of unit size, turned by these angles about z and then x, its faces of squares x squares x 2 triangles.
-/// Corners that squares share are the same floats: they are computed by the same operations.
+/// A box of unit size, turned by these angles about z and then x, with faces of squares x squares x 2 triangles.
+/// Corners shared by squares have equal bits: they are computed by the same operations.
 inline Mesh turned_box(const Imath::V3d& at, double about_z, double about_x, int squares, bool inwards) {
     const auto placed = [&](Imath::V3d p) {
         p = {std::cos(about_z) * p.x - std::sin(about_z) * p.y, std::sin(about_z) * p.x + std::cos(about_z) * p.y, p.z};
@@ -45,8 +45,8 @@ inline Mesh turned_box(const Imath::V3d& at, double about_z, double about_x, int
     return mesh;
 }
 
-/// Boxes along the axes and turned, of few and of many triangles, one with a box on its floor that reaches into it, a
-/// ball, and a box placed by an instance: `away` of their sizes from the origin.
+/// Closed rooms: boxes along the axes and turned, of few and of many triangles, one with a box that cuts into its
+/// floor, a sphere, and an instanced box; `away`: distance from the origin in multiples of their sizes.
 inline std::vector<ClosedRoom> closed_rooms(double away) {
     const Imath::V3d at = Imath::V3d(1.0, -0.7, 0.3).normalized() * away;
     std::vector<ClosedRoom> rooms;
@@ -72,7 +72,7 @@ inline std::vector<ClosedRoom> closed_rooms(double away) {
     return rooms;
 }
 
-/// Number of paths that leave the room, of `paths` diffuse ones of `edges` rays that start in its middle.
+/// Number of paths that leave the room, of `paths` diffuse ones with `edges` rays that start in its middle.
 inline long escapes(const EmbreeScene& geometry, const Imath::V3d& middle, long paths, int edges, std::uint32_t seed) {
     std::mt19937 random(seed);
     std::normal_distribution<float> normal;

@@ -5,13 +5,13 @@
 
 namespace treefarm::test {
 
-/// How a command ended.
+/// Result of a command.
 struct Ended {
     int code = -1;       ///< -1: killed, or not started
     std::string output;  ///< standard output and error
 };
 
-/// Runs a command of the shell.
+/// Runs a shell command.
 Ended run_command(const std::string& command);
 
 /// Runs treefarm with these arguments.

@@ -12,9 +12,9 @@
 namespace treefarm::test {
 namespace {
 
-/// An element of a document, as positions of its text.
+/// An element of a document, as positions in its text.
 struct Span {
-    std::size_t begin = 0, tag_end = 0, end = 0;  ///< `tag_end`: behind the > of its first tag
+    std::size_t begin = 0, tag_end = 0, end = 0;  ///< `tag_end`: after the > of its first tag
 };
 
 std::size_t position_of(const std::string& document, const Location& where) {
@@ -24,7 +24,7 @@ std::size_t position_of(const std::string& document, const Location& where) {
     return at + static_cast<std::size_t>(std::max(where.column, 1) - 1);
 }
 
-/// The element whose < stands at `begin`; its end is found by counting tags.
+/// Element whose < is at `begin`; its end is found by counting tags.
 Span element_at(const std::string& document, std::size_t begin) {
     Span span{begin, document.find('>', begin) + 1, 0};
     int depth = 0;
@@ -51,7 +51,7 @@ std::string quoted_word(const std::string& text) {
     return begin == std::string::npos ? "" : text.substr(begin + 1, end - begin - 1);
 }
 
-/// Puts `word` in place of what the problem quotes, or of a tag that it complains of, in the first tag of an element.
+/// Documents in which `word` replaces the text that the problem quotes, or its tag, in an element's first tag.
 std::vector<Cured> with_word(const std::string& document, const Span& span, const std::string& problem,
                              const std::string& word) {
     std::string tag = document.substr(span.begin, span.tag_end - span.begin);
@@ -67,7 +67,7 @@ std::vector<Cured> with_word(const std::string& document, const Span& span, cons
     return {{"the word " + word, document.substr(0, span.begin) + tag + document.substr(span.tag_end)}};
 }
 
-/// Puts a number in place of the one that the problem names, or of the whole value.
+/// Document in which a number replaces the one that the problem names, or the whole value.
 Cured with_number(const std::string& document, const Span& span, const std::string& problem,
                   const std::string& number) {
     std::string tag = document.substr(span.begin, span.tag_end - span.begin);
@@ -89,7 +89,7 @@ std::string text_of(double number) {
     return text.str();
 }
 
-/// Numbers that a cure allows: its limits, and one between them.
+/// Numbers allowed by a cure: its limits, and one between them.
 std::vector<std::string> numbers_named(const std::string& cure) {
     static const std::string kNumber = "(-?[0-9.]+)";
     std::smatch m;
@@ -115,7 +115,7 @@ std::vector<std::string> numbers_named(const std::string& cure) {
     return {};
 }
 
-/// The words of "use a, b or c": up to the first thing that is no such list.
+/// Words of "use a, b or c", up to the first text that is no such list.
 std::vector<std::string> words_named(const std::string& cure) {
     static const std::regex kList(
         R"((?:^|Otherwise |, or )(?:use|choose one of|write(?= true)) ((?:[A-Za-z_0-9]+)(?:(?:, | or )[A-Za-z_0-9]+)*))");
@@ -177,7 +177,7 @@ bool is_mechanical(const std::string& cure) {
 
 namespace {
 
-/// Source with its raw texts written as others are.
+/// Source with its raw string literals rewritten as ordinary ones.
 std::string with_escapes(std::string source) {
     for (std::size_t at = 0; (at = source.find("R\"(", at)) != std::string::npos;) {
         const std::size_t end = source.find(")\"", at);
@@ -193,7 +193,7 @@ std::string with_escapes(std::string source) {
     return source;
 }
 
-/// The arguments of a call, from behind its opening bracket.
+/// Arguments of a call, starting after its opening parenthesis.
 std::vector<std::string> arguments(const std::string& source, std::size_t at) {
     std::vector<std::string> parts(1);
     bool in_text = false;
@@ -217,7 +217,7 @@ std::vector<std::string> arguments(const std::string& source, std::size_t at) {
     return parts;
 }
 
-/// The texts in quotes of an expression; neighbours without anything between them are one.
+/// String literals of an expression; adjacent ones are joined.
 std::vector<std::string> literals(const std::string& expression) {
     std::vector<std::string> texts;
     static const std::regex kText(R"re("((?:[^"\\]|\\.)*)"(?:\s*"((?:[^"\\]|\\.)*)")?)re");

@@ -9,27 +9,27 @@
 
 namespace treefarm::test {
 
-/// A document after a cure, by one way that the cure names.
+/// A document after one of the steps that a cure names.
 struct Cured {
-    std::string step;      ///< what was done
-    std::string document;  ///< the document after it
+    std::string step;      ///< the applied step
+    std::string document;  ///< the resulting document
 };
 
-/// Does to a document of XML what the cure of an error about it says, wherever that takes no thought: another word for
-/// the one in quotes, a number within the limits that it names, an element away, an element added. Nothing for cures
-/// that leave something to the reader ("check the path").
+/// Applies the cure of an error to an XML document, if that needs no judgement: another word for the quoted one, a
+/// number within the stated limits, an element removed, an element added. Empty for cures that need a person ("check
+/// the path").
 std::vector<Cured> apply_cure(const std::string& document, const InputError& error);
 
 /// Whether apply_cure understands a cure, or the beginning of one.
 bool is_mechanical(const std::string& cure);
 
-/// A refusal in the program's source.
+/// An error thrown in the program's source.
 struct Refusal {
     std::string where;               ///< file:line
-    std::vector<std::string> cures;  ///< the texts in quotes from which its cure is made
+    std::vector<std::string> cures;  ///< string literals of its cure
 };
 
-/// Every InputError that is thrown and every call of `unsupported` in the C++ files of a folder of the source.
+/// Every InputError thrown and every call of `unsupported` in the C++ files of a source folder.
 std::vector<Refusal> refusals_in(const std::string& folder);
 
 }  // namespace treefarm::test

@@ -36,7 +36,7 @@ double distance(const V& p, const V& q) {
     return std::pow(std::abs(p[0] - q[0]) + std::hypot(p[1] - q[1], p[2] - q[2]), 0.7);
 }
 
-/// weight(dx, dy, channel) over a window, divided by its sum, against the opponent colours.
+/// Convolution of the opponent colours with weight(dx, dy, channel), normalised over a window.
 template <class Weight>
 V filtered(const RgbImage& image, int x, int y, int radius, const Weight& weight) {
     V sum{}, weights{};
@@ -72,7 +72,7 @@ V perceived_colour(const RgbImage& image, int x, int y, double ppd) {
     return lab(rgb);
 }
 
-/// Magnitude of the derivative of luminance, of first or second order.
+/// Magnitude of the first or second derivative of luminance.
 double feature(const RgbImage& image, int x, int y, double ppd, int order) {
     const double s = 0.5 * 0.082 * ppd;
     const int radius = static_cast<int>(std::ceil(3.0 * s));

@@ -5,7 +5,7 @@
 
 namespace treefarm::test {
 
-/// A valid scene with one of everything that a scene can hold, no two values alike where order matters.
+/// A valid scene with one of everything that a scene can contain, with different values wherever their order matters.
 inline Scene every_kind_scene() {
     Scene scene;
 

@@ -10,12 +10,12 @@
 
 namespace treefarm::test {
 
-/// The image that the fake renderer's splats make up.
+/// Radiance of a pixel in the image of the fake renderer's splats.
 inline Rgb splatted_radiance(std::uint32_t pixel) {
     return {0.25f + 0.25f * static_cast<float>(pixel % 5), 1.0f, 0.125f * static_cast<float>(pixel % 3)};
 }
 
-/// Splats of a path: two vertices, each of which brings its half of the image to some pixel, three times out of five.
+/// Splats of a path: two vertices, each with half of the image's radiance for some pixel, three times out of five.
 inline void fake_splats(SplatLog& splats, const PathKey& key, std::uint32_t pixels) {
     for (std::uint32_t vertex = 0; vertex < 2; ++vertex) {
         const Draw d = draw(key, vertex, Stream::light);
@@ -35,8 +35,8 @@ inline void fake_light_paths(std::uint64_t seed, const PassPlan& pass, const Wor
     }
 }
 
-/// A chain of `steps` splats, each of which repeats the one before with probability 0.9: independent ones would have a
-/// nineteenth of its variance.
+/// A chain of `steps` splats, each of which repeats the previous one with probability 0.9: independent ones would have
+/// a nineteenth of its variance.
 inline void fake_chain(SplatLog& splats, std::uint64_t seed, std::uint32_t chain, std::uint32_t steps,
                        std::uint32_t pixels) {
     std::uint32_t pixel = 0;
@@ -49,7 +49,7 @@ inline void fake_chain(SplatLog& splats, std::uint64_t seed, std::uint32_t chain
     splats.end_chain();
 }
 
-/// Steps of a chain: as many in all as the pass has samples.
+/// Number of steps of a chain: in total the number of the pass's samples.
 inline std::uint32_t chain_steps(const PassPlan& pass) {
     return pass.layers.splats.pixels * pass.spp / pass.units.chains;
 }
@@ -62,8 +62,8 @@ inline void fake_chains(std::uint64_t seed, const PassPlan& pass, const WorkUnit
     }
 }
 
-/// A renderer without a scene, on a film of so many columns: radiance, records and splats come straight from the keyed
-/// generator. Samples of tiles splat where a pass has splats, but no light paths.
+/// Renderer without a scene, for a film of `width` columns: radiance, records and splats come straight from the keyed
+/// generator. Tiles' samples splat if the pass has splats but no light paths.
 inline RenderUnit fake_renderer(std::uint64_t seed, std::uint32_t width) {
     return [seed, width](const PassPlan& pass, const AnySampler& guide, const WorkUnit& unit, UnitOutput& output) {
         if (unit.kind == UnitKind::light_paths) return fake_light_paths(seed, pass, unit, output);
@@ -95,7 +95,7 @@ inline RenderUnit fake_renderer(std::uint64_t seed, std::uint32_t width) {
     };
 }
 
-/// A worker's result of these units by fake_renderer().
+/// Result of a worker with fake_renderer() for these units.
 inline Result fake_result(const PassPlan& plan, std::span<const std::uint8_t> tree, std::span<const WorkUnit> units,
                           std::uint32_t width) {
     PassWork work(plan, decode_tree(tree), DirectionalFilter::box);

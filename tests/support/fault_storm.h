@@ -10,11 +10,11 @@
 namespace treefarm::test {
 
 /// Renders of a tiny job under random faults: workers die, stop for a while, are cut off for a while, leave, come late,
-/// and the coordinator dies and goes on from its last checkpoint. A fault comes with a worker's n-th message, not after
-/// so many milliseconds, so that a seed tells much, if not all.
+/// and the coordinator dies and resumes from its last checkpoint. Faults are timed by a worker's n-th message, not by
+/// milliseconds, so that a seed reproduces most of a run.
 class FaultStorm : public FarmTest {
   protected:
-    /// What befell the renders.
+    /// Counts of the faults that occurred.
     struct Count {
         int deaths = 0, stops = 0, cuts = 0, leaves = 0, late = 0, crashes = 0;
         int all() const { return deaths + stops + cuts + leaves + late + crashes; }
@@ -27,9 +27,9 @@ class FaultStorm : public FarmTest {
         job_.output.aovs = "albedo,direct";
     }
 
-    /// Renders until so many faults have come to pass; each render has to give the bits of the undisturbed one.
+    /// Repeats renders until `faults` faults have occurred; each render must have the bits of the undisturbed one.
     Count storm(int faults, unsigned seed) {
-        constexpr int kTold = 500;  // faults between two lines
+        constexpr int kTold = 500;  // faults between two log lines
         int told = 0;
         const RenderResult calm = calm_render();
         while (counted_.all() < faults && !HasFailure()) {
@@ -55,7 +55,7 @@ class FaultStorm : public FarmTest {
     int lives() const { return lives_; }  ///< of all renders: each crash of a coordinator begins another
 
   private:
-    /// Limits of a life, `patience` times as long as a calm machine needs.
+    /// Time limits, `patience` times as long as a quiet machine needs.
     static FarmLimits limits(double patience) {
         return {.gather = 1, .lost = 0.04 * patience, .dismiss = 0.1, .grace = 0.3 * patience, .asking = 0.002};
     }
@@ -70,13 +70,13 @@ class FaultStorm : public FarmTest {
 
     unsigned below(unsigned limit) { return static_cast<unsigned>(random_() % limit); }
 
-    /// One render, in as many lives as it takes.
+    /// One render, resumed after each crash.
     RenderResult stormy_render() {
         constexpr int kMostLives = 60;
         saved_.clear();
         for (int life = 0; life < kMostLives; ++life) {
             ++lives_;
-            // On a busy machine nobody may be heard within a hundredth of a second, life after life.
+            // On a busy machine workers may send nothing within a hundredth of a second, after each resume.
             patience_ = 1.0 + life / 4;
             threads_.clear();
             faulty_.clear();
@@ -92,7 +92,7 @@ class FaultStorm : public FarmTest {
                 RenderResult result = render(limits(patience_));
                 hooks_ = {};
                 return result;
-            } catch (const RunError&) {  // a crash, or nobody was left
+            } catch (const RunError&) {  // a crash, or no worker was left
                 hooks_ = {};
                 resumed_.reset();
             }
@@ -101,7 +101,7 @@ class FaultStorm : public FarmTest {
         return {};
     }
 
-    /// Faults of a worker in this life.
+    /// Chooses the faults of a worker until the next resume.
     void prepare(std::size_t w) {
         settings_[w].threads = 1 + below(2);
         settings_[w].silence_seconds = kSilence * patience_;
@@ -137,7 +137,7 @@ class FaultStorm : public FarmTest {
                 told = true;
                 return count(&Count::leaves);
             default:
-                return;  // this one is lucky
+                return;  // no fault
         }
     }
 
@@ -146,7 +146,7 @@ class FaultStorm : public FarmTest {
         ++(counted_.*kind);
     }
 
-    /// The coordinator writes checkpoints, and may die at any step.
+    /// Chooses the step at which the coordinator crashes; it writes checkpoints.
     void plan_crash() {
         const unsigned every = 1 + below(40), crash = below(3) == 0 ? ~0u : 5 + below(400);
         hooks_.state_due = [every, asked = 0u]() mutable { return ++asked % every == 0; };
@@ -158,7 +158,7 @@ class FaultStorm : public FarmTest {
         };
     }
 
-    /// Films lie in files of their own, here in memory.
+    /// Saves a checkpoint with its films, in memory.
     void save(RenderState& state) {
         films_.clear();
         for (PassResult& film : state.films) {

@@ -9,7 +9,7 @@
 
 namespace treefarm::test {
 
-/// Values of guiding.type that guide, by the key's own documentation.
+/// Values of guiding.type that guide, from the key's documentation.
 inline std::vector<std::string> guide_types() {
     const JobKey& key = *find_job_key("guiding.type");
     std::vector<std::string> types;

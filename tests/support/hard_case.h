@@ -17,7 +17,7 @@ namespace treefarm::test {
 inline constexpr float kInfinity = std::numeric_limits<float>::infinity();
 inline constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
-/// Notes a figure for docs/generated/hard-cases.md to show beside the running test (tests/stability/write_page.py).
+/// Records a figure for docs/generated/hard-cases.md, attributed to the running test (tests/stability/write_page.py).
 inline void figure(const std::string& what, double value) {
     std::ostringstream text;
     text.precision(3);
@@ -25,7 +25,7 @@ inline void figure(const std::string& what, double value) {
     ::testing::Test::RecordProperty("figure", text.str());
 }
 
-/// The largest of many values, and where it was met.
+/// Largest of many values, and its origin.
 struct Worst {
     double value = 0;
     std::string where;
@@ -40,7 +40,7 @@ struct Worst {
     }
 };
 
-/// A job without guiding whose paths never play roulette.
+/// A job without guiding and without roulette.
 inline Job plain_job(std::uint32_t spp, int max_depth, NextEvent next_event = NextEvent::never) {
     Job job;
     job.guiding.type = GuidingType::none;
@@ -51,7 +51,7 @@ inline Job plain_job(std::uint32_t spp, int max_depth, NextEvent next_event = Ne
     return job;
 }
 
-/// A plain_job() guided in a few passes, of which the last ones use a real tree, combined without bias.
+/// A plain_job() guided in a few passes, the last ones by a learned tree, combined without bias.
 inline Job guided_job(std::uint32_t spp, int max_depth, NextEvent next_event = NextEvent::never) {
     Job job = plain_job(spp, max_depth, next_event);
     job.guiding.type = GuidingType::ppg;
@@ -73,7 +73,7 @@ inline ImageMean mean_of(const CombinedImage& image) {
             mean.error += image.variance[i][c];
         }
     const auto count = static_cast<double>(3 * image.mean.size());
-    return {mean.value / count, std::sqrt(mean.error * 3) / count};  // channels of a pixel err together
+    return {mean.value / count, std::sqrt(mean.error * 3) / count};  // channels of a pixel are correlated
 }
 
 inline std::uint64_t invalid_samples(const LocalRender& run) {

@@ -5,7 +5,7 @@
 
 namespace treefarm::test {
 
-/// A key that a test knows.
+/// A key with known bytes.
 inline JoinKey key_of(std::uint8_t value) {
     JoinKey key;
     key.fill(value);

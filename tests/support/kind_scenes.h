@@ -8,7 +8,7 @@
 
 namespace treefarm::test {
 
-/// Points what a kind refers to at the first there is, so that a kind by default is whole.
+/// Sets each reference of a kind to the first object there is, so that a default kind is complete.
 struct ReferToTheFirst : IgnoreFields {
     void part(const char*, std::int32_t& index) { index = 0; }
     void image(std::int32_t& index) { index = 0; }
@@ -16,8 +16,8 @@ struct ReferToTheFirst : IgnoreFields {
     void group(std::int32_t& index) { index = 0; }
 };
 
-/// A small scene for each kind of shape, material, emitter and texture that there is, made from the lists of kinds: it
-/// holds one of the kind as it is by default.
+/// A small scene for each kind of shape, material, emitter and texture, from the lists of kinds, with one object of the
+/// kind with default values.
 inline std::vector<Scene> kind_scenes() {
     Scene base;
     TextureImage& image = base.images.emplace_back();

@@ -11,7 +11,7 @@
 
 namespace treefarm::test {
 
-/// A world of one attempt at a time, and what the supervisor did to it.
+/// Simulated environment of a supervisor, with one attempt at a time and a record of the supervisor's actions.
 class LaunchWorld {
   public:
     explicit LaunchWorld(SupervisorLimits limits = {})
@@ -22,14 +22,14 @@ class LaunchWorld {
                        [this](const std::string& words) { said.push_back(words); }},
                       [](int number) { return "run." + std::to_string(number); }) {}
 
-    /// One step of the clock, in which the coordinator may do something.
+    /// Advances the clock once; the coordinator may act in between.
     void step(double seconds = 1.0) {
         now += seconds;
         if (!end)
             end =
                 supervisor_.step({now, running, not_started, readable, coordinator_gone, status, summary, checkpoint});
     }
-    /// So many seconds, in each of which `life` happens.
+    /// Advances `seconds` seconds, and calls `life` in each.
     void pass(
         double seconds, const std::function<void()>& life = [] {}) {
         for (double t = 0; t < seconds && !end; ++t) {
@@ -44,7 +44,7 @@ class LaunchWorld {
         live();
         if (status) ++status->progress;
     }
-    /// The coordinator is heard of for the first time.
+    /// First heartbeat of the coordinator.
     void appear(LifePhase phase = LifePhase::pass, std::uint32_t pass = 2) {
         status = LifeStatus{};
         status->attempt = "run." + std::to_string(attempt);
@@ -54,13 +54,13 @@ class LaunchWorld {
         status->pid = 42;
     }
     void die() { running = false; }
-    /// The coordinator says its exit code, and all its processes leave.
+    /// Reports the coordinator's exit code; all its processes leave.
     void finish(int code) {
         if (!status) appear();
         status->code = code;
         running = false;
     }
-    /// A start, that comes to a pass.
+    /// Starts an attempt and brings it to a pass.
     void run_to_pass(std::uint32_t pass = 2) {
         while (!running && !end)
             step();
@@ -73,7 +73,7 @@ class LaunchWorld {
 
     double now = 0;
     bool running = false, readable = true, coordinator_gone = false;
-    std::string not_started;  ///< why an attempt cannot be started; "": it can
+    std::string not_started;  ///< reason why attempts cannot be started; "": they can
     int attempt = 0;
     std::optional<LifeStatus> status;
     std::optional<int> summary;

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kSignificance = 1e-4;
 
-/// Radiance that an unoccluded sample brings.
+/// Radiance carried by an unoccluded sample.
 Rgb arriving(const Emitters& emitters, const DirectSample& s) {
     return s.from_environment ? emitters.environment(s.wi) : s.radiance;
 }

@@ -12,7 +12,7 @@ namespace treefarm::test {
 LobeTest test_lobe(const std::function<bool(std::uint32_t, Vec3&)>& sample,
                    const std::function<double(const Vec3&)>& density, const Vec3& center, double across_width,
                    double along_width, std::uint32_t samples, int resolution, int sub, bool logarithmic) {
-    // Axes that a horizontal centre shares with the surface: the horizon, where densities end, is then a cell's edge.
+    // Frame whose axes put the horizon of a horizontal centre, where densities end, on an edge of the cells.
     Frame frame(center);
     const Vec3 across = cross(Vec3(0.0f, 0.0f, 1.0f), center);
     if (dot(across, across) > 1e-6f) {
@@ -22,7 +22,7 @@ LobeTest test_lobe(const std::function<bool(std::uint32_t, Vec3&)>& sample,
     const auto cells = static_cast<std::size_t>(resolution * resolution);
     std::vector<double> counts(cells, 0.0), expected(cells, 0.0);
     LobeTest result;
-    // Places in a line of cells, from -1 to 1, and back.
+    // Maps coordinates to [-1, 1] along a line of cells, and back.
     constexpr double kFarthest = 30.0;
     const auto length = [&](double width) { return std::log1p(kFarthest / width); };
     const auto cell = [&](double x, double width) {
@@ -65,7 +65,7 @@ LobeTest test_lobe(const std::function<bool(std::uint32_t, Vec3&)>& sample,
         }
     for (double& e : expected)
         e *= samples;
-    // The integral is good to about 1e-3; a finer test of what is left over would test that.
+    // The integral is accurate to about 1e-3; a finer test of the remainder would test that.
     const double outside = samples - result.inside, left = (1 - result.integral) * samples;
     counts.push_back(outside);
     expected.push_back(std::abs(outside - left) < 1e-3 * samples ? outside : std::max(0.0, left));

@@ -14,16 +14,16 @@
 
 namespace treefarm::test {
 
-/// All passes of a job in this thread, without a farm: what the farm must reproduce bit by bit.
+/// All passes of a job in this thread, without a farm: the result that the farm must reproduce bit by bit.
 struct LocalRender {
     std::vector<PassResult> passes;
-    std::vector<RenderHistory> states;  ///< after each pass; a sample takes a millisecond on this clock
+    std::vector<RenderHistory> states;  ///< after each pass; its clock counts a millisecond per sample
     std::vector<PassPlan> plans;
     std::vector<TraceStats> stats;
-    std::vector<PassReport> reports;  ///< what was decided after each pass, and by what
+    std::vector<PassReport> reports;  ///< with each pass's decisions and their evidence
     SplatCaps splat_caps;             ///< of all passes
     CombinedImage image;
-    AnyModel model;  ///< that guided the last pass
+    AnyModel model;  ///< guide of the last pass
     const SdTree& tree() const { return *model.get_if<SdTree>(); }
 };
 

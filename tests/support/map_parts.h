@@ -10,9 +10,9 @@
 
 namespace treefarm::test {
 
-/// How the parts of a map are chosen.
+/// Choice of an environment map's parts.
 struct MapParts {
-    /// By power, none hardly ever (as Emitters has it); or as if learned: each twice to half as often.
+    /// By power with a minimum (as in Emitters); or as if learned: from half to twice as often.
     explicit MapParts(const EnvironmentMap& map, bool learned = false) {
         std::vector<double> weights;
         for (int part = 0; part < map.part_count(); ++part)

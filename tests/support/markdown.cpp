@@ -29,7 +29,7 @@ std::string slug(const std::string& heading) {
     return anchor;
 }
 
-/// The text of links in place of the links.
+/// Text with each link replaced by its words.
 std::string without_links(const std::string& text) {
     static const std::regex link(R"(\[([^\]]*)\]\([^)]*\))");
     return std::regex_replace(text, link, "$1");

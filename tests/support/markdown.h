@@ -14,23 +14,23 @@ std::vector<std::filesystem::path> markdown_pages();
 struct MarkdownLine {
     int number = 0;  ///< from 1 on
     std::string text;
-    bool fenced = false;  ///< within a fence of ```
+    bool fenced = false;  ///< within a ``` fence
 };
 std::vector<MarkdownLine> markdown_lines(const std::filesystem::path& page);
 
-/// Headings without their marks, in order.
+/// Headings of a page in order, without their # marks.
 std::vector<std::string> headings(const std::filesystem::path& page);
 
-/// The anchors that GitHub gives to a page's headings.
+/// Anchors that GitHub gives to a page's headings.
 std::vector<std::string> anchors(const std::filesystem::path& page);
 
-/// A link of a page, and where it leads.
+/// A link of a page, with its target.
 struct MarkdownLink {
-    int line = 0;        ///< on which it ends
+    int line = 0;        ///< line on which it ends
     std::string path;    ///< relative to the page; empty: the page itself
     std::string anchor;  ///< without #; empty: none
 };
-/// Links and pictures that lead into the source tree, not to the web.
+/// Links and pictures with targets in the source tree rather than on the web.
 std::vector<MarkdownLink> local_links(const std::filesystem::path& page);
 
 }  // namespace treefarm::test

@@ -20,15 +20,16 @@ inline Roughness rough(Microfacets distribution, float alpha_u, float alpha_v) {
     return {distribution, FloatInput(alpha_u), FloatInput(alpha_v)};
 }
 
-/// Adds a texture; returns its index.
+/// Adds a texture and returns its index.
 inline std::int32_t add_texture(Scene& scene, TextureKind kind, const char* name) {
-    Texture& texture = scene.textures.emplace_back();  // in place: GCC 12 warns about copies of what may hold a string
+    // in place: GCC 12 warns about copies of an object that may contain a string
+    Texture& texture = scene.textures.emplace_back();
     texture.kind = std::move(kind);
     texture.name = name;
     return static_cast<std::int32_t>(scene.textures.size()) - 1;
 }
 
-/// An image of linear floats as a texture; returns its index.
+/// Adds an image of linear floats as a texture and returns its index.
 inline std::int32_t add_image_texture(Scene& scene, int width, int height, std::vector<float> rgb) {
     TextureImage image;
     image.width = width;
@@ -47,7 +48,7 @@ inline std::int32_t add_board(Scene& scene, const Rgb& color0, const Rgb& color1
     return add_texture(scene, board, "board");
 }
 
-/// The last material of a scene, on one shape, prepared as for tracing.
+/// Last material of a scene, on one shape, prepared for tracing.
 class PreparedMaterial {
   public:
     explicit PreparedMaterial(Scene scene) {
@@ -60,7 +61,7 @@ class PreparedMaterial {
     explicit PreparedMaterial(decltype(Material::bsdf) bsdf, bool twosided = false)
         : PreparedMaterial(with(std::move(bsdf), twosided)) {}
 
-    /// nullptr: black.
+    /// BSDF of one side; nullptr: black.
     const Bsdf* side(bool back) const { return set_->side(0, back).bsdf; }
     const Bsdf& front() const { return *side(false); }
     const Bsdf& back() const { return *side(true); }
@@ -82,8 +83,7 @@ class PreparedMaterial {
     BsdfScratch scratch_;
 };
 
-/// A room with a metal floor, a glass ball, a plastic box and a lamp: what guides have to cope with besides diffuse
-/// light.
+/// A room with a metal floor, a glass sphere, a plastic box and a lamp: non-diffuse light for guides.
 inline Scene glossy_room() {
     Scene scene;
     const std::int32_t white = add_diffuse(scene, Rgb(0.6f)), red = add_diffuse(scene, {0.6f, 0.2f, 0.1f});

@@ -11,7 +11,7 @@
 
 namespace treefarm::test {
 
-/// Files of meshes made in code, for tests of readers.
+/// Mesh files made in code, for tests of readers.
 
 template <class T>
 void append(std::string& bytes, T value, bool big_endian = false) {
@@ -21,7 +21,7 @@ void append(std::string& bytes, T value, bool big_endian = false) {
     bytes.append(raw, sizeof(T));
 }
 
-/// A tetrahedron with unit normals away from its centre and a texture.
+/// Tetrahedron with unit normals away from its centre, and texture coordinates.
 inline Mesh tetrahedron() {
     Mesh mesh;
     mesh.positions = {Vec3(1, 1, 1), Vec3(-1, -1, 1), Vec3(-1, 1, -1), Vec3(1, -1, -1)};
@@ -32,7 +32,7 @@ inline Mesh tetrahedron() {
     return mesh;
 }
 
-/// Bytes that zlib unpacks in a serialized file.
+/// Unpacked content of a serialized file.
 inline std::string serialized_payload(const Mesh& mesh, int version, bool is_double, bool colors = false) {
     std::string bytes;
     append<std::uint32_t>(bytes, (mesh.normals.empty() ? 0u : 1u) | (mesh.uvs.empty() ? 0u : 2u) | (colors ? 8u : 0u) |
@@ -57,10 +57,10 @@ inline std::string serialized_payload(const Mesh& mesh, int version, bool is_dou
     return bytes;
 }
 
-/// A serialized file of these unpacked meshes.
+/// Serialized file with these contents.
 std::string serialized_file(const std::vector<std::string>& payloads, int version);
 
-/// A binary PLY file with normals, texture coordinates, and colours and lists that nobody asks for.
+/// Binary PLY file with normals, texture coordinates, and colours and lists that the reader ignores.
 inline std::string binary_ply(const Mesh& mesh, bool big_endian) {
     std::string bytes = std::string("ply\nformat binary_") + (big_endian ? "big" : "little") +
                         "_endian 1.0\ncomment made in code\nelement vertex " + std::to_string(mesh.positions.size()) +

@@ -13,7 +13,7 @@
 
 namespace treefarm::test {
 
-/// Writes files below the test's temporary folder and reads them.
+/// Fixture that writes files below the test's temporary folder, and reads them.
 class MitsubaFixture : public ::testing::Test {
   protected:
     void SetUp() override {
@@ -34,7 +34,7 @@ class MitsubaFixture : public ::testing::Test {
                           lenient);
     }
 
-    /// Loads a scene with a sensor, for tests about something else.
+    /// Loads a scene with a default sensor, for tests of other elements.
     LoadedScene load_with_sensor(const std::string& body, const std::string& version = "0.6.0") const {
         return load("<sensor type=\"perspective\"/>\n" + body, version);
     }

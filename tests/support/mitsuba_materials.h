@@ -12,7 +12,7 @@ class MitsubaMaterials : public MitsubaFixture {
     Scene scene(const std::string& bsdf, const std::string& version = "0.6.0") const {
         return load_with_sensor("<shape type=\"rectangle\">" + bsdf + "</shape>", version).scene;
     }
-    /// The material of a shape with this BSDF.
+    /// Material of a shape with this BSDF.
     Material material(const std::string& bsdf, const std::string& version = "0.6.0") const {
         const Scene s = scene(bsdf, version);
         return s.materials.at(static_cast<std::size_t>(s.shapes.at(0).material));

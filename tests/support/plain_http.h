@@ -6,7 +6,7 @@
 
 namespace treefarm::test {
 
-/// A connection to a port of this machine, as a client that may do anything with it.
+/// A raw connection to a port of this machine, for tests that misbehave.
 class Client {
   public:
     explicit Client(int port);
@@ -16,7 +16,7 @@ class Client {
 
     bool connected() const { return connected_; }
     void send(const std::string& bytes);
-    /// Everything until the other side closes, for up to so many seconds.
+    /// Receives until the other side closes, for `seconds` at most.
     std::string receive(double seconds);
 
   private:
@@ -24,15 +24,15 @@ class Client {
     bool connected_ = false;
 };
 
-/// A response, taken apart strictly.
+/// A response, parsed strictly.
 struct HttpAnswer {
-    int status = 0;  ///< 0: it was no response
+    int status = 0;  ///< 0: no valid response
     std::map<std::string, std::string> headers;
     std::string body;
 };
 HttpAnswer parse_answer(const std::string& bytes);
 
-/// Sends one request ("GET /metrics") with more header lines ("Cookie: a=b\r\n") and takes its response.
+/// Sends one request ("GET /metrics") with additional header lines ("Cookie: a=b\r\n") and returns its response.
 HttpAnswer ask(int port, const std::string& request, const std::string& headers = "");
 
 }  // namespace treefarm::test

@@ -11,22 +11,22 @@
 
 namespace treefarm::test {
 
-/// Records of a made-up light field in the unit cube: a few narrow and broad lobes whose directions move with the
+/// Records of a synthetic light field in the unit cube: a few narrow and broad lobes whose directions vary with the
 /// position.
 std::vector<Record> random_records(const RegionSampler& guide, std::size_t count, unsigned seed);
 
-/// A tree that has learned from random_records for `passes` passes.
+/// Tree that has learned from random_records for `passes` passes.
 SdTree random_tree(int passes, std::size_t records_per_pass, double spatial_threshold, unsigned seed);
 
-/// Records as of random_records(), seen from random sides: half of them also for the views of their regions.
+/// Records as of random_records(), with random outgoing directions: half of them also for the views of their regions.
 std::vector<Record> random_view_records(const SdTreeSampler& guide, std::size_t count, unsigned seed);
 
-/// A tree with views that has learned from random_view_records: T2s with more records than `view_set_threshold` are
-/// cut, views with more than a quarter of that split.
+/// Tree with views that has learned from random_view_records: T2s with more records than `view_set_threshold` are cut,
+/// views with more than a quarter of that are split.
 SdTree random_view_tree(int passes, std::size_t records_per_pass, double spatial_threshold, double view_set_threshold,
                         unsigned seed);
 
-/// Sums of these records.
+/// Sums of records.
 CellSums sums_of(const SdTreeSampler& guide, std::span<const Record> records);
 
 }  // namespace treefarm::test

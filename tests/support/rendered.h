@@ -12,7 +12,7 @@
 
 namespace treefarm::test {
 
-/// An image with its variance, as z-tests take them.
+/// An image with its variance, in the form of the z-tests.
 struct Rendered {
     RgbImage mean, variance;
 };
@@ -27,15 +27,15 @@ inline Rendered rendered(const LocalRender& run, const Film& film) {
     return images;
 }
 
-/// Holds an image against that of paths, as far as both are known, in blocks and as a whole. `noise`: of its mean, at
-/// most.
+/// Compares an image with path tracing's within both uncertainties, in blocks and as a whole. `noise`: largest allowed
+/// noise of its mean.
 inline void expect_same_image(const Rendered& image, const Rendered& path, const std::string& what,
                               double noise = 0.02) {
     ZTestOptions options;
     options.block = 8;
     const BlockZTest blocks = block_z_test({image.mean, path.mean, &image.variance, &path.variance}, options);
     EXPECT_TRUE(blocks.pass) << what << ": worst block z " << blocks.max_abs_z << " of " << blocks.limit;
-    EXPECT_LT(blocks.mean_z2, 3.0) << what;  // of nine blocks or more, whose channels go together
+    EXPECT_LT(blocks.mean_z2, 3.0) << what;  // of nine blocks or more, whose channels are correlated
     for (const double z : blocks.image_z)
         EXPECT_LT(std::abs(z), 4.0) << what;
     double sum = 0, variance = 0;

@@ -11,13 +11,12 @@
 
 namespace treefarm::test {
 
-/// A job as it is carried out on a scene of 512 x 512 pixels in which nothing depends on the view and nothing is to be
-/// chosen.
+/// Job resolved for a scene of 512 x 512 pixels without view-dependent surfaces and without choices.
 inline Resolved resolved(const Job& job) {
     return resolve(job, SceneFacts{});
 }
 
-/// A job as it is carried out on a scene whose film is all that is known of it.
+/// Job resolved for a scene of which only the film is known.
 inline Resolved resolved(const Job& job, const TraceScene& scene) {
     SceneFacts facts;
     facts.film_pixels = scene.film().pixel_count();
@@ -25,7 +24,7 @@ inline Resolved resolved(const Job& job, const TraceScene& scene) {
     return resolve(job, facts);
 }
 
-/// A pass with the kernel that a coordinator would give it, by the tree that `guide` was made of.
+/// Pass with the kernel that a coordinator would choose, for the tree of `guide`.
 inline PassPlan with_kernel(const Resolved& job, PassPlan pass, const AnySampler& guide) {
     pass.guided = pass.guided && job.guides;
     pass.kernel = kernel_of(job, pass, facts_of(guide));

@@ -10,7 +10,7 @@
 
 namespace treefarm::test {
 
-/// The scene with all its lengths multiplied: it looks the same, unless it has lights without extent. No instances.
+/// Scene with all lengths multiplied: its image is unchanged, unless it has lights without extent. No instances.
 inline Scene scaled(Scene scene, float factor) {
     struct Scaler {
         float factor;
@@ -31,7 +31,7 @@ inline Scene scaled(Scene scene, float factor) {
     return scene;
 }
 
-/// Rooms of a few pixels to be scaled: with diffuse walls, and with metal, glass, plastic and a lens.
+/// Rooms of a few pixels for scaling: with diffuse walls, and with metal, glass, plastic and a lens.
 inline std::vector<Scene> rooms_to_scale() {
     std::vector<Scene> rooms = {cornell_box(1.0f, Vec3(0.0f)), glossy_room()};
     rooms[1].camera.lens_u = Vec3(0.02f, 0, 0);
@@ -41,7 +41,7 @@ inline std::vector<Scene> rooms_to_scale() {
     return rooms;
 }
 
-/// Holds an image against another, `factor` times as bright, a power of two.
+/// Compares an image with another one `factor` times as bright, a power of two, bit by bit.
 inline void expect_same_bits(const LocalRender& image, const LocalRender& other, double factor,
                              const std::string& what) {
     EXPECT_GT(mean_of(image.image).value, 0.0) << what << ": black";

@@ -5,7 +5,7 @@
 
 namespace treefarm::test {
 
-/// Path of a scene of ../shared/scenes, or empty when that folder is absent (the test then skips with a clear message).
+/// Path of a scene of ../shared/scenes, or empty if that folder is absent (the test is then skipped with a message).
 std::string shared_scene(const std::string& relative);
 
 /// Path of a scene of configs/scenes.

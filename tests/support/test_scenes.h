@@ -10,7 +10,7 @@
 
 namespace treefarm::test {
 
-/// Scenes made in code, so that tests of light need no reader and no files.
+/// Scenes made in code: tests of light need no reader and no files.
 
 inline std::int32_t add_diffuse(Scene& scene, const Rgb& reflectance, bool twosided = false) {
     Material material;
@@ -20,7 +20,7 @@ inline std::int32_t add_diffuse(Scene& scene, const Rgb& reflectance, bool twosi
     return static_cast<std::int32_t>(scene.materials.size()) - 1;
 }
 
-/// Adds the shape; `radiance` that is not black makes it an area emitter.
+/// Adds a shape and returns its index; a `radiance` that is not black makes it an area emitter.
 inline std::int32_t add_shape(Scene& scene, decltype(Shape::geometry) geometry, std::int32_t material,
                               const Rgb& radiance = Rgb(0.0f), const std::string& name = "shape") {
     Shape shape;
@@ -36,7 +36,7 @@ inline std::int32_t add_shape(Scene& scene, decltype(Shape::geometry) geometry, 
     return index;
 }
 
-/// Appends a parallelogram: corner, corner + a, corner + a + b, corner + b. Its front is where a x b points.
+/// Appends a parallelogram: corner, corner + a, corner + a + b, corner + b. Its front is in the direction of a x b.
 inline void append_quad(Mesh& mesh, const Vec3& corner, const Vec3& a, const Vec3& b) {
     const auto first = static_cast<std::uint32_t>(mesh.positions.size());
     for (const Vec3& p : {corner, corner + a, corner + a + b, corner + b})
@@ -51,7 +51,7 @@ inline Mesh quad(const Vec3& corner, const Vec3& a, const Vec3& b) {
     return mesh;
 }
 
-/// The box [lower, upper] with fronts outside, or inside for a room.
+/// Box [lower, upper] with fronts outside, or inside for a room.
 inline Mesh box(const Vec3& lower, const Vec3& upper, bool inwards) {
     const Vec3 e = upper - lower;
     const Vec3 x(e.x, 0.0f, 0.0f), y(0.0f, e.y, 0.0f), z(0.0f, 0.0f, e.z);
@@ -63,7 +63,7 @@ inline Mesh box(const Vec3& lower, const Vec3& upper, bool inwards) {
     return mesh;
 }
 
-/// A sphere of triangles, fronts outside: 4^subdivisions times an octahedron.
+/// Sphere of triangles, fronts outside: 4^subdivisions times an octahedron.
 inline Mesh sphere_mesh(const Vec3& center, float radius, int subdivisions, bool smooth) {
     std::vector<std::array<Vec3, 3>> triangles;
     for (int octant = 0; octant < 8; ++octant) {
@@ -110,8 +110,8 @@ inline void set_film(Scene& scene, int width, int height) {
     scene.film.height = height;
 }
 
-/// A closed cube that emits `radiance` and reflects `albedo` everywhere, seen from inside: every ray carries
-/// radiance / (1 - albedo).
+/// Closed cube that emits `radiance` and reflects `albedo` everywhere, seen from inside: every ray carries radiance /
+/// (1 - albedo).
 inline Scene furnace(float albedo, float radiance, float size, const Vec3& center) {
     Scene scene;
     const std::int32_t material = add_diffuse(scene, Rgb(albedo));
@@ -123,7 +123,7 @@ inline Scene furnace(float albedo, float radiance, float size, const Vec3& cente
 }
 
 /// A room of unit size (scaled and moved) with coloured walls, two boxes and a lamp below the ceiling, open towards the
-/// camera, in the manner of the Cornell box.
+/// camera, similar to the Cornell box.
 inline Scene cornell_box(float scale, const Vec3& offset) {
     Scene scene;
     const std::int32_t white = add_diffuse(scene, {0.73f, 0.72f, 0.68f}),

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-// stb's writer is the only one of JPEG at hand; its warnings are its own.
+// stb has the only JPEG writer available; its warnings are not ours.
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wconversion"
 #pragma GCC diagnostic ignored "-Wsign-conversion"
@@ -47,7 +47,7 @@ std::string TinyPng::bytes() const {
         if (bits == 16) rows += static_cast<char>(values[i] >> 8);
         rows += static_cast<char>(values[i] & 0xff);
     }
-    // One block of deflate that is not compressed, between zlib's header and its sum.
+    // One uncompressed deflate block, between zlib's header and its checksum.
     const auto size = static_cast<std::uint32_t>(rows.size());
     std::string data = "\x78\x01\x01";
     for (const std::uint32_t word : {size, ~size})

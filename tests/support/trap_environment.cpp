@@ -9,7 +9,7 @@
 namespace treefarm::test {
 namespace {
 
-/// Traps are set for all tests; with TREEFARM_FLUSH_DENORMALS in the environment denormals are flushed as well.
+/// Sets floating-point traps for all tests; with TREEFARM_FLUSH_DENORMALS set, denormals are flushed as well.
 class TrapEnvironment : public testing::Environment {
   public:
     void SetUp() override {

@@ -40,7 +40,8 @@ FilmConnection CameraImportance::through_lens(const Vec3& p, const Draw& lens) c
     FilmConnection connection;
     const Vec3d to_p = Vec3d(p) - origin_ - shift;
     const double ahead = to_p.dot(normal_);
-    const double t = (corner_ - shift).dot(normal_) / ahead;  // the plane of focus lies at t of the way to p
+    // the focal plane is at the fraction t of the distance to p
+    const double t = (corner_ - shift).dot(normal_) / ahead;
     const double distance2 = to_p.dot(to_p);
     if (!(t > 0.0 && std::isfinite(t) && distance2 > 0.0)) return connection;
     place(connection, shift + to_p * t - corner_);
@@ -74,7 +75,7 @@ FilmConnection CameraImportance::panorama(const Vec3& p) const {
     const double level2 = left * left + forwards * forwards;
     if (!(level2 > 0.0)) return connection;
     const double distance = std::sqrt(distance2), level = std::sqrt(level2);
-    // Angles do not depend on the length, and a float holds those.
+    // Angles depend on ratios alone; lengths over the distance fit a float.
     const auto unit = [&](double length) { return static_cast<float>(length / distance); };
     connection.x = double(azimuth_turn(unit(forwards), unit(left))) * width_;
     connection.y = 2.0 * double(azimuth_turn(unit(up), unit(level))) * height_;
@@ -105,7 +106,7 @@ bool PixelPicker::reaches(double x, double y) const {
 
 PixelPicker::Axis PixelPicker::pick_along(double x, int begin, int end, std::uint32_t random) const {
     const auto radius = double(filter_.radius());
-    // As many as the filter is wide; comparing first spares huge positions the way through int.
+    // At most as many columns as the filter is wide; the comparison first keeps huge positions out of int.
     const double lowest = std::max(std::floor(x - 0.5 - radius), double(begin)),
                  highest = std::min(std::ceil(x - 0.5 + radius), double(end - 1));
     Axis axis;
@@ -137,7 +138,7 @@ PixelPick PixelPicker::pick_point(double x, double y, const Draw& random) const 
 }
 
 PixelPick PixelPicker::pick_of_panorama(double x, double y, const Draw& random) const {
-    // Beyond a pole the panorama goes on half a turn away, and it repeats at the sides (CameraRays).
+    // Beyond a pole the panorama continues half a turn away; left and right edges are neighbours (CameraRays).
     std::array<PixelPick, 9> picks;
     double sum = 0;
     std::size_t count = 0;

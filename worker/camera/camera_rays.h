@@ -24,9 +24,9 @@ class CameraRays {
           has_lens_(camera.has_lens()),
           is_perspective_(!camera.is_orthographic() && !camera.panoramic) {}
 
-    /// The ray of pixel (x, y) of the window, y down, of a path.
+    /// Camera ray of a path through pixel (x, y) of the window; y points down.
     Ray generate(int x, int y, const PathKey& path) const {
-        // The lens draws for itself, out of line: a pinhole then pays neither for its numbers nor for its registers.
+        // Lens sampling is out of line: a pinhole pays neither for its random numbers nor for its registers.
         if (has_lens_) [[unlikely]]
             return through_lens(x, y, path);
         if (!is_perspective_) [[unlikely]]
@@ -34,7 +34,7 @@ class CameraRays {
         return pinhole(through_pixel(x, y, draw(path, 0, Stream::camera)));
     }
 
-    /// A camera ray from random numbers: [0] and [1] place it on the filter, [2] and [3] on the lens.
+    /// Camera ray from random numbers: [0] and [1] choose the point of the filter, [2] and [3] that of the lens.
     Ray generate(int x, int y, const Draw& random) const {
         if (camera_.panoramic) return panoramic(x, y, random);
         const Imath::V3d focus = through_pixel(x, y, random);
@@ -42,7 +42,7 @@ class CameraRays {
         return has_lens_ ? through_lens(focus, random) : pinhole(focus);
     }
 
-    /// Weight of a path's sample: 1, but for filters with negative lobes.
+    /// Weight of a path's sample: 1 unless the filter has negative lobes.
     float weight(const PathKey& path) const {
         const Draw random = draw(path, 0, Stream::camera);
         return filter_.weight(random[0]) * filter_.weight(random[1]);
@@ -53,7 +53,7 @@ class CameraRays {
 
   private:
     struct FilmPoint {
-        double x, y;  ///< [0, 1] on the whole film, and beyond by the filter's reach
+        double x, y;  ///< film position: [0, 1] over the whole film, beyond it by up to the filter radius
     };
 
     FilmPoint film_point(int x, int y, const Draw& random) const {
@@ -61,8 +61,8 @@ class CameraRays {
                 (y + y0_ + 0.5 + double(filter_.sample(random[1]))) / height_};
     }
 
-    /// Vector from the camera to the plane of focus. In double, since a long lens far away has neighbouring pixels
-    /// closer together than floats near the film's corner.
+    /// Vector from the camera to the focal plane. In double: seen by a long lens far from the origin, neighbouring
+    /// pixels are closer together than floats near the film's corner.
     Imath::V3d through_pixel(int x, int y, const Draw& random) const {
         const auto [sx, sy] = film_point(x, y, random);
         return Imath::V3d(camera_.corner) + sx * Imath::V3d(camera_.across) + sy * Imath::V3d(camera_.down);
@@ -72,7 +72,7 @@ class CameraRays {
         return {camera_.origin, Vec3(focus * (1.0 / std::sqrt(focus.dot(focus))))};
     }
 
-    /// Ray from a uniform point of the lens to where the pinhole's ray meets the plane of focus.
+    /// Ray from a uniform point of the lens to the point where the pinhole ray meets the focal plane.
     Ray through_lens(const Imath::V3d& focus, const Draw& random) const {
         const Vec2 lens = square_to_disk({to_unit(random[2]), to_unit(random[3])});
         const Vec3 shift = camera_.lens_u * lens.x + camera_.lens_v * lens.y;
@@ -90,7 +90,7 @@ class CameraRays {
 
     Ray panoramic(int x, int y, const Draw& random) const {
         auto [u, v] = film_point(x, y, random);
-        // The filter reaches over the film's edge: there a panorama goes on beyond the pole, or at the other side.
+        // The filter reaches over the film's edge: there a panorama continues beyond the pole, or at the other side.
         if (v < 0.0 || v > 1.0) {
             v = v < 0.0 ? -v : 2.0 - v;
             u += 0.5;
@@ -99,7 +99,7 @@ class CameraRays {
         return {camera_.origin, camera_.panorama_direction(static_cast<float>(u), static_cast<float>(v))};
     }
 
-    /// Ray of a camera without perspective.
+    /// Ray of an orthographic or panoramic camera.
     [[gnu::noinline]] Ray elsewhere(int x, int y, const PathKey& path) const {
         return generate(x, y, draw(path, 0, Stream::camera));
     }

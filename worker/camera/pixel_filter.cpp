@@ -29,7 +29,7 @@ std::vector<double> gaussian_masses(double radius, double stddev, std::uint32_t 
     return bin_masses([&](double x) { return exp_of_minus(scale * x * x) - at_radius; }, radius, bins);
 }
 
-/// Cumulative absolute masses, of 2^31.
+/// Cumulative sums of the absolute masses, scaled to 2^31.
 std::vector<std::uint32_t> cumulative_table(const std::vector<double>& masses) {
     std::vector<double> sums(masses.size() + 1, 0.0);
     for (std::size_t i = 0; i < masses.size(); ++i)
@@ -63,7 +63,7 @@ float FilterSampler::weight(std::uint32_t random) const {
 }
 
 float FilterSampler::value(float offset) const {
-    // Of a box each point belongs to one side: where boxes tile the film, to one pixel.
+    // Half-open, so that a point on the edge of two box filters belongs to one pixel.
     if (!(offset >= -radius_ && offset < radius_)) return 0.0f;
     if (filter_ == PixelFilter::box) return 0.5f / radius_;
     const float magnitude = std::abs(offset);

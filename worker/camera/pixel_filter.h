@@ -9,20 +9,20 @@
 
 namespace treefarm {
 
-/// Draws sub-pixel offsets from the film's reconstruction filter: every sample then touches one pixel, and
-/// weighs 1. A filter with negative lobes is drawn by its absolute value, and weighs by its sign.
+/// Sampler of sub-pixel offsets from the reconstruction filter: every sample contributes to one pixel with weight 1. A
+/// filter with negative lobes is sampled by its absolute value and weighted by its sign.
 class FilterSampler {
   public:
     explicit FilterSampler(const Film& film);
 
     /// Offset from the pixel's centre along one axis, in pixels, distributed as the filter.
     float sample(std::uint32_t random) const;
-    /// Weight of the offset that sample() draws by this number, so that the filter's integral is 1.
+    /// Weight of the offset that sample() returns for this number; with it the filter's integral is 1.
     float weight(std::uint32_t random) const;
-    /// The filter along one axis at this offset: of integral 1, and where it has no negative lobes the density of
-    /// sample(), per pixel.
+    /// Value of the filter along one axis, normalised to integral 1, per pixel; without negative lobes it is the
+    /// density of sample().
     float value(float offset) const;
-    /// Beyond it, in pixels, the filter is 0.
+    /// Filter radius in pixels: beyond it the filter is 0.
     float radius() const { return radius_; }
 
   private:
@@ -33,9 +33,9 @@ class FilterSampler {
     PixelFilter filter_;
     float radius_;
     float weight_ = 1.0f;
-    std::vector<bool> negative_;  ///< where bins lie in negative lobes
-    /// Neither box nor tent: probability (times 2^31) of |x| below the left edge of each of kBins equal bins of [0,
-    /// radius].
+    std::vector<bool> negative_;  ///< bins in negative lobes
+    /// For filters other than box and tent: probability, times 2^31, of |x| below the left edge of each of kBins equal
+    /// bins of [0, radius].
     std::vector<std::uint32_t> cumulative_;
 };
 

@@ -8,7 +8,7 @@
 
 namespace treefarm {
 
-/// Questions about rays in the words of Embree 3: see embree_api.h.
+/// Ray queries with Embree 3: see embree_api.h.
 class EmbreeRays {
   public:
     EmbreeRays() {
@@ -17,11 +17,11 @@ class EmbreeRays {
     }
 
     void intersect(RTCScene scene, RTCRayHit& ray) { rtcIntersect1(scene, &context_, &ray); }
-    /// The rays of a packet whose `valid` (aligned to 32 bytes) is -1.
+    /// Intersects the rays of a packet whose `valid` (aligned to 32 bytes) is -1.
     void intersect(RTCScene scene, const int* valid, RTCRayHit8& packet) {
         rtcIntersect8(valid, scene, &context_, &packet);
     }
-    /// What is hidden gets -infinity as tfar.
+    /// Occlusion query: tfar of an occluded ray becomes -infinity.
     void occluded(RTCScene scene, RTCRay& ray) { rtcOccluded1(scene, &context_, &ray); }
     void occluded(RTCScene scene, std::span<RTCRay> rays) {
         rtcOccluded1M(scene, &context_, rays.data(), static_cast<unsigned>(rays.size()), sizeof(RTCRay));

@@ -8,15 +8,16 @@
 
 namespace treefarm {
 
-/// Questions about rays in the words of Embree 4: see embree_api.h. Its usual arguments are those of incoherent rays.
+/// Ray queries with Embree 4: see embree_api.h. Its default arguments are for incoherent rays.
 class EmbreeRays {
   public:
     void intersect(RTCScene scene, RTCRayHit& ray) { rtcIntersect1(scene, &ray); }
-    /// The rays of a packet whose `valid` (aligned to 32 bytes) is -1.
+    /// Intersects the rays of a packet whose `valid` (aligned to 32 bytes) is -1.
     void intersect(RTCScene scene, const int* valid, RTCRayHit8& packet) { rtcIntersect8(valid, scene, &packet); }
-    /// What is hidden gets -infinity as tfar.
+    /// Occlusion query: tfar of an occluded ray becomes -infinity.
     void occluded(RTCScene scene, RTCRay& ray) { rtcOccluded1(scene, &ray); }
-    /// One by one: streams are gone, and packets of shadow rays walk together at first, whatever they are told.
+    /// One ray at a time: Embree 4 has no streams, and packets of shadow rays start as coherent ones whatever the flags
+    /// say.
     void occluded(RTCScene scene, std::span<RTCRay> rays) {
         for (RTCRay& ray : rays)
             if (!(ray.tfar < 0.0f)) rtcOccluded1(scene, &ray);
@@ -25,7 +26,7 @@ class EmbreeRays {
 
 inline void set_instance(RTCHit& hit, std::uint32_t instance) {
     hit.instID[0] = instance;
-#ifdef RTC_GEOMETRY_INSTANCE_ARRAY  // which of an array's instances: there are no arrays here
+#ifdef RTC_GEOMETRY_INSTANCE_ARRAY  // index within an instance array; there are no instance arrays here
     hit.instPrimID[0] = RTC_INVALID_GEOMETRY_ID;
 #endif
 }

@@ -14,8 +14,8 @@ void note_error(void* user, RTCError code, const char* text) {
     if (message.empty()) message = "error " + std::to_string(static_cast<int>(code)) + ", " + (text ? text : "");
 }
 
-/// Throws RunError where the processor lacks the instruction set: Embree would take what there is instead, as for an
-/// unknown one. Its roundings would then silently differ from other workers'.
+/// Throws RunError if the processor lacks the instruction set `isa`. Embree would silently take another one, whose
+/// rounding differs from that of the other workers.
 void require_isa(const std::string& isa) {
     const bool present = isa == "sse2"     ? __builtin_cpu_supports("sse2")
                          : isa == "sse4.2" ? __builtin_cpu_supports("sse4.2")
@@ -141,7 +141,7 @@ RTCGeometry EmbreeScene::mesh_geometry(std::uint32_t index, Mesh& mesh) {
     if (!mesh.uvs.empty() && mesh.uvs.size() != vertices)
         throw RunError("the shape \"" + shapes_[index].name + "\" has " + std::to_string(mesh.uvs.size()) +
                        " texture coordinates for " + std::to_string(vertices) + " vertices");
-    // Embree shares these arrays and reads 16 bytes from the start of each element: the last one needs room behind it.
+    // Embree shares these arrays and reads 16 bytes from each element's start: the last one needs padding.
     mesh.positions.emplace_back(0.0f);
     mesh.indices.push_back(0);
     surfaces_[index] = {mesh.positions.data(), mesh.normals.empty() ? nullptr : mesh.normals.data(),
@@ -165,7 +165,7 @@ RTCGeometry EmbreeScene::instance_geometry(std::uint32_t index, const Instance& 
     placements_.emplace_back(instance, index);
     RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_INSTANCE);
     rtcSetGeometryInstancedScene(geometry, groups_[group].scene.get());
-    // Rows of a matrix for row vectors are what Embree calls columns.
+    // A matrix for row vectors has as rows what Embree calls columns.
     rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR, &instance.to_world[0][0]);
     return geometry;
 }

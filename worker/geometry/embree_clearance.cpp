@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How far rays keep from walls, so that no rounding takes them through.
+// Distance that rays keep from walls, so that rounding moves no ray through them.
 #include <algorithm>
 #include <cmath>
 
@@ -13,18 +13,18 @@ namespace {
 
 using Imath::V3d;
 
-/// A question about the surroundings of a point: whether a primitive reaches into the ball.
+/// Query about a point's neighbourhood: whether a primitive reaches into the ball.
 struct Ball {
     V3d centre;
     double radius;
-    const Hit* own = nullptr;  ///< its primitive does not count, nor do those that stay below its plane
-    V3d normal{0.0};           ///< of that plane, up
-    double lowest = 0;         ///< dot(x, normal) of points that are above it beyond rounding
+    const Hit* own = nullptr;  ///< primitive to ignore, with all that stay below its plane
+    V3d normal{0.0};           ///< normal of that plane, on the upper side
+    double lowest = 0;         ///< least dot(x, normal) of points that are above the plane beyond rounding error
 };
 
 }  // namespace
 
-/// One question about surroundings and its answer, for Embree's callback.
+/// A neighbourhood query and its answer, for Embree's callback.
 struct EmbreeScene::Surroundings {
     const EmbreeScene& scene;
     const Ball& ball;
@@ -36,7 +36,7 @@ struct EmbreeScene::Surroundings {
         const bool placed = args->context->instStackSize != 0;
         if (!self.reaches_in(placed ? args->context->instID[0] : kNoInstance, args->geomID, args->primID)) return false;
         self.crowded = true;
-        args->query->radius = 0.0f;  // no need to look on
+        args->query->radius = 0.0f;  // found: the query may end
         return true;
     }
 
@@ -62,7 +62,7 @@ struct EmbreeScene::Surroundings {
         query.y = static_cast<float>(ball.centre.y);
         query.z = static_cast<float>(ball.centre.z);
         query.time = 0.0f;
-        query.radius = static_cast<float>(1.25 * ball.radius);  // what rounds here and under instances is far less
+        query.radius = static_cast<float>(1.25 * ball.radius);  // rounding error here and under instances is far less
         const LetFloatsBe embree;
         rtcPointQuery(scene.scene_.get(), &query, &context, visit, &surroundings);
         return surroundings.crowded;
@@ -79,10 +79,10 @@ void EmbreeScene::find_extents() {
     }
 }
 
-/// How near to a surface a ray may start and still be on the side that arithmetic says it is on. A quarter of the error
-/// bounds the rounding of positions (8 half-steps of float of their coordinates); on which side of a triangle a point
-/// is Embree's dot products tell up to rounding of its extent, from which 16 half-steps are kept. Near a small shape a
-/// large one may stand, which counts as 64 times as large at most.
+/// Least distance from a surface at which a ray origin is reliably on the computed side. A quarter of the offset bounds
+/// the rounding of positions (8 half-ulps of their coordinates). Embree's dot products decide the side of a triangle up
+/// to rounding of the triangle's extent, for which 16 half-ulps are added. A small shape may be close to a large one,
+/// whose extent counts as at most 64 times the small one's.
 double EmbreeScene::clearance(const Hit& hit) const {
     double extent = extents_[hit.shape];
     if (hit.instance) extent *= placements_[surfaces_[hit.instance - 1].placement].most_stretch();
@@ -98,7 +98,7 @@ void EmbreeScene::step_back(Hit& hit, const Ray& ray) const {
     if (!Surroundings::crowd(
             *this, {p + normal * (0.5 * offset), 0.5 * offset + clear, &hit, normal, p.dot(normal) + 0.25 * clear}))
         return;
-    // The ray has seen nothing up to here: where nothing is near it, its rounded points are on its side of everything.
+    // The ray was unoccluded up to here: without close geometry its rounded points are on its side of everything.
     const double length2 = direction.dot(direction), length = (p - origin).dot(direction) / length2;
     const double least = 2.0 * clear / std::sqrt(length2);
     if (!(least > 0.0) || !std::isfinite(length)) return;
@@ -109,7 +109,7 @@ void EmbreeScene::step_back(Hit& hit, const Ray& ray) const {
         start = candidate;
         break;
     }
-    // offset_origin() has to lead there.
+    // offset_origin() must lead to this point.
     hit.error = static_cast<float>(std::max(offset, (start - p).dot(normal)));
     hit.p = Vec3(start - normal * double(hit.error));
 }

@@ -126,7 +126,7 @@ Hit EmbreeScene::triangle_point(std::uint32_t shape, std::uint32_t primitive, fl
     return hit;
 }
 
-/// The point that a ray found under an instance, or on a shape that is no mesh.
+/// Surface point of a hit under an instance, or on a shape that is no mesh.
 Hit EmbreeScene::other_point(std::uint32_t instance, std::uint32_t id, std::uint32_t primitive, float u, float v,
                              const Vec3& outward) const {
     const Placement* placement = instance == kWorldUserShape ? nullptr : &placements_[surfaces_[instance].placement];
@@ -166,8 +166,8 @@ Hit EmbreeScene::cylinder_point(std::uint32_t shape, float along, const Vec3& ou
     return hit;
 }
 
-/// Away from the centre of a sphere or the axis of a cylinder, in the shape's own space: what the normal at the hit was
-/// made of. Other shapes have no use for it.
+/// Direction away from the centre of a sphere or the axis of a cylinder, in the shape's own space; the normal at the
+/// hit is derived from it. Unused by other shapes.
 Vec3 EmbreeScene::outward(const Hit& hit) const {
     const auto* sphere = std::get_if<Sphere>(&shapes_[hit.shape].geometry);
     const auto* cylinder = std::get_if<Cylinder>(&shapes_[hit.shape].geometry);

@@ -11,7 +11,7 @@
 namespace treefarm {
 namespace {
 
-/// Uniform in [0, 1) for a pair of ray and hit.
+/// Hash of a ray and a hit, uniform in [0, 1).
 float decision(const RTCRay& ray, const RTCHit& hit, std::uint32_t shape) {
     std::uint64_t h = 0x9e3779b97f4a7c15ULL;
     const auto add = [&](std::uint32_t a, std::uint32_t b) { h = mix_bits(h ^ (std::uint64_t(a) << 32 | b)); };

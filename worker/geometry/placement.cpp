@@ -7,7 +7,7 @@
 namespace treefarm {
 namespace {
 
-/// Cofactors of a 3 x 3 matrix and, for each, the same sum with absolute values: what rounding is proportional to.
+/// Cofactors of a 3 x 3 matrix, and for each the sum of absolute terms, to which rounding error is proportional.
 struct Cofactors {
     double value[3][3], size[3][3];
 
@@ -44,7 +44,7 @@ Placement::Placement(const Instance& instance, std::uint32_t shape)
             const double inverse = cofactors.value[j][i] / determinant;
             exact_inverse_[i][j] = inverse;
             inverse_[i][j] = static_cast<float>(inverse);
-            // Rounding of cofactor, of determinant and of products and sums afterwards, each counted generously.
+            // Rounding error of cofactor, determinant, and the products and sums afterwards, each bounded generously.
             slack_[i][j] =
                 static_cast<float>(kEpsilon * (8.0 * cofactors.size[j][i] / std::abs(determinant) +
                                                std::abs(inverse) * (8.0 * size / std::abs(determinant) + 16.0)));
@@ -62,7 +62,7 @@ Hit Placement::to_world(const Hit& local) const {
                     n.x * inverse_[2][0] + n.y * inverse_[2][1] + n.z * inverse_[2][2]);
     };
     const Vec3 ng = normal(local.ng);
-    const float stretch = ng.length();  // how far the plane moves in the group for a unit step along ng in the world
+    const float stretch = ng.length();  // displacement of the plane in the group for a unit step along ng in the world
     hit.ng = ng * (1.0f / stretch);
     hit.ns = normalize(normal(local.ns));
     float across = local.error;
@@ -110,7 +110,7 @@ Imath::V3d Placement::covector_to_local(const Imath::V3d& normal) const {
     return w;
 }
 
-// The root of the sum of a matrix's squares is at least what it stretches anything.
+// The Frobenius norm of a matrix is an upper bound of its stretch of any vector.
 
 double Placement::least_stretch() const {
     double sum = 0;

@@ -7,9 +7,9 @@
 
 namespace treefarm {
 
-/// Where an instance puts its group: carries hits from the group's space to the world.
+/// Transform of an instance: maps hits from the group's space to the world.
 ///
-/// Normals keep their side: what is the front in the group is the front in the world, mirrored or not.
+/// Normals keep their side: the group's front is the front in the world, mirrored or not.
 class Placement {
   public:
     /// Throws RunError if the transform cannot be inverted.
@@ -17,21 +17,21 @@ class Placement {
 
     std::uint32_t group() const { return group_; }
 
-    /// A local hit in the world. Its error holds what the ray's way into the group's space rounds: Embree inverts the
-    /// transform in single precision.
+    /// World-space form of a local hit. Its error includes the rounding of the ray's transform into the group's space:
+    /// Embree inverts the transform in single precision.
     Hit to_world(const Hit& local) const;
-    /// A unit normal of the group's space, from one of the world.
+    /// Unit normal in the group's space, from a world-space one.
     Vec3 normal_to_local(const Vec3& world) const;
     Vec3 vector_to_world(const Vec3& local) const;
 
-    // In double, as accurate as the transform's own floats.
+    // In double: as accurate as the transform's floats allow.
     Imath::V3d point_to_world(const Imath::V3d& local) const;
     Imath::V3d point_to_local(const Imath::V3d& world) const;
-    /// The vector w with dot(w, x) = dot(normal, x to_world) for vectors x of the group's space.
+    /// Vector w with dot(w, x) = dot(normal, x to_world) for vectors x of the group's space.
     Imath::V3d covector_to_local(const Imath::V3d& normal) const;
-    /// A lower bound of how much the transform stretches a vector.
+    /// Lower bound of the factor by which the transform stretches a vector.
     double least_stretch() const;
-    /// An upper bound of how much the transform stretches a vector.
+    /// Upper bound of the factor by which the transform stretches a vector.
     double most_stretch() const;
 
   private:

@@ -6,8 +6,8 @@
 
 namespace treefarm {
 
-/// Points of shapes from what names them there, the same bits whether a ray found them or a light sampler picked them.
-/// `shape` and `primitive` of the hit are the caller's to set.
+/// Points of shapes from their parameters, with equal bits for points found by a ray and points chosen by a light
+/// sampler. The caller sets `shape` and `primitive` of the hit.
 
 inline float max_abs(const Vec3& v) {
     return std::max(std::abs(v.x), std::max(std::abs(v.y), std::abs(v.z)));
@@ -25,7 +25,7 @@ inline Vec3 unit_normal(const Vec3& e1, const Vec3& e2) {
     return Vec3(wide / length);
 }
 
-/// The part that all points of one triangle share.
+/// Per-triangle data that all of its points share.
 struct FlatTriangle {
     Vec3 origin, e1, e2;
     Vec3 ng;
@@ -38,7 +38,7 @@ struct FlatTriangle {
           ng(unit_normal(e1, e2)),
           error(offset_bound(std::max(max_abs(v0), std::max(max_abs(v1), max_abs(v2))))) {}
 
-    /// The point with these barycentrics, of a mesh without shading normals.
+    /// Surface point with these barycentrics, of a mesh without shading normals.
     void set_point(Hit& hit, float b1, float b2) const {
         hit.b1 = b1;
         hit.b2 = b2;
@@ -49,7 +49,7 @@ struct FlatTriangle {
     }
 };
 
-/// The point p of a sphere, with its unit outward normal there.
+/// Surface point p of a sphere with its unit outward normal.
 inline Hit sphere_hit(const Sphere& s, const Vec3& p, const Vec3& n) {
     Hit hit;
     hit.p = p;
@@ -59,13 +59,13 @@ inline Hit sphere_hit(const Sphere& s, const Vec3& p, const Vec3& n) {
     return hit;
 }
 
-/// The point of a sphere in the direction `outward` from its centre (need not be unit).
+/// Surface point of a sphere in the direction `outward` from its centre (need not be unit).
 inline Hit sphere_point(const Sphere& s, const Vec3& outward) {
     const Vec3 n = normalize(outward);
     return sphere_hit(s, s.center + n * s.radius, n);
 }
 
-/// center + a * half_u + b * half_v.
+/// Surface point center + a * half_u + b * half_v.
 inline Hit disk_point(const Disk& d, float a, float b) {
     Hit hit;
     hit.b1 = a;
@@ -77,7 +77,7 @@ inline Hit disk_point(const Disk& d, float a, float b) {
     return hit;
 }
 
-/// The point at `along` (0 to 1) of the axis, outwards from it in the direction `outward` (at right angles to it; need
+/// Surface point at `along` (0 to 1) of the axis, in the direction `outward` from it (perpendicular to the axis; need
 /// not be unit).
 inline Hit cylinder_point(const Cylinder& c, float along, const Vec3& outward) {
     Hit hit;

@@ -30,9 +30,10 @@ double from_segment(const V3d& p, const V3d& a, const V3d& b) {
     return (p - a - along * t).length();
 }
 
-/// Distance of a point from a triangle: above it from its plane, else from the nearest edge.
+/// Distance of a point from a triangle: from its plane if the point projects into the triangle, else from the nearest
+/// edge.
 double from_triangle(const V3d& p, const Corners& c, double within) {
-    // Nearly all that is asked about is far by its box alone.
+    // The bounding box alone rejects nearly all queries.
     for (int i = 0; i < 3; ++i) {
         const double low = std::min({c[0][i], c[1][i], c[2][i]}), high = std::max({c[0][i], c[1][i], c[2][i]});
         if (low - p[i] > within || p[i] - high > within) return std::numeric_limits<double>::infinity();
@@ -53,7 +54,7 @@ double from_surface(const Sphere& s, const V3d& p) {
     return std::abs((p - V3d(s.center)).length() - double(s.radius));
 }
 
-/// Beyond the rim a lower bound: the ellipse is nowhere narrower than its shorter axis.
+/// Distance of a point from a disk; beyond the rim a lower bound, by the shorter of the two axes.
 double from_surface(const Disk& d, const V3d& p) {
     const V3d u(d.half_u), v(d.half_v), q = p - V3d(d.center), n = u.cross(v);
     const double nn = n.dot(n), uu = u.dot(u), vv = v.dot(v), uv = u.dot(v);
@@ -98,7 +99,7 @@ double distance_from(const Shape& shape, std::uint32_t primitive, const Placemen
             if constexpr (std::is_same_v<Kind, Mesh>)
                 return from_triangle(p, corners_of(kind, primitive, placement), within);
             else if constexpr (std::is_same_v<Kind, Instance>)
-                return std::numeric_limits<double>::infinity();  // its members are met, never itself
+                return std::numeric_limits<double>::infinity();  // its members are hit, never the instance itself
             else
                 return placement ? from_surface(kind, placement->point_to_local(p)) * placement->least_stretch()
                                  : from_surface(kind, p);

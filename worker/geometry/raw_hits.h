@@ -6,15 +6,15 @@
 
 namespace treefarm {
 
-/// Rays against analytic shapes, solved in double: a float quadratic loses the sphere that is small and far away, or
-/// whose surface the ray starts on. Each intersect() offers what the ray meets in (tnear, tfar], nearest first, to
-/// `accept(hit)` until it returns true; false if it never does.
+/// Ray intersection with analytic shapes, solved in double: a float quadratic loses a small sphere far away, and one
+/// whose surface the ray starts on. Each intersect() offers the hits in (tnear, tfar], nearest first, to `accept(hit)`
+/// until it returns true; false if it never does.
 
-/// Where a ray meets a shape.
+/// Intersection of a ray with an analytic shape.
 struct RawHit {
     double t = 0;         ///< in units of the ray's direction
     Imath::V3d ng;        ///< outwards; unit for spheres and cylinders
-    double u = 0, v = 0;  ///< disk: place along its half axes; cylinder: u along its axis, 0 to 1
+    double u = 0, v = 0;  ///< disk: coordinates along its half axes; cylinder: u along its axis, 0 to 1
 };
 
 namespace detail {
@@ -39,7 +39,7 @@ bool intersect(const Sphere& sphere, const RTCRay& ray, const Accept& accept) {
     const double radius = double(sphere.radius), dd = d.dot(d);
     if (!(dd > 0)) return false;
     const double middle = -o.dot(d) / dd;
-    // The discriminant from the ray's closest point to the centre: no difference of large squares.
+    // Discriminant from the ray's closest point to the centre: no difference of large squares.
     const Imath::V3d closest = o + d * middle;
     const double discriminant = radius * radius - closest.dot(closest);
     if (!(discriminant >= 0)) return false;
@@ -70,7 +70,7 @@ bool intersect(const Cylinder& cylinder, const RTCRay& ray, const Accept& accept
     const Imath::V3d axis = Imath::V3d(cylinder.p1) - Imath::V3d(cylinder.p0);
     const double radius = double(cylinder.radius), length2 = axis.dot(axis);
     if (!(length2 > 0)) return false;
-    // Seen along the axis it is a circle.
+    // Projected along the axis it is a circle.
     const Imath::V3d o2 = o - axis * (o.dot(axis) / length2), d2 = d - axis * (d.dot(axis) / length2);
     const double dd = d2.dot(d2);
     if (!(dd > 0)) return false;

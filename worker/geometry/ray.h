@@ -7,7 +7,7 @@
 
 namespace treefarm {
 
-/// The half line (or segment, up to `length` times the direction) that geometry is asked about.
+/// A half line, or a segment up to `length` times the direction.
 struct Ray {
     Vec3 origin;
     Vec3 direction;  ///< need not be unit

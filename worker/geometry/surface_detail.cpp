@@ -10,7 +10,7 @@ namespace {
 
 constexpr float kTwoPi = 6.28318530717958647693f;
 
-/// Whether two tangents span a plane: not if zero, parallel or not finite.
+/// Whether two tangents span a plane; false if zero, parallel or not finite.
 bool spans_a_plane(const Vec3& a, const Vec3& b) {
     const Imath::V3d u(a), v(b);
     const Imath::V3d n = u.cross(v);
@@ -18,7 +18,7 @@ bool spans_a_plane(const Vec3& a, const Vec3& b) {
     return u2 > 0 && v2 > 0 && n2 > 1e-12 * u2 * v2 && std::isfinite(n2);
 }
 
-/// A frame around the normal, as long as the shape, in place of tangents that are none.
+/// Replaces degenerate tangents by a frame around the normal, of length `size`.
 void ensure_tangents(SurfaceDetail& detail, const Vec3& normal, float size) {
     if (spans_a_plane(detail.dp_du, detail.dp_dv)) return;
     const Frame frame(normal);
@@ -54,7 +54,7 @@ SurfaceDetail of(const Sphere& s, std::uint32_t, float, float, const Vec3& n) {
     const float x = dot(n, s.meridian), y = dot(n, side), z = dot(n, s.pole);
     const float sine = std::sqrt(x * x + y * y);
     SurfaceDetail detail;
-    // The angle from the pole by both its sine and cosine: no digits are lost near the poles.
+    // Angle from the pole by both its sine and cosine: no digits are lost near the poles.
     detail.uv = {azimuth_turn(x, y), 2.0f * azimuth_turn(z, sine)};
     detail.dp_du = (side * x - s.meridian * y) * (kTwoPi * s.radius);
     if (sine > 0.0f) detail.dp_dv = ((s.meridian * x + side * y) * (z / sine) - s.pole * sine) * (kPi * s.radius);
@@ -85,7 +85,7 @@ SurfaceDetail of(const Cylinder& c, std::uint32_t, float along, float, const Vec
 }
 
 SurfaceDetail of(const Instance&, std::uint32_t, float, float, const Vec3&) {
-    return {{0.0f, 0.0f}, {1.0f, 0.0f, 0.0f}, {0.0f, 1.0f, 0.0f}};  // never hit itself: its members are
+    return {{0.0f, 0.0f}, {1.0f, 0.0f, 0.0f}, {0.0f, 1.0f, 0.0f}};  // never hit itself; its members are
 }
 
 }  // namespace

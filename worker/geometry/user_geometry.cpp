@@ -12,7 +12,7 @@
 namespace treefarm {
 namespace {
 
-/// A box about `center`, a little too large.
+/// Sets a box about `center` that is slightly too large.
 void set_bounds(RTCBounds& bounds, const Imath::V3d& lower, const Imath::V3d& upper) {
     constexpr double kMargin = 0x1p-21;
     const auto below = [](double x) { return static_cast<float>(x - kMargin * std::abs(x)); };
@@ -51,7 +51,7 @@ void find_bounds(const Cylinder& c, RTCBounds& bounds) {
     set_bounds(bounds, lower, upper);
 }
 
-/// Embree's user pointer is the shape's geometry, or its mask, which knows the shape.
+/// Shape geometry behind Embree's user pointer, which points to it or to its mask.
 template <class Geometry, bool kMasked>
 const Geometry& geometry_of(const void* user) {
     if constexpr (kMasked)
@@ -89,7 +89,7 @@ bool find(const Args& args, const RTCRay& ray, RTCHit& hit, double& t) {
     });
 }
 
-// Rays come in any number.
+// Callbacks take any number of rays.
 
 template <class Geometry, bool kMasked>
 void intersect(const RTCIntersectFunctionNArguments* args) {

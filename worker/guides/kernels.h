@@ -7,7 +7,7 @@ namespace treefarm {
 
 std::span<const TileKernel> sd_tree_diffuse_kernels();
 std::span<const TileKernel> sd_tree_general_kernels();
-/// Where the tree has views.
+/// Kernels for SD-trees with views.
 std::span<const TileKernel> sd_tree_viewed_kernels();
 std::span<const TileKernel> grid_kernels();
 std::span<const TileKernel> qtable_kernels();

@@ -7,19 +7,20 @@
 namespace treefarm {
 namespace {
 
-/// `wi`: in the shading frame.
+/// Passage of a path through a surface into direction `wi` (shading frame).
 template <class Surface>
 SurfacePassage passage(const Surface& surface, const Vec3& wi, bool delta) {
     if constexpr (Surface::kGeneral) {
         if (wi.z < 0.0f && !delta) return {surface.eta2() == 1.0f ? LightWay::sheet : LightWay::rough_glass, false};
-        if (wi.z < 0.0f) return {surface.transmits() ? LightWay::smooth_glass : LightWay::diffuse, true};  // else null
+        if (wi.z < 0.0f) return {surface.transmits() ? LightWay::smooth_glass : LightWay::diffuse, true};  // else: null
         if (delta) return {LightWay::mirror, true};
         if (surface.view_dependent()) return {LightWay::glossy, false};
     }
     return {LightWay::diffuse, delta};
 }
 
-/// Hands on what the walk tells. It has one path at a time: what several tell would be mixed.
+/// Forwards the walk's events to PathEvents. The walk has one path at a time, so that the events of several are not
+/// mixed.
 struct Teller : NoObserver {
     static constexpr bool kOneByOne = true;
 

@@ -10,14 +10,16 @@
 
 namespace treefarm {
 
-/// How the path walk uses a guide that knows directions by region alone, one at a time (docs/use/write-a-guide.md):
+/// Path-walk adapter of a guide whose directional distributions depend on the region alone, and which samples one
+/// direction at a time (docs/use/write-a-guide.md):
 ///
 ///   S::Sample sample(std::uint32_t region, const Draw& random) const   random[1] to [3] are uniform; a Sample has the
 ///                     direction, its Z-order code on the direction square, and its density per steradian, or 0 if the
 ///                     draw failed
-///   float pdf(std::uint32_t region, std::uint32_t code) const          of the direction with this code: the function
-///                     that sample() returned
-///   float radiance(std::uint32_t region, std::uint32_t code) const     mean that was learned of it; negative: nothing
+///   float pdf(std::uint32_t region, std::uint32_t code) const          density per steradian of the direction with
+///   this
+///                     code, equal to the one that sample() returned
+///   float radiance(std::uint32_t region, std::uint32_t code) const     mean radiance learned for it; negative: unknown
 template <class S>
 struct PlainWalk {
     using Sampler = S;
@@ -41,7 +43,7 @@ struct PlainWalk {
     static constexpr std::uint32_t kRecordsPerVertex = 1;
     static constexpr Bins kDeltaBins = kMixtureBins - 1;
 
-    /// Draws from bsdf_fraction * p_BSDF + (1 - bsdf_fraction) * p_guide.
+    /// Batch of directions sampled from bsdf_fraction * p_BSDF + (1 - bsdf_fraction) * p_guide.
     template <bool kGuided, bool kConverts>
     struct ScatterBatch {
         void clear() {}
@@ -82,7 +84,7 @@ struct PlainWalk {
         }
     };
 
-    /// Codes of the directions of next event.
+    /// Codes of next event's directions.
     class LightBatch {
       public:
         void clear() { count_ = 0; }
@@ -108,7 +110,7 @@ struct PlainWalk {
     static Target target(const Guidance& guidance) { return {guidance.region}; }
     static Target moved(const Sampler&, std::uint32_t region, Outgoing, Target) { return {region}; }
     static Direction direction(const Scatter& s) { return s.code; }
-    /// The direction of a point of the direction square.
+    /// Direction of a point of the direction square.
     static Direction direction_at(const Vec2& square) { return square_to_code(square); }
     static Bins bins(const Guidance&, const Scatter& s) { return mixture_bin(s.bsdf_pdf, s.guide_pdf); }
     static float radiance(const Sampler& guide, const Guidance& guidance, const Scatter& s) {

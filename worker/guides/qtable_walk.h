@@ -6,9 +6,9 @@
 
 namespace treefarm {
 
-/// The table of radiances as the path walk uses it: a cell learns the mean of what its visits brought, so a vertex
-/// teaches the radiance itself, not over its density, and teaches also where there was none. What next event found in
-/// kick-start passes was drawn otherwise, is half of a weighted sum and no visit: the table does without.
+/// Path-walk adapter of the table of radiances. A cell learns the mean over its visits, so a vertex teaches the
+/// radiance itself, not divided by its density, and zeros count. Next-event samples of kick-start passes are drawn with
+/// another density and are half of a weighted sum, so the table ignores them.
 struct QTableWalk : PlainWalk<QTableSampler> {
     template <class Taught>
     [[gnu::always_inline]] static Record* teach(const RecordRules&, std::uint32_t rounding, const Target& target,

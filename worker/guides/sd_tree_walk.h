@@ -12,12 +12,12 @@
 
 namespace treefarm {
 
-/// The SD-tree at a place.
+/// Guidance of the SD-tree at a point.
 struct SdTreeGuidance {
     std::uint32_t region;  ///< of the tree
-    std::uint32_t view;    ///< the distribution of the view there, or SdTreeSampler::kNoView
+    std::uint32_t view;    ///< distribution of the view at the point, or SdTreeSampler::kNoView
     float bsdf_fraction;   ///< probability of sampling the BSDF
-    float view_fraction;   ///< probability of sampling the view; the rest goes to the region's own distribution
+    float view_fraction;   ///< probability of sampling the view; the rest is that of the region's own distribution
 
     bool has_view() const { return view != SdTreeSampler::kNoView; }
     void sample_bsdf_alone() {
@@ -26,15 +26,15 @@ struct SdTreeGuidance {
     }
 };
 
-/// A sampled direction, and how the tree knows it.
+/// A sampled direction with its code and densities in the tree.
 struct SdTreeScatter : ScatterSample {
-    float view_pdf;            ///< of the view's distribution alone, where it guides
-    std::uint32_t code;        ///< Z-order code of the direction, where the tree is used
-    std::uint32_t conversion;  ///< its number in the batch's conversions
+    float view_pdf;            ///< of the view's distribution alone, if it guides
+    std::uint32_t code;        ///< Z-order code of the direction, if the tree is used
+    std::uint32_t conversion;  ///< index in the batch's conversions
     bool by_view;              ///< drawn from the view
 };
 
-/// Density of a mixture that samples the BSDF, the region's distribution or the view's, each with its probability.
+/// Density of the mixture of BSDF, region's distribution and view's distribution, each with its probability.
 inline float mixed_pdf(const SdTreeGuidance& guidance, float bsdf_pdf, float guide_pdf, float view_pdf) {
     const float trees = (1.0f - guidance.bsdf_fraction - guidance.view_fraction) * guide_pdf;
     return guidance.bsdf_fraction * bsdf_pdf + (trees + guidance.view_fraction * view_pdf);
@@ -46,7 +46,7 @@ inline float without_view(const SdTreeGuidance& guidance, float bsdf_pdf, float 
     return (guidance.bsdf_fraction * bsdf_pdf + (others - guidance.bsdf_fraction) * guide_pdf) / others;
 }
 
-/// The density of whatever guides, for a direction that was not drawn from it.
+/// Density of the mixture at a direction that was not drawn from it.
 template <bool kViews>
 float mixed_pdf_at(const SdTreeSampler& guide, const SdTreeGuidance& guidance, float bsdf_pdf, std::uint32_t code) {
     const float guide_pdf = guide.pdf(guidance.region, code);
@@ -54,8 +54,8 @@ float mixed_pdf_at(const SdTreeSampler& guide, const SdTreeGuidance& guidance, f
     return mixed_pdf(guidance.bsdf_fraction, bsdf_pdf, guide_pdf);
 }
 
-/// Completes what is known of the region by its view of the direction that light leaves in, if the surface depends on
-/// it and there is one. Without kGuided the fractions stay. `outgoing_code` is set where the surface depends on it.
+/// Adds the view of the outgoing direction to the region's guidance, if the surface is view-dependent and a view
+/// exists. Without kGuided the fractions do not change. `outgoing_code` is set if the surface is view-dependent.
 template <bool kGuided>
 void find_view(const SdTreeSampler& guide, bool view_dependent, const Vec3& outgoing, std::uint32_t& outgoing_code,
                SdTreeGuidance& guidance) {
@@ -65,19 +65,20 @@ void find_view(const SdTreeSampler& guide, bool view_dependent, const Vec3& outg
     outgoing_code = direction_to_code(outgoing);
     guidance.view = guide.view(guidance.region, outgoing_code);
     if (!kGuided || !guidance.has_view()) return;
-    // The view takes its part of what region and BSDF share without it, but for what is left to the BSDF at least.
+    // The view takes its fraction from region and BSDF alike, but the BSDF keeps at least the fraction that the view
+    // learned.
     const float of_view = guide.view_fraction(guidance.view);
     guidance.bsdf_fraction = std::max(guide.bsdf_fraction(guidance.view), guidance.bsdf_fraction * (1.0f - of_view));
     guidance.view_fraction = std::min(of_view, 1.0f - guidance.bsdf_fraction);
 }
 
-/// Directions whose codes are wanted, converted together by vector code.
+/// Batch of directions to convert to codes together, by vector code.
 template <bool kViews>
 class SdTreeCodeBatch {
   public:
     void clear() { count_ = 0; }
 
-    /// Returns the direction's number.
+    /// Adds a direction and returns its index.
     std::uint32_t add(const Vec3& direction, const SdTreeGuidance& guidance) {
         directions_.set(count_, direction);
         regions_[count_] = guidance.region;
@@ -87,7 +88,7 @@ class SdTreeCodeBatch {
 
     void convert() { direction_to_code_batch(directions_, count_, codes_); }
 
-    /// Fetches what the tree's densities of these directions will read first.
+    /// Prefetches the first data that the tree's densities of these directions read.
     void prefetch(const SdTreeSampler& guide) const {
         for (std::uint32_t i = 0; i < count_; ++i) {
             guide.prefetch_pdf(regions_[i], codes_[i]);
@@ -95,7 +96,7 @@ class SdTreeCodeBatch {
         }
     }
 
-    /// Fetches what the densities will read next, by what prefetch() has brought.
+    /// Prefetches the next data, addressed by what prefetch() has fetched.
     void prefetch_more(const SdTreeSampler& guide) const {
         for (std::uint32_t i = 0; i < count_; ++i) {
             guide.prefetch_pdf_cell(regions_[i], codes_[i]);
@@ -113,11 +114,10 @@ class SdTreeCodeBatch {
     alignas(64) std::array<std::uint32_t, kDrawBatch> codes_;
 };
 
-/// The directions that a batch of paths takes at its surfaces, drawn from the BSDF's density or from
-/// bsdf_fraction * p_BSDF + (1 - bsdf_fraction) * p_guide: first draw() for each path, then convert(), then complete()
-/// for each. draw() and complete() agree by construction: the guide's part of a guided sample is the density of the
-/// very cell it was drawn from. `kCoded` fills codes also where nothing guides, `kViews` allows for views. A surface
-/// has bsdf(), frame() and wo().
+/// Sampled directions of a batch of paths at their surfaces, from the BSDF's density or from bsdf_fraction * p_BSDF +
+/// (1 - bsdf_fraction) * p_guide: draw() for each path, then convert(), then complete() for each. draw() and complete()
+/// agree by construction: the guide's density of a guided sample is that of the very cell it was drawn from. `kCoded`:
+/// codes are computed also without guiding; `kViews`: views are allowed. A surface has bsdf(), frame() and wo().
 template <bool kGuided, bool kCoded, bool kViews = false>
 class SdTreeScatterBatch {
   public:
@@ -126,8 +126,8 @@ class SdTreeScatterBatch {
         square_count_ = 0;
     }
 
-    /// `technique`, uniform in [0, 1), chooses BSDF or guide, random[1] the BSDF's lobe or the guide's cell, [2] and
-    /// [3] the point; `cosine` is that point warped to the cosine hemisphere. False if there is no direction.
+    /// `technique`, uniform in [0, 1), chooses BSDF or guide; random[1] chooses the BSDF's lobe or the guide's cell,
+    /// [2] and [3] the point; `cosine` is that point warped to the cosine hemisphere. False if there is no direction.
     template <class Surface>
     bool draw(const Surface& surface, const SdTreeSampler& guide, const SdTreeGuidance& guidance, float technique,
               const Draw& random, const Vec3& cosine, SdTreeScatter& s) {
@@ -153,7 +153,7 @@ class SdTreeScatterBatch {
         return true;
     }
 
-    /// Codes of the BSDFs' directions, directions of the guide's points.
+    /// Converts the BSDFs' directions to codes, and the guide's points to directions.
     void convert(const SdTreeSampler& guide) {
         if constexpr (kCoded) codes_.convert();
         if constexpr (kGuided) {
@@ -165,7 +165,7 @@ class SdTreeScatterBatch {
         }
     }
 
-    /// Value and density of what was drawn; pdf or f_cos may be 0.
+    /// Evaluates value and density of the drawn direction; pdf or f_cos may be 0.
     template <class Surface>
     void complete(const Surface& surface, const SdTreeSampler& guide, const SdTreeGuidance& guidance,
                   SdTreeScatter& s) const {
@@ -198,7 +198,7 @@ class SdTreeScatterBatch {
         return mixed_pdf(guidance, s.bsdf_pdf, s.guide_pdf, s.view_pdf);
     }
 
-    /// Calls visit(distribution, code) for what guides beside those that the guide's points were drawn from.
+    /// Calls visit(distribution, code) for each guiding distribution that the guided points were not drawn from.
     template <class Visit>
     void each_other(Visit visit) const {
         if constexpr (kViews)
@@ -217,21 +217,21 @@ class SdTreeScatterBatch {
     VectorBatch directions_;
 };
 
-/// Which distributions learn from a vertex.
+/// Distributions that learn from a vertex.
 struct SdTreeTarget {
-    std::uint32_t region = SdTreeSampler::kNoView;  ///< kNoView: none learns
-    std::uint32_t view = SdTreeSampler::kNoView;    ///< the distribution of the view, where there is one
+    std::uint32_t region = SdTreeSampler::kNoView;  ///< kNoView: nothing learns
+    std::uint32_t view = SdTreeSampler::kNoView;    ///< distribution of the view, if there is one
 
     bool empty() const { return region == SdTreeSampler::kNoView; }
     bool has_view() const { return view != SdTreeSampler::kNoView; }
 };
 
-/// Bins of a direction in the histograms that learn mixtures (mixture.h, view_mixture.h).
+/// Bins of a direction in the histograms that mixtures learn from (mixture.h, view_mixture.h).
 struct SdTreeBins {
     std::uint8_t region = 0, view = 0;
 };
 
-/// The SD-tree as the path walk uses it (worker/integrators/path/guide_walk.h); with its views or without.
+/// Path-walk adapter of the SD-tree (worker/integrators/path/guide_walk.h), with or without views.
 template <bool kViews>
 struct SdTreeWalk {
     using Sampler = SdTreeSampler;
@@ -240,7 +240,7 @@ struct SdTreeWalk {
     using Direction = std::uint32_t;
     using Target = SdTreeTarget;
     using Bins = SdTreeBins;
-    /// Z-order code of the direction that light leaves in, where the surface depends on it.
+    /// Z-order code of the outgoing direction, set if the surface is view-dependent.
     using Outgoing = std::uint32_t;
     template <bool kGuided, bool kConverts>
     using ScatterBatch = SdTreeScatterBatch<kGuided, kConverts, kViews>;
@@ -258,7 +258,7 @@ struct SdTreeWalk {
         if constexpr (Surface::kGeneral) find_view<kGuided>(guide, surface.view_dependent(), outgoing, code, guidance);
     }
 
-    // What sampling will read is fetched ahead, each time by what the last has brought.
+    // Sampling's data is prefetched in steps, each addressed by the one before.
     static void prefetch(const Sampler& guide, std::uint32_t region, std::uint32_t pick) {
         guide.prefetch(region, pick);
         if constexpr (kViews) guide.prefetch_views(region);
@@ -279,7 +279,7 @@ struct SdTreeWalk {
 
     static Target target(const Guidance& guidance) { return {guidance.region, guidance.view}; }
 
-    /// A target in `region`: a view's becomes the view of the same direction there, if there is one.
+    /// Target moved to another `region`; its view becomes that region's view of the same direction, if there is one.
     static Target moved(const Sampler& guide, std::uint32_t region, Outgoing outgoing_code, Target target) {
         target.region = region;
         if (kViews && target.has_view()) {
@@ -290,7 +290,7 @@ struct SdTreeWalk {
     }
 
     static Direction direction(const Scatter& s) { return s.code; }
-    /// The direction of a point of the direction square.
+    /// Direction of a point of the direction square.
     static Direction direction_at(const Vec2& square) { return square_to_code(square); }
 
     static Bins bins(const Guidance& guidance, const Scatter& s) {
@@ -300,14 +300,14 @@ struct SdTreeWalk {
         return bins;
     }
 
-    /// Radiance by the region's own distribution, with a view or without.
+    /// Radiance by the region's own distribution, with or without a view.
     static float radiance(const Sampler& guide, const Guidance& guidance, const Scatter& s) {
         const float flux = guide.flux(guidance.region);
         return flux > 0.0f ? flux * s.guide_pdf : -1.0f;
     }
 
-    /// Adds the records of a vertex. As published, a view alone learns, and the radiance; otherwise the region learns
-    /// the radiance as it would without views, and the view what is reflected.
+    /// Adds the records of a vertex. With `ViewRecords` as published only the view learns, and it learns the radiance;
+    /// otherwise the region learns the radiance as without views, and the view the reflected radiance.
     template <class Taught>
     [[gnu::always_inline]] static Record* teach(const RecordRules& rules, std::uint32_t rounding, const Target& target,
                                                 const Taught& l, RecordLog& log, Record* end) {
@@ -330,7 +330,7 @@ struct SdTreeWalk {
     }
 
   private:
-    static constexpr std::uint32_t kOfView = 9;  ///< salt: a view's record is rounded apart from its region's
+    static constexpr std::uint32_t kOfView = 9;  ///< salt: a view's record is rounded independently of its region's
 };
 
 }  // namespace treefarm

@@ -7,8 +7,7 @@
 
 namespace treefarm {
 
-/// How the path walk uses a guide with all that it has, by the type of its sampler: one that has no walk of its own
-/// walks plainly.
+/// Path-walk adapter of a guide, by the type of its sampler: PlainWalk unless it has an adapter of its own.
 template <class Sampler>
 struct WalkOfSampler {
     using type = PlainWalk<Sampler>;

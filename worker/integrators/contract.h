@@ -15,15 +15,15 @@
 
 namespace treefarm {
 
-/// Renders a work unit: a pure function of its arguments' values and of the scene and job it was made for. Called by
-/// many threads at once with different outputs, each begun by its caller.
+/// Renderer of a work unit: a pure function of its arguments' values and of its scene and job. Called by many threads
+/// at once with different outputs, each cleared by its caller.
 using RenderUnit = std::function<void(const PassPlan&, const AnySampler&, const WorkUnit&, UnitOutput&)>;
 
-/// Makes ready for tracing what the coordinator sent; called once, may take long.
+/// Decoder of the scene, which also prepares the job's integrator; called once per job, may take seconds.
 using MakeRenderer = std::function<RenderUnit(std::span<const std::uint8_t> scene, const Job&)>;
 
-/// An estimator: a name, and how it is made ready for a scene and a job. What an estimator can do stands in its folder;
-/// nothing outside worker/integrators names one.
+/// An estimator: its name, and the function that prepares it for a scene and a job. Its capabilities are stated in its
+/// own folder; no code outside worker/integrators names an estimator.
 struct Integrator {
     const char* type;  ///< value of integrator.type
     RenderUnit (*prepare)(std::shared_ptr<const TraceScene>, const Resolved&);

@@ -11,22 +11,23 @@
 
 namespace treefarm {
 
-/// What records are of.
+/// Settings of the quantity that records hold.
 struct RecordRules {
     GuidingTarget target = GuidingTarget::radiance;
     ViewRecords view_records = ViewRecords::product;
-    float bootstrap = 0.0f;  ///< beta: which part of a record is what the next vertex's region has learned, [0, 1]
+    /// beta in [0, 1]: fraction of a record that is the learned value of the next vertex's region
+    float bootstrap = 0.0f;
 
-    /// L / p, or L^2 / p for the second moment.
+    /// Recorded quantity: L / p, or L^2 / p for the second moment.
     float target_value(float radiance, float pdf) const {
         return finite(target == GuidingTarget::variance ? radiance * (radiance / pdf) : radiance / pdf);
     }
-    /// A value beyond float becomes the largest one: the sums cap it, and count that.
+    /// Value clamped to the largest float: the sums cap it, and count that.
     static float finite(float value) { return std::min(value, std::numeric_limits<float>::max()); }
 };
 
-/// Writes a record at `end`, unless it has nothing to tell, which nothing would predict: no branch asks. Returns the
-/// new end.
+/// Writes a record at `end`, and returns the new end; a record of 0 does not advance it. Without a branch, since it
+/// would be unpredictable.
 inline Record* append_record(Record record, Record* end) {
     record.value = record.value > 0.0f ? record.value : 0.0f;  // also NaN
     record.reflected = record.reflected > 0.0f ? record.reflected : 0.0f;
@@ -34,15 +35,15 @@ inline Record* append_record(Record record, Record* end) {
     return end + (std::max(record.value, record.reflected) > 0.0f);
 }
 
-/// Records of one work unit, appended in path order: added to the guide's sums afterwards, away from the path walk.
+/// Records of one work unit, in path order; added to the guide's sums afterwards, outside of the path walk.
 struct RecordLog {
-    LargeTable<Record> records;         ///< with radiance
+    LargeTable<Record> records;         ///< records with radiance
     std::vector<std::uint32_t> counts;  ///< recorded vertices per distribution, those without radiance included
     UpdateCaps caps;
-    std::vector<NextEventSums> next_event;  ///< per region, where next event is decided
-    std::vector<Record> drafts;             ///< room for a path's records, of which only some are kept
+    std::vector<NextEventSums> next_event;  ///< per region, if the pass decides on next event
+    std::vector<Record> drafts;             ///< buffer of one path's records, of which only some are kept
 
-    /// Empties the log, keeping its memory. `regions`: of which direct light is summed.
+    /// Clears the log, keeping its memory. `regions`: number of regions whose direct light is summed.
     void begin(std::uint32_t distributions, std::uint32_t regions = 0) {
         records.clear();
         counts.assign(distributions, 0);

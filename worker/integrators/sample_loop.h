@@ -12,10 +12,10 @@
 
 namespace treefarm {
 
-/// Walks through the samples of a unit: pixel by pixel, row by row.
+/// Iterator over the samples of a unit: pixel by pixel, row by row.
 struct UnitCursor {
     const WorkUnit& unit;
-    std::uint32_t first, last;  ///< samples of a pixel
+    std::uint32_t first, last;  ///< range of a pixel's samples
     int x = unit.x0, y = unit.y0;
     std::uint32_t sample = first;
 
@@ -25,7 +25,7 @@ struct UnitCursor {
           last(std::min(first + pass.blocks_per_unit * kBlockSamples, pass.spp)) {}
 
     bool done() const { return y == unit.y1 || first >= last; }
-    /// Goes on to the next sample; true if the last one was its pixel's last.
+    /// Advances to the next sample; true if the last one ended its pixel.
     bool advance() {
         if (++sample < last) return false;
         sample = first;
@@ -37,11 +37,11 @@ struct UnitCursor {
     }
 };
 
-/// The film's door: what is not a radiance counts as black, is counted, and can be reproduced from what is kept.
+/// Replaces an invalid radiance by black, counts it, and stores the keys that reproduce it.
 void refuse_invalid(Rgb& radiance, const WorkUnit& unit, int x, int y, std::uint32_t sample, TraceStats& stats);
 
-/// Fills the pixels of a unit sample by sample, for integrators that need no batches: `radiance(key, ray)` is what
-/// arrives at the camera along `ray`, by the random numbers of `key`.
+/// Renders the pixels of a unit sample by sample, for integrators without batches: `radiance(key, ray)` is the radiance
+/// along the camera ray `ray`, by the random numbers of `key`.
 template <class Radiance>
 void render_samples(const TraceScene& scene, const Resolved& job, const PassPlan& pass, const WorkUnit& unit,
                     UnitOutput& output, Radiance radiance) {

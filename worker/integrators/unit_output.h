@@ -12,15 +12,15 @@
 
 namespace treefarm {
 
-/// What rendering a work unit gives. A thread keeps one for all of its units: memory is reused.
+/// Result of rendering a work unit. A thread reuses one, and its memory, for all of its units.
 struct UnitOutput {
     std::vector<PixelEstimate> pixels;  ///< of a tile, row by row
-    RecordLog log;                      ///< what the unit teaches the guide
+    RecordLog log;                      ///< records that teach the guide
     TraceStats stats;
-    AovPixels aovs;   ///< beside what the integrator makes (first_hit/)
-    SplatLog splats;  ///< what the unit brings to pixels anywhere
+    AovPixels aovs;   ///< AOVs of first_hit/
+    SplatLog splats;  ///< contributions to pixels anywhere
 
-    /// Empties it for the next unit; `distributions`: of the guide, `shape`: of the pass's splats.
+    /// Clears the output for the next unit; `distributions`: number in the guide, `shape`: that of the pass's splats.
     void begin(std::uint32_t distributions, const SplatShape& shape = {}) {
         pixels.clear();
         log.begin(distributions);

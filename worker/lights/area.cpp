@@ -10,7 +10,7 @@
 namespace treefarm {
 namespace {
 
-/// Larger meshes would not stay in the cache.
+/// Limit of the triangles that are stored flat: larger meshes would not stay in the cache.
 constexpr std::size_t kMostFlat = 4096;
 
 }  // namespace
@@ -65,7 +65,7 @@ LightBounds AreaLight::bounds(const LightScene& scene, std::uint32_t patch) cons
     const auto mean = double(luminance(mean_radiance(scene)));
     if (geometry.triangle_count(shape) == 0) {
         LightBounds bounds = LightBounds::in_box(own_box(geometry.shape(shape)), mean * part_areas(geometry, shape)[0]);
-        // As wide as it is seen: a convex shape from any side by a quarter of its area, on average.
+        // Projected size: a convex shape's mean projected area is a quarter of its surface.
         if (sphere) bounds.radius = sphere->radius;
         if (std::holds_alternative<Disk>(geometry.shape(shape).geometry))
             bounds.cone = {geometry.disk_point(shape, 0.0f, 0.0f).ng, 0.0f};
@@ -80,7 +80,7 @@ LightBounds AreaLight::bounds(const LightScene& scene, std::uint32_t patch) cons
         const double own_area = geometry.triangle_area(shape, triangle);
         if (!(own_area > 0)) return;
         area += own_area;
-        // Normals may be turned towards those of shading, which vary within it.
+        // Normals may be turned towards the shading normals, which vary within the triangle.
         for (const Vec2& b : {Vec2(0, 0), Vec2(1, 0), Vec2(0, 1), Vec2(1.0f / 3)}) {
             const Hit corner = geometry.triangle_point(shape, triangle, b.x, b.y);
             box.extendBy(corner.p);

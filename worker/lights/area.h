@@ -16,63 +16,63 @@
 
 namespace treefarm {
 
-/// Whether a surface with this normal, if that matters, sees a direction.
+/// Whether a direction is on the front side of a surface; true if `front` is nullptr.
 inline bool sees(const Vec3* front, const Vec3& direction) {
     return !front || dot(*front, direction) > 0.0f;
 }
 
-/// What area lights are part of.
+/// Scene data of area lights.
 struct LightScene {
     const EmbreeScene* geometry;
-    const TextureSet* textures;  ///< nullptr: there are none
+    const TextureSet* textures;  ///< nullptr: the scene has no textures
 };
 
-/// A shape that emits, with the probabilities of its triangles. Disks and cylinders count as one triangle. `front`:
-/// normal of a surface at p that reflects only (Emitters::sample_direct).
+/// An emitting shape with the probabilities of its triangles. Disks and cylinders count as one triangle. `front`:
+/// normal of a surface at p that only reflects (Emitters::sample_direct).
 struct AreaLight {
-    /// A colour that is returned in registers: the rare case then does not force the frequent one through memory.
+    /// A colour returned in registers: the rare textured case does not force the frequent one through memory.
     struct Channels {
         float r, g, b;
         Rgb rgb() const { return {r, g, b}; }
     };
 
-    Rgb radiance{0.0f};  ///< or what its texture is multiplied by
+    Rgb radiance{0.0f};  ///< radiance, or the factor on its texture
     std::int32_t texture = kNone;
     std::uint32_t shape = 0;
     const Sphere* sphere = nullptr;
     bool plain = false;               ///< a mesh without texture or mask
-    float selection = 0;              ///< probability that this light is chosen by power
+    float selection = 0;              ///< probability of this light in the choice by power
     DiscreteTable triangles;          ///< meshes
     AreaPatches patches;              ///< of next event; uncut unless cut() was called
-    std::vector<float> area_density;  ///< per triangle: per area, within this light; none for spheres
-    std::vector<FlatTriangle> flat;   ///< of a plain mesh without shading normals that is not large
+    std::vector<float> area_density;  ///< per triangle: density per area within this light; empty for spheres
+    std::vector<FlatTriangle> flat;   ///< of a plain small mesh without shading normals
     const Mask* mask = nullptr;
-    /// Spheres: sampled by their cone from outside. Not those that shine inwards through the holes of a mask.
+    /// Whether a sphere is sampled by its cone from outside. False if it shines inwards and a mask lets its light out.
     bool by_cone = false;
 
-    /// Throws RunError if it has a texture and there are none.
+    /// Throws RunError if the emitter has a texture and the scene has none.
     AreaLight(const AreaEmitter& emitter, const LightScene& scene);
 
-    /// Mean radiance over the surface, masks aside.
+    /// Mean radiance over the surface, without masks.
     Rgb mean_radiance(const LightScene& scene) const;
-    /// Mean of the channels, in watts.
+    /// Power in watts, mean of the channels.
     double power(const LightScene& scene) const;
 
-    /// Cuts a mesh into patches, if that is worth its while.
+    /// Cuts a mesh into patches, if it is large enough to gain by it.
     void cut(const LightScene& scene, float least_extent);
-    /// How many next event chooses among: 1 where it is uncut.
+    /// Number of patches that next event chooses among; 1 if uncut.
     std::uint32_t patch_count() const { return std::max(patches.count(), 1u); }
-    /// Share of a patch in its power.
+    /// Fraction of the light's power in a patch.
     double share(std::uint32_t patch) const { return patches.count() > 0 ? patches.share(patch) : 1.0; }
-    /// The patch of what was hit.
+    /// Patch of a hit.
     std::uint32_t patch_of(const Hit& hit) const { return patches.count() > 0 ? patches.patch_of(hit.primitive) : 0; }
-    /// The place and the light of a patch's points.
+    /// Bounds of a patch: position, directions and amount of its light.
     LightBounds bounds(const LightScene& scene, std::uint32_t patch) const;
 
-    /// Radiance of what was hit, where a texture varies it.
+    /// Emitted radiance at a hit of a textured light.
     Channels textured(const LightScene& scene, const Hit& hit) const;
 
-    /// Whatever it is, as if there were no other light or patch. random[1] chooses the triangle, [2] and [3] the place.
+    /// Samples a point of a patch, as if it were the only light. random[1] chooses the triangle, [2] and [3] the point.
     DirectSample sample(const LightScene& scene, std::uint32_t patch, const Vec3& p, const Draw& random,
                         const Vec3* front) const {
         if (sphere) return sample_sphere(scene, p, random, front);
@@ -81,7 +81,7 @@ struct AreaLight {
         return sample;
     }
 
-    /// A mesh, without what texture and mask make of its radiance.
+    /// Samples a point of a mesh; the radiance is without texture and mask.
     DirectSample sample_mesh(const LightScene& scene, std::uint32_t patch, const Vec3& p, const Draw& random,
                              const Vec3* front) const {
         const std::uint32_t triangle = patches.count() > 0 ? patches.pick(patch, random[1]) : triangles.pick(random[1]);
@@ -100,7 +100,7 @@ struct AreaLight {
         return sample;
     }
 
-    /// A place on its sphere that was drawn.
+    /// Sample from a point drawn on the sphere.
     DirectSample on_sphere(const LightScene& scene, const SphereSample& drawn, bool from_cone,
                            const Vec3* front) const {
         DirectSample sample;
@@ -110,15 +110,14 @@ struct AreaLight {
         sample.on_light.shape = shape;
         sample.distance = drawn.distance;
         sample.pdf = drawn.pdf;
-        // What a cone meets first is the outside, also where rounding has it beyond the rim.
+        // A ray within the cone hits the outside first, even if rounding puts the point beyond the rim.
         const bool shines = from_cone ? !sphere->flip_normals : dot(sample.on_light.ng, drawn.direction) < 0.0f;
         if (shines) sample.radiance = radiance;
         shine(scene, sample);
         return sample;
     }
 
-    /// Density per steradian of sample() for what is hit from p along wi, where its patch is chosen with this
-    /// probability.
+    /// Density per steradian of sample() for a hit from p along wi; `chosen`: probability of choosing its patch.
     float pdf(const Vec3& p, const Vec3& wi, const Hit& hit, float chosen) const {
         float density;
         if (sphere) {
@@ -132,10 +131,10 @@ struct AreaLight {
         return chosen * per_steradian(density, dot(to_light, to_light), std::abs(dot(hit.ng, wi)));
     }
 
-    /// A point that is uniform by area, whatever it is: random[1] chooses the triangle, [2] and [3] the place.
-    /// `density` becomes that per area, within this light.
+    /// Point distributed uniformly by area, for any shape: random[1] chooses the triangle, [2] and [3] the point.
+    /// `density` is set to the density per area within this light.
     Hit point(const LightScene& scene, const Draw& random, float& density) const;
-    /// Radiance that leaves a point of it on its front, with what a mask lets be there on average.
+    /// Radiance that leaves a point on its front, times its mask's opacity.
     Rgb radiance_at(const LightScene& scene, const Hit& hit) const;
     /// Density of point(), per area.
     float point_density(std::uint32_t triangle) const {
@@ -143,12 +142,12 @@ struct AreaLight {
     }
 
   private:
-    /// Per triangle: per area, within its patch.
+    /// Density per area within the patch, per triangle.
     const std::vector<float>& next_event_density() const {
         return patches.count() > 0 ? patches.density() : area_density;
     }
 
-    /// A sample of any shape but a sphere, uniform by area.
+    /// Sample of any shape but a sphere, uniform by area.
     DirectSample sample_flat(const LightScene& scene, std::uint32_t patch, const Vec3& p, const Draw& random,
                              const Vec3* front) const {
         if (scene.geometry->triangle_count(shape) > 0) return sample_mesh(scene, patch, p, random, front);
@@ -165,11 +164,11 @@ struct AreaLight {
         return on_sphere(scene, draw(sphere->center, sphere->radius, p, u), from_cone, front);
     }
 
-    /// Adds what texture and mask make of its radiance.
+    /// Applies texture and mask to a sample's radiance.
     void shine(const LightScene& scene, DirectSample& sample) const {
         if (is_black(sample.radiance)) return;
         if (texture != kNone) sample.radiance = textured(scene, sample.on_light).rgb();
-        // The shadow ray ends before the emitter, so its own mask is not asked: on average it lets this much be seen.
+        // The shadow ray ends before the emitter and does not test its mask: the opacity is its expectation.
         if (mask) sample.radiance *= scene.geometry->opacity(sample.on_light);
     }
 };

@@ -65,7 +65,7 @@ Rgb mean_color(const TextureSet& textures, std::int32_t texture, const Shape* sh
     return std::visit(
         [&]<class Kind>(const Kind& kind) {
             Rgb mean = kind.mean(Means{textures.images(), shape});
-            // White beyond the image may be all that is seen of it.
+            // The white beyond the image may be its only visible part.
             if constexpr (requires { kind.has_beyond(Wrap::one); })
                 if (kind.has_beyond(Wrap::one)) mean = mean * 0.5f + Rgb(0.5f);
             return mean;

@@ -8,7 +8,7 @@
 
 namespace treefarm {
 
-/// Turns a density per area into one per steradian as seen along wi over a distance.
+/// Density per steradian from one per area, at a distance and a cosine.
 inline float per_steradian(float area_density, float distance2, float cosine) {
     return cosine > 0.0f ? area_density * distance2 / cosine : 0.0f;
 }
@@ -17,7 +17,7 @@ inline float sphere_area_density(float radius) {
     return kInvFourPi / (radius * radius);
 }
 
-/// Completes a sample whose point on the light is chosen with density `area_density` per area.
+/// Completes a sample from the chosen point on the light; `area_density`: the point's density per area.
 inline void look_at(DirectSample& sample, const Vec3& p, const Rgb& radiance, float area_density) {
     const Vec3 to_light = sample.on_light.p - p;
     const float distance2 = dot(to_light, to_light);
@@ -32,11 +32,11 @@ inline void look_at(DirectSample& sample, const Vec3& p, const Rgb& radiance, fl
 /// Area of each triangle of a mesh; one value for other shapes.
 std::vector<double> part_areas(const EmbreeScene& geometry, std::uint32_t shape);
 
-/// A point of a disk or cylinder, uniform by area.
+/// Point of a disk or cylinder, uniform by area.
 Hit uniform_point(const EmbreeScene& geometry, std::uint32_t shape, const Vec2& u);
 
-/// Mean of a texture over its unit square, for a guess at an emitter's power: above 0 wherever the texture may be. One
-/// that is an attribute of meshes is that of `shape`.
+/// Mean colour of a texture over its unit square, as an estimate of an emitter's power: above 0 wherever the texture
+/// may be. A mesh attribute is averaged over `shape`.
 Rgb mean_color(const TextureSet& textures, std::int32_t texture, const Shape* shape = nullptr);
 
 }  // namespace treefarm

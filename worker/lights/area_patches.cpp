@@ -8,7 +8,7 @@
 namespace treefarm {
 namespace {
 
-/// A run of triangles, with their area.
+/// A range of triangles, with its area.
 struct Run {
     std::uint32_t begin, end;
     double area;
@@ -48,7 +48,7 @@ AreaPatches::AreaPatches(std::span<const double> areas, const std::function<Vec3
             const float at_a = centers[a][static_cast<int>(axis)], at_b = centers[b][static_cast<int>(axis)];
             return at_a != at_b ? at_a < at_b : a < b;
         });
-        // Halves of the area, each with a triangle.
+        // Cuts at half the area, with at least one triangle on each side.
         double below = 0;
         std::uint32_t middle = largest->begin;
         do

@@ -9,7 +9,7 @@
 
 namespace treefarm {
 
-/// Radiance that is alike from all directions, sampled uniformly (contract: environments.h).
+/// Environment of equal radiance from all directions, sampled uniformly (contract: environments.h).
 class ConstantLight {
   public:
     using Kind = ConstantEmitter;
@@ -35,8 +35,8 @@ class ConstantLight {
     }
 
   private:
-    Rgb radiance_{0.0f};  ///< of all constant emitters together
-    float pdf_ = 0;       ///< per steradian, with the probability that it is chosen by power
+    Rgb radiance_{0.0f};  ///< sum over the constant emitters
+    float pdf_ = 0;       ///< per steradian, times its probability in the choice by power
 };
 
 }  // namespace treefarm

@@ -8,7 +8,7 @@
 namespace treefarm {
 namespace {
 
-/// The light that is made from a kind of emitter. There is one for each kind of delta light.
+/// Light class of a kind of emitter. Each kind of delta light has exactly one.
 template <class Kind, class First, class... Others>
 auto light_from(const Kind& kind, const TextureSet* textures) {
     if constexpr (std::is_same_v<typename First::Kind, Kind>) {

@@ -14,30 +14,31 @@
 
 namespace treefarm {
 
-/// Every light without extent. Each names the kind of emitter that it is made from, which its constructor takes with
-/// the textures (nullptr: there are none), and says its power(scene_radius), its bounds(), what reaches a place:
-/// sample(p, selection), what leaves it: emit(ball, random), and how densely along a ray: direction_pdf(ball, away).
+/// Every light without extent. A class states the kind of emitter that its constructor takes with the textures
+/// (nullptr: none); power(scene_radius); bounds(); sample(p, selection), its light at a point; emit(ball, random), a
+/// ray that leaves it; and direction_pdf(ball, away), that ray's density.
 using DeltaLightKind = std::variant<PointLight, SpotLight, DirectionalLight, ProjectorLight>;
 
 /// An emitter without extent: a closed set, no virtual call. Scattering never finds it; next event always does.
 class DeltaLight {
   public:
-    /// None for emitters with extent. `textures` must outlive it; RunError if it needs some and there are none.
+    /// Light of an emitter without extent; no value for others. `textures` must outlive it. Throws RunError if it needs
+    /// textures and there are none.
     static std::optional<DeltaLight> make(const Emitter& emitter, const TextureSet* textures);
 
-    /// Mean of the channels of the power that it sends into a scene of that radius, in watts; of some an estimate.
+    /// Power sent into a scene of this radius, in watts, mean of the channels; for some kinds an estimate.
     double power(double scene_radius) const;
 
-    /// What reaches places of it, about.
+    /// Approximate bounds of its light.
     LightBounds bounds() const;
 
-    /// What reaches p; pdf is `selection`.
+    /// Light that reaches p; pdf is `selection`.
     DirectSample sample(const Vec3& p, float selection) const;
 
-    /// A ray that leaves it, as if it were the only light. random[0] and [1] choose the direction, or the place across
-    /// parallel light.
+    /// Ray that leaves the light, as if it were the only one. random[0] and [1] choose the direction, or the position
+    /// across parallel light.
     EmissionSample emit(const SceneBall& ball, const Draw& random) const;
-    /// EmissionSample::direction_pdf of a ray into the unit direction `away`, which it shines into.
+    /// EmissionSample::direction_pdf of a ray in the unit direction `away`, into which the light shines.
     float direction_pdf(const SceneBall& ball, const Vec3& away) const;
 
   private:

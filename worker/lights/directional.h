@@ -41,7 +41,7 @@ class DirectionalLight {
     float direction_pdf(const SceneBall& ball, const Vec3&) const { return 1.0f / ball.section(); }
 
   private:
-    Vec3 direction_;  ///< unit, along which it travels
+    Vec3 direction_;  ///< unit, in which the light travels
     Rgb irradiance_;  ///< W / m^2
 };
 

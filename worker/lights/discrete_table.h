@@ -8,13 +8,13 @@
 
 namespace treefarm {
 
-/// Chooses among a few or many by weight. Probabilities are whole multiples of 2^-32, so that what pick() does with 32
-/// random bits and what probability() says are exactly the same. An entry below that granularity is never picked.
+/// Discrete distribution by weights. Probabilities are whole multiples of 2^-32, so that pick() with 32 random bits and
+/// probability() agree exactly. An entry below that granularity is never picked.
 class DiscreteTable {
   public:
     DiscreteTable() = default;
 
-    /// Weights are non-negative and finite; if all are zero nothing can be picked.
+    /// Weights are non-negative and finite; if all are zero nothing may be picked.
     explicit DiscreteTable(std::span<const double> weights) {
         double total = 0;
         for (const double w : weights)
@@ -27,7 +27,7 @@ class DiscreteTable {
             sum += w;
             begin_.push_back(static_cast<std::uint64_t>(std::min(sum / total, 1.0) * 0x1p32));
         }
-        // The last entry with weight takes what rounding left.
+        // The last entry with weight takes the rounding remainder.
         for (std::size_t i = weights.size(); i > 0; --i) {
             begin_[i] = std::uint64_t(1) << 32;
             if (weights[i - 1] > 0) break;
@@ -37,12 +37,12 @@ class DiscreteTable {
     bool empty() const { return begin_.empty(); }
 
     std::uint32_t size() const { return begin_.empty() ? 0 : static_cast<std::uint32_t>(begin_.size() - 1); }
-    /// Where the share of an entry begins, of 2^32; of the one after the last: 2^32.
+    /// Begin of an entry's interval in [0, 2^32); for the index one past the last: 2^32.
     std::uint64_t begin(std::uint32_t index) const { return begin_[index]; }
 
-    /// Index of the entry that owns these bits; the table must not be empty.
+    /// Entry whose interval contains `bits`; the table must not be empty.
     std::uint32_t pick(std::uint32_t bits) const {
-        // As many steps for any bits, and none is a branch.
+        // An equal number of steps for any bits, without a branch.
         const std::uint64_t* at = begin_.data();
         for (std::size_t count = begin_.size() - 1; count > 1; count -= count / 2)
             at += at[count / 2] <= bits ? count / 2 : 0;
@@ -54,7 +54,7 @@ class DiscreteTable {
     }
 
   private:
-    std::vector<std::uint64_t> begin_;  ///< of 2^32; one more than entries
+    std::vector<std::uint64_t> begin_;  ///< in [0, 2^32]; one more than entries
 };
 
 }  // namespace treefarm

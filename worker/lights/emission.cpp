@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Light paths begin here: what of Emitters emits rays.
+// Start of light paths: the part of Emitters that emits rays.
 #include <cmath>
 
 #include "worker/lights/emitters.h"
@@ -45,7 +45,7 @@ EmissionSample Emitters::emit_from_area(const AreaLight& light, float selection,
     if (!(sample.position_pdf > 0.0f)) return sample;
     sample.from = EmissionFrom::surface;
     sample.radiance = light.radiance_at(scene_, sample.start);
-    // At the rim of the hemisphere: a cosine of 0 is as good as none.
+    // At the rim of the hemisphere the cosine is 0: no ray.
     if (!(local.z > 0.0f)) return sample;
     const Vec3 away = normalize(Frame(sample.start.ng).to_world(local));
     sample.ray = {offset_origin(sample.start, away), away};
@@ -102,7 +102,7 @@ double Emitters::next_event_pdf(const EmissionSample& start, const LightReceiver
     if (start.from == EmissionFrom::environment) return double(pdf_environment(receiver, wi));
     if (start.from != EmissionFrom::surface) return 0.0;
     const double pdf = double(pdf_direct(receiver, wi, start.start)) * start.position_factor(receiver.p);
-    return std::isfinite(pdf) ? pdf : 0.0;  // it left along the surface
+    return std::isfinite(pdf) ? pdf : 0.0;  // the ray left along the surface
 }
 
 }  // namespace treefarm

@@ -12,7 +12,7 @@
 namespace treefarm {
 namespace {
 
-/// A direction towards the environment, without its density yet: 1 stands for it where it is a sample.
+/// Sample of a direction towards infinity, without its density: pdf is 1 for a valid sample.
 DirectSample towards_infinity(const Vec3& direction, const Vec3* front) {
     DirectSample sample;
     sample.from_environment = true;
@@ -38,7 +38,7 @@ Emitters::Emitters(const std::vector<Emitter>& emitters, const EmbreeScene& geom
     : scene_{&geometry, textures}, light_of_shape_(geometry.shape_count(), kNone), ball_(box) {
     const double radius = bounding_radius(box);
     std::vector<double> power, delta_power;
-    // Each kind of emitter is named by its type of light: a new one does not compile before there is a light for it.
+    // Each light class names its kind of emitter: a kind without a light class does not compile.
     const auto add = [&]<class Kind>(const Kind& kind, const Emitter& emitter) {
         if constexpr (std::is_same_v<Kind, AreaEmitter>) {
             if (kind.shape != kNone) power.push_back(add_area_light(kind));
@@ -53,7 +53,7 @@ Emitters::Emitters(const std::vector<Emitter>& emitters, const EmbreeScene& geom
         std::visit([&](const auto& kind) { add(kind, emitter); }, emitter.kind);
     shines_from_infinity_ = environments_.shines();
     power.insert(power.end(), delta_power.begin(), delta_power.end());
-    // What crosses the scene's bounding sphere, as seen by a surface: pi L times its cross-section.
+    // Flux through the scene's bounding sphere, as seen by a surface: pi L times its cross-section.
     const double from_infinity = double(kPi) * radius * radius * double(kPi);
     environments_.for_each_part(
         [&](const auto& light, int part) { power.push_back(light.power(part, from_infinity)); });
@@ -69,7 +69,8 @@ double Emitters::add_area_light(const AreaEmitter& emitter) {
     return power;
 }
 
-/// An emitter that is hardly ever chosen would be all noise where it is the only one that counts.
+/// Sets the tables of choice. Each emitter has a least probability, since one chosen too rarely is noisy where it
+/// dominates.
 void Emitters::select(std::vector<double> power, LightSelection how) {
     const auto shining = std::count_if(power.begin(), power.end(), [](double p) { return p > 0; });
     const double total = std::accumulate(power.begin(), power.end(), 0.0);
@@ -117,9 +118,9 @@ void Emitters::select_by_point(std::span<const double> power, LightSelection how
     choice_ = LightChoice(how, of_entry, bounds);
 }
 
-/// Adds what is known of the choice of its emitter.
+/// Adds the choice of its emitter to a sample.
 static void add_choice(DirectSample& sample, const LightPick& chosen) {
-    if (!sample.from_environment) sample.pdf *= chosen.probability;  // the environment has it in its density
+    if (!sample.from_environment) sample.pdf *= chosen.probability;  // an environment's density includes it already
     sample.cluster = chosen.cluster;
     sample.cluster_probability = chosen.cluster_probability;
 }

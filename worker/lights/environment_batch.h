@@ -10,28 +10,27 @@
 
 namespace treefarm {
 
-/// A place of an image between four texel centres: the texels' columns and rows, and how far it lies from the first
-/// ones.
+/// Bilinear footprint between four texel centres: their columns and rows, and the fractions between them.
 struct TexelFootprint {
     int x0, x1, y0, y1;
     float fx, fy;
 };
 
-/// A direction that was drawn from an environment map.
+/// A direction drawn from an environment map.
 struct EnvironmentSample {
     Vec3 direction;  ///< unit
     TexelFootprint footprint;
     float sine;  ///< of the angle from the pole
 };
 
-/// Directions that are drawn together (EnvironmentMap::sample): what one waits for from memory another works through,
-/// and arithmetic is done by vector code. Each is what it would be alone, to the bit.
+/// Directions to be drawn together (EnvironmentMap::sample): memory latencies overlap, and arithmetic is vector code.
+/// Each equals, to the bit, the direction drawn alone.
 class EnvironmentBatch {
   public:
     static constexpr std::uint32_t kMost = kDrawBatch;
 
     void clear() { count_ = 0; }
-    /// Asks for a direction of this part by these numbers, as EnvironmentMap::sample(); returns its number.
+    /// Adds a direction of this part with these numbers, as for EnvironmentMap::sample(); returns its index.
     std::uint32_t add(int part, const Draw& random) {
         assert(count_ < kMost);
         part_[count_] = part;
@@ -53,10 +52,10 @@ class EnvironmentBatch {
     std::uint32_t count_ = 0;
     alignas(64) Lanes<std::int32_t> part_;
     Lanes<std::uint32_t> row_bits_, column_bits_;
-    // Vector code goes on beyond the last.
+    // Zero-initialised, since vector code runs beyond the last lane.
     Lanes<std::uint32_t> tent_bits_{};
     Lanes<std::int32_t> row_{}, column_{};
-    Lanes<std::uint32_t> low_, high_;  ///< columns between which the look-up table has it
+    Lanes<std::uint32_t> low_, high_;  ///< range of columns from the look-up table
     Lanes<float> dx_, dy_, dz_, fx_, fy_, sine_;
     Lanes<std::int32_t> x0_, x1_, y0_, y1_;
 };

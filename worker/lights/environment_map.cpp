@@ -14,9 +14,8 @@ namespace {
 
 constexpr std::uint32_t kTotal = std::uint32_t(1) << 31;
 
-/// Shares of 2^31 in proportion to weights, at least 1 for each weight above 0: writes where each share begins, and the
-/// end.
-/// Returns false if all weights are 0.
+/// Divides 2^31 in proportion to weights, at least 1 for each weight above 0: writes where each interval begins, and
+/// the end. Returns false if all weights are 0.
 bool apportion(const std::vector<double>& weights, std::uint32_t* begin) {
     double total = 0;
     std::uint32_t positive = 0;
@@ -31,7 +30,7 @@ bool apportion(const std::vector<double>& weights, std::uint32_t* begin) {
         begin[i] = total > 0 ? before + static_cast<std::uint32_t>(std::min(sum / total, 1.0) * spare) : 0;
         sum += weights[i];
         before += weights[i] > 0;
-        // What rounding left over goes to the last entry that has a weight.
+        // The rounding remainder goes to the last entry that has a weight.
         if (before == positive) {
             std::fill(begin + i + 1, begin + weights.size(), kTotal);
             break;
@@ -41,7 +40,7 @@ bool apportion(const std::vector<double>& weights, std::uint32_t* begin) {
     return total > 0;
 }
 
-/// Index of the share that owns these bits, without a branch that nothing predicts.
+/// Index of the interval that contains `bits`, without an unpredictable branch.
 std::size_t pick(const std::uint32_t* begin, std::size_t count, std::uint32_t bits) {
     const std::uint32_t* at = begin;
     for (; count > 1; count -= count / 2)
@@ -49,7 +48,7 @@ std::size_t pick(const std::uint32_t* begin, std::size_t count, std::uint32_t bi
     return static_cast<std::size_t>(at - begin);
 }
 
-/// Writes to 2^lookup_bits + 1 entries which shares own the bits that are whole multiples of 2^(32 - lookup_bits).
+/// Writes to 2^lookup_bits + 1 entries the intervals that contain the whole multiples of 2^(32 - lookup_bits).
 void fill_lookup(const std::uint32_t* begin, std::size_t count, int lookup_bits, std::uint32_t* lookup) {
     const std::size_t entries = std::size_t{1} << lookup_bits;
     for (std::size_t k = 0; k < entries; ++k)
@@ -57,17 +56,17 @@ void fill_lookup(const std::uint32_t* begin, std::size_t count, int lookup_bits,
     lookup[entries] = static_cast<std::uint32_t>(count - 1);
 }
 
-/// Entry of such a look-up table from which to search for these bits; the next one ends the search.
+/// Look-up entry from which the search for `bits` starts; it ends at the next entry.
 const std::uint32_t* look_up(const std::uint32_t* lookup, int lookup_bits, std::uint32_t bits) {
     return lookup + (std::uint64_t{bits} >> (32 - lookup_bits));
 }
 
-/// pick() between the shares that two entries of a look-up table name.
+/// pick() between the intervals of two look-up entries.
 int pick_between(const std::uint32_t* begin, std::uint32_t low, std::uint32_t high, std::uint32_t bits) {
     return static_cast<int>(low + pick(begin + low, high - low + 1, bits));
 }
 
-/// Draws from [-1, 1] with a density of 1 - |x|.
+/// Draws from [-1, 1] with density 1 - |x|.
 float sample_tent(std::uint32_t bits16) {
     const float u = (static_cast<float>(bits16) + 0.5f) * 0x1p-15f;  // in (0, 2)
     const bool right = u > 1.0f;
@@ -100,7 +99,7 @@ EnvironmentMap::EnvironmentMap(const EnvironmentEmitter& emitter, const TextureI
     EnvironmentGrid grid(frame_.width, frame_.height);
     for (int y = 0; y < frame_.height; ++y) {
         const auto row = static_cast<std::size_t>(y);
-        // On a pole, where the sine is 0, a sixth of a row away: the share of the sphere that the texel shines from.
+        // On a pole the sine is 0: a sixth of a row away instead, which gives the texel's solid angle.
         const float row_from_pole = static_cast<float>(y) + frame_.margin;
         const float from_pole = std::clamp(row_from_pole, 1.0f / 6.0f, frame_.half_turn - 1.0f / 6.0f);
         const auto sine = double(sincos_turn(0.5f * (from_pole / frame_.half_turn)).sin);
@@ -192,7 +191,7 @@ inline Vec3 EnvironmentMap::Frame::direction(float u, float from_pole) const {
 }
 
 DirectionCone EnvironmentMap::part_cone(int part) const {
-    // A tent reaches one texel beyond the centre of the part's outer ones. Lines closer than the margin between.
+    // A tent reaches one texel beyond the centres of the part's outer texels. Lines closer than the margin between.
     const EnvironmentPart& texels = parts_[static_cast<std::size_t>(part)].texels;
     const auto width = static_cast<float>(texels.x1 - texels.x0 + 1),
                height = static_cast<float>(texels.y1 - texels.y0 + 1);
@@ -219,7 +218,7 @@ DirectionCone EnvironmentMap::part_cone(int part) const {
 EnvironmentMap::Footprint EnvironmentMap::footprint(const Vec3& d, float& sine) const {
     const float x = dot(d, frame_.x_axis), y = dot(d, frame_.y_axis), z = dot(d, frame_.z_axis);
     sine = std::sqrt(x * x + z * z);
-    // The angle from the pole by both its sine and cosine: no digits are lost near the poles.
+    // Angle from the pole by both its sine and cosine: no digits are lost near the poles.
     return frame_.footprint(azimuth_turn(-z, x) * static_cast<float>(frame_.width) - 0.5f,
                             2.0f * azimuth_turn(y, sine) * frame_.half_turn - frame_.margin);
 }
@@ -263,7 +262,7 @@ float EnvironmentMap::pdf(const Footprint& p, float sine, const PartChoice& choi
     };
     const float upper = mix(texel(p.x0, p.y0), texel(p.x1, p.y0), p.fx);
     const float lower = mix(texel(p.x0, p.y1), texel(p.x1, p.y1), p.fx);
-    // On the pole itself the density is as large as it likes.
+    // At the pole itself the density has no bound.
     return mix(upper, lower, p.fy) * density_scale_ / std::max(sine, 1e-9f);
 }
 
@@ -313,7 +312,7 @@ void EnvironmentMap::sample(EnvironmentBatch& b) const {
     }
     for (std::uint32_t i = 0; i < b.count_; ++i)
         b.column_[i] = pick_between(columns(b.row_[i]), b.low_[i], b.high_[i], b.column_bits_[i]);
-    const Frame frame = frame_;  // a copy, that what is written cannot change
+    const Frame frame = frame_;  // a copy: stores below cannot alias it
     for (std::uint32_t i = 0; i < whole_lanes(b.count_); ++i) {
         const Sample s = frame.locate(b.column_[i], b.row_[i], b.tent_bits_[i]);
         b.dx_[i] = s.direction.x;

@@ -15,7 +15,7 @@ EnvironmentGrid::EnvironmentGrid(int width, int height)
 
 namespace {
 
-/// Texels of an axis in even blocks: which one a texel is in, and where it begins.
+/// Block of a texel along an axis divided into even blocks, and the first texel of a block.
 int block_of(int texel, int texels, int blocks) {
     return static_cast<int>((static_cast<long long>(texel) * blocks + blocks - 1) / texels);
 }

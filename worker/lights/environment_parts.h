@@ -5,12 +5,12 @@
 
 namespace treefarm {
 
-/// A rectangle of an environment map's texels, one of those that its image is cut into, and how: the upper side, from
-/// `cut_at` on, of what part `cut_from` was then. The first is what is left of the whole.
+/// A rectangle of an environment map's texels, one part of its image. It was cut off from part `cut_from`: the texels
+/// from `cut_at` on. Part 0 is the remainder of the whole.
 struct EnvironmentPart {
     int x0 = 0, y0 = 0, x1 = 0, y1 = 0;  ///< texels [x0, x1) x [y0, y1)
     int cut_from = -1;
-    bool cut_rows = false;  ///< between rows rather than columns
+    bool cut_rows = false;  ///< the cut is between rows, not columns
     int cut_at = 0;
 
     bool holds(int x, int y) const { return x >= x0 && x < x1 && y >= y0 && y < y1; }
@@ -20,7 +20,7 @@ struct EnvironmentPart {
 template <class Part>
 int part_of(int x, int y, int count, Part part) {
     int found = 0;
-    // A part that was cut lost its upper side to the one that came then.
+    // A part that is cut loses its upper side to the new part.
     for (int i = 1; i < count; ++i) {
         const EnvironmentPart& cut = part(i);
         if (cut.cut_from == found && (cut.cut_rows ? y : x) >= cut.cut_at) found = i;
@@ -28,20 +28,20 @@ int part_of(int x, int y, int count, Part part) {
     return found;
 }
 
-/// Cuts an environment map into parts that next event can learn to choose among. What a part costs is its power times
-/// its solid angle; each cut is the one that lowers the sum most (after the surface area heuristic of hierarchies). So
-/// a small and powerful sun is cut free first, and an even sky in halves.
+/// Partition of an environment map into parts that next event can learn to choose among. The cost of a part is its
+/// power times its solid angle; each cut is the one that lowers the sum most (after the surface area heuristic). A
+/// small and powerful sun is therefore cut out first; an even sky is halved.
 class EnvironmentGrid {
   public:
     EnvironmentGrid(int width, int height);
 
-    /// Adds a texel: its weight in sampling, and its solid angle, both in any unit.
+    /// Adds a texel: its sampling weight and its solid angle, both in any unit.
     void add(int x, int y, double weight, double solid_angle);
 
     std::vector<EnvironmentPart> parts(int most) const;
 
   private:
-    /// Blocks of texels, so that large images cost no more.
+    /// Largest number of blocks of texels, so that large images cost no more.
     static constexpr int kMostColumns = 512, kMostRows = 256;
 
     struct Sums {

@@ -13,20 +13,20 @@
 
 namespace treefarm {
 
-/// Probability of each part of a light where a density is asked for.
+/// Probabilities of a light's parts, for a density.
 template <class Of>
 struct PartProbabilities {
     const Of& of;
-    std::uint32_t first;  ///< entry of part 0 in the table that emitters are chosen by
+    std::uint32_t first;  ///< entry of part 0 in the table of emitters
 
     bool by_power() const { return of.by_power(); }
     float operator()(int part) const { return of(first + static_cast<std::uint32_t>(part)); }
 };
 
-/// What a light from infinity must say: the kind of emitter that it is made from; the parts of it that are chosen for
-/// themselves, each with its power (`from_infinity` times its mean radiance), its bounds and the probability by power;
-/// whether it shines; its radiance against a direction; a sample of a part; and the density with which a direction is
-/// sampled, of all its parts together, per steradian.
+/// Requirements of an environment light: its kind of emitter; the number of its parts, each with its power
+/// (`from_infinity` times its mean radiance), its bounds and its probability by power; whether it shines; its radiance
+/// against a direction; a sample of a part; and the density of a sampled direction over all of its parts, per
+/// steradian.
 template <class Light>
 concept EnvironmentLight = requires(Light& light, const Light& given, const typename Light::Kind& kind,
                                     const TextureSet* textures, const Draw& random, const Vec3& direction,
@@ -45,8 +45,8 @@ concept EnvironmentLight = requires(Light& light, const Light& given, const type
     { given.pdf(drawn, probabilities) } -> std::same_as<float>;
 };
 
-/// Everything that shines from infinity. A kind more is a line in `Lights`, at its end: all else follows, and without
-/// it an emitter of that kind does not compile.
+/// All environment lights. A new kind is a line at the end of `Lights`; without it an emitter of that kind does not
+/// compile.
 class Environments {
   public:
     using Lights = std::tuple<ConstantLight, MapLight>;
@@ -61,7 +61,7 @@ class Environments {
         return std::apply([](const auto&... light) { return (light.shines() || ...); }, lights_);
     }
 
-    /// Calls f(light, part) for each part of each light: the order in which choose() takes their probabilities.
+    /// Calls f(light, part) for each part of each light, in the order in which choose() assigns probabilities.
     template <class F>
     void for_each_part(F&& f) const {
         const auto each = [&](const auto& light) {
@@ -70,7 +70,7 @@ class Environments {
         };
         std::apply([&](const auto&... light) { (each(light), ...); }, lights_);
     }
-    /// `probability(entry)` by power of each part, from entry `first` on.
+    /// Sets each part's probability by power, `probability(entry)`, for entries from `first` on.
     template <class F>
     void choose(std::uint32_t first, F&& probability) {
         std::size_t number = 0;
@@ -83,11 +83,11 @@ class Environments {
         map_parts_ = static_cast<std::uint32_t>(map().part_count());
     }
 
-    /// Radiance that comes from infinity, against the unit `direction`.
+    /// Radiance from infinity, arriving against the unit `direction`.
     Rgb radiance(const Vec3& direction) const {
         return sum_of([&](const auto& light) { return light.radiance(direction); });
     }
-    /// Radiance from infinity, to which the light of type `Light` contributes what `of_light` says of it.
+    /// Radiance from infinity, with the light of type `Light` evaluated by `of_light`.
     template <class Light, class F>
     Rgb radiance_with(const Vec3& direction, F&& of_light) const {
         return sum_of([&]<class Other>(const Other& light) {
@@ -102,18 +102,18 @@ class Environments {
     float pdf(const Vec3& direction, const auto& probabilities) const {
         return density<void>(direction, direction, probabilities);
     }
-    /// Density of sample() for the direction that a light of type `Light` has drawn.
+    /// Density of sample() for a sample drawn by the light of type `Light`.
     template <class Light>
     float pdf_of(const typename Light::Sample& drawn, const auto& probabilities) const {
         return density<Light>(drawn.direction, drawn, probabilities);
     }
 
-    /// Calls f.operator()<Light>(sample) with a sample of the part that has this entry.
+    /// Calls f.operator()<Light>(sample) with a sample of the part with this entry.
     template <class F>
     void sample(std::uint32_t entry, const Draw& random, F&& f) const {
         std::size_t number = 0;
         const auto each = [&]<class Light>(const Light& light) {
-            const std::uint32_t part = entry - first_[number++];  // beyond all parts where the entry is before
+            const std::uint32_t part = entry - first_[number++];  // beyond all parts if the entry precedes them
             if (part < static_cast<std::uint32_t>(light.part_count()))
                 f.template operator()<Light>(light.sample(static_cast<int>(part), random));
         };
@@ -121,7 +121,7 @@ class Environments {
     }
 
     const MapLight& map() const { return std::get<MapLight>(lights_); }
-    /// The map's part that has this entry: beyond all where it has none.
+    /// Part of the map with this entry; beyond its parts if it has none.
     std::uint32_t map_part(std::uint32_t entry) const { return entry - first_[kMap]; }
     bool is_map(std::uint32_t entry) const { return map_part(entry) < map_parts_; }
 
@@ -141,7 +141,7 @@ class Environments {
         if constexpr (std::is_same_v<typename Light::Kind, Kind>) light.add(kind, textures);
     }
 
-    /// The sum over lights, in their order; the first is asked whether it shines or not.
+    /// Sum over lights, in their order; the first is evaluated even if it does not shine.
     template <class F>
     Rgb sum_of(F&& of_light) const {
         Rgb sum = of_light(std::get<0>(lights_));
@@ -155,7 +155,7 @@ class Environments {
         return sum;
     }
 
-    /// The sum of densities, where `Light` knows its part of it by what was drawn.
+    /// Sum of densities, with the light of type `Light` evaluated at its own sample.
     template <class Light, class Drawn, class Of>
     float density(const Vec3& direction, const Drawn& drawn, const Of& probabilities) const {
         const auto of_light = [&]<class Other>(const Other& light, std::uint32_t first) {

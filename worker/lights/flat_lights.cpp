@@ -20,7 +20,7 @@ FlatLights::FlatLights(std::span<const LightBounds> bounds, std::span<const doub
 
 void FlatLights::pick(FlatBatch& b) const {
     const std::uint32_t points = whole_lanes(b.count);
-    // Sums are in the order of Widths, of all lanes of a block; those without emitter bring 0.
+    // Summed in the order of Widths, over all lanes of a block; unused lanes have 0.
     alignas(64) std::array<FlatBatch::Points<float>, kLanes> brings;
     alignas(64) FlatBatch::Points<float> scale;
     const std::size_t blocks = (count_ + LightLanes::kCount - 1) / LightLanes::kCount;
@@ -63,7 +63,7 @@ void FlatLights::pick(FlatBatch& b) const {
     for (std::size_t k = 0; k < count_; ++k)
         for (std::uint32_t i = 0; i < points; ++i) {
             const auto width = static_cast<std::uint32_t>(b.widths[k][i]);
-            const std::uint32_t beyond = b.bits[i] - end[i];  // huge where the bits lie before
+            const std::uint32_t beyond = b.bits[i] - end[i];  // huge if `bits` is below the interval
             end[i] += width;
             b.chosen[i] += end[i] <= b.bits[i];
             b.chosen_width[i] = beyond < width ? b.widths[k][i] : b.chosen_width[i];

@@ -11,26 +11,26 @@
 
 namespace treefarm {
 
-/// An emitter that was chosen, of the table of all; `entry` is kNone where nothing was.
+/// A chosen emitter; `entry` is its index in the table of all, kNone if none was chosen.
 struct LightPick {
     static constexpr std::uint32_t kNone = 0xffffffffu;
     std::uint32_t entry = kNone;
     float probability = 0;
-    std::uint8_t cluster = 0;       ///< that it is learned by
-    float cluster_probability = 1;  ///< with which one of the cluster was chosen
+    std::uint8_t cluster = 0;       ///< cluster of its learned probability
+    float cluster_probability = 1;  ///< probability of the emitter within its cluster
 };
 
-/// How many draw from what is not estimated, and may be wrong in no way: half by power, half evenly.
+/// Probability of the defensive choice, which uses no estimate: half of it by power, half evenly.
 inline constexpr float kDefensive = 0.125f;
 
-/// Points at which few emitters are chosen together: add() each, then FlatLights::pick().
+/// Batch of points at each of which one of few emitters is chosen: add() each, then FlatLights::pick().
 struct FlatBatch {
     static constexpr std::size_t kMostLights = kLightClusters;
     template <class T>
     using Points = std::array<T, kDrawBatch>;
 
     void clear() { count = 0; }
-    /// Asks for a choice by 32 random bits, for a lane of the caller's.
+    /// Adds a point for the caller's lane, with 32 random bits.
     void add(std::uint32_t lane, const LightReceiver& receiver, std::uint32_t random) {
         x[count] = receiver.p.x;
         y[count] = receiver.p.y;
@@ -53,24 +53,25 @@ struct FlatBatch {
     std::uint32_t count = 0;
     alignas(64) Points<float> x{}, y{}, z{}, nx{}, ny{}, nz{};
     Points<std::uint32_t> one_sided{}, bits{};
-    Points<std::uint32_t> chosen{};       ///< lane of FlatLights
-    Points<std::int32_t> chosen_width{};  ///< its probability
+    Points<std::uint32_t> chosen{};       ///< index in FlatLights
+    Points<std::int32_t> chosen_width{};  ///< its probability, in units of kLightUnit
     std::array<Points<std::int32_t>, kMostLights> widths{};
     Points<const LightProbabilities*> learned{};
     Points<std::uint8_t> of_lane{}, lane_of{};
 };
 
-/// A choice among few emitters by what each brings to a point: all are looked at, and each is a cluster of its own.
+/// Choice among few emitters by their estimated contribution to a point: all are evaluated, and each is its own
+/// cluster.
 class FlatLights {
   public:
-    /// Number of emitters at most: as many as there are clusters to learn by.
+    /// Largest number of emitters: the number of learned clusters.
     static constexpr std::size_t kMost = kLightClusters;
 
-    /// `shares`: how often each is chosen where nothing is estimated; they sum to 1, and those without are never
-    /// chosen. At most kMost others.
+    /// `shares`: probabilities of the defensive choice, summing to 1; emitters with 0 are never chosen. At most kMost
+    /// are above 0.
     FlatLights(std::span<const LightBounds> bounds, std::span<const double> shares);
 
-    /// Chooses by 32 random bits.
+    /// Chooses an emitter by 32 random bits.
     LightPick pick(std::uint32_t bits, const LightReceiver& receiver) const {
         const Widths widths(*this, receiver);
         std::uint32_t end = 0;
@@ -84,9 +85,9 @@ class FlatLights {
         return {entry_[lane], probability, static_cast<std::uint8_t>(lane), probability};
     }
 
-    /// Chooses for all points of a batch: each what pick() chooses, to the bit.
+    /// Chooses for all points of a batch; equal to pick() at each point, to the bit.
     void pick(FlatBatch& batch) const;
-    /// The emitter that was chosen for a point of the batch.
+    /// Chosen emitter of a point of the batch.
     LightPick picked(const FlatBatch& batch, std::uint32_t point) const {
         const std::uint32_t lane = batch.chosen[point];
         if (lane >= count_) return {};
@@ -108,7 +109,7 @@ class FlatLights {
     static constexpr float kOne = static_cast<float>(kLightWhole) * kLightMargin;
     static constexpr float kLearned = kOne * (1.0f - kDefensive) / static_cast<float>(kLightProbabilityOne);
 
-    /// What is left to estimates, in units of kLightUnit.
+    /// Probability of the choice by estimate, in units of kLightUnit.
     static float estimated_part(const LightProbabilities* learned) {
         return learned ? kLearned * static_cast<float>((*learned)[0]) : kOne * (1.0f - kDefensive);
     }
@@ -134,7 +135,7 @@ class FlatLights {
                     of[block * LightLanes::kCount + k] = static_cast<std::int32_t>(
                         brings[block][k] * scale + lights.fixed_[block * LightLanes::kCount + k]);
             if (!learned) return;
-            // Whole numbers each: what both parts leave to rounding draws nothing.
+            // Rounded to whole numbers each: the rounding remainder chooses no emitter.
             for (std::size_t k = 0; k < kLightClusters; ++k)
                 of[k] += static_cast<std::int32_t>(kLearned * static_cast<float>((*learned)[k + 1]));
         }
@@ -143,10 +144,11 @@ class FlatLights {
 
     LightSpace space_;
     std::array<LightLanes, 2> lanes_;
-    alignas(32) std::array<float, kLanes> fixed_{};  ///< what is chosen without an estimate, in units of kLightUnit
-    std::array<std::uint32_t, kLanes> entry_{};      ///< of a lane
-    std::vector<std::uint8_t> lane_;                 ///< of an entry; kLanes: never chosen
-    std::size_t count_ = 0;                          ///< lanes in use
+    /// probability of each lane in the defensive choice, in units of kLightUnit
+    alignas(32) std::array<float, kLanes> fixed_{};
+    std::array<std::uint32_t, kLanes> entry_{};  ///< table entry of a lane
+    std::vector<std::uint8_t> lane_;             ///< lane of a table entry; kLanes: never chosen
+    std::size_t count_ = 0;                      ///< lanes in use
 };
 
 }  // namespace treefarm

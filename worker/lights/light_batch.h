@@ -10,21 +10,21 @@
 
 namespace treefarm {
 
-/// Which emitters the vertices of a step sample, chosen before any of them is sampled, so that directions of an
-/// environment map and points of spheres are drawn together: Emitters::choose() for each, then Emitters::draw().
+/// Emitters sampled at the vertices of a step, all chosen before any is sampled, so that directions of an environment
+/// map and points of spheres are drawn together: Emitters::choose() for each, then Emitters::draw().
 struct LightBatch {
-    /// Instead of a number: nothing was drawn yet.
+    /// Value of `number` for an emitter that has no batch.
     static constexpr std::uint8_t kAlone = 0xff;
 
     std::array<LightPick, kDrawBatch> chosen;        ///< of each lane
-    std::array<LightReceiver, kDrawBatch> receiver;  ///< the place that it is chosen for
-    std::array<Draw, kDrawBatch> random;             ///< the numbers that it is chosen by
-    FlatBatch flat;                                  ///< where few are chosen together
-    std::array<std::uint8_t, kDrawBatch> number;     ///< in the batch of its kind
+    std::array<LightReceiver, kDrawBatch> receiver;  ///< point for which the lane chooses
+    std::array<Draw, kDrawBatch> random;             ///< random numbers of the choice
+    FlatBatch flat;                                  ///< batch of choices among few emitters
+    std::array<std::uint8_t, kDrawBatch> number;     ///< index in the batch of its kind
     EnvironmentBatch map;
     SphereBatch<sample_by_cone> cones;
     SphereBatch<sample_by_area> spheres;
-    std::array<bool, kDrawBatch> by_cone;  ///< which of the two, where it is a sphere
+    std::array<bool, kDrawBatch> by_cone;  ///< for spheres: whether in `cones` rather than `spheres`
 
     void clear() {
         flat.clear();

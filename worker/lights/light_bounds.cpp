@@ -9,7 +9,8 @@
 namespace treefarm {
 namespace {
 
-/// Integral over the directions of a cone and its falloff of the cosine by which they are beyond the cone.
+/// Measure of emission directions: integral over the cone and its falloff, weighted by the cosine of the angle beyond
+/// it.
 double direction_measure(float cone, float falloff) {
     const auto turn = [](float half_turns) { return sincos_turn(0.5f * std::min(std::abs(half_turns), 2.0f)); };
     const float end = std::min(cone + falloff, 1.0f);
@@ -46,7 +47,7 @@ DirectionCone joined(const DirectionCone& a, const DirectionCone& b) {
     const float along = dot(a.axis, b.axis);
     const Vec3 across = b.axis - a.axis * along;
     const float length2 = dot(across, across);
-    // Of nearly opposite axes little but rounding is left, which says nothing of where the cone is to be turned.
+    // Between nearly opposite axes the cross product is mostly rounding error and gives no axis of rotation.
     if (half_turns >= 1.0f || !(length2 > (along < 0.0f ? 1e-3f : 0.0f))) return {a.axis, 1.0f};
     const SinCos turned = sincos_turn(0.5f * (half_turns - a.half_turns));
     return {normalize(a.axis * turned.cos + across * (turned.sin / std::sqrt(length2))), half_turns};

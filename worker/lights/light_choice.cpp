@@ -29,7 +29,7 @@ LightChoice::LightChoice(LightSelection how, std::span<const double> power, std:
 
 LightPick LightChoice::pick_by_point(const Draw& random, const LightReceiver& receiver) const {
     if (flat_) return flat_->pick(random[0], receiver);
-    // Levels take bits of their own, which the numbers that then choose a point do not show.
+    // The levels of the tree use other bits than the choice of a point, which follows.
     const std::uint64_t others = std::uint64_t{random[2]} << 32 | random[3];
     return tree_->pick((std::uint64_t{random[0]} << 32 | random[1]) ^ next_bits(others) >> 32, receiver);
 }

@@ -11,23 +11,23 @@
 
 namespace treefarm {
 
-/// The choice of an emitter by next event, among the entries of the table of all (Emitters): by a table that is the
-/// same everywhere, or by what each brings to a point, with what is learned there (docs/design/lights.md).
+/// Next event's choice of an emitter among the entries of the table of all (Emitters): by one table for all points, or
+/// by the estimated contribution to a point, with learned probabilities (docs/design/lights.md).
 class LightChoice {
   public:
     LightChoice() = default;
 
-    /// `power` of each entry: those of 0 are never chosen. `bounds` of each; empty, where `how` is a table.
+    /// `power` of each entry; those of 0 are never chosen. `bounds` of each; empty if `how` is a table.
     LightChoice(LightSelection how, std::span<const double> power, std::span<const LightBounds> bounds);
 
     /// Whether `how` needs bounds.
     static bool by_point(LightSelection how) { return how == LightSelection::tree || how == LightSelection::learned; }
 
     bool empty() const { return table_.empty(); }
-    /// Whether it is that by power, everywhere.
+    /// Whether the choice is by power at every point.
     bool by_power() const { return by_power_; }
 
-    /// Chooses by random[0], or by all four numbers: then none tells anything of which emitter it was.
+    /// Chooses by random[0], or by all four numbers, which are then independent of the choice.
     LightPick pick(const Draw& random, const LightReceiver& receiver) const {
         if (by_point_) [[unlikely]]
             return pick_by_point(random, receiver);
@@ -40,9 +40,9 @@ class LightChoice {
         return by_point_ ? probability_by_point(entry, receiver) : table_.probability(entry);
     }
 
-    /// The choice among few, which many points make together; nullptr where it is another.
+    /// The choice among few emitters, which may be done in batches; nullptr for other choices.
     const FlatLights* flat() const { return flat_ ? &*flat_ : nullptr; }
-    /// Nodes and bytes of the hierarchy; 0 where there is none.
+    /// Number of nodes of the light tree; 0 if there is none.
     std::size_t node_count() const { return tree_ ? tree_->node_count() : 0; }
     std::size_t bytes() const { return tree_ ? tree_->bytes() : 0; }
 
@@ -56,11 +56,11 @@ class LightChoice {
     std::optional<LightTree> tree_;
 };
 
-/// Probabilities of entries where a density is asked for.
+/// Probabilities of entries, for a density.
 struct EntryProbabilities {
     const LightChoice* choice = nullptr;  ///< nullptr: by power
     const LightReceiver* receiver = nullptr;
-    LightPick known = {};  ///< of an entry of which it is known already
+    LightPick known = {};  ///< an entry whose probability is already known
 
     bool by_power() const { return choice == nullptr; }
     float operator()(std::uint32_t entry) const {

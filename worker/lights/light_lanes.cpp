@@ -4,7 +4,7 @@
 namespace treefarm {
 namespace {
 
-/// By which cones are widened, in half turns (1e-4 radians), so that no rounding darkens their rims.
+/// Widening of cones in half turns (1e-4 radians), so that rounding does not darken their rims.
 constexpr float kRim = 3.2e-5f;
 
 SinCos sincos_half_turns(float half_turns) {

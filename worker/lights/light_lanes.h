@@ -12,18 +12,18 @@
 
 namespace treefarm {
 
-/// A point that light is wanted at.
+/// A point that receives light.
 struct LightReceiver {
     Vec3 p;
-    Vec3 front{0.0f};        ///< unit normal of a surface that reflects only, on the side that is looked at
-    bool one_sided = false;  ///< whether `front` says what cannot light it
-    const LightProbabilities* probabilities = nullptr;  ///< learned there; nullptr: nothing is
-    /// What was found out of few emitters when one was chosen here (FlatLights): nullptr: it is to be found out again.
+    Vec3 front{0.0f};        ///< unit normal of a surface that only reflects, on the side of wo
+    bool one_sided = false;  ///< whether light from behind `front` is excluded
+    const LightProbabilities* probabilities = nullptr;  ///< learned probabilities at the point; nullptr: none
+    /// Probabilities computed by the choice at this point (FlatLights); nullptr: they must be computed again.
     const std::int32_t* widths = nullptr;
 
     LightReceiver() : p(0.0f) {}
     explicit LightReceiver(const Vec3& point) : p(point) {}
-    /// `normal`: nullptr, if light from all around matters.
+    /// `normal`: nullptr if light from all directions counts.
     LightReceiver(const Vec3& point, const LightProbabilities* learned, const Vec3* normal)
         : p(point), probabilities(learned) {
         if (!normal) return;
@@ -34,23 +34,23 @@ struct LightReceiver {
     const Vec3* normal() const { return one_sided ? &front : nullptr; }
 };
 
-/// What LightReceiver::widths points to.
+/// Storage that LightReceiver::widths points to.
 using LightWidthStore = std::array<std::int32_t, kLightClusters>;
 
-/// Whole numbers that probabilities are counted in: what draws, and what says how likely a draw was, agree to the bit.
+/// Integer unit of probabilities: choice and density use the same integers and agree to the bit.
 inline constexpr std::uint32_t kLightWhole = std::uint32_t{1} << 31;
 inline constexpr float kLightUnit = 0x1p-31f;
-/// By which probabilities are scaled down, so that no rounding makes their sum exceed the whole. What is left over
-/// draws nothing: it adds no bias, since densities are the whole numbers.
+/// Scale of probabilities, below 1 so that rounding does not make their sum exceed the whole. The remainder chooses no
+/// emitter, which adds no bias, since densities are the same integers.
 inline constexpr float kLightMargin = 1.0f - 0x1p-20f;
 
-/// Bounds of one emitter or node, as LightLanes has them.
+/// Bounds of one emitter or node, one lane of LightLanes.
 struct LightLane {
     float x, y, z, radius2, axis_x, axis_y, axis_z, cone_cos, cone_sin, falloff_cos, amount;
 };
 
-/// Bounds of up to eight emitters or nodes, side by side, so that what they bring to a point is one loop of vector
-/// code. In the tree's own units: the scene's size and the sum of all amounts are about 1.
+/// Bounds of up to eight emitters or nodes, as a structure of arrays: estimating their contributions to a point is one
+/// loop of vector code. In LightSpace: the scene's size and the sum of all amounts are about 1.
 struct LightLanes {
     static constexpr int kCount = 8;
     using Floats = float[kCount];
@@ -58,10 +58,10 @@ struct LightLanes {
     alignas(32) Floats x{}, y{}, z{};  ///< centre
     Floats radius2{};                  ///< squared; negative: at infinity
     Floats axis_x{}, axis_y{}, axis_z{};
-    Floats cone_cos{}, cone_sin{};  ///< of its half angle
+    Floats cone_cos{}, cone_sin{};  ///< of the cone's half angle
     Floats falloff_cos{};
     Floats amount{};
-    std::uint32_t child[kCount] = {};  ///< node, or kLeaf and an entry
+    std::uint32_t child[kCount] = {};  ///< a node, or kLeaf with an entry
 
     static constexpr std::uint32_t kLeaf = 0x80000000u;
 
@@ -72,21 +72,21 @@ struct LightLanes {
 
     void set(int lane, const LightBounds& bounds, const Imath::V3d& origin, double scale, double per_amount);
 
-    /// Estimates of the irradiance at p that each brings: amount times an upper bound of both cosines over the squared
-    /// distance. 0 only where nothing arrives. Unlit lanes have 0.
+    /// Estimates of each lane's irradiance at p: amount times an upper bound of both cosines over the squared distance.
+    /// 0 only if nothing arrives, and in unused lanes.
     void estimate(const Vec3& p, const LightReceiver& receiver, Floats& brings) const;
 };
 
-/// Sum of a node's estimates, in one order.
+/// Sum of a node's estimates, in a fixed order.
 inline float sum_of(const LightLanes::Floats& f) {
     return ((f[0] + f[4]) + (f[2] + f[6])) + ((f[1] + f[5]) + (f[3] + f[7]));
 }
 
-/// Estimates below this are none: their quotients would leave the range of float.
+/// Range of usable estimates: smaller ones count as 0, since their quotients would leave the range of float.
 inline constexpr float kLeastLight = 1e-29f, kMostLight = 1e30f;
 
-/// What an emitter with these bounds brings to p: LightLanes::estimate(). Everything by value, so that it becomes
-/// vector code over emitters as well as over points, of the same bits.
+/// Estimate of one emitter's contribution to p: see LightLanes::estimate(). Arguments by value, so that the compiler
+/// vectorises it over emitters as well as over points, with equal bits.
 [[gnu::always_inline]] inline float light_estimate(const LightLane l, float px, float py, float pz, float nx, float ny,
                                                    float nz, bool one_sided) {
     const float vx = l.x - px, vy = l.y - py, vz = l.z - pz;
@@ -95,11 +95,11 @@ inline constexpr float kLeastLight = 1e-29f, kMostLight = 1e30f;
     const float inverse = 1.0f / std::sqrt(std::max(d2, kLeastNormal));
     const float wx = select(far, l.axis_x, vx * inverse), wy = select(far, l.axis_y, vy * inverse),
                 wz = select(far, l.axis_z, vz * inverse);
-    // The half angle that its extent fills as seen from p.
+    // Half angle subtended by the bounds as seen from p.
     const float sin2 = std::min(std::max(r2 * inverse * inverse, 0.0f), 1.0f);
     const float wide_sin = select(far, l.cone_sin, std::sqrt(sin2)),
                 wide_cos = select(far, l.cone_cos, std::sqrt(1.0f - sin2));
-    const auto nearer = [&](float cosine, float sine) {  // by that half angle
+    const auto nearer = [&](float cosine, float sine) {  // an angle reduced by that half angle
         return select(cosine >= wide_cos, 1.0f, cosine * wide_cos + sine * wide_sin);
     };
     const float at_p = nx * wx + ny * wy + nz * wz;
@@ -129,7 +129,7 @@ inline void LightLanes::estimate(const Vec3& p, const LightReceiver& receiver, F
 struct LightWidths {
     std::int32_t of[LightLanes::kCount];
 
-    /// In proportion to what they bring to p; all 0 where that is nothing.
+    /// In proportion to the estimates at p; all 0 if their sum is.
     LightWidths(const LightLanes& lanes, const Vec3& p, const LightReceiver& receiver) {
         LightLanes::Floats brings;
         lanes.estimate(p, receiver, brings);
@@ -139,7 +139,7 @@ struct LightWidths {
             of[k] = static_cast<std::int32_t>(brings[k] * scale);
     }
 
-    /// The lane that owns 31 random bits; kCount: none does.
+    /// Lane whose interval contains 31 random bits; kCount: none.
     int pick(std::uint32_t bits) const {
         std::uint32_t end = 0;
         int lane = 0;

@@ -12,7 +12,7 @@ LightSpace::LightSpace(std::span<const LightBounds> bounds) {
     for (const LightBounds& b : bounds) {
         const bool placed = b.at_infinity || (is_finite(b.box.min) && is_finite(b.box.max) && std::isfinite(b.radius));
         if (!placed || !is_finite(b.cone.axis) || !(b.amount >= 0.0 && b.amount < 1e300))
-            throw RunError("an emitter has no place or no power that is a number");
+            throw RunError("an emitter's position or power is no finite number");
         if (!b.at_infinity) box.extendBy(b.box);
     }
     if (!box.isEmpty()) {

@@ -7,12 +7,12 @@
 
 namespace treefarm {
 
-/// The light tree's own units, in which emitters lie within about 1 of the origin and their amounts sum to 1: so no
-/// scale of a scene brings a float near its limits, and powers of two change no bit of a choice.
+/// Units of the light tree, in which emitters are within about 1 of the origin and their amounts sum to 1: no scale of
+/// a scene brings a float near its limits, and scaling by powers of two changes no bit of a choice.
 class LightSpace {
   public:
     LightSpace() = default;
-    /// Units for all these emitters. Throws RunError if one is nowhere, or shines by a negative or no finite number.
+    /// Units for these emitters. Throws RunError if a position is undefined, or an amount is negative or not finite.
     explicit LightSpace(std::span<const LightBounds> bounds);
 
     Vec3 place(const Vec3& p) const { return (p - origin_) * scale_; }

@@ -58,7 +58,7 @@ std::uint32_t LightTree::pick_learned(std::uint64_t bits, std::uint32_t share, c
     std::uint32_t cluster = 0;
     while (cluster + 1 < heads_.size() && share >= learned[cluster + 1])
         share -= learned[++cluster];
-    // A share of a cluster that is none: no emitter has it.
+    // A learned value outside of any cluster's interval chooses no emitter.
     if (cluster >= heads_.size() || share >= learned[cluster + 1]) return LightPick::kNone;
     const std::uint32_t head = heads_[cluster];
     const std::uint32_t child = nodes_[head / LightLanes::kCount].child[head % LightLanes::kCount];

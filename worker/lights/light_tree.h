@@ -10,7 +10,7 @@
 
 namespace treefarm {
 
-/// Another 64 random bits from those at hand (splitmix64, Steele et al. 2014).
+/// Next 64 random bits from the given ones (splitmix64, Steele et al. 2014).
 inline std::uint64_t next_bits(std::uint64_t bits) {
     bits += 0x9e3779b97f4a7c15u;
     bits = (bits ^ (bits >> 30)) * 0xbf58476d1ce4e5b9u;
@@ -18,27 +18,27 @@ inline std::uint64_t next_bits(std::uint64_t bits) {
     return bits ^ (bits >> 31);
 }
 
-/// A choice among many emitters by what each brings to a point, after Conty Estevez and Kulla 2018: from the root of a
-/// hierarchy of bounds, at each node one of up to eight children in proportion to an estimate of its light there. A
-/// part of all draws is made without an estimate, so that none of its errors can starve an emitter.
+/// Choice among many emitters by their estimated contribution to a point, after Conty Estevez and Kulla 2018: from the
+/// root of a hierarchy of bounds, at each node one of up to eight children in proportion to its estimate. A fraction of
+/// all draws is defensive, without estimates, so that an estimate's error cannot starve an emitter.
 ///
-/// What regions learn is how often they choose among the emitters of each cluster: up to 15 nodes below the root.
+/// Regions learn the probabilities of clusters of emitters: up to 15 nodes below the root.
 class LightTree {
   public:
-    /// `shares` as in FlatLights. At least one emitter has a share, and one an amount.
+    /// `shares` as in FlatLights. At least one emitter has a share, and at least one an amount.
     LightTree(std::span<const LightBounds> bounds, std::span<const double> shares);
 
-    /// Chooses by 64 random bits.
+    /// Chooses an emitter by 64 random bits.
     LightPick pick(std::uint64_t bits, const LightReceiver& receiver) const;
 
-    /// Probability with which pick() chooses an entry; what else it says of its choice, too.
+    /// The LightPick of an entry, as if pick() had chosen it.
     LightPick probability(std::uint32_t entry, const LightReceiver& receiver) const;
 
     std::size_t node_count() const { return nodes_.size(); }
-    /// Memory that it takes, in bytes.
+    /// Memory in bytes.
     std::size_t bytes() const;
     int cluster_count() const { return static_cast<int>(heads_.size()); }
-    /// The cluster of an entry that has an amount.
+    /// Cluster of an entry that has an amount.
     std::uint8_t cluster_of(std::uint32_t entry) const;
 
   private:
@@ -48,17 +48,17 @@ class LightTree {
     static constexpr std::uint32_t kNowhere = 0xffffffffu;
     static constexpr std::size_t kMostDepth = 64;
 
-    /// A node's place above: `parent` as a lane, and the clusters that begin in its own lanes.
+    /// Link to a node's parent: `parent` as a lane, and the clusters that begin in the node's own lanes.
     struct Link {
         std::uint32_t parent = kNowhere;
         std::array<std::uint8_t, LightLanes::kCount> cluster;
     };
-    /// A lane of a node, as one number.
+    /// Index of a lane of a node.
     static std::uint32_t lane_of(std::uint32_t node, int lane) {
         return node * LightLanes::kCount + static_cast<std::uint32_t>(lane);
     }
 
-    /// Probabilities along a way down: to the cluster, and from there on.
+    /// Probabilities on a descent: down to the cluster, and below it.
     struct Way {
         float above = 1.0f, below = 1.0f;
         std::uint8_t cluster = kNoCluster;
@@ -74,7 +74,7 @@ class LightTree {
     };
     LightPick completed(std::uint32_t entry, const Way& way, const LightProbabilities* learned) const;
 
-    /// The entry that random bits find below a node, or LightPick::kNone; adds the steps to `way`.
+    /// Entry found by random bits below a node, or LightPick::kNone; adds the steps to `way`.
     std::uint32_t descend(std::uint32_t node, std::uint64_t bits, const Vec3& p, const LightReceiver& receiver,
                           Way& way) const;
     std::uint32_t pick_learned(std::uint64_t bits, std::uint32_t share, const Vec3& p,
@@ -83,10 +83,10 @@ class LightTree {
     LightSpace space_;
     std::vector<LightLanes> nodes_;
     std::vector<Link> links_;
-    std::vector<std::uint32_t> place_;           ///< of an entry: its lane, or kNowhere
-    std::vector<std::uint32_t> heads_;           ///< lane that a cluster begins with
-    std::array<float, kLightClusters> fixed_{};  ///< share of a cluster among draws without an estimate
-    DiscreteTable shares_;                       ///< draws without an estimate
+    std::vector<std::uint32_t> place_;           ///< per entry: its lane, or kNowhere
+    std::vector<std::uint32_t> heads_;           ///< per cluster: its first lane
+    std::array<float, kLightClusters> fixed_{};  ///< per cluster: its probability in the defensive choice
+    DiscreteTable shares_;                       ///< the defensive choice
 };
 
 }  // namespace treefarm

@@ -141,7 +141,7 @@ std::size_t LightTreeBuilder::split(Entries entries, const Box3& keys) {
         for (std::size_t b = kBuckets - 1; b > 0; --b) {
             if (buckets[b].count > 0) sum.add(buckets[b].bounds, buckets[b].count);
             if (sum.count == 0 || below[b - 1] < 0) continue;
-            // Thin nodes are dear: by how much longer the longest side is.
+            // Thin nodes cost more, by the ratio of the longest side to theirs.
             const double cost =
                 (below[b - 1] + sampling_cost(sum.bounds, floor)) * double(longest) / double(size[axis]);
             if (!(cost < best)) continue;
@@ -188,7 +188,7 @@ std::uint32_t LightTreeBuilder::wide(std::vector<std::uint32_t> children, std::u
             tree_.place_[node.left] = lane;
             continue;
         }
-        // What is at infinity comes apart first: there a sun stands beside a sky.
+        // Emitters at infinity are separated first: a sun may be beside a sky.
         lane_cost_[lane] = node.bounds.at_infinity ? 1e30 + node.cost : node.cost;
         std::vector<std::uint32_t> below{node.left, node.right};
         open(below, LightLanes::kCount);

@@ -8,8 +8,8 @@
 
 namespace treefarm {
 
-/// Builds a light tree: a binary one by the surface area orientation heuristic, whose nodes are then opened into others
-/// of eight children.
+/// Builder of a light tree: a binary tree by the surface area orientation heuristic, whose nodes are then collapsed
+/// into nodes of up to eight children.
 class LightTreeBuilder {
   public:
     LightTreeBuilder(LightTree& tree, std::span<const LightBounds> bounds) : tree_(tree), bounds_(bounds) {}
@@ -19,25 +19,25 @@ class LightTreeBuilder {
   private:
     struct Node {
         LightBounds bounds;
-        std::uint32_t left = 0, right = 0;  ///< of a leaf: its entry, and nothing
+        std::uint32_t left = 0, right = 0;  ///< of a leaf: its entry, and unused
         bool leaf = false;
         double cost = 0;
     };
     static constexpr int kBuckets = 12;
-    /// Deeper nodes split in halves, so that no tree is deeper than LightTree::kMostDepth.
+    /// Depth from which nodes are split in halves, so that no tree is deeper than LightTree::kMostDepth.
     static constexpr int kMostSplits = 40;
 
     using Entries = std::span<std::uint32_t>;
     std::uint32_t binary(Entries entries, int depth);
-    /// How many of the entries, which it sorts, are left of the best split.
+    /// Sorts the entries by the best split, and returns how many are on its left.
     std::size_t split(Entries entries, const Box3& keys);
     std::size_t halve(Entries entries, int axis) const;
-    /// What splits go by: the centre, at infinity the direction.
+    /// Sort key of a split: the centre; at infinity the direction.
     Vec3 key(std::uint32_t entry) const;
     std::uint32_t join(std::uint32_t left, std::uint32_t right);
 
     std::uint32_t wide(std::vector<std::uint32_t> children, std::uint32_t parent);
-    /// Opens the costliest of the children until there are `most`.
+    /// Replaces the costliest child by its children until there are `most`.
     void open(std::vector<std::uint32_t>& children, std::size_t most) const;
     void cut();
     void share_clusters(std::span<const double> shares);
@@ -45,7 +45,7 @@ class LightTreeBuilder {
     LightTree& tree_;
     std::span<const LightBounds> bounds_;
     std::vector<Node> nodes_;
-    std::vector<double> lane_cost_;  ///< of the lanes of the wide nodes
+    std::vector<double> lane_cost_;  ///< per lane of the wide nodes
     double least_area_ = 0;
 };
 

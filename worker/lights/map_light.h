@@ -9,7 +9,7 @@
 
 namespace treefarm {
 
-/// A scene's environment map, if it has one: each of its parts is chosen for itself (contract: environments.h).
+/// The scene's environment map, if it has one; its parts are chosen individually (contract: environments.h).
 class MapLight {
   public:
     using Kind = EnvironmentEmitter;
@@ -47,12 +47,12 @@ class MapLight {
         return map_->pdf(drawn, choice);
     }
 
-    /// What draws many together asks.
+    /// The map, for drawing in batches.
     const EnvironmentMap& map() const { return *map_; }
 
   private:
     std::unique_ptr<EnvironmentMap> map_;
-    EnvironmentMap::PartChoice parts_{};  ///< probability that each is chosen by power
+    EnvironmentMap::PartChoice parts_{};  ///< probability of each part by power
 };
 
 }  // namespace treefarm

@@ -9,7 +9,7 @@
 
 namespace treefarm {
 
-/// What reaches p from a point of that intensity (W / sr); no sample in the point itself.
+/// Light at p from a point of this intensity (W / sr); no sample if p is the point itself.
 inline DirectSample sample_point(const Vec3& position, const Rgb& intensity, const Vec3& p, float selection) {
     DirectSample sample;
     sample.delta = true;
@@ -24,7 +24,7 @@ inline DirectSample sample_point(const Vec3& position, const Rgb& intensity, con
     return sample;
 }
 
-/// A point that shines in all directions alike.
+/// Point light of equal intensity in all directions.
 class PointLight {
   public:
     using Kind = PointEmitter;

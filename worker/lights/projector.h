@@ -9,8 +9,8 @@
 
 namespace treefarm {
 
-/// A point that throws a picture. With E on the plane at distance 1 its intensity at the angle t from the axis is
-/// E / cos^3 t: the plane is 1 / cos t away and seen at cos t.
+/// Point light that projects an image. With irradiance E on the plane at distance 1 its intensity at the angle t from
+/// the axis is E / cos^3 t: the distance is 1 / cos t, and the plane is tilted by t.
 class ProjectorLight {
   public:
     using Kind = ProjectorEmitter;
@@ -32,7 +32,7 @@ class ProjectorLight {
         return area_ * double(average(irradiance_)) * mean;
     }
 
-    /// Brightest at the picture's corners.
+    /// Bounds of the projected light, which is brightest at the image's corners.
     LightBounds bounds() const {
         const double mean = texture_ != kNone ? double(luminance(mean_color(*textures_, texture_))) : 1.0;
         const double u = 0.25 / double(dot(u_axis_, u_axis_)), v = 0.25 / double(dot(v_axis_, v_axis_));
@@ -60,7 +60,7 @@ class ProjectorLight {
         return sample;
     }
 
-    /// Uniform on the picture.
+    /// Ray to a uniform point of the image.
     EmissionSample emit(const SceneBall&, const Draw& random) const {
         const float u = to_unit(random[0]), v = to_unit(random[1]);
         const Vec3 to =
@@ -79,11 +79,11 @@ class ProjectorLight {
   private:
     Vec3 position_;
     Vec3 axis_;             ///< unit
-    Vec3 u_axis_, v_axis_;  ///< per unit of them, along the axis, u and v change by 1
-    Rgb irradiance_;        ///< W / m^2 on the plane at distance 1, or what the texture is multiplied by
+    Vec3 u_axis_, v_axis_;  ///< change of u and v per unit along these axes, at distance 1
+    Rgb irradiance_;        ///< W / m^2 on the plane at distance 1, or the factor on the texture
     const TextureSet* textures_;
     std::int32_t texture_;
-    double area_;  ///< of the picture on that plane
+    double area_;  ///< area of the image on that plane
 };
 
 }  // namespace treefarm

@@ -10,8 +10,8 @@
 
 namespace treefarm {
 
-/// Places on spherical emitters that are drawn together, each from its own point, by vector code. Each is what kSample
-/// makes of it alone, to the bit.
+/// Points on spherical emitters to be drawn together, each from its own point, by vector code. Each equals, to the bit,
+/// the result of kSample alone.
 template <SphereSample (*kSample)(const Vec3& center, float radius, const Vec3& from, const Vec2& u)>
 class SphereBatch {
   public:
@@ -19,7 +19,7 @@ class SphereBatch {
 
     void clear() { count_ = 0; }
 
-    /// Asks for a place on a sphere by these numbers; returns its number.
+    /// Adds a sphere with its random numbers; returns its index.
     std::uint32_t add(const Sphere& sphere, const Vec3& from, const Draw& random) {
         assert(count_ < kMost);
         cx_[count_] = sphere.center.x;
@@ -60,7 +60,7 @@ class SphereBatch {
     using Lanes = std::array<float, kMost>;
 
     std::uint32_t count_ = 0;
-    // Vector code goes on beyond the last.
+    // Zero-initialised, since vector code runs beyond the last lane.
     alignas(64) Lanes cx_{}, cy_{}, cz_{}, radius_{}, fx_{}, fy_{}, fz_{};
     std::array<std::uint32_t, kMost> u_bits_{}, v_bits_{};
     Lanes dx_, dy_, dz_, nx_, ny_, nz_, px_, py_, pz_, distance_, pdf_;

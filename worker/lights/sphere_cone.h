@@ -6,12 +6,12 @@
 
 namespace treefarm {
 
-/// Density per steradian of directions that are uniform in a cone.
+/// Density per steradian of directions distributed uniformly in a cone.
 inline float cone_pdf(float one_minus_cos) {
     return 0.5f * kInvPi / one_minus_cos;
 }
 
-/// The cone of directions in which a sphere is seen from a point outside of it.
+/// Cone of directions that a sphere subtends at a point outside of it.
 struct SphereCone {
     bool outside = false;     ///< false: there is no cone (has_cone())
     Vec3 axis{0.0f};          ///< unit, towards the centre
@@ -21,7 +21,7 @@ struct SphereCone {
     float pdf() const { return cone_pdf(one_minus_cos); }
 };
 
-/// The cone of a sphere with its centre at `to_center`, as seen from a point outside.
+/// Cone of a sphere whose centre is at `to_center` from the point, which is outside.
 inline SphereCone cone_from_outside(const Vec3& to_center, float radius) {
     SphereCone cone;
     const float distance2 = dot(to_center, to_center);
@@ -32,7 +32,7 @@ inline SphereCone cone_from_outside(const Vec3& to_center, float radius) {
     return cone;
 }
 
-/// Whether a point is so far outside of a sphere, and so near, that rounding leaves a cone.
+/// Whether a point is far enough outside of a sphere, and near enough, for a numerically valid cone.
 inline bool has_cone(const Sphere& sphere, const Vec3& from) {
     const Vec3 to_center = sphere.center - from;
     const float distance2 = dot(to_center, to_center), radius2 = sphere.radius * sphere.radius;

@@ -8,20 +8,20 @@
 
 namespace treefarm {
 
-/// A place on a sphere as it was drawn from a point.
+/// A sampled point on a sphere, as seen from a point.
 struct SphereSample {
-    Vec3 direction;  ///< unit, from the point to the place
+    Vec3 direction;  ///< unit, towards the sampled point
     Vec3 normal;     ///< unit, outward
-    Vec3 p;          ///< the place
+    Vec3 p;          ///< the sampled point
     float distance;
     float pdf;  ///< per steradian; 0: no sample
 };
 
-// Without a branch, so that loops over them become vector code (sphere_batch.h).
+// Without a branch, so that loops over these functions become vector code (sphere_batch.h).
 
-/// A direction from outside, uniform in the cone, and where it meets the sphere first. The angle alpha at the centre
-/// follows from the angle theta at the point by the law of sines (Pharr, Jakob and Humphreys, "Physically Based
-/// Rendering", 4th ed., section 6.2.4).
+/// Direction distributed uniformly in the sphere's cone, from outside, and its first intersection with the sphere. The
+/// angle alpha at the centre follows from the angle theta at the point by the law of sines (Pharr, Jakob and Humphreys,
+/// "Physically Based Rendering", 4th ed., section 6.2.4).
 inline SphereSample sample_by_cone(const Vec3& center, float radius, const Vec3& from, const Vec2& u) {
     const SphereCone cone = cone_from_outside(center - from, radius);
     const Vec3 w = square_to_cone(u, cone.one_minus_cos);
@@ -40,7 +40,7 @@ inline SphereSample sample_by_cone(const Vec3& center, float radius, const Vec3&
     return {frame.to_world(w), normal, p, std::sqrt(dot(to_p, to_p)), cone.pdf()};
 }
 
-/// A place that is uniform by area, from inside or outside.
+/// Point distributed uniformly by area, seen from inside or outside.
 inline SphereSample sample_by_area(const Vec3& center, float radius, const Vec3& from, const Vec2& u) {
     const Vec3 normal = normalize(square_to_sphere(u));
     const Vec3 p = center + normal * radius, to_p = p - from;

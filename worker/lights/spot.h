@@ -13,7 +13,7 @@
 
 namespace treefarm {
 
-/// A point that shines along a cone.
+/// Point light that shines in a cone.
 class SpotLight {
   public:
     using Kind = SpotEmitter;
@@ -34,14 +34,14 @@ class SpotLight {
         v_axis_ = spot.y_axis * scale;
     }
 
-    /// Power as if the edge were sharp, halfway down the falloff: 2 pi (1 - cos x) = 4 pi sin^2(x / 2).
+    /// Power of a spot with a sharp edge halfway down the falloff: 2 pi (1 - cos x) = 4 pi sin^2(x / 2).
     double power(double) const {
         const float sine = sincos_turn(0.25f * kInvPi * 0.5f * (cutoff_ + beam_)).sin;
         const double mean = textures_ ? double(average(mean_color(*textures_, texture_))) : 1.0;
         return 4.0 * double(kPi) * double(sine) * double(sine) * double(average(intensity_)) * mean;
     }
 
-    /// A falloff that is linear in the angle lies below the cosine, within a quarter turn.
+    /// Bounds of the spot. Its linear falloff is below the cosine of these bounds, within a quarter turn.
     LightBounds bounds() const {
         const double mean = textures_ ? double(luminance(mean_color(*textures_, texture_))) : 1.0;
         LightBounds bounds = LightBounds::in_box(Box3(position_, position_), double(luminance(intensity_)) * mean);
@@ -59,7 +59,7 @@ class SpotLight {
         return sample;
     }
 
-    /// Uniform in the cone: what it brightens falls off in the weight.
+    /// Ray distributed uniformly in the cone; the falloff is in the weight.
     EmissionSample emit(const SceneBall&, const Draw& random) const {
         const float one_minus_cos = cone();
         const Vec3 local = square_to_cone({to_unit(random[0]), to_unit(random[1])}, one_minus_cos);
@@ -77,7 +77,8 @@ class SpotLight {
         return 2.0f * sine * sine;
     }
 
-    /// Linear in the angle from the axis, which comes from its sine and cosine: a narrow spot's cosines all round to 1.
+    /// Falloff linear in the angle from the axis, computed from sine and cosine: a narrow spot's cosines all round to
+    /// 1.
     float falloff(const Vec3& away) const {
         const Vec3 across = cross(axis_, away);
         const float angle = 2.0f * kPi * azimuth_turn(dot(axis_, away), std::sqrt(dot(across, across)));
@@ -85,7 +86,7 @@ class SpotLight {
         return angle <= beam_ ? 1.0f : (cutoff_ - angle) / (cutoff_ - beam_);
     }
 
-    /// What the texture has where a direction within the cone meets the plane across the axis.
+    /// Texture value at the intersection of a direction within the cone with the plane across the axis.
     Rgb projected(const Vec3& away) const {
         const float inverse = 1.0f / dot(axis_, away);
         return textures_->color(texture_,
@@ -96,9 +97,9 @@ class SpotLight {
     Vec3 axis_;      ///< unit
     Rgb intensity_;  ///< W / sr, on the axis
     float cutoff_, beam_;
-    const TextureSet* textures_ = nullptr;  ///< nullptr: it projects none
+    const TextureSet* textures_ = nullptr;  ///< nullptr: no texture is projected
     std::int32_t texture_ = kNone;
-    Vec3 u_axis_{0.0f}, v_axis_{0.0f};  ///< per unit of them, along the axis, u and v change by 1
+    Vec3 u_axis_{0.0f}, v_axis_{0.0f};  ///< change of u and v per unit along these axes, at distance 1
 };
 
 }  // namespace treefarm

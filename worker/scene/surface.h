@@ -6,8 +6,8 @@
 
 namespace treefarm {
 
-/// The surface that the walk stands on, as far as it needs it. Two kinds, a template argument of the path kernel, so
-/// that plainly diffuse scenes pay for no other material.
+/// Surface at a path's vertex, as far as the walk needs it. One of two classes, a template argument of the path kernel,
+/// so that plainly diffuse scenes pay for no other material.
 
 /// A surface of a plainly diffuse scene (is_plainly_diffuse()): no delta lobes, no transmission, no textures.
 class DiffuseSurface {
@@ -18,7 +18,7 @@ class DiffuseSurface {
     static Scratch make_scratch(const TraceScene&) { return {}; }
     static void prefetch(const TraceScene&, const Hit&) {}
 
-    /// `outgoing`: unit, in world space, to where light goes.
+    /// `outgoing`: unit, in world space, in the direction that light goes to.
     DiffuseSurface(const TraceScene& scene, const Hit& hit, const Vec3& outgoing, Scratch&)
         : bsdf_(scene.plain_diffuse(hit.shape)), hit_(hit), frame_(hit.ns), wo_(frame_.to_local(outgoing)) {}
 
@@ -27,7 +27,7 @@ class DiffuseSurface {
     const Frame& frame() const { return frame_; }
     const Vec3& wo() const { return wo_; }
     const Vec3& ng() const { return hit_.ng; }
-    /// Normal on wo's side.
+    /// Shading normal on wo's side.
     Vec3 front() const { return wo_.z < 0.0f ? -frame_.n : frame_.n; }
     static constexpr bool smooth() { return true; }
     static constexpr bool evaluate_late() { return false; }
@@ -42,8 +42,8 @@ class DiffuseSurface {
     Vec3 wo_;
 };
 
-/// A surface of any material. Its frame is turned so that `wo` is on the side of +z; textures, bumps and tangents are
-/// looked up only for the materials that have them.
+/// A surface of any material. Its frame has `wo` on the side of +z; textures, bumps and tangents are looked up only for
+/// materials that have them.
 class GeneralSurface {
   public:
     using Bsdf = treefarm::Bsdf;
@@ -65,7 +65,7 @@ class GeneralSurface {
         if (!bsdf_ && side.material != kNone) look_up(scene, hit, side.material, back, scratch);
     }
 
-    /// Fetches what a hit's material will look up.
+    /// Prefetches the data that a hit's material will look up.
     static void prefetch(const TraceScene& scene, const Hit& hit) {
         const std::int32_t material = scene.materials().side(hit.shape, false).material;
         if (material != kNone) prefetch(scene, hit, material);
@@ -77,20 +77,21 @@ class GeneralSurface {
     const Vec3& wo() const { return wo_; }
     /// Geometric normal on wo's side of the shading normal's plane.
     const Vec3& ng() const { return ng_; }
-    /// Whether any lobe has a density: next event and guides are of no use without.
+    /// Whether any lobe has a density, as next event and guides require.
     bool smooth() const { return lobes_ & kSmoothLobe; }
-    /// Whether next event gains by asking for the BSDF's value only once it sees the emitter. Not where a black value
-    /// often spares the shadow ray, nor where the value costs next to nothing.
+    /// Whether next event gains by evaluating the BSDF only for visible emitters. False if a black value often saves
+    /// the shadow ray, or if the value is cheap.
     bool evaluate_late() const { return lobes_ & kWideLobe; }
-    /// Normal on wo's side.
+    /// Shading normal on wo's side.
     const Vec3& front() const { return frame_.n; }
     bool transmits() const { return lobes_ & kTransmittingLobe; }
-    /// Whether the directions that it prefers depend on wo.
+    /// Whether the sampled directions depend on wo.
     bool view_dependent() const { return lobes_ & kViewLobe; }
     bool has_delta() const { return lobes_ & kDeltaLobe; }
     bool delta_or_transmitting() const { return lobes_ & (kDeltaLobe | kTransmittingLobe); }
 
-    /// Squared relative index: what refraction to the far side takes from a path's throughput.
+    /// Squared relative index of refraction: the factor by which refraction to the far side reduces a path's
+    /// throughput.
     float eta2() const {
         const float eta = refraction_of(*bsdf_);
         return eta * eta;

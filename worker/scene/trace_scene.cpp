@@ -9,12 +9,12 @@
 namespace treefarm {
 namespace {
 
-/// Whether surfaces need not be told apart: there are kernels for no others.
+/// Whether the scene's surfaces are all plainly diffuse, or no other kernels are compiled.
 bool traced_plainly(const Scene& scene, const Job& job) {
     return is_plainly_diffuse(scene) && has_plain_kernels(guide_kind(job));
 }
 
-/// Per shape of a plainly diffuse scene; a shape without material is black.
+/// BSDF per shape of a plainly diffuse scene; a shape without material is black.
 std::vector<PlainDiffuse> diffuse_bsdfs(const Scene& scene) {
     std::vector<PlainDiffuse> bsdfs(scene.shapes.size());
     for (std::size_t i = 0; i < bsdfs.size(); ++i) {
@@ -26,7 +26,7 @@ std::vector<PlainDiffuse> diffuse_bsdfs(const Scene& scene) {
     return bsdfs;
 }
 
-/// Per shape; empty if no shape is masked.
+/// Opacity per shape; empty if no shape has a mask.
 std::vector<FloatInput> shape_opacity(const Scene& scene) {
     std::vector<FloatInput> opacity;
     for (std::size_t i = 0; i < scene.shapes.size(); ++i) {

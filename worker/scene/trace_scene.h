@@ -15,11 +15,11 @@
 
 namespace treefarm {
 
-/// The scene ready for tracing. Immutable after construction: one per process, shared by its threads.
+/// A scene prepared for tracing. Immutable after construction: one per process, shared by its threads.
 class TraceScene {
   public:
-    /// Builds the hierarchy and the light tables; the film is the scene's. Throws RunError where Embree fails, and for
-    /// a scene with an effect that the program was built without.
+    /// Builds the hierarchy and the light tables; the film is the scene's. Throws RunError if Embree fails, or if the
+    /// scene needs an effect that the program was built without.
     TraceScene(Scene scene, const Job& job);
 
     const EmbreeScene& geometry() const { return geometry_; }
@@ -27,17 +27,17 @@ class TraceScene {
     const CameraRays& camera() const { return camera_; }
     const TextureSet& textures() const { return textures_; }
     const Film& film() const { return film_; }
-    /// The box of all shapes.
+    /// Box of all shapes.
     const Box3& bounds() const { return bounds_; }
-    /// Effects that the scene calls for: for assertions, not for choices.
+    /// Effects that the scene needs: for assertions, not for decisions.
     const SceneEffects& effects() const { return effects_; }
-    /// Whether plain_diffuse() holds every material; otherwise materials() does.
+    /// Whether plain_diffuse() holds every material; if not, materials() does.
     bool plainly_diffuse() const { return !materials_; }
     const PlainDiffuse& plain_diffuse(std::uint32_t shape) const { return plain_diffuse_[shape]; }
     const MaterialSet& materials() const { return *materials_; }
 
   private:
-    /// `opacity` as in ShapeMasks. Takes the scene apart.
+    /// `opacity` as in ShapeMasks. Moves the scene's parts out.
     TraceScene(Scene&& scene, const std::vector<FloatInput>& opacity, const Job& job);
 
     SceneEffects effects_;

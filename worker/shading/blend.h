@@ -8,8 +8,8 @@ namespace treefarm {
 
 struct Bsdf;
 
-/// (1 - weight) * first + weight * second. What it points to lives as long as the materials, or as the hit whose
-/// textures it was looked up in.
+/// Blend (1 - weight) * first + weight * second. The parts live as long as the materials, or as the hit whose textures
+/// were looked up.
 struct BlendBsdf {
     float weight = 0.5f;  ///< in [0, 1]
     const Bsdf* first = nullptr;
@@ -21,7 +21,7 @@ struct BlendBsdf {
     inline BsdfSample sample(const Vec3& wo, const BsdfRandom& random) const;
 };
 
-/// The BSDF of such a material at one place of a surface (bsdf_builder.h).
+/// BSDF of the material at one point of a surface (bsdf_builder.h).
 template <class Context>
 typename Context::Result make_bsdf(const BlendMaterial& m, const Context& at) {
     const float weight = at.fraction(m.weight);

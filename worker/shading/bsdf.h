@@ -27,7 +27,7 @@
 
 namespace treefarm {
 
-/// Reflects nothing.
+/// BSDF of a black surface.
 struct BlackBsdf {
     static constexpr LobeBits kLobes = 0;
 
@@ -35,8 +35,8 @@ struct BlackBsdf {
     BsdfSample sample(const Vec3&, const BsdfRandom&) const { return {}; }
 };
 
-/// Every BSDF. A new one comes last; it says its own lobes (kLobes or lobes()), and where it transmits how light is
-/// refracted (refraction()), or does not compile.
+/// Every BSDF; a new one is added at the end. It states its lobes (kLobes or lobes()) and, if it transmits, its
+/// refraction(), or it does not compile.
 using BsdfKind = std::variant<BlackBsdf, DiffuseBsdf, RoughConductorBsdf, RoughDielectricBsdf, RoughPlasticBsdf,
                               PlasticBsdf, ConductorBsdf, DielectricBsdf, ThinDielectricBsdf, NullBsdf, BlendBsdf,
                               OrientedBsdf, RoughDiffuseBsdf, PhongBsdf, WardBsdf, PrincipledBsdf, CoatingBsdf,
@@ -50,7 +50,7 @@ constexpr bool may_transmit() {
         return false;
 }
 
-/// Smooth glass: it reflects in one direction, refracts in another, and does nothing else.
+/// Whether a kind is smooth glass: one reflected and one refracted direction, and nothing else.
 template <class Kind>
 constexpr bool has_two_ways() {
     if constexpr (requires { Kind::kLobes; })
@@ -59,29 +59,29 @@ constexpr bool has_two_ways() {
         return false;
 }
 
-// Every vertex of a scene with textures writes one: what is more, a kind keeps aside (BsdfNeeds::Kept).
+// Stored at every vertex of a scene with textures: larger inputs are kept apart (BsdfNeeds::Kept).
 static_assert(sizeof(BsdfKind) <= 64, "a BSDF became larger: keep its inputs aside (bsdf_needs.h)");
 
-/// How one side of a surface scatters, at one point: a closed set, no virtual call, no allocation.
+/// BSDF of one side of a surface at one point: a closed set, no virtual call, no allocation.
 struct Bsdf {
     BsdfKind kind;
 
-    /// Calls f with the alternative that is held: a switch, where std::visit would call through a table.
+    /// Calls f with the held alternative, by a switch; std::visit would call through a table.
     template <class F>
     auto visit(F&& f) const {
         return switch_visit(kind, [&](const auto& bsdf) { return f(bsdf); });
     }
 
-    /// f |cos(wi)| and density for wo.z > 0, delta lobes left out.
+    /// f |cos(wi)| and density for wo.z > 0, without delta lobes.
     BsdfValue value(const Vec3& wo, const Vec3& wi) const {
         return visit([&](const auto& bsdf) { return bsdf.value(wo, wi); });
     }
-    /// Draws wi for wo.z > 0.
+    /// Samples wi for wo.z > 0.
     BsdfSample sample(const Vec3& wo, const BsdfRandom& random) const {
         return visit([&](const auto& bsdf) { return bsdf.sample(wo, random); });
     }
 
-    /// Smooth glass has two ways out: that one which is not on the side of `taken`. The density is 0 where there is
+    /// The other way out of smooth glass, on the opposite side of `taken`; density 0 for other BSDFs, or if there is
     /// none.
     BsdfSample other_way(const Vec3& wo, const Vec3& taken) const {
         if (!visit([](const auto& bsdf) { return has_two_ways<std::decay_t<decltype(bsdf)>>(); })) return {};
@@ -91,11 +91,11 @@ struct Bsdf {
     }
 };
 
-/// The lobes of a BSDF.
+/// Lobes of a BSDF.
 LobeBits lobes_of(const Bsdf& bsdf);
 
-/// Index of refraction of the far side over that of wo's side, 1 where nothing refracts: what roulette undoes of the
-/// scaling of radiance. Of a blend, the first that refracts.
+/// Relative index of refraction of the far side, 1 without refraction; roulette undoes the scaling of radiance by it.
+/// For a blend, that of the first part that refracts.
 float refraction_of(const Bsdf& bsdf);
 
 inline BsdfValue BlendBsdf::value(const Vec3& wo, const Vec3& wi) const {
@@ -106,7 +106,7 @@ inline BsdfValue BlendBsdf::value(const Vec3& wo, const Vec3& wi) const {
 inline BsdfSample BlendBsdf::sample(const Vec3& wo, const BsdfRandom& random) const {
     const bool takes_second = !(random.lobe < 1.0f - weight);
     const float probability = takes_second ? weight : 1.0f - weight;
-    // What is left of the number chooses among the lobes of the part; rounding may bring it to 1.
+    // The rest of the number chooses among the part's lobes; rounding may bring it to 1.
     const float rest =
         std::min((takes_second ? random.lobe - (1.0f - weight) : random.lobe) / probability, 0x1.fffffep-1f);
     BsdfSample s = (takes_second ? second : first)->sample(wo, {rest, random.point});

@@ -12,7 +12,7 @@
 namespace treefarm {
 namespace {
 
-/// Where BSDFs of constant materials are kept.
+/// Storage of the BSDFs of constant materials.
 struct ConstantNodes {
     std::deque<Bsdf>& bsdfs;
     std::deque<KeptInputs>& kept;
@@ -22,12 +22,12 @@ struct ConstantNodes {
     RoughTransmittance& add_coat() { throw RunError("a constant material has a coat whose roughness varies"); }
 };
 
-/// A frame about n whose s follows `along`, which may be degenerate.
+/// A frame about n with s along `along`, which may be degenerate.
 OrientedBsdf oriented(const Bsdf* inner, const Vec3& n, const Vec3& along) {
     const Vec3 across = cross(n, along);
     const float length2 = dot(across, across);
     OrientedBsdf bsdf{inner, {}, {}, n, 0.0f};
-    if (length2 > 1e-12f * dot(along, along) && length2 > 1e-30f) {  // below, its root has lost digits
+    if (length2 > 1e-12f * dot(along, along) && length2 > 1e-30f) {  // below that the root has lost its digits
         bsdf.t = across * (1.0f / std::sqrt(length2));
         bsdf.s = cross(bsdf.t, n);
     } else {
@@ -38,12 +38,12 @@ OrientedBsdf oriented(const Bsdf* inner, const Vec3& n, const Vec3& along) {
     return bsdf;
 }
 
-/// The point as seen in the frame of an oriented BSDF.
+/// A shading point transformed into the frame of an oriented BSDF.
 ShadingPoint seen_in(const OrientedBsdf& frame, const ShadingPoint& point) {
     return {point, frame.to_inner(point.dp_du), frame.to_inner(point.dp_dv), frame.to_inner(point.wo), point.mirrored};
 }
 
-/// The texture of a material's first input: its main colour, or what a blend is mixed by.
+/// Texture of a material's first input: its main colour, or a blend's weight.
 std::int32_t first_texture_of(const Material& material) {
     std::int32_t first = kNone;
     for_each_input(material, [&](const auto& input) {
@@ -56,7 +56,7 @@ float clamped(float x, float most) {
     return std::min(most, std::max(0.0f, x));
 }
 
-/// The most that a factor of a material may be.
+/// Upper bound of a material's factors.
 float largest_factor(const Material& material) {
     return material.keeps_factors() ? std::numeric_limits<float>::max() : 1.0f;
 }
@@ -81,14 +81,14 @@ void BsdfBuilder::find_facts(std::size_t index) {
     facts.transmits = traits.lobes.transmits();
     std::visit([&]<class Kind>(const Kind&) { facts.kept = std::is_void_v<typename BsdfNeeds<Kind>::Kept> ? 0 : 1; },
                material.bsdf);
-    // Its own node, and one for each frame of its own.
+    // One node for the material, and one for each frame that it adds.
     facts.nodes = 1 + (material.detail.any() ? 1 : 0) + (traits.anisotropic ? 1 : 0);
-    // Parts stand below what they are part of: theirs are known.
+    // Parts precede the materials that they belong to: their facts are known.
     for_each_part(material, [&](const std::int32_t& part) {
         const MaterialFacts& of_part = facts_[static_cast<std::size_t>(part)];
         facts.varies |= of_part.varies;
         facts.tangents |= of_part.tangents;
-        if (&part == &material.back) {  // in place of the front
+        if (&part == &material.back) {  // replaces the front
             facts.nodes = std::max(facts.nodes, of_part.nodes);
             facts.kept = std::max(facts.kept, of_part.kept);
             return;
@@ -139,7 +139,7 @@ const Bsdf* BsdfBuilder::side(std::int32_t index, bool back, const ShadingPoint&
     if (material.twosided)
         return material.back == kNone ? described(index, false, point, nodes)
                                       : side(material.back, false, point, nodes);
-    // Parts may be twosided where what they make up is not.
+    // Parts may be two-sided even if the whole is not.
     const bool of_parts = std::visit(
         [](const auto& kind) {
             return requires {
@@ -148,7 +148,7 @@ const Bsdf* BsdfBuilder::side(std::int32_t index, bool back, const ShadingPoint&
         },
         material.bsdf);
     if (of_parts) return described(index, true, point, nodes);
-    // What a scratch hands out still holds the BSDF of an earlier hit.
+    // A node from the scratch still holds the BSDF of an earlier hit.
     Bsdf& black = nodes.add();
     black = Bsdf{};
     return &black;
@@ -158,7 +158,7 @@ template <class Nodes>
 const Bsdf* BsdfBuilder::described(std::int32_t index, bool back, const ShadingPoint& point, Nodes& nodes) const {
     const Material& material = materials_[static_cast<std::size_t>(index)];
     Bsdf& outer = nodes.add();
-    // From the outside in: the tilted frame, the frame along its tangent, what scatters in it.
+    // From the outside in: the tilted frame, the frame along the tangent, the scattering BSDF.
     Bsdf* slot = &outer;
     ShadingPoint inside = point;
     const auto orient = [&](const Vec3& normal, bool shadowed) {
@@ -175,7 +175,7 @@ const Bsdf* BsdfBuilder::described(std::int32_t index, bool back, const ShadingP
     return &outer;
 }
 
-/// What make_bsdf() of a kind is told of a point of a surface.
+/// Context of a kind's make_bsdf(): a surface point's data and inputs.
 template <class Material, class Nodes>
 struct BsdfBuilder::Context {
     using Result = Bsdf;
@@ -185,7 +185,7 @@ struct BsdfBuilder::Context {
     const bool back;
     const ShadingPoint& point;
     Nodes& nodes;
-    const float largest;  ///< that a color may be
+    const float largest;  ///< upper bound of colours
 
     Rgb color(const ColorInput& input) const { return builder.color(input, point, largest); }
     Rgb amount(const ColorInput& input) const { return builder.color(input, point, std::numeric_limits<float>::max()); }
@@ -229,11 +229,11 @@ Microfacet BsdfBuilder::facets(const Roughness& roughness, const ShadingPoint& p
     return {roughness.distribution == Microfacets::ggx, alpha(roughness.alpha_u), alpha(roughness.alpha_v)};
 }
 
-/// The tilted normal in the shading frame, on the side of wo: where it would face away from wo the surface would be
-/// black, so it is turned about the surface's own normal, or bent towards wo until it faces there.
+/// Tilted normal in the shading frame, on the side of wo. A normal that faces away from wo would make the surface
+/// black, so it is turned about the surface's own normal, or bent towards wo until it faces wo.
 Vec3 BsdfBuilder::tilted_normal(const NormalDetail& detail, const ShadingPoint& point) const {
     const Vec3 up(0.0f, 0.0f, 1.0f);
-    // Both maps know the surface's own side; on its back the tilt is that of the same world normal.
+    // Both maps are relative to the surface's own side; its back gets the tilt of the same world normal.
     const float side = point.mirrored ? -1.0f : 1.0f;
     Vec3 n = up;
     if (detail.normal_map != kNone) {
@@ -246,7 +246,7 @@ Vec3 BsdfBuilder::tilted_normal(const NormalDetail& detail, const ShadingPoint& 
     if (detail.bump != kNone) {
         const Vec2 slope = textures_->gradient(detail.bump, point) * detail.bump_scale;
         const Vec3 outward = n * side;
-        // The displaced surface's tangents, as in Mitsuba 0.6: without the term in the change of the normal.
+        // Tangents of the displaced surface, as in Mitsuba 0.6: without the term of the normal's derivative.
         const Vec3 du = point.dp_du + outward * (slope.x - dot(outward, point.dp_du));
         const Vec3 dv = point.dp_dv + outward * (slope.y - dot(outward, point.dp_dv));
         Vec3 bumped = cross(du, dv);
@@ -255,7 +255,7 @@ Vec3 BsdfBuilder::tilted_normal(const NormalDetail& detail, const ShadingPoint& 
         if (length2 > 0.0f && std::isfinite(length2)) n = bumped * (1.0f / std::sqrt(length2));
     }
     if (detail.flip_invalid && !(dot(n, point.wo) > 0.0f)) n = {-n.x, -n.y, n.z};
-    // What was turned faces wo, unless wo grazes.
+    // The turned normal faces wo, unless wo is grazing.
     const float facing = dot(n, point.wo), least = std::min(detail.flip_invalid ? 1e-4f : 0.01f, 0.5f * point.wo.z);
     return facing < least ? normalize(n + point.wo * (least - facing)) : n;
 }

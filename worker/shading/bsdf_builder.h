@@ -16,14 +16,14 @@
 
 namespace treefarm {
 
-/// Where a surface was hit, in the frame that its BSDF is wanted in.
+/// A surface hit, in the frame in which its BSDF is evaluated.
 struct ShadingPoint : TexturePoint {
     Vec3 dp_du{1.0f, 0.0f, 0.0f}, dp_dv{0.0f, 1.0f, 0.0f};  ///< in the shading frame
     Vec3 wo{0.0f, 0.0f, 1.0f};                              ///< in the shading frame, wo.z > 0
     bool mirrored = false;                                  ///< the frame's normal is the reverse of the surface's
 };
 
-/// Room for what one BSDF keeps aside (BsdfNeeds::Kept), whatever its kind.
+/// Storage for the inputs that one BSDF keeps apart (BsdfNeeds::Kept), of any kind.
 struct KeptInputs {
     static constexpr std::size_t kAlignment = 8;
 
@@ -37,7 +37,7 @@ struct KeptInputs {
     }
 };
 
-/// Storage for the BSDFs of one hit: a thread keeps it; it never grows.
+/// Storage for the BSDFs of one hit, reused by a thread; it never grows.
 class BsdfScratch {
   public:
     explicit BsdfScratch(std::size_t nodes = 0, std::size_t kept = 0) : nodes_(nodes), coats_(nodes), kept_(kept) {}
@@ -54,51 +54,51 @@ class BsdfScratch {
     std::size_t used_ = 0, coats_used_ = 0, kept_used_ = 0;
 };
 
-/// Turns descriptions into BSDFs: once for those that are the same everywhere, at every hit for the others. What a kind
-/// of material becomes, make_bsdf() in its own header says: it is given a context that looks up its inputs
-/// (BsdfBuilder::Context) and returns what scatters there.
+/// Builder of BSDFs from material descriptions: once for constant materials, at every hit for the others. Each kind of
+/// material has a make_bsdf() in its own header, which receives a context that looks up its inputs
+/// (BsdfBuilder::Context) and returns the BSDF.
 class BsdfBuilder {
   public:
-    /// Takes what it needs of the scene's materials that shapes use. `textures` must outlive the builder. Throws
-    /// RunError for a material made of more than kMaxNodes parts.
+    /// Copies what it needs of the materials that shapes use. `textures` must outlive the builder. Throws RunError for
+    /// a material made of more than kMaxNodes parts.
     BsdfBuilder(const Scene& scene, const TextureSet& textures);
     BsdfBuilder(const BsdfBuilder&) = delete;
     BsdfBuilder& operator=(const BsdfBuilder&) = delete;
 
-    /// One side of a material that does not vary. The result lives as long as the builder.
+    /// BSDF of one side of a constant material. Lives as long as the builder.
     const Bsdf* constant(std::int32_t material, bool back);
 
-    /// One side of a material at a point; the result lives until the scratch is cleared, which must hold nodes() and
+    /// BSDF of one side of a material at a point; lives until the scratch is cleared. The scratch must hold nodes() and
     /// kept().
     const Bsdf* at(std::int32_t material, bool back, const ShadingPoint& point, BsdfScratch& scratch) const;
 
-    /// Whether it must be built at every hit: textures, tilted normals, tangents.
+    /// Whether the BSDF must be built at every hit, because of textures, tilted normals or tangents.
     bool varies(std::int32_t material) const { return facts_[static_cast<std::size_t>(material)].varies; }
     /// Whether at() needs more of the point than texture coordinates and wo.
     bool needs_tangents(std::int32_t material) const { return facts_[static_cast<std::size_t>(material)].tangents; }
-    /// The image that at() is likely to look up first: an index in TextureSet::textures(), or kNone.
+    /// Image that at() is likely to read first: an index in TextureSet::textures(), or kNone.
     std::int32_t first_texture(std::int32_t material) const {
         return facts_[static_cast<std::size_t>(material)].texture;
     }
-    /// Parts of it that keep something aside (BsdfNeeds::Kept).
+    /// Number of the material's parts that keep inputs apart (BsdfNeeds::Kept).
     std::size_t kept(std::int32_t material) const { return facts_[static_cast<std::size_t>(material)].kept; }
-    /// Nodes that at() needs for it.
+    /// Number of nodes that at() needs for the material.
     std::size_t nodes(std::int32_t material) const { return facts_[static_cast<std::size_t>(material)].nodes; }
 
     static constexpr std::size_t kMaxNodes = 256;
 
   private:
-    /// What is known of a material before any point of it.
+    /// Properties of a material that are equal at all points.
     struct MaterialFacts {
         bool varies = false;
-        bool anisotropic = false;  ///< itself, not what it is made of
-        bool tangents = false;     ///< it, or what it is made of, has a frame of its own
-        bool transmits = false;    ///< its back scatters by nature: glass, nothing, blends with them
+        bool anisotropic = false;  ///< itself, not its parts
+        bool tangents = false;     ///< it, or a part, has a frame of its own
+        bool transmits = false;    ///< its back scatters by nature: glass, null, blends with them
         std::size_t nodes = 0, kept = 0;
-        std::int32_t texture = kNone;                ///< that it most likely reads first
-        const RoughTransmittance* coat = nullptr;    ///< a rough coat of one roughness
-        const RoughTransmittances* coats = nullptr;  ///< a rough coat whose roughness varies
-        float smooth_escapes = 1;                    ///< smooth plastic: see coated_base
+        std::int32_t texture = kNone;                ///< texture that it most likely reads first
+        const RoughTransmittance* coat = nullptr;    ///< of a rough coat of constant roughness
+        const RoughTransmittances* coats = nullptr;  ///< of a rough coat of varying roughness
+        float smooth_escapes = 1;                    ///< of smooth plastic: see coated_base
     };
 
     void find_facts(std::size_t material);

@@ -8,18 +8,19 @@
 
 namespace treefarm {
 
-/// What a kind asks for that asks for nothing.
+/// Needs of a kind of material that needs nothing from its context.
 struct NoBsdfNeeds {
-    using Kept = void;                    ///< what Context::keep() keeps aside for as long as the BSDF lives
-    static constexpr bool kCoat = false;  ///< Context::coat() and smooth_escapes() of its roughness and eta
+    using Kept = void;  ///< inputs that Context::keep() stores for as long as the BSDF lives
+    /// whether it calls Context::coat() and smooth_escapes() for its roughness and eta
+    static constexpr bool kCoat = false;
 };
 
-/// What make_bsdf() of a kind of material asks its context for, beside the values of the material's inputs. A kind
-/// whose make_bsdf() asks for more than its specialisation says does not compile.
+/// Needs of a material kind's make_bsdf() from its context, beside the values of its inputs. A make_bsdf() that uses
+/// more than its specialisation states does not compile.
 template <class Material>
 struct BsdfNeeds : NoBsdfNeeds {};
 
-/// Bytes of the largest that a kind of a variant keeps; 1 if none keeps anything.
+/// Largest size in bytes of the inputs that a kind of a variant keeps; 1 if none does.
 template <class Kinds>
 constexpr std::size_t kMostKept = 1;
 template <class... Kinds>

@@ -12,19 +12,19 @@ struct ClearCoat {
     float alpha2 = 0.01f;     ///< square of the roughness, in [1e-6, 0.01]
     float minus_log2 = 4.6f;  ///< -ln(alpha2)
 
-    /// `gloss` from 0 (alpha 0.1) to 1 (0.001).
+    /// Coat of `gloss` from 0 (alpha 0.1) to 1 (0.001).
     static ClearCoat of(float gloss) {
         const float alpha = 0.1f + gloss * (0.001f - 0.1f);
         return {alpha * alpha, minus_log(alpha * alpha)};
     }
 
-    /// Per steradian, for a unit h. Sine and cosine apart: nothing cancels about the normal.
+    /// Density per steradian at a unit h. From sine and cosine separately: nothing cancels about the normal.
     float density(const Vec3& h) const {
         const float spread = h.x * h.x + h.y * h.y + alpha2 * h.z * h.z;
         return (1.0f - alpha2) * kInvPi / (minus_log2 * spread);
     }
 
-    /// Draws a facet's normal with density density(h) h.z.
+    /// Samples a facet's normal with density density(h) h.z.
     Vec3 sample(const Vec2& u) const {
         const float e = exp_negative((1.0f - u.y) * minus_log2);
         const float cosine = std::sqrt(std::max(0.0f, (1.0f - e) / (1.0f - alpha2)));

@@ -13,8 +13,8 @@ namespace treefarm {
 
 struct Bsdf;
 
-/// A BSDF as it looks through a flat dielectric layer on it: directions are refracted, light is absorbed on its way,
-/// and solid angles shrink. What the boundary lets through, the coats below say.
+/// A BSDF seen through a flat dielectric layer: directions are refracted, light is absorbed on its way, and solid
+/// angles shrink. The boundary's transmittance is left to the coats below.
 struct LayeredBsdf {
     float eta = 1.5f;  ///< of the layer over that of the outside
     Rgb absorption{0.0f};
@@ -23,18 +23,19 @@ struct LayeredBsdf {
     LobeBits lobes() const;
     float refraction() const;
 
-    /// f cos and density of the light that passes the boundary along both directions, per unit of what it lets pass.
+    /// f cos and density of the light that passes the boundary along both directions, for a boundary of transmittance
+    /// 1.
     inline BsdfValue value(const Vec3& wo, const Vec3& wi) const;
-    /// A direction of the inner BSDF, with wi as it leaves the coat. A smooth lobe's value and density are not those
-    /// outside: value() has them.
+    /// Sample of the inner BSDF, with wi refracted to the outside. A smooth lobe's value and density are those inside:
+    /// value() returns those outside.
     inline BsdfSample sample(const Vec3& wo, const BsdfRandom& random) const;
 
-    /// w refracted by an index of `ratio`, on the same side; z is 0 where it is reflected totally.
+    /// w refracted by a relative index of `ratio`, on the same side; z is 0 at total reflection.
     static Vec3 refracted(const Vec3& w, float ratio) {
         const float x = w.x / ratio, y = w.y / ratio, cos2 = 1.0f - (x * x + y * y);
         return {x, y, cos2 > 0.0f ? std::copysign(std::sqrt(cos2), w.z) : 0.0f};
     }
-    /// What is left between the two directions inside.
+    /// Transmittance of the layer along the two directions inside.
     Rgb absorbed(const Vec3& wo, const Vec3& wi) const {
         if (is_black(absorption)) return Rgb(1.0f);
         const float length = 1.0f / wo.z + 1.0f / std::abs(wi.z);
@@ -47,12 +48,12 @@ struct LayeredBsdf {
 struct CoatingBsdf {
     LayeredBsdf layer;
     Rgb specular{1.0f};
-    float specular_weight = 0.5f;  ///< steers sampling only
+    float specular_weight = 0.5f;  ///< affects sampling only
 
     LobeBits lobes() const { return static_cast<LobeBits>(layer.lobes() | kDeltaLobe); }
     float refraction() const { return layer.refraction(); }
 
-    /// Out of line, as those of dielectrics.
+    /// Value and density; out of line, as those of dielectrics.
     [[gnu::noinline]] BsdfValue value(const Vec3& wo, const Vec3& wi) const {
         const float reflected = reflectance(wo);
         BsdfValue v = layer.value(wo, wi);
@@ -82,12 +83,12 @@ struct CoatingBsdf {
     }
 };
 
-/// A rough coat over a BSDF. Directions are refracted as by a smooth one, and the boundary lets pass what its facets do
-/// on the average.
+/// A rough coat over a BSDF. Directions are refracted as by a smooth coat, and the boundary has the mean transmittance
+/// of its facets.
 struct RoughCoatingBsdf {
     LayeredBsdf layer;
     Rgb specular{1.0f};
-    float specular_weight = 0.5f;  ///< steers sampling only
+    float specular_weight = 0.5f;  ///< affects sampling only
     bool ggx = true;               ///< otherwise Beckmann's facets
     float alpha = 0.1f;
     const RoughTransmittance* passes = nullptr;
@@ -137,12 +138,12 @@ struct BsdfNeeds<CoatingMaterial> : NoBsdfNeeds {
     static constexpr bool kCoat = true;
 };
 
-/// The BSDF of such a material at one place of a surface (bsdf_builder.h).
+/// BSDF of the material at one point of a surface (bsdf_builder.h).
 template <class Context>
 typename Context::Result make_bsdf(const CoatingMaterial& m, const Context& at) {
     const Rgb absorption = at.amount(m.absorption), specular = at.color(m.specular_reflectance);
     const LayeredBsdf layer{m.eta, absorption, at.part(m.coated)};
-    // What comes back from beneath has gone through the coat twice.
+    // Light from beneath has passed the coat twice.
     const float back = average(
         {exp_negative(2.0f * absorption.x), exp_negative(2.0f * absorption.y), exp_negative(2.0f * absorption.z)});
     const float weight = 1.0f / (1.0f + back);

@@ -6,7 +6,7 @@
 
 namespace treefarm {
 
-/// A smooth metal.
+/// BSDF of a smooth metal.
 struct ConductorBsdf {
     static constexpr LobeBits kLobes = kDeltaLobe;
 

@@ -6,15 +6,15 @@
 
 namespace treefarm {
 
-/// How often smooth glass is sampled by what it mirrors, where it lets the rest through: in proportion to what comes of
-/// each, so that of a way that is black no path is lost.
+/// Probability of sampling the reflection of smooth glass: in proportion to the light of each way, so that no path is
+/// lost on a way that is black.
 inline float mirror_probability(float mirrored, const Rgb& reflectance, const Rgb& transmittance) {
     const float one = mirrored * average(reflectance), other = (1.0f - mirrored) * average(transmittance);
     return one + other > 0.0f ? one / (one + other) : mirrored;
 }
 
-/// A smooth boundary between transparent media. Radiance that comes from the far side is scaled by 1/eta^2: rays
-/// spread where they leave the denser medium (the convention of Mitsuba 0.6 for radiance).
+/// BSDF of a smooth boundary between transparent media. Radiance from the far side is scaled by 1/eta^2: rays spread
+/// when they leave the denser medium (the convention of Mitsuba 0.6 for radiance).
 struct DielectricBsdf {
     static constexpr LobeBits kLobes = kDeltaLobe | kTransmittingLobe;
 
@@ -25,8 +25,8 @@ struct DielectricBsdf {
 
     BsdfValue value(const Vec3&, const Vec3&) const { return {}; }
 
-    /// Out of line, as those of the other dielectrics: what the compiler makes of opaque surfaces does not depend on
-    /// it.
+    /// Sample of a direction; out of line, as in the other dielectrics, so that the code for opaque surfaces does not
+    /// depend on it.
     [[gnu::noinline]] BsdfSample sample(const Vec3& wo, const BsdfRandom& random) const {
         const DielectricFresnel f = fresnel_dielectric(wo.z, eta);
         const float mirror = mirror_probability(f.reflectance, reflectance, transmittance);

@@ -25,7 +25,7 @@ struct DiffuseBsdf {
     }
 };
 
-/// The BSDF of such a material at one place of a surface (bsdf_builder.h).
+/// BSDF of the material at one point of a surface (bsdf_builder.h).
 template <class Context>
 typename Context::Result make_bsdf(const DiffuseMaterial& m, const Context& at) {
     const Rgb albedo = at.color(m.reflectance);

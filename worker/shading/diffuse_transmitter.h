@@ -6,7 +6,7 @@
 
 namespace treefarm {
 
-/// Lambertian transmission: the other side shines evenly.
+/// Lambertian transmission, uniform over the other side.
 struct DiffuseTransmitterBsdf {
     static constexpr LobeBits kLobes = kSmoothLobe | kViewLobe | kTransmittingLobe;
 
@@ -23,11 +23,11 @@ struct DiffuseTransmitterBsdf {
     }
 
   private:
-    /// What reflects to one side as much as this lets through to the other.
+    /// Lambertian reflection with the transmittance as its albedo.
     DiffuseBsdf turned() const { return {transmittance}; }
 };
 
-/// The BSDF of such a material at one place of a surface (bsdf_builder.h).
+/// BSDF of the material at one point of a surface (bsdf_builder.h).
 template <class Context>
 typename Context::Result make_bsdf(const DiffuseTransmitterMaterial& m, const Context& at) {
     const Rgb transmittance = at.color(m.transmittance);

@@ -6,9 +6,9 @@
 
 namespace treefarm {
 
-/// What a smooth boundary between two transparent media does with unpolarised light.
+/// Fresnel reflection at a smooth boundary between two transparent media, for unpolarised light.
 struct DielectricFresnel {
-    float reflectance = 1;      ///< share of the power, in [0, 1]; 1: total internal reflection
+    float reflectance = 1;      ///< fraction of the power, in [0, 1]; 1: total internal reflection
     float cos_transmitted = 0;  ///< of the refracted ray with the normal of its side, >= 0
 };
 
@@ -23,8 +23,8 @@ struct DielectricFresnel {
     return {std::min(1.0f, 0.5f * (s * s + p * p)), cos_t};
 }
 
-/// Reflectance of one channel of a metal with complex index eta + i k relative to the outside, `cos_i` in [0, 1]
-/// (the exact equations, as in Mitsuba 0.6). Inlined by order: the compiler's own choice hangs on unrelated code.
+/// Reflectance of one channel of a metal with complex index eta + i k relative to the outside, `cos_i` in [0, 1] (the
+/// exact equations, as in Mitsuba 0.6). always_inline, since the compiler's own choice depends on unrelated code.
 [[gnu::always_inline]] inline float fresnel_conductor(float cos_i, float eta, float k) {
     const float cos2 = cos_i * cos_i, sin2 = (1.0f - cos_i) * (1.0f + cos_i);
     const float re = eta * eta - k * k - sin2;
@@ -48,7 +48,7 @@ inline Rgb fresnel_conductor(float cos_i, const Rgb& eta, const Rgb& k) {
             fresnel_conductor(cos_i, eta.z, k.z)};
 }
 
-/// The direction refracted at a normal `m` on the side of `wo` (unit, cos_o = wo . m > 0).
+/// Direction refracted at a normal `m` on the side of `wo` (unit, cos_o = wo . m > 0).
 inline Vec3 refract(const Vec3& wo, const Vec3& m, float cos_o, float cos_transmitted, float eta) {
     const float inverse = 1.0f / eta;
     return m * (cos_o * inverse - cos_transmitted) - wo * inverse;

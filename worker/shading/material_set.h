@@ -5,14 +5,14 @@
 
 namespace treefarm {
 
-/// The materials of a scene's shapes, ready for the path walk. What is the same everywhere is prepared once; the rest
-/// is a case of its own, looked up at the hit. Immutable: any number of threads may ask.
+/// Materials of a scene's shapes, prepared for the path walk. Constant materials are built once; the others are looked
+/// up at the hit. Immutable and thread-safe.
 class MaterialSet {
   public:
     /// One side of a shape's surface.
     struct Side {
         const Bsdf* bsdf = nullptr;     ///< nullptr: see `material`
-        std::int32_t material = kNone;  ///< varies over the surface: look_up() at every hit; kNone: black
+        std::int32_t material = kNone;  ///< a varying material, for look_up() at every hit; kNone: black
         LobeBits lobes = 0;             ///< of `bsdf`
     };
 
@@ -25,13 +25,13 @@ class MaterialSet {
     bool needs_tangents(std::int32_t material) const { return builder_.needs_tangents(material); }
     /// Whether any material varies.
     bool varies() const { return scratch_nodes_ != 0; }
-    /// The texture that look_up() is likely to read first; kNone: none.
+    /// Texture that look_up() is likely to read first; kNone: none.
     std::int32_t first_texture(std::int32_t material) const { return builder_.first_texture(material); }
-    /// The BSDF of a material that varies, at a point.
+    /// BSDF of a varying material at a point.
     const Bsdf* look_up(std::int32_t material, bool back, const ShadingPoint& point, BsdfScratch& scratch) const {
         return builder_.at(material, back, point, scratch);
     }
-    /// Scratch that is large enough for every material of the scene.
+    /// Scratch large enough for every material of the scene.
     BsdfScratch make_scratch() const { return BsdfScratch(scratch_nodes_, scratch_kept_); }
 
   private:

@@ -10,8 +10,8 @@ namespace {
 
 constexpr float kSqrtPi = 1.77245385090551602730f;
 
-/// Integral of (cos - x sin) exp(-x^2) over slopes x from minus infinity to `x`, and exp(-x^2): the visible slopes of
-/// Beckmann's distribution at alpha = 1, up to a factor. cos, sin >= 0.
+/// Integral of (cos - x sin) exp(-x^2) over slopes from minus infinity to `x`, and exp(-x^2): Beckmann's visible slopes
+/// at alpha = 1, up to a factor. cos, sin >= 0.
 struct VisibleSlopes {
     float integral, gaussian;
 };
@@ -23,10 +23,10 @@ VisibleSlopes visible_slopes(float cos, float sin, float x) {
     return {cos * normal + 0.5f * sin * gaussian, gaussian};
 }
 
-/// Beyond this slope, facets are rarer than uniform numbers can tell.
+/// Slope above which facets are rarer than the resolution of uniform numbers.
 constexpr float kLargestSlope = 4.5f;
 
-/// The slope below which the share `u` of the visible slopes lies: Newton's steps, kept in a shrinking bracket.
+/// Quantile `u` of the visible slopes: Newton's method, within a shrinking bracket.
 float sample_slope(float cos, float sin, float u) {
     float low = -kLargestSlope, high = cos < sin * kLargestSlope ? cos / sin : kLargestSlope;
     const float target = std::max(u, 0x1p-25f) * visible_slopes(cos, sin, high).integral;
@@ -47,7 +47,7 @@ float sample_slope(float cos, float sin, float u) {
 }
 
 Vec3 beckmann_visible(const Vec3& stretched, const Vec2& u) {
-    // The slope in the plane of incidence, and the independent one across it.
+    // Slope in the plane of incidence, and the independent one across it.
     const float sin = std::sqrt(stretched.x * stretched.x + stretched.y * stretched.y);
     const float along = sample_slope(stretched.z, sin, u.x);
     const float across = sample_slope(1.0f, 0.0f, u.y);

@@ -6,7 +6,7 @@
 
 namespace treefarm {
 
-/// Nothing is there, or a boundary without contrast, which can have a colour.
+/// BSDF of a null boundary, which light passes straight on, with a colour.
 struct NullBsdf {
     static constexpr LobeBits kLobes = kDeltaLobe;
 
@@ -16,7 +16,7 @@ struct NullBsdf {
     BsdfSample sample(const Vec3& wo, const BsdfRandom&) const { return {-wo, 1.0f, transmittance, true}; }
 };
 
-/// The BSDF of such a material at one place of a surface (bsdf_builder.h).
+/// BSDF of the material at one point of a surface (bsdf_builder.h).
 template <class Context>
 typename Context::Result make_bsdf(const NullMaterial&, const Context&) {
     return {NullBsdf{}};

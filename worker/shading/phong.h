@@ -10,17 +10,18 @@
 
 namespace treefarm {
 
-/// Modified Phong (Lafortune and Willems 1994): a diffuse base, and a power of the cosine with the mirrored direction.
+/// Modified Phong BSDF (Lafortune and Willems 1994): a diffuse base, and a power of the cosine with the mirrored
+/// direction.
 struct PhongBsdf {
     static constexpr LobeBits kLobes = kSmoothLobe | kWideLobe | kViewLobe;
 
     Rgb diffuse{0.0f}, specular{0.0f};
     float exponent = 30;
-    float specular_probability = 0.5f;  ///< of drawing from the lobe; steers sampling only
+    float specular_probability = 0.5f;  ///< of sampling the lobe; affects sampling only
 
     BsdfValue value(const Vec3& wo, const Vec3& wi) const {
         if (!(wi.z > 0.0f)) return {};
-        // 1 - cos without cancellation: lobes may be narrower than what a cosine near 1 tells.
+        // 1 - cos without cancellation: a lobe may be narrower than the resolution of a cosine near 1.
         const Vec3 apart = wi - mirrored(wo);
         const float fallen = 0.5f * dot(apart, apart);
         const float lobe = fallen < 1.0f - 0x1p-24f ? exp_negative(exponent * minus_log_one_minus(fallen)) : 0.0f;
@@ -47,7 +48,7 @@ struct PhongBsdf {
     static Vec3 mirrored(const Vec3& wo) { return {-wo.x, -wo.y, wo.z}; }
 };
 
-/// The BSDF of such a material at one place of a surface (bsdf_builder.h).
+/// BSDF of the material at one point of a surface (bsdf_builder.h).
 template <class Context>
 typename Context::Result make_bsdf(const PhongMaterial& m, const Context& at) {
     const Rgb diffuse = at.color(m.diffuse_reflectance), specular = at.color(m.specular_reflectance);

@@ -6,13 +6,13 @@
 
 namespace treefarm {
 
-/// The BSDF of scenes in which every surface is black or diffuse with a constant reflectance: the cheap kernel's. wo
+/// BSDF of scenes in which every surface is black or diffuse with constant reflectance; used by the cheapest kernel. wo
 /// may be on either side.
 struct PlainDiffuse {
     Rgb reflectance{0.0f};
     bool twosided = false;
 
-    /// False where nothing is reflected for light leaving along wo, whatever wi: nothing need be sampled.
+    /// Whether any light that leaves along wo may be reflected; false: nothing needs to be sampled.
     bool reflects(const Vec3& wo) const { return !is_black(reflectance) && (wo.z > 0.0f || (twosided && wo.z < 0.0f)); }
 
     BsdfValue value(const Vec3& wo, const Vec3& wi) const {

@@ -6,7 +6,7 @@
 
 namespace treefarm {
 
-/// A diffuse base under a smooth dielectric coat.
+/// BSDF of a diffuse base under a smooth dielectric coat.
 struct PlasticBsdf {
     static constexpr LobeBits kLobes = kSmoothLobe | kWideLobe | kDeltaLobe;
 

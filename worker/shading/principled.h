@@ -9,7 +9,7 @@
 
 namespace treefarm {
 
-/// What a principled BSDF is made of at one place.
+/// Inputs of a principled BSDF at one point.
 struct PrincipledInputs {
     Rgb base{0.5f};
     float roughness = 0.5f;
@@ -18,16 +18,16 @@ struct PrincipledInputs {
     Microfacet facets;
     ClearCoat coat;
 
-    /// Weights of the diffuse and of the refracting part.
+    /// Weights of the diffuse and the refracting part.
     float diffuse() const { return (1.0f - metallic) * (1.0f - spec_trans); }
     float refracting() const { return (1.0f - metallic) * spec_trans; }
-    /// The base color at luminance 1.
+    /// Base color scaled to luminance 1.
     Rgb tint() const {
         const float light = luminance(base);
         return light > 0.0f ? base / light : Rgb(1.0f);
     }
 
-    /// f of the base and of sheen, each with a weight; cos_h is that of both directions with their half vector.
+    /// f of the base and of sheen, each with a weight; cos_h: cosine of both directions with their half vector.
     Rgb base_value(const Vec3& wo, const Vec3& wi, float cos_h, float base_weight, float sheen_weight) const {
         const float towards = schlick_weight(wi.z), away = schlick_weight(wo.z);
         const float retro = 2.0f * roughness * cos_h * cos_h;
@@ -47,13 +47,13 @@ struct PrincipledInputs {
         return f;
     }
 
-    /// Reflectance of a dielectric that is tinted with the base color, by Schlick's approximation.
+    /// Reflectance of a dielectric tinted with the base color, by Schlick's approximation.
     Rgb tinted_reflectance(float cos_o, const DielectricFresnel& exact) const {
         const float at_normal = (eta - 1.0f) / (eta + 1.0f);
         return schlick(tint() * (at_normal * at_normal), cos_o, exact);
     }
 
-    /// Schlick's approximation, by the angle on the thinner side.
+    /// Schlick's approximation, by the angle on the side of the lower index.
     Rgb schlick(const Rgb& at_normal, float cos_o, const DielectricFresnel& exact) const {
         const float weight = schlick_weight(eta > 1.0f ? cos_o : exact.cos_transmitted);
         return at_normal * (1.0f - weight) + Rgb(weight);
@@ -64,7 +64,7 @@ struct PrincipledInputs {
         return m * m * m * m * m;
     }
 
-    /// Burley's: a square, stretched by anisotropy.
+    /// Burley's facets: alpha is the squared roughness, stretched by anisotropy.
     static Microfacet facets_of(float roughness, float anisotropic) {
         const float aspect = std::sqrt(1.0f - 0.9f * anisotropic), alpha = roughness * roughness;
         constexpr float kLeast = 0.001f;
@@ -72,8 +72,8 @@ struct PrincipledInputs {
     }
 };
 
-/// Mitsuba 3's principled BSDF, seen from outside or, `inside`, from within: there it reflects and refracts only. Lobes
-/// are drawn by the same probabilities as there.
+/// Mitsuba 3's principled BSDF; `inside`: seen from within, where it only reflects and refracts. Lobe probabilities are
+/// Mitsuba's.
 struct PrincipledBsdf {
     const PrincipledInputs* in = nullptr;  ///< lives as long as the materials, or as the hit
     bool inside = false;
@@ -84,7 +84,7 @@ struct PrincipledBsdf {
     }
     float refraction() const { return in->spec_trans > 0.0f ? in->eta : 1.0f; }
 
-    /// Out of line, as those of dielectrics.
+    /// Value and density; out of line, as those of dielectrics.
     [[gnu::noinline]] BsdfValue value(const Vec3& wo, const Vec3& wi) const {
         if (wi.z > 0.0f) return reflected_value(wo, wi);
         if (!(wi.z < 0.0f) || !(in->spec_trans > 0.0f)) return {};
@@ -128,7 +128,7 @@ struct PrincipledBsdf {
         return {diffuse / all, coat / all, 1.0f / all};
     }
 
-    /// Share of the specular lobe's samples that are reflected, at a facet of this reflectance.
+    /// Probability of reflection among the specular lobe's samples, at a facet of this reflectance.
     float reflected_probability(float reflectance) const {
         return inside ? reflectance : 1.0f - in->refracting() * (1.0f - reflectance);
     }
@@ -171,7 +171,7 @@ struct BsdfNeeds<PrincipledMaterial> : NoBsdfNeeds {
     using Kept = PrincipledInputs;
 };
 
-/// The BSDF of such a material at one place of a surface (bsdf_builder.h).
+/// BSDF of the material at one point of a surface (bsdf_builder.h).
 template <class Context>
 typename Context::Result make_bsdf(const PrincipledMaterial& m, const Context& at) {
     PrincipledInputs in;

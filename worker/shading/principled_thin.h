@@ -6,12 +6,12 @@
 
 namespace treefarm {
 
-/// Mitsuba 3's principled BSDF of a thin sheet. What its facets let pass is what they would reflect, turned to the
-/// other side. Lobes are drawn by the same probabilities as there.
+/// Mitsuba 3's principled BSDF of a thin sheet. Transmission by its facets is their reflection, mirrored to the other
+/// side. Lobe probabilities are Mitsuba's.
 struct PrincipledThinBsdf {
     const PrincipledInputs* in = nullptr;  ///< lives as long as the materials, or as the hit
-    float diff_trans = 0;                  ///< share of the diffuse light that passes, in [0, 1]
-    Microfacet through;                    ///< facets of what passes
+    float diff_trans = 0;                  ///< fraction of the diffuse light that passes, in [0, 1]
+    Microfacet through;                    ///< facets of transmission
 
     LobeBits lobes() const {
         const int bits = kWideLobe | kSmoothLobe | kViewLobe;
@@ -19,7 +19,7 @@ struct PrincipledThinBsdf {
     }
     float refraction() const { return 1.0f; }
 
-    /// Out of line, as those of dielectrics.
+    /// Value and density; out of line, as those of dielectrics.
     [[gnu::noinline]] BsdfValue value(const Vec3& wo, const Vec3& wi) const {
         if (wi.z > 0.0f) return reflected_value(wo, wi);
         return wi.z < 0.0f && transmits() ? transmitted_value(wo, wi) : BsdfValue{};
@@ -61,8 +61,8 @@ struct PrincipledThinBsdf {
         return result;
     }
 
-    /// Mitsuba drops what passes in a direction that a facet of normal h sees on its front; `turned` is its mirror
-    /// image.
+    /// Whether a facet of normal h sees the transmitted direction from behind; `turned`: that direction's mirror image.
+    /// Mitsuba drops the directions that h sees on its front.
     static bool seen_from_behind(const Vec3& turned, const Vec3& h) {
         return turned.x * h.x + turned.y * h.y < turned.z * h.z;
     }
@@ -85,7 +85,7 @@ struct BsdfNeeds<PrincipledThinMaterial> : NoBsdfNeeds {
     using Kept = PrincipledInputs;
 };
 
-/// The BSDF of such a material at one place of a surface (bsdf_builder.h).
+/// BSDF of the material at one point of a surface (bsdf_builder.h).
 template <class Context>
 typename Context::Result make_bsdf(const PrincipledThinMaterial& m, const Context& at) {
     PrincipledInputs in;

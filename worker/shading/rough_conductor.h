@@ -8,7 +8,7 @@
 
 namespace treefarm {
 
-/// A rough metal (thesis 2.8 to 2.12; Walter et al. 2007): f = F D G1(wo) G1(wi) / (4 cos cos).
+/// BSDF of a rough metal (thesis 2.8 to 2.12; Walter et al. 2007): f = F D G1(wo) G1(wi) / (4 cos cos).
 struct RoughConductorBsdf {
     static constexpr LobeBits kLobes = kSmoothLobe | kViewLobe;
 
@@ -28,7 +28,7 @@ struct RoughConductorBsdf {
     }
 };
 
-/// The BSDF of such a material at one place of a surface (bsdf_builder.h).
+/// BSDF of the material at one point of a surface (bsdf_builder.h).
 template <class Context>
 typename Context::Result make_bsdf(const ConductorMaterial& m, const Context& at) {
     const Rgb reflectance = at.color(m.specular_reflectance);

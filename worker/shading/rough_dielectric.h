@@ -9,7 +9,7 @@
 
 namespace treefarm {
 
-/// A rough boundary between transparent media (Walter et al. 2007), radiance scaled as in dielectric.h.
+/// BSDF of a rough boundary between transparent media (Walter et al. 2007), radiance scaled as in dielectric.h.
 struct RoughDielectricBsdf {
     static constexpr LobeBits kLobes = kSmoothLobe | kTransmittingLobe | kViewLobe;
 
@@ -57,12 +57,13 @@ struct RoughDielectricBsdf {
     }
 };
 
-/// Nearer to 1, refraction bends by less than floats tell; the half vector of a refraction would be rounding error.
+/// Whether refraction is resolved. An index nearer to 1 bends rays by less than float's resolution, and the half vector
+/// would be rounding error.
 inline bool refracts(float eta) {
     return std::abs(eta - 1.0f) > 1e-4f;
 }
 
-/// The BSDF of such a material at one place of a surface (bsdf_builder.h).
+/// BSDF of the material at one point of a surface (bsdf_builder.h).
 template <class Context>
 typename Context::Result make_bsdf(const DielectricMaterial& m, const Context& at) {
     const Rgb reflectance = at.color(m.specular_reflectance), transmittance = at.color(m.specular_transmittance);

@@ -8,8 +8,8 @@
 
 namespace treefarm {
 
-/// Oren and Nayar 1994: facets that are diffuse mirrors of nothing, with shadows, masking and, unless `fast`, light
-/// that goes from facet to facet. Drawn like a diffuse surface.
+/// Oren-Nayar BSDF (1994): Lambertian facets with shadowing, masking and, unless `fast`, interreflection. Sampled like
+/// a diffuse surface.
 struct RoughDiffuseBsdf {
     static constexpr LobeBits kLobes = kSmoothLobe | kWideLobe;
 
@@ -42,7 +42,7 @@ struct RoughDiffuseBsdf {
     float short_form(const Vec3& wo, const Vec3& wi) const {
         const float sin_o = sine(wo), sin_i = sine(wi);
         const float a = 1.0f - 0.5f * sigma2 / (sigma2 + 0.33f), b = 0.45f * sigma2 / (sigma2 + 0.09f);
-        // sin alpha tan beta, of the larger and the smaller angle with the normal.
+        // sin alpha tan beta: alpha is the larger, beta the smaller angle with the normal.
         const float angles = sin_o * sin_i / std::max(wo.z, wi.z);
         return a + b * std::max(0.0f, cos_azimuth(wo, wi, sin_o, sin_i)) * angles;
     }
@@ -64,17 +64,17 @@ struct RoughDiffuseBsdf {
         const float tan_half = (sin_alpha + sin_beta) / (cos_alpha + cos_beta);
         const float once = c1 + cos_phi * c2 * sin_beta / cos_beta + (1.0f - std::abs(cos_phi)) * c3 * tan_half;
         const float twice = c4 * (1.0f - cos_phi * b * b);
-        // Equation 27's fit falls below 0 on very rough surfaces that are lit from across.
+        // Equation 27's fit falls below 0 on very rough surfaces lit at grazing angles.
         return reflectance * std::max(0.0f, once) + reflectance * reflectance * twice;
     }
 };
 
-/// The BSDF of such a material at one place of a surface (bsdf_builder.h).
+/// BSDF of the material at one point of a surface (bsdf_builder.h).
 template <class Context>
 typename Context::Result make_bsdf(const RoughDiffuseMaterial& m, const Context& at) {
     const Rgb albedo = at.color(m.reflectance);
     if (is_black(albedo)) return {};
-    // Slopes of facets to angles: a fit of Mitsuba's authors, good up to 0.5.
+    // From slopes to angles: a fit of Mitsuba's authors, valid up to 0.5.
     const float alpha = at.number(m.alpha);
     return {RoughDiffuseBsdf{albedo, 0.5f * alpha * alpha, m.fast}};
 }

@@ -11,7 +11,7 @@
 
 namespace treefarm {
 
-/// A diffuse base under a rough dielectric coat.
+/// BSDF of a diffuse base under a rough dielectric coat.
 struct RoughPlasticBsdf {
     static constexpr LobeBits kLobes = kSmoothLobe | kWideLobe | kViewLobe;
 
@@ -44,7 +44,7 @@ struct BsdfNeeds<PlasticMaterial> : NoBsdfNeeds {
     static constexpr bool kCoat = true;
 };
 
-/// The BSDF of such a material at one place of a surface (bsdf_builder.h).
+/// BSDF of the material at one point of a surface (bsdf_builder.h).
 template <class Context>
 typename Context::Result make_bsdf(const PlasticMaterial& m, const Context& at) {
     const Rgb diffuse = at.color(m.diffuse_reflectance), specular = at.color(m.specular_reflectance);

@@ -6,14 +6,14 @@
 
 namespace treefarm {
 
-/// Mirror reflection by facets of reflectance 1: what rough metals, glass and plastic share.
+/// Mirror reflection by facets of reflectance 1: the common part of rough metals, glass and plastic.
 struct RoughReflection {
     float f_cos;  ///< f cos(wi) without Fresnel's term, per steradian
     float pdf;    ///< of reflected(wo, visible normal), per steradian
     float cos_o;  ///< of wo (and wi) with the facet's normal, in [0, 1]
 };
 
-/// wo.z > 0 and wi.z > 0. G1(wo) / cos(wo) is 1 / projected_area(wo): no cosine is divided by.
+/// Requires wo.z > 0 and wi.z > 0. G1(wo) / cos(wo) is 1 / projected_area(wo): no division by a cosine.
 [[gnu::always_inline]] inline RoughReflection rough_reflection(const Microfacet& facets, const Vec3& wo,
                                                                const Vec3& wi) {
     const Vec3 h = wo + wi;

@@ -9,8 +9,8 @@
 namespace treefarm {
 namespace {
 
-/// A uniform number as a smooth function of another that is dense near both ends, where the normals are those of a
-/// distribution's tail, and its derivative.
+/// A uniform number mapped to one that is dense near both ends, where normals of the distribution's tail are, and the
+/// map's derivative.
 struct Graded {
     float value, weight;
 };
@@ -24,8 +24,8 @@ Vec3 at_cosine(float cos) {
     return {std::sqrt((1.0f - cos) * (1.0f + cos)), 0.0f, cos};
 }
 
-/// Mean over visible normals of what a facet transmits of light along `wo`, times the masking of where it goes. Good to
-/// about 1e-3.
+/// Mean over visible normals of a facet's transmittance along `wo`, times the masking of the transmitted direction.
+/// Accurate to about 1e-3.
 float transmitted(const Microfacet& facets, float eta, const Vec3& wo) {
     const int steps = facets.ggx ? 24 : 16;  // GGX has the longer tails, and costs less
     double sum = 0, weights = 0;
@@ -45,21 +45,21 @@ float transmitted(const Microfacet& facets, float eta, const Vec3& wo) {
     return static_cast<float>(sum / weights);
 }
 
-/// A facet's normal, and the share of the surface under facets like it.
+/// A facet's normal, and the fraction of the surface under such facets.
 struct Facet {
     Vec3 normal;
     float fraction;
 };
 
-/// Facets of half a turn, by midpoints in slope and azimuth: the other half mirrors them. Unlike visible normals they
-/// cost next to nothing, so there can be enough of them to resolve the edge of total reflection.
+/// Facets of half a turn, by midpoints in slope and azimuth; the other half is mirrored. They cost much less than
+/// visible normals, so that there can be enough of them to resolve the edge of total reflection.
 std::vector<Facet> representative_facets(const Microfacet& facets) {
     constexpr int kSlopes = 96, kAzimuths = 32;
     std::vector<Facet> result;
     float total = 0.0f;
     for (int i = 0; i < kSlopes; ++i) {
         const float u = (static_cast<float>(i) + 0.5f) / kSlopes;
-        // Slopes over alpha: GGX's at equal shares, Beckmann's, whose tail is short, at equal distances.
+        // Slopes over alpha: GGX's at equal probability, Beckmann's, whose tail is short, at equal distances.
         const float slope = facets.ggx ? std::sqrt(u / (1.0f - u)) : 4.0f * u;
         const float fraction = facets.ggx ? 1.0f : slope * exp_negative(slope * slope);
         for (int j = 0; j < kAzimuths; ++j) {
@@ -108,7 +108,7 @@ RoughTransmittance::RoughTransmittance(const Microfacet& facets, float eta) {
         diffuse +=
             weight / (3.0 * double(kIntervals)) * 4.0 * double(root) * double(root) * double(root) * double(values_[i]);
     }
-    // By reciprocity, what is let in times 1 / eta^2 is let out.
+    // By reciprocity the outward transmittance is the inward one times 1 / eta^2.
     escapes_all_ = static_cast<float>(diffuse) * (1.0f / (eta * eta));
     escapes_single_ = 1.0f - diffuse_reflected_once(facets, 1.0f / eta);
 }

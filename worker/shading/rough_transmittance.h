@@ -8,26 +8,26 @@
 
 namespace treefarm {
 
-/// Share of light that a rough dielectric boundary lets through, by the cosine of its incidence: what is transmitted by
-/// single scattering at the facets, as in Mitsuba 0.6's tables, but integrated when the scene is loaded, by a fixed
-/// quadrature over visible normals.
+/// Transmittance of a rough dielectric boundary, by the cosine of incidence: single scattering at the facets, as in
+/// Mitsuba 0.6's tables, but integrated at scene load by a fixed quadrature over visible normals.
 class RoughTransmittance {
   public:
     RoughTransmittance() = default;
     /// `eta`: index of refraction of the far side over that of the side from which light comes.
     RoughTransmittance(const Microfacet& facets, float eta);
 
-    /// Share at a cosine in [0, 1]. Inlined by order: the compiler's own choice hangs on how many ask.
+    /// Transmittance at a cosine in [0, 1]. always_inline, since the compiler's own choice depends on the number of
+    /// callers.
     [[gnu::always_inline]] float at(float cos) const {
         const float position = std::sqrt(cos) * kIntervals;
         const auto i = std::min(static_cast<std::size_t>(position), kIntervals - 1);
         return values_[i] + (values_[i + 1] - values_[i]) * (position - static_cast<float>(i));
     }
-    /// Share of diffuse light from the far side that does not come back: all that is not let through does, or what the
-    /// facets reflect once (PlasticMaterial::single_return).
+    /// Fraction of diffuse light from the far side that leaves for good; `single_return`: only the facets' single
+    /// reflection returns (PlasticMaterial::single_return), else all that is not transmitted.
     float escapes(bool single_return) const { return single_return ? escapes_single_ : escapes_all_; }
 
-    /// (1 - t) a + t b.
+    /// Interpolation (1 - t) a + t b.
     static RoughTransmittance between(const RoughTransmittance& a, const RoughTransmittance& b, float t);
 
   private:
@@ -41,7 +41,7 @@ class RoughTransmittance {
 class RoughTransmittances {
   public:
     RoughTransmittances(bool ggx, float eta);
-    /// Bounded to the tabulated roughness, up to 1.
+    /// Transmittance at `alpha`, clamped to the tabulated range, up to 1.
     RoughTransmittance at(float alpha) const;
 
   private:
@@ -50,7 +50,7 @@ class RoughTransmittances {
     std::vector<RoughTransmittance> tables_;  ///< at alpha (i / kIntervals)^2
 };
 
-/// Share of diffuse light that passes a smooth boundary, from the side where the index is 1 into eta.
+/// Fraction of diffuse light that passes a smooth boundary, from the side of index 1 into eta.
 float smooth_diffuse_transmittance(float eta);
 
 }  // namespace treefarm

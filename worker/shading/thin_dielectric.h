@@ -7,11 +7,11 @@
 
 namespace treefarm {
 
-/// A thin pane: R + T R T + T R^3 T + ... is reflected, the rest goes straight on.
+/// BSDF of a thin pane: R + T R T + T R^3 T + ... is reflected, the rest passes straight on.
 struct ThinDielectricBsdf {
     static constexpr LobeBits kLobes = kDeltaLobe | kTransmittingLobe;
 
-    float eta = 1.5f;  ///< index of refraction of the pane over that around it
+    float eta = 1.5f;  ///< index of refraction of the pane over that of its surroundings
     Rgb reflectance{1.0f}, transmittance{1.0f};
 
     float refraction() const { return 1.0f; }
@@ -27,7 +27,7 @@ struct ThinDielectricBsdf {
     }
 };
 
-/// The BSDF of such a material at one place of a surface (bsdf_builder.h).
+/// BSDF of the material at one point of a surface (bsdf_builder.h).
 template <class Context>
 typename Context::Result make_bsdf(const ThinDielectricMaterial& m, const Context& at) {
     return {ThinDielectricBsdf{m.eta, at.color(m.specular_reflectance), at.color(m.specular_transmittance)}};

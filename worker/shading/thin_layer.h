@@ -11,10 +11,10 @@
 
 namespace treefarm {
 
-/// Single scattering in a layer, and what passes it straight on (Hanrahan and Krueger 1993, equations 8 and 9; both as
-/// Mitsuba 0.6's hk). Directions are drawn from the phase function.
+/// Single scattering in a layer, with the light that passes unscattered (Hanrahan and Krueger 1993, equations 8 and 9;
+/// both as Mitsuba 0.6's hk). Directions are sampled from the phase function.
 struct ThinLayerBsdf {
-    Rgb scattering{0.0f}, depth{0.0f};  ///< optical depths along the normal: of scattering, and in all
+    Rgb scattering{0.0f}, depth{0.0f};  ///< optical depths along the normal: of scattering, and of extinction
     HenyeyGreenstein phase;
     bool passes = true;
 
@@ -23,7 +23,7 @@ struct ThinLayerBsdf {
     }
     float refraction() const { return 1.0f; }
 
-    /// Out of line, as those of dielectrics.
+    /// Value and density; out of line, as those of dielectrics.
     [[gnu::noinline]] BsdfValue value(const Vec3& wo, const Vec3& wi) const {
         return value(wo, wi, 1.0f - average(straight_on(wo)));
     }
@@ -43,7 +43,7 @@ struct ThinLayerBsdf {
   private:
     /// With a, b = 1/|cos| of the two directions, g(x) = (1 - e^-x)/x, depths s and t: f = s p a b g(t (a + b)) on one
     /// side, s p a b e^(-t min(a, b)) g(t |a - b|) through the layer. Neither divides by a difference. `scattered`: the
-    /// probability of drawing from the phase function.
+    /// probability of sampling the phase function.
     BsdfValue value(const Vec3& wo, const Vec3& wi, float scattered) const {
         const bool reflects = wi.z > 0.0f;
         if (!reflects && !(passes && wi.z < 0.0f)) return {};
@@ -66,11 +66,11 @@ struct ThinLayerBsdf {
     }
 };
 
-/// The BSDF of such a material at one place of a surface (bsdf_builder.h).
+/// BSDF of the material at one point of a surface (bsdf_builder.h).
 template <class Context>
 typename Context::Result make_bsdf(const ThinLayerMaterial& m, const Context& at) {
     Rgb scattering = at.amount(m.scattering), depth = at.amount(m.absorption);
-    constexpr float kOpaque = 1e15f;  // deeper layers look alike, and products stay finite
+    constexpr float kOpaque = 1e15f;  // deeper layers look equal, and products stay finite
     for (int i = 0; i < 3; ++i) {
         const float scattered = std::min(scattering[i], 1e30f), whole = scattered + std::min(depth[i], 1e30f);
         const float shrunk = std::min(1.0f, kOpaque / whole);

@@ -9,14 +9,15 @@
 
 namespace treefarm {
 
-/// Ward 1992, in three normalisations, over a diffuse base. Half vectors are drawn from Ward's Gaussian of slopes.
+/// Ward's BSDF (1992), in three normalisations, over a diffuse base. Half vectors are sampled from Ward's Gaussian of
+/// slopes.
 struct WardBsdf {
     static constexpr LobeBits kLobes = kSmoothLobe | kWideLobe | kViewLobe;
 
     Rgb diffuse{0.0f}, specular{0.0f};
     float alpha_u = 0.1f, alpha_v = 0.1f;
     WardVariant variant = WardVariant::balanced;
-    float specular_probability = 0.5f;  ///< of drawing from the lobe; steers sampling only
+    float specular_probability = 0.5f;  ///< of sampling the lobe; affects sampling only
 
     BsdfValue value(const Vec3& wo, const Vec3& wi) const {
         if (!(wi.z > 0.0f)) return {};
@@ -44,8 +45,8 @@ struct WardBsdf {
     }
 
   private:
-    /// What the Gaussian is multiplied by, cos(wi) included. `h_z` and `stretch` are those of wo + wi. No square of a
-    /// small cosine is divided by.
+    /// Factor on the Gaussian, cos(wi) included. `h_z` and `stretch` are those of wo + wi. No division by the square of
+    /// a small cosine.
     float normalised(float cos_o, float cos_i, float h_z, float stretch) const {
         switch (variant) {
             case WardVariant::ward:
@@ -59,7 +60,7 @@ struct WardBsdf {
     }
 };
 
-/// The BSDF of such a material at one place of a surface (bsdf_builder.h).
+/// BSDF of the material at one point of a surface (bsdf_builder.h).
 template <class Context>
 typename Context::Result make_bsdf(const WardMaterial& m, const Context& at) {
     const Rgb diffuse = at.color(m.diffuse_reflectance), specular = at.color(m.specular_reflectance);

@@ -15,13 +15,13 @@ Vec2 transformed(const UvTransform& t, const Vec2& uv) {
     return {t.u_row.x * uv.x + t.u_row.y * uv.y + t.u_row.z, t.v_row.x * uv.x + t.v_row.y * uv.y + t.v_row.z};
 }
 
-/// Coordinates beyond this have no fraction left; NaN becomes 0.
+/// Coordinates clamped to where floats have fractions; NaN becomes 0.
 float bounded(float x) {
     constexpr float kLargest = 0x1p22f;
     return x > -kLargest && x < kLargest ? x : 0.0f;
 }
 
-/// Index of a texel after wrapping, or -1 for zero and -2 for one.
+/// Index of a texel after wrapping; -1 for Wrap::zero and -2 for Wrap::one outside.
 int wrapped(int i, int size, Wrap wrap) {
     if (i >= 0 && i < size) return i;
     switch (wrap) {
@@ -52,7 +52,7 @@ Rgb wrapped_texel(const TextureImage& image, const BitmapTexture& bitmap, int x,
 /// Position of texture coordinates, in texels from the upper left corner.
 Vec2 texel_position(const TextureImage& image, const BitmapTexture& bitmap, const Vec2& at) {
     const Vec2 uv = transformed(bitmap.uv, at);
-    // Whole units are taken off first where they make no difference, so that large coordinates keep their fraction.
+    // Whole periods are subtracted first if the texture repeats, so that large coordinates keep their fraction.
     const auto position = [](float x, int size, Wrap wrap) {
         x = bounded(x);
         if (wrap == Wrap::repeat) x -= std::floor(x);
@@ -82,7 +82,7 @@ bool in_upper_half(float x) {
     return x - std::floor(x) >= 0.5f;
 }
 
-/// What a texture without an image has at a place: an overload for each kind, or it does not compile.
+/// Value of a texture without an image: needs an overload for each kind, or it does not compile.
 Rgb procedural(const CheckerboardTexture& board, const TexturePoint& point) {
     const Vec2 at = transformed(board.uv, point.uv);
     return in_upper_half(at.x) == in_upper_half(at.y) ? board.color0 : board.color1;
@@ -94,7 +94,7 @@ Rgb procedural(const MeshAttributeTexture&, const TexturePoint&) {
     return Rgb(0.0f);  // interpolated before
 }
 
-/// The values of an attribute at the corners of a triangle; black without one, which check_mesh_attributes() rules out.
+/// Values of an attribute at the corners of a triangle; black without a mesh, which check_mesh_attributes() rules out.
 std::array<Rgb, 3> corner_values(const AttributeSlot& slot, const MeshPoint* at) {
     constexpr std::array<Rgb, 3> kNothing{Rgb(0.0f), Rgb(0.0f), Rgb(0.0f)};
     if (!at || !at->mesh || slot.place >= at->mesh->attributes.size()) return kNothing;
@@ -111,7 +111,7 @@ Rgb interpolated(const AttributeSlot& slot, const MeshPoint* at) {
     return a * (1.0f - at->b1 - at->b2) + b * at->b1 + c * at->b2;
 }
 
-/// How what is linear over a triangle changes with its texture coordinates; 0 where these do not span a plane.
+/// Derivative of a linear attribute by texture coordinates; 0 if these do not span a plane.
 Vec2 gradient_over(const AttributeSlot& slot, const MeshPoint* at) {
     const auto [a, b, c] = corner_values(slot, at);
     const double along1 = double(average(b)) - double(average(a)), along2 = double(average(c)) - double(average(a));
@@ -207,7 +207,7 @@ Vec2 TextureSet::gradient(std::int32_t texture, const TexturePoint& at) const {
     if (std::holds_alternative<MeshAttributeTexture>(kind))
         return gradient_over(slots_[static_cast<std::size_t>(texture)], at.on_mesh);
     const auto* bitmap = std::get_if<BitmapTexture>(&kind);
-    if (!bitmap) return Vec2(0.0f);  // a board has steps only
+    if (!bitmap) return Vec2(0.0f);  // a checkerboard has steps only
     const Vec2& uv = at.uv;
     const TextureImage& image = images_[static_cast<std::size_t>(bitmap->image)];
     // Half a texel, in the coordinates before the transform.

@@ -12,7 +12,7 @@ std::ostream& operator<<(std::ostream& out, const Vec3& v) {
     return out << '(' << v.x << ", " << v.y << ", " << v.z << ')';
 }
 
-/// Writes one line per event of a path.
+/// Writer of one line of text per event of a path.
 class TextEvents : public PathEvents {
   public:
     explicit TextEvents(const TraceScene& scene) : scene_(scene) {}
@@ -52,7 +52,7 @@ class TextEvents : public PathEvents {
         text_ << "the other way at depth 1: (delta) along " << ray.direction << " throughput " << throughput << '\n';
     }
     void split(std::uint32_t paths, const Rgb& throughput) override {
-        text_ << "  goes on as " << paths << ", throughput of each " << throughput << '\n';
+        text_ << "  splits into " << paths << ", throughput of each " << throughput << '\n';
     }
     void split_path(const SplitPath& path) override {
         text_ << "copy " << int{path.split_budget.number} << " from depth " << path.depth << " throughput "

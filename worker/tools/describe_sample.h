@@ -10,7 +10,7 @@
 
 namespace treefarm {
 
-/// A path as render_unit() traces it, vertex by vertex, as text. `sample` counts within the pass.
+/// Text description of a path as render_unit() traces it, vertex by vertex. `sample` counts within the pass.
 std::string describe_sample(const TraceScene& scene, const Resolved& job, const PassPlan& pass, const AnySampler& guide,
                             int x, int y, std::uint32_t sample);
 

@@ -7,15 +7,15 @@
 
 namespace treefarm {
 
-/// Maps of the tree at what each pixel's centre sees. NaN where nothing is seen, or a surface that no tree guides.
+/// Maps of the tree at the hit of each pixel's centre. NaN if nothing is hit, or the surface is not guided.
 struct FilmMaps {
-    RgbImage regions;     ///< a colour hashed from the number of the region; black where nothing is seen
+    RgbImage regions;     ///< a colour hashed from the region's number; black if nothing is hit
     Plane bsdf_fraction;  ///< a_BSDF
-    Plane view_fraction;  ///< a_T2, 0 where there is none
-    Plane cells;          ///< AnyModel::cells_by_region() there
+    Plane view_fraction;  ///< a_T2, 0 without a view
+    Plane cells;          ///< AnyModel::cells_by_region() of the region
 };
 
-/// A colour that tells numbers apart. Linear.
+/// Linear colour that distinguishes numbers.
 Rgb hashed_colour(std::uint32_t number);
 
 FilmMaps film_maps(const TraceScene& scene, const AnyModel& tree, const AnySampler& guide);

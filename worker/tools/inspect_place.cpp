@@ -12,18 +12,18 @@
 namespace treefarm {
 namespace {
 
-/// A number in the middle of all 32-bit numbers: what it draws lies in the middle, too.
+/// The middle of all 32-bit numbers, which chooses the middle of a lens or filter.
 constexpr std::uint32_t kMiddle = 0x80000000u;
 
-/// The BSDF of a place for one direction.
+/// BSDF value and density of a point for one direction.
 struct Scattering {
     Rgb f_cos{1.0f};     ///< per steradian; 1 for a bare point
     float bsdf_pdf = 0;  ///< per steradian
     bool reflects = true;
 };
 
-/// How a place scatters, one per thread. A bare point is taken for a diffuse surface, without normal for one that
-/// scatters evenly.
+/// Scattering at the inspected point, one object per thread. A bare point scatters as a diffuse surface if its normal
+/// is known, else isotropically.
 template <class Surface>
 class Scatterer {
   public:
@@ -34,7 +34,7 @@ class Scatterer {
 
     const Surface& surface() const { return *surface_; }
 
-    /// The place, as next event chooses an emitter for it.
+    /// Receiver of the point, as next event chooses an emitter for it.
     LightReceiver receiver(const LightProbabilities* learned) const {
         if (!surface_) return {place_.hit.p, learned, place_.normal ? &place_.hit.ns : nullptr};
         const Vec3 front = surface_->front();
@@ -60,7 +60,7 @@ class Scatterer {
     std::optional<Surface> surface_;
 };
 
-/// Emission that a ray from the place meets first, as next event and as scattering would see it.
+/// First emission along a ray from the point, with the densities of next event and of scattering.
 struct EmitterHit {
     Rgb emitted{0.0f};
     float light_pdf = 0;  ///< of next event
@@ -86,7 +86,7 @@ void add_surface_facts(const TraceScene& scene, const InspectedPlace& place, Pla
     if constexpr (Surface::kGeneral) facts.view_dependent = scatterer.surface().view_dependent();
 }
 
-/// What is known of a place without any guide.
+/// Properties of a point's surface without any guide.
 PlaceFacts surface_facts(const TraceScene& scene, const InspectedPlace& place) {
     PlaceFacts facts;
     if (place.surface && scene.plainly_diffuse()) add_surface_facts<DiffuseSurface>(scene, place, facts);
@@ -94,7 +94,7 @@ PlaceFacts surface_facts(const TraceScene& scene, const InspectedPlace& place) {
     return facts;
 }
 
-/// The surface of a place, as far as a guide asks for it.
+/// Surface at the point, in the form that a guide requires.
 struct SeenSurface {
     static constexpr bool kGeneral = true;
     bool depends;
@@ -114,8 +114,8 @@ typename G::Guidance guidance_at(const typename G::Sampler& guide, const Inspect
     return guidance;
 }
 
-/// The job of the paths that start at the place: their first edge is the second of a path from the camera, and what it
-/// meets shining is added apart.
+/// Job of the paths that start at the point: their first edge is the second of a camera path, and emission hit by it is
+/// added separately.
 Resolved unguided(const Resolved& job) {
     Resolved plain = job;
     plain.guiding.splitting = 1;

@@ -11,39 +11,39 @@
 
 namespace treefarm {
 
-/// A point where one looks at what the tree has learned: of a surface as a pixel sees it, or anywhere in the scene.
+/// Point at which the learned distribution is inspected: a surface point seen by a pixel, or any point of the scene.
 struct InspectedPlace {
-    Hit hit;        ///< of a bare point: `p`, and the normals if they are known
-    Vec3 outgoing;  ///< unit, to where light goes; of a surface alone
+    Hit hit;        ///< of a bare point: `p`, and the normals if known
+    Vec3 outgoing;  ///< unit, direction that light goes to; of a surface point only
     bool surface = false;
-    bool normal = false;  ///< whether the hit's normals mean something
+    bool normal = false;  ///< whether the hit's normals are valid
 };
 
-/// The guide at a place, in figures.
+/// Guidance at the inspected point.
 struct PlaceGuidance {
     static constexpr std::uint32_t kNoView = 0xffffffffu;
     std::uint32_t region = 0;
-    std::uint32_t view = kNoView;  ///< the distribution of the view there
+    std::uint32_t view = kNoView;  ///< distribution of the view at the point
     float bsdf_fraction = 1.0f;    ///< probability of sampling the BSDF
-    float view_fraction = 0.0f;    ///< probability of sampling the view; the rest goes to the region's distribution
+    float view_fraction = 0.0f;    ///< probability of sampling the view; the rest is that of the region's distribution
     bool has_view() const { return view != kNoView; }
 };
 
-/// What the tree uses at a place, and whether the material gives it anything to do.
+/// Data that the tree uses at the point, and which lobes the material has.
 struct PlaceFacts {
-    PlaceGuidance guidance;       ///< fractions as the walk uses them; of a bare point: of its region, without view
-    bool inside = true;           ///< the tree's cube
-    bool black = false;           ///< the surface reflects nothing to there
-    bool smooth = true;           ///< it has a lobe that a tree can learn about
-    bool view_dependent = false;  ///< it has one that T2 learns about, too
+    PlaceGuidance guidance;       ///< fractions as the walk uses them; of a bare point: of its region, without a view
+    bool inside = true;           ///< the point is within the tree's cube
+    bool black = false;           ///< the surface reflects nothing in the outgoing direction
+    bool smooth = true;           ///< it has a lobe with a density, which guides can learn
+    bool view_dependent = false;  ///< it has a lobe that depends on the outgoing direction, for T2
 };
 
-/// The place that the centre of a pixel sees (through the centre of a lens); nothing if it sees no surface.
+/// Surface point at the centre of a pixel, seen through the lens's centre; no value without a surface.
 std::optional<InspectedPlace> seen_point(const TraceScene& scene, int x, int y);
 
 PlaceFacts place_facts(const TraceScene& scene, const AnySampler& guide, const InspectedPlace& place);
 
-/// How the truth is found: by path tracing from the place, with next event, without guides.
+/// Settings of the reference measurement: path tracing from the point, with next event, without guides.
 struct BruteForce {
     int bits = 6;                ///< 2^bits by 2^bits squares of the direction square
     std::uint32_t samples = 64;  ///< per square
@@ -52,17 +52,17 @@ struct BruteForce {
 };
 
 /// Averages over the squares of the direction square, in row order from v = 0. Radiance is the mean of its channels, as
-/// the tree records it; directions in which the surface reflects nothing (or below the normal) are 0. What is `left` is
-/// what next event leaves to scattering: emission that is met directly counts by its MIS weight.
+/// the tree records it; 0 in directions that the surface does not reflect (or below the normal). `left`: the part that
+/// next event leaves to scattering, with emission that is hit weighted by MIS.
 struct PlaceTruth {
-    std::vector<float> radiance;        ///< incident: all of it
-    std::vector<float> left;            ///< of it; empty if next event took no part
+    std::vector<float> radiance;        ///< incident radiance
+    std::vector<float> left;            ///< part of it left to scattering; empty without next event
     std::vector<float> reflected;       ///< f |cos| times incident radiance; empty without a surface
-    std::vector<float> left_reflected;  ///< of it; empty if next event took no part
-    std::vector<float> sampled;         ///< density per steradian of the smooth part of what the walk samples here
+    std::vector<float> left_reflected;  ///< part of it left to scattering; empty without next event
+    std::vector<float> sampled;         ///< density per steradian of the smooth lobes' samples at the point
 };
 
-/// Traces what a place scatters and receives. Pure but for its time: the same numbers for any number of threads.
+/// Traces the point's incident and reflected light. Deterministic for any number of threads.
 PlaceTruth trace_place(const TraceScene& scene, const Resolved& job, const AnySampler& guide,
                        const InspectedPlace& place, const BruteForce& settings);
 

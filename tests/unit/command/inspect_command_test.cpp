@@ -159,12 +159,12 @@ TEST_F(InspectCommand, RefusesWhatIsMissingOrDoesNotMatch) {
     fs::copy_file(test::own_scene("white-furnace.xml"), scene);
     render(scene.string() + " -D size=16 --spp 15 --set guiding.type=ppg");
     for (const auto& [arguments, why] :
-         std::vector<std::pair<std::string, std::string>>{{"--pixel 16,0", "names no pixel"},
-                                                          {"--pixel 1", "names no pixel"},
-                                                          {"--pixel 1.5,2", "names no pixel"},
-                                                          {"--point 1,2", "names no point"},
-                                                          {"--point 1,2,x", "names no point"},
-                                                          {"--point 1,2,3000", "lies outside"},
+         std::vector<std::pair<std::string, std::string>>{{"--pixel 16,0", "is no pixel"},
+                                                          {"--pixel 1", "is no pixel"},
+                                                          {"--pixel 1.5,2", "is no pixel"},
+                                                          {"--point 1,2", "is no point"},
+                                                          {"--point 1,2,x", "is no point"},
+                                                          {"--point 1,2,3000", "is outside"},
                                                           {"--point 0,0,0:0,0,0", "a normal without direction"},
                                                           {"--size 33 --pixel 1,1", "no power of two"}})
         expect_refused(run_ + " " + arguments, why);

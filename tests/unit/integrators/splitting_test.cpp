@@ -216,7 +216,7 @@ TEST_F(SplittingInARoom, IsToldByDescribeSample) {
     const SdTreeSampler guide(tree_);
     for (std::uint32_t sample = 0; sample < pass_.spp; ++sample) {
         const std::string text = test::describe_sample(trace, job_, pass_, guide, 12, 8, sample);
-        if (text.find("goes on as") == std::string::npos) continue;
+        if (text.find("splits into") == std::string::npos) continue;
         EXPECT_NE(text.find("copy 1 from depth"), std::string::npos) << text;
         return;
     }

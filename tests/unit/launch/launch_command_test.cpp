@@ -23,8 +23,7 @@ class LoneTasks : public testing::Test {
     void expect_refused(const std::string& launcher, const std::string& number, const std::string& cure) const {
         const test::Ended first = render(launcher + " " + number + "=0");
         EXPECT_EQ(first.code, 2) << first.output;
-        EXPECT_NE(first.output.find("started 4 tasks that do not know of each other"), std::string::npos)
-            << first.output;
+        EXPECT_NE(first.output.find("started 4 unconnected tasks"), std::string::npos) << first.output;
         EXPECT_NE(first.output.find(cure), std::string::npos) << first.output;
         const test::Ended third = render(launcher + " " + number + "=2");
         EXPECT_EQ(third.code, 2);

@@ -21,8 +21,8 @@ TEST(Supervisor, PausesGrowAndDeathsAtOnePlaceEndItAndNameIt) {
     EXPECT_EQ(world.end->code, 1);
     EXPECT_TRUE(world.end->resumable);
     EXPECT_EQ(world.end->words,
-              "the render's processes are gone in pass 8 on node1; given up after 6 attempts in a row that brought "
-              "nothing, all of which ended there");
+              "the render's processes are gone in pass 8 on node1; given up after 6 attempts in a row without "
+              "progress, all of which ended there");
     const std::vector<double>& at = world.starts;
     EXPECT_LT(at[1] - at[0], at[3] - at[2]);
     EXPECT_GE(at[5] - at[4], 16);
@@ -37,8 +37,8 @@ TEST(Supervisor, DeathsAtSeveralPlacesNameTheLast) {
     world.step();
     ASSERT_TRUE(world.end);
     EXPECT_EQ(world.end->words,
-              "the render's processes are gone in pass 5 on node1; given up after 2 attempts in a row that brought "
-              "nothing");
+              "the render's processes are gone in pass 5 on node1; given up after 2 attempts in a row without "
+              "progress");
 }
 
 TEST(Supervisor, ProgressBeginsTheCountAnew) {

@@ -154,7 +154,7 @@ TEST_F(Checkpoints, WhereTheNewestIsDamagedTheOneBeforeIsTaken) {
     EXPECT_EQ(loaded.generation, 2u);
     EXPECT_EQ(loaded.state.spp(), 2u);
     ASSERT_EQ(loaded.warnings.size(), 1u);
-    EXPECT_NE(loaded.warnings[0].find("a.tfc is damaged in its part "), std::string::npos) << loaded.warnings[0];
+    EXPECT_NE(loaded.warnings[0].find("a.tfc is damaged in its section "), std::string::npos) << loaded.warnings[0];
     EXPECT_NE(loaded.warnings[0].find("going on from b.tfc: 2 spp"), std::string::npos) << loaded.warnings[0];
 
     CheckpointStore after(run_, &loaded);
@@ -260,7 +260,8 @@ TEST_F(Checkpoints, AStateThatNoRenderHasIsRefused) {
               std::string::npos);
     EXPECT_NE(fault_with([](RenderState& s) { s.history.guiding = Guiding(7); }).find("unknown verdict"),
               std::string::npos);
-    EXPECT_NE(fault_with([](RenderState& s) { s.reports[0].plan.spp = 0; }).find("no pass makes"), std::string::npos);
+    EXPECT_NE(fault_with([](RenderState& s) { s.reports[0].plan.spp = 0; }).find("impossible report of a pass"),
+              std::string::npos);
     EXPECT_NE(fault_with([](RenderState& s) {
                   s.aovs = AovSums(std::vector<AovRequest>{{Aov::depth, "depth"}}, kPixels);
               }).find("AOVs of another image"),

@@ -85,18 +85,18 @@ TEST(SectionFile, SaysWhatIsWrong) {
     EXPECT_EQ(fault_of(later), "has format 9, this program reads 1");
     EXPECT_NE(fault_of(Bytes(whole.begin(), whole.begin() + 500)).find("is cut off at 500 of "), std::string::npos);
     whole[100] ^= 1;
-    EXPECT_EQ(fault_of(whole), "is damaged in its part TWO2");
+    EXPECT_EQ(fault_of(whole), "is damaged in its section TWO2");
     try {
         decode_sections(encode_sections(two_sections())).at(section_tag("ELSE"));
         FAIL();
     } catch (const FormatError& error) {
-        EXPECT_STREQ(error.what(), "its part ELSE is missing");
+        EXPECT_STREQ(error.what(), "its section ELSE is missing");
     }
     try {
         decode_sections(encode_sections(two_sections())).at(kTwo);
         FAIL();
     } catch (const FormatError& error) {
-        EXPECT_STREQ(error.what(), "its part TWO2 has version 3, this program reads 1");
+        EXPECT_STREQ(error.what(), "its section TWO2 has version 3, this program reads 1");
     }
 }
 

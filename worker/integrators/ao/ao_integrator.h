@@ -5,8 +5,8 @@
 
 namespace treefarm {
 
-/// Ambient occlusion: 1 / pi times the integral of cos over the directions in which nothing is nearer than
-/// integrator.ao_distance, about the shading normal on the camera's side. 1 where the camera sees nothing.
+/// Ambient occlusion: 1 / pi times the integral of cos over the unoccluded directions, about the shading normal on the
+/// camera's side; a surface occludes if it is nearer than integrator.ao_distance. 1 where the camera sees nothing.
 RenderUnit prepare_ao(std::shared_ptr<const TraceScene> scene, const Resolved& job);
 
 }  // namespace treefarm

@@ -7,14 +7,15 @@
 // A path of k edges from lamp to lens has k + 1 vertices. A technique (s, t) draws s of them from the lamp and t from
 // the camera, s + t = k + 1, and connects the two ends:
 //
-//     (0, t)  the camera's path meets the lamp by chance         (s, 1)  a vertex of the light path is seen by the lens
-//     (1, t)  next event: a point is drawn on a lamp             (s, t)  two vertices see each other
+//     (0, t)  the camera subpath hits the lamp by chance         (s, 1)  a light vertex is connected to the lens
+//     (1, t)  next event: a point is sampled on a lamp           (s, t)  two vertices are connected
 //
-// Each finds all light of that many edges on its own, but for what has no density: a point is never met, a mirror never
-// connected. For one sample a subpath is traced from either end, and all pairs are connected. What a technique brings
-// is weighed by how likely it was to draw this path against all the others (multiple importance sampling), so that what
-// some find hardly ever the others find for them. The weights of one path's techniques sum to one: the mean of many
-// samples is the image. Only (s, 1) brings light to other pixels than the sample's own: the film has splats for it.
+// Each technique finds all light of that many edges, except where it has no density: a point light is never hit, a
+// mirror is never connected. For each sample one subpath is traced from either end, and all pairs of their vertices are
+// connected. A technique is weighted by its density for the path against those of all the others (multiple importance
+// sampling), so that each kind of light is left to the techniques that find it often. The weights of one path's
+// techniques sum to one: the mean of many samples is the image. Only (s, 1) contributes to pixels other than the
+// sample's own: it splats.
 
 namespace treefarm {
 

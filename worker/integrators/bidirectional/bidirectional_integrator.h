@@ -5,8 +5,8 @@
 
 namespace treefarm {
 
-/// Bidirectional path tracing: a path from the camera and one from an emitter for each sample, all pairs of whose
-/// vertices are connected (docs/design/transport.md). It finds what path tracing and light tracing find.
+/// Bidirectional path tracing: for each sample a camera subpath and a light subpath, all pairs of whose vertices are
+/// connected (docs/design/transport.md). It covers the transport of both path tracing and light tracing.
 RenderUnit prepare_bidirectional(std::shared_ptr<const TraceScene> scene, const Resolved& job);
 
 }  // namespace treefarm

@@ -8,7 +8,7 @@
 
 namespace treefarm {
 
-/// Traces samples over one kind of surface: DiffuseSurface or GeneralSurface.
+/// Tracer of samples over one kind of surface: DiffuseSurface or GeneralSurface.
 template <class Surface>
 class BidirectionalTracer {
   public:
@@ -27,9 +27,10 @@ class BidirectionalTracer {
           scratch_(Surface::make_scratch(scene)),
           other_(Surface::make_scratch(scene)) {}
 
-    /// Radiance along a ray of the camera, by the random numbers of `key`; what else the sample finds is splatted.
+    /// Radiance along a camera ray, by the random numbers of `key`; contributions to other pixels are splatted.
     Rgb radiance(const PathKey& key, const Ray& camera_ray) {
-        const Draw camera = draw(key, 0, Stream::camera), lens{camera[2], camera[3], 0, 0};  // the ray's own point
+        // the lens point of the ray
+        const Draw camera = draw(key, 0, Stream::camera), lens{camera[2], camera[3], 0, 0};
         light_.trace(key);
         if (rules_.light_image) connect_to_lens(key, lens);
         met_alone_ = 0;
@@ -42,31 +43,31 @@ class BidirectionalTracer {
         return radiance;
     }
 
-    /// After the last sample of a unit.
+    /// Ends a unit, after its last sample.
     void finish() { pairs_.finish(stats_.light_subpaths); }
 
   private:
-    /// A vertex of the camera's path: z_(depth).
+    /// Vertex z_(depth) of the camera subpath.
     struct CameraVertex {
         const Hit& hit;
         const Surface& surface;
         Vec3 to_before;  ///< unit
-        Rgb throughput;  ///< of light that leaves it, to the camera
+        Rgb throughput;  ///< of light that leaves the vertex, to the camera
         TechniqueSums sums;
         int depth;
     };
 
-    /// Where the camera's path is, and what it carries there.
+    /// State of the camera subpath: its ray and throughput.
     struct Path {
         Ray ray;
         Rgb throughput{1.0f};
-        float spread = 1.0f;  ///< product of eta^2: refraction takes it from the radiance, and gives it back on leaving
-        Departure from{};     ///< the vertex that the ray left
+        float spread = 1.0f;       ///< product of eta^2: refraction scales the radiance down, and up again on leaving
+        Departure from{};          ///< the vertex that the ray left
         TechniqueSums sums{};      ///< of that vertex
-        LightReceiver receiver{};  ///< that vertex, as next event chose an emitter there
+        LightReceiver receiver{};  ///< of that vertex, as the choice of an emitter used it
     };
 
-    /// Notes what the sample brings with its light path, and what it would bring without.
+    /// Records the sample's radiance with its light subpath, and its radiance without.
     void compare(const PathKey& key, const Rgb& radiance, const SampleConnections::Sums& sums, std::uint64_t rays) {
         if ((key.sample - first_sample_) % kBlockSamples == 0) pairs_.finish(stats_.light_subpaths);
         pairs_.add({per_usual_ * luminance(radiance), per_usual_ * (met_alone_ + sums.alone), per_usual_ * sums.splats,
@@ -75,7 +76,7 @@ class BidirectionalTracer {
         next_event_rays_ = 0;
     }
 
-    /// Follows the camera's path, connects its vertices, and returns what it meets by itself.
+    /// Traces the camera subpath, connects its vertices, and returns the emission that it hits.
     Rgb walk(const PathKey& key, const Ray& camera_ray, const Draw& lens) {
         Path path{camera_ray};
         Rgb met(0.0f);
@@ -114,12 +115,12 @@ class BidirectionalTracer {
         }
     }
 
-    /// Adds T light to the sum: nothing where it is dark, however large T is.
+    /// Adds T light to the sum; adds nothing if the light is black, however large T is.
     static void add(Rgb& sum, const Rgb& throughput, const Rgb& light) {
         if (!is_black(light)) sum += throughput * light;
     }
 
-    /// Where the camera's path met its first surface the light path would be seen by the lens.
+    /// Sums at the camera subpath's first surface, where the lens may connect to a light subpath.
     TechniqueSums first_sums(const Hit& hit, const Vec3& to_lens, const Draw& lens) const {
         const FilmConnection at = sensor_.importance.connect(hit.p, lens);
         const double pdf = at.g * sensor_.per_window * double(geometric_cosine(hit, to_lens));
@@ -127,7 +128,7 @@ class BidirectionalTracer {
         return {rules_.heuristic(1.0 / pdf), 0.0};
     }
 
-    /// (0, t): what the path's ray has met emits.
+    /// Technique (0, t): emission that the subpath's ray hits.
     Rgb emission(const Path& path, const TechniqueSums& sums, const Hit* arrival, int depth) {
         if (!rules_.techniques.has(0, depth + 1)) return Rgb(0.0f);
         const Rgb light = emitted(scene_.emitters(), path.ray, arrival);
@@ -154,7 +155,7 @@ class BidirectionalTracer {
         return light * static_cast<float>(rules_.weight(others));
     }
 
-    /// (1, t): what the surface scatters of a sampled emitter's light.
+    /// Technique (1, t): light of a sampled emitter that the surface scatters.
     void next_event(const CameraVertex& z, const Draw& random) {
         if ((!rules_.next_event && !rules_.delta_alone) || !rules_.techniques.has(1, z.depth + 1)) return;
         const Emitters& emitters = scene_.emitters();
@@ -173,12 +174,12 @@ class BidirectionalTracer {
         ++next_event_rays_;
     }
 
-    /// The part in such a path of all that the light path brings, against next event's.
+    /// Sum over the techniques with a light subpath that could draw this path, relative to next event.
     double next_event_others(const CameraVertex& z, const DirectSample& light, const Draw& random) {
         const EmissionDensity pdf = scene_.emitters().emission_density(light, receiver_at(z.hit, z.surface), random,
                                                                        rules_.delta_alone, &choice_);
-        // Densities of the place and of what is drawn from there, in the measures of next event's and per area.
-        // Where only lights without extent are sampled, both ends are taken to choose them alike.
+        // Densities of the emitter's point and of the direction from it, in next event's measure and per area. If only
+        // lights without extent are sampled, both ends are assumed to choose them alike.
         double place = rules_.delta_alone ? 1.0 : double(pdf.position) / double(light.pdf);
         double next = double(pdf.direction) * double(geometric_cosine(z.hit, light.wi));
         if (!light.at_infinity()) {
@@ -191,7 +192,7 @@ class BidirectionalTracer {
         return z.sums.sum(place * next, place * next * reverse(z, light.wi), rules_.heuristic);
     }
 
-    /// (s, t): a vertex of the light path sends its light to one of the camera's.
+    /// Technique (s, t): connects a vertex of the light subpath to one of the camera subpath.
     void connect(const LightVertex<Surface>& y, const CameraVertex& z, int s) {
         if (!rules_.techniques.has(s, z.depth + 1) || !y.surface->smooth()) return;
         const double distance2 = squared_distance(y.hit.p, z.hit.p);
@@ -212,7 +213,7 @@ class BidirectionalTracer {
         connections_.add(ray_between(z.hit, y.hit, to_y), value * factor);
     }
 
-    /// (s, 1): the lens sees vertices of the light path.
+    /// Technique (s, 1): connects vertices of the light subpath to the lens.
     void connect_to_lens(const PathKey& key, const Draw& lens) {
         for (int i = 0; i < light_.size(); ++i) {
             const LightVertex<Surface>& y = light_[i];
@@ -234,19 +235,20 @@ class BidirectionalTracer {
         }
     }
 
-    /// Scattering from a unit direction in world space to the vertex before.
+    /// BSDF value from a unit direction `from` (world space) to the vertex before.
     BsdfValue scattering(const CameraVertex& z, const Vec3& from) const {
         const Vec3 wi = z.surface.frame().to_local(from);
         const BsdfValue bsdf = z.surface.bsdf().value(z.surface.wo(), wi);
         return rules_.strict_normals && !normals_agree(z.surface, from, wi.z) ? BsdfValue{} : bsdf;
     }
 
-    /// Density with which a light path that comes from a direction goes on to the vertex before, where anybody asks.
+    /// Density with which a light path from direction `from` continues to the vertex before; 0 if no technique needs
+    /// it.
     double reverse(const CameraVertex& z, const Vec3& from) {
         return z.sums.beyond > 0.0 ? scatter_pdf<Surface>(scene_, z.hit, from, z.to_before, other_) : 0.0;
     }
 
-    /// The path goes on in a direction drawn from the BSDF. False if there is none.
+    /// Continues the subpath in a direction drawn from the BSDF. False if there is none.
     bool scatter(Path& path, const CameraVertex& z, const Draw& random) {
         const BsdfSample sample = sample_bsdf(z.surface, random);
         if (!(sample.pdf > 0.0f) || is_black(sample.f_cos)) return false;
@@ -269,14 +271,15 @@ class BidirectionalTracer {
     const EmissionChoice& choice_;
     EmissionRecord& record_;
     const std::uint32_t first_sample_;
-    const double per_usual_;  ///< scale to what splats usually bring
+    const double per_usual_;  ///< scale by the splats' usual contribution
     TraceStats& stats_;
     SampleConnections connections_;
     LightSubpath<Surface> light_;
     SubpathPairs pairs_;
-    double met_alone_ = 0;                       ///< luminance that the path meets, weighed without the light path
-    std::uint64_t next_event_rays_ = 0;          ///< of the sample
-    typename Surface::Scratch scratch_, other_;  ///< of the camera's surface, and of one that is seen from elsewhere
+    /// luminance of emission that the camera subpath hits, weighted without the light path
+    double met_alone_ = 0;
+    std::uint64_t next_event_rays_ = 0;          ///< of the current sample
+    typename Surface::Scratch scratch_, other_;  ///< of the camera vertex, and of a surface seen from another direction
 };
 
 }  // namespace treefarm

@@ -12,16 +12,16 @@ inline double squared_distance(const Vec3& a, const Vec3& b) {
     return d.dot(d);
 }
 
-/// How a walk left a surface.
+/// Departure of a walk from a surface.
 struct Departure {
     Vec3 p{0.0f};
     double cosine = 0;   ///< |out . ng|
     double pdf = 0;      ///< per steradian; of a delta lobe 1
-    double reverse = 0;  ///< with which the other walk, come back along the same ray, draws where this one came from
+    double reverse = 0;  ///< density of the other walk, coming back along this ray, towards the vertex before this one
     bool delta = false;
 };
 
-/// The edge from there to a surface that its ray meets; pdf is 0 where nothing can be said of it.
+/// Edge from a departure to the surface that its ray hits; pdf 0 if the density is undefined.
 inline DrawnEdge edge_to(const Departure& from, const Hit& hit, const Vec3& to_before) {
     const double distance2 = squared_distance(from.p, hit.p);
     if (!(distance2 > 0.0)) return {};
@@ -29,13 +29,13 @@ inline DrawnEdge edge_to(const Departure& from, const Hit& hit, const Vec3& to_b
             from.delta};
 }
 
-/// The edge from there out of the scene.
+/// Edge from a departure out of the scene.
 inline DrawnEdge edge_to_infinity(const Departure& from) {
     return {from.pdf, from.cosine, from.reverse, from.delta};
 }
 
-/// Density with which a walk that comes to a surface from the side of `from` draws the direction `to`, delta lobes left
-/// out; unit directions that point away from it. `scratch`: of this call alone.
+/// Density, without delta lobes, with which a walk that arrives from the side of `from` draws the direction `to`; both
+/// are unit and point away from the surface. `scratch`: for this call alone.
 template <class Surface>
 double scatter_pdf(const TraceScene& scene, const Hit& hit, const Vec3& from, const Vec3& to,
                    typename Surface::Scratch& scratch) {
@@ -44,11 +44,11 @@ double scatter_pdf(const TraceScene& scene, const Hit& hit, const Vec3& from, co
     return double(surface.bsdf().value(surface.wo(), surface.frame().to_local(to)).pdf);
 }
 
-/// The segment between two surfaces, `direction` the unit vector from the first to the second, moved off both.
+/// Segment between two surfaces, offset from both; `direction`: unit, from the first to the second.
 inline Ray ray_between(const Hit& from, const Hit& to, const Vec3& direction) {
     Ray ray{offset_origin(from, direction), Vec3(0.0f), 1.0f};
     ray.direction = offset_origin(to, -direction) - ray.origin;
-    // Closer than the offsets: nothing fits between.
+    // Closer than the offsets: no occluder fits between.
     if (!(dot(ray.direction, direction) > 0.0f)) ray.length = -1.0f;
     return ray;
 }

@@ -10,21 +10,21 @@
 
 namespace treefarm {
 
-/// A surface that a light path has met, as it can be connected.
+/// Surface vertex of a light subpath, ready to be connected.
 template <class Surface>
 struct LightVertex {
     Hit hit;
-    Vec3 in{0.0f};    ///< unit, towards where the light comes from
-    Rgb light{0.0f};  ///< that arrives, over the density of the path
+    Vec3 in{0.0f};    ///< unit, towards the light's origin
+    Rgb light{0.0f};  ///< arriving light over the density of the path
     TechniqueSums sums;
     typename Surface::Scratch scratch;
-    std::optional<Surface> surface;  ///< as the light path draws from it
+    std::optional<Surface> surface;  ///< as the light subpath samples it
 
     explicit LightVertex(const TraceScene& scene) : scratch(Surface::make_scratch(scene)) {}
 };
 
-/// The light subpath of a sample: y1, y2, ... that are not black; the emitter, y0, is no vertex of its own, since next
-/// event connects emitters better.
+/// Light subpath of a sample: its vertices y1, y2, ... that are not black. The emitter, y0, is not stored: next event
+/// connects emitters better.
 template <class Surface>
 class LightSubpath {
   public:
@@ -39,7 +39,7 @@ class LightSubpath {
           stats_(stats),
           scratch_(Surface::make_scratch(scene)) {}
 
-    /// Traces that of a key: each vertex has its own random numbers, the emitter 0, surfaces from 1 on.
+    /// Traces the light subpath of a key: each vertex has its own random numbers, the emitter 0, surfaces from 1 on.
     void trace(const PathKey& key) {
         count_ = 0;
         emitter_ = 0;
@@ -51,7 +51,7 @@ class LightSubpath {
         if (!is_black(start.weight)) walk(start, key);
     }
 
-    /// The emitter that the path starts from, an entry of EmissionChoice; 0 where there is none.
+    /// Emitter at the start of the path, an entry of EmissionChoice; 0 if there is none.
     std::uint32_t emitter() const { return emitter_; }
     int size() const { return count_; }
     /// Vertex y_(i + 1).
@@ -60,7 +60,7 @@ class LightSubpath {
   private:
     void walk(const EmissionSample& start, const PathKey& key) {
         Ray ray = start.ray;
-        Rgb throughput(1.0f);  // since it left the emitter
+        Rgb throughput(1.0f);  // since the emitter
         Departure from;
         for (int depth = 1;; ++depth) {
             const auto number = static_cast<std::uint32_t>(depth);
@@ -95,7 +95,7 @@ class LightSubpath {
         }
     }
 
-    /// Techniques that draw the emitter by next event, or find it by chance, where this path began there.
+    /// Sums over the techniques that draw this path's emitter by next event, or hit it.
     TechniqueSums first_sums(const EmissionSample& start, const Hit& hit, const Surface& surface) const {
         const Heuristic& m = rules_.heuristic;
         const double pdf = double(start.position_pdf) * start.next_pdf(hit.p, hit.ng);
@@ -104,11 +104,11 @@ class LightSubpath {
         if (rules_.next_event)
             sampled = scene_.emitters().next_event_pdf(start, receiver_at(hit, surface));
         else if (start.is_delta())
-            sampled = double(start.position_pdf);  // as BidirectionalTracer has it
+            sampled = double(start.position_pdf);  // equal to the assumption in BidirectionalTracer
         return {m(sampled / pdf), m(start.position_factor(hit.p) / pdf)};
     }
 
-    /// The vertex after the last one: vertices stay where they are, since surfaces point to their hits.
+    /// Storage for the next vertex. Vertices keep their addresses, since surfaces point to their hits.
     Vertex& room() {
         if (static_cast<std::size_t>(count_) == vertices_.size()) vertices_.emplace_back(scene_);
         return vertices_[static_cast<std::size_t>(count_)];
@@ -119,8 +119,8 @@ class LightSubpath {
     const EmissionChoice& choice_;
     EmissionRecord& record_;
     TraceStats& stats_;
-    typename Surface::Scratch scratch_;  ///< of surfaces as the other walk sees them
-    std::deque<Vertex> vertices_;        ///< memory is kept
+    typename Surface::Scratch scratch_;  ///< of surfaces as the camera subpath sees them
+    std::deque<Vertex> vertices_;        ///< reused from sample to sample
     int count_ = 0;
     std::uint32_t emitter_ = 0;
 };

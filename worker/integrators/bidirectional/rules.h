@@ -9,18 +9,18 @@
 
 namespace treefarm {
 
-/// What job and pass say of bidirectional paths.
+/// Settings of bidirectional paths, from job and pass.
 struct BidirectionalRules {
     int max_depth;     ///< edges of a path from lamp to lens; -1: no limit
     bool next_event;   ///< emitters are sampled
-    bool delta_alone;  ///< only those without extent are
+    bool delta_alone;  ///< only those without extent are sampled
     bool light_image;  ///< light paths are connected to the lens
-    bool compare;      ///< samples also say what their path from the camera would carry alone
-    bool weighted;     ///< techniques share the light that several find
+    bool compare;      ///< samples also report the value of their camera path alone
+    bool weighted;     ///< techniques that find the same light are weighted
     bool strict_normals, hide_emitters;
     Heuristic heuristic;
     Roulette roulette;
-    TechniqueSet techniques;  ///< of which the image is made
+    TechniqueSet techniques;  ///< techniques that contribute to the image
 
     BidirectionalRules(const TraceScene& scene, const Job& job, const PassPlan& pass)
         : max_depth(job.integrator.max_depth),
@@ -35,9 +35,9 @@ struct BidirectionalRules {
           roulette(Roulette::Rule::unguided, job.integrator.rr_depth),
           techniques(job.bidirectional.techniques) {}
 
-    /// Whether a path of so many edges may go on.
+    /// Whether a path of `edges` edges may continue.
     bool goes_on(int edges) const { return max_depth < 0 || edges < max_depth; }
-    /// Weight of a technique against the others.
+    /// Weight of a technique; `others`: sum of the other techniques relative to it.
     double weight(double others) const { return weighted ? technique_weight(others) : 1.0; }
 };
 

@@ -10,31 +10,30 @@
 
 namespace treefarm {
 
-/// SampleConnections of one sample, whose shadow rays wait for each other: many together are faster. They are added up
+/// Connections of one sample. Their shadow rays are collected, since many together are faster; contributions are added
 /// in the order in which they were made.
 class SampleConnections {
   public:
     SampleConnections(const EmbreeScene& geometry, UnitOutput& output) : geometry_(geometry), output_(output) {}
 
-    /// What they bring that reaches its pixel.
+    /// Sums over the unoccluded connections of a sample.
     struct Sums {
-        Rgb own{0.0f};           ///< to the sample's own
+        Rgb own{0.0f};           ///< contribution to the sample's own pixel
         double alone = 0;        ///< luminance that next event would bring without the light path
-        double from_lights = 0;  ///< luminance of what vertices of the light path bring to the sample's own
-        double splats = 0, splat_squares = 0;  ///< sums over what they bring to others: luminances, and those squared
+        double from_lights = 0;  ///< luminance that the light path's vertices contribute to the sample's own pixel
+        double splats = 0, splat_squares = 0;  ///< contributions to other pixels: sums of luminance and of its square
     };
 
-    /// Adds a connection that brings light of a vertex of the light path to the sample's own pixel.
+    /// Adds a connection of a light subpath's vertex to the sample's own pixel.
     void add(const Ray& ray, const Rgb& value) { add(ray, {value, 0.0, kOwn, 0}); }
-    /// Adds a connection that brings light of a sampled emitter to the sample's own pixel; `alone`: its luminance if
-    /// there were no light path.
+    /// Adds a connection of a sampled emitter to the sample's own pixel; `alone`: its luminance without the light path.
     void add_direct(const Ray& ray, const Rgb& value, double alone) { add(ray, {value, alone, kDirect, 0}); }
-    /// Adds a connection that brings light to any pixel, from the vertex of the light path with this number.
+    /// Adds a connection of the light subpath's vertex number `vertex` to any pixel.
     void add_splat(const Ray& ray, const Rgb& value, std::uint32_t pixel, std::uint32_t vertex) {
         add(ray, {value, 0.0, pixel, vertex});
     }
 
-    /// Splats what reaches other pixels, and returns what all bring. None is left.
+    /// Traces the shadow rays, splats contributions to other pixels, and returns the sums. Clears the connections.
     Sums finish(const PathKey& key) {
         Sums sums;
         for (std::size_t begin = 0; begin < rays_.size(); begin += EmbreeScene::kMostTogether) {

@@ -11,14 +11,14 @@ namespace treefarm {
 
 namespace {
 
-/// Estimates direct light over one kind of surface: DiffuseSurface or GeneralSurface.
+/// Estimator of direct light over one kind of surface: DiffuseSurface or GeneralSurface.
 template <class Surface>
 class DirectLight {
   public:
     DirectLight(const TraceScene& scene, const Job::Integrator& job, TraceStats& stats)
         : scene_(scene), job_(job), stats_(stats), scratch_(Surface::make_scratch(scene)) {}
 
-    /// Radiance along a ray of the camera. Sample i of a surface has the random numbers of the path's vertex 1 + i.
+    /// Radiance along a camera ray. Sample i of a surface uses the random numbers of the path's vertex 1 + i.
     Rgb radiance(const PathKey& key, const Ray& ray) {
         Hit hit;
         ++stats_.rays;
@@ -59,7 +59,7 @@ class DirectLight {
         const Hit* const arrival = scene_.geometry().intersect(ray, next) ? &next : nullptr;
         const Rgb light = emitted(scene_.emitters(), ray, arrival);
         if (is_black(light)) return Rgb(0.0f);
-        // No emitter sample goes the way of a mirror.
+        // Emitter sampling has density 0 at a delta lobe's direction.
         const float pdf = sample.delta ? std::numeric_limits<float>::infinity() : bsdfs_ * sample.pdf;
         const float emitter = emitters_ > 0.0f
                                   ? emitters_ * emitter_pdf(scene_.emitters(), receiver_at(hit, surface), ray, arrival)

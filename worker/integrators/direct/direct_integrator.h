@@ -5,8 +5,8 @@
 
 namespace treefarm {
 
-/// Light that comes straight from emitters to what the camera sees: integrator.emitter_samples of them at each surface,
-/// and integrator.bsdf_samples directions of its BSDF, weighed against each other.
+/// Direct light at the first visible surface: integrator.emitter_samples emitter samples and integrator.bsdf_samples
+/// BSDF samples, combined by multiple importance sampling.
 RenderUnit prepare_direct(std::shared_ptr<const TraceScene> scene, const Resolved& job);
 
 }  // namespace treefarm

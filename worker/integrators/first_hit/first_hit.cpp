@@ -12,12 +12,12 @@ namespace treefarm {
 
 namespace {
 
-/// Directions by which the albedo of a surface that is not plainly diffuse is estimated: always the same, so that the
-/// layer has no noise.
+/// Number of directions for the albedo of a surface that is not plainly diffuse; the same directions each time, so that
+/// the layer has no noise.
 constexpr std::uint32_t kAlbedoSamples = 8;
 
-/// Point i of a lattice in which each coordinate takes so many evenly spaced values. One of them lies in the outer
-/// eighth of the disk that the last two are mapped to: there a rough surface loses most of what it loses.
+/// Point i of a lattice in which each coordinate takes kAlbedoSamples evenly spaced values. One of them is in the outer
+/// eighth of the disk that the last two coordinates are mapped to, where a rough surface loses most of its light.
 BsdfRandom albedo_point(std::uint32_t i) {
     const auto coordinate = [&](std::uint32_t step, float offset) {
         return (static_cast<float>(i * step % kAlbedoSamples) + offset) / kAlbedoSamples;
@@ -25,7 +25,7 @@ BsdfRandom albedo_point(std::uint32_t i) {
     return {coordinate(1, 0.5f), {coordinate(3, 0.875f), coordinate(5, 0.5f)}};
 }
 
-/// Fraction of light from all around that the surface sends towards wo, delta lobes included.
+/// Albedo towards wo under uniform illumination, delta lobes included.
 template <class Surface>
 Rgb albedo_of(const Surface& surface) {
     if (surface.black()) return Rgb(0.0f);
@@ -36,7 +36,7 @@ Rgb albedo_of(const Surface& surface) {
     for (std::uint32_t i = 0; i < count; ++i) {
         const BsdfSample s = surface.bsdf().sample(surface.wo(), albedo_point(i));
         if (!(s.pdf > 0.0f)) continue;
-        float back = 1.0f;  // radiance that is refracted is squeezed or stretched: no matter of the surface's
+        float back = 1.0f;  // scaling of refracted radiance is undone: it is no property of the material
         if constexpr (Surface::kGeneral)
             if (s.wi.z < 0.0f) back = surface.eta2();
         sum += s.f_cos * (back / s.pdf);
@@ -47,7 +47,7 @@ Rgb albedo_of(const Surface& surface) {
     return albedo;
 }
 
-/// Whether nothing is there: light goes straight on.
+/// Whether the surface is a null boundary: light passes straight on.
 template <class Surface>
 bool is_nothing(const Surface& surface) {
     if constexpr (Surface::kGeneral)
@@ -60,7 +60,7 @@ double finite(float value) {
     return std::isfinite(value) ? static_cast<double>(value) : 0.0;
 }
 
-/// Adds to a sample's numbers.
+/// AOV values of a sample, to which contributions are added.
 class Row {
   public:
     Row(const AovLayout& layout, double* values) : layout_(layout), values_(values) {}
@@ -87,14 +87,14 @@ class Row {
     double* values_;
 };
 
-/// Follows one camera ray.
+/// Tracer of one camera ray to its AOV surface.
 template <class Surface>
 class Follower {
   public:
     Follower(const TraceScene& scene, const AovLayout& layout, const Vec3& eye, const Vec3& axis)
         : scene_(scene), layout_(layout), eye_(eye), axis_(axis), scratch_(Surface::make_scratch(scene)) {}
 
-    /// `first`: the pixel's first sample, whose ids count.
+    /// Traces a sample's ray; `first`: the pixel's first sample, whose ids are stored.
     void follow(const PathKey& key, Ray ray, bool first, double* values) {
         Row row(layout_, values);
         const bool beyond = layout_.has(Aov::albedo) || layout_.has(Aov::normal);
@@ -127,7 +127,7 @@ class Follower {
         return dot(normal, ray.direction) > 0.0f ? -normal : normal;
     }
 
-    /// The first surface of the camera ray.
+    /// Records the first surface of the camera ray.
     void take(const Hit& hit, const Ray& ray, const Vec3& from, bool first, Row& row) {
         row.add(Aov::alpha, 1.0f);
         row.add(Aov::geometric_normal, towards(hit.ng, ray));

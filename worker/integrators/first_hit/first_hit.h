@@ -11,14 +11,14 @@
 
 namespace treefarm {
 
-/// Surfaces that are looked through, at most, for the first one that is no mirror and no smooth glass.
+/// Limit of mirrors and smooth glass that a camera ray follows to the first other surface.
 inline constexpr std::uint32_t kMostSmoothSurfaces = 64;
 
-/// Fills the AOVs that a camera ray decides by what it meets (docs/use/outputs.md), beside any integrator: its rays are
-/// those of the integrator's paths, since random numbers are keyed. A pure function of scene, seed and unit.
+/// Renderer of the AOVs that a camera ray's first hit determines (docs/use/outputs.md), beside any integrator. Its rays
+/// equal those of the integrator's paths, since random numbers are keyed. A pure function of scene, seed and unit.
 class FirstHitRenderer {
   public:
-    /// `camera`: the scene's.
+    /// Requires `camera` to be the scene's.
     FirstHitRenderer(std::shared_ptr<const TraceScene> scene, const Camera& camera, std::uint64_t seed,
                      const AovLayout& layout);
 
@@ -32,10 +32,10 @@ class FirstHitRenderer {
     std::shared_ptr<const TraceScene> scene_;
     std::uint64_t seed_;
     AovLayout layout_;
-    Vec3 eye_, axis_;  ///< where depth is measured from, and along which unit vector
+    Vec3 eye_, axis_;  ///< origin and unit axis of the depth measurement
 };
 
-/// Unit vector along which a camera looks: normal to the plane of its film; 0 for a panorama, whose depth is distance.
+/// Viewing direction of a camera: unit normal of its film plane; 0 for a panorama, whose depth is distance.
 Vec3 camera_axis(const Camera& camera);
 
 }  // namespace treefarm

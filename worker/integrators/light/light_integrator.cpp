@@ -9,20 +9,20 @@
 #include "worker/integrators/subpath/roulette.h"
 #include "worker/integrators/subpath/sensor.h"
 
-// The image is an integral over all paths from a lamp to the camera, and does not care from which end they are drawn. A
-// light path starts at an emitter, with the power that it has there over the density of start and direction, and
-// scatters on. At each vertex it is connected to a point of the lens: the light that goes there,
+// The image is an integral over all paths from a lamp to the camera, and these may be sampled from either end. A light
+// path starts at an emitter, with the power emitted there over the density of start and direction, and scatters on.
+// Each vertex is connected to a point of the lens: its light towards the lens,
 //
 //     alpha F(in -> lens) g        alpha: power over the path's density,  F: scattering,  g: camera importance
 //
-// falls onto whatever pixel sees the vertex, if nothing lies between. So each path may bring something to any pixel,
-// and the mean over n paths per pixel is the image. A lamp that is seen directly is connected as well.
+// is splatted to the pixel that sees the vertex, unless it is occluded. Each path may thus contribute to any pixel, and
+// the mean over n paths per pixel is the image. The start on a visible lamp is connected as well.
 
 namespace treefarm {
 
 namespace {
 
-/// What a job says of light paths.
+/// Settings of light paths, from the job.
 struct Rules {
     int max_depth;  ///< edges of a path from lamp to lens; -1: no limit
     bool strict_normals, hide_emitters;
@@ -35,13 +35,13 @@ struct Rules {
           roulette(Roulette::Rule::unguided, job.rr_depth) {}
 };
 
-/// Connections whose shadow rays wait for each other: many together are faster.
+/// Connections to the lens. Their shadow rays are collected, since many together are faster.
 class Connections {
   public:
     Connections(const EmbreeScene& geometry, EmissionRecord& record, UnitOutput& output)
         : geometry_(geometry), record_(record), output_(output) {}
 
-    /// `emitter`: that the path starts from.
+    /// Adds a connection; `emitter`: the one that its path started from.
     void add(const Ray& ray, std::uint32_t pixel, const Rgb& value, const PathKey& key, std::uint32_t vertex,
              std::uint32_t emitter) {
         rays_[count_] = ray;
@@ -49,7 +49,7 @@ class Connections {
         if (count_ == rays_.size()) flush();
     }
 
-    /// Splats those that reach the camera.
+    /// Traces the shadow rays, and splats the connections that reach the camera.
     void flush() {
         geometry_.occluded({rays_.data(), count_}, hidden_.data());
         output_.stats.shadow_rays += count_;
@@ -81,11 +81,11 @@ class Connections {
     std::array<Splat, EmbreeScene::kMostTogether> splats_;
     std::array<bool, EmbreeScene::kMostTogether> hidden_{};
     std::size_t count_ = 0;
-    PathKey last_lit_;  ///< the last path that splatted: its splats come one after the other
+    PathKey last_lit_;  ///< last path that splatted: the splats of a path are consecutive
     bool lit_any_ = false;
 };
 
-/// Traces light paths over one kind of surface: DiffuseSurface or GeneralSurface.
+/// Tracer of light paths over one kind of surface: DiffuseSurface or GeneralSurface.
 template <class Surface>
 class LightTracer {
   public:
@@ -115,7 +115,7 @@ class LightTracer {
     void finish() { connections_.flush(); }
 
   private:
-    /// A vertex of a path, by number, and the emitter that the path starts from.
+    /// Number of a path's vertex, and the emitter that the path started from.
     struct Place {
         PathKey key;
         std::uint32_t vertex, emitter;
@@ -123,7 +123,7 @@ class LightTracer {
 
     void walk(const EmissionSample& start, const PathKey& key, const Draw& lens) {
         Ray ray = start.ray;
-        Rgb throughput(1.0f);  // since it left the emitter
+        Rgb throughput(1.0f);  // since the emitter
         for (int depth = 1;; ++depth) {
             const auto vertex = static_cast<std::uint32_t>(depth);
             Hit hit;
@@ -147,7 +147,7 @@ class LightTracer {
         }
     }
 
-    /// Connects the emitter's own surface.
+    /// Connects the start point on the emitter to the lens.
     void connect_lamp(const EmissionSample& start, const PathKey& key, const Draw& lens) {
         const FilmConnection to = sensor_.importance.connect(start.start.p, lens);
         const float cosine = dot(start.start.ng, to.direction);
@@ -155,7 +155,7 @@ class LightTracer {
         add(start.start, to, start.radiance, double(cosine) / double(start.position_pdf), {key, 0, start.entry});
     }
 
-    /// Connects a vertex at which so much light arrives from `in`.
+    /// Connects a vertex to the lens; `light` arrives there from `in`.
     void connect(const Hit& hit, const Vec3& in, const Rgb& light, const Place& place, const Draw& lens) {
         const FilmConnection to = sensor_.importance.connect(hit.p, lens);
         if (!to.seen || !sensor_.pixels.reaches(to.x, to.y)) return;
@@ -164,7 +164,7 @@ class LightTracer {
         add(hit, to, light * scattering.f, 1.0, place);
     }
 
-    /// Adds what a vertex sends to the camera, `factor` times the colour.
+    /// Adds a vertex's contribution, `factor` times the colour.
     void add(const Hit& hit, const FilmConnection& to, const Rgb& colour, double factor, const Place& place) {
         if (is_black(colour)) return;
         const auto& [key, vertex, emitter] = place;
@@ -181,7 +181,7 @@ class LightTracer {
     EmissionRecord& record_;
     TraceStats& stats_;
     Connections connections_;
-    typename Surface::Scratch arriving_, leaving_;  ///< of surfaces as light sees them, and as the camera does
+    typename Surface::Scratch arriving_, leaving_;  ///< of surfaces as light sees them, and as the camera sees them
 };
 
 }  // namespace

@@ -5,9 +5,8 @@
 
 namespace treefarm {
 
-/// Light tracing: paths that start at emitters, each vertex of which is connected to the camera
-/// (docs/design/transport.md). It finds caustics of small lamps, and nothing that the camera sees in a mirror or
-/// through smooth glass.
+/// Light tracing: paths start at emitters, and each vertex is connected to the camera (docs/design/transport.md).
+/// Efficient for caustics of small lamps; blind to light that reaches the camera by a mirror or smooth glass.
 RenderUnit prepare_light(std::shared_ptr<const TraceScene> scene, const Resolved& job);
 
 }  // namespace treefarm

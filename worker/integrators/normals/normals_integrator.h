@@ -5,8 +5,8 @@
 
 namespace treefarm {
 
-/// The shading normal n of what the camera sees, as the colour (1 + n) / 2; black where it sees nothing. Bumps are left
-/// out, and n is not turned towards the camera: surfaces that are inside out show.
+/// Shading normal n of the first visible surface as the colour (1 + n) / 2; black where the camera sees nothing.
+/// Without bumps, and n is not turned towards the camera, so that inverted surfaces are visible.
 RenderUnit prepare_normals(std::shared_ptr<const TraceScene> scene, const Resolved& job);
 
 }  // namespace treefarm

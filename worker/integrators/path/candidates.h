@@ -8,24 +8,24 @@
 
 namespace treefarm {
 
-/// Directions of which one may be taken.
+/// Largest number of candidate directions of a vertex.
 inline constexpr std::uint32_t kMostCandidates = 4;
 
-/// One of several directions (after resampled importance sampling, Talbot et al. 2005). Of M directions y_i, each drawn
-/// with the density q, number j is taken with a probability P_j that may depend on all of them. 1 / (M q(y_j) P_j) then
-/// stands for 1 / density: the expectation of f |cos| L / (M q P) is that of the mean of f |cos| L / q over the
-/// candidates, whatever P is, as long as nothing that reflects has P = 0.
+/// Choice of one of several directions (after resampled importance sampling, Talbot et al. 2005). Of M directions y_i,
+/// each drawn with density q, direction j is chosen with a probability P_j that may depend on all of them. 1 / (M
+/// q(y_j) P_j) then replaces 1 / density: the expectation of f |cos| L / (M q P) equals that of the mean of f |cos| L /
+/// q over the candidates, for any P that is positive wherever the surface reflects.
 ///
-/// P prefers the product of f |cos| and the light that the region has learned, which neither the BSDF nor the tree
-/// samples alone; a part of it prefers nothing, so that a direction is never weighed more than 1 / candidate_fair
-/// (policy.h) times as much as alone. The density of what is taken has no closed form; against next event it is weighed
-/// by q, on both sides.
+/// P is mostly proportional to f |cos| times the radiance that the region has learned, a product that neither the BSDF
+/// nor the tree samples alone; a part of P is uniform, so that the weight of a direction is at most 1 / candidate_fair
+/// (policy.h) times its weight without candidates. The density of the chosen direction has no closed form; MIS against
+/// next event uses q, on both sides.
 template <class Scatter>
 class Candidates {
   public:
     void clear() { count_ = 0; }
 
-    /// Room for the next direction, of at most kMostCandidates; offer() makes it one of those that can be taken.
+    /// Storage for the next direction, of at most kMostCandidates; offer() makes it a candidate.
     Scatter& next() { return samples_[count_]; }
 
     void offer() {
@@ -33,11 +33,11 @@ class Candidates {
         if (!(s.pdf > 0.0f)) return;
         const float weight = average(s.f_cos) * (s.guide_pdf + kUnseen) / s.pdf;
         if (!(weight > 0.0f)) return;
-        // Any choice is unbiased; this one divides by no sum of 0 or infinity.
+        // Any choice is unbiased; the clamp avoids division by a sum of 0 or infinity.
         weights_[count_++] = std::clamp(weight, 1e-30f, 1e30f);
     }
 
-    /// One of `drawn` directions, those that failed included; `u` is uniform in [0, 1). False if all failed.
+    /// Chooses one of `drawn` directions, failed ones included; `u` is uniform in [0, 1). False if all failed.
     bool take(std::uint32_t drawn, float u, Scatter& s) const {
         if (count_ == 0) return false;
         float sum = 0.0f;
@@ -55,7 +55,7 @@ class Candidates {
     }
 
   private:
-    /// Light from everywhere, of which the tree may have seen nothing: as much as an even tree would see. A fifth of it
+    /// Radiance assumed from everywhere, since the tree may not have seen a light: that of an even tree. A fifth of it
     /// was too little for rare light (bench/log/guiding.md, "how much regard to light that the tree has not seen").
     static constexpr float kUnseen = 1.0f / (4.0f * kPi);
 

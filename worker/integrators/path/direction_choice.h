@@ -9,7 +9,7 @@
 
 namespace treefarm {
 
-/// The directions that a batch of paths takes in a step. Each draws one, or, at its first vertices, several, of which
+/// Directions of a batch of paths in one step. A path draws one direction or, at its first vertices, several, of which
 /// it takes one.
 template <class G, class Surface, bool kGuided, bool kConverts>
 class DirectionChoice {
@@ -20,7 +20,7 @@ class DirectionChoice {
     DirectionChoice(const Sampler& guide, const PathSettings& settings)
         : guide_(guide), candidates_(kGuided ? settings.candidates : 1), candidate_depth_(settings.candidate_depth) {}
 
-    /// The random numbers of a step for `paths`, whose Path::lane say which are theirs.
+    /// Draws the random numbers of a step; Path::lane is a path's index in them.
     void draw_numbers(std::uint64_t seed, const KeyBatch& keys, std::span<const Path> paths,
                       std::span<const std::uint8_t> alive) {
         const auto lanes = static_cast<std::uint32_t>(alive.size());
@@ -39,14 +39,14 @@ class DirectionChoice {
         if (several()) draw_batch(seed, slot_keys_, slots_, 0, Stream::candidate, picks_);
     }
 
-    // What sampling will read is fetched ahead, each time by what the last has brought.
+    // Sampling's data is prefetched in steps, each addressed by the one before.
     void prefetch(std::uint32_t region, std::uint32_t lane) const { G::prefetch(guide_, region, draws_.word[1][lane]); }
     void prefetch_more(const Path& path) const {
         if (path.found) G::prefetch_more(guide_, path.guidance.region, draws_.word[1][path.lane]);
     }
     void prefetch_local(const Path& path) const { G::prefetch_local(guide_, path.guidance, draws_.word[1][path.lane]); }
 
-    /// Begins a step, before any of its paths draws; `alive` are the numbers of those that will.
+    /// Start of a step, before any of its paths draws; `alive`: indices of the paths that will.
     void start(std::span<const Path> paths, std::span<const std::uint8_t> alive) {
         batch_.clear();
         if constexpr (kGuided && G::kLocal)
@@ -54,9 +54,9 @@ class DirectionChoice {
                 G::prefetch_local_more(guide_, paths[index].guidance, draws_.word[1][paths[index].lane]);
     }
 
-    // draw() for each path, then convert(), then choose(), then complete() for each.
+    // Order: draw() for each path, then convert(), then choose(), then complete() for each.
 
-    /// Draws a path's direction, or the first of several; false if there is none.
+    /// Draws a path's direction, or the first of its candidates; false if there is none.
     bool draw(Path& path) {
         if (chooses(path)) {
             offered_[slot(path)].candidates.clear();
@@ -67,8 +67,7 @@ class DirectionChoice {
                            cosines_[path.lane], path.scatter);
     }
     void convert() { batch_.convert(guide_); }
-    /// Draws the other directions of paths that choose among several, and takes one for each. The density is 0 where
-    /// none was found.
+    /// Draws the other candidates of paths that have several, and chooses one for each. The density is 0 if all failed.
     void choose(std::span<Path> paths, std::span<const std::uint8_t> alive) {
         if (!several()) return;
         std::array<std::uint8_t, kDrawBatch> choosers;
@@ -100,22 +99,22 @@ class DirectionChoice {
   private:
     using Batch = typename G::template ScatterBatch<kGuided, kConverts>;
 
-    /// Whether any path of this step may choose among several.
+    /// Whether any path of this step may have several candidates.
     bool several() const { return slots_ != 0; }
 
-    /// The candidates among which a path chooses.
+    /// Candidates of a path.
     struct Offered {
         Candidates<typename G::Scatter> candidates;
-        bool drawn;  ///< a direction waits to be completed
+        bool drawn;  ///< a direction is drawn and not completed
     };
 
-    /// Whether a path chooses among several. Not where there may be a delta lobe, which has no density to weigh by.
+    /// Whether a path chooses among candidates. False if there may be a delta lobe, which has no density to weight by.
     bool chooses(const Path& path) const {
         return kGuided && several() && path.depth <= candidate_depth_ && !path.surface->has_delta();
     }
     std::uint32_t slot(const Path& path) const { return slot_[path.lane]; }
 
-    /// Draws a candidate from its own part of the techniques' probabilities: a mixture over the candidates like any.
+    /// Draws a candidate with a technique from its own stratum: together the candidates sample the usual mixture.
     void draw_offer(const Path& path, std::uint32_t candidate, Batch& batch, const DrawBatch& draws,
                     const VectorBatch& cosines, std::uint32_t lane) {
         Offered& offered = offered_[slot(path)];
@@ -142,7 +141,7 @@ class DirectionChoice {
     VectorBatch cosines_;
     Batch batch_;
 
-    // Of the paths that may choose among several: each has a slot.
+    // Slots of the paths that may have several candidates.
     std::uint32_t slots_ = 0;
     std::array<std::uint8_t, kDrawBatch> slot_;  ///< by lane
     std::uint64_t seed_ = 0;

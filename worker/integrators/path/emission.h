@@ -11,8 +11,7 @@
 
 namespace treefarm {
 
-/// Adds what emission brings to the paths that meet it, weighted against next event. `recorder`: the path's, where
-/// paths record.
+/// Adds emission that paths hit, weighted against next event. `recorder`: that of the path, if paths record.
 template <class G, class Surface, bool kRecord, class Observer>
 class Emission {
   public:
@@ -22,7 +21,7 @@ class Emission {
              const NextEventCounts<kRecord>& counts)
         : scene_(scene), settings_(settings), observer_(observer), counts_(counts) {}
 
-    // Rare, and out of line: what emitters may be (textured, an image) costs other vertices nothing, not a register.
+    // Rare and out of line: textured and image emitters cost other vertices neither time nor a register.
 
     [[gnu::noinline]] void from_emitter(Path& path, PathRecorder<G>* recorder) const {
         const Emitters& emitters = scene_.emitters();
@@ -38,7 +37,7 @@ class Emission {
     }
 
   private:
-    /// Next event finds `emitted` with the density `next_event_pdf()`.
+    /// Adds `emitted`; next event finds it with the density `next_event_pdf()`.
     template <class Pdf>
     void add(Path& path, PathRecorder<G>* recorder, const Rgb& emitted, Pdf next_event_pdf) const {
         if (is_black(emitted) || (path.depth == 1 && settings_.hide_emitters)) return;

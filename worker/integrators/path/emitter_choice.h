@@ -8,8 +8,8 @@
 
 namespace treefarm {
 
-/// The emitters that next event samples at the vertices of a step, by Path::lane. Where some are drawn together, each
-/// path's is chosen before any is sampled: clear(), choose() for each, draw().
+/// Choice of the emitters that next event samples at the vertices of a step, indexed by Path::lane. If some are drawn
+/// together, each path's emitter is chosen before any is sampled: clear(), choose() for each, draw().
 class EmitterChoice {
   public:
     EmitterChoice(const Emitters& emitters, const PathSettings& settings)
@@ -20,12 +20,12 @@ class EmitterChoice {
           special_(delta_alone_ || together_),
           few_(settings.few_light_samples) {}
 
-    /// The random numbers of a step, but where few of its vertices need them.
+    /// Draws the random numbers of a step, unless only few of its vertices need them.
     void draw_numbers(std::uint64_t seed, const KeyBatch& keys, std::uint32_t lanes) {
         if (needed_ && !few_) draw_batch(seed, keys, lanes, 0, Stream::light, draws_);
     }
 
-    /// Whether there is anything to sample in this pass.
+    /// Whether this pass samples emitters at all.
     bool any() const { return needed_; }
     bool together() const { return together_; }
     void clear() { batch_.clear(); }
@@ -35,13 +35,13 @@ class EmitterChoice {
         emitters_.choose(batch_, path.lane, receiver, draws_[path.lane]);
     }
     void draw() { emitters_.draw(batch_); }
-    /// Keeps what the choice of this step has found out, for a density that may be asked for there (Emitters::keep()).
+    /// Keeps intermediate results of a choice, for a density that may be needed at that vertex (Emitters::keep()).
     void keep(std::uint32_t lane, LightReceiver& receiver, LightWidthStore& storage) const {
         if (together_) [[unlikely]]
             emitters_.keep(batch_, lane, receiver, storage);
     }
 
-    /// A next-event sample as of Emitters::sample_direct(), or sample_delta() where next event is for those alone.
+    /// Next-event sample by Emitters::sample_direct(), or by sample_delta() if only lights without extent are sampled.
     template <class Path>
     DirectSample sample(const LightReceiver& receiver, const Path& path) {
         if (few_ && !together_) [[unlikely]]
@@ -50,9 +50,8 @@ class EmitterChoice {
             return sample_specially(receiver.p, path.lane);
         return emitters_.sample_direct(receiver, draws_[path.lane]);
     }
-    /// Completes the samples from infinity among `lights`, of those numbers that are seen, by radiance and missing
-    /// density; lane_of(light) has drawn one. All together: the others then have no test for it, nor a call to save
-    /// registers for.
+    /// Completes the visible samples of light from infinity by radiance and missing density; `seen`: their indices in
+    /// `lights`, lane_of(light): the lane that drew one. In one loop, so that other samples need no test and no call.
     template <class Lights, class LaneOf>
     void shine_from_infinity(Lights& lights, std::span<const std::uint8_t> seen, LaneOf lane_of) const {
         if (emitters_.shines_from_infinity()) [[unlikely]]
@@ -60,7 +59,7 @@ class EmitterChoice {
     }
 
   private:
-    /// The numbers of a vertex that samples an emitter, where they are missing: the same numbers.
+    /// Draws the random numbers of one vertex, equal to those that draw_numbers() would give it.
     template <class Path>
     void draw_alone(const Path& path) {
         const Draw draw = treefarm::draw(path.key, path.vertex, Stream::light);
@@ -68,7 +67,7 @@ class EmitterChoice {
             draws_.word[i][path.lane] = draw[i];
     }
 
-    /// Out of line: most scenes pay one test for it.
+    /// Sample from a batch, or of a light without extent; out of line, since most scenes only pay one test for it.
     [[gnu::noinline]] DirectSample sample_specially(const Vec3& p, std::uint32_t lane) const {
         if (delta_alone_) return emitters_.sample_delta(p, draws_[lane]);
         return emitters_.sample_direct(batch_, lane, draws_[lane]);

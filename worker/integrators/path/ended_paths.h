@@ -9,10 +9,10 @@
 
 namespace treefarm {
 
-/// Places of a batch whose paths have ended, until others are set up there.
+/// Slots of a batch whose paths have ended and that are not refilled yet.
 class EndedPaths {
   public:
-    /// Begins a walk.
+    /// Clears the slots, at the start of a walk.
     void clear() {
         count_ = 0;
         enough_ = kEnough;
@@ -20,20 +20,20 @@ class EndedPaths {
 
     void add(std::uint8_t slot) { slots_[count_++] = slot; }
 
-    /// Where enough have ended, or no path is left among the first `alive` of `walking`: follow(places) sets up others
-    /// in the first of these places and returns how many, which are added. Returns how many walk now.
+    /// Refills ended slots, once there are enough or none of the first `alive` of `walking` is left: follow(slots) sets
+    /// up new paths in the first of these slots and returns their number. Returns how many paths walk now.
     template <class Follow>
     std::uint32_t replace(std::uint32_t alive, std::array<std::uint8_t, kDrawBatch>& walking, Follow& follow) {
         if (alive != 0 && count_ < enough_) return alive;
         const std::uint32_t others = follow(std::span<const std::uint8_t>(slots_.data(), count_));
-        if (others < count_) enough_ = kDrawBatch + 1;  // no more are to come
+        if (others < count_) enough_ = kDrawBatch + 1;  // no more paths will come
         std::copy_n(slots_.begin(), others, walking.begin() + alive);
         count_ = 0;
         return alive + others;
     }
 
   private:
-    /// Ended paths that are worth setting up others. With 8 and 16 a ray took as long.
+    /// Number of ended paths that makes a refill efficient. With 8 and 16 the time per ray was equal.
     static constexpr std::uint32_t kEnough = kDrawBatch / 4;
 
     std::array<std::uint8_t, kDrawBatch> slots_;

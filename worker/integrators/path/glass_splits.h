@@ -10,10 +10,10 @@
 
 namespace treefarm {
 
-/// Smooth glass sends a ray two ways. Where the camera sees it, a path need not toss: it takes the likelier way, and
-/// the other one, of probability p, is followed, too, with probability min(1, 4 p), weighed accordingly, which adds to
-/// the same sample. So what is seen through glass is not made noisy by what it mirrors, a mirror image is a quarter as
-/// noisy or less, and a faint one does not cost a whole path.
+/// Splits at smooth glass, which has two ways out. Where the camera sees it, a path takes the likelier way with
+/// certainty, and the other one, of probability p, is also followed with probability min(1, 4 p), weighted accordingly
+/// and added to the same sample. The refracted image thus has no noise from the choice, a reflection has a quarter of
+/// the noise or less, and a faint reflection does not cost a whole path.
 class GlassSplits {
   public:
     GlassSplits() { ways_.reserve(kDrawBatch); }
@@ -21,14 +21,14 @@ class GlassSplits {
     std::uint32_t size() const { return static_cast<std::uint32_t>(ways_.size()); }
     void clear() { ways_.clear(); }
 
-    /// Chance with which a way of this probability is followed, never so small that its weight overflows, or that 24
-    /// random bits do not tell.
+    /// Probability with which a way of this probability is followed, bounded below so that its weight does not overflow
+    /// and 24 random bits resolve it.
     static float chance(float probability) {
         return std::clamp(kPolicy.walk.split_often * probability, kPolicy.walk.split_least, 1.0f);
     }
 
-    /// Splits a path at the first surface, which has drawn path.scatter: if the other of two ways is open, the path
-    /// takes the likelier with certainty, and the lesser may be followed, too.
+    /// Splits a path at its first surface, where path.scatter has been drawn: if the other way is open, the path takes
+    /// the likelier way with certainty, and the other one may also be followed.
     template <class Path>
     void split(Path& path, bool strict_normals) {
         const auto& surface = *path.surface;
@@ -52,15 +52,15 @@ class GlassSplits {
     }
 
     struct OtherWay {
-        std::uint16_t origin;  ///< the camera path that it is part of
+        std::uint16_t origin;  ///< index of its camera path
         Ray ray;
-        Rgb weight;    ///< f |cos| over the probability of being followed
-        float spread;  ///< eta^2 where it is refracted
+        Rgb weight;    ///< f |cos| over the probability of following this way
+        float spread;  ///< eta^2 if refracted, else 1
     };
     const OtherWay& operator[](std::uint32_t i) const { return ways_[i]; }
 
   private:
-    std::vector<OtherWay> ways_;  ///< at most one of each camera path
+    std::vector<OtherWay> ways_;  ///< at most one per camera path
 };
 
 }  // namespace treefarm

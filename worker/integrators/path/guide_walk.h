@@ -12,26 +12,26 @@
 
 namespace treefarm {
 
-/// How the path walk uses a guide, inlined, for a batch of paths. What it learns and how it looks that up is its own
-/// (worker/guides); regions, and what is shared of them, are the walk's. worker/guides/plain_walk.h makes all of this
-/// out of a guide's sample() and pdf().
+/// Adapter by which the path walk uses a guide, inlined, for a batch of paths. Learned data and look-ups belong to the
+/// guide (worker/guides); regions and their common data belong to the walk. worker/guides/plain_walk.h derives the
+/// whole adapter from a guide's sample() and pdf().
 ///
-/// In the walk's order: a path's region is found, and prefetch() called; localise() where the guide depends on more
-/// than the region, once the surface is known; LightBatch has the directions of next event, for pdf(); ScatterBatch
-/// draws the path's own; target(), moved(), direction() and bins() say what a vertex teaches, radiance() what the guide
-/// knows of the direction already, and teach() writes it down.
+/// In the walk's order: a path's region is found, and prefetch() called; localise(), for guides that depend on more
+/// than the region, once the surface is known; LightBatch holds next event's directions, for pdf(); ScatterBatch draws
+/// the path's own direction; target(), moved(), direction() and bins() describe what a vertex teaches, radiance() is
+/// the guide's present estimate for the direction, and teach() writes the records.
 template <class G>
 concept GuideWalk = std::derived_from<typename G::Sampler, RegionSampler> &&
     requires(const typename G::Sampler& guide, typename G::Guidance guidance, typename G::Scatter scatter,
              typename G::Direction direction, typename G::Target target, typename G::Outgoing outgoing,
              typename G::LightBatch lights, const RecordRules& rules) {
-    /// The guide at a place: the region, and with which probability the BSDF is sampled.
+    /// Guidance at a point: its region, and the probability of sampling the BSDF.
     { guidance.region } -> std::convertible_to<std::uint32_t>;
     { guidance.bsdf_fraction } -> std::convertible_to<float>;
     guidance.sample_bsdf_alone();
     { G::unguided() } -> std::same_as<typename G::Guidance>;
     requires std::derived_from<typename G::Scatter, ScatterSample>;
-    /// Whether guidance holds more than the region gives.
+    /// Whether guidance depends on more than the region.
     { G::kLocal } -> std::convertible_to<bool>;
     { G::pdf(guide, guidance, 1.0f, direction) } -> std::same_as<float>;
     { G::target(guidance) } -> std::same_as<typename G::Target>;
@@ -46,7 +46,7 @@ concept GuideWalk = std::derived_from<typename G::Sampler, RegionSampler> &&
     lights.convert();
 };
 
-/// The walk of paths that nothing guides and that teach nothing.
+/// Adapter for unguided paths that record nothing.
 struct NoGuide {
     using Sampler = RegionSampler;
     struct Guidance {

@@ -8,15 +8,17 @@
 
 namespace treefarm {
 
-/// At which vertices next event samples an emitter, where it does not at each, and counts of it for whoever decides how
-/// often. Lights without extent are sampled always: which emitter it is has to be known before the toss then.
+/// Stochastic choice of the vertices at which next event samples an emitter, with the counts from which the sampling
+/// rate is decided. Lights without extent are always sampled: if there are any, the emitter is chosen before the random
+/// decision.
 template <class G, bool kConverts, bool kRecord>
 class LightChances {
   public:
     LightChances(const typename G::Sampler& guide, const PathSettings& settings, const NextEventCounts<kRecord>& counts)
         : guide_(guide), settings_(settings), counts_(counts) {}
 
-    /// Decides how many light samples a vertex has, and tosses for one by the second word of what each path has drawn.
+    /// Sets the average number of light samples of a vertex and, by the second word of the path's numbers, whether one
+    /// is drawn.
     template <class Path>
     void ask(Path& path, const DrawBatch& draws) const {
         path.light_samples = 1.0f;
@@ -29,13 +31,13 @@ class LightChances {
             count(path);
     }
 
-    /// Whether an emitter is to be chosen.
+    /// Whether the vertex needs an emitter to be chosen.
     template <class Path>
     bool chooses(const Path& path) const {
         return path.samples_emitters || settings_.delta_lights;
     }
 
-    /// Whether the emitter that was chosen is sampled.
+    /// Whether the chosen emitter is sampled; `delta`: it has no extent.
     template <class Path>
     bool takes(const Path& path, bool delta) const {
         if (!settings_.delta_lights || delta || !settings_.next_event) [[likely]]
@@ -44,7 +46,7 @@ class LightChances {
         return path.samples_emitters;
     }
 
-    /// A shadow ray is traced.
+    /// Counts a shadow ray.
     template <class Path>
     void traced(Path& path, bool delta) const {
         if constexpr (kConverts)
@@ -53,7 +55,7 @@ class LightChances {
             counts_.traced(path.guidance.region);
     }
 
-    /// What a sample brings to the pixel.
+    /// Adds a sample's contribution to the pixel to the counts.
     template <class Path>
     void found(const Path& path, const PendingLight<G>& light, const SeenLight& seen, const Rgb& carried) const {
         if (counts(path) && !light.delta) [[unlikely]]

@@ -11,32 +11,32 @@
 
 namespace treefarm {
 
-/// What a pass counts of direct light, so that the next knows how often to sample emitters: by region where paths
-/// record, else for the whole image.
+/// Statistics of direct light in a pass, from which the next pass's rate of emitter sampling is decided: per region if
+/// paths record, else for the whole image.
 template <bool kRecord>
 class NextEventCounts {
   public:
     NextEventCounts(TraceStats& stats, std::span<NextEventSums> regions) : stats_(stats), regions_(regions) {}
 
-    /// Whether a path is among those along which it is counted: a few samples of each pixel.
+    /// Whether a path's direct light is counted: true for a few samples of each pixel.
     static bool counts(const PathKey& key) { return key.sample % kPolicy.next_event.counted_every == 0; }
 
-    /// A vertex at which an emitter may be sampled, and whether it is.
+    /// Counts a vertex that may sample an emitter; `drawn`: whether it does.
     void asked(std::uint32_t region, bool drawn) const {
         add(region, kNextEventAsked);
         if (drawn) add(region, kNextEventDrawn);
     }
     void traced(std::uint32_t region) const { add(region, kNextEventTraced); }
 
-    /// Emission that a scattered direction has met, and that brings `carried` to the pixel. `light_pdf`: of all light
-    /// samples of the vertex that it left.
+    /// Counts emission that a scattered direction hits, of the contribution `carried` to the pixel. `light_pdf`:
+    /// density of all light samples together at the vertex that the direction left.
     template <class Path>
     [[gnu::noinline]] void emission(const Path& path, const Rgb& carried, float light_pdf) const {
         if (!std::isfinite(path.scatter_pdf)) return;
         add_light(path, path.scatter_region, carried, path.scatter_pdf, light_pdf, path.scatter_light_samples, 0);
     }
 
-    /// Light of a sampled emitter, likewise, at the vertex where the path is.
+    /// Counts light of a sampled emitter at the path's vertex; arguments as for emission().
     template <class Path>
     [[gnu::noinline]] void light(const Path& path, std::uint32_t region, const Rgb& carried, float scatter_pdf,
                                  float light_pdf, float light_samples) const {

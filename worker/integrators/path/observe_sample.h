@@ -11,9 +11,9 @@
 
 namespace treefarm {
 
-/// Radiance of a path as render_unit() traces it, to the bit, told vertex by vertex. `sample` counts within the pass.
-/// It knows nothing of how bright the pixel is: that only decides what a pass counts, never where a path goes. Defined
-/// where guides are known (worker/guides).
+/// Radiance of a path as render_unit() traces it, to the bit, with each vertex reported to `events`. `sample` counts
+/// within the pass. The pixel's brightness is not used: it affects the counts of a pass, not the paths. Defined with
+/// the guides (worker/guides).
 Rgb observe_sample(const TraceScene& scene, const Resolved& job, const PassPlan& pass, const AnySampler& guide, int x,
                    int y, std::uint32_t sample, PathEvents& events);
 

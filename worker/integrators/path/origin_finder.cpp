@@ -6,7 +6,7 @@
 namespace treefarm {
 
 void OriginFinder::Way::pass(const SurfacePassage& surface) {
-    if (!surface.delta && !scattered) {  // what the camera looks through is no chance
+    if (!surface.delta && !scattered) {  // surfaces that the camera sees by mirrors or glass are no random event
         last = LightWay::diffuse;
         scattered = true;
     }

@@ -7,10 +7,10 @@
 
 namespace treefarm {
 
-/// Finds out where the largest contribution to a sample comes from.
+/// Finder of the largest contribution to a sample and of its origin.
 class OriginFinder : public PathEvents {
   public:
-    /// Nothing found is an origin without vertices.
+    /// Origin of the largest contribution; without vertices if there is none.
     const LightOrigin& origin() const { return origin_; }
 
     void camera(const Ray& ray) override;
@@ -24,10 +24,10 @@ class OriginFinder : public PathEvents {
     void split_path(const SplitPath& path) override;
 
   private:
-    /// What a path has passed so far.
+    /// History of a path up to its present vertex.
     struct Way {
         LightWay last = LightWay::diffuse;
-        bool scattered = false;  ///< not only by mirrors and smooth glass
+        bool scattered = false;  ///< at a surface other than mirrors and smooth glass
 
         void pass(const SurfacePassage& surface);
     };
@@ -37,9 +37,9 @@ class OriginFinder : public PathEvents {
     Way way_;
     int depth_ = 0;
     bool left_scene_ = false;
-    Vec3 view_{0.0f}, first_normal_{0.0f};  ///< the camera ray's direction; where it arrived
-    std::vector<Way> waiting_;              ///< of paths that were split off
-    std::size_t taken_ = 0;                 ///< of them
+    Vec3 view_{0.0f}, first_normal_{0.0f};  ///< the camera ray's direction; geometric normal at its hit
+    std::vector<Way> waiting_;              ///< of paths that were split off, in their order
+    std::size_t taken_ = 0;                 ///< number of them that have been traced
     float largest_ = 0.0f;
     LightOrigin origin_;
 };

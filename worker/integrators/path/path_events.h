@@ -7,21 +7,21 @@
 
 namespace treefarm {
 
-/// A surface's part in a path: what light passes there that goes from one direction to another.
+/// Kind of a path's passage at a surface, between two directions.
 struct SurfacePassage {
     LightWay way = LightWay::diffuse;
     bool delta = false;  ///< of a lobe without density
 };
 
-/// An emitter that next event sampled, and that is seen.
+/// A visible emitter that next event sampled.
 struct SampledLight {
     Vec3 wi;
     float distance, pdf;
     bool from_environment;
 };
 
-/// What happens along one path, in its order, for whoever wants to know (observe_sample()). Paths that it is split into
-/// come one after the other, in the order in which they were left.
+/// Observer of the events along one path, in their order (observe_sample()). Split paths follow one after the other, in
+/// the order in which they were split off.
 class PathEvents {
   public:
     virtual ~PathEvents() = default;
@@ -33,7 +33,7 @@ class PathEvents {
     virtual void next_event(const SurfacePassage&, const SampledLight&, float /*scatter_pdf*/, float /*weight*/,
                             const Rgb& /*contribution*/) {}
     virtual void roulette(float /*survival*/, bool /*survives*/) {}
-    virtual void other_way(const Ray&, const Rgb& /*throughput*/) {}  ///< of glass before the camera
+    virtual void other_way(const Ray&, const Rgb& /*throughput*/) {}  ///< at glass that the camera sees
     virtual void split(std::uint32_t /*paths*/, const Rgb& /*throughput*/) {}
     virtual void split_path(const SplitPath&) {}
     virtual void end(const char* /*why*/) {}

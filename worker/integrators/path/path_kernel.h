@@ -8,10 +8,10 @@
 
 namespace treefarm {
 
-/// The camera paths of a group, traced: which paths walk when, and what their samples come to. One kernel per thread.
+/// Tracer of the camera paths of a group: schedules them, and sums their samples. One kernel per thread.
 ///
-/// The other ways of paths that were split at glass wait until the camera paths of the whole group are done, and so do
-/// the paths that they leave where they are split: they are few, and walk together; then those that these leave do.
+/// Other ways of paths that were split at glass, and split paths, wait until the camera paths of the whole group are
+/// done: they are few, and walk together. The paths split off by these follow in the next round.
 template <GuideWalk G, class Surface, bool kGuided, bool kRecord, class Observer = NoObserver>
 class PathKernel {
     using Walk = PathWalk<G, Surface, kGuided, kRecord, Observer>;
@@ -21,7 +21,7 @@ class PathKernel {
   public:
     static constexpr std::uint32_t kGroup = 8 * kBatch;
 
-    /// `log` is where records go.
+    /// Records are appended to `log`.
     PathKernel(const TraceScene& scene, const typename G::Sampler& guide, const PathSettings& settings,
                TraceStats& stats, RecordLog* log = nullptr)
         : stats_(stats),
@@ -35,8 +35,8 @@ class PathKernel {
     std::uint32_t count() const { return count_; }
     bool full() const { return count_ == kGroup; }
 
-    /// Adds a camera path; the kernel must not be full. `inverse_level`: one over the light about the pixel; 0: not
-    /// known.
+    /// Adds a camera path; the kernel must not be full. `inverse_level`: one over the light about the pixel; 0:
+    /// unknown.
     void add(const PathKey& key, const Ray& ray, float inverse_level = 0.0f) {
         assert(!full());
         inverse_levels_[count_] = inverse_level;
@@ -44,7 +44,7 @@ class PathKernel {
         rays_[count_++] = ray;
     }
 
-    /// Traces what was added.
+    /// Traces the added paths.
     void trace() {
         if (walk_.settings().max_depth == 0) {
             std::fill_n(radiance_.begin(), count_, Rgb(0.0f));
@@ -57,15 +57,16 @@ class PathKernel {
             if (!walk_.split_paths().empty()) walk_split_paths();
     }
 
-    /// Radiance along the camera ray of the path added as number `path`.
+    /// Radiance along the camera ray of path number `path`, in the order of add().
     const Rgb& radiance(std::uint32_t path) const { return radiance_[path]; }
-    /// Luminance that path `path` would have without splitting; of guided paths that record.
+    /// Luminance that path `path` would have without splitting; for guided paths that record.
     float unsplit(std::uint32_t path) const { return unsplit_[path]; }
-    /// Exponent of the power of two to count that in: of the records of the region where the camera's ray arrived.
+    /// Exponent of the power of two in which unsplit() is counted, from the records of the region at the camera ray's
+    /// hit.
     int first_exponent(std::uint32_t path) const { return first_exponents_[path]; }
-    /// What path `path` tells of unguided ones, where the pass asks; of guided paths that record.
+    /// Estimate of unguided cost and variance from path `path`, if the pass asks for it; for guided paths that record.
     const UnguidedTell& unguided(std::uint32_t path) const { return unguided_[path]; }
-    /// One over the light about the pixel, as it was added.
+    /// One over the light about the pixel, as given to add().
     float inverse_level(std::uint32_t path) const { return inverse_levels_[path]; }
     Observer& observer() { return walk_.observer(); }
     PhaseClock& clock() { return walk_.clock(); }
@@ -75,17 +76,17 @@ class PathKernel {
 
     static constexpr std::uint32_t kOtherWayVertices = 1u << 28;
 
-    /// Whether a path that ends makes room for the next. Guided ones were slower so: there the next batch waits for the
-    /// last path (bench/log/speed.md, "what made paths faster").
+    /// Whether a path that ends makes its slot free for the next. For guided paths this was slower: their next batch
+    /// waits for the last path (bench/log/speed.md, "what made paths faster").
     static constexpr bool kRefills = !kGuided;
 
-    /// How many walk together: guided ones without next event are slower by whole batches.
+    /// Number of paths that walk together; whole batches are slower for guided paths without next event.
     std::uint32_t batch() const {
         if constexpr (Observer::kOneByOne) return 1;
         return kGuided && !walk_.settings().next_event ? kBatch / 2 : kBatch;
     }
 
-    /// State from which splitting goes on at the other way of a camera path.
+    /// State with which splitting continues on the other way of a camera path.
     struct SplittingState {
         SplitBudget split_budget;
         int first_exponent;
@@ -93,8 +94,8 @@ class PathKernel {
     static constexpr bool kInherits = kGuided && Surface::kTransmits;
     static constexpr bool kCompares = kGuided && kRecord;
 
-    /// Walks `count` paths, as many at a time as a batch holds: begin(number, slot) sets one up, and end(number, path)
-    /// is told what came of it.
+    /// Walks `count` paths, up to a batch at a time: begin(number, slot) sets one up, and end(number, path) receives
+    /// its result.
     template <class Begin, class End>
     void walk(std::uint32_t count, Begin begin, End end) {
         std::array<std::uint32_t, kBatch> numbers;  // by slot
@@ -140,7 +141,7 @@ class PathKernel {
             });
     }
 
-    /// The other ways of paths that were split at their first surface.
+    /// Walks the other ways of paths that were split at their first surface.
     [[gnu::noinline]] void walk_other_ways() {
         const GlassSplits& glass_splits = walk_.glass_splits();
         walk(
@@ -163,7 +164,7 @@ class PathKernel {
             [&](std::uint32_t, const Path& path) {
                 Rgb& radiance = radiance_[path.origin];
                 if constexpr (kCompares) {
-                    // Both ways are of one sample: its square has their product, too.
+                    // Both ways belong to one sample, whose square includes twice their product.
                     float& first = unsplit_[path.origin];
                     const float second = path.unsplit.of(luminance(path.radiance)) - luminance(radiance);
                     const float level = path.inverse_level;
@@ -194,7 +195,7 @@ class PathKernel {
                     if constexpr (kCompares) split_tells_[number] = {path.twin.moment(), path.twin.cost()};
                     stats_.split_path_rays += static_cast<std::uint32_t>(path.depth - split_paths[number].depth);
                 });
-            // In their own order: the one in which they ended depends on what else walked.
+            // Added in their own order: the order in which they ended depends on the other paths.
             for (std::size_t i = 0; i < split_paths.size(); ++i)
                 radiance_[split_paths[i].origin] += split_radiance_[i];
             if constexpr (kCompares)
@@ -203,7 +204,7 @@ class PathKernel {
         }
     }
 
-    /// Hands over what the paths in these slots learned. What carried no radiance but nonsense teaches nothing.
+    /// Hands over the records of the paths in these slots. Invalid radiance is dropped and teaches nothing.
     void commit([[maybe_unused]] std::span<const std::uint8_t> slots) {
         if constexpr (kRecord) {
             walk_.clock().start();
@@ -226,8 +227,8 @@ class PathKernel {
     std::array<float, kCompares ? kGroup : 0> unsplit_;
     std::array<int, kCompares ? kGroup : 0> first_exponents_;
     std::array<UnguidedTell, kCompares ? kGroup : 0> unguided_;
-    std::array<std::uint8_t, kGroup> numbers_;  ///< of split paths so far
-    std::vector<Rgb> split_radiance_;           ///< radiance of each
+    std::array<std::uint8_t, kGroup> numbers_;  ///< number of split paths so far, per camera path
+    std::vector<Rgb> split_radiance_;           ///< radiance of each split path
     std::vector<UnguidedTell> split_tells_;
 };
 

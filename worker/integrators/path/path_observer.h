@@ -7,9 +7,9 @@
 
 namespace treefarm {
 
-/// Watches nothing, at no cost. observe_sample() passes one that tells.
+/// Observer without any effect or cost. observe_sample() passes one that reports events.
 struct NoObserver {
-    static constexpr bool kOneByOne = false;  ///< whether a kernel has one path walk after the other
+    static constexpr bool kOneByOne = false;  ///< whether a kernel walks one path at a time
 
     void camera(const Ray&) {}
     void ray(const Ray&) {}

@@ -10,24 +10,25 @@
 
 namespace treefarm {
 
-/// Radiance that a direction carried, for a guide `G` to learn from.
+/// Record contents of one direction, for a guide `G` to learn from.
 template <class G>
 struct TaughtDirection {
     typename G::Direction direction;
-    float pdf;        ///< 0: of a delta lobe beside others, which teaches how often to sample the BSDF
-    float radiance;   ///< that arrived
-    float reflected;  ///< of that, over the density
+    float pdf;        ///< 0: of a delta lobe beside others, which teaches only the probability of sampling the BSDF
+    float radiance;   ///< incident radiance
+    float reflected;  ///< reflected part of it, over the density
     typename G::Bins bins;
-    bool of_mixture = true;  ///< whether it was drawn from what the mixture mixes
+    bool of_mixture = true;  ///< whether the direction was drawn from the learned mixture
 };
 
-/// Remembers the vertices of one path and, at its end, what radiance each sampled direction carried:
+/// Recorder of one path: stores its vertices and, at its end, computes the radiance that each sampled direction
+/// carried:
 ///   L_i = emission_i + (reflected_i + weight_(i+1) L_(i+1)) / survival_i,
-/// where emission_i was met by the direction sampled at vertex i, and reflected_i is what next event found at its end.
-/// With bootstrapping the guide's own L~_(i+1), what the region of vertex i + 1 has learned of the direction sampled
-/// there, takes a part beta of L_(i+1)'s place (Q-learning: Dahm and Keller 2017, "Learning light transport the
-/// reinforced way"; beta < 1 keeps a part of what the path found). Only records change, which choose directions,
-/// never the image. What a vertex teaches is up to the guide `G`. Memory grows to the longest path and stays.
+/// where the direction sampled at vertex i has hit emission_i, and reflected_i is next event's result at its end. With
+/// bootstrapping, L~_(i+1), the radiance that the region of vertex i + 1 has learned for the direction sampled there,
+/// replaces the part beta of L_(i+1) (Q-learning: Dahm and Keller 2017, "Learning light transport the reinforced way";
+/// beta < 1 keeps a part of the path's own result). This changes only records, which guide directions, and never the
+/// image. The guide `G` defines the records of a vertex. Memory grows to the longest path and is kept.
 template <class G>
 class PathRecorder {
   public:
@@ -44,7 +45,7 @@ class PathRecorder {
         outside_ = 0;
     }
 
-    /// Begins the other way out of a path's first surface, by a delta lobe of this weight.
+    /// Starts a record of the other way out of a path's first surface, by a delta lobe of this weight.
     void begin_other_way(const Rgb& weight) {
         begin_path();
         add_delta_vertex(weight, {}, 0);
@@ -52,38 +53,38 @@ class PathRecorder {
 
     static constexpr float kUnknown = -1.0f;
 
-    /// A direction was sampled: with its density, f |cos| / density, its bins of the mixture histograms, the random
-    /// bits by which its records are rounded, and the radiance that the guide knows to arrive from it, or kUnknown.
+    /// Adds a vertex with its sampled direction: the density, f |cos| / density, the bins in the mixture's histograms,
+    /// the random bits that round its records, and the guide's estimate of the incident radiance, or kUnknown.
     void add_vertex(const Target& target, const Direction& direction, float pdf, const Rgb& weight, const Bins& bins,
                     std::uint32_t rounding, float known = kUnknown) {
         vertices_.push_back({weight, Rgb(0.0f), Rgb(0.0f), 1.0f, pdf, known, target, direction, rounding, bins});
     }
 
-    /// A direction of a delta lobe was sampled: it is no record, but what it carried belongs to the vertices before it,
-    /// and to the mixture where the BSDF has lobes besides; the target is empty where it has not.
+    /// Adds a vertex with a direction of a delta lobe. It yields no radiance record; its light counts for the vertices
+    /// before it and, if the BSDF has other lobes, for the mixture. `target` is empty if it has none.
     void add_delta_vertex(const Rgb& weight, const Target& target, std::uint32_t rounding) {
         vertices_.push_back({weight, Rgb(0.0f), Rgb(0.0f), 1.0f, 0.0f, kUnknown, target, {}, rounding, G::kDeltaBins});
     }
 
-    /// Emission that the last sampled direction met, weighted against next event.
+    /// Adds emission that the last sampled direction hit, weighted against next event.
     void add_emission(const Rgb& radiance) {
         if (!vertices_.empty()) vertices_.back().emission += radiance;
     }
 
     std::uint32_t vertex_count() const { return static_cast<std::uint32_t>(vertices_.size()); }
 
-    /// Light that next event reflects where the path had so many vertices: at the end of the direction sampled at the
-    /// last of them.
+    /// Adds light that next event reflects at the end of direction number `vertex_count`: `vertex_count` is the number
+    /// of vertices when it was sampled.
     void add_reflected(std::uint32_t vertex_count, const Rgb& radiance) {
         if (vertex_count != 0) vertices_[vertex_count - 1].reflected += radiance;
     }
 
-    /// The path survived roulette after the last sampled direction met its surface.
+    /// Records the survival of roulette after the last sampled direction.
     void survive(float probability) {
         if (!vertices_.empty()) vertices_.back().survival = probability;
     }
 
-    /// A next-event sample that is a record itself (kick-start passes): weighted radiance, what of it is reflected over
+    /// Adds a next-event sample that is a record itself (kick-start passes): weighted radiance, its reflected part over
     /// the density, and the density.
     void add_light_sample(const Target& target, const Direction& direction, const Rgb& radiance, float reflected,
                           float pdf, std::uint32_t rounding) {
@@ -91,15 +92,15 @@ class PathRecorder {
             {target, rounding, {direction, pdf, average(radiance), RecordRules::finite(reflected), {}, false}});
     }
 
-    /// A record of what next event found, from which the choice of emitters learns.
+    /// Adds a record of next event's result, from which the choice of emitters learns.
     void add_choice(const Record& record) { choices_.push_back(record); }
 
     void add_outside() { ++outside_; }
 
-    /// Appends the path's records. Returns how many vertices and next-event samples were counted.
+    /// Appends the path's records to `log`. Returns the number of counted vertices and next-event samples.
     std::uint64_t commit(RecordLog& log) {
         Rgb carried(0.0f);
-        float replaced = 0.0f;  // what bootstrapping adds to the mean of `carried`
+        float replaced = 0.0f;  // bootstrapping's addition to the mean of `carried`
         std::uint64_t recorded = light_samples_.size();
         log.drafts.resize(
             std::max(log.drafts.size(), G::kRecordsPerVertex * (vertices_.size() + light_samples_.size())));
@@ -133,7 +134,7 @@ class PathRecorder {
         std::uint32_t rounding;
         Bins bins;
     };
-    /// beta (weight L~ - weight L) of a vertex.
+    /// Bootstrapping term beta (weight L~ - weight L) of a vertex.
     float bootstrapped(const Vertex& v, const Rgb& carried) const {
         if (v.known < 0.0f) return 0.0f;
         return rules_.bootstrap * (average(v.weight) * v.known - average(carried));

@@ -8,12 +8,12 @@
 
 namespace treefarm {
 
-/// Exponent of the power of two of a region's light, by that of its records: those are of L / p, or of L^2 / p.
+/// Exponent of the power of two of a region's radiance, from that of its records, which are L / p or L^2 / p.
 inline int radiance_exponent(int record_exponent, GuidingTarget target) {
     return target == GuidingTarget::variance ? record_exponent / 2 : record_exponent;
 }
 
-/// Ratio of the light about a path's end to that about its first vertex, by the mean records of their regions.
+/// Ratio of the light about a path's present vertex to that about its first one, by the mean records of their regions.
 template <class G, class Surface>
 float brightness(const PathState<G, Surface>& path, const RegionSampler& guide, const PathSettings& settings) {
     if (!settings.roulette.needs_brightness()) return 1.0f;
@@ -21,7 +21,7 @@ float brightness(const PathState<G, Surface>& path, const RegionSampler& guide, 
     return power_of_two(std::clamp(radiance_exponent(exponent, settings.target), -60, 60));
 }
 
-/// Number of paths as which a path goes on from where it has arrived.
+/// Number of paths as which a path continues from its present vertex.
 template <class G, class Surface>
 std::uint32_t splitting(const PathState<G, Surface>& path, const RegionSampler& guide, const PathSettings& settings) {
     if (settings.splitting == 1) return 1;
@@ -29,14 +29,14 @@ std::uint32_t splitting(const PathState<G, Surface>& path, const RegionSampler& 
     return settings.roulette.splitting(path.throughput, spread, brightness(path, guide, settings), settings.splitting);
 }
 
-/// Probability with which the unguided path that a guided one might have been goes on from there.
+/// Probability with which the corresponding unguided path would survive roulette at this vertex.
 template <class G, class Surface>
 float unguided_survival(const PathState<G, Surface>& path, const PathSettings& settings) {
     const float spread = Surface::kTransmits ? path.spread : 1.0f;
     return settings.unguided_roulette.survival(path.throughput * path.twin.ratio(), spread);
 }
 
-/// Probability that a path goes on from where it has arrived.
+/// Probability that a path survives roulette at its present vertex.
 template <bool kGuided, class G, class Surface>
 float survival(const PathState<G, Surface>& path, const RegionSampler& guide, const PathSettings& settings) {
     const float spread = Surface::kTransmits ? path.spread : 1.0f;

@@ -11,45 +11,46 @@
 
 namespace treefarm {
 
-/// Whether a pass counts what next event brings, for whoever decides how often it samples emitters.
+/// Whether a pass counts next event's contributions, from which its sampling rate is decided.
 inline bool counts_next_event(const Resolved& job, const PassPlan& pass, const RegionSampler& guide) {
     return pass.next_event && job.decides_next_event && guide.knows_image() &&
            (!pass.record || guide.decides_next_event()) &&
            multiples_in(pass.first_sample, pass.spp, kPolicy.next_event.counted_every) > 0;
 }
 
-/// Settings of the walk besides the scene: fixed for a pass.
+/// Settings of the walk, fixed for a pass.
 struct PathSettings {
     int max_depth;
-    bool next_event;         ///< a flag, not a kernel of its own: one predictable branch per vertex
-    bool delta_alone;        ///< no next event, but for the lights that nothing else finds
-    float light_samples;     ///< at each vertex; 0: as the guide says
-    bool thin_next_event;    ///< some vertices have fewer light samples than one
-    bool few_light_samples;  ///< so few that vertices which have one draw its numbers alone
-    bool count_next_event;   ///< for whoever decides how many
-    bool twin;               ///< guided paths tell what unguided ones would be like
-    bool delta_lights;       ///< among others: they are sampled always
+    bool next_event;         ///< a flag rather than a kernel of its own: one predictable branch per vertex
+    bool delta_alone;        ///< only lights that nothing else finds are sampled
+    float light_samples;     ///< at each vertex; 0: the guide decides
+    bool thin_next_event;    ///< some vertices have less than one light sample on average
+    bool few_light_samples;  ///< so rare that numbers are drawn per vertex, not per batch
+    bool count_next_event;   ///< the pass counts contributions, to decide the sampling rate
+    bool twin;               ///< guided paths estimate the cost and variance of unguided ones
+    bool delta_lights;       ///< there are lights without extent: they are always sampled
     MisHeuristic mis;
     bool strict_normals;
     bool hide_emitters;
     bool split_glass;           ///< glass_splits.h
-    bool record_light_samples;  ///< kick-start: what next event finds teaches the tree, too
+    bool record_light_samples;  ///< kick-start: next event's samples teach the tree, too
     bool profile;
-    bool textured;             ///< surfaces have something to look up
+    bool textured;             ///< some materials have textures
     bool jitter_records;       ///< stochastic spatial filter
     std::uint32_t candidates;  ///< directions drawn at a guided vertex, of which one is taken (candidates.h)
-    int candidate_depth;       ///< up to here; deeper vertices draw one
-    std::uint32_t splitting;   ///< as how many paths one may go on at a vertex
-    bool compare_splitting;    ///< with what paths would be alone
+    int candidate_depth;       ///< last depth with several candidates; deeper vertices draw one
+    std::uint32_t splitting;   ///< largest number of paths as which one may continue at a vertex
+    bool compare_splitting;    ///< paths also report their value without splitting
     GuidingTarget target;
     ViewRecords view_records;
     float bootstrap;  ///< RecordRules::bootstrap
     Roulette roulette, unguided_roulette;
 
-    /// Whether vertices look up their region: the number of light samples is then the region's.
+    /// Whether vertices look up their region, which then sets the number of light samples.
     static bool by_region(const PassPlan& pass) { return pass.guided || pass.record; }
 
-    /// Drawing one vertex's numbers alone takes some three times as long as among many.
+    /// Fraction of vertices below which numbers are drawn per vertex: one vertex's numbers alone take three times as
+    /// long.
     static constexpr float kFew = 1.0f / 3;
 
     PathSettings(const TraceScene& scene, const Resolved& job, const PassPlan& pass, const RegionSampler& guide)

@@ -12,39 +12,40 @@
 
 namespace treefarm {
 
-/// A path on its way, from the camera to where its ray has just arrived, guided by `G` (guide_walk.h).
+/// State of a path from the camera to its ray's present hit, guided by `G` (guide_walk.h).
 template <class G, class Surface>
 struct PathState {
     PathKey key;
-    std::uint32_t vertex;  ///< by which random numbers are keyed; split paths and other ways have numbers of their own
+    std::uint32_t vertex;  ///< keys the random numbers; split paths and other ways have ranges of their own
     int depth;             ///< edges so far
     Ray ray;
     Rgb radiance, throughput;
-    float scatter_pdf;             ///< infinite after a delta lobe: next event cannot have found what it hits
-    float spread;                  ///< product of eta^2: what refraction took from the throughput and gives back later
-    float scatter_light_samples;   ///< of next event at the vertex that the ray left
-    std::uint32_t scatter_region;  ///< of that vertex
-    float inverse_level;           ///< one over the light about the pixel; 0: not known
-    float scatter_bsdf_pdf;        ///< that scattering would have had unguided; infinite after a delta lobe
-    UnguidedTwin twin;             ///< where PathSettings::twin asks for it
-    LightReceiver scatter_from;    ///< the place, as next event chose an emitter there
-    LightWidthStore scatter_widths;  ///< of scatter_from
-    int first_exponent;              ///< of the quanta where the camera's ray arrived: how bright it is there
-    std::uint16_t origin;            ///< the group's camera path that it is part of
+    float scatter_pdf;  ///< infinite after a delta lobe: next event cannot have sampled that direction
+    /// product of eta^2, by which refraction has scaled the throughput; undone on leaving
+    float spread;
+    float scatter_light_samples;     ///< number of light samples at the vertex that the ray left
+    std::uint32_t scatter_region;    ///< of that vertex
+    float inverse_level;             ///< one over the light about the pixel; 0: unknown
+    float scatter_bsdf_pdf;          ///< density of the same direction without guiding; infinite after a delta lobe
+    UnguidedTwin twin;               ///< if PathSettings::twin is set
+    LightReceiver scatter_from;      ///< the vertex that the ray left, as the choice of an emitter used it
+    LightWidthStore scatter_widths;  ///< storage of scatter_from
+    int first_exponent;              ///< of the quanta at the camera ray's hit: the scale of its brightness
+    std::uint16_t origin;            ///< index of its camera path in the group
     SplitBudget split_budget;
     Unsplit unsplit;
-    bool was_split_off;  ///< has just left another: its ray has arrived, and what it met is accounted for
+    bool was_split_off;  ///< just split off: its ray has arrived, and the emission there is counted already
 
-    // Where the ray has arrived; left over from before where it met nothing.
+    // Data of the ray's hit; stale if it hit nothing.
     bool found;
     EmbreeScene::EmbreeHit embree_hit;
     Hit hit;
-    typename G::Guidance guidance;                        ///< where the guide is used
-    [[no_unique_address]] typename G::Outgoing outgoing;  ///< what the guide keeps of where light leaves to
+    typename G::Guidance guidance;                        ///< if the guide is used
+    [[no_unique_address]] typename G::Outgoing outgoing;  ///< the guide's form of the outgoing direction
     std::optional<Surface> surface;
-    float light_samples;    ///< of next event here, on average
-    bool samples_emitters;  ///< by chance or always
-    std::uint8_t lane;      ///< its slot in what the batch has drawn
+    float light_samples;    ///< average number of light samples at this vertex
+    bool samples_emitters;  ///< whether this vertex samples emitters
+    std::uint8_t lane;      ///< index in the batch's random numbers
     typename G::Scatter scatter;
     Rgb weight;  ///< f |cos| over the density of the sampled direction
 
@@ -71,7 +72,7 @@ struct PathState {
         guidance = G::unguided();
     }
 
-    /// Goes on from a delta lobe at the first surface, to add more to the same radiance.
+    /// Continues from a delta lobe at the first surface, and adds to the same radiance.
     void resume(const Ray& from_surface, const Rgb& carried, float eta2, std::uint32_t at_vertex) {
         vertex = at_vertex;
         depth = 1;
@@ -81,18 +82,19 @@ struct PathState {
         spread = eta2;
     }
 
-    /// Follows the direction that was drawn with its densities, guided and not. Ways out of glass are the same of both.
+    /// Updates the unguided estimate for the drawn direction, by its guided and unguided density. The choice of the way
+    /// out of glass is the same for both.
     void follow_twin() {
         if (!scatter.delta || scatter.effective_pdf == scatter.pdf) twin.step(scatter.pdf, scatter.bsdf_pdf);
         scatter_bsdf_pdf = scatter.delta ? std::numeric_limits<float>::infinity() : scatter.bsdf_pdf;
     }
 
-    /// One of the paths that this path goes on as, from where its ray has arrived.
+    /// State of a path that is split off at the present hit.
     SplitPath split_off() const {
         return {origin, split_budget, depth, ray, embree_hit, throughput, spread, first_exponent, twin.split_off()};
     }
 
-    /// Goes on as several, of which it is one, and leaves the others; returns how many they are.
+    /// Splits the path into several, of which it remains one; the others go to `others`. Returns the total number.
     [[gnu::noinline]] std::uint32_t split(std::uint32_t paths, SplitPaths& others) {
         paths = split_budget.split(paths);
         unsplit.split(paths, luminance(radiance));
@@ -103,7 +105,7 @@ struct PathState {
         return paths;
     }
 
-    /// Goes on as one that the path of this key was split into; it adds to a radiance of its own.
+    /// Starts a split path under its key, with a radiance of its own.
     void begin(const PathKey& path, const SplitPath& split) {
         begin(path, split.ray);
         vertex = split.first_vertex();

@@ -26,8 +26,8 @@ namespace treefarm {
 /// Path tracing with optional next event, guiding and recording (Mueller et al. 2017; tests in the order of their
 /// program). Depth counts path edges: a surface seen by the camera has depth 1. `G`: guide_walk.h.
 ///
-/// Paths walk in step, up to kBatch of them: what one waits for (memory, square roots) another works through, and the
-/// shadow rays of a step are traced together. A path's result does not depend on what walks beside it.
+/// Up to kBatch paths walk in step: latencies of one (memory, square roots) are hidden by the others, and the shadow
+/// rays of a step are traced together. A path's result does not depend on the other paths of its batch.
 template <GuideWalk G, class Surface, bool kGuided, bool kRecord, class Observer = NoObserver>
 class PathWalk {
   public:
@@ -54,12 +54,12 @@ class PathWalk {
 
     PathWalk(const PathWalk&) = delete;
 
-    /// The places of a batch: whoever sets one up says so to walk().
+    /// Path slot; filled by the caller before walk().
     Path& operator[](std::uint32_t slot) { return paths_[slot]; }
     Recorder& recorder(std::uint32_t slot) { return recorders_[slot]; }
 
-    /// Traces the paths in these places, at most kBatch, to their ends. `follow(places)` is told where some have ended,
-    /// and sets up others in the first of these places; it returns how many.
+    /// Traces the paths in these slots, at most kBatch, to their ends. `follow(slots)` is called with slots whose paths
+    /// have ended; it refills the first of them and returns how many.
     template <class Follow>
     void walk(std::span<const std::uint8_t> slots, Follow follow) {
         std::copy(slots.begin(), slots.end(), alive_.begin());
@@ -68,7 +68,7 @@ class PathWalk {
             alive = ended_.replace(step(alive), alive_, follow);
     }
 
-    /// Other ways out of glass, and split paths, that the paths left; whoever follows them takes them away.
+    /// Ways out of glass and split paths that the traced paths left; the caller of walk() traces and removes them.
     GlassSplits& glass_splits() { return glass_; }
     SplitPaths& split_paths() { return split_paths_; }
 
@@ -77,10 +77,10 @@ class PathWalk {
     PhaseClock& clock() { return clock_; }
 
   private:
-    /// Whether directions are converted before a path can leave, and whether more guides than the region.
+    /// kConverts: directions are converted to codes; kLocal: guidance depends on more than the region.
     static constexpr bool kConverts = kGuided || kRecord, kLocal = kConverts && G::kLocal;
 
-    /// One more edge for the first `alive` of alive_; returns how many go on.
+    /// Traces one more edge of the first `alive` of alive_; returns how many paths continue.
     std::uint32_t step(std::uint32_t alive) {
         clock_.start();
         std::array<EmbreeScene::Query, kBatch> queries;
@@ -99,7 +99,7 @@ class PathWalk {
         }
         scene_.geometry().intersect({queries.data(), count});
         clock_.lap(TracePhase::intersect);
-        if constexpr (Surface::kGeneral)  // others are of small scenes mostly
+        if constexpr (Surface::kGeneral)  // other scenes are mostly small
             arrivals(alive, [&](std::uint32_t, Path& path) { scene_.geometry().prefetch_point(path.embree_hit); });
         draw_numbers(alive);
         arrivals(alive, [&](std::uint32_t, Path& path) { scene_.geometry().set_point(path.hit, path.embree_hit); });
@@ -126,7 +126,7 @@ class PathWalk {
         return alive;
     }
 
-    /// The next directions.
+    /// Chooses the next directions; returns how many paths continue.
     std::uint32_t go_on(std::uint32_t alive) {
         const auto draws = [&](std::uint8_t path) { return directions_.draw(paths_[path]) || end("no direction"); };
         const auto leaves = [&](std::uint8_t path) {
@@ -141,7 +141,7 @@ class PathWalk {
         return keep(alive, leaves);
     }
 
-    /// Keeps those of the first `alive` paths of alive_ for which `goes_on`; returns their number.
+    /// Keeps those of the first `alive` paths of alive_ for which `goes_on` holds; returns their number.
     template <class GoesOn>
     std::uint32_t keep(std::uint32_t alive, GoesOn goes_on) {
         std::uint32_t left = 0;
@@ -155,7 +155,7 @@ class PathWalk {
         return left;
     }
 
-    /// Calls visit(lane, path) for the first `alive` of alive_ that have met a surface.
+    /// Calls visit(lane, path) for each of the first `alive` paths of alive_ that has hit a surface.
     template <class Visit>
     void arrivals(std::uint32_t alive, Visit visit) {
         for (std::uint32_t lane = 0; lane < alive; ++lane)
@@ -177,7 +177,7 @@ class PathWalk {
         clock_.lap(TracePhase::direction);
     }
 
-    /// The random numbers of a step, for all paths together.
+    /// Draws the random numbers of a step, for all paths together.
     void draw_numbers(std::uint32_t alive) {
         KeyBatch keys;
         int depth = 0;
@@ -192,11 +192,11 @@ class PathWalk {
         directions_.draw_numbers(seed, keys, paths_, {alive_.data(), alive});
         emitters_.draw_numbers(seed, keys, alive);
         if (settings_.thin_next_event || (depth > 1 && settings_.roulette.plays(depth - 1)))
-            draw_batch(seed, keys, alive, ~0u, Stream::roulette, roulette_draws_);  // of the vertex before
+            draw_batch(seed, keys, alive, ~0u, Stream::roulette, roulette_draws_);  // of the previous vertex
         if constexpr (kRecord) direction_records_.draw_numbers(seed, keys, alive);
     }
 
-    /// Arrival of a path's ray: emission, and whether the path goes on from there, as one or as several.
+    /// Handles the arrival of a path's ray: emission, roulette and splitting. False if the path ends.
     bool arrive(Path& path, Recorder* recorder) {
         if (!path.found) {
             if (scene_.emitters().shines_from_infinity()) [[unlikely]]
@@ -223,7 +223,7 @@ class PathWalk {
         return true;
     }
 
-    /// Visit of the surface where a path's ray has arrived. False if the path ends.
+    /// Visits the surface that a path's ray has hit. False if the path ends.
     bool visit(std::uint8_t index) {
         Path& path = paths_[index];
         const Hit& hit = path.hit;
@@ -253,7 +253,7 @@ class PathWalk {
         return true;
     }
 
-    /// The path takes the direction that was drawn. False if it carries nothing.
+    /// Continues a path in the drawn direction. False if it carries nothing.
     bool leave(std::uint8_t index) {
         Path& path = paths_[index];
         const Surface& surface = *path.surface;
@@ -273,7 +273,7 @@ class PathWalk {
         if constexpr (kConverts) path.scatter_region = path.guidance.region;
         if (surface.smooth() && chances_.chooses(path))
             emitters_.keep(path.lane, path.scatter_from, path.scatter_widths);
-        // One question for what is rare: the same bits say that a lobe may be delta, or refract.
+        // One test for both rare cases: the same bits mean that a lobe may be delta, or refract.
         const bool rare = Surface::kGeneral && surface.delta_or_transmitting();
         if constexpr (Surface::kTransmits)
             if (rare && s.local.z < 0.0f) path.spread *= surface.eta2();
@@ -288,7 +288,7 @@ class PathWalk {
         return false;
     }
 
-    /// Out of line: most scenes pay one test for it.
+    /// Samples emitters in batches; out of line, since most scenes only pay one test for it.
     [[gnu::noinline]] void sample_emitters_together(std::uint32_t alive) {
         std::array<std::uint8_t, kBatch> smooth;
         std::uint32_t count = 0;
@@ -304,14 +304,14 @@ class PathWalk {
             next_event(smooth[i]);
     }
 
-    /// The place of a path, as next event chooses an emitter for it.
+    /// Point of a path's vertex, as next event chooses an emitter for it.
     LightReceiver receiver(const Path& path) const {
         const Vec3 front = path.surface->front();
         return {path.hit.p, kConverts ? guide_.light_probabilities(path.guidance.region) : nullptr,
                 path.surface->transmits() ? nullptr : &front};
     }
 
-    /// Samples an emitter; whether it is seen is asked for all paths of a step together.
+    /// Samples an emitter; the visibility is tested for all paths of a step together.
     void next_event(std::uint8_t index) {
         const Path& path = paths_[index];
         const Surface& surface = *path.surface;
@@ -336,7 +336,7 @@ class PathWalk {
                      bsdf);
     }
 
-    /// Traces the step's shadow rays, and adds what is seen, weighted against scattering.
+    /// Traces the step's shadow rays, and adds the visible samples, weighted against scattering.
     void look_at_lights() {
         const std::span<const bool> shadowed = pending_.trace(scene_.geometry(), observer_);
         std::array<std::uint8_t, kBatch> seen;
@@ -357,7 +357,7 @@ class PathWalk {
     }
 
     void add_light(const PendingLight<G>& light, const typename G::Direction& direction) {
-        if (!(light.pdf > 0.0f)) return;  // of an environment map: only now known
+        if (!(light.pdf > 0.0f)) return;  // an environment map's density is known only now
         Path& path = paths_[light.from.path];
         const SeenLight seen = see_light<G, kGuided>(light, direction, guide_, settings_);
         const Rgb carried = light.from.throughput * seen.reflected;
@@ -376,7 +376,7 @@ class PathWalk {
     const PathSettings settings_;
     TraceStats& stats_;
     PhaseClock clock_;
-    std::vector<typename Surface::Scratch> scratch_;  ///< a path's surface lasts for a step
+    std::vector<typename Surface::Scratch> scratch_;  ///< a path's surface exists for one step
     std::array<Path, kBatch> paths_;
     std::array<std::uint8_t, kBatch> alive_;
     EndedPaths ended_;

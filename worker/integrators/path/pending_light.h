@@ -14,38 +14,38 @@
 
 namespace treefarm {
 
-/// The vertex from which an emitter was sampled.
+/// The vertex that sampled an emitter.
 template <class G>
 struct LightSeeker {
-    std::uint32_t path;    ///< of the batch
-    std::uint32_t vertex;  ///< vertices that the path has recorded before this one
-    float light_samples;   ///< there, on average
-    bool learned_choice;   ///< the emitter was chosen by what is learned of this region
+    std::uint32_t path;    ///< index in the batch
+    std::uint32_t vertex;  ///< number of the path's recorded vertices before this one
+    float light_samples;   ///< average number of light samples at the vertex
+    bool learned_choice;   ///< the emitter was chosen by the region's learned probabilities
     typename G::Guidance guidance;
     Rgb throughput;
 };
 
-/// A sampled emitter of which it is not yet known whether it is seen.
+/// A sampled emitter of unknown visibility.
 template <class G>
 struct PendingLight {
     LightSeeker<G> from;
-    Vec3 wi;  ///< as in DirectSample, like all to cluster_probability
+    Vec3 wi;  ///< as in DirectSample, like all members up to cluster_probability
     float distance;
     float pdf;
     bool delta;
     bool from_environment;
     std::uint8_t cluster;
     float cluster_probability;
-    float bsdf_pdf;  ///< of scattering along wi
+    float bsdf_pdf;  ///< density of scattering along wi
     Rgb f_cos;
-    Rgb radiance;  ///< of the emitter, unless it is the environment
+    Rgb radiance;  ///< emitted radiance, set later for the environment
 
     void set(const BsdfValue& bsdf) {
         bsdf_pdf = bsdf.pdf;
         f_cos = bsdf.f_cos;
     }
 
-    /// Record from which the choice of emitters learns, of a sample that brought `reflected`.
+    /// Record for the choice of emitters, of a sample with the contribution `reflected`.
     Record record(const RegionSampler& guide, float reflected) const {
         const std::uint32_t region = from.guidance.region;
         return light_record(region, guide.quantum_exponent(region), cluster, cluster_probability * from.light_samples,
@@ -53,7 +53,7 @@ struct PendingLight {
     }
 };
 
-/// Shadow rays of one step of a batch of paths, with the light samples that they belong to.
+/// Shadow rays of one step of a batch of paths, with their light samples.
 template <class G>
 class PendingLights {
   public:
@@ -64,7 +64,7 @@ class PendingLights {
     std::uint32_t size() const { return count_; }
     PendingLight<G>& operator[](std::size_t i) { return lights_[i]; }
 
-    /// Adds what was sampled where `hit` is, with the BSDF's value for it, if it is known already.
+    /// Adds a light sample at `hit`; `bsdf`: its BSDF value, if known already.
     void add(const Hit& hit, const DirectSample& light, const LightSeeker<G>& from, const BsdfValue& bsdf) {
         assert(count_ < kMost);
         PendingLight<G>& pending = lights_[count_];
@@ -81,7 +81,7 @@ class PendingLights {
         rays_[count_++] = shadow_ray(hit, light);
     }
 
-    /// Traces the shadow rays; which of the lights are hidden.
+    /// Traces the shadow rays. Returns which lights are occluded.
     template <class Observer>
     std::span<const bool> trace(const EmbreeScene& geometry, Observer& observer) {
         for (std::uint32_t i = 0; i < count_; ++i)

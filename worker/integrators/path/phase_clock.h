@@ -7,8 +7,7 @@
 
 namespace treefarm {
 
-/// Times the parts of tracing where it is asked to, once per step of a batch of paths; else it costs a branch each
-/// time.
+/// Timer of the phases of tracing, read once per step of a batch; costs a branch each time if profiling is off.
 class PhaseClock {
   public:
     PhaseClock(bool on, TraceStats& stats) : on_(on), stats_(stats) {}

@@ -6,28 +6,28 @@
 
 namespace treefarm {
 
-/// A sampled direction at a surface. A guide may keep more of it.
+/// A sampled direction at a surface. A guide may add members.
 struct ScatterSample {
     Vec3 local;  ///< in the shading frame
     Vec3 world;
     Rgb f_cos;            ///< f |cos|
     float pdf;            ///< per steradian, of the whole mixture; delta: the probability of the lobe
-    float effective_pdf;  ///< pdf, or what stands for it where one of several was taken (candidates.h)
+    float effective_pdf;  ///< pdf, or its replacement if one of several candidates was taken (candidates.h)
     float bsdf_pdf;       ///< of the BSDF alone
-    float guide_pdf;      ///< of what a region has learned alone, where it guides
+    float guide_pdf;      ///< of the region's learned distribution alone, if it guides
     bool guided;          ///< not drawn from the BSDF
-    bool delta;           ///< of a lobe without density, which the guide cannot find
+    bool delta;           ///< of a lobe without density, which the guide cannot sample
 };
 
-/// Density of a mixture that samples the BSDF with the probability `bsdf_fraction`, the guide otherwise. The guide
-/// stands in for smooth lobes only: the delta lobes of a BSDF that has both are sampled by the BSDF, at bsdf_fraction
-/// times their probability (Mueller et al. 2017, as their program does it).
+/// Density of a mixture that samples the BSDF with probability `bsdf_fraction` and the guide otherwise. The guide
+/// replaces smooth lobes only: the delta lobes of a BSDF that has both are sampled by the BSDF, at bsdf_fraction times
+/// their probability (as the program of Mueller et al. 2017 does).
 inline float mixed_pdf(float bsdf_fraction, float bsdf_pdf, float guide_pdf) {
     return bsdf_fraction * bsdf_pdf + (1.0f - bsdf_fraction) * guide_pdf;
 }
 
-/// Draws a direction from the BSDF: random[1] is for its lobe, [2] and [3] are the point; `cosine` is that point warped
-/// to the cosine hemisphere. False if there is no direction.
+/// Draws a direction from the BSDF: random[1] chooses its lobe, [2] and [3] the point; `cosine` is that point warped to
+/// the cosine hemisphere. False if there is no direction.
 template <class Surface>
 [[gnu::always_inline]] inline bool draw_from_bsdf(const Surface& surface, const Draw& random, const Vec3& cosine,
                                                   ScatterSample& s) {

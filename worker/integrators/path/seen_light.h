@@ -12,7 +12,7 @@ BsdfValue bsdf_towards(const Surface& surface, const Vec3& wi) {
     return surface.bsdf().value(surface.wo(), surface.frame().to_local(wi));
 }
 
-/// Finds out how the surface scatters a light that it sees, unless that is known; false if not at all.
+/// Evaluates the BSDF for a visible light sample, unless it is known; false if it is black.
 template <class G, class Surface>
 bool reflects(const Surface& surface, PendingLight<G>& light) {
     if (!surface.evaluate_late()) return true;
@@ -20,9 +20,9 @@ bool reflects(const Surface& surface, PendingLight<G>& light) {
     return !is_black(light.f_cos);
 }
 
-/// A light sample that is not hidden, weighted against scattering.
+/// A visible light sample, weighted against scattering.
 struct SeenLight {
-    float scatter_pdf, light_pdf;  ///< that of all light samples of the vertex together
+    float scatter_pdf, light_pdf;  ///< light_pdf: of all light samples of the vertex together
     float weight;
     Rgb reflected;  ///< over the density
 };
@@ -40,7 +40,7 @@ SeenLight see_light(const PendingLight<G>& light, const typename G::Direction& d
     return seen;
 }
 
-/// Luminance that it brings to the pixel of the path that is guided, weighted as the unguided one would weigh it.
+/// Contribution of a light sample to the guided path's pixel, in luminance, weighted as in the unguided path.
 template <class G>
 float twin_light(const PendingLight<G>& light, const SeenLight& seen, const PathSettings& settings) {
     const float weight = mis_weight(settings.mis, seen.light_pdf, light.delta ? 0.0f : light.bsdf_pdf);

@@ -11,15 +11,15 @@
 
 namespace treefarm {
 
-/// How many further paths a path may still be split into, and which of them it is itself. What is left is divided among
-/// them, so that all split paths of a camera path are bounded, and none has to know of the others.
+/// Budget of further splits of a path, and its own number. The remainder is divided among split paths, so that their
+/// total per camera path is bounded and none needs to know the others.
 struct SplitBudget {
     static constexpr std::uint8_t kMost = 16;
 
-    std::uint8_t number = 0;  ///< among the camera path's split paths; 0: itself
+    std::uint8_t number = 0;  ///< number among the camera path's split paths; 0: the camera path itself
     std::uint8_t left = kMost;
 
-    /// Takes room for `paths` instead of one; returns how many it is for.
+    /// Reserves up to `paths` paths in place of one; returns how many were granted.
     std::uint32_t split(std::uint32_t paths) {
         paths = std::min<std::uint32_t>(paths, left + 1u);
         left = static_cast<std::uint8_t>((left + 1u - paths) / paths);
@@ -27,10 +27,10 @@ struct SplitBudget {
     }
 };
 
-/// Luminance that a path would carry had it not been split: as much as it finds itself, not shared with split paths.
+/// Luminance that a path would have without splitting: its own contributions, not divided among split paths.
 class Unsplit {
   public:
-    /// `found`: by the path itself, so far.
+    /// Records a split; `found`: luminance that the path itself has found so far.
     void split(std::uint32_t paths, float found) {
         beside_ = of(found) - found;
         before_ = found;
@@ -39,12 +39,12 @@ class Unsplit {
     float of(float found) const { return found + beside_ + (paths_ - 1.0f) * (found - before_); }
 
   private:
-    float paths_ = 1.0f;   ///< that it goes on as
-    float before_ = 0.0f;  ///< what it had found where it was last split
-    float beside_ = 0.0f;  ///< what it would have found besides until there
+    float paths_ = 1.0f;   ///< number of paths as which it continues
+    float before_ = 0.0f;  ///< luminance at the last split
+    float beside_ = 0.0f;  ///< luminance missing up to the last split, since it was divided
 };
 
-/// One of the paths that a path goes on as, from where its ray has arrived.
+/// A path split off from another, starting at the present hit of its ray.
 struct SplitPath {
     std::uint16_t origin;
     SplitBudget split_budget;
@@ -56,16 +56,17 @@ struct SplitPath {
     int first_exponent;
     UnguidedTwin twin;
 
-    /// Random numbers of split paths begin beyond those of any path: its number says where.
+    /// First vertex number of a split path, beyond those of any camera path: it keys its random numbers.
     std::uint32_t first_vertex() const {
         return (std::uint32_t{split_budget.number} << 16) + static_cast<std::uint32_t>(depth) - 1;
     }
 };
 
-/// Splitting: a path that is expected to carry far more than its first vertex does goes on as several, each with its
-/// part (after Vorba and Krivanek 2016, "Adjoint-driven Russian roulette and splitting"). Split paths walk when the
-/// paths that left them are done, all together; then those that they leave do. A camera path's split paths are numbered
-/// in an order that does not depend on what else walks: by the path that left them, then as it left them.
+/// Splitting: a path that is expected to carry far more than its first vertex does continues as several, each with its
+/// part (after Vorba and Krivanek 2016, "Adjoint-driven Russian roulette and splitting"). Split paths walk together
+/// when the paths that left them are done; the paths that they split off follow in the next round. The numbers of a
+/// camera path's split paths do not depend on other paths: they are ordered by parent path, then by the order of
+/// splitting.
 class SplitPaths {
   public:
     bool empty() const { return left_.empty(); }
@@ -76,8 +77,8 @@ class SplitPaths {
         order_.push_back(std::uint64_t{path.origin} << 40 | std::uint64_t{path.split_budget.number} << 32 | index);
     }
 
-    /// Paths that were left since the last call, by camera path, numbered on from what `numbers` has of each. They
-    /// last until the next call.
+    /// Paths that were split off since the last call, sorted by camera path and numbered on from `numbers`, the count
+    /// of each. Valid until the next call.
     std::span<const SplitPath> next(std::span<std::uint8_t> numbers) {
         std::sort(order_.begin(), order_.end());
         going_.clear();

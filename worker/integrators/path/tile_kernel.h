@@ -15,7 +15,7 @@
 
 namespace treefarm {
 
-/// A work unit with all that it is rendered by, and what it is filled into.
+/// A work unit with all inputs of its rendering, and its outputs.
 struct TileJob {
     const TraceScene& scene;
     const Resolved& job;
@@ -28,16 +28,16 @@ struct TileJob {
     WorstSample& worst;
 };
 
-/// An instance of the path kernel.
+/// One instance of the path kernel.
 struct TileKernel {
     KernelChoice choice;
     void (*render)(const TileJob&);
 };
 
-/// Kernels that were compiled together. The compiler inlines less where there are more: so they are few.
+/// Kernels of one translation unit. They are few, since the compiler inlines less in a larger unit.
 using KernelList = std::span<const TileKernel> (*)();
 
-/// Kernels of paths that nothing guides and that teach nothing.
+/// Kernels of unguided paths that record nothing.
 std::span<const TileKernel> unguided_kernels();
 /// Kernels of a guide (worker/guides/kernels.cpp).
 std::span<const KernelList> kernels_of(GuideKind kind);
@@ -52,7 +52,7 @@ void render_with(const TileJob& tile) {
     const auto key = [&tile](const UnitCursor& at) {
         return PathKey{tile.job.sampler.seed, tile.scene.film().key_of(at.x, at.y), tile.pass.first_sample + at.sample};
     };
-    // What a sample brings is counted as the pixel gets it.
+    // Contributions are counted as the pixel receives them.
     const auto inverse_level = [&](const UnitCursor& at) {
         if (!settings.count_next_event && !settings.twin) return 0.0f;
         const float level = guide.inverse_level(static_cast<std::uint32_t>(at.x), static_cast<std::uint32_t>(at.y));
@@ -61,7 +61,7 @@ void render_with(const TileJob& tile) {
     std::vector<PixelEstimate> blocks;
     PairedSamples pairs;
     UnguidedBlock tells;
-    std::size_t group = 0;  // of the pixel that `tells` is about
+    std::size_t group = 0;  // pixel group that `tells` counts
     UnitCursor start(pass, unit), end(pass, unit);
     while (!start.done()) {
         kernel.clear();
@@ -108,7 +108,7 @@ void render_with(const TileJob& tile) {
     if (settings.twin) tells.finish(group, stats.unguided);
 }
 
-/// Kernels of a guide for a kind of surface.
+/// Kernels of a guide for one kind of surface.
 template <GuideWalk G, class Surface>
 inline constexpr TileKernel kKernelsOf[] = {
     {{!Surface::kGeneral, false, true, G::kLocal}, render_with<G, Surface, false, true>},

@@ -17,8 +17,8 @@ const TileKernel& kernel(const KernelChoice& choice, GuideKind guide) {
     throw RunError("the program has no kernel \"" + choice.name() + "\"");
 }
 
-/// Traces a sample once more to see where its light comes from, and reports it. One that does not come out as it did
-/// would be blamed on something else.
+/// Traces the worst sample once more to find its light's origin, and reports it. Dropped if the value differs, since
+/// the origin would then be another sample's.
 void report(const TailSample& worst, const Rgb& value, const TileJob& tile) {
     OriginFinder finder;
     Rgb again = observe_sample(tile.scene, tile.job, tile.pass, tile.guide, worst.x, worst.y, worst.sample, finder);

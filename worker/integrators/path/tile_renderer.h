@@ -14,12 +14,12 @@
 
 namespace treefarm {
 
-/// Renders a work unit: a pure function of its arguments' values. `pixels` gets one reduced estimate per pixel, row by
-/// row; `log` is begun and filled if the pass records; `stats` is added to. Thread-safe for different outputs.
+/// Renders a work unit: a pure function of its arguments' values. `pixels` receives one reduced estimate per pixel, row
+/// by row; `log` is cleared and filled if the pass records; `stats` is added to. Thread-safe for different outputs.
 void render_unit(const TraceScene& scene, const Resolved& job, const PassPlan& pass, const AnySampler& guide,
                  const WorkUnit& unit, std::vector<PixelEstimate>& pixels, RecordLog& log, TraceStats& stats);
 
-/// The kernels that render_unit() chooses from by this guide: those that the plan names.
+/// Kernels among which render_unit() chooses for this guide; the plan names them.
 std::vector<KernelChoice> compiled_kernels(GuideKind guide);
 
 }  // namespace treefarm

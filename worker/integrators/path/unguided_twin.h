@@ -5,40 +5,40 @@
 
 namespace treefarm {
 
-/// A guided path as the unguided path that it might have been. It has the same directions; unguided they are as likely
-/// as 1 / ratio says, and carry `ratio` times as much. So guided samples tell how noisy and how costly unguided ones
-/// would be, also by light that few unguided samples meet (docs/design/guiding.md, "auto").
+/// Estimate of the unguided path that would have had a guided path's directions. Its probability is 1 / ratio times
+/// that of the guided path, and its throughput `ratio` times as large. Guided samples thus estimate variance and cost
+/// of unguided ones, also for light that few unguided samples would find (docs/design/guiding.md, "auto").
 ///
-/// The expectation of `moment`, the sum over all contributions of what each adds to the square of what was found so
-/// far, times that likelihood, is the second moment of unguided samples exactly.
+/// `moment` is the sum over all contributions of the increase of the squared total, times that probability ratio; its
+/// expectation is exactly the second moment of unguided samples.
 class UnguidedTwin {
   public:
-    /// Goes on along a direction, with the densities that guided and unguided paths draw it with, or through roulette,
-    /// with the chances that they survive it.
+    /// Continues along a direction, with the guided and unguided density; or through roulette, with the two survival
+    /// probabilities.
     void step(float guided, float unguided) { ratio_ = unguided > 0.0f ? ratio_ * (guided / unguided) : 0.0f; }
-    /// Goes on as one of several paths, which unguided paths never do.
+    /// Continues as one of several split paths; unguided paths are never split.
     void split(float paths) { ratio_ *= paths; }
 
-    /// What the unguided path would carry over what the guided one does; 0: there is none.
+    /// Throughput of the unguided path over that of the guided one; 0: there is no unguided path.
     float ratio() const { return ratio_; }
-    /// How likely the unguided path is, over the guided one.
+    /// Probability of the unguided path over that of the guided one.
     float chance() const { return ratio_ > 0.0f ? 1.0f / ratio_ : 0.0f; }
 
-    /// Contribution of the guided path, weighted as the unguided one would weigh it, at any scale.
+    /// Adds a contribution of the guided path, weighted as in the unguided one, in any unit.
     void add(float light) {
         const float carried = light * ratio_;
         if (!std::isfinite(carried)) return;
         moment_ += (2.0f * found_ + carried) * light;
         found_ += carried;
     }
-    /// Rays that were traced, or what stands for as many.
+    /// Adds a cost in rays: traced rays, or other work expressed in rays.
     void add_cost(float rays) { cost_ += rays * chance(); }
 
     float moment() const { return moment_; }
     float cost() const { return cost_; }
 
-    /// The twin of one of the paths that a split path goes on as: it has found what the path has, but its moment and
-    /// cost begin at 0, since the path's own twin counts those.
+    /// Estimate for a path that is split off: it starts with the luminance found so far, but with moment and cost 0,
+    /// since the original path's estimate counts those.
     UnguidedTwin split_off() const {
         UnguidedTwin twin = *this;
         twin.moment_ = twin.cost_ = 0.0f;
@@ -49,7 +49,7 @@ class UnguidedTwin {
     float ratio_ = 1.0f, found_ = 0.0f, moment_ = 0.0f, cost_ = 0.0f;
 };
 
-/// What a camera path tells of unguided ones, with all the paths that it left: second moment, and cost in rays.
+/// Estimate of unguided samples from a camera path and all of its split paths: second moment, and cost in rays.
 struct UnguidedTell {
     float moment = 0.0f, cost = 0.0f;
 
@@ -57,7 +57,7 @@ struct UnguidedTell {
         moment += other.moment;
         cost += other.cost;
     }
-    /// One more way out of glass, and twice the product of what both ways found.
+    /// Adds the other way out of glass; `product`: twice the product of both ways' luminances.
     void add(const UnguidedTwin& way, float product) {
         moment += way.moment() + product;
         cost += way.cost();

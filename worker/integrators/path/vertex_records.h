@@ -10,19 +10,19 @@
 
 namespace treefarm {
 
-/// Notes the directions that the paths of a step have taken.
+/// Recorder of the directions that the paths of a step have taken.
 template <class G>
 class DirectionRecords {
   public:
     DirectionRecords(const typename G::Sampler& guide, const PathSettings& settings)
         : guide_(guide), jitters_(settings.jitter_records), bootstraps_(settings.bootstrap > 0.0f) {}
 
-    /// The random numbers of a step; PathState::lane says which are a path's.
+    /// Draws the random numbers of a step; PathState::lane is a path's index in them.
     void draw_numbers(std::uint64_t seed, const KeyBatch& keys, std::uint32_t lanes) {
         draw_batch(seed, keys, lanes, 0, Stream::record, draws_);
     }
 
-    /// Adds the vertices of the paths whose numbers are in `alive`, each to the path's own recorder.
+    /// Adds the vertices of the paths with indices `alive`, each to its own recorder.
     template <class Surface>
     void add(std::span<const PathState<G, Surface>> paths, std::span<const std::uint8_t> alive,
              std::span<PathRecorder<G>> recorders) {
@@ -46,7 +46,7 @@ class DirectionRecords {
     }
 
   private:
-    /// Finds where the stochastic spatial filter puts the records, delta lobes' left out.
+    /// Finds the regions of the records by the stochastic spatial filter; delta lobes have none.
     template <class Surface>
     void find_regions(std::span<const PathState<G, Surface>> paths, std::span<const std::uint8_t> alive) {
         VectorBatch points;
@@ -65,14 +65,14 @@ class DirectionRecords {
     std::array<std::uint32_t, kDrawBatch> regions_;
 };
 
-/// Notes what next event found at a vertex: `reflected` of it, at `weight` against scattering.
+/// Records next event's result at a vertex: the contribution `reflected`, with the MIS weight `weight`.
 template <class G, class Surface>
 void record_light(const PendingLight<G>& light, const Rgb& reflected, float weight,
                   const typename G::Direction& direction, const PathState<G, Surface>& path,
                   const typename G::Sampler& guide, const PathSettings& settings, PathRecorder<G>& recorder) {
     recorder.add_reflected(light.from.vertex, reflected);
     if (light.from.learned_choice) recorder.add_choice(light.record(guide, average(reflected)));
-    // Scattering never meets a light without extent: its samples are weighted alone and teach the guide nothing.
+    // Scattering never hits a light without extent: its samples have weight 1 and teach the guide nothing.
     if (!settings.record_light_samples || light.delta) return;
     typename G::Target target = G::target(light.from.guidance);
     const Draw random = draw(path.key, path.vertex, Stream::light_record);

@@ -7,10 +7,11 @@
 
 namespace treefarm {
 
-/// Looks for the sample of a unit that is most of the noise, among the largest of each pixel: one comparison a sample.
+/// Search for the unit's sample that contributes most noise, among the largest of each pixel: one comparison per
+/// sample.
 class WorstSample {
   public:
-    /// What the pixel in hand is given.
+    /// Adds a sample of the present pixel.
     void see(const Rgb& value, std::uint32_t sample) {
         const float light = std::abs(luminance(value));
         if (!(light > largest_light_)) return;
@@ -19,7 +20,7 @@ class WorstSample {
         number_ = sample;
     }
 
-    /// Ends the pixel in hand, which is that of these samples of `spp`; the next may begin.
+    /// Ends the present pixel, which had `spp` samples.
     void finish(std::uint32_t pass, int x, int y, const PixelEstimate& pixel, std::uint32_t spp) {
         const TailSample sample{outlier_noise(largest_, pixel.whole(), spp),
                                 pass,
@@ -38,7 +39,7 @@ class WorstSample {
 
     bool found() const { return worst_.noise > 0.0f; }
     const TailSample& worst() const { return worst_; }
-    /// What its pixel was given.
+    /// Value of the worst sample, as its pixel received it.
     const Rgb& value() const { return value_; }
 
   private:

@@ -8,20 +8,20 @@
 #include "worker/integrators/subpath/roulette.h"
 #include "worker/integrators/subpath/surface_light.h"
 
-// The radiance that reaches the camera along a ray is an integral over all paths by which light gets there (Kajiya
-// 1986, "The rendering equation"). A path tracer draws one path, backwards and vertex by vertex, and sums up what each
-// adds:
+// The radiance that reaches the camera along a ray is an integral over all paths of light to it (Kajiya 1986, "The
+// rendering equation"). A path tracer samples one path, backwards and vertex by vertex, and sums the vertices'
+// contributions:
 //
 //     L = sum over k = 1, 2, ... of T_(k-1) (E_k + D_k)        T_0 = 1,  T_k = T_(k-1) f |cos| / pdf
 //
-// E_k is what vertex k emits towards the one before. D_k, next event, is what a sampled emitter sends to vertex k, and
-// the surface on from there. T_k, the throughput, is how much of what arrives at vertex k gets to the camera, over the
-// density with which the path's directions were drawn.
+// E_k is the radiance that vertex k emits towards the previous one. D_k, next event, is the light of a sampled emitter
+// that vertex k reflects. T_k, the throughput, is the fraction of the light at vertex k that reaches the camera, over
+// the density of the path's directions.
 //
-// E_(k+1) and D_k estimate the same light, one by a direction of the BSDF, one by a place on an emitter. Each is
-// weighed by how likely its technique was to go there; the two weights of a direction sum to one (multiple importance
-// sampling, Veach 1997). Russian roulette ends paths at random, and weighs up those that go on. No step changes the
-// expectation: the mean of many samples is the image, whatever the numbers.
+// E_(k+1) and D_k estimate the same light, one by a direction of the BSDF, one by a point on an emitter. Each is
+// weighted by its technique's density against the other's; the two weights of a direction sum to one (multiple
+// importance sampling, Veach 1997). Russian roulette ends paths at random, and scales up those that continue. No step
+// changes the expectation: the mean of many samples is the image.
 
 namespace treefarm {
 
@@ -29,11 +29,11 @@ namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-/// What job and pass say of paths.
+/// Settings of paths, from job and pass.
 struct Rules {
     int max_depth;     ///< edges of a path; -1: no limit
     bool next_event;   ///< emitters are sampled
-    bool delta_alone;  ///< only those without extent are, which nothing else finds
+    bool delta_alone;  ///< only those without extent are sampled, which nothing else finds
     MisHeuristic mis;
     bool strict_normals;
     bool hide_emitters;  ///< from the camera
@@ -49,23 +49,23 @@ struct Rules {
           roulette(Roulette::Rule::unguided, job.rr_depth) {}
 };
 
-/// Where a path is, and what it carries there.
+/// State of a path: its ray and throughput.
 struct Path {
     Ray ray;
     Rgb throughput{1.0f};
     LightReceiver from = {};   ///< the vertex that the ray left
-    float scatter_pdf = 0.0f;  ///< of the ray's direction there; infinite: nothing else could have found it
-    float spread = 1.0f;  ///< product of eta^2: refraction takes it from the radiance, and gives it back on leaving
+    float scatter_pdf = 0.0f;  ///< of the ray's direction there; infinite: no other technique finds it
+    float spread = 1.0f;       ///< product of eta^2: refraction scales the radiance down, and up again on leaving
 };
 
-/// Traces paths over one kind of surface: DiffuseSurface or GeneralSurface.
+/// Tracer of paths over one kind of surface: DiffuseSurface or GeneralSurface.
 template <class Surface>
 class PathTracer {
   public:
     PathTracer(const TraceScene& scene, const Rules& rules, TraceStats& stats)
         : scene_(scene), rules_(rules), stats_(stats), scratch_(Surface::make_scratch(scene)) {}
 
-    /// Radiance along a ray of the camera, by the random numbers of `key`: each vertex has its own, numbered from 1.
+    /// Radiance along a camera ray, by the random numbers of `key`: each vertex has its own, numbered from 1.
     Rgb radiance(const PathKey& key, const Ray& camera_ray) {
         Path path{camera_ray};
         Rgb sum(0.0f);
@@ -77,7 +77,7 @@ class PathTracer {
             add(sum, path.throughput, emission(path, found ? &hit : nullptr, depth));
 
             if (!found || depth == rules_.max_depth) return sum;
-            // Russian roulette, of where the path scattered last. What refraction has taken does not count against it.
+            // Russian roulette of the last scattering. The scaling by refraction does not count.
             if (depth > 1 && !rules_.roulette.spares(path.throughput, path.spread, depth - 1,
                                                      to_unit(draw(key, vertex - 1, Stream::roulette)[0])))
                 return sum;
@@ -94,12 +94,12 @@ class PathTracer {
     }
 
   private:
-    /// Adds T light to the sum: nothing where it is dark, however large T is.
+    /// Adds T light to the sum; adds nothing if the light is black, however large T is.
     static void add(Rgb& sum, const Rgb& throughput, const Rgb& light) {
         if (!is_black(light)) sum += throughput * light;
     }
 
-    /// E_k: what the path's ray has found, weighed against next event at the vertex that it came from.
+    /// E_k: emission that the path's ray hits, weighted against next event at the vertex that it left.
     Rgb emission(const Path& path, const Hit* arrival, int depth) const {
         const Rgb light = emitted(scene_.emitters(), path.ray, arrival);
         if (depth == 1) return rules_.hide_emitters ? Rgb(0.0f) : light;
@@ -108,7 +108,7 @@ class PathTracer {
         return light * mis_weight(rules_.mis, path.scatter_pdf, light_pdf);
     }
 
-    /// D_k: what the surface scatters of a sampled emitter's light, weighed against a direction of the BSDF.
+    /// D_k: light of a sampled emitter that the surface scatters, weighted against a direction of the BSDF.
     Rgb next_event(const Hit& hit, const Surface& surface, const Draw& random) const {
         if (!rules_.next_event && !rules_.delta_alone) return Rgb(0.0f);
         const Emitters& emitters = scene_.emitters();
@@ -119,7 +119,7 @@ class PathTracer {
         return light.reflected * (mis_weight(rules_.mis, light.pdf, light.bsdf_pdf) / light.pdf);
     }
 
-    /// From T_k-1 to T_k: the path goes on in a direction drawn from the BSDF. False if there is none.
+    /// Step from T_(k-1) to T_k: continues the path in a direction drawn from the BSDF. False if there is none.
     bool scatter(Path& path, const Hit& hit, const Surface& surface, const Draw& random) const {
         const BsdfSample sample = sample_bsdf(surface, random);
         if (!(sample.pdf > 0.0f) || is_black(sample.f_cos)) return false;

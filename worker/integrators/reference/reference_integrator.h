@@ -5,8 +5,8 @@
 
 namespace treefarm {
 
-/// Unguided path tracing, one path at a time: the code to read first, and what other estimators are held against. It
-/// draws the random numbers of the unguided batch walk (path/path_walk.h).
+/// Unguided path tracing, one path at a time: the code to read first, and the reference for the other estimators. It
+/// uses the random numbers of the unguided batch walk (path/path_walk.h).
 RenderUnit prepare_reference(std::shared_ptr<const TraceScene> scene, const Resolved& job);
 
 }  // namespace treefarm

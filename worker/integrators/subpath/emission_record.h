@@ -10,11 +10,11 @@
 
 namespace treefarm {
 
-/// What light paths of a unit bring to the image, by the emitters that they start from: later passes choose these by it
+/// Contributions of a unit's light paths to the image, summed by emitter: later passes choose emitters by these sums
 /// (common/film/emission_shares.h).
 class EmissionRecord {
   public:
-    /// `learns`: whether anybody asks.
+    /// `learns`: whether a later pass uses the sums.
     EmissionRecord(const EmissionChoice& choice, bool learns, const PassPlan& pass, EmissionSums& sums)
         : choice_(choice),
           learns_(learns && choice.size() > 1),
@@ -25,12 +25,12 @@ class EmissionRecord {
         sums_.squares.assign(choice.size(), 0);
     }
 
-    /// A path that starts there.
+    /// Counts a path that starts at the emitter `entry`.
     void start(std::uint32_t entry) {
         if (learns_) ++sums_.paths[entry];
     }
 
-    /// The square of the luminance that such a path brings to a pixel. Whole quanta: any order gives the same sums.
+    /// Adds the squared luminance of a contribution to a pixel. Sums are whole quanta: equal for any order.
     void add(std::uint32_t entry, double square) {
         if (!learns_ || !(square > 0)) return;
         const double factor = choice_.factor(entry);
@@ -40,7 +40,7 @@ class EmissionRecord {
     }
 
   private:
-    static constexpr double kMost = 0x1p44;  ///< of one contribution
+    static constexpr double kMost = 0x1p44;  ///< largest contribution
 
     const EmissionChoice& choice_;
     const bool learns_;

@@ -7,13 +7,13 @@
 namespace treefarm {
 namespace {
 
-/// The part of a blend that sample() chose, and what it left of the number.
+/// Part of a blend that sample() chose, and the rest of its random number.
 struct BlendChoice {
     const Bsdf* part;
     float rest;
 };
 
-/// The choice that BlendBsdf::sample() makes.
+/// Choice of BlendBsdf::sample() for the random number `lobe`.
 BlendChoice choose(const BlendBsdf& blend, float lobe) {
     const float first = 1.0f - blend.weight;
     const bool takes_second = !(lobe < first);

@@ -5,9 +5,9 @@
 
 namespace treefarm {
 
-// What light that comes from an emitter does at a surface. The BSDF is asked in its true role, as the walk from the
-// camera would ask it: wo is where light goes, wi where it comes from. So nothing need be reciprocal, tilted normals
-// stay inside the BSDF, and refraction scales radiance on its own (docs/design/transport.md).
+// Scattering of light from an emitter at a surface. The BSDF is evaluated in the camera walk's orientation: wo is where
+// light goes, wi where it comes from. So it need not be reciprocal; tilted normals and the scaling of refracted
+// radiance stay inside the BSDF (docs/design/transport.md).
 
 /// |w . ng| of a unit direction.
 inline float geometric_cosine(const Hit& hit, const Vec3& w) {
@@ -17,11 +17,11 @@ inline float geometric_cosine(const Hit& hit, const Vec3& w) {
 /// Scattering from `in`, where light comes from, to `out`.
 struct LightScattering {
     Rgb f{0.0f};            ///< BSDF times |out . ng|: f |in . n| |out . ng| / |in . ng|, per steradian
-    float reverse_pdf = 0;  ///< with which the walk from the camera, here from `out`, draws `in`; per steradian
+    float reverse_pdf = 0;  ///< density of the camera walk, arriving from `out`, for `in`; per steradian
 };
 
-/// Scattering of the smooth lobes between two unit directions that point away from the surface. `scratch`: of this call
-/// alone; what else was looked up in it is gone.
+/// Scattering by the smooth lobes between two unit directions that point away from the surface. `scratch`: for this
+/// call alone; its former contents are lost.
 template <class Surface>
 LightScattering light_scattering(const TraceScene& scene, const Hit& hit, const Vec3& in, const Vec3& out,
                                  bool strict_normals, typename Surface::Scratch& scratch) {
@@ -35,23 +35,23 @@ LightScattering light_scattering(const TraceScene& scene, const Hit& hit, const 
     return {value.f_cos * (geometric_cosine(hit, out) / in_cosine), value.pdf};
 }
 
-/// What the weight of a delta lobe is multiplied by that sample() drew from `wo` as `wi`, by `random`, if light came
-/// from wo and goes to wi. Power goes through a boundary whole, where radiance is scaled; and lobes about tilted
-/// normals ask which direction is which. The geometric cosines are not in it.
+/// Factor on the weight of a delta lobe that sample() drew as `wi` from `wo` by `random`, for light that comes from wo
+/// and goes to wi. Power passes a boundary unscaled, unlike radiance; lobes about tilted normals depend on the
+/// orientation, too. Geometric cosines are not included.
 float delta_role(const Bsdf& bsdf, const Vec3& wo, const Vec3& wi, const BsdfRandom& random);
 
 /// A step of a light path.
 struct LightStep {
     bool goes_on = false;
     Vec3 direction{0.0f};   ///< unit, in world space
-    Rgb weight{0.0f};       ///< of the scattering over its density
+    Rgb weight{0.0f};       ///< scattering over its density
     float pdf = 0;          ///< per steradian; of a delta lobe its probability
-    float reverse_pdf = 0;  ///< of the walk from the camera; of a delta lobe 0: it has no density
+    float reverse_pdf = 0;  ///< density of the camera walk; 0 for a delta lobe, which has none
     bool delta = false;
 };
 
-/// Draws the direction in which light that came from `in` goes on. `surface`: built with `in` as where light goes,
-/// since BSDFs are sampled from there; `scratch` is another one than its own.
+/// Draws the direction in which light that came from `in` continues. `surface`: constructed with `in` as its wo, since
+/// BSDFs are sampled from there; `scratch`: not the surface's own.
 template <class Surface>
 LightStep scatter_light(const TraceScene& scene, const Hit& hit, const Surface& surface, const Vec3& in,
                         bool strict_normals, const Draw& random, typename Surface::Scratch& scratch) {

@@ -5,8 +5,8 @@
 
 namespace treefarm {
 
-/// Weight of a sample drawn with density `own` where another technique would have drawn it with density `other` (Veach
-/// 1997). Written as a ratio, so that neither huge nor infinite densities overflow: w(inf, x) = 1, w(0, x) = 0.
+/// MIS weight of a sample drawn with density `own`, where another technique has density `other` (Veach 1997). Computed
+/// from a ratio, so that neither huge nor infinite densities overflow: w(inf, x) = 1, w(0, x) = 0.
 inline float mis_weight(MisHeuristic heuristic, float own, float other) {
     if (!(own > 0.0f)) return 0.0f;
     if (std::isinf(own)) return 1.0f;

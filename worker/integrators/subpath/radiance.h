@@ -5,7 +5,7 @@
 
 namespace treefarm {
 
-/// Whether a film takes a colour as radiance: finite, and nothing negative.
+/// Whether a film accepts a colour as radiance: finite and not negative.
 inline bool is_radiance(const Rgb& c) {
     return is_finite(c) && c.x >= 0.0f && c.y >= 0.0f && c.z >= 0.0f;
 }

@@ -16,16 +16,16 @@ class Roulette {
         unguided,   ///< survival min(2 throughput, 0.95)
         untrained,  ///< a guided render before its first tree: throughput, within [0.1, 0.99]
         constant,   ///< 0.99: the guide sends paths where they matter
-        adjoint,    ///< by what the path is expected to carry, over what its first vertex sends to the camera
+        adjoint,    ///< by the path's expected contribution over that of its first vertex
     };
 
     Roulette(Rule rule, int first_depth) : rule_(rule), first_depth_(first_depth) {}
 
-    /// Whether a path that scattered at `depth` (1 at the first surface) has to play.
+    /// Whether a path that scattered at `depth` (1 at the first surface) is subject to roulette.
     bool plays(int depth) const { return depth >= first_depth_; }
 
-    /// `scale` (above 0): of the throughput as roulette sees it, without what refraction takes and gives back.
-    /// `brightness`: of the light here, over that at the path's first vertex.
+    /// Survival probability. `scale` (above 0): factor on the throughput that undoes the scaling by refraction.
+    /// `brightness`: light here over that at the path's first vertex.
     float survival(const Rgb& throughput, float scale = 1.0f, float brightness = 1.0f) const {
         switch (rule_) {
             case Rule::unguided:
@@ -43,8 +43,8 @@ class Roulette {
         return kPolicy.walk.guided_survival;
     }
 
-    /// Plays for a path that scattered at `depth`, with a number from [0, 1): false ends it, and one that goes on is
-    /// weighed up. `scale` as in survival().
+    /// Applies roulette to a path that scattered at `depth`, with a number in [0, 1): returns false if it ends, else
+    /// divides the throughput by the survival probability. `scale` as in survival().
     bool spares(Rgb& throughput, float scale, int depth, float random) const {
         if (!plays(depth)) return true;
         const float chance = survival(throughput, scale);
@@ -53,8 +53,8 @@ class Roulette {
         return true;
     }
 
-    /// Number of paths, at most `most`, as which one goes on that is expected to carry several times what its first
-    /// vertex does: each of them carries at least the policy's share of that. 1 but by the adjoint rule.
+    /// Number of paths, at most `most`, as which a path continues whose expected contribution is several times that of
+    /// its first vertex; each then has at least the policy's fraction of the latter. 1 for rules other than adjoint.
     std::uint32_t splitting(const Rgb& throughput, float scale, float brightness, std::uint32_t most) const {
         if (rule_ != Rule::adjoint) return 1;
         const float paths = max_component(throughput) * scale * brightness * (1.0f / kPolicy.splitting.least_share);

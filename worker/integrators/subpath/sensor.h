@@ -7,7 +7,7 @@
 
 namespace treefarm {
 
-/// The film and lens that light paths are connected to.
+/// Film and lens to which light paths are connected.
 struct Sensor {
     CameraImportance importance;
     PixelPicker pixels;
@@ -21,11 +21,11 @@ struct Sensor {
                      static_cast<double>(film.pixel_count())) {}
 };
 
-/// The ray from a surface to the lens, whose occlusion hides the surface from it.
+/// Shadow ray from a surface to the lens.
 inline Ray ray_to_lens(const Hit& hit, const FilmConnection& to) {
     Ray ray{offset_origin(hit, to.direction), Vec3(0.0f), 1.0f};
     ray.direction = to.target - ray.origin;
-    // Closer than the offset: nothing fits between.
+    // Closer than the offset: no occluder fits between.
     if (!(dot(ray.direction, to.direction) > 0.0f)) ray.length = -1.0f;
     return ray;
 }

@@ -7,9 +7,9 @@
 
 namespace treefarm {
 
-// Light at a surface, one ray at a time: what integrators without batches are made of.
+// Light at a surface, one ray at a time: the components of integrators without batches.
 
-/// Calls f.operator()<Surface>() with the kind of surface that all of the scene's are of.
+/// Calls f.operator()<Surface>() with the surface class of the scene: diffuse or general.
 template <class F>
 void with_surface(const TraceScene& scene, F f) {
     if (scene.plainly_diffuse())
@@ -18,45 +18,44 @@ void with_surface(const TraceScene& scene, F f) {
         f.template operator()<GeneralSurface>();
 }
 
-/// Radiance that a ray brings back: what the surface where it arrived emits, or without one (nullptr) what comes from
-/// infinity.
+/// Emitted radiance along a ray: that of the surface hit, or that from infinity if `arrival` is nullptr.
 inline Rgb emitted(const Emitters& emitters, const Ray& ray, const Hit* arrival) {
     return arrival ? emitters.emitted(*arrival, -ray.direction) : emitters.environment(ray.direction);
 }
 
-/// A point of a surface that light of emitters is wanted at.
+/// Receiver of emitters' light at a surface point.
 template <class Surface>
 LightReceiver receiver_at(const Hit& hit, const Surface& surface) {
     const Vec3& front = surface.front();
     return {hit.p, nullptr, surface.transmits() ? nullptr : &front};
 }
 
-/// Density with which emitter sampling at `from` finds what emits there, per steradian.
+/// Density per steradian with which emitter sampling at `from` finds the emission at the ray's end.
 inline float emitter_pdf(const Emitters& emitters, const LightReceiver& from, const Ray& ray, const Hit* arrival) {
     return arrival ? emitters.pdf_direct(from, ray.direction, *arrival) : emitters.pdf_environment(from, ray.direction);
 }
 
-/// A direction drawn from a surface's BSDF; its density is 0 if there is none.
+/// Direction sampled from a surface's BSDF; density 0 if there is none.
 template <class Surface>
 BsdfSample sample_bsdf(const Surface& surface, const Draw& random) {
     return surface.bsdf().sample(surface.wo(), {to_unit(random[1]), Vec2(to_unit(random[2]), to_unit(random[3]))});
 }
 
-/// Whether geometric and shading normal agree on which side of a surface the direction `world` is, which has the
-/// elevation `local_z` over the shading normal.
+/// Whether `world` is on the same side of the geometric and the shading normal; `local_z`: its cosine with the shading
+/// normal.
 template <class Surface>
 bool normals_agree(const Surface& surface, const Vec3& world, float local_z) {
     return dot(surface.ng(), world) * local_z > 0.0f;
 }
 
-/// Light of a sampled emitter at a surface.
+/// Direct light of one emitter sample at a surface.
 struct LightAtSurface {
-    Rgb reflected{0.0f};  ///< f |cos| times the radiance; black: none, or a shadow
-    float pdf = 0;        ///< of the emitter's sample, per steradian; or the probability of one without extent
-    float bsdf_pdf = 0;   ///< with which scattering goes the same way; 0 for an emitter without extent
+    Rgb reflected{0.0f};  ///< f |cos| times radiance; black if occluded or not reflected
+    float pdf = 0;        ///< of the emitter sample, per steradian; its probability if the emitter has no extent
+    float bsdf_pdf = 0;   ///< density of scattering in that direction; 0 for an emitter without extent
 };
 
-/// Light of a sample of `emitters` seen from `hit`, if nothing lies between.
+/// Direct light of an emitter sample at `hit`, with its shadow ray.
 template <class Surface>
 LightAtSurface light_at_surface(const TraceScene& scene, const Hit& hit, const Surface& surface,
                                 const DirectSample& light, bool strict_normals, TraceStats& stats) {
