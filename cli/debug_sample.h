@@ -3,7 +3,8 @@
 
 #include <string>
 
-#include "coordinator/render_run.h"
+#include "common/base/log.h"
+#include "coordinator/render/render_request.h"
 
 namespace treefarm {
 
@@ -18,15 +19,15 @@ struct SampleName {
 SampleName parse_sample_name(const std::string& text);
 
 /// Renders the passes before the sample's, since they teach the tree that guides it (but for those that the request's
-/// checkpoint knows), traces the sample and prints its path vertex by vertex on standard output. Returns the exit code;
-/// throws InputError if there is no such sample.
-int debug_sample(const RenderRequest& request, const SampleName& name);
+/// checkpoint knows), traces the sample and prints its path vertex by vertex on standard output. `tell`: what goes
+/// wrong meanwhile. Returns the exit code; throws InputError if there is no such sample.
+int debug_sample(const RenderRequest& request, const SampleName& name, const TellMessage& tell);
 
 /// Whether the text names a tile: has the form of "pass,x0,y0,x1,y1,chunk".
 bool names_tile(const std::string& text);
 
 /// Renders as debug_sample() does what a worker would get as one unit, in this process and thread, and prints how much
 /// that was: whatever it crashes can be looked at by a debugger. Throws InputError if there is no such tile.
-int debug_tile(const RenderRequest& request, const std::string& text);
+int debug_tile(const RenderRequest& request, const std::string& text, const TellMessage& tell);
 
 }  // namespace treefarm

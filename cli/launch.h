@@ -34,10 +34,4 @@ bool is_separate_world(const LaunchEnvironment& launch);
 /// with shared memory (ob1). Unless the environment or an option of mpirun chose something else.
 void skip_network_search();
 
-/// Processors that this process may run on.
-unsigned affinity_threads();
-
-/// Processors of this host.
-unsigned host_processors();
-
 }  // namespace treefarm

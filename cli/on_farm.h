@@ -8,7 +8,7 @@
 
 #include "cli/launch.h"
 #include "common/base/console.h"
-#include "common/comm/channel.h"
+#include "coordinator/render/render_request.h"
 
 namespace CLI {
 class App;
@@ -25,7 +25,7 @@ struct CoordinatorEnd {
 /// The coordinator's part, between the start of the workers and their dismissal.
 struct FarmTask {
     std::function<void()> prepare;  ///< reads and checks the input; without mpirun a signal breaks it off
-    std::function<CoordinatorEnd(Channel&, const std::function<bool()>& interrupted)> coordinate;
+    std::function<CoordinatorEnd(const RenderWorkers&)> coordinate;
 };
 
 /// How this program's part in the farm is run.
@@ -51,6 +51,12 @@ struct Voice {
     Loudness loudness = Loudness::normal;
 };
 Voice make_voice(const LaunchEnvironment& launch, const FarmOptions& options);
+
+/// Only what goes wrong, and no status.
+Voice errors_only();
+
+/// A worker in this process. `threads`: 0: its processors.
+LocalWorker local_worker(unsigned threads, const Voice& voice);
 
 /// Runs the task over all processes of the MPI job, or over coordinator and one worker in this process. Returns the
 /// exit code; InputError and RunError leave it in one process only.

@@ -7,7 +7,8 @@
 
 #include "cli/launch.h"
 #include "cli/on_farm.h"
-#include "coordinator/render_run.h"
+#include "coordinator/render/read_request.h"
+#include "coordinator/render/render.h"
 
 namespace CLI {
 class App;
@@ -19,10 +20,7 @@ namespace treefarm {
 struct RenderOptions {
     std::string input;
     std::string output;                ///< -o
-    std::optional<std::uint32_t> spp;  ///< --spp
-    std::optional<double> seconds;     ///< --seconds
-    std::optional<double> error;       ///< --error
-    std::string schedule;              ///< --schedule
+    RenderBudget budget;               ///< --spp, --seconds, --error, --schedule
     std::vector<std::string> set;      ///< --set key=value
     std::vector<std::string> defines;  ///< -D name=value
     std::string sensor;                ///< --sensor
@@ -32,8 +30,6 @@ struct RenderOptions {
     bool overwrite = false;      ///< --overwrite
     bool resume = false;         ///< --resume
     bool carry_model = false;    ///< --carry-model
-    bool reads_model = true;     ///< guiding.initial_model is still to be read
-    bool holds_to_scene = true;  ///< the scene has to be that of a resolved.toml
     std::string display_server;  ///< --display-server
     FarmOptions farm;
     std::string debug_sample;  ///< "pass,x,y,sample"
@@ -45,19 +41,21 @@ struct RenderOptions {
 void add_render_command(CLI::App& app, const LaunchEnvironment& launch, const std::string& command_line,
                         int& exit_code);
 
-/// Lets a request that was read go on with what lies in its folder. Returns the exit code where its result is there.
-using GoOn = std::function<std::optional<int>(RenderRequest&)>;
+/// Lets a request that was read continue what lies in its folder. Returns the outcome where its result is there.
+using GoOn = std::function<std::optional<RenderOutcome>(RenderRequest&)>;
 
 /// Renders what `read` gives on all processes of the job, whatever its part in it; `name` is for the time in which it
 /// is read. Returns the exit code.
 int render_on_farm(const LaunchEnvironment& launch, const FarmOptions& farm, const std::string& name,
                    const std::function<RenderRequest()>& read, const GoOn& go_on = {});
 
-/// Reads job and scene. The job's layers, each over the one before: defaults, the scene file's integrator and sampler,
-/// the job file, the command line. Throws InputError.
-RenderRequest read_request(const RenderOptions& options);
+/// What the options name, to be read. Throws InputError.
+RenderInput render_input(const RenderOptions& options);
 
-/// The command that traces one sample again, but for the sample.
-std::string debug_command(const RenderOptions& options);
+/// This program, and the command that asked it.
+RenderOrigin render_origin(const RenderOptions& options);
+
+/// Reads a request, and sets what it is to leave. Throws InputError.
+RenderRequest read_request(const RenderOptions& options);
 
 }  // namespace treefarm

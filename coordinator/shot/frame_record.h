@@ -2,12 +2,12 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <nlohmann/json_fwd.hpp>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
+
+#include "coordinator/render/finished_render.h"
 
 namespace treefarm {
 
@@ -21,15 +21,10 @@ enum class FrameState : std::uint8_t {
 };
 
 /// A frame of a shot, and what is told of it.
-struct FrameRecord {
+struct FrameRecord : RenderFigures {
     int frame = 0;
     FrameState state = FrameState::waiting;
-    std::uint32_t spp = 0;
-    double seconds = 0;
-    std::optional<double> error;  ///< relative; unknown of a frame of one sample, say
-    bool missed_target = false;   ///< its error is above budget.error
-    std::string message;          ///< what went wrong
-    std::filesystem::path image;  ///< where it is
+    std::string message;  ///< what went wrong
 };
 
 /// Name of a frame's run directory in that of the shot: "frame.0007".

@@ -15,8 +15,9 @@
 #include "coordinator/last_files.h"
 #include "coordinator/pass_text.h"
 #include "coordinator/pulse.h"
+#include "coordinator/render/finished_render.h"
+#include "coordinator/render/resume.h"
 #include "coordinator/series_progress.h"
-#include "coordinator/shot/finished_frame.h"
 
 namespace treefarm {
 
@@ -52,14 +53,14 @@ void check_shot_folder(const fs::path& folder) {
 
 class ShotRun {
   public:
-    ShotRun(Channel& channel, const Shot& shot, const SeriesContext& context, const std::function<bool()>& interrupted)
-        : pulse_(channel),
+    ShotRun(const Shot& shot, const SeriesContext& context)
+        : pulse_(*context.workers.channel),
           shot_(shot),
           context_(context),
           log_(context.log),
-          interrupted_(interrupted),
+          interrupted_(context.workers.stop),
           progress_("frame", shot.frames.size()),
-          series_(channel, context, interrupted) {
+          series_(context) {
         for (const int frame : shot.frames)
             records_.emplace_back().frame = frame;
     }
@@ -97,7 +98,8 @@ class ShotRun {
 
     void write_index() const {
         const std::string text =
-            shot_json(context_.command, records_).dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+            shot_json(context_.origin.command, records_).dump(1, ' ', false, nlohmann::json::error_handler_t::replace) +
+            "\n";
         write_file_atomically(shot_.directory / "shot.json",
                               {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
     }
@@ -142,8 +144,8 @@ class ShotRun {
                 },
                 [&] { pulse_.beat(); });
         }
-        prepare_output(request.job.output.file, record.frame);
-        if (is_there && restore_output(folder, request.job.output.file)) {
+        prepare_output(request.content.job.output.file, record.frame);
+        if (is_there && restore_output(folder, request.content.job.output.file)) {
             take_figures(folder, request, record);
             record.state = FrameState::kept;
             tell(record);
@@ -152,9 +154,9 @@ class ShotRun {
         tell_warnings(request);
         // What was broken off and cannot go on is begun again, but another request's result is replaced only where that
         // is asked for.
-        request.overwrite = context_.overwrite || is_there || !holds_result(folder);
-        request.status_frame = [this](const RenderWords& words) { return progress_.status(words); };
-        const RenderOutcome outcome = series_.render(request, folder);
+        request.storage.overwrite = context_.overwrite || is_there || !holds_result(folder);
+        const RenderOutcome outcome =
+            series_.render(request, folder, [this](const RenderWords& words) { return progress_.status(words); });
         take_figures(folder, request, record);
         switch (outcome.state) {
             case RunState::done:
@@ -173,12 +175,12 @@ class ShotRun {
     /// Goes on with the frame, if it was broken off.
     void go_on(const fs::path& folder, RenderRequest& request) const {
         if (holds_result(folder)) return;
-        request.resumed = shot_.find_checkpoint(folder, request);
+        request.start.checkpoint = find_checkpoint(folder, request);
     }
 
     static void take_figures(const fs::path& folder, const RenderRequest& request, FrameRecord& record) {
-        read_figures(folder, record);
-        if (!request.job.output.file.empty()) record.image = request.job.output.file;
+        static_cast<RenderFigures&>(record) = read_figures(folder);
+        if (!request.content.job.output.file.empty()) record.image = request.content.job.output.file;
     }
 
     /// Two frames cannot share an output file.
@@ -194,7 +196,7 @@ class ShotRun {
 
     /// Warnings of a frame, each once: frames of one scene have the same.
     void tell_warnings(const RenderRequest& request) {
-        for (const std::string& warning : request.warnings)
+        for (const std::string& warning : request.content.warnings)
             if (told_.insert(warning).second) log_->warn("{}", warning);
     }
 
@@ -245,9 +247,8 @@ class ShotRun {
 
 }  // namespace
 
-ShotOutcome run_shot(Channel& channel, const Shot& shot, const SeriesContext& context,
-                     const std::function<bool()>& interrupted) {
-    return ShotRun(channel, shot, context, interrupted).run();
+ShotOutcome run_shot(const Shot& shot, const SeriesContext& context) {
+    return ShotRun(shot, context).run();
 }
 
 }  // namespace treefarm

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "coordinator/render_series.h"
+#include "coordinator/render/render_series.h"
 
 namespace treefarm {
 
@@ -12,9 +12,6 @@ struct Shot {
     std::filesystem::path directory;                 ///< where they go
     std::vector<int> frames;                         ///< in the order in which they are rendered
     std::function<RenderRequest(int)> read_request;  ///< reads a frame's job and scene; throws InputError
-    /// What a request can go on from in the folder of a frame that was broken off; nullptr: nothing.
-    std::function<std::shared_ptr<LoadedCheckpoint>(const std::filesystem::path&, const RenderRequest&)>
-        find_checkpoint;
 };
 
 struct ShotOutcome {
@@ -27,7 +24,6 @@ struct ShotOutcome {
 ///   shot.json      how every frame stands
 ///   frame.0001/    a run directory each
 /// A frame that fails stops no other. Throws InputError where the folder cannot be a shot's.
-ShotOutcome run_shot(Channel& channel, const Shot& shot, const SeriesContext& context,
-                     const std::function<bool()>& interrupted);
+ShotOutcome run_shot(const Shot& shot, const SeriesContext& context);
 
 }  // namespace treefarm

@@ -6,7 +6,7 @@
 
 #include "common/config/study.h"
 #include "common/scene/readers/load.h"
-#include "coordinator/render_run.h"
+#include "coordinator/render/render_request.h"
 
 namespace treefarm {
 
@@ -16,7 +16,7 @@ LoadedScene load_study_scene(const Study& study, const StudyScene& scene);
 /// A render of a study, everything but its folder and its turn. Layers, each over the one before: the scene's own, the
 /// study's [job], the scene's, `method`, `more`. Throws InputError.
 RenderRequest study_request(const Study& study, const StudyScene& scene, const LoadedScene& loaded,
-                            std::span<const Setting> method, std::span<const Setting> more, const Fingerprint& build);
+                            std::span<const Setting> method, std::span<const Setting> more, const RenderOrigin& origin);
 
 /// Settings that a cell has beyond its method: a budget and the seed.
 std::vector<Setting> cell_settings(const Study& study, const StudyCell& cell);

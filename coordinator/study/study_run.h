@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <functional>
 #include <ostream>
 
 #include "common/config/study.h"
-#include "coordinator/render_series.h"
+#include "coordinator/render/render_series.h"
 
 namespace treefarm {
 
@@ -19,10 +18,9 @@ struct StudyOutcome {
 ///   references/NAME/image.exr     those that were rendered
 ///   cells/NAME/                   a run directory each, with cell.json: written last, so a cell with one is whole
 /// A folder's name holds a hash of all that decides its content, so a changed study finds what still holds.
-StudyOutcome run_study(Channel& channel, const Study& study, const SeriesContext& context,
-                       const std::function<bool()>& interrupted);
+StudyOutcome run_study(const Study& study, const SeriesContext& context);
 
 /// Lists the cells in the order in which they would run, and which of them are there.
-void list_cells(const Study& study, const Fingerprint& build, std::ostream& out);
+void list_cells(const Study& study, const RenderOrigin& origin, std::ostream& out);
 
 }  // namespace treefarm

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/stored_model.h"
+#include "coordinator/render/stored_model.h"
 
-#include "cli/refuse.h"
 #include "common/base/hash.h"
+#include "common/base/refuse.h"
 #include "common/image/read_bytes.h"
 
 namespace treefarm {
