@@ -18,6 +18,7 @@
 #include "coordinator/render/finished_render.h"
 #include "coordinator/render/resume.h"
 #include "coordinator/series_progress.h"
+#include "coordinator/shot/frame_record.h"
 
 namespace treefarm {
 
