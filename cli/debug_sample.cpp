@@ -49,37 +49,24 @@ std::vector<PassPlan> passes_or_refuse(const RenderRequest& request) {
                          " pixels and " + std::to_string(plans.size()) + " passes");
 }
 
-}  // namespace
-
-SampleName parse_sample_name(const std::string& text) {
-    const std::vector<std::uint32_t> values = parse_numbers(text, 4);
-    return {values[0], static_cast<int>(values[1]), static_cast<int>(values[2]), values[3]};
-}
-
-int debug_sample(const RenderRequest& request, const SampleName& name, const TellMessage& tell) {
-    const std::string& type = request.content.plan.job.integrator.type;
-    if (type != Job().integrator.type)
-        throw InputError(kHere, "the estimator \"" + type + "\" has no paths that can be described",
+void describe(const RenderRequest& request, const std::string& name, const TellMessage& tell) {
+    const std::vector<std::uint32_t> n = parse_numbers(name, 4);
+    const Resolved& job = request.content.plan.job;
+    if (job.integrator.type != Job().integrator.type)
+        throw InputError(kHere, "the estimator \"" + job.integrator.type + "\" has no paths that can be described",
                          "add --set integrator.type=" + Job().integrator.type);
     const std::vector<PassPlan> plans = passes_or_refuse(request);
     const Film& film = request.content.scene.film;
-    if (name.pass >= plans.size() || name.x >= film.width || name.y >= film.height ||
-        name.sample >= plans[name.pass].spp)
+    const int x = static_cast<int>(n[1]), y = static_cast<int>(n[2]);
+    if (n[0] >= plans.size() || x >= film.width || y >= film.height || n[3] >= plans[n[0]].spp)
         refuse_place(request, plans, "sample");
-    const auto [tree, pass] = model_and_pass(request, plans, name.pass, tell);
+    const auto [tree, pass] = model_and_pass(request, plans, n[0], tell);
     const TraceScene scene(request.content.scene, request.content.job);
-    const std::string text =
-        describe_sample(scene, request.content.plan.job, pass, AnySampler(tree), name.x, name.y, name.sample);
-    std::fputs(text.c_str(), stdout);
-    return 0;
+    std::fputs(describe_sample(scene, job, pass, AnySampler(tree), x, y, n[3]).c_str(), stdout);
 }
 
-bool names_tile(const std::string& text) {
-    return std::count(text.begin(), text.end(), ',') == 5;
-}
-
-int debug_tile(const RenderRequest& request, const std::string& text, const TellMessage& tell) {
-    const std::vector<std::uint32_t> n = parse_numbers(text, 6);
+void trace_tile(const RenderRequest& request, const std::string& name, const TellMessage& tell) {
+    const std::vector<std::uint32_t> n = parse_numbers(name, 6);
     const std::vector<PassPlan> plans = passes_or_refuse(request);
     const auto width = static_cast<std::uint32_t>(request.content.scene.film.width),
                height = static_cast<std::uint32_t>(request.content.scene.film.height);
@@ -95,7 +82,13 @@ int debug_tile(const RenderRequest& request, const std::string& text, const Tell
     render(pass, guide, {n[0], edge(n[1]), edge(n[2]), edge(n[3]), edge(n[4]), n[5]}, output);
     fmt::print("pass {} pixels ({}, {}) to below ({}, {}): {} paths, {} rays, {:.3f} s\n", n[0], n[1], n[2], n[3], n[4],
                output.stats.paths, output.stats.rays + output.stats.shadow_rays, output.stats.trace_seconds);
-    return 0;
+}
+
+}  // namespace
+
+void debug_sample(const RenderRequest& request, const std::string& name, const TellMessage& tell) {
+    const bool is_tile = std::count(name.begin(), name.end(), ',') == 5;
+    is_tile ? trace_tile(request, name, tell) : describe(request, name, tell);
 }
 
 }  // namespace treefarm

@@ -20,6 +20,7 @@
 #include "cli/interrupt.h"
 #include "cli/on_farm.h"
 #include "cli/option_values.h"
+#include "cli/this_build.h"
 #include "common/base/error.h"
 #include "common/base/host.h"
 #include "common/base/refuse.h"
@@ -27,7 +28,7 @@
 #include "common/comm/join_ticket.h"
 #include "common/comm/tcp_channel.h"
 #include "worker/integrators/registry.h"
-#include "worker/worker_loop.h"
+#include "worker/local_worker.h"
 
 namespace treefarm {
 
@@ -73,7 +74,7 @@ class Guest {
   public:
     Guest(const JoinOptions& options, unsigned threads, const Voice& voice, const std::string& name)
         : options_(options),
-          settings_(worker_settings(threads)),
+          settings_(worker_here(threads, this_build().hash())),
           log_(make_log(name, {}, voice.console, voice.loudness)) {}
 
     /// The exit code.

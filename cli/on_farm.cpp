@@ -102,7 +102,7 @@ int work(MpiSession& session, const FarmOptions& options, const Voice& voice, In
     for (const std::string& warning : warnings)
         log->warn("{}", warning);
     try {
-        WorkerSettings settings = worker_settings(threads);
+        WorkerSettings settings = worker_here(threads, this_build().hash());
         settings.told_to_leave = [&watch] { return watch.terminated(); };
         const WorkerEnd end = run_worker(session.channel(), settings, make_renderer, log);
         const int code = end == WorkerEnd::orphaned ? 1 : 0;
@@ -148,10 +148,6 @@ std::string missing_processes(const LaunchEnvironment& launch, double seconds) {
 }
 
 }  // namespace
-
-WorkerSettings worker_settings(unsigned threads) {
-    return worker_here(threads, this_build().hash());
-}
 
 Voice errors_only() {
     return {std::make_shared<Console>(TerminalKind{}, false), Loudness::quiet};

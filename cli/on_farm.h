@@ -41,10 +41,6 @@ void add_voice_options(CLI::App& command, FarmOptions& options);
 /// --threads, --quiet, --verbose, --start-seconds
 void add_farm_options(CLI::App& command, FarmOptions& options);
 
-/// A worker in this process, as the coordinator is told.
-struct WorkerSettings;
-WorkerSettings worker_settings(unsigned threads);
-
 /// The voice of this process: where it speaks, and how much it says.
 struct Voice {
     ConsolePtr console;

@@ -19,17 +19,15 @@ namespace treefarm {
 namespace {
 
 /// A sample is traced in one process.
-int debug(const LaunchEnvironment& launch, const RenderOptions& options) {
-    if (launch.rank != 0) return 0;
+void debug(const LaunchEnvironment& launch, const RenderOptions& options) {
+    if (launch.rank != 0) return;
     if (launch.under_mpi)
         throw InputError(Location{"--debug-sample", 0, 0}, "traces one sample in one process", "leave mpirun away");
     RenderRequest request = read_request(options);
     request.start.checkpoint = find_checkpoint(options.run_directory, request);
     const Voice voice = errors_only();
     request.workers.local = local_worker(0, voice);
-    const TellMessage tell = console_messages("treefarm", voice.console, voice.loudness);
-    if (names_tile(options.debug_sample)) return debug_tile(request, options.debug_sample, tell);
-    return debug_sample(request, parse_sample_name(options.debug_sample), tell);
+    debug_sample(request, options.debug_sample, console_messages("treefarm", voice.console, voice.loudness));
 }
 
 }  // namespace
@@ -106,7 +104,7 @@ void add_render_command(CLI::App& app, const LaunchEnvironment& launch, const st
         if (!options->frames.empty())
             exit_code = render_shot(launch, *options);
         else if (!options->debug_sample.empty())
-            exit_code = debug(launch, *options);
+            debug(launch, *options);
         else
             exit_code = render_on_farm(launch, options->farm, std::filesystem::path(options->input).stem().string(),
                                        read, options->resume ? GoOn(go_on_in_folder) : GoOn());

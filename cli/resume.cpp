@@ -15,7 +15,7 @@ namespace {
 
 /// treefarm resume RUN_DIR
 struct ResumeOptions {
-    std::filesystem::path run;
+    std::string run;
     RenderOptions render;  ///< of the render that goes on
 };
 
@@ -49,9 +49,9 @@ void add_resume_command(CLI::App& app, const LaunchEnvironment& launch, const st
                     "free.\n") +
         kExitCodesText);
     command->callback([options, launch, &exit_code] {
-        options->render.input = (options->run / "job.toml").string();
-        exit_code =
-            render_on_farm(launch, options->render.farm, options->run.filename(), [&] { return read(*options); });
+        const std::filesystem::path run(options->run);
+        options->render.input = (run / "job.toml").string();
+        exit_code = render_on_farm(launch, options->render.farm, run.filename(), [&] { return read(*options); });
     });
 }
 
